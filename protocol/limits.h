@@ -1,0 +1,42 @@
+// The protocol's numbers: versions, caps, deadlines and close codes. README.md explains them.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace froxel::protocol {
+
+// The WebSocket subprotocol that both sides name in the upgrade.
+inline constexpr std::string_view kSubprotocol = "froxel.v1";
+inline constexpr uint32_t kMajor = 1;
+inline constexpr uint32_t kMinor = 0;
+
+inline constexpr size_t kMaxHelloBytes = 4 * 1024;         // first message of a connection
+inline constexpr size_t kMaxMessageBytes = 64 * 1024;      // any later message from a client
+inline constexpr size_t kMaxFrameHeaderBytes = 4096;       // FrameHeader in a frame's prefix
+inline constexpr size_t kMaxFrameBytes = 64 * 1024 * 1024; // what a client must be ready to take
+inline constexpr uint32_t kMaxJsonDepth = 16;              // brackets in a text message
+inline constexpr size_t kMaxClientNameBytes = 64;          // Hello.client_name
+inline constexpr size_t kMaxNameBytes = 256;               // any other name in a command
+
+inline constexpr std::chrono::seconds kHelloTimeout{5};
+
+// More than kMaxRejects refused messages within kRejectPeriod close the connection with 1008.
+inline constexpr uint32_t kMaxRejects = 20;
+inline constexpr std::chrono::seconds kRejectPeriod{10};
+
+// WebSocket close codes that this protocol uses.
+enum class CloseCode : uint16_t {
+    kNormal = 1000,
+    kPolicy = 1008,       // no Hello in time, or too many refused messages; do not retry
+    kTooBig = 1009,       // a message over the cap; do not retry
+    kVersion = 4001,      // protocol_major differs; do not retry
+    kSlowConsumer = 4008, // a write was stuck for too long; retry
+    kDraining = 4010,     // the server is going down; retry elsewhere or later
+    kCapacity = 4029,     // no session left; retry with back-off
+    kDeviceLost = 4050,   // the rendering device was lost; retry with back-off
+};
+
+} // namespace froxel::protocol
