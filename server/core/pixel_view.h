@@ -1,0 +1,54 @@
+// Pixels on their way out: how render hands a finished picture to encode without either knowing
+// the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+
+namespace froxel {
+
+// Borrowed RGBA8 pixels, sRGB-encoded, alpha 255, top row first.
+struct PixelView {
+    const std::byte* data = nullptr;
+    uint32_t width_px = 0;
+    uint32_t height_px = 0;
+    size_t stride_bytes = 0;
+};
+
+// Move-only claim on a readback slot; the slot is free again when the lease ends.
+// Any thread may end it.
+class PixelLease {
+public:
+    PixelLease() = default;
+    PixelLease(PixelView view, std::function<void()> release)
+        : view_(view), release_(std::move(release)) {}
+    PixelLease(PixelLease&& other) noexcept
+        : view_(std::exchange(other.view_, {})), release_(std::exchange(other.release_, nullptr)) {}
+    PixelLease& operator=(PixelLease&& other) noexcept {
+        if (this != &other) {
+            end();
+            view_ = std::exchange(other.view_, {});
+            release_ = std::exchange(other.release_, nullptr);
+        }
+        return *this;
+    }
+    PixelLease(const PixelLease&) = delete;
+    PixelLease& operator=(const PixelLease&) = delete;
+    ~PixelLease() { end(); }
+
+    [[nodiscard]] const PixelView& view() const { return view_; }
+    void end() {
+        if (auto release = std::exchange(release_, nullptr)) {
+            release();
+        }
+        view_ = {};
+    }
+
+private:
+    PixelView view_;
+    std::function<void()> release_;
+};
+
+} // namespace froxel

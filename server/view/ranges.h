@@ -1,0 +1,47 @@
+// The one table of what is accepted: options, commands, the page's controls and the documentation
+// all take their bounds from here.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+
+namespace froxel::view {
+
+template <class T>
+struct Range {
+    std::string_view field; // the protocol's and the command line's name
+    T min;
+    T max;
+    [[nodiscard]] constexpr bool contains(T value) const { return value >= min && value <= max; }
+};
+
+inline constexpr Range<uint32_t> kWidthRange{"width", 16, 4096};
+inline constexpr Range<uint32_t> kHeightRange{"height", 16, 4096};
+inline constexpr Range<uint32_t> kLightCountRange{"lights", 0, 100'000};
+inline constexpr Range<double> kLightRadiusRange{"light_radius", 0.001, 10'000.0};
+inline constexpr Range<double> kLightIntensityRange{"light_intensity", 0.0, 1'000'000.0};
+inline constexpr Range<double> kLightSpeedRange{"light_speed", 0.0, 100.0};
+inline constexpr Range<double> kAmbientRange{"ambient", 0.0, 1'000.0};
+inline constexpr Range<uint32_t> kGridXRange{"grid.x", 1, 128};
+inline constexpr Range<uint32_t> kGridYRange{"grid.y", 1, 128};
+inline constexpr Range<uint32_t> kGridZRange{"grid.z", 1, 256};
+inline constexpr Range<double> kExposureRange{"exposure", 0.0001, 10'000.0};
+inline constexpr Range<double> kFovRange{"fov_deg", 1.0, 170.0};
+inline constexpr Range<double> kHalfHeightRange{"half_height", 0.0001, 1e7};
+inline constexpr Range<double> kPositionRange{"position", -1e7, 1e7};
+inline constexpr Range<double> kFocusRange{"focus", 1e-6, 1e8}; // from eye to target
+inline constexpr Range<double> kUpRange{"up", 1e-6, 1e8};       // length of the up vector
+inline constexpr Range<uint32_t> kQualityRange{"quality", 1, 100};
+inline constexpr Range<double> kToonRange{"toon", 0.0, 1.0};
+inline constexpr Range<double> kToonSlopeRange{"toon.slope", -20.0, 20.0};
+inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
+
+// Every range that a client can run into; the server tells them all when it greets.
+inline constexpr std::tuple kCommandRanges{
+    kWidthRange,      kHeightRange,  kLightCountRange, kLightRadiusRange, kLightIntensityRange,
+    kLightSpeedRange, kAmbientRange, kGridXRange,      kGridYRange,       kGridZRange,
+    kExposureRange,   kFovRange,     kHalfHeightRange, kPositionRange,    kFocusRange,
+    kUpRange,         kQualityRange, kToonRange,       kToonSlopeRange};
+
+} // namespace froxel::view
