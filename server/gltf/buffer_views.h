@@ -1,0 +1,40 @@
+// The bytes behind buffer views: buffers are read, and compressed views decoded, when first used.
+#pragma once
+
+#include "gltf/document.h"
+#include "gltf/limits.h"
+#include "gltf/scene_folder.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace froxel::gltf {
+
+// Not thread-safe. Spans live as long as this does.
+class BufferViews {
+  public:
+    BufferViews(const Document& document, SceneFolder& folder);
+
+    // The whole view, checked to lie inside its buffer. Throws Failure, naming `user`.
+    [[nodiscard]] std::span<const std::byte> bytes(int view, const std::string& user);
+
+    // Bytes from one element to the next; 0: tightly packed.
+    [[nodiscard]] size_t stride(int view) const;
+
+  private:
+    [[nodiscard]] std::span<const std::byte>
+    range(int buffer, uint64_t offset, uint64_t length, const std::string& user);
+    [[nodiscard]] std::span<const std::byte> bufferBytes(size_t buffer);
+
+    const Document& document_;
+    SceneFolder& folder_;
+    std::vector<std::optional<Bytes>> buffers_; // what came from a file or a data: URI
+    std::map<size_t, Bytes> decoded_views_;
+    Budget decoded_bytes_{"bytes of decompressed buffer views", kMaxDecodedViewBytes};
+};
+
+} // namespace froxel::gltf

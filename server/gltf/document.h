@@ -1,0 +1,41 @@
+// A scene file, parsed: tinygltf's model and, beside it, what tinygltf must not handle itself.
+#pragma once
+
+#include "gltf/failure.h"
+#include "gltf/scene_folder.h"
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace froxel::gltf {
+
+struct BufferSource {
+    std::string uri; // empty: the GLB's binary chunk, or a fallback without data
+    uint64_t size_bytes = 0;
+};
+
+struct ImageSource {
+    std::string name;
+    std::string uri;
+    int buffer_view = -1;
+};
+
+// Buffers, images and index accessors are kept aside: tinygltf would read files by its own rules,
+// touch unchecked offsets and refuse the accessors without data that compressed meshes have.
+struct Document {
+    tinygltf::Model model; // without buffers, images, skins, animations and primitive indices
+    std::vector<BufferSource> buffers;
+    std::vector<ImageSource> images;
+    std::vector<std::vector<int>> indices; // [mesh][primitive]: an accessor, or -1
+    Bytes file;
+    std::span<const std::byte> binary_chunk; // in `file`
+};
+
+// Throws Failure. Adds one line to `warnings` for each kind of thing that stays in its rest pose.
+[[nodiscard]] Document readDocument(SceneFolder& folder, Warnings& warnings);
+
+} // namespace froxel::gltf

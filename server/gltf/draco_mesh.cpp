@@ -1,0 +1,161 @@
+#include "gltf/draco_mesh.h"
+
+#include "core/text.h"
+#include "gltf/failure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <draco/compression/decode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
+#include <limits>
+
+namespace froxel::gltf {
+namespace {
+
+constexpr uint16_t kBitstream = 0x0202; // the only version that glTF allows
+
+struct Counts {
+    uint32_t points = 0;
+    uint32_t faces = 0;
+};
+
+// The part of the stream in front of the connectivity, by Draco's own readers.
+Counts readCounts(draco::DecoderBuffer buffer, const std::string& user) {
+    draco::DracoHeader header{};
+    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) {
+        fail(user + " has no Draco header");
+    }
+    if (header.version_major != 2 || header.version_minor != 2 ||
+        header.encoder_type != draco::TRIANGULAR_MESH) {
+        fail(user + " has a Draco stream of version " + std::to_string(header.version_major) + "." +
+             std::to_string(header.version_minor) + " and type " +
+             std::to_string(header.encoder_type) + "; right is a mesh (1) of version 2.2");
+    }
+    buffer.set_bitstream_version(kBitstream);
+    bool good = true;
+    if ((header.flags & METADATA_FLAG_MASK) != 0) {
+        draco::GeometryMetadata metadata;
+        good = draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata);
+    }
+    Counts counts;
+    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+        uint8_t traversal = 0;
+        good = good && buffer.Decode(&traversal) && draco::DecodeVarint(&counts.points, &buffer) &&
+               draco::DecodeVarint(&counts.faces, &buffer);
+    } else {
+        good = good && draco::DecodeVarint(&counts.faces, &buffer) &&
+               draco::DecodeVarint(&counts.points, &buffer);
+    }
+    if (!good) {
+        fail(user + " has a Draco stream that is cut off in its header");
+    }
+    return counts;
+}
+
+template <class T>
+float normalizedValue(float value) {
+    return std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0F);
+}
+
+// Draco's own flag may be missing although the accessor says that the integers are normalised.
+float normalize(float value, draco::DataType type) {
+    switch (type) {
+    case draco::DT_INT8:
+        return normalizedValue<int8_t>(value);
+    case draco::DT_UINT8:
+        return normalizedValue<uint8_t>(value);
+    case draco::DT_INT16:
+        return normalizedValue<int16_t>(value);
+    case draco::DT_UINT16:
+        return normalizedValue<uint16_t>(value);
+    default:
+        return value;
+    }
+}
+
+} // namespace
+
+DracoMesh::DracoMesh(std::span<const std::byte> stream,
+                     DracoExpectation expected,
+                     const std::string& user)
+    : expected_(std::move(expected)) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
+    const Counts counts = readCounts(buffer, user);
+    // Edgebreaker's header counts vertices before seams split them, so it is a lower bound.
+    if (counts.points > expected_.vertex_count ||
+        uint64_t{counts.faces} * 3 != expected_.index_count) {
+        fail(user + " has a Draco stream of " + std::to_string(counts.points) + " vertices and " +
+             std::to_string(counts.faces) + " triangles; its accessors say " +
+             std::to_string(expected_.vertex_count) + " and " +
+             std::to_string(expected_.index_count / 3));
+    }
+    draco::Decoder decoder;
+    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok()) {
+        fail(user +
+             " has a broken Draco stream: " + printable(decoded.status().error_msg_string()));
+    }
+    mesh_ = std::move(decoded).value();
+    if (mesh_ == nullptr || mesh_->num_points() != expected_.vertex_count ||
+        uint64_t{mesh_->num_faces()} * 3 != expected_.index_count) {
+        fail(user + " has a Draco stream that decodes to other counts than its accessors say (" +
+             std::to_string(expected_.vertex_count) + " vertices)");
+    }
+}
+
+DracoMesh::~DracoMesh() = default;
+
+std::vector<uint32_t> DracoMesh::indices() const {
+    std::vector<uint32_t> result;
+    result.reserve(expected_.index_count);
+    for (draco::FaceIndex face(0); face < mesh_->num_faces(); ++face) {
+        for (const draco::PointIndex& corner : mesh_->face(face)) {
+            result.push_back(corner.value());
+        }
+    }
+    return result;
+}
+
+template <int N>
+std::vector<glm::vec<N, float>>
+DracoMesh::vectors(const std::string& semantic, bool normalized, const std::string& user) const {
+    const int id = expected_.attributes.at(semantic);
+    const draco::PointAttribute* attribute =
+        mesh_->GetAttributeByUniqueId(static_cast<uint32_t>(id));
+    if (attribute == nullptr || attribute->num_components() != N) {
+        fail(user + " uses the Draco attribute " + std::to_string(id) +
+             (attribute == nullptr ? ", which the stream does not have"
+                                   : ", which does not have " + std::to_string(N) + " components"));
+    }
+    const bool divide = normalized && !attribute->normalized();
+    std::vector<glm::vec<N, float>> result(mesh_->num_points());
+    for (draco::PointIndex point(0); point < mesh_->num_points(); ++point) {
+        const draco::AttributeValueIndex index = attribute->mapped_index(point);
+        glm::vec<N, float>& value = result[point.value()];
+        if (index >= static_cast<uint32_t>(attribute->size()) ||
+            !attribute->ConvertValue<float, N>(index, &value[0])) {
+            fail(user + " has a Draco attribute that cannot be read as numbers at vertex " +
+                 std::to_string(point.value()));
+        }
+        for (int c = 0; c < N; ++c) {
+            value[c] = divide ? normalize(value[c], attribute->data_type()) : value[c];
+            if (!std::isfinite(value[c])) {
+                fail(user + " vertex " + std::to_string(point.value()) + " is " +
+                     numberText(value[c]) + "; right is a finite number");
+            }
+        }
+    }
+    return result;
+}
+
+template std::vector<glm::vec2>
+DracoMesh::vectors<2>(const std::string&, bool, const std::string&) const;
+template std::vector<glm::vec3>
+DracoMesh::vectors<3>(const std::string&, bool, const std::string&) const;
+template std::vector<glm::vec4>
+DracoMesh::vectors<4>(const std::string&, bool, const std::string&) const;
+
+} // namespace froxel::gltf

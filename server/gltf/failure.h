@@ -1,0 +1,49 @@
+// How the parts of the loader give up, and what they say when they do not have to. Inside this
+// layer a broken file is an exception: it ends dozens of nested readers at once. `load` catches it.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace froxel::gltf {
+
+class Failure : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+// One line without the file's name, which `load` puts in front.
+[[noreturn]] inline void fail(const std::string& message) {
+    throw Failure(message);
+}
+
+// "mesh 3 primitive 0": how messages name a thing of the file.
+[[nodiscard]] inline std::string thing(const char* kind, size_t index) {
+    return std::string(kind) + " " + std::to_string(index);
+}
+
+// `index` as a position in an array of `size` things; fails where it is outside.
+[[nodiscard]] inline size_t
+checkedIndex(int index, size_t size, const char* kind, const std::string& user) {
+    if (index < 0 || static_cast<size_t>(index) >= size) {
+        fail(user + " uses " + kind + " " + std::to_string(index) + "; the file has " +
+             std::to_string(size) + ", counted from 0");
+    }
+    return static_cast<size_t>(index);
+}
+
+// Lines for the user about what was ignored or left in its rest pose: each once, a hundred at most.
+class Warnings {
+  public:
+    void add(std::string line);
+    [[nodiscard]] std::vector<std::string> take();
+
+  private:
+    std::vector<std::string> lines_;
+    size_t left_out_count_ = 0;
+};
+
+} // namespace froxel::gltf

@@ -1,0 +1,40 @@
+#include "gltf/gltf_loader.h"
+
+#include "core/text.h"
+#include "gltf/document.h"
+#include "gltf/failure.h"
+#include "gltf/scene_builder.h"
+#include "gltf/scene_folder.h"
+
+#include <exception>
+#include <new>
+#include <string>
+
+namespace froxel::gltf {
+namespace {
+
+Error sceneError(const std::filesystem::path& file, const std::string& message) {
+    return {ErrorCode::kScene, printable(file.filename().string(), 300) + ": " + message};
+}
+
+} // namespace
+
+Result<scene::Scene> load(const std::filesystem::path& file) {
+    try {
+        Warnings warnings;
+        SceneFolder folder(file);
+        const Document document = readDocument(folder, warnings);
+        scene::Scene scene = buildScene(document, folder, warnings);
+        scene.name = file.stem().string();
+        scene.warnings = warnings.take();
+        return scene;
+    } catch (const Failure& failure) {
+        return sceneError(file, failure.what());
+    } catch (const std::bad_alloc&) {
+        return sceneError(file, "out of memory; right is a smaller scene");
+    } catch (const std::exception& error) {
+        return sceneError(file, "cannot be read: " + printable(error.what(), 300));
+    }
+}
+
+} // namespace froxel::gltf

@@ -1,0 +1,17 @@
+// Loads glTF 2.0 files, .gltf and .glb.
+#pragma once
+
+#include "core/error.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+
+namespace froxel::gltf {
+
+// The default scene of the file, validated; Scene::warnings says what was left out. Trusts nothing
+// in the file, and reads no file outside the folder that it lies in. Tangents are only those in the
+// file. Safe from any thread; decodes images on a second one. Errors: kScene, one line that names
+// the file, the thing, its value and what would be right.
+[[nodiscard]] Result<scene::Scene> load(const std::filesystem::path& path);
+
+} // namespace froxel::gltf

@@ -1,0 +1,24 @@
+// The images of a scene, decoded on every core.
+#pragma once
+
+#include "gltf/buffer_views.h"
+#include "gltf/document.h"
+#include "gltf/failure.h"
+#include "gltf/scene_folder.h"
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace froxel::gltf {
+
+// Fills `scene.images`; numbers[i] is the file's number of image i. All sizes are checked by their
+// headers before the first pixel is decoded. Throws the Failure of the lowest image that has one.
+void loadImages(const Document& document,
+                const std::vector<size_t>& numbers,
+                SceneFolder& folder,
+                BufferViews& views,
+                scene::Scene& scene,
+                Warnings& warnings);
+
+} // namespace froxel::gltf

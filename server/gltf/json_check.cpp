@@ -1,0 +1,360 @@
+#include "gltf/json_check.h"
+
+#include "core/text.h"
+#include "gltf/limits.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <unordered_map>
+
+namespace froxel::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<std::string_view, 8> kSupportedExtensions{
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_materials_emissive_strength",
+    "KHR_texture_transform",
+};
+
+enum Kind : unsigned {
+    kIndex = 1U,     // integer, 0..2^31-1
+    kNumber = 2U,    // any
+    kNumbers = 4U,   // array of numbers
+    kIndices = 8U,   // array of kIndex
+    kIndexMap = 16U, // object whose members are kIndex
+    kObject = 32U,
+    kObjects = 64U, // array of objects
+    kText = 128U,
+    kTexts = 256U, // array of strings
+    kBool = 512U,
+};
+
+// A name means the same kind of thing wherever glTF and the supported extensions use it, or one of
+// a few.
+const std::unordered_map<std::string_view, unsigned>& kinds() {
+    static const std::unordered_map<std::string_view, unsigned> table{
+        {"accessors", kObjects},
+        {"alphaCutoff", kNumber},
+        {"alphaMode", kText},
+        {"asset", kObject},
+        {"attributes", kIndexMap},
+        {"baseColorFactor", kNumbers},
+        {"baseColorTexture", kObject},
+        {"buffer", kIndex},
+        {"bufferView", kIndex},
+        {"bufferViews", kObjects},
+        {"buffers", kObjects},
+        {"byteLength", kIndex},
+        {"byteOffset", kIndex},
+        {"byteStride", kIndex},
+        {"camera", kIndex},
+        {"cameras", kObjects},
+        {"children", kIndices},
+        {"color", kNumbers},
+        {"componentType", kIndex},
+        {"count", kIndex},
+        {"doubleSided", kBool},
+        {"emissiveFactor", kNumbers},
+        {"emissiveStrength", kNumber},
+        {"emissiveTexture", kObject},
+        {"extensions", kObject},
+        {"extensionsRequired", kTexts},
+        {"extensionsUsed", kTexts},
+        {"filter", kText},
+        {"images", kObjects},
+        {"index", kIndex},
+        {"indices", kIndex | kObject},
+        {"innerConeAngle", kNumber},
+        {"intensity", kNumber},
+        {"light", kIndex},
+        {"lights", kObjects},
+        {"magFilter", kIndex},
+        {"material", kIndex},
+        {"materials", kObjects},
+        {"matrix", kNumbers},
+        {"mesh", kIndex},
+        {"meshes", kObjects},
+        {"metallicFactor", kNumber},
+        {"metallicRoughnessTexture", kObject},
+        {"mimeType", kText},
+        {"minFilter", kIndex},
+        {"minVersion", kText},
+        {"mode", kIndex | kText},
+        {"name", kText},
+        {"nodes", kIndices | kObjects},
+        {"normalTexture", kObject},
+        {"normalized", kBool},
+        {"occlusionTexture", kObject},
+        {"offset", kNumbers},
+        {"orthographic", kObject},
+        {"outerConeAngle", kNumber},
+        {"pbrMetallicRoughness", kObject},
+        {"perspective", kObject},
+        {"primitives", kObjects},
+        {"range", kNumber},
+        {"rotation", kNumber | kNumbers},
+        {"roughnessFactor", kNumber},
+        {"sampler", kIndex},
+        {"samplers", kObjects},
+        {"scale", kNumber | kNumbers},
+        {"scene", kIndex},
+        {"scenes", kObjects},
+        {"skin", kIndex},
+        {"source", kIndex},
+        {"sparse", kObject},
+        {"spot", kObject},
+        {"strength", kNumber},
+        {"targets", kObjects},
+        {"texCoord", kIndex},
+        {"textures", kObjects},
+        {"translation", kNumbers},
+        {"type", kText},
+        {"uri", kText},
+        {"values", kObject},
+        {"version", kText},
+        {"weights", kNumbers},
+        {"wrapS", kIndex},
+        {"wrapT", kIndex},
+        {"xmag", kNumber},
+        {"yfov", kNumber},
+        {"ymag", kNumber},
+        {"zfar", kNumber},
+        {"znear", kNumber},
+    };
+    return table;
+}
+
+struct Required {
+    std::string_view array;
+    std::initializer_list<const char*> properties;
+};
+constexpr Required kRequired[] = {
+    {"accessors", {"componentType", "count", "type"}},
+    {"bufferViews", {"buffer", "byteLength"}},
+    {"buffers", {"byteLength"}},
+    {"cameras", {"type"}},
+    {"meshes", {"primitives"}},
+};
+
+bool isIndex(const Json& value) {
+    return value.is_number_unsigned() &&
+           value.get<uint64_t>() <= uint64_t{std::numeric_limits<int32_t>::max()};
+}
+
+// Single numbers end as floats, which must not become infinite.
+bool fitsSingle(const Json& value) {
+    return value.is_number() &&
+           std::abs(value.get<double>()) <= double{std::numeric_limits<float>::max()};
+}
+
+template <class Predicate>
+bool all(const Json& value, Predicate predicate) {
+    return std::all_of(value.begin(), value.end(), predicate);
+}
+
+bool fits(const Json& value, unsigned kind) {
+    const auto wants = [kind](Kind bit) { return (kind & bit) != 0; };
+    switch (value.type()) {
+    case Json::value_t::array:
+        return (wants(kNumbers) && all(value, [](const Json& v) { return v.is_number(); })) ||
+               (wants(kIndices) && all(value, isIndex)) ||
+               (wants(kObjects) && all(value, [](const Json& v) { return v.is_object(); })) ||
+               (wants(kTexts) && all(value, [](const Json& v) { return v.is_string(); }));
+    case Json::value_t::object:
+        return wants(kObject) || (wants(kIndexMap) && all(value, isIndex));
+    case Json::value_t::string:
+        return wants(kText);
+    case Json::value_t::boolean:
+        return wants(kBool);
+    default:
+        return (wants(kIndex) && isIndex(value)) || (wants(kNumber) && fitsSingle(value));
+    }
+}
+
+std::string describe(unsigned kind) {
+    static constexpr std::pair<Kind, const char*> kNames[] = {
+        {kIndex, "an integer from 0 to 2147483647"},
+        {kNumber, "a number that single precision holds"},
+        {kNumbers, "an array of numbers"},
+        {kIndices, "an array of integers from 0 to 2147483647"},
+        {kIndexMap, "an object of integers from 0 to 2147483647"},
+        {kObject, "an object"},
+        {kObjects, "an array of objects"},
+        {kText, "a string"},
+        {kTexts, "an array of strings"},
+        {kBool, "true or false"},
+    };
+    std::string text;
+    for (const auto& [bit, name] : kNames) {
+        if ((kind & bit) != 0) {
+            text += (text.empty() ? "" : " or ") + std::string(name);
+        }
+    }
+    return text;
+}
+
+// The value, or, of an array or object, the first member to blame.
+std::string shown(const Json& value, unsigned kind) {
+    if (!value.is_structured()) {
+        return printable(value.dump(), 40);
+    }
+    for (const auto& [key, member] : value.items()) {
+        const bool good = (kind & (kIndices | kIndexMap)) != 0 ? isIndex(member)
+                          : (kind & kNumbers) != 0             ? member.is_number()
+                          : (kind & kTexts) != 0               ? member.is_string()
+                                                               : member.is_object();
+        if (!good && !member.is_structured()) {
+            return printable(member.dump(), 40) + " at '" + printable(key, 40) + "'";
+        }
+    }
+    return value.is_array() ? "an array" : "an object";
+}
+
+void dropUnknown(Json& object) {
+    object.erase("extras");
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object()) {
+        return;
+    }
+    for (auto it = extensions->begin(); it != extensions->end();) {
+        it = isSupportedExtension(it.key()) ? std::next(it) : extensions->erase(it);
+    }
+}
+
+// tinygltf narrows an extension's whole numbers to 32 bits, but leaves reals as they are.
+void makeReal(Json& value) {
+    if (value.is_number_integer()) {
+        value = value.get<double>();
+    } else if (value.is_array()) {
+        std::for_each(value.begin(), value.end(), makeReal);
+    }
+}
+
+// `path` is the JSON pointer of `value`, which lies `depth` levels below the root.
+void checkTypes(Json& value, std::string& path, int depth) {
+    if (depth > kMaxJsonDepth) {
+        fail(printable(path, 200) + " is nested deeper than " + std::to_string(kMaxJsonDepth) +
+             " levels");
+    }
+    if (value.is_object()) {
+        dropUnknown(value);
+    }
+    const size_t length = path.size();
+    size_t position = 0;
+    for (auto it = value.begin(); it != value.end(); ++it, ++position) {
+        path += '/';
+        path += value.is_object() ? printable(it.key()) : std::to_string(position);
+        if (value.is_object()) {
+            const auto known = kinds().find(it.key());
+            const unsigned kind = known == kinds().end() ? 0 : known->second;
+            if (kind != 0 && !fits(*it, kind)) {
+                fail(path + " is " + shown(*it, kind) + "; right is " + describe(kind));
+            }
+            if ((kind & (kNumber | kNumbers)) != 0) {
+                makeReal(*it);
+            }
+        }
+        if (it->is_structured()) {
+            checkTypes(*it, path, depth + 1);
+        }
+        path.resize(length);
+    }
+}
+
+void checkExtensions(const Json& root, Warnings& warnings) {
+    const Json none = Json::array();
+    const auto list = [&](const char* key) -> const Json& {
+        return root.contains(key) ? root.at(key) : none;
+    };
+    for (const Json& name : list("extensionsRequired")) {
+        if (!isSupportedExtension(name.get_ref<const std::string&>())) {
+            fail("the file requires the extension '" +
+                 printable(name.get_ref<const std::string&>()) + "', which is not supported");
+        }
+    }
+    for (const Json& name : list("extensionsUsed")) {
+        if (!isSupportedExtension(name.get_ref<const std::string&>())) {
+            warnings.add("the extension '" + printable(name.get_ref<const std::string&>()) +
+                         "' is not supported and is ignored");
+        }
+    }
+}
+
+void checkVersion(const Json& root) {
+    const Json asset = root.value("asset", Json::object());
+    const std::string version = asset.value("version", "");
+    if (!version.starts_with("2.")) {
+        fail("/asset/version is '" + printable(version) + "'; 2.0 is supported");
+    }
+    const std::string minimum = asset.value("minVersion", "2.0");
+    if (minimum != "2.0") {
+        fail("/asset/minVersion is '" + printable(minimum) + "'; 2.0 is supported");
+    }
+}
+
+void checkArrays(const Json& root) {
+    for (const auto& [key, value] : root.items()) {
+        if (value.is_array() && value.size() > kMaxElements) {
+            fail("/" + printable(key) + " has " + std::to_string(value.size()) +
+                 " elements; at most " + std::to_string(kMaxElements) + " are supported");
+        }
+    }
+    for (const Required& rule : kRequired) {
+        const auto array = root.find(rule.array);
+        for (size_t i = 0; array != root.end() && i < array->size(); ++i) {
+            for (const char* property : rule.properties) {
+                if (!(*array)[i].contains(property)) {
+                    fail("/" + std::string(rule.array) + "/" + std::to_string(i) + " has no '" +
+                         property + "', which is required");
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+
+bool isSupportedExtension(std::string_view name) {
+    return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name) !=
+           kSupportedExtensions.end();
+}
+
+Json parseJson(std::span<const std::byte> text) {
+    if (text.size() > kMaxJsonBytes) {
+        fail("the JSON text has " + std::to_string(text.size()) + " bytes; at most " +
+             std::to_string(kMaxJsonBytes) + " are supported");
+    }
+    const auto* first = reinterpret_cast<const char*>(text.data());
+    try {
+        Json root = Json::parse(first, first + text.size());
+        if (!root.is_object()) {
+            fail("the JSON text is not an object; right is a glTF 2.0 file");
+        }
+        return root;
+    } catch (const Json::exception& error) {
+        fail("it is no glTF 2.0 file: " + printable(error.what(), 200));
+    }
+}
+
+void checkJson(Json& root, Warnings& warnings) {
+    std::string path;
+    checkTypes(root, path, 0);
+    checkVersion(root);
+    checkExtensions(root, warnings);
+    checkArrays(root);
+}
+
+} // namespace froxel::gltf

@@ -1,0 +1,241 @@
+#include "gltf/material_reader.h"
+
+#include "core/text.h"
+#include "gltf/extension_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace froxel::gltf {
+namespace {
+
+scene::Wrap wrapFrom(int value, const std::string& name) {
+    switch (value) {
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+        return scene::Wrap::kRepeat;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+        return scene::Wrap::kMirroredRepeat;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+        return scene::Wrap::kClampToEdge;
+    default:
+        fail(name + " has the wrap mode " + std::to_string(value) +
+             "; right is 10497, 33648 or 33071");
+    }
+}
+
+void setMinFilter(scene::Sampler& sampler, int value, const std::string& name) {
+    using scene::Filter;
+    switch (value) {
+    case -1:
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+        return;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        sampler.mipmapped = false;
+        sampler.mip = Filter::kNearest;
+        break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        sampler.mip = Filter::kNearest;
+        break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+        break;
+    default:
+        fail(name + " has minFilter " + std::to_string(value) +
+             "; right is 9728, 9729 or 9984 to 9987");
+    }
+    const bool nearest = value == TINYGLTF_TEXTURE_FILTER_NEAREST ||
+                         value == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
+                         value == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+    sampler.min = nearest ? Filter::kNearest : Filter::kLinear;
+}
+
+scene::AlphaMode alphaModeFrom(const std::string& text, const std::string& name) {
+    if (text == "OPAQUE") {
+        return scene::AlphaMode::kOpaque;
+    }
+    if (text == "MASK") {
+        return scene::AlphaMode::kMask;
+    }
+    if (text == "BLEND") {
+        return scene::AlphaMode::kBlend;
+    }
+    fail(name + " has alphaMode '" + printable(text) + "'; right is OPAQUE, MASK or BLEND");
+}
+
+// A pair of KHR_texture_transform.
+glm::vec2 pairOr(const tinygltf::Value& object,
+                 const char* key,
+                 const glm::vec2& fallback,
+                 const std::string& user) {
+    if (!object.Has(key)) {
+        return fallback;
+    }
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsArray() || value.ArrayLen() != 2) {
+        fail(user + " has a KHR_texture_transform with a wrong " + key +
+             "; right is an array of two numbers");
+    }
+    const glm::dvec2 pair(value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble());
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    if (std::abs(pair.x) > kLargest || std::abs(pair.y) > kLargest) {
+        fail(user + " has a KHR_texture_transform with the " + key + " " + numberText(pair.x) +
+             ", " + numberText(pair.y) + "; right are numbers that single precision holds");
+    }
+    return pair;
+}
+
+} // namespace
+
+float MaterialReader::unit(double value, const char* factor, const std::string& name) {
+    const double clamped = std::clamp(value, 0.0, 1.0);
+    if (clamped != value) {
+        warnings_.add(name + " has the " + factor + " " + numberText(value) + "; " +
+                      numberText(clamped) + " is used, since right is 0 to 1");
+    }
+    return static_cast<float>(clamped);
+}
+
+uint32_t MaterialReader::material(int index, const std::string& user) {
+    if (index >= 0) {
+        (void)checkedIndex(index, document_.model.materials.size(), "material", user);
+    }
+    const auto known = known_materials_.find(index);
+    if (known != known_materials_.end()) {
+        return known->second;
+    }
+    scene::Material material;
+    material.name = "default";
+    if (index >= 0) {
+        material = read(document_.model.materials[static_cast<size_t>(index)],
+                        thing("material", static_cast<size_t>(index)));
+    }
+    const auto position = static_cast<uint32_t>(scene_.materials.size());
+    scene_.materials.push_back(std::move(material));
+    known_materials_.emplace(index, position);
+    return position;
+}
+
+scene::Material MaterialReader::read(const tinygltf::Material& source, const std::string& name) {
+    scene::Material material;
+    material.name = source.name;
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    for (int i = 0; i < 4; ++i) {
+        material.base_color[i] =
+            unit(pbr.baseColorFactor[static_cast<size_t>(i)], "baseColorFactor", name);
+    }
+    material.metallic = unit(pbr.metallicFactor, "metallicFactor", name);
+    material.roughness = unit(pbr.roughnessFactor, "roughnessFactor", name);
+    material.normal_scale = static_cast<float>(source.normalTexture.scale);
+    material.occlusion_strength = unit(source.occlusionTexture.strength, "strength", name);
+    double strength = 1;
+    if (const auto* ext = findExtension(source.extensions, "KHR_materials_emissive_strength")) {
+        strength = numberOr(*ext, "emissiveStrength", 1);
+        if (strength < 0) {
+            fail(name + " has emissiveStrength " + numberText(strength) + "; right is 0 or more");
+        }
+    }
+    for (size_t i = 0; i < source.emissiveFactor.size() && i < 3; ++i) {
+        const float factor = unit(source.emissiveFactor[i], "emissiveFactor", name);
+        material.emissive[static_cast<int>(i)] =
+            static_cast<float>(static_cast<double>(factor) * strength);
+    }
+    material.alpha_mode = alphaModeFrom(source.alphaMode, name);
+    material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
+    material.double_sided = source.doubleSided;
+    material.unlit = findExtension(source.extensions, "KHR_materials_unlit") != nullptr;
+    material.base_color_texture = slot(pbr.baseColorTexture, name + " baseColorTexture");
+    material.metallic_roughness_texture =
+        slot(pbr.metallicRoughnessTexture, name + " metallicRoughnessTexture");
+    material.normal_texture = slot(source.normalTexture, name + " normalTexture");
+    material.occlusion_texture = slot(source.occlusionTexture, name + " occlusionTexture");
+    material.emissive_texture = slot(source.emissiveTexture, name + " emissiveTexture");
+    return material;
+}
+
+template <class Info>
+scene::TextureSlot MaterialReader::slot(const Info& info, const std::string& user) {
+    scene::TextureSlot slot;
+    if (info.index < 0) {
+        return slot;
+    }
+    const size_t index = checkedIndex(info.index, document_.model.textures.size(), "texture", user);
+    int texcoord = info.texCoord;
+    if (const auto* transform = findExtension(info.extensions, "KHR_texture_transform")) {
+        slot.offset = pairOr(*transform, "offset", slot.offset, user);
+        slot.scale = pairOr(*transform, "scale", slot.scale, user);
+        slot.rotation_rad = static_cast<float>(numberOr(*transform, "rotation", 0));
+        texcoord = intOr(*transform, "texCoord", texcoord);
+    }
+    if (texcoord > 1) {
+        warnings_.add(user + " uses TEXCOORD_" + std::to_string(texcoord) +
+                      " and is ignored; 0 and 1 are supported");
+        return {};
+    }
+    slot.texcoord = static_cast<uint32_t>(texcoord);
+    slot.texture = texture(index, user);
+    return slot;
+}
+
+uint32_t MaterialReader::texture(size_t index, const std::string& user) {
+    const auto known = known_textures_.find(index);
+    if (known != known_textures_.end()) {
+        return known->second;
+    }
+    const tinygltf::Texture& source = document_.model.textures[index];
+    const std::string name = thing("texture", index);
+    if (source.source < 0) {
+        warnings_.add(user + " is ignored: " + name +
+                      " has no image in a supported format (PNG, JPEG)");
+        return known_textures_.emplace(index, scene::kNone).first->second;
+    }
+    scene::Texture texture;
+    texture.image = image(checkedIndex(source.source, document_.images.size(), "image", name));
+    texture.sampler = source.sampler < 0 ? scene::kNone : sampler(source.sampler, name);
+    const auto position = static_cast<uint32_t>(scene_.textures.size());
+    scene_.textures.push_back(texture);
+    known_textures_.emplace(index, position);
+    return position;
+}
+
+uint32_t MaterialReader::sampler(int index, const std::string& user) {
+    const auto& all = document_.model.samplers;
+    const size_t number = checkedIndex(index, all.size(), "sampler", user);
+    const auto known = known_samplers_.find(index);
+    if (known != known_samplers_.end()) {
+        return known->second;
+    }
+    const tinygltf::Sampler& source = all[number];
+    const std::string name = thing("sampler", number);
+    scene::Sampler sampler;
+    sampler.wrap_u = wrapFrom(source.wrapS, name);
+    sampler.wrap_v = wrapFrom(source.wrapT, name);
+    if (source.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
+        sampler.mag = scene::Filter::kNearest;
+    } else if (source.magFilter != -1 && source.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR) {
+        fail(name + " has magFilter " + std::to_string(source.magFilter) +
+             "; right is 9728 or 9729");
+    }
+    setMinFilter(sampler, source.minFilter, name);
+    const auto position = static_cast<uint32_t>(scene_.samplers.size());
+    scene_.samplers.push_back(sampler);
+    known_samplers_.emplace(index, position);
+    return position;
+}
+
+uint32_t MaterialReader::image(size_t index) {
+    const auto position = static_cast<uint32_t>(scene_.images.size());
+    const auto [known, is_new] = known_images_.emplace(index, position);
+    if (is_new) {
+        scene::Image image;
+        const ImageSource& source = document_.images[index];
+        image.name =
+            !source.name.empty() || source.uri.starts_with("data:") ? source.name : source.uri;
+        scene_.images.push_back(std::move(image));
+        images_.push_back(index);
+    }
+    return known->second;
+}
+
+} // namespace froxel::gltf

@@ -1,0 +1,48 @@
+// Materials, and the textures, samplers and images that they use: each read when first asked for,
+// so that what no triangle uses is neither read nor decoded.
+#pragma once
+
+#include "gltf/document.h"
+#include "gltf/failure.h"
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace froxel::gltf {
+
+// Not thread-safe. Appends to `scene`. Throws Failure for an index out of range.
+class MaterialReader {
+  public:
+    MaterialReader(const Document& document, scene::Scene& scene, Warnings& warnings)
+        : document_(document), scene_(scene), warnings_(warnings) {}
+
+    // The scene's index of a material of the file; -1 means glTF's default material.
+    [[nodiscard]] uint32_t material(int index, const std::string& user);
+
+    // The file's number of every image in `scene.images`, which hold no pixels yet.
+    [[nodiscard]] const std::vector<size_t>& images() const { return images_; }
+
+  private:
+    [[nodiscard]] scene::Material read(const tinygltf::Material& source, const std::string& name);
+    template <class Info>
+    [[nodiscard]] scene::TextureSlot slot(const Info& info, const std::string& user);
+    [[nodiscard]] uint32_t texture(size_t index, const std::string& user);
+    [[nodiscard]] uint32_t sampler(int index, const std::string& user);
+    [[nodiscard]] uint32_t image(size_t index);
+    [[nodiscard]] float unit(double value, const char* factor, const std::string& name);
+
+    const Document& document_;
+    scene::Scene& scene_;
+    Warnings& warnings_;
+    std::map<int, uint32_t> known_materials_;
+    std::map<size_t, uint32_t> known_textures_;
+    std::map<int, uint32_t> known_samplers_;
+    std::map<size_t, uint32_t> known_images_;
+    std::vector<size_t> images_;
+};
+
+} // namespace froxel::gltf

@@ -1,0 +1,290 @@
+#include "gltf/mesh_reader.h"
+
+#include "core/text.h"
+#include "gltf/extension_value.h"
+#include "gltf/failure.h"
+#include "gltf/triangles.h"
+#include "gltf/vertex_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace froxel::gltf {
+namespace {
+
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+
+// nullopt for points and lines.
+std::optional<Topology> topologyOf(int mode, const std::string& user) {
+    switch (mode) {
+    case TINYGLTF_MODE_POINTS:
+    case TINYGLTF_MODE_LINE:
+    case TINYGLTF_MODE_LINE_LOOP:
+    case TINYGLTF_MODE_LINE_STRIP:
+        return std::nullopt;
+    case TINYGLTF_MODE_TRIANGLES:
+        return Topology::kTriangles;
+    case TINYGLTF_MODE_TRIANGLE_STRIP:
+        return Topology::kStrip;
+    case TINYGLTF_MODE_TRIANGLE_FAN:
+        return Topology::kFan;
+    default:
+        fail(user + " has mode " + std::to_string(mode) + "; right is 0 to 6");
+    }
+}
+
+// Decodes the primitive's Draco stream; null where it has none.
+std::unique_ptr<DracoMesh> openDraco(const tinygltf::Primitive& source,
+                                     uint64_t vertex_count,
+                                     uint64_t index_count,
+                                     BufferViews& views,
+                                     const std::string& user) {
+    const tinygltf::Value* extension = findExtension(source.extensions, kDraco);
+    if (extension == nullptr) {
+        return nullptr;
+    }
+    DracoExpectation expected{vertex_count, index_count, {}};
+    const tinygltf::Value& attributes = extension->Get("attributes");
+    for (const std::string& semantic : attributes.Keys()) {
+        expected.attributes[semantic] = attributes.Get(semantic).GetNumberAsInt();
+    }
+    return std::make_unique<DracoMesh>(views.bytes(intOr(*extension, "bufferView", -1), user),
+                                       std::move(expected), user);
+}
+
+std::vector<glm::vec4> readColors(VertexSource& source, int components, size_t count) {
+    std::vector<glm::vec4> colors;
+    if (components == 4) {
+        colors = source.vectors<4>("COLOR_0", count);
+    } else {
+        const std::vector<glm::vec3> opaque = source.vectors<3>("COLOR_0", count);
+        colors.assign(opaque.size(), glm::vec4(1));
+        std::transform(opaque.begin(), opaque.end(), colors.begin(),
+                       [](const glm::vec3& rgb) { return glm::vec4(rgb, 1); });
+    }
+    for (glm::vec4& color : colors) {
+        color = glm::clamp(color, 0.0F, 1.0F); // the specification says so
+    }
+    return colors;
+}
+
+// Normalises in double, where no finite float overflows; false where there is no direction.
+bool makeUnit(glm::vec3& vector) {
+    const glm::dvec3 exact(vector);
+    const double length = glm::length(exact);
+    if (!(length > 0)) {
+        return false;
+    }
+    vector = glm::vec3(exact / length);
+    return true;
+}
+
+} // namespace
+
+MeshReader::MeshReader(const Document& document,
+                       BufferViews& views,
+                       AccessorReader& accessors,
+                       MaterialReader& materials,
+                       scene::Scene& scene,
+                       Warnings& warnings)
+    : document_(document), views_(views), accessors_(accessors), materials_(materials),
+      scene_(scene), warnings_(warnings) {}
+
+uint32_t MeshReader::mesh(int index, const std::string& user) {
+    const size_t number = checkedIndex(index, document_.model.meshes.size(), "mesh", user);
+    const auto known = known_.find(index);
+    if (known != known_.end()) {
+        return known->second;
+    }
+    scene::Mesh mesh = read(number);
+    uint32_t position = scene::kNone;
+    if (!mesh.primitives.empty()) {
+        position = static_cast<uint32_t>(scene_.meshes.size());
+        scene_.meshes.push_back(std::move(mesh));
+    }
+    known_.emplace(index, position);
+    return position;
+}
+
+scene::Mesh MeshReader::read(size_t index) {
+    const tinygltf::Mesh& source = document_.model.meshes[index];
+    scene::Mesh mesh;
+    mesh.name = source.name;
+    for (size_t i = 0; i < source.primitives.size(); ++i) {
+        if (auto primitive = readPrimitive(index, i)) {
+            mesh.primitives.push_back(std::move(*primitive));
+        }
+    }
+    return mesh;
+}
+
+std::optional<scene::Primitive> MeshReader::readPrimitive(size_t mesh, size_t number) {
+    const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[number];
+    const std::string user = thing("mesh", mesh) + " " + thing("primitive", number);
+    const std::optional<Topology> topology = topologyOf(source.mode, user);
+    if (!topology) {
+        warnings_.add(user + " is points or lines and is not drawn");
+        return std::nullopt;
+    }
+    if (!source.attributes.contains("POSITION")) {
+        warnings_.add(user + " has no POSITION and is not drawn");
+        return std::nullopt;
+    }
+    const int index_accessor = document_.indices[mesh][number];
+    const uint64_t vertex_count = accessors_.count(source.attributes.at("POSITION"), user);
+    const uint64_t index_count =
+        index_accessor < 0 ? vertex_count : accessors_.count(index_accessor, user);
+    const uint64_t list_length = listLength(*topology, index_count);
+    const bool flat = !source.attributes.contains("NORMAL");
+    if (list_length == 0) {
+        warnings_.add(user + " has no whole triangle and is not drawn");
+        return std::nullopt;
+    }
+    if (*topology == Topology::kTriangles && list_length != index_count) {
+        warnings_.add(user + " has " + std::to_string(index_count) +
+                      " indices, no multiple of 3; the last are ignored");
+    }
+    vertices_.take(flat ? std::max(vertex_count, list_length) : vertex_count, user);
+    indices_.take(std::max(list_length, index_count), user);
+
+    const auto draco = openDraco(source, vertex_count, index_count, views_, user);
+    VertexSource stream(source, accessors_, draco.get(), user);
+    scene::Primitive primitive;
+    primitive.positions = stream.vectors<3>("POSITION", vertex_count);
+    primitive.indices = triangleList(
+        *topology, readIndices(source, index_accessor, draco.get(), vertex_count, user));
+    readStreams(stream, primitive, user);
+    applyMorphs(source, document_.model.meshes[mesh].weights, primitive, user);
+    finishNormals(!flat, primitive, user);
+    finishTangents(primitive, user);
+    primitive.material = materials_.material(source.material, user);
+    for (const glm::vec3& position : primitive.positions) {
+        primitive.bounds.add(position);
+    }
+    return primitive;
+}
+
+std::vector<uint32_t> MeshReader::readIndices(const tinygltf::Primitive& source,
+                                              int accessor,
+                                              const DracoMesh* draco,
+                                              size_t vertex_count,
+                                              const std::string& user) {
+    std::vector<uint32_t> indices;
+    if (draco != nullptr) {
+        if (source.mode != TINYGLTF_MODE_TRIANGLES) {
+            fail(user + " is compressed by Draco with mode " + std::to_string(source.mode) +
+                 "; right is 4");
+        }
+        indices = draco->indices();
+    } else if (accessor >= 0) {
+        indices = accessors_.indices(accessor, user + " indices");
+    } else {
+        indices.resize(vertex_count);
+        std::iota(indices.begin(), indices.end(), 0U);
+    }
+    for (size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] >= vertex_count) {
+            fail(user + " index " + std::to_string(i) + " is " + std::to_string(indices[i]) +
+                 "; right is below " + std::to_string(vertex_count) + ", its vertices");
+        }
+    }
+    return indices;
+}
+
+void MeshReader::readStreams(VertexSource& source,
+                             scene::Primitive& primitive,
+                             const std::string& user) {
+    const size_t count = primitive.positions.size();
+    if (source.has("NORMAL")) {
+        primitive.normals = source.vectors<3>("NORMAL", count);
+        if (source.has("TANGENT")) {
+            primitive.tangents = source.vectors<4>("TANGENT", count);
+        }
+    }
+    if (source.has("TEXCOORD_0")) {
+        primitive.uv0 = source.vectors<2>("TEXCOORD_0", count);
+    }
+    if (source.has("TEXCOORD_1")) {
+        primitive.uv1 = source.vectors<2>("TEXCOORD_1", count);
+    }
+    if (source.has("COLOR_0")) {
+        const int components = accessors_.components(source.accessor("COLOR_0"), user);
+        primitive.colors = readColors(source, components, count);
+    }
+}
+
+void MeshReader::applyMorphs(const tinygltf::Primitive& source,
+                             const std::vector<double>& weights,
+                             scene::Primitive& primitive,
+                             const std::string& user) {
+    if (source.targets.empty()) {
+        return;
+    }
+    warnings_.add("morph targets are not animated; meshes keep their default weights");
+    const auto add = [&](const std::map<std::string, int>& target, const char* semantic,
+                         float weight, std::vector<glm::vec3>& stream) {
+        const auto found = target.find(semantic);
+        if (found == target.end() || stream.empty()) {
+            return;
+        }
+        const std::string name = user + " morph target " + semantic;
+        if (accessors_.count(found->second, name) != stream.size()) {
+            fail(name + " has " + std::to_string(accessors_.count(found->second, name)) +
+                 " elements; right is " + std::to_string(stream.size()) + ", as POSITION has");
+        }
+        morphed_vertices_.take(stream.size(), name);
+        const std::vector<glm::vec3> offsets = accessors_.vectors<3>(found->second, name);
+        for (size_t i = 0; i < stream.size(); ++i) {
+            stream[i] += weight * offsets[i];
+            if (!std::isfinite(stream[i].x + stream[i].y + stream[i].z)) {
+                fail(name + " takes element " + std::to_string(i) +
+                     " out of range with the weight " + numberText(weight) +
+                     "; right are finite sums");
+            }
+        }
+    };
+    for (size_t i = 0; i < source.targets.size() && i < weights.size(); ++i) {
+        if (weights[i] != 0) {
+            const auto weight = static_cast<float>(weights[i]);
+            add(source.targets[i], "POSITION", weight, primitive.positions);
+            add(source.targets[i], "NORMAL", weight, primitive.normals);
+        }
+    }
+}
+
+void MeshReader::finishNormals(bool has_normals,
+                               scene::Primitive& primitive,
+                               const std::string& user) {
+    if (!has_normals) {
+        makeFlat(primitive);
+        return;
+    }
+    size_t broken_count = 0;
+    for (glm::vec3& normal : primitive.normals) {
+        if (!makeUnit(normal)) {
+            normal = {0, 1, 0};
+            ++broken_count;
+        }
+    }
+    if (broken_count > 0) {
+        warnings_.add(user + " has " + std::to_string(broken_count) +
+                      " normals of length 0; +Y is used for them");
+    }
+}
+
+void MeshReader::finishTangents(scene::Primitive& primitive, const std::string& user) {
+    for (glm::vec4& tangent : primitive.tangents) {
+        glm::vec3 direction(tangent);
+        if (!makeUnit(direction) || tangent.w == 0) {
+            warnings_.add(user + " has tangents of length 0 or without handedness; all of its "
+                                 "tangents are derived instead");
+            primitive.tangents.clear();
+            return;
+        }
+        tangent = glm::vec4(direction, tangent.w < 0 ? -1.0F : 1.0F);
+    }
+}
+
+} // namespace froxel::gltf

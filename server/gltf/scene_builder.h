@@ -1,0 +1,14 @@
+// Puts a parsed file together: nodes to instances, cameras and lights; then the images.
+#pragma once
+
+#include "gltf/document.h"
+#include "gltf/scene_folder.h"
+#include "scene/scene.h"
+
+namespace froxel::gltf {
+
+// Throws Failure.
+[[nodiscard]] scene::Scene
+buildScene(const Document& document, SceneFolder& folder, Warnings& warnings);
+
+} // namespace froxel::gltf

@@ -1,0 +1,176 @@
+#include "gltf/scene_folder.h"
+
+#include "core/text.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace froxel::gltf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Descriptor {
+  public:
+    explicit Descriptor(int value) : value_(value) {}
+    ~Descriptor() {
+        if (value_ >= 0) {
+            ::close(value_);
+        }
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    [[nodiscard]] int get() const { return value_; }
+
+  private:
+    int value_;
+};
+
+std::string reason(int error) {
+    return std::generic_category().message(error);
+}
+
+// NONBLOCK: opening a pipe must not wait for its writer.
+Bytes readFile(const fs::path& path, const std::string& user, Budget& budget) {
+    const std::string shown = "'" + printable(path.string(), 300) + "'";
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.get() < 0) {
+        fail(user + " cannot open " + shown + ": " + reason(errno));
+    }
+    struct stat status {};
+    if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+        fail(user + " names " + shown + ", which is not a regular file");
+    }
+    const auto size = static_cast<size_t>(status.st_size);
+    budget.take(size, user);
+    Bytes bytes(size);
+    size_t done = 0;
+    while (done < size) {
+        const ssize_t got = ::read(file.get(), bytes.data() + done, size - done);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got <= 0) {
+            fail(user + " cannot read " + shown + ": " +
+                 (got < 0 ? reason(errno) : "it is shorter than it was"));
+        }
+        done += static_cast<size_t>(got);
+    }
+    return bytes;
+}
+
+std::string percentDecoded(const std::string& uri, const std::string& refusal) {
+    std::string text;
+    for (size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] != '%') {
+            text += uri[i];
+            continue;
+        }
+        unsigned value = 0;
+        const char* first = uri.data() + i + 1;
+        const char* last = uri.data() + std::min(i + 3, uri.size());
+        const auto parsed = std::from_chars(first, last, value, 16);
+        if (last - first != 2 || parsed.ptr != last) {
+            fail(refusal + " has a broken escape; right is % and two hexadecimal digits");
+        }
+        text += static_cast<char>(value);
+        i += 2;
+    }
+    return text;
+}
+
+bool hasScheme(const std::string& uri) {
+    const size_t colon = uri.find(':');
+    return colon != std::string::npos && colon > 0 &&
+           std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](char c) {
+               return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' ||
+                      c == '.';
+           });
+}
+
+bool isInside(const fs::path& path, const fs::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+           folder.end();
+}
+
+} // namespace
+
+fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
+    const std::string refusal = user + " has the URI '" + printable(uri) + "', which";
+    constexpr const char* kRight = "; right is a path inside the scene's folder";
+    if (hasScheme(uri)) {
+        fail(refusal + " has a scheme" + kRight + ", or data:");
+    }
+    const std::string text = percentDecoded(uri, refusal);
+    if (text.empty() || text.find('\0') != std::string::npos) {
+        fail(refusal + (text.empty() ? " is empty" : " contains a NUL") + kRight);
+    }
+    const fs::path path(text);
+    if (path.is_absolute() || text.front() == '\\' || hasScheme(text)) {
+        fail(refusal + " is absolute" + kRight);
+    }
+    // Backslashes are path separators to some tools that write such files.
+    std::string slashed = text;
+    std::replace(slashed.begin(), slashed.end(), '\\', '/');
+    for (const fs::path& part : fs::path(slashed)) {
+        if (part == "..") {
+            fail(refusal + " leaves the scene's folder by '..'" + kRight);
+        }
+    }
+    return path;
+}
+
+SceneFolder::SceneFolder(const fs::path& scene_file) : scene_file_(scene_file) {
+    std::error_code error;
+    const fs::path parent = scene_file.has_parent_path() ? scene_file.parent_path() : ".";
+    folder_ = fs::canonical(parent, error);
+    if (error) {
+        fail("cannot open its folder '" + printable(parent.string(), 300) +
+             "': " + error.message());
+    }
+}
+
+Bytes SceneFolder::readSceneFile() {
+    return readFile(scene_file_, "the scene", bytes_);
+}
+
+Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
+    if (uri.starts_with("data:")) {
+        // Three bytes for four characters; the URI itself is bounded by the JSON text's limit.
+        bytes_.take(uri.size() / 4 * 3, user);
+        std::string mime_type;
+        std::vector<unsigned char> decoded;
+        if (!tinygltf::DecodeDataURI(&decoded, mime_type, uri, 0, false)) {
+            fail(user + " has the URI '" + printable(uri, 40) +
+                 "', which cannot be decoded; right is data:application/octet-stream;base64, "
+                 "data:application/gltf-buffer;base64, data:image/png;base64 or "
+                 "data:image/jpeg;base64 with at least one byte");
+        }
+        Bytes bytes(decoded.size());
+        std::memcpy(bytes.data(), decoded.data(), decoded.size());
+        return bytes;
+    }
+    const fs::path relative = relativePathFromUri(uri, user);
+    std::error_code error;
+    const fs::path target = fs::canonical(folder_ / relative, error);
+    if (error) {
+        fail(user + " cannot open '" + printable(relative.string(), 300) +
+             "' in the scene's folder: " + error.message());
+    }
+    if (!isInside(target, folder_)) {
+        fail(user + " has the URI '" + printable(uri) +
+             "', a link that leaves the scene's folder; right is a file inside it");
+    }
+    return readFile(target, user, bytes_);
+}
+
+} // namespace froxel::gltf

@@ -1,0 +1,38 @@
+// The only way to the file system: files inside the folder that the scene file lies in.
+#pragma once
+
+#include "gltf/limits.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace froxel::gltf {
+
+using Bytes = std::vector<std::byte>;
+
+// The path that a relative URI of a glTF file names, percent-decoded. Throws Failure for a URI
+// with a scheme, an absolute one, one with a `..` part (also when percent-encoded), a NUL or a
+// broken escape; `user` is named in the message.
+[[nodiscard]] std::filesystem::path relativePathFromUri(const std::string& uri,
+                                                        const std::string& user);
+
+class SceneFolder {
+  public:
+    explicit SceneFolder(const std::filesystem::path& scene_file);
+
+    // The scene file itself. Throws Failure.
+    [[nodiscard]] Bytes readSceneFile();
+
+    // The bytes behind a `data:` URI or a file of the folder; a symlink may lead only to a place
+    // inside the folder. Throws Failure, naming `user`.
+    [[nodiscard]] Bytes read(const std::string& uri, const std::string& user);
+
+  private:
+    std::filesystem::path scene_file_;
+    std::filesystem::path folder_; // canonical
+    Budget bytes_{"bytes of files", kMaxFileBytes};
+};
+
+} // namespace froxel::gltf

@@ -1,0 +1,51 @@
+// Where the vertex attributes of one primitive come from: accessors, or a Draco stream.
+#pragma once
+
+#include "gltf/accessor_reader.h"
+#include "gltf/document.h"
+#include "gltf/draco_mesh.h"
+
+#include <optional>
+#include <string>
+
+namespace froxel::gltf {
+
+class VertexSource {
+  public:
+    // `draco` is borrowed and null where the primitive is not compressed.
+    VertexSource(const tinygltf::Primitive& primitive,
+                 AccessorReader& accessors,
+                 const DracoMesh* draco,
+                 std::string user)
+        : primitive_(primitive), accessors_(accessors), draco_(draco), user_(std::move(user)) {}
+
+    [[nodiscard]] bool has(const char* semantic) const {
+        return primitive_.attributes.contains(semantic);
+    }
+    [[nodiscard]] int accessor(const char* semantic) const {
+        return primitive_.attributes.at(semantic);
+    }
+
+    // `count` elements of N components. Throws Failure where the attribute has another count.
+    template <int N>
+    [[nodiscard]] std::vector<glm::vec<N, float>> vectors(const char* semantic, size_t count) {
+        const int index = accessor(semantic);
+        const std::string user = user_ + " " + semantic;
+        if (accessors_.count(index, user) != count) {
+            fail(user + " has " + std::to_string(accessors_.count(index, user)) +
+                 " elements; right is " + std::to_string(count) + ", as POSITION has");
+        }
+        if (draco_ != nullptr && draco_->has(semantic)) {
+            return draco_->vectors<N>(semantic, accessors_.normalized(index, user), user);
+        }
+        return accessors_.vectors<N>(index, user);
+    }
+
+  private:
+    const tinygltf::Primitive& primitive_;
+    AccessorReader& accessors_;
+    const DracoMesh* draco_;
+    std::string user_;
+};
+
+} // namespace froxel::gltf

@@ -1,0 +1,33 @@
+// What stands and hangs in the hall. Each at its own origin, on y = 0 unless said otherwise.
+#pragma once
+
+#include "hall/mesh_builder.h"
+
+namespace froxel::hall {
+
+// fountain.cpp
+// A round basin on two steps with an upper bowl and an armillary sphere; 3.9 m high.
+[[nodiscard]] MeshBuilder fountain();
+
+// statue.cpp
+// A gilded knot on a porphyry drum.
+[[nodiscard]] MeshBuilder knotOnPlinth();
+
+// joinery.cpp
+// The parapet between two gallery columns, along x: balusters of stone or a bronze lattice.
+[[nodiscard]] MeshBuilder balustrade();
+[[nodiscard]] MeshBuilder grilleParapet();
+// A disc of marble in a stone ring, facing +z, its middle at the origin.
+[[nodiscard]] MeshBuilder roundel(Surface disc);
+// Two bronze leaves that fill a doorway with a round head, facing +z.
+[[nodiscard]] MeshBuilder portalDoors(float radius, float spring);
+
+// lamps.cpp
+// A six-sided lantern of bronze and glass that hangs `drop` metres below the origin.
+[[nodiscard]] MeshBuilder lantern(float drop, float scale);
+
+// banner.cpp
+// A swallow-tailed cloth on a gilded rod, hanging from the origin, facing +z.
+[[nodiscard]] MeshBuilder banner(float width, float length);
+
+} // namespace froxel::hall

@@ -1,0 +1,133 @@
+// A loaded scene on the host: flat arrays, validated, independent of file formats and of the GPU.
+#pragma once
+
+#include "core/math.h"
+#include "view/camera.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace froxel::scene {
+
+inline constexpr uint32_t kNone = 0xffffffffU;
+
+enum class Wrap : uint8_t { kRepeat, kMirroredRepeat, kClampToEdge };
+enum class Filter : uint8_t { kNearest, kLinear };
+
+struct Sampler {
+    Wrap wrap_u = Wrap::kRepeat;
+    Wrap wrap_v = Wrap::kRepeat;
+    Filter mag = Filter::kLinear;
+    Filter min = Filter::kLinear;
+    Filter mip = Filter::kLinear;
+    bool mipmapped = true; // false: only the base level is ever read
+    bool operator==(const Sampler&) const = default;
+};
+
+struct Image {
+    std::string name;
+    uint32_t width_px = 0;
+    uint32_t height_px = 0;
+    std::vector<std::byte> rgba8; // [height][width][4], top row first; how it is encoded (sRGB or
+                                  // linear) depends on the slot that uses it
+};
+
+struct Texture {
+    uint32_t image = kNone;
+    uint32_t sampler = kNone; // kNone: Sampler{}
+};
+
+// uv_texture = offset + rotation * scale * uv_vertex (KHR_texture_transform).
+struct TextureSlot {
+    uint32_t texture = kNone;
+    uint32_t texcoord = 0; // 0 or 1
+    glm::vec2 offset{0, 0};
+    float rotation_rad = 0;
+    glm::vec2 scale{1, 1};
+};
+
+enum class AlphaMode : uint8_t { kOpaque, kMask, kBlend };
+
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1, 1, 1, 1}; // linear
+    float metallic = 1;
+    float roughness = 1;
+    float normal_scale = 1;
+    float occlusion_strength = 1;
+    glm::vec3 emissive{0, 0, 0}; // linear; may exceed 1
+    AlphaMode alpha_mode = AlphaMode::kOpaque;
+    float alpha_cutoff = 0.5F;
+    bool double_sided = false;
+    bool unlit = false;
+    TextureSlot base_color_texture;         // sRGB, alpha linear
+    TextureSlot metallic_roughness_texture; // linear: G roughness, B metallic
+    TextureSlot normal_texture;             // linear
+    TextureSlot occlusion_texture;          // linear: R
+    TextureSlot emissive_texture;           // sRGB
+};
+
+// Triangles of one material. Optional streams are empty or have one element per vertex.
+struct Primitive {
+    std::vector<glm::vec3> positions; // object space
+    std::vector<glm::vec3> normals;   // unit; always filled (flat where the file has none)
+    std::vector<glm::vec4> tangents;  // optional: xyz unit, w = handedness; else the shader derives
+                                      // the frame from screen-space derivatives
+    std::vector<glm::vec2> uv0;       // optional
+    std::vector<glm::vec2> uv1;       // optional
+    std::vector<glm::vec4> colors;    // optional: linear, 0..1
+    std::vector<uint32_t> indices;    // three per triangle, each < positions.size()
+    uint32_t material = 0;            // always valid
+    Bounds3 bounds;                   // of positions
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+// One placed mesh; several instances share one copy of the geometry.
+struct Instance {
+    uint32_t mesh = 0;
+    glm::dmat4 world_from_object{1}; // affine; may mirror and scale non-uniformly
+    std::string name;
+};
+
+struct NamedCamera {
+    std::string name;
+    view::Camera camera;
+};
+
+enum class LightType : uint8_t { kPoint, kSpot, kDirectional };
+
+// KHR_lights_punctual. Units: candela (point, spot), lux (directional).
+struct PunctualLight {
+    std::string name;
+    LightType type = LightType::kPoint;
+    glm::dvec3 position_world{0, 0, 0};
+    glm::dvec3 direction_world{0, 0, -1}; // unit, the way the light travels
+    glm::vec3 color{1, 1, 1};             // linear
+    float intensity = 1;
+    float range_m = 0;                    // 0: none given
+    double inner_cone_rad = 0;            // half angles; spot only
+    double outer_cone_rad = 0.7853981633974483;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Image> images;
+    std::vector<Sampler> samplers;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<NamedCamera> cameras;
+    std::vector<PunctualLight> lights;
+    BoundsD3 bounds_world;             // of all instances; empty for an empty scene
+    std::vector<std::string> warnings; // one line each: what was left in its rest pose or ignored
+};
+
+} // namespace froxel::scene
