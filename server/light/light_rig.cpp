@@ -1,0 +1,126 @@
+#include "light/light_rig.h"
+
+#include "light/seeded_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace froxel::light {
+namespace {
+
+// Farther than this a light adds less than 1e-30 of its intensity, and its squared distance would
+// leave a float's range: it is put at this distance instead.
+constexpr double kFarthest_m = 1e15;
+
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool usable(const scene::PunctualLight& light) {
+    const bool directed = light.type == scene::LightType::kPoint ||
+                          (finite(light.direction_world) && glm::length(light.direction_world) > 0);
+    const bool coned = light.type != scene::LightType::kSpot ||
+                       (std::isfinite(light.inner_cone_rad) && std::isfinite(light.outer_cone_rad));
+    return finite(light.position_world) && finite(glm::dvec3(light.color)) &&
+           std::isfinite(light.intensity) && light.range_m >= 0 && std::isfinite(light.range_m) &&
+           directed && coned;
+}
+
+glm::vec3 scaledColor(const scene::PunctualLight& light) {
+    const auto limit = static_cast<double>(std::numeric_limits<float>::max());
+    const glm::dvec3 color = glm::dvec3(light.color) * static_cast<double>(light.intensity);
+    return {glm::min(color, glm::dvec3(limit))};
+}
+
+glm::vec3 directionView(const scene::PunctualLight& light, const glm::dmat3& view_from_world) {
+    return {glm::normalize(view_from_world * glm::normalize(light.direction_world))};
+}
+
+void addDirectional(const scene::PunctualLight& light,
+                    const glm::dmat3& view_from_world,
+                    FrameLights& out) {
+    io::DirectionalLight directional{};
+    directional.direction_view = directionView(light, view_from_world);
+    directional.color = scaledColor(light);
+    out.directionals.push_back(directional);
+}
+
+uint32_t
+addSpot(const scene::PunctualLight& light, const glm::dmat3& view_from_world, FrameLights& out) {
+    const double cos_outer = std::cos(light.outer_cone_rad);
+    const double scale = 1.0 / std::max(1e-3, std::cos(light.inner_cone_rad) - cos_outer);
+    io::Spot spot{};
+    spot.direction_view = directionView(light, view_from_world);
+    spot.scale = static_cast<float>(scale);
+    spot.offset = static_cast<float>(-cos_outer * scale);
+    out.spots.push_back(spot);
+    out.cones.push_back({cos_outer, std::sin(light.outer_cone_rad)});
+    return static_cast<uint32_t>(out.spots.size() - 1);
+}
+
+void addLocal(const scene::PunctualLight& light,
+              const view::Camera& camera,
+              const glm::dmat3& view_from_world,
+              FrameLights& out) {
+    glm::dvec3 position = view_from_world * (light.position_world - camera.eye_world);
+    const double distance = glm::length(position / kFarthest_m);
+    if (distance > 1) {
+        position /= distance;
+    }
+    const bool limited = light.range_m > 0;
+    io::Light local{};
+    local.position_view = glm::vec3(position);
+    local.inv_radius2 = limited ? inverseRadius2(static_cast<double>(light.range_m)) : 0.0F;
+    local.color = scaledColor(light);
+    local.spot =
+        light.type == scene::LightType::kSpot ? addSpot(light, view_from_world, out) : io::kNoSpot;
+    out.lights.push_back(local);
+    out.radii_m.push_back(limited ? light.range_m : std::numeric_limits<float>::infinity());
+}
+
+} // namespace
+
+LightRig::LightRig(const scene::Scene& scene) : scene_bounds_world_(scene.bounds_world) {
+    std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(scene_lights_),
+                 usable);
+}
+
+BoundsD3 LightRig::seededBox(const view::Lights& settings) const {
+    if (settings.box) {
+        return *settings.box;
+    }
+    BoundsD3 box = scene_bounds_world_;
+    if (box.empty()) {
+        box.add(glm::dvec3(0)); // nothing to light: any place will do
+    }
+    const glm::dvec3 margin = box.size() * kShrink;
+    box.min += margin;
+    box.max -= margin;
+    return box;
+}
+
+void LightRig::evaluate(const view::Lights& settings,
+                        const view::Camera& camera,
+                        double time_s,
+                        FrameLights& out) const {
+    out.lights.resize(settings.count);
+    out.radii_m.assign(settings.count, settings.radius_m);
+    out.spots.clear();
+    out.cones.clear();
+    out.directionals.clear();
+    fillSeededLights(settings, camera, seededBox(settings), time_s, out.lights);
+    if (!settings.scene_lights) {
+        return;
+    }
+    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+    for (const scene::PunctualLight& light : scene_lights_) {
+        if (light.type == scene::LightType::kDirectional) {
+            addDirectional(light, view_from_world, out);
+        } else {
+            addLocal(light, camera, view_from_world, out);
+        }
+    }
+}
+
+} // namespace froxel::light

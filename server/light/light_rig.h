@@ -1,0 +1,41 @@
+// The lights of a frame, as a pure function of scene, settings, camera and time.
+#pragma once
+
+#include "core/math.h"
+#include "light/frame_lights.h"
+#include "scene/scene.h"
+#include "view/camera.h"
+#include "view/settings.h"
+
+#include <vector>
+
+namespace froxel::light {
+
+// Immutable after construction: any number of threads may evaluate at once, each into its own
+// FrameLights.
+class LightRig {
+  public:
+    // Copies what it needs. A scene light whose position, direction, colour or cone is not finite,
+    // or whose range is negative, is left out (the loader reports it): no frame holds a NaN.
+    explicit LightRig(const scene::Scene& scene);
+
+    // Replaces the contents of `out`. `time_s` is the lights' clock: whoever owns it
+    // folds speed and pauses in. Positions are subtracted from the eye and rotated in double, then
+    // rounded once to float.
+    void evaluate(const view::Lights& settings,
+                  const view::Camera& camera,
+                  double time_s,
+                  FrameLights& out) const;
+
+    // The box that seeded lights move in, metres in world space: the settings' own, or the scene's
+    // bounds less kShrink of their size on every side.
+    [[nodiscard]] BoundsD3 seededBox(const view::Lights& settings) const;
+
+    static constexpr double kShrink = 0.04;
+
+  private:
+    std::vector<scene::PunctualLight> scene_lights_;
+    BoundsD3 scene_bounds_world_;
+};
+
+} // namespace froxel::light

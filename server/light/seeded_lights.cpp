@@ -1,0 +1,133 @@
+#include "light/seeded_lights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace froxel::light {
+namespace {
+
+// Lights are worked on in batches that stay in the first-level cache, one array for each quantity,
+// so that the compiler can use vector instructions.
+constexpr size_t kBatch = 128;
+
+constexpr size_t kHues = 256;
+
+// A bijective 64-bit mixer (xor-shift and multiply, three rounds): every input bit reaches every
+// output bit. Integer arithmetic only, so that a seed means the same lights everywhere.
+uint64_t mix(uint64_t value) {
+    value ^= value >> 32U;
+    value *= 0x9fb21c651e98df25U;
+    value ^= value >> 29U;
+    value *= 0xd6e8feb86659fd93U;
+    value ^= value >> 32U;
+    return value;
+}
+
+// Three independent fractions in [0, 1) of 21 bits each out of one hash.
+struct Fractions {
+    explicit Fractions(uint64_t hash) {
+        constexpr uint64_t kMask = (1U << 21U) - 1U;
+        constexpr double kScale = 1.0 / (1U << 21U);
+        for (auto& value : values) {
+            value = static_cast<double>(static_cast<int32_t>(hash & kMask)) * kScale;
+            hash >>= 21U;
+        }
+    }
+    std::array<double, 3> values;
+};
+
+// Linear RGB of a hue in [0, 1), saturation 0.85. Luminance is evened out halfway (by the square
+// root): blue of red's full luminance would look like a flare, unevened it would be lost.
+glm::vec3 hueColor(double hue) {
+    const auto channel = [hue](double shift) {
+        const double turn = hue + shift - std::floor(hue + shift);
+        return 0.15 + 0.85 * std::clamp(std::abs(turn * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+    };
+    const glm::dvec3 color(channel(0), channel(2.0 / 3.0), channel(1.0 / 3.0));
+    const double luminance = glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
+    return glm::vec3(color * std::sqrt(0.5 / luminance));
+}
+
+const std::array<glm::vec3, kHues>& hueTable() {
+    static const auto table = [] {
+        std::array<glm::vec3, kHues> colors{};
+        for (size_t i = 0; i < kHues; ++i) {
+            colors[i] = hueColor(static_cast<double>(i) / kHues);
+        }
+        return colors;
+    }();
+    return table;
+}
+
+// Distance of x to the nearest whole number, times two: a triangle wave in [0, 1]. Adding and
+// subtracting 1.5 * 2^52 rounds to a whole number for |x| < 2^51 without a call; beyond, where a
+// period is below a micrometre, the phase is lost but the light still stays in its box.
+double triangleWave(double x) {
+    constexpr double kRounder = 6755399441055744.0;
+    return std::min(1.0, 2.0 * std::abs(x - ((x + kRounder) - kRounder)));
+}
+
+} // namespace
+
+float inverseRadius2(double radius_m) {
+    // Smaller radii than 1e-15 m would overflow a float; no surface point is that near a light.
+    const double radius = std::max(radius_m, 1e-15);
+    return static_cast<float>(1.0 / (radius * radius));
+}
+
+void fillSeededLights(const view::Lights& settings,
+                      const view::Camera& camera,
+                      const BoundsD3& box_world,
+                      double time_s,
+                      std::span<io::Light> out) {
+    const auto& hues = hueTable();
+    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+    const glm::dvec3 extent = box_world.size();
+    const glm::dvec3 origin = view_from_world * (box_world.min - camera.eye_world);
+    const glm::dmat3 view_from_box(view_from_world[0] * extent.x, view_from_world[1] * extent.y,
+                                   view_from_world[2] * extent.z);
+    // Per-axis speeds are 1/sqrt(3) of the overall ones. A period is twice the box; a flat box
+    // stands still on that axis.
+    glm::dvec3 cycles{0};
+    for (int axis = 0; axis < 3; ++axis) {
+        cycles[axis] = extent[axis] > 0 ? time_s / (2.0 * std::sqrt(3.0) * extent[axis]) : 0.0;
+    }
+    const float inv_radius2 = inverseRadius2(static_cast<double>(settings.radius_m));
+    const uint64_t key = mix(uint64_t{settings.seed} + 0x632be59bd9b4e019U);
+
+    std::array<std::array<double, kBatch>, 3> wave;
+    for (size_t first = 0; first < out.size(); first += kBatch) {
+        const size_t count = std::min(kBatch, out.size() - first);
+        for (size_t i = 0; i < count; ++i) {
+            const uint64_t index = (first + i) * 3U;
+            const Fractions phase(mix(key + index));
+            const Fractions speed(mix(key + index + 1U));
+            const Fractions look(mix(key + index + 2U));
+            for (size_t axis = 0; axis < 3; ++axis) {
+                const double rate =
+                    (0.2 + 1.3 * speed.values[axis]) * cycles[static_cast<int>(axis)];
+                wave[axis][i] = phase.values[axis] + rate;
+            }
+            const auto hue = static_cast<size_t>(look.values[0] * kHues);
+            const auto gain = static_cast<float>(0.5 + look.values[1]) * settings.intensity;
+            io::Light& light = out[first + i];
+            light.inv_radius2 = inv_radius2;
+            light.color = hues[hue] * gain;
+            light.spot = io::kNoSpot;
+        }
+        for (auto& axis : wave) {
+            for (double& x : axis) {
+                x = triangleWave(x);
+            }
+        }
+        for (size_t i = 0; i < count; ++i) {
+            const glm::dvec3 position =
+                origin + view_from_box * glm::dvec3(wave[0][i], wave[1][i], wave[2][i]);
+            out[first + i].position_view = glm::vec3(position);
+        }
+    }
+}
+
+} // namespace froxel::light

@@ -1,0 +1,29 @@
+// Point lights from a seed: a closed formula of (seed, index, time), equal on every machine.
+#pragma once
+
+#include "core/math.h"
+#include "interface/light_io.h"
+#include "view/camera.h"
+#include "view/settings.h"
+
+#include <span>
+
+namespace froxel::light {
+
+// Fills `out` (element i is light i of the seed). On every axis a light runs to and fro through the
+// box at a constant speed, a triangle wave with a uniform phase: the density is uniform at every
+// time, and no light leaves the box. Overall speeds are 0.2 to 1.5 m/s of the clock.
+//
+// The wave's argument is phase + rate * clock in double, less its nearest whole number: exact but
+// for the product's rounding, 2^-53 of its size. At 1e9 s, 1.5 m/s and a 10 m box that is 1e-8 of a
+// period, 0.2 um.
+void fillSeededLights(const view::Lights& settings,
+                      const view::Camera& camera,
+                      const BoundsD3& box_world,
+                      double time_s,
+                      std::span<io::Light> out);
+
+// 1 / radius^2 as the shaders take it; finite for every radius > 0, and 0 for infinity.
+[[nodiscard]] float inverseRadius2(double radius_m);
+
+} // namespace froxel::light
