@@ -1,0 +1,197 @@
+#include "gpu/device.h"
+
+#include "core/error.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace froxel::gpu {
+
+namespace {
+
+// One row for each feature that the renderer stands on.
+struct RequiredFeature {
+    const char* name;
+    bool present;
+};
+
+using Features = vk::StructureChain<vk::PhysicalDeviceFeatures2,
+                                    vk::PhysicalDeviceVulkan11Features,
+                                    vk::PhysicalDeviceVulkan12Features,
+                                    vk::PhysicalDeviceVulkan13Features>;
+
+std::vector<RequiredFeature> requiredFeatures(const Features& features) {
+    const auto& core = features.get<vk::PhysicalDeviceFeatures2>().features;
+    const auto& v12 = features.get<vk::PhysicalDeviceVulkan12Features>();
+    const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
+    return {{"independentBlend", core.independentBlend == VK_TRUE},
+            {"multiDrawIndirect", core.multiDrawIndirect == VK_TRUE},
+            {"drawIndirectFirstInstance", core.drawIndirectFirstInstance == VK_TRUE},
+            {"samplerAnisotropy", core.samplerAnisotropy == VK_TRUE},
+            {"scalarBlockLayout", v12.scalarBlockLayout == VK_TRUE},
+            {"timelineSemaphore", v12.timelineSemaphore == VK_TRUE},
+            {"synchronization2", v13.synchronization2 == VK_TRUE},
+            {"dynamicRendering", v13.dynamicRendering == VK_TRUE},
+            {"maintenance4", v13.maintenance4 == VK_TRUE}};
+}
+
+Features queryFeatures(const vk::raii::PhysicalDevice& physical) {
+    return physical
+        .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
+                      vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>();
+}
+
+std::optional<uint32_t> findQueueFamily(const vk::raii::PhysicalDevice& physical) {
+    const auto families = physical.getQueueFamilyProperties();
+    for (uint32_t i = 0; i < families.size(); ++i) {
+        const auto wanted = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+        if ((families[i].queueFlags & wanted) == wanted && families[i].timestampValidBits == 64) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+// Empty when the device can be used, else why not.
+std::string unusable(const vk::raii::PhysicalDevice& physical) {
+    if (physical.getProperties().apiVersion < VK_API_VERSION_1_3) {
+        return "is older than Vulkan 1.3";
+    }
+    if (!findQueueFamily(physical)) {
+        return "has no graphics and compute queue with 64-bit timestamps";
+    }
+    for (const auto& feature : requiredFeatures(queryFeatures(physical))) {
+        if (!feature.present) {
+            return std::string("lacks ") + feature.name;
+        }
+    }
+    return {};
+}
+
+int rank(vk::PhysicalDeviceType type) {
+    switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        return 0;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        return 1;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        return 2;
+    case vk::PhysicalDeviceType::eCpu:
+        return 3;
+    default:
+        return 4;
+    }
+}
+
+vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, DeviceChoice choice) {
+    vk::raii::PhysicalDevices all(instance);
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return rank(a.getProperties().deviceType) < rank(b.getProperties().deviceType);
+    });
+    std::string reasons;
+    for (auto& physical : all) {
+        const auto properties = physical.getProperties();
+        const bool is_cpu = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+        if ((choice == DeviceChoice::kGpu && is_cpu) || (choice == DeviceChoice::kCpu && !is_cpu)) {
+            continue;
+        }
+        const std::string reason = unusable(physical);
+        if (reason.empty()) {
+            return std::move(physical);
+        }
+        reasons += std::string("; ") + properties.deviceName.data() + " " + reason;
+    }
+    const char* wanted = choice == DeviceChoice::kGpu   ? "no usable GPU"
+                         : choice == DeviceChoice::kCpu ? "no usable CPU device (Debian: "
+                                                          "mesa-vulkan-drivers)"
+                                                        : "no usable Vulkan device";
+    throw StartupError({ErrorCode::kDevice, wanted + reasons});
+}
+
+DeviceTraits readTraits(const vk::raii::PhysicalDevice& physical, bool use_subgroups) {
+    const auto chain =
+        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties,
+                                vk::PhysicalDeviceVulkan12Properties>();
+    const auto& core = chain.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& v11 = chain.get<vk::PhysicalDeviceVulkan11Properties>();
+    const auto& v12 = chain.get<vk::PhysicalDeviceVulkan12Properties>();
+    const auto wanted = vk::SubgroupFeatureFlagBits::eVote | vk::SubgroupFeatureFlagBits::eBallot |
+                        vk::SubgroupFeatureFlagBits::eArithmetic |
+                        vk::SubgroupFeatureFlagBits::eShuffle;
+    const bool subgroups = use_subgroups && (v11.subgroupSupportedOperations & wanted) == wanted &&
+                           (v11.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute);
+    DeviceTraits traits;
+    traits.name = core.deviceName.data();
+    traits.driver = std::string(v12.driverName.data()) + " " + v12.driverInfo.data();
+    traits.api_version = core.apiVersion;
+    traits.is_cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
+    traits.subgroup_size = subgroups ? v11.subgroupSize : 0;
+    traits.fragment_subgroups =
+        subgroups && (v11.subgroupSupportedStages & vk::ShaderStageFlagBits::eFragment);
+    traits.timestamp_period_ns = static_cast<double>(core.limits.timestampPeriod);
+    traits.max_anisotropy = core.limits.maxSamplerAnisotropy;
+    return traits;
+}
+
+} // namespace
+
+Device::Device(const DeviceOptions& options) try : instance_(options.validation) {
+    physical_ = choose(instance_.handle(), options.choice);
+    queue_family_ = *findQueueFamily(physical_);
+    traits_ = readTraits(physical_, options.subgroups);
+    limits_ = physical_.getProperties().limits;
+    memory_ = physical_.getMemoryProperties();
+
+    Features enabled;
+    auto& core = enabled.get<vk::PhysicalDeviceFeatures2>().features;
+    core.setIndependentBlend(VK_TRUE)
+        .setMultiDrawIndirect(VK_TRUE)
+        .setDrawIndirectFirstInstance(VK_TRUE)
+        .setSamplerAnisotropy(VK_TRUE);
+    enabled.get<vk::PhysicalDeviceVulkan12Features>()
+        .setScalarBlockLayout(VK_TRUE)
+        .setTimelineSemaphore(VK_TRUE)
+        .setHostQueryReset(VK_TRUE);
+    enabled.get<vk::PhysicalDeviceVulkan13Features>()
+        .setSynchronization2(VK_TRUE)
+        .setDynamicRendering(VK_TRUE)
+        .setMaintenance4(VK_TRUE);
+
+    const float priority = 1.0F;
+    const vk::DeviceQueueCreateInfo queue{
+        .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
+    device_ = vk::raii::Device(
+        physical_, vk::DeviceCreateInfo{.pNext = &enabled.get<vk::PhysicalDeviceFeatures2>(),
+                                        .queueCreateInfoCount = 1,
+                                        .pQueueCreateInfos = &queue});
+    queue_ = device_.getQueue(queue_family_, 0);
+    cache_ = device_.createPipelineCache({});
+    spdlog::info("device name=\"{}\" driver=\"{}\" kind={} subgroup={}", traits_.name,
+                 traits_.driver, traits_.is_cpu ? "cpu" : "gpu", traits_.subgroup_size);
+} catch (const vk::SystemError& error) {
+    throw StartupError({ErrorCode::kDevice, std::string("Vulkan: ") + error.what()});
+}
+
+Device::~Device() {
+    if (*device_) {
+        try {
+            device_.waitIdle();
+        } catch (const vk::SystemError& error) {
+            spdlog::warn("device: waiting at the end failed: {}", error.what());
+        }
+    }
+}
+
+void Device::nameObject(vk::ObjectType type, uint64_t handle, std::string_view name) const {
+    if (!instance_.validating()) {
+        return;
+    }
+    const std::string text(name);
+    device_.setDebugUtilsObjectNameEXT(vk::DebugUtilsObjectNameInfoEXT{
+        .objectType = type, .objectHandle = handle, .pObjectName = text.c_str()});
+}
+
+} // namespace froxel::gpu

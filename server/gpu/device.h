@@ -1,0 +1,67 @@
+// The chosen Vulkan device, its one queue and what it can do.
+#pragma once
+
+#include "gpu/device_options.h"
+#include "gpu/instance.h"
+#include "gpu/vulkan.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace froxel::gpu {
+
+// What the renderer adapts to.
+struct DeviceTraits {
+    std::string name;
+    std::string driver;
+    uint32_t api_version = 0;
+    bool is_cpu = false;        // a software rasteriser: host memory is its memory
+    uint32_t subgroup_size = 0; // 0: lacks vote, ballot, arithmetic or shuffle in compute
+    bool fragment_subgroups = false;
+    double timestamp_period_ns = 1;
+    float max_anisotropy = 1;
+};
+
+class Device {
+  public:
+    // Throws StartupError(kDevice) naming what is missing.
+    explicit Device(const DeviceOptions& options);
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+    ~Device();
+
+    [[nodiscard]] const vk::raii::Device& handle() const { return device_; }
+    [[nodiscard]] const vk::raii::PhysicalDevice& physical() const { return physical_; }
+    [[nodiscard]] const vk::raii::Queue& queue() const { return queue_; }
+    [[nodiscard]] uint32_t queueFamily() const { return queue_family_; }
+    [[nodiscard]] const DeviceTraits& traits() const { return traits_; }
+    [[nodiscard]] const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+    [[nodiscard]] const ValidationLog& validationLog() const { return instance_.validationLog(); }
+    [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
+    [[nodiscard]] const vk::raii::PipelineCache& pipelineCache() const { return cache_; }
+
+    // Names an object for the validation layer and for captures; nothing without validation.
+    template <class Handle>
+    void setName(const Handle& handle, std::string_view name) const {
+        using CType = typename Handle::CType;
+        nameObject(Handle::objectType, reinterpret_cast<uint64_t>(static_cast<CType>(handle)),
+                   name);
+    }
+    [[nodiscard]] bool labels() const { return instance_.validating(); }
+
+  private:
+    void nameObject(vk::ObjectType type, uint64_t handle, std::string_view name) const;
+
+    Instance instance_;
+    vk::raii::PhysicalDevice physical_{nullptr};
+    vk::raii::Device device_{nullptr};
+    vk::raii::Queue queue_{nullptr};
+    vk::raii::PipelineCache cache_{nullptr};
+    uint32_t queue_family_ = 0;
+    DeviceTraits traits_;
+    vk::PhysicalDeviceLimits limits_;
+    vk::PhysicalDeviceMemoryProperties memory_;
+};
+
+} // namespace froxel::gpu

@@ -1,0 +1,78 @@
+#include "gpu/instance.h"
+
+#include "core/error.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace froxel::gpu {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/,
+                                         VkDebugUtilsMessageTypeFlagsEXT /*types*/,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                         void* log) {
+    spdlog::error("validation: {}", data->pMessage);
+    static_cast<ValidationLog*>(log)->add(data->pMessage);
+    return VK_FALSE;
+}
+
+} // namespace
+
+void ValidationLog::add(std::string message) {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+}
+
+std::vector<std::string> ValidationLog::messages() const {
+    const std::lock_guard lock(mutex_);
+    return messages_;
+}
+
+Instance::Instance(bool validation)
+    : log_(std::make_unique<ValidationLog>()), validating_(validation) {
+    if (context_.enumerateInstanceVersion() < VK_API_VERSION_1_3) {
+        throw StartupError({ErrorCode::kDevice, "the Vulkan loader is older than 1.3"});
+    }
+    const vk::ApplicationInfo application{.pApplicationName = "froxel",
+                                          .apiVersion = VK_API_VERSION_1_3};
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    if (validation) {
+        const auto available = context_.enumerateInstanceLayerProperties();
+        const bool present = std::any_of(available.begin(), available.end(), [](const auto& layer) {
+            return std::strcmp(layer.layerName, kValidationLayer) == 0;
+        });
+        if (!present) {
+            throw StartupError(
+                {ErrorCode::kDevice, std::string(kValidationLayer) +
+                                         " is not installed (Debian: vulkan-validationlayers)"});
+        }
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
+    instance_ = vk::raii::Instance(
+        context_,
+        vk::InstanceCreateInfo{.pApplicationInfo = &application,
+                               .enabledLayerCount = static_cast<uint32_t>(layers.size()),
+                               .ppEnabledLayerNames = layers.data(),
+                               .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+                               .ppEnabledExtensionNames = extensions.data()});
+    if (validation) {
+        using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+        using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+        messenger_ = vk::raii::DebugUtilsMessengerEXT(
+            instance_, vk::DebugUtilsMessengerCreateInfoEXT{
+                           .messageSeverity = Severity::eWarning | Severity::eError,
+                           .messageType = Type::eValidation | Type::eGeneral,
+                           .pfnUserCallback = &onMessage,
+                           .pUserData = log_.get()});
+    }
+}
+
+} // namespace froxel::gpu

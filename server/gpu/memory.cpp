@@ -1,0 +1,125 @@
+#include "gpu/memory.h"
+
+#include "core/error.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace froxel::gpu {
+
+namespace {
+
+using Property = vk::MemoryPropertyFlagBits;
+
+std::optional<uint32_t> findType(const vk::PhysicalDeviceMemoryProperties& memory,
+                                 uint32_t allowed,
+                                 vk::MemoryPropertyFlags wanted) {
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        const bool fits = (memory.memoryTypes[i].propertyFlags & wanted) == wanted;
+        if ((allowed & (1U << i)) != 0 && fits) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+// Best kind first.
+std::vector<vk::MemoryPropertyFlags> preferences(MemoryUse use) {
+    const vk::MemoryPropertyFlags host = Property::eHostVisible | Property::eHostCoherent;
+    switch (use) {
+    case MemoryUse::kDevice:
+        return {Property::eDeviceLocal, {}};
+    case MemoryUse::kUpload:
+        return {host | Property::eDeviceLocal, host};
+    case MemoryUse::kReadback:
+        return {host | Property::eHostCached, host};
+    }
+    return {};
+}
+
+vk::DeviceSize alignUp(vk::DeviceSize value, vk::DeviceSize alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+} // namespace
+
+MemoryArena::MemoryArena(const Device& device, vk::DeviceSize chunk_bytes)
+    : device_(device), chunk_bytes_(chunk_bytes) {}
+
+MemoryArena::Place MemoryArena::place(const vk::MemoryRequirements& requirements, MemoryUse use) {
+    std::optional<uint32_t> type;
+    for (const auto flags : preferences(use)) {
+        type = findType(device_.memory(), requirements.memoryTypeBits, flags);
+        if (type) {
+            break;
+        }
+    }
+    if (!type) {
+        throw StartupError({ErrorCode::kDevice, "no memory type suits a buffer or image"});
+    }
+    // Images and buffers may share a chunk, so keep both apart by the device's granularity.
+    const auto alignment =
+        std::max(requirements.alignment, device_.limits().bufferImageGranularity);
+    for (auto& chunk : chunks_) {
+        const auto offset = alignUp(chunk.used_bytes, alignment);
+        if (chunk.type == *type && offset + requirements.size <= chunk.size_bytes) {
+            chunk.used_bytes = offset + requirements.size;
+            return {*chunk.memory, offset, chunk.mapped ? chunk.mapped + offset : nullptr};
+        }
+    }
+    Chunk chunk;
+    chunk.type = *type;
+    chunk.size_bytes = std::max(chunk_bytes_, requirements.size);
+    chunk.memory = device_.handle().allocateMemory(
+        {.allocationSize = chunk.size_bytes, .memoryTypeIndex = *type});
+    if (use != MemoryUse::kDevice) {
+        chunk.mapped = static_cast<std::byte*>(chunk.memory.mapMemory(0, VK_WHOLE_SIZE));
+    }
+    chunk.used_bytes = requirements.size;
+    allocated_bytes_ += chunk.size_bytes;
+    chunks_.push_back(std::move(chunk));
+    return {*chunks_.back().memory, 0, chunks_.back().mapped};
+}
+
+Buffer MemoryArena::makeBuffer(vk::DeviceSize size_bytes,
+                               vk::BufferUsageFlags usage,
+                               MemoryUse use,
+                               std::string_view name) {
+    Buffer buffer;
+    buffer.size_bytes = std::max<vk::DeviceSize>(size_bytes, 16);
+    buffer.handle = device_.handle().createBuffer({.size = buffer.size_bytes, .usage = usage});
+    const Place at = place(buffer.handle.getMemoryRequirements(), use);
+    buffer.handle.bindMemory(at.memory, at.offset);
+    buffer.mapped = at.mapped;
+    device_.setName(*buffer.handle, name);
+    return buffer;
+}
+
+Image MemoryArena::makeImage(const ImageInfo& info, std::string_view name) {
+    Image image;
+    image.format = info.format;
+    image.extent = info.extent;
+    image.mip_count = info.mip_count;
+    image.handle =
+        device_.handle().createImage({.flags = info.flags,
+                                      .imageType = vk::ImageType::e2D,
+                                      .format = info.format,
+                                      .extent = {info.extent.width, info.extent.height, 1},
+                                      .mipLevels = info.mip_count,
+                                      .arrayLayers = 1,
+                                      .samples = vk::SampleCountFlagBits::e1,
+                                      .tiling = vk::ImageTiling::eOptimal,
+                                      .usage = info.usage});
+    const Place at = place(image.handle.getMemoryRequirements(), MemoryUse::kDevice);
+    image.handle.bindMemory(at.memory, at.offset);
+    image.view = device_.handle().createImageView(
+        {.image = *image.handle,
+         .viewType = vk::ImageViewType::e2D,
+         .format = info.format,
+         .subresourceRange = {info.aspect, 0, info.mip_count, 0, 1}});
+    device_.setName(*image.handle, name);
+    device_.setName(*image.view, name);
+    return image;
+}
+
+} // namespace froxel::gpu

@@ -1,0 +1,46 @@
+// Shader modules and pipelines from embedded SPIR-V.
+#pragma once
+
+#include "gpu/device.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace froxel::gpu {
+
+using Spirv = std::span<const uint32_t>;
+
+// Specialisation constants: id i takes values[i] (32-bit each; booleans as 0 or 1).
+using SpecConstants = std::vector<uint32_t>;
+
+struct GraphicsPipelineInfo {
+    Spirv vertex;
+    Spirv fragment; // empty: depth only
+    SpecConstants constants;
+    vk::PipelineLayout layout;
+    std::vector<vk::VertexInputBindingDescription> bindings;
+    std::vector<vk::VertexInputAttributeDescription> attributes;
+    std::vector<vk::Format> color_formats;
+    vk::Format depth_format = vk::Format::eUndefined;
+    vk::CompareOp depth_compare = vk::CompareOp::eGreaterOrEqual; // reversed-Z; of equal depths
+                                                                  // the last drawn stays
+    bool depth_write = true;
+    bool blend = false; // source over destination, premultiplied
+};
+
+// Cull mode, front face, viewport and scissor are dynamic.
+[[nodiscard]] vk::raii::Pipeline
+makeGraphicsPipeline(const Device& device, const GraphicsPipelineInfo& info, std::string_view name);
+
+[[nodiscard]] vk::raii::Pipeline makeComputePipeline(const Device& device,
+                                                     Spirv code,
+                                                     const SpecConstants& constants,
+                                                     vk::PipelineLayout layout,
+                                                     std::string_view name);
+
+[[nodiscard]] vk::raii::DescriptorSetLayout
+makeSetLayout(const Device& device, std::span<const vk::DescriptorSetLayoutBinding> bindings);
+
+} // namespace froxel::gpu

@@ -1,0 +1,48 @@
+// GPU time of each labelled pass of one frame.
+#pragma once
+
+#include "core/frame_stats.h"
+#include "gpu/device.h"
+
+#include <string>
+#include <vector>
+
+namespace froxel::gpu {
+
+class Timestamps {
+  public:
+    static constexpr uint32_t kMaxPasses = 16;
+
+    explicit Timestamps(const Device& device);
+
+    // Forgets the last frame; host side, before recording.
+    void reset();
+    // Opens and closes a pass: one debug label and two timestamps of the same name. Not nested.
+    void begin(const vk::raii::CommandBuffer& cmd, const char* name);
+    void end(const vk::raii::CommandBuffer& cmd);
+    // Fills passes and gpu_us; only after the frame has completed.
+    void read(FrameStats& stats) const;
+
+  private:
+    const Device& device_;
+    vk::raii::QueryPool pool_;
+    std::vector<std::string> names_;
+};
+
+// Scope of one pass.
+class PassScope {
+  public:
+    PassScope(Timestamps& timestamps, const vk::raii::CommandBuffer& cmd, const char* name)
+        : timestamps_(timestamps), cmd_(cmd) {
+        timestamps_.begin(cmd_, name);
+    }
+    ~PassScope() { timestamps_.end(cmd_); }
+    PassScope(const PassScope&) = delete;
+    PassScope& operator=(const PassScope&) = delete;
+
+  private:
+    Timestamps& timestamps_;
+    const vk::raii::CommandBuffer& cmd_;
+};
+
+} // namespace froxel::gpu

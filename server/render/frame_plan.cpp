@@ -1,0 +1,73 @@
+#include "render/frame_plan.h"
+
+#include "interface/constants.h"
+
+namespace froxel::render {
+
+namespace {
+
+uint32_t
+lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lists, bool compute) {
+    uint32_t flags = 0;
+    if (facts.local_lights) {
+        flags |= io::kLightLocal;
+        flags |= lists ? io::kLightLists : 0U;
+        flags |= facts.spots ? io::kLightSpots : 0U;
+        if (compute) {
+            flags |= facts.compute_batches ? io::kLightBatched : 0U;
+        } else {
+            flags |= facts.fragment_batches ? io::kLightBatched | io::kLightPartial : 0U;
+        }
+    }
+    flags |= facts.directional ? io::kLightDirectional : 0U;
+    if (flags != 0 && settings.renderer == view::Renderer::kToonFragment) {
+        flags |= io::kLightToon;
+    }
+    return flags;
+}
+
+} // namespace
+
+bool needsLists(view::Renderer renderer, bool local_lights, bool all_lights) {
+    return renderer != view::Renderer::kNaive && local_lights && !all_lights;
+}
+
+FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts) {
+    using view::Renderer;
+    FramePlan plan;
+    const Renderer renderer = settings.renderer;
+    plan.forward = renderer == Renderer::kNaive || renderer == Renderer::kForwardPlus;
+    plan.depth_prepass = renderer == Renderer::kForwardPlus;
+    plan.gbuffer = !plan.forward;
+    plan.lighting_compute = plan.gbuffer && settings.lighting == view::LightingStage::kCompute;
+    plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
+    plan.toon_pass = renderer == Renderer::kToonCompute;
+    plan.transparent = facts.transparent_visible;
+    plan.lists = needsLists(renderer, facts.local_lights, facts.all_lights);
+
+    // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
+    const bool compute_ends = !plan.transparent && (plan.lighting_compute || plan.toon_pass);
+    plan.tonemap = !compute_ends;
+    plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance;
+
+    plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
+    plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, plan.lighting_compute);
+
+    const uint32_t wide = facts.wide_gbuffer ? io::kOutputWideGbuffer : 0U;
+    const uint32_t tone = settings.tone_map == view::ToneMap::kClamp ? io::kOutputClamp : 0U;
+    const uint32_t pixels = io::kOutputPixels | tone;
+    plan.gbuffer_output_flags = wide;
+    plan.lighting_output_flags = wide;
+    if (plan.lighting_compute) {
+        plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;
+        plan.lighting_output_flags |= compute_ends && !plan.toon_pass ? pixels : 0U;
+    }
+    if (plan.toon_pass) {
+        plan.toon_output_flags |= compute_ends ? pixels : 0U;
+        plan.toon_output_flags |= plan.tonemap || facts.keep_radiance ? io::kOutputRadiance : 0U;
+    }
+    plan.tonemap_output_flags = tone;
+    return plan;
+}
+
+} // namespace froxel::render

@@ -1,0 +1,49 @@
+// Which passes a frame records, and as which variants: a pure function of what is asked for and of
+// what there is to draw. What is not planned is neither recorded nor allocated.
+#pragma once
+
+#include "view/settings.h"
+
+#include <cstdint>
+
+namespace froxel::render {
+
+// What the frame has to work with.
+struct FrameFacts {
+    bool wide_gbuffer = false;        // SceneNeeds::wide_gbuffer
+    bool transparent_visible = false; // blended surfaces are in view
+    bool local_lights = false;        // any point or spot light
+    bool spots = false;
+    bool directional = false;
+    bool keep_radiance = false;    // the linear picture is asked for
+    bool all_lights = false;       // lists are not asked for
+    bool compute_batches = false;  // subgroups fetch lights together in compute
+    bool fragment_batches = false; // and in the fragment stage
+};
+
+struct FramePlan {
+    bool depth_prepass = false;
+    bool forward = false; // solid surfaces by the forward shader
+    bool gbuffer = false; // else by geometry pass and lighting pass
+    bool lighting_compute = false;
+    bool lighting_fragment = false;
+    bool toon_pass = false;
+    bool transparent = false;
+    bool tonemap = false;  // a pass of its own
+    bool lists = false;    // lights are assigned to clusters
+    bool radiance = false; // the radiance target exists
+
+    uint32_t forward_light_flags = 0;
+    uint32_t lighting_light_flags = 0;
+    uint32_t gbuffer_output_flags = 0;
+    uint32_t lighting_output_flags = 0;
+    uint32_t toon_output_flags = 0;
+    uint32_t tonemap_output_flags = 0;
+};
+
+// FramePlan::lists by itself: known before it is known what is in view.
+[[nodiscard]] bool needsLists(view::Renderer renderer, bool local_lights, bool all_lights);
+
+[[nodiscard]] FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts);
+
+} // namespace froxel::render

@@ -1,0 +1,142 @@
+#include "render/frame_recorder.h"
+
+#include "render/passes.h"
+
+#include <vector>
+
+namespace froxel::render {
+
+namespace {
+
+using Access = vk::AccessFlagBits2;
+using Stage = vk::PipelineStageFlagBits2;
+
+constexpr vk::PipelineStageFlags2 kDepthStages =
+    Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+constexpr vk::PipelineStageFlags2 kShaders = Stage::eComputeShader | Stage::eFragmentShader;
+
+void barrier(const vk::raii::CommandBuffer& cmd,
+             vk::PipelineStageFlags2 from,
+             vk::AccessFlags2 written,
+             vk::PipelineStageFlags2 to,
+             vk::AccessFlags2 used) {
+    const vk::MemoryBarrier2 memory{
+        .srcStageMask = from, .srcAccessMask = written, .dstStageMask = to, .dstAccessMask = used};
+    cmd.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
+}
+
+void recordForward(const FrameContext& frame) {
+    if (frame.plan.depth_prepass) {
+        recordDepthPrepass(frame);
+        // prepass depth -> forward's equality test
+        barrier(frame.slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages,
+                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+    }
+    recordForwardPass(frame);
+}
+
+void recordDeferred(const FrameContext& frame) {
+    recordGbuffer(frame);
+    // G-buffer and depth -> lighting's loads
+    barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput,
+            Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite, kShaders,
+            Access::eShaderSampledRead);
+    if (frame.plan.lighting_compute) {
+        recordLightingCompute(frame);
+    } else {
+        recordLightingFragment(frame);
+    }
+    if (frame.plan.toon_pass) {
+        // lit radiance -> toon's load and store
+        barrier(frame.slot.cmd, Stage::eColorAttachmentOutput | Stage::eComputeShader,
+                Access::eColorAttachmentWrite | Access::eShaderStorageWrite, Stage::eComputeShader,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite);
+        recordToon(frame);
+    }
+}
+
+// Moves fresh images into the GENERAL layout.
+void transitionFresh(const vk::raii::CommandBuffer& cmd, ViewTargets& targets) {
+    if (!targets.fresh) {
+        return;
+    }
+    targets.fresh = false;
+    std::vector<vk::ImageMemoryBarrier2> barriers;
+    const auto add = [&](const gpu::Image& image, vk::ImageAspectFlags aspect) {
+        if (*image.handle) {
+            barriers.push_back({.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                .dstAccessMask = vk::AccessFlagBits2::eMemoryRead |
+                                                 vk::AccessFlagBits2::eMemoryWrite,
+                                .oldLayout = vk::ImageLayout::eUndefined,
+                                .newLayout = vk::ImageLayout::eGeneral,
+                                .image = *image.handle,
+                                .subresourceRange = {aspect, 0, 1, 0, 1}});
+        }
+    };
+    add(targets.depth, vk::ImageAspectFlagBits::eDepth);
+    add(targets.gbuffer, vk::ImageAspectFlagBits::eColor);
+    add(targets.radiance, vk::ImageAspectFlagBits::eColor);
+    cmd.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
+                          .pImageMemoryBarriers = barriers.data()});
+}
+
+} // namespace
+
+void recordFrame(const FrameContext& frame) {
+    auto& slot = frame.slot;
+    slot.cmd.reset();
+    slot.cmd.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    slot.timestamps.reset();
+    // the view's last frame, which had the same targets -> this one
+    barrier(frame.slot.cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eAllCommands,
+            Access::eMemoryRead | Access::eMemoryWrite);
+    transitionFresh(slot.cmd, *slot.targets);
+
+    if (frame.plan.forward) {
+        recordForward(frame);
+    } else {
+        recordDeferred(frame);
+    }
+    if (frame.plan.transparent) {
+        // solid surfaces' radiance and depth -> blending and depth test
+        barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
+                Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |
+                    Access::eShaderStorageWrite,
+                kDepthStages | Stage::eColorAttachmentOutput,
+                Access::eDepthStencilAttachmentRead | Access::eColorAttachmentRead |
+                    Access::eColorAttachmentWrite);
+        recordTransparent(frame);
+    }
+    if (frame.plan.tonemap) {
+        // radiance -> tone map's load
+        barrier(frame.slot.cmd, Stage::eColorAttachmentOutput | Stage::eComputeShader,
+                Access::eColorAttachmentWrite | Access::eShaderStorageWrite, Stage::eComputeShader,
+                Access::eShaderStorageRead);
+        recordTonemap(frame);
+    }
+    if (slot.targets->needs.device_pixels) {
+        // packed pixels -> copy
+        barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
+                Access::eTransferRead);
+        recordReadback(frame);
+    }
+    // pixels -> host
+    barrier(frame.slot.cmd, Stage::eComputeShader | Stage::eCopy,
+            Access::eShaderStorageWrite | Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    slot.cmd.end();
+}
+
+void recordRadianceCopy(const vk::raii::CommandBuffer& cmd,
+                        const ViewTargets& targets,
+                        const gpu::Buffer& to) {
+    // the frame's last write of radiance -> copy
+    barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
+    cmd.copyImageToBuffer(
+        *targets.radiance.handle, vk::ImageLayout::eGeneral, *to.handle,
+        vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                            .imageExtent = {targets.size.width_px, targets.size.height_px, 1}});
+    // copy -> host
+    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+}
+
+} // namespace froxel::render

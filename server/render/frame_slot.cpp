@@ -1,0 +1,113 @@
+#include "render/frame_slot.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace froxel::render {
+
+namespace {
+
+vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+    using Type = vk::DescriptorType;
+    const std::array sizes = {
+        vk::DescriptorPoolSize{Type::eUniformBuffer, 1},
+        vk::DescriptorPoolSize{Type::eUniformTexelBuffer, Pipelines::kFrameBindings},
+        vk::DescriptorPoolSize{Type::eStorageBuffer, 2},
+        vk::DescriptorPoolSize{Type::eSampledImage, 2},
+        vk::DescriptorPoolSize{Type::eStorageImage, 1}};
+    return device.handle().createDescriptorPool(
+        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+         .maxSets = 2,
+         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
+         .pPoolSizes = sizes.data()});
+}
+
+vk::DeviceSize uploadAlignment(const gpu::Device& device) {
+    const auto& limits = device.limits();
+    return std::max({limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment,
+                     limits.minTexelBufferOffsetAlignment, vk::DeviceSize{16}});
+}
+
+} // namespace
+
+FrameUpload::FrameUpload(const gpu::Device& device)
+    : device_(device), alignment_(uploadAlignment(device)) {}
+
+vk::DeviceSize FrameUpload::addBytes(std::span<const std::byte> bytes) {
+    const vk::DeviceSize offset = used_bytes_;
+    pieces_.push_back({offset, bytes});
+    // Even an absent piece gets an address of its own, for descriptors that nothing reads.
+    const auto size = std::max<vk::DeviceSize>(bytes.size(), alignment_);
+    used_bytes_ = (offset + size + alignment_ - 1) / alignment_ * alignment_;
+    return offset;
+}
+
+void FrameUpload::commit() {
+    if (used_bytes_ > buffer_.size_bytes || !*buffer_.handle) {
+        using Usage = vk::BufferUsageFlagBits;
+        buffer_ = {};
+        arena_ = std::make_unique<gpu::MemoryArena>(device_, 0);
+        buffer_ = arena_->makeBuffer(used_bytes_ + used_bytes_ / 2,
+                                     Usage::eUniformBuffer | Usage::eStorageBuffer |
+                                         Usage::eUniformTexelBuffer | Usage::eVertexBuffer |
+                                         Usage::eIndexBuffer | Usage::eIndirectBuffer,
+                                     gpu::MemoryUse::kUpload, "frame upload");
+    }
+    for (const auto& piece : pieces_) {
+        if (!piece.bytes.empty()) {
+            std::memcpy(buffer_.mapped + piece.offset, piece.bytes.data(), piece.bytes.size());
+        }
+    }
+}
+
+void FrameUpload::clear() {
+    pieces_.clear();
+    used_bytes_ = 0;
+}
+
+Readback::Readback(const gpu::Device& device, vk::DeviceSize size_bytes)
+    : arena(device, 0), buffer(arena.makeBuffer(size_bytes,
+                                                vk::BufferUsageFlagBits::eStorageBuffer |
+                                                    vk::BufferUsageFlagBits::eTransferDst,
+                                                gpu::MemoryUse::kReadback,
+                                                "readback")) {}
+
+FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines)
+    : cmd(timeline.makeCommandBuffer()), timestamps(device), upload(device),
+      pool(makePool(device)) {
+    const std::array layouts = {pipelines.frameLayout(), pipelines.screenLayout()};
+    auto sets = device.handle().allocateDescriptorSets(
+        {.descriptorPool = *pool,
+         .descriptorSetCount = static_cast<uint32_t>(layouts.size()),
+         .pSetLayouts = layouts.data()});
+    frame_set = std::move(sets[0]);
+    screen_set = std::move(sets[1]);
+}
+
+void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
+    const auto image = [](const gpu::Image& target) {
+        return vk::DescriptorImageInfo{.imageView = *target.view,
+                                       .imageLayout = vk::ImageLayout::eGeneral};
+    };
+    const auto& t = *slot.targets;
+    const std::array images = {image(t.gbuffer), image(t.depth), image(t.radiance)};
+    const auto& pixels = t.needs.device_pixels ? t.pixels : slot.readback->buffer;
+    const vk::DescriptorBufferInfo buffer{*pixels.handle, 0, VK_WHOLE_SIZE};
+    std::vector<vk::WriteDescriptorSet> writes;
+    const auto add = [&](uint32_t binding, vk::DescriptorType type) -> vk::WriteDescriptorSet& {
+        writes.push_back({.dstSet = *slot.screen_set,
+                          .dstBinding = binding,
+                          .descriptorCount = 1,
+                          .descriptorType = type});
+        return writes.back();
+    };
+    if (t.needs.gbuffer) {
+        add(0, vk::DescriptorType::eSampledImage).pImageInfo = &images[0];
+    }
+    add(1, vk::DescriptorType::eSampledImage).pImageInfo = &images[1];
+    add(2, vk::DescriptorType::eStorageImage).pImageInfo = &images[2];
+    add(3, vk::DescriptorType::eStorageBuffer).pBufferInfo = &buffer;
+    device.handle().updateDescriptorSets(writes, {});
+}
+
+} // namespace froxel::render

@@ -1,0 +1,84 @@
+// One frame in flight: its command buffer, the data that the host made for it, and where its
+// pixels arrive.
+#pragma once
+
+#include "gpu/command_context.h"
+#include "gpu/memory.h"
+#include "gpu/timestamps.h"
+#include "render/pipelines.h"
+#include "render/view_targets.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace froxel::render {
+
+// Host-made data of one frame, placed in one buffer that the device reads.
+class FrameUpload {
+  public:
+    explicit FrameUpload(const gpu::Device& device);
+
+    // Remembers the bytes, which must stay alive until commit(); returns their offset.
+    template <class T>
+    vk::DeviceSize add(std::span<const T> data) {
+        return addBytes(std::as_bytes(data));
+    }
+    // Copies everything, growing the buffer where needed; the slot must not be in flight.
+    void commit();
+    // Forgets what was added.
+    void clear();
+    [[nodiscard]] vk::Buffer buffer() const { return *buffer_.handle; }
+
+  private:
+    vk::DeviceSize addBytes(std::span<const std::byte> bytes);
+
+    struct Piece {
+        vk::DeviceSize offset;
+        std::span<const std::byte> bytes;
+    };
+    const gpu::Device& device_;
+    vk::DeviceSize alignment_;
+    std::unique_ptr<gpu::MemoryArena> arena_;
+    gpu::Buffer buffer_;
+    vk::DeviceSize used_bytes_ = 0;
+    std::vector<Piece> pieces_;
+};
+
+// Pixels on the host; outlives its view while a lease holds it.
+struct Readback {
+    Readback(const gpu::Device& device, vk::DeviceSize size_bytes);
+
+    gpu::MemoryArena arena;
+    gpu::Buffer buffer;
+    std::atomic<bool> leased{false};
+};
+
+struct FrameSlot {
+    FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines);
+
+    // Whether a new frame may use the slot.
+    [[nodiscard]] bool free() const { return !in_flight && (!readback || !readback->leased); }
+
+    vk::raii::CommandBuffer cmd;
+    gpu::Timestamps timestamps;
+    FrameUpload upload;
+    std::shared_ptr<ViewTargets> targets;
+    std::shared_ptr<Readback> readback;
+    vk::raii::DescriptorPool pool;
+    vk::raii::DescriptorSet frame_set{nullptr};
+    vk::raii::DescriptorSet screen_set{nullptr};
+    std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
+    bool in_flight = false;
+    uint64_t done_value = 0;
+    FrameStats stats;
+    std::chrono::steady_clock::time_point submitted;
+};
+
+// Describes the slot's targets and pixel buffer to the screen passes; the slot is not in flight.
+void writeScreenSet(const gpu::Device& device, FrameSlot& slot);
+
+} // namespace froxel::render

@@ -1,0 +1,28 @@
+// The frame's constants for the shaders: a pure function of settings.
+#pragma once
+
+#include "cluster/cluster_grid.h"
+#include "core/math.h"
+#include "interface/frame_io.h"
+#include "view/settings.h"
+
+namespace froxel::render {
+
+// How view space maps to the screen and back, in double.
+struct ViewProjection {
+    glm::dvec2 clip_scale{1, 1};
+    double far_m = 0; // orthographic only: where depth reaches 0
+};
+
+// far_m: the farthest depth of the scene, for orthographic cameras (perspective is infinite).
+[[nodiscard]] ViewProjection
+makeProjection(const view::Camera& camera, const view::Size& size, double far_m);
+
+// grid: null where no lists are used.
+[[nodiscard]] io::Frame makeFrameUniforms(const view::ViewSettings& settings,
+                                          const ViewProjection& projection,
+                                          const cluster::ClusterGrid* grid,
+                                          uint32_t light_count,
+                                          uint32_t directional_count);
+
+} // namespace froxel::render

@@ -1,0 +1,211 @@
+#include "render/passes.h"
+
+#include "interface/constants.h"
+
+#include <array>
+#include <span>
+
+namespace froxel::render {
+
+namespace {
+
+using LoadOp = vk::AttachmentLoadOp;
+
+vk::Rect2D area(const FrameContext& frame) {
+    return {{0, 0}, {frame.slot.targets->size.width_px, frame.slot.targets->size.height_px}};
+}
+
+vk::RenderingAttachmentInfo attachment(const gpu::Image& image,
+                                       LoadOp load,
+                                       const vk::ClearValue& clear = vk::ClearDepthStencilValue{}) {
+    return {.imageView = *image.view,
+            .imageLayout = vk::ImageLayout::eGeneral,
+            .loadOp = load,
+            .storeOp = vk::AttachmentStoreOp::eStore,
+            .clearValue = clear};
+}
+
+// One rendering scope with the frame's viewport.
+class Rendering {
+  public:
+    Rendering(const FrameContext& frame,
+              std::span<const vk::RenderingAttachmentInfo> colors,
+              const vk::RenderingAttachmentInfo* depth)
+        : cmd_(frame.slot.cmd) {
+        const auto rect = area(frame);
+        cmd_.beginRendering({.renderArea = rect,
+                             .layerCount = 1,
+                             .colorAttachmentCount = static_cast<uint32_t>(colors.size()),
+                             .pColorAttachments = colors.data(),
+                             .pDepthAttachment = depth});
+        cmd_.setViewport(0, vk::Viewport{0, 0, static_cast<float>(rect.extent.width),
+                                         static_cast<float>(rect.extent.height), 0, 1});
+        cmd_.setScissor(0, rect);
+    }
+    ~Rendering() { cmd_.endRendering(); }
+    Rendering(const Rendering&) = delete;
+    Rendering& operator=(const Rendering&) = delete;
+
+  private:
+    const vk::raii::CommandBuffer& cmd_;
+};
+
+void bindGeometry(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    const auto& scene = frame.scene;
+    const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
+                                *scene.extended_buffer.handle ? *scene.extended_buffer.handle
+                                                              : *scene.surface_buffer.handle,
+                                frame.slot.upload.buffer()};
+    const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, frame.offsets.rows};
+    cmd.bindVertexBuffers(0, buffers, offsets);
+    cmd.bindIndexBuffer(frame.draws.indices.empty() ? *scene.index_buffer.handle
+                                                    : frame.slot.upload.buffer(),
+                        0, vk::IndexType::eUint32);
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
+                           frame.scene.pipelines.geometryPipelineLayout(), 0, *frame.slot.frame_set,
+                           {});
+}
+
+// The variant of a pass for a group: only the flags that the pass's shader looks at.
+VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
+    const auto& plan = frame.plan;
+    switch (pass) {
+    case GeometryPass::kDepth: {
+        const bool masked = (group.material_flags & io::kMaterialMask) != 0;
+        return {masked ? group.material_flags : 0U, 0, 0};
+    }
+    case GeometryPass::kGbuffer:
+        return {group.material_flags, 0, plan.gbuffer_output_flags};
+    default:
+        return {group.material_flags, plan.forward_light_flags, 0};
+    }
+}
+
+void drawGroups(const FrameContext& frame, GeometryPass pass, std::span<const DrawGroup> groups) {
+    const auto& cmd = frame.slot.cmd;
+    auto& pipelines = frame.scene.pipelines;
+    bindGeometry(frame);
+    vk::Pipeline bound;
+    for (const DrawGroup& group : groups) {
+        const auto pipeline = pipelines.geometry(pass, variant(frame, pass, group));
+        if (pipeline != bound) {
+            cmd.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+            bound = pipeline;
+        }
+        const bool both_sides = (group.material_flags & io::kMaterialDoubleSided) != 0;
+        cmd.setCullMode(both_sides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+        cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise
+                                        : vk::FrontFace::eCounterClockwise);
+        if (pass != GeometryPass::kDepth || (group.material_flags & io::kMaterialMask) != 0) {
+            cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
+                                   pipelines.geometryPipelineLayout(), 1,
+                                   frame.scene.materialSet(group.material), {});
+        }
+        constexpr uint32_t kStride = sizeof(vk::DrawIndexedIndirectCommand);
+        cmd.drawIndexedIndirect(frame.slot.upload.buffer(),
+                                frame.offsets.commands +
+                                    vk::DeviceSize{group.first_command} * kStride,
+                                group.command_count, kStride);
+    }
+}
+
+vk::ClearValue farDepth() {
+    return vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0};
+}
+
+vk::ClearValue background(const FrameContext& frame) {
+    const auto& color = frame.background;
+    return vk::ClearColorValue(std::array{color.x, color.y, color.z, 1.0F});
+}
+
+void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipeline pipeline) {
+    const auto& cmd = frame.slot.cmd;
+    cmd.bindPipeline(point, pipeline);
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
+    cmd.bindDescriptorSets(point, frame.scene.pipelines.screenPipelineLayout(), 0, sets, {});
+}
+
+void dispatch(const FrameContext& frame, ScreenPass pass, const VariantKey& key) {
+    bindScreen(frame, vk::PipelineBindPoint::eCompute, frame.scene.pipelines.screen(pass, key));
+    const auto groups = [](uint32_t size_px) {
+        return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;
+    };
+    const auto& size = frame.slot.targets->size;
+    frame.slot.cmd.dispatch(groups(size.width_px), groups(size.height_px), 1);
+}
+
+} // namespace
+
+void recordDepthPrepass(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "depth_prepass");
+    const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
+    const Rendering rendering(frame, {}, &depth);
+    drawGroups(frame, GeometryPass::kDepth, frame.draws.solid);
+}
+
+void recordForwardPass(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "forward");
+    const bool after_depth = frame.plan.depth_prepass;
+    const std::array colors = {
+        attachment(frame.slot.targets->radiance, LoadOp::eClear, background(frame))};
+    const auto depth = attachment(frame.slot.targets->depth,
+                                  after_depth ? LoadOp::eLoad : LoadOp::eClear, farDepth());
+    const Rendering rendering(frame, colors, &depth);
+    drawGroups(frame, after_depth ? GeometryPass::kForwardAfterDepth : GeometryPass::kForward,
+               frame.draws.solid);
+}
+
+void recordGbuffer(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "gbuffer");
+    // Words of empty pixels are never read: their depth says so.
+    const std::array colors = {attachment(frame.slot.targets->gbuffer, LoadOp::eDontCare)};
+    const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
+    const Rendering rendering(frame, colors, &depth);
+    drawGroups(frame, GeometryPass::kGbuffer, frame.draws.solid);
+}
+
+void recordLightingCompute(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "lighting");
+    dispatch(frame, ScreenPass::kLighting,
+             {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags});
+}
+
+void recordLightingFragment(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "lighting");
+    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eDontCare)};
+    const Rendering rendering(frame, colors, nullptr);
+    bindScreen(frame, vk::PipelineBindPoint::eGraphics,
+               frame.scene.pipelines.fragmentLighting(
+                   {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags}));
+    frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
+    frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
+    frame.slot.cmd.draw(3, 1, 0, 0);
+}
+
+void recordToon(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "toon");
+    dispatch(frame, ScreenPass::kToon, {0, 0, frame.plan.toon_output_flags});
+}
+
+void recordTransparent(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "transparent");
+    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+    const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
+    const Rendering rendering(frame, colors, &depth);
+    drawGroups(frame, GeometryPass::kTransparent, frame.draws.transparent);
+}
+
+void recordTonemap(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "tonemap");
+    dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags});
+}
+
+void recordReadback(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "readback");
+    const auto& pixels = frame.slot.targets->pixels;
+    frame.slot.cmd.copyBuffer(*pixels.handle, *frame.slot.readback->buffer.handle,
+                              vk::BufferCopy{.size = pixels.size_bytes});
+}
+
+} // namespace froxel::render

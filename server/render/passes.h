@@ -1,0 +1,19 @@
+// The passes of a frame. Each records one debug label with two timestamps of the same name into the
+// slot's command buffer, and no barrier; the order is in frame_recorder.cpp.
+#pragma once
+
+#include "render/frame_recorder.h"
+
+namespace froxel::render {
+
+void recordDepthPrepass(const FrameContext& frame); // writes depth
+void recordForwardPass(const FrameContext& frame);  // writes radiance, depth where no prepass did
+void recordGbuffer(const FrameContext& frame);      // writes G-buffer, depth
+void recordLightingCompute(const FrameContext& frame);  // reads both; writes radiance and/or pixels
+void recordLightingFragment(const FrameContext& frame); // reads both; writes radiance
+void recordToon(const FrameContext& frame);        // reads radiance; writes radiance and/or pixels
+void recordTransparent(const FrameContext& frame); // blends over radiance, tests depth
+void recordTonemap(const FrameContext& frame);     // reads radiance, writes pixels
+void recordReadback(const FrameContext& frame);    // copies pixels to the host
+
+} // namespace froxel::render

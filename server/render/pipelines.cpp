@@ -1,0 +1,190 @@
+#include "render/pipelines.h"
+
+#include "embedded.h"
+#include "interface/constants.h"
+
+#include <algorithm>
+#include <array>
+
+namespace froxel::render {
+
+namespace {
+
+using Stage = vk::ShaderStageFlagBits;
+using Type = vk::DescriptorType;
+
+constexpr vk::ShaderStageFlags kAllStages = Stage::eVertex | Stage::eFragment | Stage::eCompute;
+
+vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
+    std::array<vk::DescriptorSetLayoutBinding, Pipelines::kFrameBindings> bindings;
+    for (uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {.binding = i,
+                       .descriptorType = Pipelines::kFrameBindingTypes[i],
+                       .descriptorCount = 1,
+                       .stageFlags = kAllStages};
+    }
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
+    std::array<vk::DescriptorSetLayoutBinding, 6> bindings;
+    for (uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i] = {.binding = i,
+                       .descriptorType =
+                           i == 0 ? Type::eUniformBuffer : Type::eCombinedImageSampler,
+                       .descriptorCount = 1,
+                       .stageFlags = Stage::eFragment};
+    }
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::DescriptorSetLayout screenSetLayout(const gpu::Device& device) {
+    const vk::ShaderStageFlags stages = Stage::eFragment | Stage::eCompute;
+    const std::array bindings = {
+        vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, stages},
+        vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, stages},
+        vk::DescriptorSetLayoutBinding{2, Type::eStorageImage, 1, Stage::eCompute},
+        vk::DescriptorSetLayoutBinding{3, Type::eStorageBuffer, 1, Stage::eCompute}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::PipelineLayout
+pipelineLayout(const gpu::Device& device, vk::DescriptorSetLayout a, vk::DescriptorSetLayout b) {
+    const std::array sets = {a, b};
+    return device.handle().createPipelineLayout(
+        {.setLayoutCount = static_cast<uint32_t>(sets.size()), .pSetLayouts = sets.data()});
+}
+
+// Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance rows.
+void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool extended) {
+    using Rate = vk::VertexInputRate;
+    using Format = vk::Format;
+    info.bindings = {{0, 12, Rate::eVertex}, {3, 48, Rate::eInstance}};
+    info.attributes = {{0, 0, Format::eR32G32B32Sfloat, 0},
+                       {3, 3, Format::eR32G32B32A32Sfloat, 0},
+                       {4, 3, Format::eR32G32B32A32Sfloat, 16},
+                       {5, 3, Format::eR32G32B32A32Sfloat, 32}};
+    if (surface) {
+        info.bindings.push_back({1, 20, Rate::eVertex});
+        info.attributes.push_back({1, 1, Format::eR32G32B32Sfloat, 0});
+        info.attributes.push_back({2, 1, Format::eR32G32Sfloat, 12});
+    }
+    if (extended) {
+        info.bindings.push_back({2, 40, Rate::eVertex});
+        info.attributes.push_back({6, 2, Format::eR32G32Sfloat, 0});
+        info.attributes.push_back({7, 2, Format::eR32G32B32A32Sfloat, 8});
+        info.attributes.push_back({8, 2, Format::eR32G32B32A32Sfloat, 24});
+    }
+}
+
+gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched) {
+    using namespace shaders;
+    switch (pass) {
+    case GeometryPass::kDepth:
+        return extended ? depth_masked_extended_frag() : depth_masked_frag();
+    case GeometryPass::kGbuffer:
+        return extended ? gbuffer_extended_frag() : gbuffer_frag();
+    default:
+        break;
+    }
+    if (batched) {
+        return extended ? forward_batched_extended_frag() : forward_batched_frag();
+    }
+    return extended ? forward_extended_frag() : forward_frag();
+}
+
+template <class Map, class Key, class Make>
+vk::Pipeline findOrMake(Map& map, const Key& key, Make make) {
+    auto found = map.find(key);
+    if (found == map.end()) {
+        found = map.emplace(key, make()).first;
+    }
+    return *found->second;
+}
+
+} // namespace
+
+Pipelines::Pipelines(const gpu::Device& device)
+    : device_(device), frame_layout_(frameSetLayout(device)),
+      material_layout_(materialSetLayout(device)), screen_set_layout_(screenSetLayout(device)),
+      geometry_layout_(pipelineLayout(device, *frame_layout_, *material_layout_)),
+      screen_layout_(pipelineLayout(device, *frame_layout_, *screen_set_layout_)) {}
+
+gpu::SpecConstants Pipelines::constants(const VariantKey& key) const {
+    return {key.material_flags, key.light_flags, key.output_flags,
+            std::max(1U, device_.traits().subgroup_size)};
+}
+
+vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& key) const {
+    const bool masked = (key.material_flags & io::kMaterialMask) != 0;
+    const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
+    const bool batched = (key.light_flags & io::kLightBatched) != 0;
+    const bool depth_only = pass == GeometryPass::kDepth;
+    const bool surface = !depth_only || masked;
+    gpu::GraphicsPipelineInfo info;
+    info.constants = constants(key);
+    info.layout = *geometry_layout_;
+    info.depth_format = kDepthFormat;
+    describeVertices(info, surface, surface && extended);
+    info.vertex = !surface   ? shaders::depth_vert()
+                  : extended ? shaders::surface_extended_vert()
+                             : shaders::surface_vert();
+    if (surface) {
+        info.fragment = fragmentShader(pass, extended, batched);
+    }
+    if (pass == GeometryPass::kGbuffer) {
+        info.color_formats = {gbufferFormat((key.output_flags & io::kOutputWideGbuffer) != 0)};
+    } else if (!depth_only) {
+        info.color_formats = {kRadianceFormat};
+    }
+    if (pass == GeometryPass::kForwardAfterDepth) {
+        info.depth_compare = vk::CompareOp::eEqual;
+        info.depth_write = false;
+    }
+    if (pass == GeometryPass::kTransparent) {
+        info.depth_write = false;
+        info.blend = true;
+    }
+    static constexpr std::array kNames = {"depth prepass", "gbuffer", "forward",
+                                          "forward after depth", "transparent"};
+    return gpu::makeGraphicsPipeline(device_, info, kNames[static_cast<size_t>(pass)]);
+}
+
+vk::Pipeline Pipelines::geometry(GeometryPass pass, const VariantKey& key) {
+    return findOrMake(geometry_, std::tuple(pass, key), [&] { return makeGeometry(pass, key); });
+}
+
+vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
+    return findOrMake(screen_, std::tuple(pass, key), [&] {
+        const bool batched = (key.light_flags & io::kLightBatched) != 0;
+        switch (pass) {
+        case ScreenPass::kLighting:
+            return gpu::makeComputePipeline(
+                device_, batched ? shaders::lighting_batched_comp() : shaders::lighting_comp(),
+                constants(key), *screen_layout_, "lighting");
+        case ScreenPass::kToon:
+            return gpu::makeComputePipeline(device_, shaders::toon_comp(), constants(key),
+                                            *screen_layout_, "toon");
+        case ScreenPass::kTonemap:
+            break;
+        }
+        return gpu::makeComputePipeline(device_, shaders::tonemap_comp(), constants(key),
+                                        *screen_layout_, "tonemap");
+    });
+}
+
+vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
+    return findOrMake(fragment_lighting_, key, [&] {
+        gpu::GraphicsPipelineInfo info;
+        info.vertex = shaders::fullscreen_vert();
+        info.fragment = (key.light_flags & io::kLightBatched) != 0
+                            ? shaders::lighting_batched_frag()
+                            : shaders::lighting_frag();
+        info.constants = constants(key);
+        info.layout = *screen_layout_;
+        info.color_formats = {kRadianceFormat};
+        return gpu::makeGraphicsPipeline(device_, info, "lighting (fragment)");
+    });
+}
+
+} // namespace froxel::render

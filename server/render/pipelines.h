@@ -1,0 +1,81 @@
+// Every pipeline in use, made when first needed: a variant is three words of flags.
+#pragma once
+
+#include "gpu/device.h"
+#include "gpu/pipeline.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <tuple>
+
+namespace froxel::render {
+
+enum class GeometryPass : uint8_t {
+    kDepth,             // prepass
+    kGbuffer,           // geometry pass of the deferred renderers
+    kForward,           // forward, writing depth
+    kForwardAfterDepth, // forward where the prepass left the same depth
+    kTransparent,       // forward, blended, over finished depth
+};
+
+enum class ScreenPass : uint8_t { kLighting, kToon, kTonemap };
+
+// Which specialisation a pipeline has (shaders/interface/constants.h).
+struct VariantKey {
+    uint32_t material_flags = 0;
+    uint32_t light_flags = 0;
+    uint32_t output_flags = 0;
+    auto operator<=>(const VariantKey&) const = default;
+};
+
+class Pipelines {
+  public:
+    static constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+    static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
+    static constexpr uint32_t kFrameBindings = 6;
+    static constexpr std::array<vk::DescriptorType, kFrameBindings> kFrameBindingTypes = {
+        vk::DescriptorType::eUniformBuffer,      // frame
+        vk::DescriptorType::eUniformTexelBuffer, // lights
+        vk::DescriptorType::eUniformTexelBuffer, // cluster lists
+        vk::DescriptorType::eUniformTexelBuffer, // light index list
+        vk::DescriptorType::eUniformTexelBuffer, // spots
+        vk::DescriptorType::eStorageBuffer};     // directional lights
+    // Of the texel buffers among them; undefined for the others.
+    static constexpr std::array<vk::Format, kFrameBindings> kFrameTexelFormats = {
+        vk::Format::eUndefined, vk::Format::eR32G32B32A32Sfloat, vk::Format::eR32G32Uint,
+        vk::Format::eR32Uint,   vk::Format::eR32G32B32A32Sfloat, vk::Format::eUndefined};
+
+    explicit Pipelines(const gpu::Device& device);
+
+    [[nodiscard]] vk::Pipeline geometry(GeometryPass pass, const VariantKey& key);
+    [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
+    // The lighting pass in the fragment stage.
+    [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key);
+
+    [[nodiscard]] vk::DescriptorSetLayout frameLayout() const { return *frame_layout_; }
+    [[nodiscard]] vk::DescriptorSetLayout materialLayout() const { return *material_layout_; }
+    [[nodiscard]] vk::DescriptorSetLayout screenLayout() const { return *screen_set_layout_; }
+    [[nodiscard]] vk::PipelineLayout geometryPipelineLayout() const { return *geometry_layout_; }
+    [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const { return *screen_layout_; }
+
+    [[nodiscard]] static vk::Format gbufferFormat(bool wide) {
+        return wide ? vk::Format::eR32G32B32A32Uint : vk::Format::eR32G32Uint;
+    }
+
+  private:
+    [[nodiscard]] gpu::SpecConstants constants(const VariantKey& key) const;
+    [[nodiscard]] vk::raii::Pipeline makeGeometry(GeometryPass pass, const VariantKey& key) const;
+
+    const gpu::Device& device_;
+    vk::raii::DescriptorSetLayout frame_layout_;
+    vk::raii::DescriptorSetLayout material_layout_;
+    vk::raii::DescriptorSetLayout screen_set_layout_;
+    vk::raii::PipelineLayout geometry_layout_;
+    vk::raii::PipelineLayout screen_layout_;
+    std::map<std::tuple<GeometryPass, VariantKey>, vk::raii::Pipeline> geometry_;
+    std::map<std::tuple<ScreenPass, VariantKey>, vk::raii::Pipeline> screen_;
+    std::map<VariantKey, vk::raii::Pipeline> fragment_lighting_;
+};
+
+} // namespace froxel::render

@@ -1,0 +1,196 @@
+#include "render/renderer.h"
+
+#include "core/assert.h"
+#include "render/frame_builder.h"
+#include "render/frame_recorder.h"
+#include "render/frame_slot.h"
+#include "render/scene_resources.h"
+
+#include <array>
+#include <cstring>
+#include <deque>
+
+namespace froxel::render {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double microsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+} // namespace
+
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
+    : resources_(std::make_unique<SceneResources>(device, scene)) {}
+
+Renderer::~Renderer() = default;
+
+struct ViewRenderer::Impl {
+    explicit Impl(SceneResources& scene_in) : scene(scene_in), builder(scene_in) {
+        for (uint32_t i = 0; i < kReadbackSlots; ++i) {
+            slots.push_back(
+                std::make_unique<FrameSlot>(scene.device, scene.timeline, scene.pipelines));
+        }
+    }
+    ~Impl() {
+        for (const FrameSlot* slot : pending) {
+            // A lost device has nothing left to wait for.
+            (void)scene.timeline.wait(slot->done_value);
+        }
+    }
+
+    [[nodiscard]] FrameSlot* freeSlot() const {
+        for (const auto& slot : slots) {
+            if (slot->free()) {
+                return slot.get();
+            }
+        }
+        return nullptr;
+    }
+    void prepareTargets(FrameSlot& slot, const FramePlan& plan, const view::Size& size);
+    void submit(FrameSlot& slot, const FrameInputs& inputs);
+    // Gives the targets back, so that a smaller picture may fit.
+    [[nodiscard]] Error outOfMemory(const char* whose, const view::Size& size) {
+        targets.reset();
+        return {ErrorCode::kCapacity,
+                std::string("the ") + whose + " has no memory for a picture of " +
+                    std::to_string(size.width_px) + "x" + std::to_string(size.height_px)};
+    }
+
+    SceneResources& scene;
+    FrameBuilder builder;
+    std::vector<std::unique_ptr<FrameSlot>> slots;
+    std::deque<FrameSlot*> pending; // submitted, oldest first
+    std::shared_ptr<ViewTargets> targets;
+};
+
+void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
+                                        const FramePlan& plan,
+                                        const view::Size& size) {
+    const TargetNeeds wanted{.gbuffer = plan.gbuffer,
+                             .wide_gbuffer = scene.needs.wide_gbuffer,
+                             .radiance = plan.radiance,
+                             .device_pixels = !scene.device.traits().is_cpu};
+    if (!targets || targets->size != size || !targets->needs.covers(wanted)) {
+        TargetNeeds grown = wanted;
+        if (targets && targets->size == size) {
+            grown.gbuffer |= targets->needs.gbuffer;
+            grown.radiance |= targets->needs.radiance;
+        }
+        // Frames in flight keep the old targets alive through their slots.
+        targets.reset();
+        targets = std::make_shared<ViewTargets>(scene.device, size, grown);
+    }
+    slot.targets = targets;
+    const vk::DeviceSize bytes = vk::DeviceSize{4} * size.width_px * size.height_px;
+    if (!slot.readback || slot.readback->buffer.size_bytes != bytes) {
+        slot.readback.reset();
+        slot.readback = std::make_shared<Readback>(scene.device, bytes);
+    }
+}
+
+void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
+    const auto start = Clock::now();
+    const FramePlan plan = builder.build(inputs);
+    prepareTargets(slot, plan, inputs.settings.size);
+    const UploadOffsets offsets = builder.upload(slot);
+    writeScreenSet(scene.device, slot);
+    recordFrame({.scene = scene,
+                 .slot = slot,
+                 .plan = plan,
+                 .draws = builder.draws(),
+                 .offsets = offsets,
+                 .background = builder.background()});
+    slot.stats = {};
+    slot.stats.triangle_count = builder.draws().triangle_count;
+    slot.stats.draw_count = static_cast<uint32_t>(builder.draws().commands.size());
+    slot.stats.lists = builder.listStats();
+    slot.stats.host_us = microsSince(start);
+    slot.submitted = start;
+    slot.done_value = scene.timeline.submit(slot.cmd);
+    slot.in_flight = true;
+    pending.push_back(&slot);
+}
+
+ViewRenderer::ViewRenderer(Renderer& renderer)
+    : impl_(std::make_unique<Impl>(renderer.resources())) {}
+
+ViewRenderer::~ViewRenderer() = default;
+
+bool ViewRenderer::canSubmit() const {
+    return impl_->freeSlot() != nullptr;
+}
+
+uint32_t ViewRenderer::inFlight() const {
+    return static_cast<uint32_t>(impl_->pending.size());
+}
+
+Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
+    FrameSlot* slot = impl_->freeSlot();
+    FROXEL_ASSERT(slot != nullptr, "submit needs a free readback slot");
+    try {
+        impl_->submit(*slot, inputs);
+    } catch (const vk::OutOfDeviceMemoryError&) {
+        impl_->targets.reset();
+        return Error{ErrorCode::kCapacity, "the device has no memory for a picture of " +
+                                               std::to_string(inputs.settings.size.width_px) + "x" +
+                                               std::to_string(inputs.settings.size.height_px)};
+    } catch (const vk::SystemError& error) {
+        return Error{ErrorCode::kDevice, std::string("the device failed: ") + error.what()};
+    }
+    return {};
+}
+
+Result<RenderedFrame> ViewRenderer::collect() {
+    FROXEL_ASSERT(!impl_->pending.empty(), "collect needs a submitted frame");
+    FrameSlot& slot = *impl_->pending.front();
+    const auto done = impl_->scene.timeline.wait(slot.done_value);
+    if (!done) {
+        return done.error();
+    }
+    impl_->pending.pop_front();
+    slot.in_flight = false;
+    try {
+        slot.timestamps.read(slot.stats);
+    } catch (const vk::SystemError& error) {
+        return Error{ErrorCode::kDevice, std::string("reading timestamps failed: ") + error.what()};
+    }
+    slot.stats.frame_us = microsSince(slot.submitted);
+    slot.readback->leased = true;
+    const auto& size = slot.targets->size;
+    const PixelView pixels{.data = slot.readback->buffer.mapped,
+                           .width_px = size.width_px,
+                           .height_px = size.height_px,
+                           .stride_bytes = size_t{4} * size.width_px};
+    return RenderedFrame{
+        .pixels = PixelLease(pixels, [readback = slot.readback] { readback->leased = false; }),
+        .stats = slot.stats};
+}
+
+Result<LinearImage> ViewRenderer::readLinear() {
+    FROXEL_ASSERT(impl_->targets && impl_->targets->needs.radiance,
+                  "readLinear needs a frame with keep_radiance");
+    const auto& targets = *impl_->targets;
+    auto& scene = impl_->scene;
+    const size_t pixel_count = size_t{targets.size.width_px} * targets.size.height_px;
+    LinearImage image{targets.size.width_px, targets.size.height_px, {}};
+    image.rgb.resize(pixel_count * 3);
+    try {
+        const Readback readback(scene.device, pixel_count * 4 * sizeof(float));
+        scene.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
+            recordRadianceCopy(cmd, targets, readback.buffer);
+        });
+        for (size_t i = 0; i < pixel_count; ++i) {
+            std::memcpy(&image.rgb[i * 3], readback.buffer.mapped + i * 4 * sizeof(float),
+                        3 * sizeof(float));
+        }
+    } catch (const vk::SystemError& error) {
+        return Error{ErrorCode::kDevice,
+                     std::string("reading the picture failed: ") + error.what()};
+    }
+    return image;
+}
+
+} // namespace froxel::render

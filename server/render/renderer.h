@@ -1,0 +1,81 @@
+// Draws a scene. One Renderer a device and scene; one ViewRenderer a viewer. Everything here is
+// used by one thread, the render thread; only PixelLease may end elsewhere.
+#pragma once
+
+#include "core/error.h"
+#include "core/frame_stats.h"
+#include "core/pixel_view.h"
+#include "gpu/device.h"
+#include "scene/scene.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace froxel::render {
+
+class SceneResources;
+
+struct FrameInputs {
+    view::ViewSettings settings;
+    double time_s = 0;          // the lights' clock; pauses and speed are already folded in
+    bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
+    bool all_lights = false;    // a reference: loop over every light, without lists
+};
+
+struct RenderedFrame {
+    PixelLease pixels; // RGBA8 sRGB
+    FrameStats stats;
+};
+
+// Linear fp32 radiance before exposure and tone map: [height][width][3], top row first.
+struct LinearImage {
+    uint32_t width_px = 0;
+    uint32_t height_px = 0;
+    std::vector<float> rgb;
+};
+
+// Geometry, textures and pipelines shared by all viewers of one scene.
+class Renderer {
+  public:
+    Renderer(gpu::Device& device,
+             const scene::Scene& scene); // throws StartupError, vk::SystemError
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    [[nodiscard]] SceneResources& resources() { return *resources_; }
+
+  private:
+    std::unique_ptr<SceneResources> resources_;
+};
+
+// Targets, light lists and readback ring of one viewer. Frames complete in submission order.
+class ViewRenderer {
+  public:
+    static constexpr uint32_t kReadbackSlots = 3;
+
+    explicit ViewRenderer(Renderer& renderer);
+    ~ViewRenderer();
+    ViewRenderer(const ViewRenderer&) = delete;
+    ViewRenderer& operator=(const ViewRenderer&) = delete;
+
+    // Whether a readback slot is free; submit() must not be called otherwise.
+    [[nodiscard]] bool canSubmit() const;
+    // Records and submits one frame; returns at once where the device runs on its own.
+    // Errors: kCapacity when targets of this size do not fit; kDevice when the device is lost.
+    [[nodiscard]] Result<void> submit(const FrameInputs& inputs);
+    // Waits for the oldest submitted frame. Errors: kDevice.
+    [[nodiscard]] Result<RenderedFrame> collect();
+    [[nodiscard]] uint32_t inFlight() const;
+    // The linear picture of the frame last submitted, which had keep_radiance (not a fast path:
+    // waits and copies).
+    [[nodiscard]] Result<LinearImage> readLinear();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace froxel::render

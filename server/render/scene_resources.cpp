@@ -1,0 +1,164 @@
+#include "render/scene_resources.h"
+
+#include "interface/frame_io.h"
+
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <cmath>
+#include <thread>
+
+namespace froxel::render {
+
+namespace {
+
+constexpr vk::DeviceSize kChunkBytes = 64U << 20U;
+constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
+constexpr size_t kTexturesOfMaterial = 5;
+
+io::UvTransform uvTransform(const scene::TextureSlot& slot) {
+    const float c = std::cos(slot.rotation_rad);
+    const float s = std::sin(slot.rotation_rad);
+    return {.row0 = {c * slot.scale.x, s * slot.scale.y, slot.offset.x},
+            .row1 = {-s * slot.scale.x, c * slot.scale.y, slot.offset.y},
+            .texcoord = slot.texcoord,
+            .padding0 = 0};
+}
+
+io::Material materialUniforms(const scene::Material& m) {
+    return {.base_color = m.base_color,
+            .emissive = m.emissive,
+            .metallic = m.metallic,
+            .roughness = m.roughness,
+            .normal_scale = m.normal_scale,
+            .occlusion_strength = m.occlusion_strength,
+            .alpha_cutoff = m.alpha_cutoff,
+            .uv_base_color = uvTransform(m.base_color_texture),
+            .uv_normal = uvTransform(m.normal_texture),
+            .uv_metallic_roughness = uvTransform(m.metallic_roughness_texture),
+            .uv_occlusion = uvTransform(m.occlusion_texture),
+            .uv_emissive = uvTransform(m.emissive_texture)};
+}
+
+std::vector<DrawItem>
+makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const SceneNeeds& needs) {
+    std::vector<DrawItem> items;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const auto& instance = scene.instances[i];
+        const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+        for (const auto& primitive : geometry.meshes[instance.mesh]) {
+            if (primitive.index_count == 0) {
+                continue;
+            }
+            uint32_t flags = needs.material_flags[primitive.material];
+            flags |= primitive.extended ? io::kMaterialExtended : 0U;
+            flags |= primitive.tangents ? io::kMaterialTangents : 0U;
+            items.push_back({i, primitive, flags, mirrored});
+        }
+    }
+    return items;
+}
+
+template <class T>
+gpu::Buffer uploadVector(gpu::MemoryArena& arena,
+                         gpu::Uploader& uploader,
+                         const std::vector<T>& data,
+                         vk::BufferUsageFlags usage,
+                         std::string_view name) {
+    const auto bytes = std::as_bytes(std::span(data));
+    auto buffer = arena.makeBuffer(bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst,
+                                   gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, bytes);
+    return buffer;
+}
+
+} // namespace
+
+SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene)
+    : device(device_in), timeline(device_in), needs(findNeeds(scene)),
+      bounds_world(scene.bounds_world), light_rig(scene),
+      light_assigner(std::max(1U, std::thread::hardware_concurrency())),
+      arena(device_in, kChunkBytes), pipelines(device_in) {
+    auto geometry = packGeometry(scene);
+    for (const auto& instance : scene.instances) {
+        instances.push_back(instance.world_from_object);
+    }
+    items = makeItems(scene, geometry, needs);
+    gpu::Uploader uploader(device, timeline, kStagingBytes);
+    uploadGeometry(geometry, uploader);
+    uploadMaterials(scene, uploader);
+    meshlets = std::move(geometry.meshlets);
+    indices = std::move(geometry.indices);
+    positions = std::move(geometry.positions);
+    spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
+                 items.size(), meshlets.size(), textures_->imageCount(), arena.allocatedBytes());
+}
+
+void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader) {
+    using Usage = vk::BufferUsageFlagBits;
+    position_buffer =
+        uploadVector(arena, uploader, geometry.positions, Usage::eVertexBuffer, "positions");
+    surface_buffer =
+        uploadVector(arena, uploader, geometry.surfaces, Usage::eVertexBuffer, "surface vertices");
+    if (!geometry.extended.empty()) {
+        extended_buffer = uploadVector(arena, uploader, geometry.extended, Usage::eVertexBuffer,
+                                       "extended vertices");
+    }
+    index_buffer = uploadVector(arena, uploader, geometry.indices, Usage::eIndexBuffer, "indices");
+}
+
+void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
+    textures_ = std::make_unique<TextureStore>(device, arena, uploader);
+    const auto count = static_cast<uint32_t>(scene.materials.size());
+    if (count == 0) {
+        return;
+    }
+    const auto alignment = device.limits().minUniformBufferOffsetAlignment;
+    const vk::DeviceSize stride = (sizeof(io::Material) + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> bytes(stride * count);
+    const std::array pool_sizes = {
+        vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
+        vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
+                               static_cast<uint32_t>(count * kTexturesOfMaterial)}};
+    material_pool_ = device.handle().createDescriptorPool(
+        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+         .maxSets = count,
+         .poolSizeCount = static_cast<uint32_t>(pool_sizes.size()),
+         .pPoolSizes = pool_sizes.data()});
+    const std::vector layouts(count, pipelines.materialLayout());
+    material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
+                                                             .descriptorSetCount = count,
+                                                             .pSetLayouts = layouts.data()});
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto uniforms = materialUniforms(scene.materials[i]);
+        std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));
+    }
+    material_buffer_ =
+        uploadVector(arena, uploader, bytes, vk::BufferUsageFlagBits::eUniformBuffer, "materials");
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto& m = scene.materials[i];
+        const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,
+                                              sizeof(io::Material)};
+        const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
+            textures_->get(scene, m.base_color_texture, true),
+            textures_->get(scene, m.normal_texture, false),
+            textures_->get(scene, m.metallic_roughness_texture, false),
+            textures_->get(scene, m.occlusion_texture, false),
+            textures_->get(scene, m.emissive_texture, true)};
+        // The five samplers are consecutive bindings of one descriptor each.
+        const std::array writes = {
+            vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
+                                   .dstBinding = 0,
+                                   .descriptorCount = 1,
+                                   .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                   .pBufferInfo = &buffer},
+            vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
+                                   .dstBinding = 1,
+                                   .descriptorCount = kTexturesOfMaterial,
+                                   .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                   .pImageInfo = images.data()}};
+        device.handle().updateDescriptorSets(writes, {});
+    }
+}
+
+} // namespace froxel::render

@@ -1,0 +1,64 @@
+// A scene on the device, and what every viewer of it shares.
+#pragma once
+
+#include "cluster/light_assigner.h"
+#include "gpu/command_context.h"
+#include "gpu/memory.h"
+#include "light/light_rig.h"
+#include "render/geometry_pack.h"
+#include "render/pipelines.h"
+#include "render/scene_needs.h"
+#include "render/texture_store.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace froxel::render {
+
+// One primitive of one instance: what culling looks at and what a draw needs.
+struct DrawItem {
+    uint32_t instance = 0;
+    PackedPrimitive primitive;
+    uint32_t material_flags = 0; // with kMaterialExtended and kMaterialTangents
+    bool mirrored = false;       // the instance turns the winding round
+};
+
+class SceneResources {
+  public:
+    SceneResources(gpu::Device& device, const scene::Scene& scene);
+
+    gpu::Device& device;
+    gpu::Timeline timeline;
+    const SceneNeeds needs;
+    const BoundsD3 bounds_world;
+    const light::LightRig light_rig;
+    cluster::LightAssigner light_assigner;
+
+    std::vector<glm::dmat4> instances; // world_from_object
+    std::vector<DrawItem> items;
+    std::vector<Meshlet> meshlets;
+    std::vector<uint32_t> indices; // the host's copy, for culling by triangle
+    std::vector<glm::vec3> positions;
+
+    gpu::MemoryArena arena;
+    gpu::Buffer position_buffer;
+    gpu::Buffer surface_buffer;
+    gpu::Buffer extended_buffer; // empty handle: no primitive needs it
+    gpu::Buffer index_buffer;
+    Pipelines pipelines;
+
+    [[nodiscard]] vk::DescriptorSet materialSet(uint32_t material) const {
+        return *material_sets_[material];
+    }
+
+  private:
+    void uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader);
+    void uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader);
+
+    gpu::Buffer material_buffer_;
+    std::unique_ptr<TextureStore> textures_;
+    vk::raii::DescriptorPool material_pool_{nullptr};
+    std::vector<vk::raii::DescriptorSet> material_sets_;
+};
+
+} // namespace froxel::render

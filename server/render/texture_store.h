@@ -1,0 +1,35 @@
+// A scene's textures on the device: each image once for each encoding in use, with mip chains.
+#pragma once
+
+#include "gpu/memory.h"
+#include "gpu/upload.h"
+#include "scene/scene.h"
+
+#include <map>
+#include <utility>
+
+namespace froxel::render {
+
+class TextureStore {
+  public:
+    TextureStore(const gpu::Device& device, gpu::MemoryArena& arena, gpu::Uploader& uploader);
+
+    // The descriptor of a slot's texture; a white texel where the slot has none. `srgb` says how
+    // the colours are encoded. Throws vk::SystemError.
+    [[nodiscard]] vk::DescriptorImageInfo
+    get(const scene::Scene& scene, const scene::TextureSlot& slot, bool srgb);
+
+    [[nodiscard]] size_t imageCount() const { return images_.size(); }
+
+  private:
+    const gpu::Image& image(const scene::Image& source, uint32_t index, bool srgb);
+    vk::Sampler sampler(const scene::Sampler& settings);
+
+    const gpu::Device& device_;
+    gpu::MemoryArena& arena_;
+    gpu::Uploader& uploader_;
+    std::map<std::pair<uint32_t, bool>, gpu::Image> images_; // by image index and encoding
+    std::vector<std::pair<scene::Sampler, vk::raii::Sampler>> samplers_;
+};
+
+} // namespace froxel::render

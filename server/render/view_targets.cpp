@@ -1,0 +1,38 @@
+#include "render/view_targets.h"
+
+#include "render/pipelines.h"
+
+namespace froxel::render {
+
+ViewTargets::ViewTargets(const gpu::Device& device,
+                         const view::Size& size_in,
+                         const TargetNeeds& needs_in)
+    : size(size_in), needs(needs_in), arena(device, 0) {
+    using Usage = vk::ImageUsageFlagBits;
+    const vk::Extent2D extent{size.width_px, size.height_px};
+    depth = arena.makeImage({.format = Pipelines::kDepthFormat,
+                             .extent = extent,
+                             .usage = Usage::eDepthStencilAttachment | Usage::eSampled,
+                             .aspect = vk::ImageAspectFlagBits::eDepth},
+                            "depth");
+    if (needs.gbuffer) {
+        gbuffer = arena.makeImage({.format = Pipelines::gbufferFormat(needs.wide_gbuffer),
+                                   .extent = extent,
+                                   .usage = Usage::eColorAttachment | Usage::eSampled},
+                                  "gbuffer");
+    }
+    // Shaders that can store radiance name it even where they do not: a texel stands in.
+    radiance =
+        arena.makeImage({.format = Pipelines::kRadianceFormat,
+                         .extent = needs.radiance ? extent : vk::Extent2D{1, 1},
+                         .usage = Usage::eColorAttachment | Usage::eStorage | Usage::eTransferSrc},
+                        "radiance");
+    if (needs.device_pixels) {
+        pixels = arena.makeBuffer(vk::DeviceSize{4} * size.width_px * size.height_px,
+                                  vk::BufferUsageFlagBits::eStorageBuffer |
+                                      vk::BufferUsageFlagBits::eTransferSrc,
+                                  gpu::MemoryUse::kDevice, "pixels");
+    }
+}
+
+} // namespace froxel::render

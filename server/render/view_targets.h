@@ -1,0 +1,38 @@
+// The images and buffers that one viewer's frames are drawn into, at one size.
+#pragma once
+
+#include "gpu/command_context.h"
+#include "gpu/memory.h"
+#include "render/frame_plan.h"
+#include "view/settings.h"
+
+namespace froxel::render {
+
+// Which targets exist; a frame may use targets that have more than it needs.
+struct TargetNeeds {
+    bool gbuffer = false;
+    bool wide_gbuffer = false;
+    bool radiance = false;
+    bool device_pixels = false; // packed pixels are copied to the host rather than written there
+
+    [[nodiscard]] bool covers(const TargetNeeds& other) const {
+        return (gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
+               (device_pixels || !other.device_pixels);
+    }
+};
+
+struct ViewTargets {
+    // All images end in the GENERAL layout, where they stay. Throws vk::OutOfDeviceMemoryError.
+    ViewTargets(const gpu::Device& device, const view::Size& size, const TargetNeeds& needs);
+
+    view::Size size;
+    TargetNeeds needs;
+    gpu::MemoryArena arena;
+    gpu::Image depth;
+    gpu::Image gbuffer;  // null handle: not needed
+    gpu::Image radiance; // one texel: not needed
+    gpu::Buffer pixels;  // null handle: not needed
+    bool fresh = true;   // the images still await their first transition
+};
+
+} // namespace froxel::render

@@ -1,0 +1,28 @@
+// The SPIR-V of every shader, built from this folder; see CMakeLists.txt for file and defines.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace froxel::shaders {
+
+std::span<const uint32_t> depth_vert();
+std::span<const uint32_t> surface_vert();
+std::span<const uint32_t> surface_extended_vert();
+std::span<const uint32_t> depth_masked_frag();
+std::span<const uint32_t> depth_masked_extended_frag();
+std::span<const uint32_t> gbuffer_frag();
+std::span<const uint32_t> gbuffer_extended_frag();
+std::span<const uint32_t> forward_frag();
+std::span<const uint32_t> forward_extended_frag();
+std::span<const uint32_t> forward_batched_frag();
+std::span<const uint32_t> forward_batched_extended_frag();
+std::span<const uint32_t> fullscreen_vert();
+std::span<const uint32_t> lighting_frag();
+std::span<const uint32_t> lighting_batched_frag();
+std::span<const uint32_t> lighting_comp();
+std::span<const uint32_t> lighting_batched_comp();
+std::span<const uint32_t> toon_comp();
+std::span<const uint32_t> tonemap_comp();
+
+} // namespace froxel::shaders

@@ -1,0 +1,49 @@
+// Specialisation constants, flag bits and limits that C++ and GLSL agree on.
+#ifndef FROXEL_INTERFACE_CONSTANTS_H
+#define FROXEL_INTERFACE_CONSTANTS_H
+
+#include "compat.h"
+
+FROXEL_IO_NAMESPACE_BEGIN
+
+// Specialisation constant ids; every shader uses the same four.
+FROXEL_CONST uint kSpecMaterialFlags = 0U;
+FROXEL_CONST uint kSpecLightFlags = 1U;
+FROXEL_CONST uint kSpecOutputFlags = 2U;
+FROXEL_CONST uint kSpecBatchSize = 3U; // lights fetched together; see kLightBatched
+
+// Material flags: what a draw's material has.
+FROXEL_CONST uint kMaterialBaseColorTexture = 1U << 0;
+FROXEL_CONST uint kMaterialNormalTexture = 1U << 1;
+FROXEL_CONST uint kMaterialRoughnessTexture = 1U << 2; // metallic-roughness
+FROXEL_CONST uint kMaterialOcclusionTexture = 1U << 3;
+FROXEL_CONST uint kMaterialEmissiveTexture = 1U << 4;
+FROXEL_CONST uint kMaterialMask = 1U << 5;
+FROXEL_CONST uint kMaterialUnlit = 1U << 6;
+FROXEL_CONST uint kMaterialDoubleSided = 1U << 7;
+FROXEL_CONST uint kMaterialUvTransform = 1U << 8; // a slot has a transform or TEXCOORD_1
+FROXEL_CONST uint kMaterialExtended = 1U << 9;    // vertices carry uv1, colour and tangent
+FROXEL_CONST uint kMaterialTangents = 1U << 10;   // the tangents are from the file
+FROXEL_CONST uint kMaterialBlend = 1U << 11;
+
+// Light flags: which lights a frame has and how they are looped over.
+FROXEL_CONST uint kLightLocal = 1U << 0;       // any point or spot light
+FROXEL_CONST uint kLightLists = 1U << 1;       // through cluster lists; else all lights
+FROXEL_CONST uint kLightSpots = 1U << 2;       // some of the local lights are spots
+FROXEL_CONST uint kLightDirectional = 1U << 3;
+FROXEL_CONST uint kLightBatched = 1U << 4;     // a subgroup fetches lights together
+FROXEL_CONST uint kLightToon = 1U << 5;        // n.l through the toon ramp
+FROXEL_CONST uint kLightPartial = 1U << 6;     // batched where a subgroup may lack invocations
+
+// Output flags: targets and what the last pass does.
+FROXEL_CONST uint kOutputPixels = 1U << 0;     // lighting also exposes, tone maps and packs
+FROXEL_CONST uint kOutputRadiance = 1U << 1;   // lighting writes linear fp32 radiance
+FROXEL_CONST uint kOutputWideGbuffer = 1U << 2; // metalness, occlusion, emission are stored
+FROXEL_CONST uint kOutputClamp = 1U << 3;      // plain clamp instead of the neutral tone map
+
+FROXEL_CONST uint kMaxToonSegments = 9U; // 8 points: 7 cubics and two constant ends
+FROXEL_CONST uint kScreenGroup = 8U;     // screen passes: workgroups of 8 x 8 pixels
+
+FROXEL_IO_NAMESPACE_END
+
+#endif

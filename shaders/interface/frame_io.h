@@ -1,0 +1,84 @@
+// What every pass of a frame knows (scalar block layout).
+#ifndef FROXEL_INTERFACE_FRAME_IO_H
+#define FROXEL_INTERFACE_FRAME_IO_H
+
+#include "compat.h"
+#include "constants.h"
+
+FROXEL_IO_NAMESPACE_BEGIN
+
+// Cubic y = ((a u + b) u + c) u + d with u = x - x0, for x >= x0 up to the next segment.
+struct ToonSegment {
+    float x0;
+    float a;
+    float b;
+    float c;
+    float d;
+};
+FROXEL_SIZE_ASSERT(ToonSegment, 20);
+
+struct Frame {
+    // clip = (x * clip_scale.x, y * clip_scale.y, clip_z.x + clip_z.y * z, clip_w.x + clip_w.y * z)
+    vec2 clip_scale;
+    vec2 clip_z;
+    vec2 clip_w;
+    // distance along the view axis = (num.x + num.y * depth) / (den.x + den.y * depth)
+    vec2 distance_num;
+    vec2 distance_den;
+    // ray = (pixel + 0.5) * ray_scale + ray_offset; xy_view = ray * (spread.x + spread.y * distance)
+    vec2 ray_scale;
+    vec2 ray_offset;
+    vec2 ray_spread;
+    uint width_px;
+    uint height_px;
+    uint tile_width_px;
+    uint tile_height_px;
+    uint tile_count_x;
+    uint tile_count_y;
+    uint slice_count;
+    uint light_count;
+    uint directional_count;
+    // slice = (max(bits(distance), first) - first) * scale >> (32 + shift): cluster::SliceLaw
+    uint slice_first_bits;
+    uint slice_scale;
+    uint slice_shift;
+    vec3 up_view;       // world up
+    float exposure;
+    vec3 ambient_sky;   // linear radiance from above
+    float orthographic; // 1: all view rays are parallel
+    vec3 ambient_ground;
+    float padding0;
+    vec3 background; // linear radiance of empty pixels
+    float padding1;
+    ToonSegment toon[kMaxToonSegments];
+};
+FROXEL_SIZE_ASSERT(Frame, 356);
+
+// One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
+struct UvTransform {
+    vec3 row0;
+    vec3 row1;
+    uint texcoord;
+    float padding0;
+};
+FROXEL_SIZE_ASSERT(UvTransform, 32);
+
+struct Material {
+    vec4 base_color;
+    vec3 emissive;
+    float metallic;
+    float roughness;
+    float normal_scale;
+    float occlusion_strength;
+    float alpha_cutoff;
+    UvTransform uv_base_color;
+    UvTransform uv_normal;
+    UvTransform uv_metallic_roughness;
+    UvTransform uv_occlusion;
+    UvTransform uv_emissive;
+};
+FROXEL_SIZE_ASSERT(Material, 208);
+
+FROXEL_IO_NAMESPACE_END
+
+#endif

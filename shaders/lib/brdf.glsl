@@ -1,0 +1,87 @@
+// Metallic-roughness shading as glTF 2.0 appendix B defines it: GGX distribution, height-correlated
+// Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A light only adds
+// weights that do not depend on the surface's colours; those are applied once, at the end.
+
+const float kPi = 3.14159265358979;
+const float kEpsilon2 = 1e-4; // (1 cm)^2: the floor of the squared distance to a light
+
+struct Surface {
+    vec3 position_view;
+    vec3 normal_view;
+    vec3 to_eye_view;  // unit
+    float n_dot_v;
+    float alpha2;      // roughness^4
+    float visibility_v; // sqrt(n_dot_v^2 (1 - alpha2) + alpha2)
+};
+
+struct LightSum {
+    vec3 diffuse;  // sum of E (1 - p), where p = (1 - l.h)^5
+    vec3 specular; // sum of E D V (1 - p)
+    vec3 grazing;  // sum of E D V p
+};
+
+LightSum noLight() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0)); }
+
+Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
+    Surface s;
+    s.position_view = position_view;
+    s.normal_view = normal_view;
+    s.to_eye_view =
+        frame.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
+    s.n_dot_v = max(abs(dot(normal_view, s.to_eye_view)), 1e-4);
+    float alpha = max(roughness, 0.045) * max(roughness, 0.045);
+    s.alpha2 = alpha * alpha;
+    s.visibility_v = sqrt(s.n_dot_v * s.n_dot_v * (1.0 - s.alpha2) + s.alpha2);
+    return s;
+}
+
+// Adds light of irradiance colour * attenuation from direction l; both dot products signed.
+void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, vec3 color,
+                   inout LightSum sum) {
+    precise float facing = max(n_dot_l, 0.0);
+    precise float e = attenuation * facing;
+    // toon_fragment: the ramp is for what a surface scatters; a highlight stays where it is.
+    precise float scattered = hasLight(kLightToon) ? attenuation * toonRamp(facing) : e;
+    // The half vector only appears by |l + v|^2 and n.(l + v): no need to normalise it.
+    precise float h2 = max(fma(2.0, v_dot_l, 2.0), 1e-6);
+    precise float n_dot_sum = facing + s.n_dot_v;
+    precise float q = max(fma(-0.5, sqrt(h2), 1.0), 0.0);
+    precise float p = (q * q) * (q * q) * q;
+    precise float t = fma(min(n_dot_sum * n_dot_sum, h2), s.alpha2 - 1.0, h2);
+    precise float visibility_l = sqrt(fma(facing * facing, 1.0 - s.alpha2, s.alpha2));
+    precise float v = fma(facing, s.visibility_v, s.n_dot_v * visibility_l);
+    precise float g = e * (s.alpha2 * (h2 * h2) / (t * t * v));
+    precise float diffuse = fma(-scattered, p, scattered);
+    precise float grazing = g * p;
+    precise float specular = g - grazing;
+    precise vec3 d = fma(color, vec3(diffuse), sum.diffuse);
+    precise vec3 f = fma(color, vec3(specular), sum.specular);
+    precise vec3 r = fma(color, vec3(grazing), sum.grazing);
+    sum = LightSum(d, f, r);
+}
+
+// A point light; `share` is 0, 1 or a spot's angular falloff. Contributes exactly 0 at its radius.
+void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float share,
+              inout LightSum sum) {
+    precise float d2 = fma(to_light.z, to_light.z,
+                           fma(to_light.y, to_light.y, to_light.x * to_light.x));
+    precise float x = d2 * inv_radius2;
+    precise float w = max(fma(-x, x, 1.0), 0.0);
+    precise float inv_d = inversesqrt(max(d2, kEpsilon2));
+    precise float attenuation = (w * w) * (inv_d * inv_d) * share;
+    precise float n_dot_l = fma(s.normal_view.z, to_light.z,
+                                fma(s.normal_view.y, to_light.y, s.normal_view.x * to_light.x)) *
+                            inv_d;
+    precise float v_dot_l = fma(s.to_eye_view.z, to_light.z,
+                                fma(s.to_eye_view.y, to_light.y, s.to_eye_view.x * to_light.x)) *
+                            inv_d;
+    addIrradiance(s, n_dot_l, v_dot_l, attenuation, color, sum);
+}
+
+// Outgoing radiance of all that was added.
+vec3 shadeSum(LightSum sum, vec3 base_color, float metallic) {
+    vec3 f0 = mix(vec3(0.04), base_color, metallic);
+    vec3 albedo = base_color * (1.0 - metallic);
+    vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);
+    return (albedo * (1.0 - f0) * sum.diffuse + lobe) / kPi;
+}

@@ -1,0 +1,62 @@
+// Set 0: the frame, its lights and lists; and the geometry of a pixel.
+#include "interface/frame_io.h"
+#include "interface/light_io.h"
+
+layout(constant_id = 0) const uint MATERIAL_FLAGS = 0;
+layout(constant_id = 1) const uint LIGHT_FLAGS = 0;
+layout(constant_id = 2) const uint OUTPUT_FLAGS = 0;
+layout(constant_id = 3) const uint BATCH_SIZE = 8;
+
+layout(set = 0, binding = 0, scalar) uniform FrameBlock { Frame frame; };
+// Texel buffers: a software rasteriser gathers from these without a branch for each invocation,
+// four times cheaper than from storage buffers.
+layout(set = 0, binding = 1) uniform textureBuffer light_texels;   // io::Light: 2 texels
+layout(set = 0, binding = 2) uniform utextureBuffer list_texels;   // io::ClusterList
+layout(set = 0, binding = 3) uniform utextureBuffer index_texels;  // light index list
+layout(set = 0, binding = 4) uniform textureBuffer spot_texels;    // io::Spot: 2 texels
+layout(set = 0, binding = 5, scalar) readonly buffer SunBlock { DirectionalLight suns[]; };
+
+bool hasMaterial(uint flag) { return (MATERIAL_FLAGS & flag) != 0; }
+bool hasLight(uint flag) { return (LIGHT_FLAGS & flag) != 0; }
+bool hasOutput(uint flag) { return (OUTPUT_FLAGS & flag) != 0; }
+
+// Metres along the view axis; depth > 0.
+float distanceFromDepth(float depth) {
+    return (frame.distance_num.x + frame.distance_num.y * depth) /
+           (frame.distance_den.x + frame.distance_den.y * depth);
+}
+
+// The same bits in every renderer: from the integer pixel and the distance alone.
+vec3 positionFromDistance(uvec2 pixel, float distance) {
+    precise vec2 ray = (vec2(pixel) + 0.5) * frame.ray_scale + frame.ray_offset;
+    precise vec2 xy = ray * (frame.ray_spread.x + frame.ray_spread.y * distance);
+    return vec3(xy, -distance);
+}
+
+const uint kNoCluster = 0xffffffffu;
+
+// The cluster of a pixel at a distance; kNoCluster beyond the grid, where no light reaches. In
+// integers, so that it is what the assignment took it to be (cluster::SliceLaw).
+uint clusterAt(uvec2 pixel, float distance) {
+    uint bits = max(floatBitsToUint(distance), frame.slice_first_bits) - frame.slice_first_bits;
+    uint slice;
+    uint fraction;
+    umulExtended(bits, frame.slice_scale, slice, fraction);
+    slice >>= frame.slice_shift;
+    uvec2 tile = pixel / uvec2(frame.tile_width_px, frame.tile_height_px);
+    uint cluster = (slice * frame.tile_count_y + tile.y) * frame.tile_count_x + tile.x;
+    return slice < frame.slice_count ? cluster : kNoCluster;
+}
+
+// A Hermite ramp as cubics; x in [0, inf). Unused segments start beyond any x.
+float toonRamp(float x) {
+    ToonSegment s = frame.toon[0];
+    for (uint i = 1; i < kMaxToonSegments; ++i) {
+        if (x >= frame.toon[i].x0) {
+            s = frame.toon[i];
+        }
+    }
+    precise float u = x - s.x0;
+    precise float y = fma(fma(fma(s.a, u, s.b), u, s.c), u, s.d);
+    return y;
+}

@@ -1,0 +1,103 @@
+// Set 1: a draw's material, and what it looks like at a fragment.
+
+layout(set = 1, binding = 0, scalar) uniform MaterialBlock { Material material; };
+layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
+layout(set = 1, binding = 2) uniform sampler2D normal_texture;
+layout(set = 1, binding = 3) uniform sampler2D metallic_roughness_texture;
+layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
+layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+
+// What the vertex stage hands on.
+struct VertexData {
+    vec3 normal_view;
+    vec2 uv0;
+    vec2 uv1;
+    vec4 color;
+    vec4 tangent_view;
+};
+
+vec2 slotUv(VertexData v, UvTransform t) {
+    if (!hasMaterial(kMaterialUvTransform)) {
+        return v.uv0;
+    }
+    vec2 uv = t.texcoord == 0u ? v.uv0 : v.uv1;
+    return vec2(dot(t.row0.xy, uv) + t.row0.z, dot(t.row1.xy, uv) + t.row1.z);
+}
+
+vec4 baseColor(VertexData v) {
+    vec4 color = material.base_color;
+    if (hasMaterial(kMaterialBaseColorTexture)) {
+        color *= texture(base_color_texture, slotUv(v, material.uv_base_color));
+    }
+    if (hasMaterial(kMaterialExtended)) {
+        color *= v.color;
+    }
+    return color;
+}
+
+// The tangent frame of a triangle from screen-space derivatives (Mikkelsen 2020, "Surface Gradient
+// Based Bump Mapping Framework"): constant over a triangle, right for mirrored texture coordinates,
+// and nothing to store. Derivatives are taken of the same values in every renderer.
+vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view) {
+    vec2 uv = slotUv(v, material.uv_normal);
+    vec3 sampled = texture(normal_texture, uv).xyz * 2.0 - 1.0;
+    sampled.xy *= material.normal_scale;
+    vec3 t;
+    vec3 b;
+    if (hasMaterial(kMaterialTangents)) {
+        t = v.tangent_view.xyz;
+        b = cross(n, t) * v.tangent_view.w;
+    } else {
+        vec3 dpx = dFdx(position_view);
+        vec3 dpy = dFdy(position_view);
+        vec2 dux = dFdx(uv);
+        vec2 duy = dFdy(uv);
+        vec3 across_x = cross(n, dpx);
+        vec3 across_y = cross(dpy, n);
+        // Gradients of u and v over the surface, up to a common factor. glTF's green channel
+        // points up in the image, where v decreases.
+        t = across_y * dux.x + across_x * duy.x;
+        b = across_y * dux.y + across_x * duy.y;
+        float longest = max(dot(t, t), dot(b, b));
+        if (!(longest > 0.0)) {
+            return n; // no texture coordinates to speak of
+        }
+        // Keeps handedness: the area's sign in screen space turns both.
+        float handed = dot(across_y, dpx) < 0.0 ? -1.0 : 1.0;
+        float scale = handed * inversesqrt(longest);
+        t *= scale;
+        b *= -scale;
+    }
+    return normalize(t * sampled.x + b * sampled.y + n * sampled.z);
+}
+
+GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
+    GbufferSample g;
+    g.base_color = clamp(base.rgb, vec3(0.0), vec3(1.0));
+    vec3 n = normalize(v.normal_view);
+    if (hasMaterial(kMaterialDoubleSided)) {
+        n = front ? n : -n;
+    }
+    if (hasMaterial(kMaterialNormalTexture)) {
+        n = perturbNormal(v, n, position_view);
+    }
+    g.normal_view = n;
+    g.roughness = material.roughness;
+    g.metallic = material.metallic;
+    if (hasMaterial(kMaterialRoughnessTexture)) {
+        vec4 mr = texture(metallic_roughness_texture, slotUv(v, material.uv_metallic_roughness));
+        g.roughness *= mr.g;
+        g.metallic *= mr.b;
+    }
+    g.occlusion = 1.0;
+    if (hasMaterial(kMaterialOcclusionTexture)) {
+        float r = texture(occlusion_texture, slotUv(v, material.uv_occlusion)).r;
+        g.occlusion = 1.0 + material.occlusion_strength * (r - 1.0);
+    }
+    g.emissive = material.emissive;
+    if (hasMaterial(kMaterialEmissiveTexture)) {
+        g.emissive *= texture(emissive_texture, slotUv(v, material.uv_emissive)).rgb;
+    }
+    g.unlit = hasMaterial(kMaterialUnlit);
+    return g;
+}

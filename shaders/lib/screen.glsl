@@ -1,0 +1,11 @@
+// Set 1 of the screen passes: what the geometry left, and where the picture goes.
+layout(set = 1, binding = 0) uniform utexture2D gbuffer_image;
+layout(set = 1, binding = 1) uniform texture2D depth_image;
+layout(set = 1, binding = 2, rgba32f) uniform image2D radiance_image;
+layout(set = 1, binding = 3, scalar) writeonly buffer PixelBlock { uint pixels[]; };
+
+bool insideScreen(uvec2 pixel) { return pixel.x < frame.width_px && pixel.y < frame.height_px; }
+
+void storePixel(uvec2 pixel, vec3 radiance) {
+    pixels[pixel.y * frame.width_px + pixel.x] = displayPixel(radiance);
+}

@@ -1,0 +1,35 @@
+// From linear radiance to eight bits.
+
+// Khronos PBR Neutral tone mapper (Khronos 2024): base colours keep their hue, highlights roll off.
+vec3 pbrNeutral(vec3 color) {
+    const float kStart = 0.8 - 0.04;
+    const float kDesaturation = 0.15;
+    float low = min(color.r, min(color.g, color.b));
+    float offset = low < 0.08 ? low - 6.25 * low * low : 0.04;
+    color -= offset;
+    float peak = max(color.r, max(color.g, color.b));
+    if (peak < kStart) {
+        return color;
+    }
+    float d = 1.0 - kStart;
+    float new_peak = 1.0 - d * d / (peak + d - kStart);
+    color *= new_peak / peak;
+    float g = 1.0 - 1.0 / (kDesaturation * (peak - new_peak) + 1.0);
+    return mix(color, vec3(new_peak), g);
+}
+
+// IEC 61966-2-1.
+vec3 srgbEncode(vec3 c) {
+    vec3 low = c * 12.92;
+    vec3 high = 1.055 * pow(max(c, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
+    return mix(high, low, lessThan(c, vec3(0.0031308)));
+}
+
+// RGBA8, alpha 255. Radiance beyond fp32's comfort becomes white, not infinity.
+uint displayPixel(vec3 radiance) {
+    vec3 c = min(radiance * frame.exposure, vec3(1e6));
+    if (!hasOutput(kOutputClamp)) {
+        c = pbrNeutral(c);
+    }
+    return packUnorm4x8(vec4(srgbEncode(clamp(c, vec3(0.0), vec3(1.0))), 1.0));
+}
