@@ -1,0 +1,121 @@
+// One subcommand under construction: every value goes through value_parsers, so that every refusal
+// reads the same; CLI11 does the rest.
+#pragma once
+
+#include "app/value_parsers.h"
+#include "gpu/device_options.h"
+
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace froxel::app {
+
+template <class T>
+struct Unwrapped {
+    using Type = T;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> {
+    using Type = T;
+};
+
+// Targets outlive the parse; a target is written only by an option that was given.
+class CommandBuilder {
+  public:
+    CommandBuilder(CLI::App& app, const std::string& name, const std::string& description)
+        : cli_(*app.add_subcommand(name, description)) {
+        cli_.set_help_all_flag(); // none: the program's own shows all
+    }
+
+    [[nodiscard]] CLI::App& cli() { return cli_; }
+
+    // `parse` is Result<...>(const std::string&) and converts to the target's type.
+    template <class T, class Parse>
+    CLI::Option* value(const std::string& option,
+                       const std::string& type,
+                       T& target,
+                       Parse parse,
+                       const std::string& shown_default,
+                       const std::string& help) {
+        const auto store = [&target, parse, option](const std::string& text) {
+            const auto parsed = parse(text);
+            if (!parsed) {
+                throw CLI::ValidationError(option, parsed.error().message);
+            }
+            target = static_cast<typename Unwrapped<T>::Type>(*parsed);
+        };
+        return cli_
+            .add_option_function<std::string>(option, store, withDefault(help, shown_default))
+            ->type_name(type);
+    }
+
+    // A number whose default is shown in words.
+    template <class T, class Limit>
+    CLI::Option* number(const std::string& option,
+                        T& target,
+                        const view::Range<Limit>& range,
+                        const std::string& shown_default,
+                        const std::string& help) {
+        const auto parse = [range](const std::string& text) { return parseNumber(text, range); };
+        const auto text = fmt::format("{}; {} to {}", help, range.min, range.max);
+        return value(option, "N", target, parse, shown_default, text);
+    }
+
+    template <class T, class Limit>
+    CLI::Option* number(const std::string& option,
+                        T& target,
+                        const view::Range<Limit>& range,
+                        const std::string& help) {
+        return number(option, target, range, fmt::format("{}", target), help);
+    }
+
+    // One of `names`, which are in the order of the target's enumerators.
+    template <class T>
+    CLI::Option* name(const std::string& option,
+                      T& target,
+                      std::span<const std::string_view> names,
+                      const std::string& shown_default,
+                      const std::string& help) {
+        const auto parse = [names](const std::string& text) { return parseName(text, names); };
+        const auto text = fmt::format("{}: {}", help, describe(names));
+        return value(option, "NAME", target, parse, shown_default, text);
+    }
+
+    template <class Enum>
+    CLI::Option* name(const std::string& option,
+                      Enum& target,
+                      std::span<const std::string_view> names,
+                      const std::string& help) {
+        const std::string shown(names[static_cast<size_t>(target)]);
+        return name(option, target, names, shown, help);
+    }
+
+    // Any text, such as a path.
+    template <class T>
+    CLI::Option* text(const std::string& option,
+                      const std::string& type,
+                      T& target,
+                      const std::string& shown_default,
+                      const std::string& help) {
+        return cli_.add_option(option, target, withDefault(help, shown_default))->type_name(type);
+    }
+
+    void device(gpu::DeviceChoice& choice, bool& validation) {
+        name("--device", choice, gpu::kDeviceChoiceNames, "Vulkan device, a GPU before a CPU");
+        cli_.add_flag("--validation", validation, "Turn on the Vulkan validation layer (slow)");
+    }
+
+  private:
+    static std::string withDefault(const std::string& help, const std::string& shown_default) {
+        return shown_default.empty() ? help : fmt::format("{} [{}]", help, shown_default);
+    }
+
+    CLI::App& cli_;
+};
+
+} // namespace froxel::app

@@ -1,0 +1,113 @@
+#include "app/info_report.h"
+
+#include "render/scene_needs.h"
+#include "session/session_context.h"
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace froxel::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+size_t bytesOf(const std::vector<T>& items) {
+    return items.size() * sizeof(T);
+}
+
+size_t geometryBytes(const scene::Scene& scene) {
+    size_t bytes = 0;
+    for (const auto& mesh : scene.meshes) {
+        for (const auto& p : mesh.primitives) {
+            bytes += bytesOf(p.positions) + bytesOf(p.normals) + bytesOf(p.tangents) +
+                     bytesOf(p.uv0) + bytesOf(p.uv1) + bytesOf(p.colors) + bytesOf(p.indices);
+        }
+    }
+    return bytes;
+}
+
+size_t textureBytes(const scene::Scene& scene) {
+    size_t bytes = 0;
+    for (const auto& image : scene.images) {
+        bytes += bytesOf(image.rgba8);
+    }
+    return bytes;
+}
+
+Json boundsOf(const scene::Scene& scene) {
+    const auto& bounds = scene.bounds_world;
+    if (bounds.empty()) {
+        return nullptr;
+    }
+    return {{"min", {bounds.min.x, bounds.min.y, bounds.min.z}},
+            {"max", {bounds.max.x, bounds.max.y, bounds.max.z}}};
+}
+
+Json lightsOf(const scene::Scene& scene) {
+    const auto count = [&](scene::LightType type) {
+        return std::ranges::count(scene.lights, type, &scene::PunctualLight::type);
+    };
+    return {{"point", count(scene::LightType::kPoint)},
+            {"spot", count(scene::LightType::kSpot)},
+            {"directional", count(scene::LightType::kDirectional)}};
+}
+
+// Strings without JSON's quotes.
+std::string plain(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+bool onOneLine(const Json& value) {
+    const auto is_string = [](const Json& item) { return item.is_string(); };
+    return !value.is_object() &&
+           !(value.is_array() && std::any_of(value.begin(), value.end(), is_string));
+}
+
+void append(std::string& text, const Json& value, const std::string& indent) {
+    for (const auto& [key, item] : value.items()) {
+        const std::string label = value.is_array() ? indent + "- " : indent + key + ": ";
+        if (onOneLine(item)) {
+            text += label + plain(item) + "\n";
+        } else {
+            text += indent + key + ":\n";
+            append(text, item, indent + "  ");
+        }
+    }
+}
+
+} // namespace
+
+Json sceneReport(const scene::Scene& scene) {
+    const auto summary = session::summarize(scene);
+    Json cameras = Json::array();
+    for (const auto& camera : scene.cameras) {
+        cameras.push_back(camera.name);
+    }
+    return {{"name", summary.name},
+            {"triangles", summary.triangle_count},
+            {"draws", summary.draw_count},
+            {"meshes", scene.meshes.size()},
+            {"instances", scene.instances.size()},
+            {"materials", summary.material_count},
+            {"textures", summary.texture_count},
+            {"geometry_bytes", geometryBytes(scene)},
+            {"texture_bytes", textureBytes(scene)},
+            {"cameras", cameras},
+            {"lights", lightsOf(scene)},
+            {"bounds_m", boundsOf(scene)},
+            {"needs", render::explainNeeds(scene)},
+            {"warnings", scene.warnings}};
+}
+
+std::string toText(const Json& report) {
+    std::string text;
+    append(text, report, "");
+    return text;
+}
+
+} // namespace froxel::app

@@ -1,0 +1,82 @@
+// Parses, runs one subcommand, and turns whatever stopped it into one line and an exit code.
+#include "app/options.h"
+#include "core/error.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <variant>
+
+namespace {
+
+using namespace froxel;
+
+// Also in options.cpp's help and in the README.
+int exitCodeOf(ErrorCode code) {
+    switch (code) {
+    case ErrorCode::kInvalidArgument:
+        return 2;
+    case ErrorCode::kScene:
+        return 3;
+    case ErrorCode::kDevice:
+        return 4;
+    case ErrorCode::kAddressInUse:
+        return 5;
+    case ErrorCode::kIo:
+    case ErrorCode::kUnsupported:
+    case ErrorCode::kCapacity:
+        return 1;
+    }
+    return 1;
+}
+
+// Standard output is for results only: logs go to stderr.
+void startLog(app::LogLevel level) {
+    constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
+                                    spdlog::level::err};
+    spdlog::set_default_logger(spdlog::stderr_color_mt("froxel"));
+    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %^%l%$ %v");
+    spdlog::set_level(kLevels[static_cast<size_t>(level)]);
+}
+
+struct Run {
+    int operator()(const app::PrintText& print) const {
+        std::fputs(print.text.c_str(), stdout);
+        return 0;
+    }
+    int operator()(const app::ServeOptions& options) const { return app::runServe(options); }
+    int operator()(const app::RenderOptions& options) const {
+        app::runRender(options);
+        return 0;
+    }
+    int operator()(const app::InfoOptions& options) const {
+        app::runInfo(options);
+        return 0;
+    }
+    int operator()(const app::SceneOptions& options) const {
+        app::runScene(options);
+        return 0;
+    }
+};
+
+int fail(const char* message, int exit_code) {
+    std::fprintf(stderr, "froxel: %s\n", message);
+    return exit_code;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const auto options = app::parseOptions(argc, argv);
+        startLog(options.log_level);
+        return std::visit(Run{}, options.command);
+    } catch (const StartupError& error) {
+        return fail(error.what(), exitCodeOf(error.code()));
+    } catch (const std::exception& error) {
+        return fail(error.what(), 1);
+    }
+}

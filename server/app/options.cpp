@@ -1,0 +1,257 @@
+#include "app/options.h"
+
+#include "app/command_builder.h"
+#include "core/error.h"
+#include "encode/image_file.h"
+#include "session/session_context.h"
+#include "view/ranges.h"
+
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace froxel::app {
+
+namespace {
+
+constexpr view::Range<uint32_t> kSeedRange{"seed", 0, std::numeric_limits<uint32_t>::max()};
+constexpr view::Range<uint32_t> kPortRange{"port", 0, 65535};
+constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
+constexpr view::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
+constexpr view::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 1 anything else.";
+
+// What the subcommands fill. The one that was given copies its own to `result`.
+struct Targets {
+    ServeOptions serve;
+    RenderOptions render;
+    InfoOptions info;
+    SceneOptions scene;
+    std::optional<LogLevel> log_level;
+    Options result;
+};
+
+std::string textOf(const view::Size& size) {
+    return fmt::format("{}x{}", size.width_px, size.height_px);
+}
+
+std::string textOf(const view::GridSize& grid) {
+    return fmt::format("{}x{}x{}", grid.x, grid.y, grid.z);
+}
+
+template <class Names, class Enum>
+std::string textOf(const Names& names, Enum value) {
+    return std::string(names[static_cast<size_t>(value)]);
+}
+
+std::string sizeHelp(const std::string& what) {
+    return fmt::format("{} in pixels, {}x{} to {}x{}", what, view::kWidthRange.min,
+                       view::kHeightRange.min, view::kWidthRange.max, view::kHeightRange.max);
+}
+
+Result<std::filesystem::path> parsePicturePath(const std::string& text) {
+    const std::filesystem::path path(text);
+    const auto format = encode::imageFormatOf(path);
+    return format ? Result<std::filesystem::path>(path) : format.error();
+}
+
+Result<std::filesystem::path> parseGlbPath(const std::string& text) {
+    const std::filesystem::path path(text);
+    if (path.extension() != ".glb") {
+        return Error{ErrorCode::kInvalidArgument, fmt::format("'{}' is not a .glb file", text)};
+    }
+    return path;
+}
+
+void addSceneOption(CommandBuilder& command, std::string& target, const std::string& shown) {
+    command.text("--scene", "PATH|builtin", target, shown, "glTF 2.0 or GLB file, or the hall");
+}
+
+// The last step of every subcommand.
+template <class T>
+void finish(CommandBuilder& command, const T& options, LogLevel default_level, Targets& targets) {
+    command.name("--log-level", targets.log_level, kLogLevelNames,
+                 textOf(kLogLevelNames, default_level), "Least of what goes to stderr");
+    command.cli().callback([&options, default_level, &targets] {
+        targets.result = {options, targets.log_level.value_or(default_level)};
+    });
+}
+
+// A default that may depend on the device's kind, in words.
+template <class Text>
+std::string byDevice(Text text) {
+    const std::string cpu = text(session::defaultsFor(session::DeviceKind::kCpu));
+    const std::string gpu = text(session::defaultsFor(session::DeviceKind::kGpu));
+    return cpu == gpu ? cpu : fmt::format("{} on a CPU device, {} on a GPU", cpu, gpu);
+}
+
+// What a viewer starts with; each may change it.
+void addFirstView(CommandBuilder& command, ServeOptions& options) {
+    using Defaults = session::SessionDefaults;
+    command.value("--size", "WxH", options.size, parseSize,
+                  byDevice([](const Defaults& d) { return textOf(d.size); }),
+                  sizeHelp("First picture"));
+    command.number(
+        "--quality", options.quality, view::kQualityRange,
+        byDevice([](const Defaults& d) { return fmt::format("{}", d.encoding.quality); }),
+        "JPEG quality");
+    command.number("--lights", options.light_count, view::kLightCountRange,
+                   byDevice([](const Defaults& d) { return fmt::format("{}", d.light_count); }),
+                   "Seeded lights");
+    command.number("--light-radius", options.light_radius_m, view::kLightRadiusRange,
+                   byDevice([](const Defaults& d) { return fmt::format("{}", d.light_radius_m); }),
+                   "Where a light reaches exactly 0, in metres");
+    command.name(
+        "--renderer", options.renderer, view::kRendererNames,
+        byDevice([](const Defaults& d) { return textOf(view::kRendererNames, d.renderer); }),
+        "First renderer");
+}
+
+void addServe(CLI::App& app, Targets& targets) {
+    auto& options = targets.serve;
+    CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
+    command.text("--address", "IP", options.address, options.address, "IPv4 or IPv6 to listen on");
+    command.number("--port", options.port, kPortRange, "TCP port, 0 for any free one");
+    addSceneOption(command, options.scene, options.scene);
+    command.device(options.device, options.validation);
+    command.number("--max-sessions", options.sessions_max, kSessionsRange, "Viewers at once");
+    addFirstView(command, options);
+    command.text("--web-root", "DIR", options.web_root, "web beside the binary, else the build's",
+                 "Folder of the built page");
+    command
+        .text("--allow-origin", "ORIGIN", options.allowed_origins, "",
+              "Another site whose pages may connect, such as https://example.org; repeatable")
+        ->allow_extra_args(false);
+    finish(command, options, LogLevel::kInfo, targets);
+}
+
+void addLights(CommandBuilder& command, view::Lights& lights) {
+    command.number("--lights", lights.count, view::kLightCountRange, "Seeded point lights");
+    command.number("--light-radius", lights.radius_m, view::kLightRadiusRange,
+                   "Where a light reaches exactly 0, in metres");
+    command.number("--light-intensity", lights.intensity, view::kLightIntensityRange,
+                   "Scales every seeded light");
+    command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
+                  "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
+    command.number("--seed", lights.seed, kSeedRange, "Picks the lights");
+    command.number("--ambient", lights.ambient, view::kAmbientRange, "Scales the ambient term");
+    command.cli().add_flag_callback(
+        "--no-scene-lights", [&lights] { lights.scene_lights = false; },
+        "Leave out the scene's own lights");
+    command.cli().add_flag_callback(
+        "--no-animate", [&lights] { lights.animate = false; },
+        "Keep the lights at --time in all --frames");
+}
+
+void addOutputs(CommandBuilder& command, RenderOptions& options) {
+    command.value("--out", "FILE", options.out, parsePicturePath, "",
+                  "Last frame: .png, .jpg or .pfm (linear, before the exposure)");
+    auto& encoding = options.encoding;
+    command.number("--quality", encoding.quality, view::kQualityRange, "JPEG quality");
+    command.name("--chroma", encoding.chroma, view::kChromaNames, "JPEG colour resolution");
+    command.number("--frames", options.frame_count, kFramesRange, "Frames to draw, 1/30 s apart");
+    command.number("--warmup", options.warmup_count, kWarmupRange,
+                   "Frames drawn before those and not counted");
+    command.text("--timings", "FILE", options.timings, "", "JSON: times of passes and frames");
+}
+
+void addRender(CLI::App& app, Targets& targets) {
+    auto& options = targets.render;
+    CommandBuilder command(app, "render", "Draw a picture of a scene, or time its frames");
+    auto& settings = options.settings;
+    addSceneOption(command, options.scene, options.scene);
+    command.device(options.device.choice, options.device.validation);
+    command.name("--renderer", settings.renderer, view::kRendererNames, "How to draw");
+    command.name("--lighting", settings.lighting, view::kLightingStageNames,
+                 "Stage of deferred lighting");
+    command.value("--grid", "XxYxZ", settings.grid, parseGrid, textOf(settings.grid),
+                  fmt::format("Clusters across, down and deep, up to {}x{}x{}",
+                              view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+    addLights(command, settings.lights);
+    command.number("--time", options.time_s, view::kTimeRange, "The lights' clock in seconds");
+    command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),
+                  sizeHelp("Picture"));
+    command.value("--camera", "CAMERA", options.camera, parseCamera, "the scene's first",
+                  "Its name, or \"ex,ey,ez;tx,ty,tz;fov\" in metres and degrees");
+    command.number("--exposure", settings.exposure, view::kExposureRange,
+                   "Multiplies linear radiance");
+    command.name("--tone-map", settings.tone_map, view::kToneMapNames, "After the exposure");
+    addOutputs(command, options);
+    finish(command, options, LogLevel::kWarn, targets);
+}
+
+void addInfo(CLI::App& app, Targets& targets) {
+    auto& options = targets.info;
+    CommandBuilder command(app, "info", "Print the device, and what a scene holds and needs");
+    addSceneOption(command, options.scene, "none");
+    command.device(options.device.choice, options.device.validation);
+    command.cli().add_flag("--json", options.json, "Print JSON");
+    finish(command, options, LogLevel::kWarn, targets);
+}
+
+void addScene(CLI::App& app, Targets& targets) {
+    auto& options = targets.scene;
+    CommandBuilder command(app, "scene", "Write the built-in scene to a file");
+    command.value("--out", "FILE", options.out, parseGlbPath, "", "Binary glTF, .glb")->required();
+    finish(command, options, LogLevel::kWarn, targets);
+}
+
+// What no single option can check.
+void checkRender(const CLI::App& command, const RenderOptions& options) {
+    if (options.out.empty() && options.timings.empty()) {
+        throw CLI::RequiredError("--out FILE, --timings FILE or both");
+    }
+    for (const char* name : {"--quality", "--chroma"}) {
+        const bool jpeg = !options.out.empty() &&
+                          *encode::imageFormatOf(options.out) == encode::ImageFormat::kJpeg;
+        if (command.count(name) > 0 && !jpeg) {
+            throw CLI::ValidationError(
+                name, fmt::format("applies to .jpg only, --out is '{}'", options.out.string()));
+        }
+    }
+}
+
+std::string usageError(const CLI::App& app, const CLI::ParseError& error) {
+    const auto given = app.get_subcommands();
+    const std::string command = given.empty() ? "" : " " + given.front()->get_name();
+    return fmt::format("{} (see froxel{} --help)", error.what(), command);
+}
+
+} // namespace
+
+Options parseOptions(int argc, const char* const* argv) {
+    Targets targets;
+    CLI::App app("Draws glTF scenes lit by thousands of lights and streams them to browsers.",
+                 "froxel");
+    app.set_version_flag("--version", "froxel " FROXEL_VERSION);
+    app.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
+    app.get_formatter()->column_width(36);
+    app.footer(kExitCodes);
+    app.require_subcommand(0, 1); // that one is needed is checked below, in better words
+    addServe(app, targets);
+    addRender(app, targets);
+    addInfo(app, targets);
+    addScene(app, targets);
+    try {
+        app.parse(argc, argv);
+        if (app.get_subcommands().empty()) {
+            throw CLI::RequiredError("a subcommand (serve, render, info or scene)");
+        }
+        if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
+            checkRender(*app.get_subcommand("render"), *render);
+        }
+    } catch (const CLI::CallForVersion& version) {
+        return {PrintText{std::string(version.what()) + "\n"}};
+    } catch (const CLI::CallForAllHelp&) {
+        return {PrintText{app.help("", CLI::AppFormatMode::All)}};
+    } catch (const CLI::CallForHelp&) {
+        return {PrintText{app.help()}};
+    } catch (const CLI::ParseError& error) {
+        throw StartupError({ErrorCode::kInvalidArgument, usageError(app, error)});
+    }
+    return std::move(targets.result);
+}
+
+} // namespace froxel::app

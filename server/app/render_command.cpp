@@ -1,0 +1,129 @@
+#include "app/render_command.h"
+
+#include "app/scene_camera.h"
+#include "app/scene_source.h"
+#include "app/timings_report.h"
+#include "encode/image_file.h"
+#include "render/renderer.h"
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace froxel::app {
+
+namespace {
+
+bool wantsRadiance(const RenderOptions& options) {
+    return !options.out.empty() &&
+           encode::imageFormatOf(options.out).value() == encode::ImageFormat::kPfm;
+}
+
+render::RenderedFrame draw(render::ViewRenderer& viewer, const render::FrameInputs& inputs) {
+    viewer.submit(inputs).value();
+    return std::move(viewer.collect()).value();
+}
+
+void writePicture(const RenderOptions& options,
+                  render::ViewRenderer& viewer,
+                  const PixelView& pixels) {
+    if (wantsRadiance(options)) {
+        const auto linear = viewer.readLinear().value();
+        encode::writePfm(options.out, linear.width_px, linear.height_px, linear.rgb).value();
+    } else {
+        encode::writeImage(options.out, pixels, options.encoding).value();
+    }
+}
+
+// Told before the frames are drawn, not after.
+void requireFolderOf(const std::filesystem::path& file) {
+    const auto folder = std::filesystem::absolute(file).parent_path();
+    if (!std::filesystem::is_directory(folder)) {
+        throw StartupError(
+            {ErrorCode::kIo, fmt::format("cannot write '{}': there is no folder '{}'",
+                                         file.string(), folder.string())});
+    }
+}
+
+void writeReport(const std::filesystem::path& path, const nlohmann::ordered_json& report) {
+    errno = 0;
+    std::ofstream file(path);
+    file << report.dump(2) << '\n';
+    file.close();
+    if (!file) {
+        throw StartupError({ErrorCode::kIo, fmt::format("cannot write '{}': {}", path.string(),
+                                                        std::generic_category().message(errno))});
+    }
+}
+
+TimedRun describeRun(const RenderOptions& options, const gpu::DeviceTraits& device) {
+    return {.device = summarize(device),
+            .scene = options.scene,
+            .settings = options.settings,
+            .time_s = options.time_s,
+            .step_s = options.settings.lights.animate ? kFrameStepS : 0.0,
+            .warmup_count = options.warmup_count,
+            .frames = {}};
+}
+
+// Draws every frame and fills run.frames; returns the last frame.
+render::RenderedFrame
+drawAll(const RenderOptions& options, render::ViewRenderer& viewer, TimedRun& run) {
+    render::FrameInputs inputs{.settings = run.settings, .time_s = run.time_s};
+    for (uint32_t i = 0; i < options.warmup_count; ++i) {
+        draw(viewer, inputs);
+    }
+    render::RenderedFrame last;
+    for (uint32_t i = 0; i < options.frame_count; ++i) {
+        inputs.time_s = run.time_s + i * run.step_s;
+        inputs.keep_radiance = wantsRadiance(options) && i + 1 == options.frame_count;
+        last = draw(viewer, inputs);
+        run.frames.push_back(last.stats);
+    }
+    return last;
+}
+
+} // namespace
+
+void runRender(const RenderOptions& options) try {
+    for (const auto* file : {&options.out, &options.timings}) {
+        if (!file->empty()) {
+            requireFolderOf(*file);
+        }
+    }
+    const auto scene = loadScene(options.scene).value();
+    for (const auto& warning : scene.warnings) {
+        spdlog::warn("scene {}", warning);
+    }
+    gpu::Device device(options.device);
+    auto run = describeRun(options, device.traits());
+    run.settings.camera = findCamera(options.camera, scene).value();
+    render::Renderer renderer(device, scene);
+    render::ViewRenderer viewer(renderer);
+    const auto last = drawAll(options, viewer, run);
+    if (!options.out.empty()) {
+        writePicture(options, viewer, last.pixels.view());
+    }
+    const auto report = timingsReport(run);
+    if (!options.timings.empty()) {
+        writeReport(options.timings, report);
+    }
+    const auto& frame = report["frame"];
+    fmt::print("{} of {}x{}: median {:.1f} ms; GPU {:.1f} ms, host {:.1f} ms\n",
+               run.frames.size() == 1 ? "1 frame" : fmt::format("{} frames", run.frames.size()),
+               run.settings.size.width_px, run.settings.size.height_px,
+               frame["frame_us"]["median"].get<double>() / 1000,
+               frame["gpu_us"]["median"].get<double>() / 1000,
+               frame["host_us"]["median"].get<double>() / 1000);
+} catch (const vk::SystemError& error) {
+    throw StartupError({ErrorCode::kDevice, fmt::format("Vulkan: {}", error.what())});
+}
+
+} // namespace froxel::app

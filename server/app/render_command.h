@@ -1,0 +1,36 @@
+// `froxel render`: a scene to a picture, or to timings along the lights' animation.
+#pragma once
+
+#include "app/value_parsers.h"
+#include "gpu/device_options.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace froxel::app {
+
+// Timed frames are this far apart on the lights' clock.
+inline constexpr double kFrameStepS = 1.0 / 30.0;
+
+struct RenderOptions {
+    std::string scene = "builtin";
+    gpu::DeviceOptions device;
+    view::ViewSettings settings; // but for the camera, which `camera` chooses
+    CameraChoice camera;
+    double time_s = 0; // the lights' clock of the first frame
+    view::Encoding encoding;
+    std::filesystem::path out; // empty: no picture; else .png, .jpg or .pfm, of the last frame
+    uint32_t frame_count = 1;  // frame k is drawn at time_s + k * kFrameStepS
+    // Drawn at time_s before the first frame and not counted: the first frame of a run compiles
+    // pipelines and sizes the light lists.
+    uint32_t warmup_count = 3;
+    std::filesystem::path timings; // empty: none; else timings_report.h's JSON
+};
+
+// Frames are drawn one after another, each collected before the next is submitted.
+// Throws StartupError.
+void runRender(const RenderOptions& options);
+
+} // namespace froxel::app

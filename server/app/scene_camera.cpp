@@ -1,0 +1,42 @@
+#include "app/scene_camera.h"
+
+#include "core/text.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace froxel::app {
+
+namespace {
+
+struct Finder {
+    const scene::Scene& scene;
+
+    Result<view::Camera> operator()(const DefaultCamera&) const {
+        return scene.cameras.empty() ? view::overview(scene.bounds_world)
+                                     : scene.cameras.front().camera;
+    }
+    Result<view::Camera> operator()(const view::Camera& camera) const { return camera; }
+    Result<view::Camera> operator()(const std::string& name) const {
+        const auto found = std::ranges::find(scene.cameras, name, &scene::NamedCamera::name);
+        if (found != scene.cameras.end()) {
+            return found->camera;
+        }
+        std::string names;
+        for (const auto& camera : scene.cameras) {
+            names += (names.empty() ? "" : ", ") + printable(camera.name);
+        }
+        return Error{ErrorCode::kInvalidArgument,
+                     fmt::format("--camera: '{}' is no camera of this scene; it has {}",
+                                 printable(name), names.empty() ? "none" : names)};
+    }
+};
+
+} // namespace
+
+Result<view::Camera> findCamera(const CameraChoice& choice, const scene::Scene& scene) {
+    return std::visit(Finder{scene}, choice);
+}
+
+} // namespace froxel::app

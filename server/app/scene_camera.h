@@ -1,0 +1,13 @@
+// A camera choice and a scene to a camera.
+#pragma once
+
+#include "app/value_parsers.h"
+#include "scene/scene.h"
+
+namespace froxel::app {
+
+// Errors: kInvalidArgument, naming the camera asked for and those that the scene has.
+[[nodiscard]] Result<view::Camera> findCamera(const CameraChoice& choice,
+                                              const scene::Scene& scene);
+
+} // namespace froxel::app

@@ -1,0 +1,15 @@
+// Where a scene comes from: the one entry point for `--scene PATH|builtin`.
+#pragma once
+
+#include "core/error.h"
+#include "scene/scene.h"
+
+#include <string>
+
+namespace froxel::app {
+
+// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file.
+// Errors: ErrorCode::kScene with one line.
+[[nodiscard]] Result<scene::Scene> loadScene(const std::string& source);
+
+} // namespace froxel::app

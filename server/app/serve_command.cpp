@@ -1,0 +1,131 @@
+#include "app/serve_command.h"
+
+#include "app/scene_source.h"
+#include "app/serve_run.h"
+#include "core/latest_slot.h"
+#include "core/text.h"
+#include "gpu/device.h"
+#include "net/stop_signal.h"
+#include "stream/renderer_source.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace froxel::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// After this long, viewers that have not closed are dropped.
+constexpr std::chrono::seconds kDrainDeadline{5};
+
+session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_cpu) {
+    auto defaults =
+        session::defaultsFor(device_is_cpu ? session::DeviceKind::kCpu : session::DeviceKind::kGpu);
+    defaults.size = options.size.value_or(defaults.size);
+    defaults.encoding.quality = options.quality.value_or(defaults.encoding.quality);
+    defaults.light_count = options.light_count.value_or(defaults.light_count);
+    defaults.light_radius_m = static_cast<float>(
+        options.light_radius_m.value_or(static_cast<double>(defaults.light_radius_m)));
+    defaults.renderer = options.renderer.value_or(defaults.renderer);
+    return defaults;
+}
+
+// On the render thread, which owns all of it from then on.
+OpenedScene openScene(const ServeOptions& options,
+                      const std::function<void(net::LoadingProgress)>& report) {
+    report({"opening the device", 0.0});
+    auto device = std::make_unique<gpu::Device>(
+        gpu::DeviceOptions{.choice = options.device, .validation = options.validation});
+    const gpu::DeviceTraits& traits = device->traits();
+
+    report({"loading the scene", 0.1});
+    const scene::Scene scene = loadScene(options.scene).value();
+    for (const std::string& warning : scene.warnings) {
+        spdlog::warn("scene: {}", printable(warning, 400));
+    }
+    session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
+                                    FROXEL_VERSION, traits.name};
+    spdlog::info("scene={} triangles={} draws={} cameras={}", printable(context.scene.name),
+                 context.scene.triangle_count, context.scene.draw_count,
+                 context.scene.cameras.size());
+
+    report({"moving the scene to the device", 0.6});
+    auto source = stream::makeRendererSource(std::move(device), scene);
+    report({"ready", 1.0});
+    return {std::move(source), std::move(context)};
+}
+
+// The page beside the binary, or where this build made it; empty when there is none.
+fs::path findWebRoot(const ServeOptions& options) {
+    if (!options.web_root.empty()) {
+        return options.web_root;
+    }
+    std::error_code failure;
+    const fs::path binary = fs::read_symlink("/proc/self/exe", failure);
+    for (const fs::path& root : {binary.parent_path() / "web", fs::path(FROXEL_WEB_ROOT)}) {
+        if (fs::exists(root / "index.html", failure)) {
+            return root;
+        }
+    }
+    spdlog::warn("no page found; ./deploy/build.sh makes it, --web-root names another");
+    return {};
+}
+
+std::string urlOf(const std::string& address, uint16_t port) {
+    const bool v6 = address.find(':') != std::string::npos;
+    return "http://" + (v6 ? "[" + address + "]" : address) + ":" + numberText(port) + "/";
+}
+
+ServeRunOptions runOptions(const ServeOptions& options) {
+    const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
+    ServeRunOptions run;
+    run.server.address = options.address;
+    run.server.port = options.port;
+    run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
+    run.server.connections_max = 256 + 4 * options.sessions_max;
+    run.server.web_root = findWebRoot(options);
+    run.server.allowed_origins = options.allowed_origins;
+    run.sessions_max = options.sessions_max;
+    run.encoder_count = std::clamp(cores / 2, 1U, 16U);
+    run.open = [options](const auto& report) { return openScene(options, report); };
+    return run;
+}
+
+} // namespace
+
+int runServe(const ServeOptions& options) {
+    net::StopSignal stop;
+    LatestSlot<Error> failure; // of the render thread
+    ServeRunOptions run_options = runOptions(options);
+    run_options.on_failure = [&](const Error& error) {
+        failure.put(error);
+        stop.request();
+    };
+    ServeRun run(std::move(run_options));
+    std::printf("%s\n", urlOf(options.address, run.port()).c_str());
+    std::fflush(stdout);
+
+    const int signal = stop.wait();
+    spdlog::info("draining signal={}", signal);
+    const bool all_closed = run.drain(kDrainDeadline);
+    spdlog::info("drained all_closed={}", all_closed);
+    if (auto error = failure.take()) {
+        throw StartupError(std::move(*error));
+    }
+    if (!run.opened()) {
+        // Still loading, which cannot be interrupted, and nobody has anything to lose.
+        spdlog::shutdown();
+        std::quick_exit(EXIT_SUCCESS);
+    }
+    return EXIT_SUCCESS;
+}
+
+} // namespace froxel::app

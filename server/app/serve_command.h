@@ -1,0 +1,40 @@
+// `froxel serve`: puts the rooms together, runs until a signal, and drains.
+#pragma once
+
+#include "gpu/device_options.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace froxel::app {
+
+struct ServeOptions {
+    std::string address = "127.0.0.1"; // IPv4 or IPv6, no host names
+    uint16_t port = 8080;              // 0: any free one; the printed URL tells which
+    std::string scene = "builtin";     // as for loadScene()
+    gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
+    bool validation = false;
+    uint32_t sessions_max = 16; // viewers at once; more are refused
+    // What a viewer gets before asking for anything; absent: session::defaultsFor(the device).
+    std::optional<view::Size> size;
+    std::optional<uint32_t> quality; // view::kQualityRange
+    std::optional<uint32_t> light_count;
+    std::optional<double> light_radius_m;
+    std::optional<view::Renderer> renderer;
+    // The built page. Empty: web/ beside the binary, else where this build made it.
+    std::filesystem::path web_root;
+    // Origins ("https://example.org") that may connect besides the server's own.
+    std::vector<std::string> allowed_origins;
+};
+
+// Prints one line with the URL to stdout once it listens; logs to stderr. Blocks until SIGTERM or
+// SIGINT has drained every session and returns 0; a second signal ends the process at once.
+// Throws StartupError: kAddressInUse, kIo (address, page), kScene, kDevice (also when the device
+// is lost while serving).
+[[nodiscard]] int runServe(const ServeOptions& options);
+
+} // namespace froxel::app

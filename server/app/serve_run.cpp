@@ -1,0 +1,32 @@
+#include "app/serve_run.h"
+
+#include <utility>
+
+namespace froxel::app {
+
+// A viewer has at most one picture in the encoders, so the queue never refuses one.
+ServeRun::ServeRun(ServeRunOptions options)
+    : options_(std::move(options)), pool_(options_.encoder_count, options_.sessions_max),
+      server_(std::make_unique<net::Server>(options_.server)), loop_(pool_, loopOptions()) {}
+
+ServeRun::~ServeRun() {
+    loop_.stop();    // no picture is on its way to a connection after this
+    server_.reset(); // connections take their leave of the loop
+}
+
+stream::RenderLoopOptions ServeRun::loopOptions() {
+    stream::RenderLoopOptions loop;
+    loop.sessions_max = options_.sessions_max;
+    loop.on_failure = options_.on_failure;
+    loop.make_source = [this] {
+        net::Service& service = server_->service();
+        OpenedScene opened = options_.open(
+            [&service](net::LoadingProgress progress) { service.setLoading(std::move(progress)); });
+        auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
+        service.setServing({std::move(context), &loop_});
+        return std::move(opened.source);
+    };
+    return loop;
+}
+
+} // namespace froxel::app

@@ -1,0 +1,56 @@
+// A running server put together from its rooms: network, render loop, encoders. Tests run it with
+// a frame source of their own; serve_command.cpp with the real one.
+#pragma once
+
+#include "encode/encode_pool.h"
+#include "net/server.h"
+#include "session/session_context.h"
+#include "stream/render_loop.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+
+namespace froxel::app {
+
+// A scene on a device, ready to be drawn.
+struct OpenedScene {
+    std::unique_ptr<stream::FrameSource> source;
+    session::SessionContext context;
+};
+
+struct ServeRunOptions {
+    net::ServerOptions server;
+    uint32_t sessions_max = 16;
+    uint32_t encoder_count = 1;
+    // Runs on the render thread while the server already listens. May throw.
+    std::function<OpenedScene(const std::function<void(net::LoadingProgress)>& report)> open;
+    // The scene could not be opened or the device was lost. On the render thread; must not throw.
+    std::function<void(const Error&)> on_failure;
+};
+
+class ServeRun {
+  public:
+    // Listens when it returns. Throws StartupError: kAddressInUse, kIo.
+    explicit ServeRun(ServeRunOptions options);
+    // Ends at once; shutDown() before it is the polite way.
+    ~ServeRun();
+    ServeRun(const ServeRun&) = delete;
+    ServeRun& operator=(const ServeRun&) = delete;
+
+    [[nodiscard]] uint16_t port() const { return server_->port(); }
+    // Whether the scene is open; until then the render thread cannot be stopped.
+    [[nodiscard]] bool opened() const { return server_->service().status().serving.has_value(); }
+    // Tells every viewer, waits for their connections to close; whether all did in time.
+    bool drain(std::chrono::milliseconds deadline) { return server_->drain(deadline); }
+
+  private:
+    [[nodiscard]] stream::RenderLoopOptions loopOptions();
+
+    ServeRunOptions options_;
+    encode::EncodePool pool_;
+    std::unique_ptr<net::Server> server_; // goes after the loop has stopped and before it is gone
+    stream::RenderLoop loop_;
+};
+
+} // namespace froxel::app

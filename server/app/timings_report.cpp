@@ -1,0 +1,137 @@
+#include "app/timings_report.h"
+
+#include "app/sample_summary.h"
+
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+namespace froxel::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const glm::dvec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Json toJson(std::vector<double> samples) {
+    const auto summary = summarize(std::move(samples));
+    return {{"min", summary.min},
+            {"median", summary.median},
+            {"p95", summary.p95},
+            {"max", summary.max}};
+}
+
+Json toJson(const view::Camera& camera) {
+    Json json = {{"eye", toJson(camera.eye_world)},
+                 {"target", toJson(camera.target_world())},
+                 {"up", toJson(camera.world_from_view[1])}};
+    if (camera.projection == view::Projection::kPerspective) {
+        json["yfov_deg"] = glm::degrees(camera.yfov_rad);
+    } else {
+        json["half_height_m"] = camera.half_height_m;
+    }
+    return json;
+}
+
+Json toJson(const view::Lights& lights) {
+    return {{"count", lights.count},
+            {"radius_m", lights.radius_m},
+            {"intensity", lights.intensity},
+            {"seed", lights.seed},
+            {"animate", lights.animate},
+            {"box_m", lights.box
+                          ? Json{{"min", toJson(lights.box->min)}, {"max", toJson(lights.box->max)}}
+                          : Json(nullptr)},
+            {"ambient", lights.ambient},
+            {"scene_lights", lights.scene_lights}};
+}
+
+Json toJson(const view::ViewSettings& settings) {
+    const auto nameOf = [](const auto& names, auto value) {
+        return std::string(names[static_cast<size_t>(value)]);
+    };
+    return {{"renderer", nameOf(view::kRendererNames, settings.renderer)},
+            {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
+            {"width_px", settings.size.width_px},
+            {"height_px", settings.size.height_px},
+            {"grid", {settings.grid.x, settings.grid.y, settings.grid.z}},
+            {"camera", toJson(settings.camera)},
+            {"lights", toJson(settings.lights)},
+            {"exposure", settings.exposure},
+            {"tone_map", nameOf(view::kToneMapNames, settings.tone_map)}};
+}
+
+Json toJson(const FrameStats& stats) {
+    const auto& lists = stats.lists;
+    return {{"triangles", stats.triangle_count},
+            {"draws", stats.draw_count},
+            {"light_lists",
+             {{"lights", lists.light_count},
+              {"clusters", lists.cluster_count},
+              {"empty", lists.empty_count},
+              {"entries", lists.entry_count},
+              {"largest", lists.largest},
+              {"overflowed", lists.overflowed},
+              {"mean", lists.mean}}}};
+}
+
+Json frameTimes(const std::vector<FrameStats>& frames) {
+    const auto collect = [&](double FrameStats::*time) {
+        std::vector<double> samples;
+        samples.reserve(frames.size());
+        for (const auto& frame : frames) {
+            samples.push_back(frame.*time);
+        }
+        return toJson(std::move(samples));
+    };
+    return {{"gpu_us", collect(&FrameStats::gpu_us)},
+            {"host_us", collect(&FrameStats::host_us)},
+            {"frame_us", collect(&FrameStats::frame_us)}};
+}
+
+Json passTimes(const std::vector<FrameStats>& frames) {
+    std::vector<std::pair<std::string_view, std::vector<double>>> passes;
+    for (const auto& frame : frames) {
+        for (const auto& pass : frame.passes) {
+            auto known = std::find_if(passes.begin(), passes.end(),
+                                      [&](const auto& entry) { return entry.first == pass.name; });
+            if (known == passes.end()) {
+                known = passes.insert(known, {pass.name, {}});
+            }
+            known->second.push_back(pass.gpu_us);
+        }
+    }
+    Json json = Json::array();
+    for (auto& [name, samples] : passes) {
+        const size_t count = samples.size();
+        json.push_back({{"name", name}, {"frames", count}, {"gpu_us", toJson(std::move(samples))}});
+    }
+    return json;
+}
+
+} // namespace
+
+Json timingsReport(const TimedRun& run) {
+    return {{"schema", "froxel.timings.v1"},
+            {"froxel", FROXEL_VERSION},
+            {"device", toJson(run.device)},
+            {"host", {{"threads", std::thread::hardware_concurrency()}}},
+            {"scene", run.scene},
+            {"settings", toJson(run.settings)},
+            {"frames", run.frames.size()},
+            {"warmup_frames", run.warmup_count},
+            {"time_s", run.time_s},
+            {"step_s", run.step_s},
+            {"frame", frameTimes(run.frames)},
+            {"passes", passTimes(run.frames)},
+            {"last_frame", toJson(run.frames.back())}};
+}
+
+} // namespace froxel::app

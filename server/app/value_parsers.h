@@ -1,0 +1,53 @@
+// Texts of the command line to values: pure and strict (no NaN, nothing after the value, ranges
+// from view/ranges.h). Errors are kInvalidArgument; the message quotes the text and says what
+// would be right, and the caller puts the option's name before it.
+#pragma once
+
+#include "core/error.h"
+#include "view/ranges.h"
+#include "view/settings.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace froxel::app {
+
+// The scene's first camera (the whole scene in view when it has none), a scene's camera by its
+// name, or one given by numbers.
+struct DefaultCamera {
+    bool operator==(const DefaultCamera&) const = default;
+};
+using CameraChoice = std::variant<DefaultCamera, std::string, view::Camera>;
+
+// "a whole number from 0 to 100000": for messages and help.
+[[nodiscard]] std::string describe(const view::Range<uint32_t>& range);
+[[nodiscard]] std::string describe(const view::Range<double>& range);
+// "naive, forward_plus or toon_compute": for messages and help.
+[[nodiscard]] std::string describe(std::span<const std::string_view> names);
+
+[[nodiscard]] Result<uint32_t> parseNumber(std::string_view text,
+                                           const view::Range<uint32_t>& range);
+[[nodiscard]] Result<double> parseNumber(std::string_view text, const view::Range<double>& range);
+
+// The position of `text` in `names`.
+[[nodiscard]] Result<size_t> parseName(std::string_view text,
+                                       std::span<const std::string_view> names);
+
+// "1280x720", in pixels.
+[[nodiscard]] Result<view::Size> parseSize(std::string_view text);
+
+// "16x9x24": tiles across, tiles down, depth slices.
+[[nodiscard]] Result<view::GridSize> parseGrid(std::string_view text);
+
+// "x,y,z;x,y,z" in metres: the least corner, then the greatest, apart on every axis.
+[[nodiscard]] Result<BoundsD3> parseBox(std::string_view text);
+
+// "ex,ey,ez;tx,ty,tz;fov": eye and target in metres, full vertical angle in degrees, upright (+Y).
+// A text without a semicolon is a scene camera's name; whether it exists is not known here.
+[[nodiscard]] Result<CameraChoice> parseCamera(std::string_view text);
+
+} // namespace froxel::app

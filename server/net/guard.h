@@ -1,0 +1,23 @@
+// No exception leaves a handler: it would end the thread that serves every connection.
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
+namespace froxel::net {
+
+// Runs `work`; an exception (out of memory, at most) is logged and false returned, upon which the
+// caller gives up its connection.
+template <class Work>
+[[nodiscard]] bool guarded(const char* where, const Work& work) {
+    try {
+        work();
+        return true;
+    } catch (const std::exception& error) {
+        spdlog::error("{}: {}", where, error.what());
+        return false;
+    }
+}
+
+} // namespace froxel::net

@@ -1,0 +1,210 @@
+#include "net/http_session.h"
+
+#include "core/text.h"
+#include "net/guard.h"
+#include "net/origin.h"
+#include "net/ws_connection.h"
+#include "protocol/limits.h"
+
+#include <boost/asio/dispatch.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/rfc7230.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include <utility>
+
+namespace froxel::net {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+namespace {
+
+// How long, and how much, a connection may still send after its last answer.
+constexpr std::chrono::seconds kLinger{2};
+constexpr size_t kMaxDiscardedBytes = size_t{256} * 1024;
+
+std::string_view viewOf(beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
+// Why this request may not become a WebSocket; none when it may.
+std::optional<Response> refuseUpgrade(const Request& request, const Site& site) {
+    if (pathOf(request) != kSocketPath) {
+        return refusal(http::status::not_found, "the WebSocket is at /ws");
+    }
+    std::optional<std::string_view> origin;
+    if (const auto found = request.find(http::field::origin); found != request.end()) {
+        origin = viewOf(found->value());
+    }
+    const auto host = viewOf(request[http::field::host]);
+    if (!originAllowed(origin, host, site.allowed_origins)) {
+        spdlog::warn("refused a WebSocket for origin {} at host {}", printable(*origin),
+                     printable(host));
+        return refusal(http::status::forbidden,
+                       "origin " + printable(*origin) + " may not connect to " + printable(host));
+    }
+    const auto named = request.find(http::field::sec_websocket_protocol);
+    if (named != request.end() && !http::token_list(named->value())
+                                       .exists(beast::string_view(protocol::kSubprotocol.data(),
+                                                                  protocol::kSubprotocol.size()))) {
+        return refusal(http::status::bad_request,
+                       "this server speaks the subprotocol " + std::string(protocol::kSubprotocol));
+    }
+    if (site.service->status().draining) {
+        return refusal(http::status::service_unavailable, "the server is going down");
+    }
+    return {};
+}
+
+} // namespace
+
+HttpSession::HttpSession(boost::asio::ip::tcp::socket socket,
+                         std::shared_ptr<const Site> site,
+                         ConnectionTicket ticket)
+    : stream_(std::move(socket)), request_deadline_(stream_.get_executor()), site_(std::move(site)),
+      ticket_(std::move(ticket)) {}
+
+void HttpSession::start() {
+    boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] {
+        if (!guarded("http start", [&] {
+                self->site_->service->subscribe(self);
+                self->read();
+            })) {
+            self->close();
+        }
+    });
+}
+
+void HttpSession::onServiceChanged() {
+    boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] {
+        const bool waiting = self->reading_ && !self->parser_->got_some();
+        if (waiting && self->site_->service->status().draining) {
+            self->close();
+        }
+    });
+}
+
+void HttpSession::read() {
+    parser_.emplace();
+    parser_->header_limit(kMaxHeaderBytes);
+    parser_->body_limit(boost::none);
+    reading_ = true;
+    late_ = false;
+    // One deadline for the whole request, however slowly its bytes trickle in. Not the stream's
+    // own timeout: that closes the socket, and 408 could not be said.
+    stream_.expires_never();
+    request_deadline_.expires_after(kDeadline);
+    request_deadline_.async_wait([self = shared_from_this()](beast::error_code error) {
+        const bool due = self->request_deadline_.expiry() <= std::chrono::steady_clock::now();
+        if (!error && due && self->reading_) {
+            self->late_ = true;
+            self->stream_.cancel();
+        }
+    });
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](beast::error_code error, size_t) {
+                                if (!guarded("http read", [&] { self->onRead(error); })) {
+                                    self->close();
+                                }
+                            });
+}
+
+void HttpSession::onRead(beast::error_code error) {
+    reading_ = false;
+    request_deadline_.cancel();
+    if (error) {
+        onReadError(error);
+    } else {
+        onRequest();
+    }
+}
+
+void HttpSession::onReadError(beast::error_code error) {
+    if (error == http::error::header_limit || error == http::error::buffer_overflow) {
+        write(refusal(http::status::request_header_fields_too_large,
+                      "the request's header has more than " + numberText(kMaxHeaderBytes) +
+                          " bytes"));
+    } else if (late_ && parser_->got_some()) {
+        write(refusal(http::status::request_timeout,
+                      "no complete request within " + numberText(kDeadline.count()) + " s"));
+    } else if (error.category() == beast::error_code(http::error::bad_method).category() &&
+               error != http::error::end_of_stream && error != http::error::partial_message) {
+        write(refusal(http::status::bad_request, "not an HTTP request: " + error.message()));
+    } else {
+        close();
+    }
+}
+
+void HttpSession::onRequest() {
+    if (!parser_->is_done()) { // the header is complete and something is to follow
+        write(refusal(http::status::payload_too_large, "requests have no body here"));
+        return;
+    }
+    const bool wants_socket = beast::websocket::is_upgrade(parser_->get());
+    Request request = parser_->release();
+    parser_.reset();
+    if (wants_socket) {
+        upgrade(std::move(request));
+    } else {
+        write(respond(request, site_->files, site_->service->status()));
+    }
+}
+
+void HttpSession::upgrade(Request request) {
+    if (auto refused = refuseUpgrade(request, *site_)) {
+        write(std::move(*refused));
+    } else if (buffer_.size() > 0) {
+        write(refusal(http::status::bad_request, "bytes before the answer to the upgrade"));
+    } else {
+        stream_.expires_never();
+        std::make_shared<WsConnection>(std::move(stream_), site_, std::move(ticket_))
+            ->start(std::move(request));
+    }
+}
+
+void HttpSession::write(Response response) {
+    response_ = std::move(response);
+    stream_.expires_after(kDeadline);
+    http::async_write(stream_, response_,
+                      [self = shared_from_this()](beast::error_code error, size_t) {
+                          if (!guarded("http write", [&] { self->onWritten(error); })) {
+                              self->close();
+                          }
+                      });
+}
+
+void HttpSession::onWritten(beast::error_code error) {
+    if (error) {
+        close();
+    } else if (response_.need_eof() || site_->service->status().draining) {
+        beast::error_code ignored;
+        stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+        stream_.expires_after(kLinger);
+        linger();
+    } else {
+        read();
+    }
+}
+
+// Closing with bytes unread would reset the connection, and the answer might never be seen.
+void HttpSession::linger() {
+    stream_.async_read_some(boost::asio::buffer(discarded_),
+                            [self = shared_from_this()](beast::error_code error, size_t bytes) {
+                                self->discarded_bytes_ += bytes;
+                                if (error || self->discarded_bytes_ > kMaxDiscardedBytes) {
+                                    self->close();
+                                } else {
+                                    self->linger();
+                                }
+                            });
+}
+
+void HttpSession::close() {
+    reading_ = false;
+    request_deadline_.cancel();
+    stream_.close();
+}
+
+} // namespace froxel::net

@@ -1,0 +1,58 @@
+// One TCP connection while it speaks HTTP: answers requests until it closes or becomes a
+// WebSocket. One strand.
+#pragma once
+
+#include "net/http_routes.h"
+#include "net/site.h"
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/parser.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+
+namespace froxel::net {
+
+class HttpSession final : public ServiceListener, public std::enable_shared_from_this<HttpSession> {
+  public:
+    static constexpr uint32_t kMaxHeaderBytes = 8 * 1024;
+    // For one whole request, and for one whole response.
+    static constexpr std::chrono::seconds kDeadline{10};
+
+    HttpSession(boost::asio::ip::tcp::socket socket,
+                std::shared_ptr<const Site> site,
+                ConnectionTicket ticket);
+    void start();
+    // Ends a connection that is between requests when the server drains.
+    void onServiceChanged() override;
+
+  private:
+    using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
+
+    void read();
+    void onRead(boost::beast::error_code error);
+    void onReadError(boost::beast::error_code error);
+    void onRequest();
+    void upgrade(Request request);
+    void write(Response response);
+    void onWritten(boost::beast::error_code error);
+    void linger();
+    void close();
+
+    boost::beast::tcp_stream stream_;
+    boost::asio::steady_timer request_deadline_;
+    bool reading_ = false;
+    bool late_ = false;
+    const std::shared_ptr<const Site> site_;
+    ConnectionTicket ticket_;
+    boost::beast::flat_buffer buffer_;
+    std::optional<Parser> parser_;
+    Response response_;
+    std::array<std::byte, 4096> discarded_{};
+    size_t discarded_bytes_ = 0;
+};
+
+} // namespace froxel::net

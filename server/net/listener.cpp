@@ -1,0 +1,126 @@
+#include "net/listener.h"
+
+#include "core/error.h"
+#include "core/text.h"
+#include "net/guard.h"
+#include "net/http_session.h"
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/strand.hpp>
+
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <utility>
+
+namespace froxel::net {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using Failure = boost::system::error_code;
+
+namespace {
+
+// How long to leave the queue alone when the process has no descriptor or memory left.
+constexpr std::chrono::milliseconds kBackOff{100};
+// Unsent bytes that the kernel may hold for one connection: what waits there grows old.
+constexpr int kNotSentBytes = 128 * 1024;
+
+[[noreturn]] void refuseStart(const std::string& address, uint16_t port, const Failure& failure) {
+    const bool taken = failure == asio::error::address_in_use;
+    throw StartupError(
+        {taken ? ErrorCode::kAddressInUse : ErrorCode::kIo,
+         "cannot listen on " + address + " port " + numberText(port) + ": " +
+             (taken ? "it is in use; choose another with --port" : failure.message())});
+}
+
+bool outOfResources(const Failure& failure) {
+    return failure == asio::error::no_descriptors || failure == asio::error::no_memory ||
+           failure == asio::error::no_buffer_space ||
+           failure == boost::system::errc::too_many_files_open_in_system;
+}
+
+void tune(tcp::socket& socket) {
+    Failure ignored; // a socket that closed meanwhile fails at its first read
+    socket.set_option(tcp::no_delay(true), ignored);
+    using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+    socket.set_option(NotSentLowWater(kNotSentBytes), ignored);
+}
+
+} // namespace
+
+Listener::Listener(asio::io_context& io,
+                   const std::string& address,
+                   uint16_t port,
+                   uint32_t connections_max,
+                   std::shared_ptr<const Site> site)
+    : io_(io), acceptor_(asio::make_strand(io)), back_off_(acceptor_.get_executor()),
+      connections_max_(connections_max), site_(std::move(site)),
+      connection_count_(std::make_shared<std::atomic<uint32_t>>(0)) {
+    Failure failure;
+    const auto ip = asio::ip::make_address(address, failure);
+    if (failure) {
+        throw StartupError(
+            {ErrorCode::kIo, "address \"" + printable(address) + "\" is no IPv4 or IPv6 address"});
+    }
+    const tcp::endpoint endpoint(ip, port);
+    acceptor_.open(endpoint.protocol(), failure);
+    if (!failure) {
+        acceptor_.set_option(asio::socket_base::reuse_address(true), failure);
+    }
+    if (!failure) {
+        acceptor_.bind(endpoint, failure);
+    }
+    if (!failure) {
+        acceptor_.listen(asio::socket_base::max_listen_connections, failure);
+    }
+    if (failure) {
+        refuseStart(address, port, failure);
+    }
+    port_ = acceptor_.local_endpoint().port();
+}
+
+void Listener::start() {
+    asio::post(acceptor_.get_executor(), [self = shared_from_this()] { self->accept(); });
+}
+
+void Listener::stop() {
+    asio::post(acceptor_.get_executor(), [self = shared_from_this()] {
+        Failure ignored;
+        self->acceptor_.close(ignored);
+        self->back_off_.cancel();
+    });
+}
+
+void Listener::accept() {
+    if (!acceptor_.is_open()) {
+        return;
+    }
+    acceptor_.async_accept(
+        asio::make_strand(io_), [self = shared_from_this()](Failure failure, tcp::socket socket) {
+            if (!guarded("accept", [&] { self->onAccepted(failure, std::move(socket)); })) {
+                self->accept();
+            }
+        });
+}
+
+void Listener::onAccepted(Failure failure, tcp::socket socket) {
+    if (failure == asio::error::operation_aborted) {
+        return;
+    }
+    if (outOfResources(failure)) {
+        spdlog::warn("accepting pauses: {}", failure.message());
+        back_off_.expires_after(kBackOff);
+        back_off_.async_wait([self = shared_from_this()](Failure) { self->accept(); });
+        return;
+    }
+    if (!failure && connection_count_->load() < connections_max_) {
+        ++*connection_count_;
+        ConnectionTicket ticket(nullptr, [count = connection_count_](const void*) { --*count; });
+        tune(socket);
+        std::make_shared<HttpSession>(std::move(socket), site_, std::move(ticket))->start();
+    }
+    // Over the cap, the socket closes here: serving a refusal would take what is short.
+    accept();
+}
+
+} // namespace froxel::net

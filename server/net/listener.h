@@ -1,0 +1,43 @@
+// Accepts connections and gives each a strand of its own.
+#pragma once
+
+#include "net/site.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+namespace froxel::net {
+
+class Listener final : public std::enable_shared_from_this<Listener> {
+  public:
+    // Listens at once. Throws StartupError: kAddressInUse, kIo (no such address here).
+    Listener(boost::asio::io_context& io,
+             const std::string& address,
+             uint16_t port,
+             uint32_t connections_max,
+             std::shared_ptr<const Site> site);
+
+    [[nodiscard]] uint16_t port() const { return port_; }
+    void start();
+    // Any thread.
+    void stop();
+
+  private:
+    void accept();
+    void onAccepted(boost::system::error_code error, boost::asio::ip::tcp::socket socket);
+
+    boost::asio::io_context& io_;
+    boost::asio::ip::tcp::acceptor acceptor_; // on a strand of its own
+    boost::asio::steady_timer back_off_;
+    const uint32_t connections_max_;
+    const std::shared_ptr<const Site> site_;
+    const std::shared_ptr<std::atomic<uint32_t>> connection_count_;
+    uint16_t port_ = 0;
+};
+
+} // namespace froxel::net

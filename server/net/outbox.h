@@ -1,0 +1,56 @@
+// What waits to be written to one connection, bounded: answers in a short queue, the state in one
+// slot, the picture in one slot; newer states and pictures replace older ones. One strand.
+#pragma once
+
+#include "core/encoded_frame.h"
+#include "protocol/framing.h"
+#include "session/stream_port.h"
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+
+namespace froxel::net {
+
+// One WebSocket message: the head, then the body if there is one.
+struct Outgoing {
+    std::string head;
+    SharedBytes body;
+    protocol::WireFormat format = protocol::WireFormat::kBinary;
+
+    [[nodiscard]] size_t size() const { return head.size() + (body ? body->size() : 0); }
+};
+
+class Outbox {
+  public:
+    static constexpr size_t kMaxAnswers = 64;
+
+    // False, and nothing kept, when kMaxAnswers are waiting: the client does not read.
+    [[nodiscard]] bool putAnswer(Outgoing answer);
+    void putState() { state_due_ = true; }
+    void putFrame(session::ReadyFrame frame);
+    // Pictures and states are not wanted any more.
+    void keepAnswersOnly();
+
+    enum class Next { kNothing, kAnswer, kState, kFrame };
+    // Answers first; states and pictures take turns, so that neither a flood of commands nor a
+    // flood of pictures starves the other.
+    [[nodiscard]] Next next(bool frame_allowed) const;
+    [[nodiscard]] Outgoing takeAnswer();
+    void takeState();
+    [[nodiscard]] session::ReadyFrame takeFrame();
+
+    [[nodiscard]] bool hasFrame() const { return frame_.has_value(); }
+    // Pictures that a newer one replaced.
+    [[nodiscard]] uint32_t droppedCount() const { return dropped_count_; }
+
+  private:
+    std::deque<Outgoing> answers_;
+    std::optional<session::ReadyFrame> frame_;
+    bool state_due_ = false;
+    bool state_was_last_ = false;
+    uint32_t dropped_count_ = 0;
+};
+
+} // namespace froxel::net

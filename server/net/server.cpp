@@ -1,0 +1,79 @@
+#include "net/server.h"
+
+#include "net/guard.h"
+#include "net/listener.h"
+#include "net/site.h"
+
+#include <boost/asio/io_context.hpp>
+
+#include <algorithm>
+#include <future>
+#include <thread>
+#include <utility>
+
+namespace froxel::net {
+
+namespace {
+
+std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
+    auto site = std::make_shared<Site>();
+    if (!options.web_root.empty()) {
+        site->files = StaticFiles::load(options.web_root).value();
+    }
+    site->allowed_origins = options.allowed_origins;
+    site->service = std::make_shared<Service>();
+    return site;
+}
+
+} // namespace
+
+struct Server::Impl {
+    explicit Impl(const ServerOptions& options)
+        : io(static_cast<int>(options.thread_count)), site(makeSite(options)),
+          listener(std::make_shared<Listener>(
+              io, options.address, options.port, options.connections_max, site)) {
+        listener->start();
+        for (uint32_t i = 0; i < options.thread_count; ++i) {
+            std::packaged_task<void()> task([this] { work(); });
+            done.push_back(task.get_future());
+            threads.emplace_back(std::move(task));
+        }
+    }
+    ~Impl() { io.stop(); }
+
+    // Handlers guard themselves; this is for what none foresaw.
+    void work() {
+        while (!guarded("network thread", [this] { io.run(); })) {
+        }
+    }
+
+    boost::asio::io_context io;
+    const std::shared_ptr<const Site> site;
+    const std::shared_ptr<Listener> listener;
+    std::vector<std::future<void>> done;
+    std::vector<std::jthread> threads; // last: they end before what they use
+};
+
+Server::Server(const ServerOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+
+Server::~Server() = default;
+
+uint16_t Server::port() const {
+    return impl_->listener->port();
+}
+
+Service& Server::service() {
+    return *impl_->site->service;
+}
+
+bool Server::drain(std::chrono::milliseconds deadline) {
+    const auto end = std::chrono::steady_clock::now() + deadline;
+    impl_->listener->stop();
+    impl_->site->service->setDraining(deadline);
+    // The threads end by themselves when no connection is left.
+    return std::all_of(impl_->done.begin(), impl_->done.end(), [&](const auto& done) {
+        return done.wait_until(end) == std::future_status::ready;
+    });
+}
+
+} // namespace froxel::net

@@ -1,0 +1,45 @@
+// The network room's door: a listener, its threads, and what all connections share.
+#pragma once
+
+#include "net/service.h"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace froxel::net {
+
+struct ServerOptions {
+    std::string address = "127.0.0.1";
+    uint16_t port = 0; // 0: any free one
+    uint32_t thread_count = 1;
+    uint32_t connections_max = 512; // of any kind; sessions have a limit of their own
+    std::filesystem::path web_root; // empty: no page
+    std::vector<std::string> allowed_origins;
+};
+
+class Server {
+  public:
+    // Listens and answers at once, in the loading state. Throws StartupError: kAddressInUse, kIo.
+    explicit Server(const ServerOptions& options);
+    // Drops what is left of the connections.
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    [[nodiscard]] uint16_t port() const;
+    // Where progress, readiness and draining are told. Any thread.
+    [[nodiscard]] Service& service();
+
+    // Accepts no more, tells everyone, and waits until the last connection has closed or the
+    // deadline is over; whether all closed by themselves.
+    bool drain(std::chrono::milliseconds deadline);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace froxel::net

@@ -1,0 +1,23 @@
+// What all connections of one server have in common. Immutable but for the service, which any
+// thread may use.
+#pragma once
+
+#include "net/service.h"
+#include "net/static_files.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace froxel::net {
+
+struct Site {
+    StaticFiles files;
+    std::vector<std::string> allowed_origins; // besides the server's own
+    std::shared_ptr<Service> service;
+};
+
+// Counts a connection for as long as it is held.
+using ConnectionTicket = std::shared_ptr<const void>;
+
+} // namespace froxel::net

@@ -1,0 +1,248 @@
+#include "net/ws_connection.h"
+
+#include "core/text.h"
+#include "net/guard.h"
+#include "protocol/limits.h"
+
+#include <boost/asio/post.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include <array>
+#include <utility>
+
+namespace froxel::net {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+
+namespace {
+
+constexpr std::chrono::seconds kHandshakeTimeout{10};
+// Silence of this length ends the connection; a ping goes out at half of it.
+constexpr std::chrono::seconds kIdleTimeout{20};
+// Beast's idle timer is re-armed by reads alone, so a client that sends but never reads would pin
+// a write for ever. The allowance lets a large picture through a link of 0.5 Mbit/s.
+constexpr std::chrono::seconds kWriteTimeout{5};
+constexpr size_t kSlowestBytesPerSecond = size_t{64} * 1024;
+
+std::string peerName(const beast::tcp_stream& stream) {
+    beast::error_code error;
+    const auto endpoint = stream.socket().remote_endpoint(error);
+    return error ? "unknown" : endpoint.address().to_string() + ":" + numberText(endpoint.port());
+}
+
+protocol::ByteSpan bytesOf(const beast::flat_buffer& buffer) {
+    const auto data = buffer.data();
+    return {static_cast<const std::byte*>(data.data()), data.size()};
+}
+
+} // namespace
+
+WsConnection::WsConnection(beast::tcp_stream stream,
+                           std::shared_ptr<const Site> site,
+                           ConnectionTicket ticket)
+    : stream_(std::move(stream)), site_(std::move(site)), ticket_(std::move(ticket)),
+      peer_(peerName(stream_.next_layer())), hello_deadline_(stream_.get_executor()),
+      write_deadline_(stream_.get_executor()) {}
+
+WsConnection::~WsConnection() = default;
+
+// Every handler runs through here: on an exception this connection goes, and no other.
+template <class Work>
+void WsConnection::run(const Work& work) {
+    if (!guarded("connection", work)) {
+        abandon("internal error");
+    }
+}
+
+template <class Work>
+void WsConnection::onStrand(Work work) {
+    asio::post(stream_.get_executor(),
+               [self = shared_from_this(), work = std::move(work)]() mutable {
+                   if (self->conversation_) {
+                       self->run([&] {
+                           work(*self->conversation_);
+                           self->write();
+                       });
+                   }
+               });
+}
+
+void WsConnection::start(Request upgrade) {
+    upgrade_ = std::move(upgrade);
+    setOptions();
+    conversation_.emplace(weak_from_this());
+    stream_.async_accept(upgrade_, [self = shared_from_this()](ErrorCode error) {
+        if (error) {
+            self->abandon("handshake: " + error.message());
+        } else {
+            self->run([&] { self->onAccepted(); });
+        }
+    });
+}
+
+void WsConnection::setOptions() {
+    stream_.set_option(websocket::stream_base::timeout{kHandshakeTimeout, kIdleTimeout,
+                                                       /*keep_alive_pings=*/true});
+    const bool named = upgrade_.count(beast::http::field::sec_websocket_protocol) > 0;
+    stream_.set_option(
+        websocket::stream_base::decorator([named](websocket::response_type& response) {
+            if (named) {
+                response.set(beast::http::field::sec_websocket_protocol,
+                             beast::string_view(protocol::kSubprotocol.data(),
+                                                protocol::kSubprotocol.size()));
+            }
+        }));
+    // A picture is one WebSocket frame, gathered from header and JPEG without a copy.
+    stream_.auto_fragment(false);
+}
+
+void WsConnection::onAccepted() {
+    upgrade_ = {};
+    hello_deadline_.expires_after(protocol::kHelloTimeout);
+    hello_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
+        if (!error && self->conversation_) {
+            self->run([&] {
+                self->conversation_->onHelloTimeout();
+                self->write();
+            });
+        }
+    });
+    site_->service->subscribe(weak_from_this());
+    conversation_->onService(site_->service->status(), Clock::now());
+    read();
+    write();
+}
+
+void WsConnection::read() {
+    stream_.read_message_max(conversation_->maxMessageBytes());
+    stream_.async_read(buffer_, [self = shared_from_this()](ErrorCode error, size_t) {
+        self->run([&] { self->onRead(error); });
+    });
+}
+
+void WsConnection::onRead(ErrorCode error) {
+    if (error) {
+        abandon(error == websocket::error::closed ? "closed by the client" : error.message());
+        return;
+    }
+    if (!conversation_) {
+        return;
+    }
+    const bool was_greeted = conversation_->greeted();
+    const auto format =
+        stream_.got_text() ? protocol::WireFormat::kText : protocol::WireFormat::kBinary;
+    conversation_->onMessage(bytesOf(buffer_), format, Clock::now());
+    buffer_.consume(buffer_.size());
+    if (!was_greeted && conversation_->greeted()) {
+        hello_deadline_.cancel();
+        spdlog::info("session={} client={} peer={} says hello", conversation_->id(),
+                     printable(conversation_->clientName()), peer_);
+    }
+    write();
+    if (conversation_) {
+        read();
+    }
+}
+
+void WsConnection::write() {
+    if (writing_ || closing_ || !conversation_) {
+        return;
+    }
+    writing_ = conversation_->nextMessage(Clock::now());
+    if (!writing_) {
+        if (conversation_->closing()) {
+            closeSocket();
+        }
+        return;
+    }
+    stream_.text(writing_->format == protocol::WireFormat::kText);
+    armWriteDeadline(writing_->size());
+    const std::array<asio::const_buffer, 2> buffers = {
+        asio::buffer(writing_->head),
+        writing_->body ? asio::buffer(*writing_->body) : asio::const_buffer()};
+    stream_.async_write(buffers, [self = shared_from_this()](ErrorCode error, size_t) {
+        self->run([&] { self->onWritten(error); });
+    });
+}
+
+void WsConnection::armWriteDeadline(size_t bytes) {
+    write_deadline_.expires_after(kWriteTimeout +
+                                  std::chrono::seconds(bytes / kSlowestBytesPerSecond));
+    write_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
+        const bool due = self->write_deadline_.expiry() <= std::chrono::steady_clock::now();
+        if (!error && due && self->writing_) {
+            // No close frame gets past the stuck write: the client sees a reset, and the kernel
+            // drops what it holds.
+            ErrorCode ignored;
+            self->stream_.next_layer().socket().set_option(asio::socket_base::linger(true, 0),
+                                                           ignored);
+            self->abandon("a write was stuck (as close code 4008)");
+        }
+    });
+}
+
+void WsConnection::onWritten(ErrorCode error) {
+    writing_.reset();
+    write_deadline_.cancel();
+    if (error) {
+        abandon(error.message());
+    } else {
+        write();
+    }
+}
+
+void WsConnection::closeSocket() {
+    closing_ = true;
+    const Closing& closing = *conversation_->closing();
+    spdlog::info("session={} peer={} closing code={} reason={}", conversation_->id(), peer_,
+                 static_cast<unsigned>(closing.code), closing.reason);
+    const websocket::close_reason reason(
+        static_cast<websocket::close_code>(closing.code),
+        beast::string_view(closing.reason.data(), closing.reason.size()));
+    stream_.async_close(reason,
+                        [self = shared_from_this()](ErrorCode) { self->abandon("closed"); });
+}
+
+// Ends the conversation and lets the socket go; whatever is under way completes with an error.
+void WsConnection::abandon(const std::string& why) {
+    if (!conversation_) {
+        return;
+    }
+    if (!closing_) {
+        spdlog::info("session={} peer={} ended: {}", conversation_->id(), peer_, why);
+    }
+    conversation_.reset();
+    hello_deadline_.cancel();
+    write_deadline_.cancel();
+    stream_.next_layer().close();
+}
+
+void WsConnection::deliver(session::ReadyFrame frame) {
+    onStrand([frame = std::move(frame)](Conversation& conversation) mutable {
+        conversation.onFrame(std::move(frame));
+    });
+}
+
+void WsConnection::refuse(Error error,
+                          session::SessionState refused,
+                          std::optional<session::SessionState> drawn) {
+    onStrand([error = std::move(error), refused, drawn](Conversation& conversation) {
+        conversation.onRefused(error, refused, drawn, Clock::now());
+    });
+}
+
+void WsConnection::deviceLost(Error error) {
+    onStrand([error = std::move(error)](Conversation& conversation) {
+        conversation.onDeviceLost(error);
+    });
+}
+
+void WsConnection::onServiceChanged() {
+    onStrand([service = site_->service](Conversation& conversation) {
+        conversation.onService(service->status(), Clock::now());
+    });
+}
+
+} // namespace froxel::net

@@ -1,0 +1,72 @@
+// One WebSocket: moves messages between the socket and a Conversation, one write at a time, with
+// a deadline for everything. Frames come from encoder threads and are posted to its strand.
+#pragma once
+
+#include "net/conversation.h"
+#include "net/http_routes.h"
+#include "net/site.h"
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace froxel::net {
+
+class WsConnection final : public session::FrameSink,
+                           public ServiceListener,
+                           public std::enable_shared_from_this<WsConnection> {
+  public:
+    WsConnection(boost::beast::tcp_stream stream,
+                 std::shared_ptr<const Site> site,
+                 ConnectionTicket ticket);
+    ~WsConnection() override;
+    WsConnection(const WsConnection&) = delete;
+    WsConnection& operator=(const WsConnection&) = delete;
+
+    // `upgrade` is the request that asked for it. On the connection's strand.
+    void start(Request upgrade);
+
+    void deliver(session::ReadyFrame frame) override;
+    void refuse(Error error,
+                session::SessionState refused,
+                std::optional<session::SessionState> drawn) override;
+    void deviceLost(Error error) override;
+    void onServiceChanged() override;
+
+  private:
+    using Stream = boost::beast::websocket::stream<boost::beast::tcp_stream>;
+    using ErrorCode = boost::beast::error_code;
+
+    template <class Work>
+    void onStrand(Work work);
+    template <class Work>
+    void run(const Work& work);
+    void setOptions();
+    void onAccepted();
+    void read();
+    void onRead(ErrorCode error);
+    void write();
+    void onWritten(ErrorCode error);
+    void armWriteDeadline(size_t bytes);
+    void closeSocket();
+    void abandon(const std::string& why);
+
+    Stream stream_;
+    const std::shared_ptr<const Site> site_;
+    const ConnectionTicket ticket_;
+    const std::string peer_;
+    Request upgrade_;
+    std::optional<Conversation> conversation_; // from start() until the connection ends
+    boost::asio::steady_timer hello_deadline_;
+    boost::asio::steady_timer write_deadline_;
+    boost::beast::flat_buffer buffer_;
+    std::optional<Outgoing> writing_;
+    bool closing_ = false; // the close handshake was begun
+};
+
+} // namespace froxel::net

@@ -1,0 +1,105 @@
+// What a viewer asked for, after validation: every number is finite and in its range of
+// view/ranges.h, every enum is known. Only command_decode makes these from outside bytes.
+// Absent fields keep the session's values.
+#pragma once
+
+#include "view/settings.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace froxel::session {
+
+struct Hello {
+    uint32_t major = 0;
+    uint32_t minor = 0;
+    std::string client_name; // untrusted text: escape it before it is logged
+};
+
+struct SetCamera {
+    glm::dvec3 eye_world{0};
+    glm::dvec3 target_world{0};          // differs from the eye
+    glm::dvec3 up_world{0, 1, 0};        // not zero
+    std::optional<double> yfov_rad;      // makes the projection perspective
+    std::optional<double> half_height_m; // makes it orthographic; never both
+};
+
+struct SelectSceneCamera {
+    std::string name;
+};
+
+struct SetRenderer {
+    view::Renderer renderer = view::Renderer::kNaive;
+    std::optional<view::LightingStage> lighting;
+};
+
+struct SetLights {
+    std::optional<uint32_t> count;
+    std::optional<double> radius_m;
+    std::optional<double> intensity;
+    std::optional<uint32_t> seed;
+    std::optional<bool> animate;
+    std::optional<double> speed;
+    std::optional<double> ambient;
+    std::optional<bool> scene_lights;
+    std::optional<BoundsD3> box; // min < max on every axis
+    bool clear_box = false;      // never together with box
+};
+
+struct SetGrid {
+    view::GridSize grid;
+};
+
+struct SetExposure {
+    std::optional<double> exposure;
+    std::optional<view::ToneMap> tone_map;
+};
+
+struct SetToon {
+    std::optional<view::ToonRamp> fragment;
+    std::optional<view::ToonRamp> compute;
+};
+
+struct SetSize {
+    view::Size size;
+};
+
+struct SetEncoding {
+    std::optional<uint32_t> quality;
+    std::optional<view::Chroma> chroma;
+};
+
+struct Ack {
+    uint64_t frame_id = 0;
+};
+
+struct Ping {};
+
+using Command = std::variant<Hello,
+                             SetCamera,
+                             SelectSceneCamera,
+                             SetRenderer,
+                             SetLights,
+                             SetGrid,
+                             SetExposure,
+                             SetToon,
+                             SetSize,
+                             SetEncoding,
+                             Ack,
+                             Ping>;
+
+// Where a command came from; frames echo the newest one that they show.
+struct CommandStamp {
+    uint64_t seq = 0;            // 0: none yet
+    uint64_t client_time_us = 0; // the client's own clock
+    bool operator==(const CommandStamp&) const = default;
+};
+
+struct CommandMessage {
+    CommandStamp stamp;
+    Command body;
+};
+
+} // namespace froxel::session

@@ -1,0 +1,291 @@
+#include "session/command_decode.h"
+
+#include "froxel/v1/client.pb.h"
+#include "protocol/limits.h"
+#include "session/field_validator.h"
+#include "session/json_input.h"
+#include "session/proto_enums.h"
+
+#include <climits>
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/stubs/logging.h>
+
+namespace froxel::session {
+namespace {
+
+// ClientMessage is four messages deep; the rest is room for newer clients' fields.
+constexpr int kMaxRecursion = 16;
+
+CommandResult<void> parseBinary(protocol::ByteSpan bytes, v1::ClientMessage& message) {
+    const auto size = static_cast<int>(std::min<size_t>(bytes.size(), INT_MAX));
+    google::protobuf::io::CodedInputStream stream(reinterpret_cast<const uint8_t*>(bytes.data()),
+                                                  size);
+    stream.SetRecursionLimit(kMaxRecursion);
+    if (!message.ParseFromCodedStream(&stream) || !stream.ConsumedEntireMessage()) {
+        return Rejection{RejectCode::kMalformed, 0, "", "not a ClientMessage"};
+    }
+    return {};
+}
+
+glm::dvec3 vec(const v1::Vec3& value) {
+    return {value.x(), value.y(), value.z()};
+}
+
+template <class Proto, class Ours, size_t N>
+Ours enumeration(FieldValidator& fields,
+                 std::string_view field,
+                 const std::array<std::pair<Proto, Ours>, N>& table,
+                 Proto value) {
+    if (const auto known = fromProto(table, value)) {
+        return *known;
+    }
+    std::string names;
+    for (const auto& [proto, ours] : table) {
+        names += (names.empty() ? "" : ", ") +
+                 google::protobuf::GetEnumDescriptor<Proto>()->FindValueByNumber(proto)->name();
+    }
+    fields.fail(RejectCode::kUnsupported, field,
+                "is " + numberText(static_cast<int>(value)) + "; known are " + names);
+    return {};
+}
+
+Command decode(const v1::Hello& hello, FieldValidator& fields) {
+    if (hello.client_name().size() > protocol::kMaxClientNameBytes) {
+        fields.fail(RejectCode::kOutOfRange, "client_name",
+                    "has " + numberText(hello.client_name().size()) + " bytes; at most " +
+                        numberText(protocol::kMaxClientNameBytes) + " are allowed");
+    }
+    return Hello{hello.protocol_major(), hello.protocol_minor(), hello.client_name()};
+}
+
+Command decode(const v1::SetCamera& camera, FieldValidator& fields) {
+    fields.require(camera.has_eye(), "eye");
+    fields.require(camera.has_target(), "target");
+    SetCamera command;
+    command.eye_world = fields.position("eye", vec(camera.eye()));
+    command.target_world = fields.position("target", vec(camera.target()));
+    fields.number(view::kFocusRange, glm::distance(command.eye_world, command.target_world));
+    if (camera.has_up()) {
+        command.up_world = fields.position("up", vec(camera.up()));
+        fields.number(view::kUpRange, glm::length(command.up_world));
+    }
+    if (camera.has_fov_deg()) {
+        command.yfov_rad = glm::radians(fields.number(view::kFovRange, camera.fov_deg()));
+    }
+    if (camera.has_half_height_m()) {
+        command.half_height_m = fields.number(view::kHalfHeightRange, camera.half_height_m());
+    }
+    if (command.yfov_rad && command.half_height_m) {
+        fields.fail(RejectCode::kOutOfRange, view::kHalfHeightRange.field,
+                    "comes together with fov_deg; a camera has one of them");
+    }
+    return command;
+}
+
+Command decode(const v1::SelectSceneCamera& select, FieldValidator& fields) {
+    if (select.name().size() > protocol::kMaxNameBytes) {
+        fields.fail(RejectCode::kOutOfRange, "name",
+                    "has " + numberText(select.name().size()) + " bytes; at most " +
+                        numberText(protocol::kMaxNameBytes) + " are allowed");
+    }
+    return SelectSceneCamera{select.name()};
+}
+
+Command decode(const v1::SetRenderer& renderer, FieldValidator& fields) {
+    SetRenderer command;
+    command.renderer = enumeration(fields, "renderer", kRendererTable, renderer.renderer());
+    if (renderer.has_lighting()) {
+        command.lighting =
+            enumeration(fields, "lighting", kLightingStageTable, renderer.lighting());
+    }
+    return command;
+}
+
+BoundsD3 decodeBox(const v1::Box& box, FieldValidator& fields) {
+    fields.require(box.has_min(), "light_box.min");
+    fields.require(box.has_max(), "light_box.max");
+    BoundsD3 bounds;
+    bounds.min = fields.position("light_box.min", vec(box.min()));
+    bounds.max = fields.position("light_box.max", vec(box.max()));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(bounds.min[axis] < bounds.max[axis])) {
+            fields.fail(RejectCode::kOutOfRange, "light_box",
+                        std::string("has ") + "xyz"[axis] + " from " +
+                            numberText(bounds.min[axis]) + " to " + numberText(bounds.max[axis]) +
+                            "; min must be below max");
+        }
+    }
+    return bounds;
+}
+
+Command decode(const v1::SetLights& lights, FieldValidator& fields) {
+    SetLights command;
+    if (lights.has_count()) {
+        command.count = fields.number(view::kLightCountRange, lights.count());
+    }
+    if (lights.has_radius_m()) {
+        command.radius_m = fields.number(view::kLightRadiusRange, lights.radius_m());
+    }
+    if (lights.has_intensity()) {
+        command.intensity = fields.number(view::kLightIntensityRange, lights.intensity());
+    }
+    if (lights.has_seed()) {
+        command.seed = lights.seed();
+    }
+    if (lights.has_animate()) {
+        command.animate = lights.animate();
+    }
+    if (lights.has_speed()) {
+        command.speed = fields.number(view::kLightSpeedRange, lights.speed());
+    }
+    if (lights.has_ambient()) {
+        command.ambient = fields.number(view::kAmbientRange, lights.ambient());
+    }
+    if (lights.has_scene_lights()) {
+        command.scene_lights = lights.scene_lights();
+    }
+    if (lights.has_box()) {
+        command.box = decodeBox(lights.box(), fields);
+    }
+    command.clear_box = lights.clear_box();
+    if (command.box && command.clear_box) {
+        fields.fail(RejectCode::kOutOfRange, "clear_box", "comes together with box; send one");
+    }
+    return command;
+}
+
+Command decode(const v1::SetGrid& set, FieldValidator& fields) {
+    fields.require(set.has_grid(), "grid");
+    const v1::Grid& grid = set.grid();
+    return SetGrid{{fields.number(view::kGridXRange, grid.x()),
+                    fields.number(view::kGridYRange, grid.y()),
+                    fields.number(view::kGridZRange, grid.z())}};
+}
+
+Command decode(const v1::SetExposure& set, FieldValidator& fields) {
+    SetExposure command;
+    if (set.has_exposure()) {
+        command.exposure = fields.number(view::kExposureRange, set.exposure());
+    }
+    if (set.has_tone_map()) {
+        command.tone_map = enumeration(fields, "tone_map", kToneMapTable, set.tone_map());
+    }
+    return command;
+}
+
+view::ToonRamp
+decodeRamp(const std::string& name, const v1::ToonRamp& ramp, FieldValidator& fields) {
+    const auto count = static_cast<uint32_t>(ramp.points_size());
+    if (count < 2 || count > view::ToonRamp::kMaxPoints) {
+        fields.fail(RejectCode::kOutOfRange, name,
+                    "has " + numberText(count) + " points; it must have 2 to " +
+                        numberText(view::ToonRamp::kMaxPoints));
+        return {};
+    }
+    view::ToonRamp command;
+    command.count = count;
+    command.points = {};
+    for (uint32_t i = 0; i < count; ++i) {
+        const v1::ToonRamp::Point& point = ramp.points(static_cast<int>(i));
+        const std::string field = name + ".points[" + numberText(i) + "]";
+        const auto number = [&](const char* part, const view::Range<double>& range, double value) {
+            return static_cast<float>(fields.number(field + part, range, value));
+        };
+        command.points[i] = {number(".x", view::kToonRange, point.x()),
+                             number(".y", view::kToonRange, point.y()),
+                             number(".slope", view::kToonSlopeRange, point.slope())};
+        // In float, as the shader will see them: equal neighbours would divide by zero.
+        if (i > 0 && !(command.points[i].x > command.points[i - 1].x)) {
+            fields.fail(RejectCode::kOutOfRange, field + ".x",
+                        "is " + numberText(point.x()) + "; it must be above " +
+                            numberText(command.points[i - 1].x) + ", the one before it");
+        }
+    }
+    return command;
+}
+
+Command decode(const v1::SetToon& toon, FieldValidator& fields) {
+    SetToon command;
+    if (toon.has_fragment()) {
+        command.fragment = decodeRamp("toon_fragment", toon.fragment(), fields);
+    }
+    if (toon.has_compute()) {
+        command.compute = decodeRamp("toon_compute", toon.compute(), fields);
+    }
+    return command;
+}
+
+Command decode(const v1::SetSize& size, FieldValidator& fields) {
+    return SetSize{{fields.number(view::kWidthRange, size.width()),
+                    fields.number(view::kHeightRange, size.height())}};
+}
+
+Command decode(const v1::SetEncoding& encoding, FieldValidator& fields) {
+    SetEncoding command;
+    if (encoding.has_quality()) {
+        command.quality = fields.number(view::kQualityRange, encoding.quality());
+    }
+    if (encoding.has_chroma()) {
+        command.chroma = enumeration(fields, "chroma", kChromaTable, encoding.chroma());
+    }
+    return command;
+}
+
+Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
+    switch (message.body_case()) {
+    case v1::ClientMessage::kHello:
+        return decode(message.hello(), fields);
+    case v1::ClientMessage::kSetCamera:
+        return decode(message.set_camera(), fields);
+    case v1::ClientMessage::kSelectSceneCamera:
+        return decode(message.select_scene_camera(), fields);
+    case v1::ClientMessage::kSetRenderer:
+        return decode(message.set_renderer(), fields);
+    case v1::ClientMessage::kSetLights:
+        return decode(message.set_lights(), fields);
+    case v1::ClientMessage::kSetGrid:
+        return decode(message.set_grid(), fields);
+    case v1::ClientMessage::kSetExposure:
+        return decode(message.set_exposure(), fields);
+    case v1::ClientMessage::kSetToon:
+        return decode(message.set_toon(), fields);
+    case v1::ClientMessage::kSetSize:
+        return decode(message.set_size(), fields);
+    case v1::ClientMessage::kSetEncoding:
+        return decode(message.set_encoding(), fields);
+    case v1::ClientMessage::kAck:
+        return Ack{message.ack().frame_id()};
+    case v1::ClientMessage::kPing:
+        return Ping{};
+    case v1::ClientMessage::BODY_NOT_SET:
+        break;
+    }
+    fields.fail(RejectCode::kUnsupported, "body", "is no command that this server knows");
+    return Ping{};
+}
+
+} // namespace
+
+CommandResult<CommandMessage> decodeCommand(protocol::ByteSpan bytes, protocol::WireFormat format) {
+    // Otherwise protobuf writes to stderr about a client's invalid UTF-8: a flood for the asking.
+    const google::protobuf::LogSilencer silence;
+    v1::ClientMessage message;
+    const auto parsed = format == protocol::WireFormat::kText ? parseClientJson(bytes, message)
+                                                              : parseBinary(bytes, message);
+    if (!parsed) {
+        return parsed.error();
+    }
+    if (message.seq() == 0) {
+        return Rejection{RejectCode::kMalformed, 0, "seq", "seq is missing or 0; it counts from 1"};
+    }
+    FieldValidator fields;
+    Command body = decodeBody(message, fields);
+    if (fields.rejection()) {
+        Rejection rejection = *fields.rejection();
+        rejection.ref_seq = message.seq();
+        return rejection;
+    }
+    return CommandMessage{{message.seq(), message.client_time_us()}, std::move(body)};
+}
+
+} // namespace froxel::session

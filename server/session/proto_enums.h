@@ -1,0 +1,62 @@
+// The schema's enums beside ours: one table each, read in both directions.
+#pragma once
+
+#include "froxel/v1/common.pb.h"
+#include "view/settings.h"
+
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace froxel::session {
+
+inline constexpr std::array kRendererTable = {
+    std::pair{v1::RENDERER_NAIVE, view::Renderer::kNaive},
+    std::pair{v1::RENDERER_FORWARD_PLUS, view::Renderer::kForwardPlus},
+    std::pair{v1::RENDERER_CLUSTERED_DEFERRED, view::Renderer::kClusteredDeferred},
+    std::pair{v1::RENDERER_TOON_FRAGMENT, view::Renderer::kToonFragment},
+    std::pair{v1::RENDERER_TOON_COMPUTE, view::Renderer::kToonCompute},
+};
+inline constexpr std::array kLightingStageTable = {
+    std::pair{v1::LIGHTING_STAGE_COMPUTE, view::LightingStage::kCompute},
+    std::pair{v1::LIGHTING_STAGE_FRAGMENT, view::LightingStage::kFragment},
+};
+inline constexpr std::array kToneMapTable = {
+    std::pair{v1::TONE_MAP_PBR_NEUTRAL, view::ToneMap::kPbrNeutral},
+    std::pair{v1::TONE_MAP_CLAMP, view::ToneMap::kClamp},
+};
+inline constexpr std::array kChromaTable = {
+    std::pair{v1::CHROMA_420, view::Chroma::k420},
+    std::pair{v1::CHROMA_444, view::Chroma::k444},
+};
+
+static_assert(kRendererTable.size() == view::kRendererNames.size());
+static_assert(kLightingStageTable.size() == view::kLightingStageNames.size());
+static_assert(kToneMapTable.size() == view::kToneMapNames.size());
+static_assert(kChromaTable.size() == view::kChromaNames.size());
+
+// None for a value that this server does not know, UNSPECIFIED among them.
+template <class Proto, class Ours, size_t N>
+[[nodiscard]] constexpr std::optional<Ours>
+fromProto(const std::array<std::pair<Proto, Ours>, N>& table, Proto value) {
+    for (const auto& [proto, ours] : table) {
+        if (proto == value) {
+            return ours;
+        }
+    }
+    return std::nullopt;
+}
+
+// Every value of ours is in its table; UNSPECIFIED (0) would mean that one is missing.
+template <class Proto, class Ours, size_t N>
+[[nodiscard]] constexpr Proto toProto(const std::array<std::pair<Proto, Ours>, N>& table,
+                                      Ours value) {
+    for (const auto& [proto, ours] : table) {
+        if (ours == value) {
+            return proto;
+        }
+    }
+    return Proto{};
+}
+
+} // namespace froxel::session

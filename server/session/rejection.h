@@ -1,0 +1,41 @@
+// Why a client's message was refused. The session's state is as it was before the message.
+#pragma once
+
+#include "core/error.h"
+
+#include <boost/system/result.hpp>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace froxel::session {
+
+// The protocol's ErrorCode, under the same names.
+enum class RejectCode : uint8_t {
+    kMalformed,   // not a ClientMessage, or out of turn
+    kOutOfRange,  // the text names field, value and range
+    kUnsupported, // unknown command or enum value
+    kVersion,     // protocol_major differs; close with 4001
+    kCapacity,    // no session or memory left
+    kRateLimit,   // too many refused messages; close with 1008
+    kDevice,      // the device was lost
+};
+
+struct Rejection {
+    RejectCode code = RejectCode::kMalformed;
+    uint64_t ref_seq = 0; // 0: not caused by a message, or its seq could not be read
+    std::string field;    // as in view/ranges.h where it has a range; empty if none
+    std::string message;  // one line for a person
+};
+
+template <class T>
+using CommandResult = boost::system::result<T, Rejection>;
+
+// value() on a refused command is a bug of the caller.
+[[noreturn]] inline void throw_exception_from_error(const Rejection& rejection,
+                                                    const boost::source_location& /*where*/) {
+    throw StartupError(Error{ErrorCode::kInvalidArgument, rejection.message});
+}
+
+} // namespace froxel::session

@@ -1,0 +1,35 @@
+#include "session/session_context.h"
+
+namespace froxel::session {
+
+SceneSummary summarize(const scene::Scene& scene) {
+    SceneSummary summary;
+    summary.name = scene.name;
+    summary.material_count = static_cast<uint32_t>(scene.materials.size());
+    summary.texture_count = static_cast<uint32_t>(scene.textures.size());
+    summary.punctual_light_count = static_cast<uint32_t>(scene.lights.size());
+    summary.cameras = scene.cameras;
+    summary.bounds_world = scene.bounds_world;
+    for (const scene::Instance& instance : scene.instances) {
+        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            summary.triangle_count += static_cast<uint32_t>(primitive.indices.size() / 3);
+            ++summary.draw_count;
+        }
+    }
+    return summary;
+}
+
+SessionDefaults defaultsFor(DeviceKind kind) {
+    SessionDefaults defaults;
+    if (kind == DeviceKind::kCpu) {
+        // A software rasteriser's time goes with the pixels: a quarter of 1080p stays interactive.
+        defaults.size = {640, 360};
+        defaults.encoding.quality = 75;
+    } else {
+        defaults.size = {1280, 720};
+        defaults.encoding.quality = 85;
+    }
+    return defaults;
+}
+
+} // namespace froxel::session

@@ -1,0 +1,49 @@
+// What all sessions of one server share and never change: the scene's summary, the defaults and
+// the names that Welcome tells.
+#pragma once
+
+#include "scene/scene.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace froxel::session {
+
+// What is left of a scene when its geometry has gone to the device.
+struct SceneSummary {
+    std::string name;
+    uint32_t triangle_count = 0; // drawn, instances counted each
+    uint32_t draw_count = 0;
+    uint32_t material_count = 0;
+    uint32_t texture_count = 0;
+    uint32_t punctual_light_count = 0;
+    std::vector<scene::NamedCamera> cameras;
+    BoundsD3 bounds_world; // empty for an empty scene
+};
+
+[[nodiscard]] SceneSummary summarize(const scene::Scene& scene);
+
+enum class DeviceKind : uint8_t { kCpu, kGpu };
+
+// What a viewer gets before saying anything, and the largest picture that it may ask for.
+struct SessionDefaults {
+    view::Size size;
+    view::Encoding encoding;
+    uint32_t light_count = 1000;
+    float light_radius_m = 2.0F;
+    view::Renderer renderer = view::Renderer::kClusteredDeferred;
+    uint64_t max_area_px = uint64_t{4096} * 4096;
+};
+
+[[nodiscard]] SessionDefaults defaultsFor(DeviceKind kind);
+
+struct SessionContext {
+    SceneSummary scene;
+    SessionDefaults defaults;
+    std::string server_version;
+    std::string device_name;
+};
+
+} // namespace froxel::session

@@ -1,0 +1,171 @@
+#include "session/session_state.h"
+
+#include "core/assert.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace froxel::session {
+namespace {
+
+template <class Target, class Value>
+void assignIfGiven(Target& target, const std::optional<Value>& value) {
+    if (value) {
+        target = static_cast<Target>(*value);
+    }
+}
+
+Rejection outOfRange(std::string_view field, const std::string& text) {
+    return {RejectCode::kOutOfRange, 0, std::string(field), std::string(field) + " " + text};
+}
+
+// One overload a command; each changes the state or says why not.
+struct Reducer {
+    SessionState& state;
+    const SessionContext& context;
+    TimePoint now;
+
+    using Outcome = std::optional<Rejection>;
+
+    Outcome operator()(const SetCamera& command) const {
+        view::Camera camera =
+            view::lookAt(command.eye_world, command.target_world, command.up_world);
+        const view::Camera& before = state.settings.camera;
+        camera.projection = before.projection;
+        camera.yfov_rad = before.yfov_rad;
+        camera.half_height_m = before.half_height_m;
+        camera.near_m = before.near_m;
+        if (command.yfov_rad) {
+            camera.projection = view::Projection::kPerspective;
+            camera.yfov_rad = *command.yfov_rad;
+        } else if (command.half_height_m) {
+            camera.projection = view::Projection::kOrthographic;
+            camera.half_height_m = *command.half_height_m;
+        }
+        state.settings.camera = camera;
+        return {};
+    }
+
+    Outcome operator()(const SelectSceneCamera& command) const {
+        const auto& cameras = context.scene.cameras;
+        const auto found = std::find_if(cameras.begin(), cameras.end(), [&](const auto& camera) {
+            return camera.name == command.name;
+        });
+        if (found == cameras.end()) {
+            std::string names;
+            for (const auto& camera : cameras) {
+                names += (names.empty() ? "" : ", ") + printable(camera.name);
+            }
+            return outOfRange("name", "\"" + printable(command.name) +
+                                          "\" is no camera of this scene; it has " +
+                                          (names.empty() ? "none" : printable(names, 400)));
+        }
+        state.settings.camera = found->camera;
+        return {};
+    }
+
+    Outcome operator()(const SetRenderer& command) const {
+        state.settings.renderer = command.renderer;
+        assignIfGiven(state.settings.lighting, command.lighting);
+        return {};
+    }
+
+    Outcome operator()(const SetLights& command) const {
+        view::Lights& lights = state.settings.lights;
+        assignIfGiven(lights.count, command.count);
+        assignIfGiven(lights.radius_m, command.radius_m);
+        assignIfGiven(lights.intensity, command.intensity);
+        assignIfGiven(lights.seed, command.seed);
+        assignIfGiven(lights.animate, command.animate);
+        assignIfGiven(lights.speed, command.speed);
+        assignIfGiven(lights.ambient, command.ambient);
+        assignIfGiven(lights.scene_lights, command.scene_lights);
+        assignIfGiven(lights.box, command.box);
+        if (command.clear_box) {
+            lights.box.reset();
+        }
+        state.light_clock = state.light_clock.withRate(now, lights.speed, lights.animate);
+        return {};
+    }
+
+    Outcome operator()(const SetGrid& command) const {
+        state.settings.grid = command.grid;
+        return {};
+    }
+
+    Outcome operator()(const SetExposure& command) const {
+        assignIfGiven(state.settings.exposure, command.exposure);
+        assignIfGiven(state.settings.tone_map, command.tone_map);
+        return {};
+    }
+
+    Outcome operator()(const SetToon& command) const {
+        assignIfGiven(state.settings.toon_fragment, command.fragment);
+        assignIfGiven(state.settings.toon_compute, command.compute);
+        return {};
+    }
+
+    Outcome operator()(const SetSize& command) const {
+        const uint64_t area_px = uint64_t{command.size.width_px} * command.size.height_px;
+        if (area_px > context.defaults.max_area_px) {
+            return outOfRange("width", "x height is " + numberText(command.size.width_px) + "x" +
+                                           numberText(command.size.height_px) +
+                                           "; this server draws at most " +
+                                           numberText(context.defaults.max_area_px) + " pixels");
+        }
+        state.settings.size = command.size;
+        return {};
+    }
+
+    Outcome operator()(const SetEncoding& command) const {
+        assignIfGiven(state.encoding.quality, command.quality);
+        assignIfGiven(state.encoding.chroma, command.chroma);
+        return {};
+    }
+
+    template <class Other>
+    Outcome operator()(const Other& /*command*/) const {
+        FROXEL_ASSERT(false, "a command that sets no state reached the reducer");
+        return {};
+    }
+};
+
+} // namespace
+
+SessionState initialState(const SessionContext& context, TimePoint now) {
+    const SessionDefaults& defaults = context.defaults;
+    view::ViewSettings settings;
+    settings.camera = context.scene.cameras.empty() ? view::overview(context.scene.bounds_world)
+                                                    : context.scene.cameras.front().camera;
+    settings.size = defaults.size;
+    settings.renderer = defaults.renderer;
+    settings.lights.count = defaults.light_count;
+    settings.lights.radius_m = defaults.light_radius_m;
+    const LightClock clock(now, settings.lights.speed, settings.lights.animate);
+    return {settings, defaults.encoding, clock, {}, 1};
+}
+
+bool setsState(const Command& command) {
+    return !std::holds_alternative<Hello>(command) && !std::holds_alternative<Ack>(command) &&
+           !std::holds_alternative<Ping>(command);
+}
+
+CommandResult<SessionState> apply(SessionState state,
+                                  const CommandMessage& message,
+                                  const SessionContext& context,
+                                  TimePoint now) {
+    const view::ViewSettings settings_before = state.settings;
+    const view::Encoding encoding_before = state.encoding;
+    if (auto rejection = std::visit(Reducer{state, context, now}, message.body)) {
+        rejection->ref_seq = message.stamp.seq;
+        return *rejection;
+    }
+    state.applied = message.stamp;
+    if (state.settings != settings_before || state.encoding != encoding_before) {
+        ++state.version;
+    }
+    return state;
+}
+
+} // namespace froxel::session

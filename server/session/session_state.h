@@ -1,0 +1,38 @@
+// A session's state and the pure reducer that commands go through. No threads, no clock, no
+// protobuf: the caller serialises access and passes the time.
+#pragma once
+
+#include "session/command.h"
+#include "session/light_clock.h"
+#include "session/rejection.h"
+#include "session/session_context.h"
+
+namespace froxel::session {
+
+struct SessionState {
+    view::ViewSettings settings;
+    view::Encoding encoding;
+    LightClock light_clock;
+    CommandStamp applied; // newest accepted command that sets state
+    uint64_t version = 1; // grows whenever settings or encoding differ from before
+
+    // Whether the picture changes without a command.
+    [[nodiscard]] bool animating() const {
+        return light_clock.moving() && settings.lights.count > 0;
+    }
+};
+
+// The first scene camera, or the whole scene in view when it has none.
+[[nodiscard]] SessionState initialState(const SessionContext& context, TimePoint now);
+
+// Whether the command sets state; the others (Hello, Ack, Ping) are the connection's affair.
+[[nodiscard]] bool setsState(const Command& command);
+
+// The state after the command; `version` tells whether anything differs. Refused: kOutOfRange
+// (unknown scene camera, picture too large). Only for commands with setsState().
+[[nodiscard]] CommandResult<SessionState> apply(SessionState state,
+                                                const CommandMessage& message,
+                                                const SessionContext& context,
+                                                TimePoint now);
+
+} // namespace froxel::session

@@ -1,0 +1,215 @@
+#include "session/state_message.h"
+
+#include "froxel/v1/server.pb.h"
+#include "protocol/limits.h"
+#include "session/proto_enums.h"
+#include "view/ranges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace froxel::session {
+namespace {
+
+void fill(v1::Vec3& out, const glm::dvec3& value) {
+    out.set_x(value.x);
+    out.set_y(value.y);
+    out.set_z(value.z);
+}
+
+void fill(v1::Box& out, const BoundsD3& bounds) {
+    fill(*out.mutable_min(), bounds.min);
+    fill(*out.mutable_max(), bounds.max);
+}
+
+void fill(v1::ToonRamp& out, const view::ToonRamp& ramp) {
+    for (uint32_t i = 0; i < ramp.count; ++i) {
+        v1::ToonRamp::Point& point = *out.add_points();
+        point.set_x(ramp.points[i].x);
+        point.set_y(ramp.points[i].y);
+        point.set_slope(ramp.points[i].slope);
+    }
+}
+
+void fillCamera(v1::ViewState& out, const view::Camera& camera) {
+    fill(*out.mutable_eye(), camera.eye_world);
+    fill(*out.mutable_target(), camera.target_world());
+    fill(*out.mutable_up(), camera.world_from_view[1]);
+    out.set_fov_deg(glm::degrees(camera.yfov_rad));
+    out.set_half_height_m(camera.half_height_m);
+    out.set_orthographic(camera.projection == view::Projection::kOrthographic);
+}
+
+void fillLights(v1::ViewState& out, const view::Lights& lights, const BoundsD3& scene_bounds) {
+    out.set_light_count(lights.count);
+    out.set_light_radius_m(lights.radius_m);
+    out.set_light_intensity(lights.intensity);
+    out.set_light_seed(lights.seed);
+    out.set_light_animate(lights.animate);
+    out.set_light_speed(lights.speed);
+    out.set_ambient(lights.ambient);
+    out.set_scene_lights(lights.scene_lights);
+    if (const BoundsD3 box = lights.box.value_or(scene_bounds); !box.empty()) {
+        fill(*out.mutable_light_box(), box);
+    }
+}
+
+void fill(v1::ViewState& out, const SessionContext& context, const SessionState& state) {
+    const view::ViewSettings& settings = state.settings;
+    fillCamera(out, settings.camera);
+    fillLights(out, settings.lights, context.scene.bounds_world);
+    out.set_renderer(toProto(kRendererTable, settings.renderer));
+    out.set_lighting(toProto(kLightingStageTable, settings.lighting));
+    out.mutable_grid()->set_x(settings.grid.x);
+    out.mutable_grid()->set_y(settings.grid.y);
+    out.mutable_grid()->set_z(settings.grid.z);
+    out.set_exposure(settings.exposure);
+    out.set_tone_map(toProto(kToneMapTable, settings.tone_map));
+    fill(*out.mutable_toon_fragment(), settings.toon_fragment);
+    fill(*out.mutable_toon_compute(), settings.toon_compute);
+    out.set_width(settings.size.width_px);
+    out.set_height(settings.size.height_px);
+    out.set_quality(state.encoding.quality);
+    out.set_chroma(toProto(kChromaTable, state.encoding.chroma));
+}
+
+void fill(v1::SceneInfo& out, const SceneSummary& scene) {
+    out.set_name(scene.name);
+    out.set_triangles(scene.triangle_count);
+    out.set_draws(scene.draw_count);
+    out.set_materials(scene.material_count);
+    out.set_textures(scene.texture_count);
+    out.set_punctual_lights(scene.punctual_light_count);
+    for (const scene::NamedCamera& camera : scene.cameras) {
+        out.add_cameras(camera.name);
+    }
+    if (!scene.bounds_world.empty()) {
+        fill(*out.mutable_bounds(), scene.bounds_world);
+    }
+}
+
+template <class T>
+void addRange(v1::Welcome& welcome, const view::Range<T>& range) {
+    v1::FieldRange& out = *welcome.add_ranges();
+    out.set_field(std::string(range.field));
+    out.set_min(static_cast<double>(range.min));
+    out.set_max(static_cast<double>(range.max));
+}
+
+v1::ErrorCode protoCode(RejectCode code) {
+    switch (code) {
+    case RejectCode::kMalformed:
+        return v1::ERROR_CODE_MALFORMED;
+    case RejectCode::kOutOfRange:
+        return v1::ERROR_CODE_OUT_OF_RANGE;
+    case RejectCode::kUnsupported:
+        return v1::ERROR_CODE_UNSUPPORTED;
+    case RejectCode::kVersion:
+        return v1::ERROR_CODE_VERSION;
+    case RejectCode::kCapacity:
+        return v1::ERROR_CODE_CAPACITY;
+    case RejectCode::kRateLimit:
+        return v1::ERROR_CODE_RATE_LIMIT;
+    case RejectCode::kDevice:
+        return v1::ERROR_CODE_DEVICE;
+    }
+    return v1::ERROR_CODE_UNSPECIFIED;
+}
+
+// Durations and counts on the wire stop at the largest u32: 71 minutes, where exactness is moot.
+template <class T>
+uint32_t saturated(T value) {
+    constexpr auto kMax = std::numeric_limits<uint32_t>::max();
+    if constexpr (std::is_floating_point_v<T>) {
+        return value > 0 ? static_cast<uint32_t>(std::min(std::round(value), double{kMax})) : 0;
+    } else {
+        return static_cast<uint32_t>(std::min<T>(value, kMax));
+    }
+}
+
+} // namespace
+
+v1::ServerMessage
+makeWelcome(uint64_t session_id, const SessionContext& context, const SessionState& state) {
+    v1::ServerMessage message;
+    v1::Welcome& welcome = *message.mutable_welcome();
+    welcome.set_protocol_major(protocol::kMajor);
+    welcome.set_protocol_minor(protocol::kMinor);
+    welcome.set_session_id(session_id);
+    welcome.set_server_version(context.server_version);
+    welcome.set_device(context.device_name);
+    fill(*welcome.mutable_scene(), context.scene);
+    fill(*welcome.mutable_state(), context, state);
+    std::apply([&](const auto&... range) { (addRange(welcome, range), ...); },
+               view::kCommandRanges);
+    return message;
+}
+
+v1::ServerMessage makeStateChanged(const SessionContext& context, const SessionState& state) {
+    v1::ServerMessage message;
+    message.mutable_state()->set_ref_seq(state.applied.seq);
+    fill(*message.mutable_state()->mutable_state(), context, state);
+    return message;
+}
+
+v1::ServerMessage makeError(const Rejection& rejection) {
+    v1::ServerMessage message;
+    v1::Error& error = *message.mutable_error();
+    error.set_code(protoCode(rejection.code));
+    error.set_ref_seq(rejection.ref_seq);
+    error.set_field(rejection.field);
+    error.set_message(rejection.message);
+    return message;
+}
+
+v1::ServerMessage makePong(const CommandStamp& ping) {
+    v1::ServerMessage message;
+    message.mutable_pong()->set_ref_seq(ping.seq);
+    message.mutable_pong()->set_client_time_us(ping.client_time_us);
+    return message;
+}
+
+v1::ServerMessage makeDraining(std::chrono::milliseconds deadline) {
+    v1::ServerMessage message;
+    message.mutable_draining()->set_deadline_ms(saturated(deadline.count()));
+    return message;
+}
+
+v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
+    v1::FrameHeader header;
+    header.set_frame_id(record.frame_id);
+    header.set_applied_seq(record.applied.seq);
+    header.set_applied_client_time_us(record.applied.client_time_us);
+    header.set_width(record.width_px);
+    header.set_height(record.height_px);
+    v1::Part& part = *header.add_parts();
+    part.set_length(saturated(record.encoded_bytes));
+    part.set_width(record.width_px);
+    part.set_height(record.height_px);
+    part.set_codec(v1::CODEC_JPEG);
+
+    header.set_queue_us(saturated(record.queue_us));
+    header.set_render_us(saturated(record.render_us));
+    header.set_gpu_us(saturated(record.stats.gpu_us));
+    header.set_encode_wait_us(saturated(record.encode_wait_us));
+    header.set_encode_us(saturated(record.encode_us));
+    header.set_send_wait_us(saturated(record.send_wait_us));
+    for (const PassTime& pass : record.stats.passes) {
+        v1::PassTime& out = *header.add_passes();
+        out.set_name(pass.name);
+        out.set_gpu_us(saturated(pass.gpu_us));
+    }
+    const LightListStats& lists = record.stats.lists;
+    header.set_light_count(lists.light_count);
+    header.set_list_entries(lists.entry_count);
+    header.set_list_mean(lists.mean);
+    header.set_list_largest(lists.largest);
+    header.set_lists_overflowed(lists.overflowed);
+    header.set_dropped_frames(record.dropped_count);
+    header.set_time_s(record.time_s);
+    header.set_triangles(record.stats.triangle_count);
+    return header;
+}
+
+} // namespace froxel::session

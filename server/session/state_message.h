@@ -1,0 +1,41 @@
+// Session values to the protocol's messages. Pure; any thread.
+#pragma once
+
+#include "core/frame_stats.h"
+#include "protocol/framing.h"
+#include "session/session_state.h"
+
+#include <chrono>
+#include <cstdint>
+
+namespace froxel::session {
+
+[[nodiscard]] v1::ServerMessage
+makeWelcome(uint64_t session_id, const SessionContext& context, const SessionState& state);
+// Answers the command of `state.applied`.
+[[nodiscard]] v1::ServerMessage makeStateChanged(const SessionContext& context,
+                                                 const SessionState& state);
+[[nodiscard]] v1::ServerMessage makeError(const Rejection& rejection);
+[[nodiscard]] v1::ServerMessage makePong(const CommandStamp& ping);
+[[nodiscard]] v1::ServerMessage makeDraining(std::chrono::milliseconds deadline);
+
+// One frame's way through the server, in microseconds where not said otherwise.
+struct FrameRecord {
+    uint64_t frame_id = 0;
+    CommandStamp applied;
+    uint32_t width_px = 0;
+    uint32_t height_px = 0;
+    size_t encoded_bytes = 0; // one JPEG of the whole picture
+    double queue_us = 0;      // from the applied command's arrival to the start of rendering
+    double render_us = 0;     // host and device work up to readable pixels
+    double encode_wait_us = 0;
+    double encode_us = 0;
+    double send_wait_us = 0; // in the slot before the socket
+    uint32_t dropped_count = 0;
+    double time_s = 0; // the lights' clock
+    FrameStats stats;
+};
+
+[[nodiscard]] v1::FrameHeader makeFrameHeader(const FrameRecord& record);
+
+} // namespace froxel::session

@@ -1,0 +1,55 @@
+// Where connections and the render loop meet without knowing each other: states go one way,
+// frames the other, and credits flow back. Everything here may be called on any thread and never
+// blocks on a device or a socket.
+#pragma once
+
+#include "core/encoded_frame.h"
+#include "core/error.h"
+#include "session/session_state.h"
+#include "session/state_message.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace froxel::session {
+
+using SessionId = uint64_t;
+
+// A picture that is ready to be sent, newest wins.
+struct ReadyFrame {
+    FrameRecord record;   // all but send_wait_us and dropped_count, which the sender knows
+    SharedBytes bytes;    // one JPEG
+    Seconds cost{0};      // what a frame costs where the server is slowest, for CreditWindow
+    TimePoint ready_at{}; // when it left the encoder
+};
+
+// One viewer's connection, as the stream sees it.
+class FrameSink {
+  public:
+    virtual ~FrameSink() = default;
+    virtual void deliver(ReadyFrame frame) = 0;
+    // The picture of `refused` cannot be made (kCapacity: its size does not fit). `drawn` is what
+    // was drawn last, none before the first picture; the session falls back to it.
+    virtual void refuse(Error error, SessionState refused, std::optional<SessionState> drawn) = 0;
+    // No picture comes any more.
+    virtual void deviceLost(Error error) = 0;
+};
+
+// The stream, as a connection sees it.
+class StreamPort {
+  public:
+    virtual ~StreamPort() = default;
+    // Errors: kCapacity when as many sessions as allowed are there; kDevice when it was lost.
+    [[nodiscard]] virtual Result<SessionId>
+    join(std::weak_ptr<FrameSink> sink, const SessionState& state, TimePoint now) = 0;
+    // Replaces the state to draw; `arrived` is when the command behind it came in.
+    virtual void update(SessionId id, const SessionState& state, TimePoint arrived) = 0;
+    // How many frames the connection takes in all since it joined: those delivered to it so far
+    // plus those that it has room for. A total cannot race with a delivery; 0 before the first.
+    virtual void grant(SessionId id, uint64_t frame_total) = 0;
+    // The last call for this session.
+    virtual void leave(SessionId id) = 0;
+};
+
+} // namespace froxel::session

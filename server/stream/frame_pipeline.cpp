@@ -1,0 +1,90 @@
+#include "stream/frame_pipeline.h"
+
+#include "core/assert.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace froxel::stream {
+
+FramePipeline::FramePipeline(encode::EncodePool& pool,
+                             std::weak_ptr<session::FrameSink> sink,
+                             std::function<void()> on_progress)
+    : pool_(pool), sink_(std::move(sink)), on_progress_(std::move(on_progress)) {}
+
+uint32_t FramePipeline::size() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<uint32_t>(encoding_.has_value()) +
+           static_cast<uint32_t>(waiting_.has_value());
+}
+
+FramePipeline::Losses FramePipeline::takeLosses() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(losses_, {});
+}
+
+void FramePipeline::push(DrawnFrame frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (encoding_) {
+            FROXEL_ASSERT(!waiting_, "more pictures pushed than the pipeline holds");
+            waiting_ = std::move(frame);
+            return;
+        }
+        encoding_ = std::move(frame);
+    }
+    startEncoding();
+}
+
+void FramePipeline::startEncoding() {
+    encoding_->record.encode_wait_us = Microseconds(Clock::now() - encoding_->drawn_at).count();
+    bool taken = false;
+    {
+        encode::EncodeJob job{std::move(encoding_->pixels), encoding_->encoding,
+                              [self = shared_from_this()](Result<EncodedFrame> result) {
+                                  self->onEncoded(std::move(result));
+                              }};
+        taken = pool_.submit(std::move(job));
+    } // a lease that was not taken ends here
+    if (!taken) {
+        finish({1, true});
+    }
+}
+
+void FramePipeline::onEncoded(Result<EncodedFrame> result) {
+    if (!result) {
+        const Error& error = result.error();
+        spdlog::error("frame={} not encoded: {}", encoding_->record.frame_id, error.message);
+        // A full or closing encoder may take it the next time; anything else would fail again.
+        finish({1, error.code == ErrorCode::kCapacity});
+        return;
+    }
+    session::FrameRecord& record = encoding_->record;
+    record.encoded_bytes = result->bytes->size();
+    record.encode_wait_us += result->wait_us;
+    record.encode_us = result->encode_us;
+    const Seconds cost = std::max(encoding_->cost, Seconds(Microseconds(result->encode_us)));
+    if (const auto sink = sink_.lock()) {
+        sink->deliver({std::move(record), std::move(result->bytes), cost, Clock::now()});
+    }
+    finish({});
+}
+
+void FramePipeline::finish(Losses losses) {
+    bool more = false;
+    {
+        const std::lock_guard lock(mutex_);
+        losses_.count += losses.count;
+        losses_.retry = losses_.retry || losses.retry;
+        encoding_ = std::exchange(waiting_, std::nullopt);
+        more = encoding_.has_value();
+    }
+    if (more) {
+        startEncoding();
+    }
+    on_progress_();
+}
+
+} // namespace froxel::stream

@@ -1,0 +1,62 @@
+// One viewer's way from pixels to its connection: at most one picture in the encoder and one
+// before it, so that pictures leave in order and frame N encodes while N + 1 is drawn.
+#pragma once
+
+#include "core/pixel_view.h"
+#include "encode/encode_pool.h"
+#include "session/stream_port.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace froxel::stream {
+
+struct DrawnFrame {
+    PixelLease pixels;
+    view::Encoding encoding;
+    session::FrameRecord record; // what is known before encoding
+    Seconds cost{0};             // of drawing it
+    TimePoint drawn_at{};
+};
+
+class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
+  public:
+    static constexpr uint32_t kCapacity = 2;
+
+    // `on_progress` runs on an encoder thread whenever a picture has left; must not throw.
+    FramePipeline(encode::EncodePool& pool,
+                  std::weak_ptr<session::FrameSink> sink,
+                  std::function<void()> on_progress);
+
+    // At most kCapacity at a time. Render thread.
+    void push(DrawnFrame frame);
+    // Pictures here, in the encoder or before it. Any thread.
+    [[nodiscard]] uint32_t size() const;
+    // Pictures that never reached the connection, since the last call. Any thread.
+    struct Losses {
+        uint32_t count = 0;
+        bool retry = false; // the encoder was full: what they showed has to be drawn again
+    };
+    [[nodiscard]] Losses takeLosses();
+
+  private:
+    void startEncoding();
+    void onEncoded(Result<EncodedFrame> result);
+    void finish(Losses losses);
+
+    encode::EncodePool& pool_;
+    const std::weak_ptr<session::FrameSink> sink_;
+    const std::function<void()> on_progress_;
+
+    mutable std::mutex mutex_;
+    // Its pixels have gone to the encoder. Whoever fills it owns what is inside until finish();
+    // the mutex guards only whether it is filled.
+    std::optional<DrawnFrame> encoding_;
+    std::optional<DrawnFrame> waiting_;
+    Losses losses_;
+};
+
+} // namespace froxel::stream

@@ -1,0 +1,73 @@
+#include "stream/frame_scheduler.h"
+
+#include <algorithm>
+
+namespace froxel::stream {
+
+void FrameScheduler::add(uint64_t viewer) {
+    viewers_[viewer].virtual_time = virtual_now_;
+}
+
+void FrameScheduler::remove(uint64_t viewer) {
+    viewers_.erase(viewer);
+}
+
+void FrameScheduler::setReady(uint64_t viewer, bool ready) {
+    const auto found = viewers_.find(viewer);
+    if (found == viewers_.end()) {
+        return;
+    }
+    Entry& entry = found->second;
+    if (ready && !entry.ready) {
+        entry.virtual_time = std::max(entry.virtual_time, virtual_now_);
+    }
+    entry.ready = ready;
+}
+
+std::optional<uint64_t> FrameScheduler::next(TimePoint now) const {
+    std::optional<uint64_t> chosen;
+    const Entry* best = nullptr;
+    for (const auto& [viewer, entry] : viewers_) {
+        if (!entry.ready || entry.due > now) {
+            continue;
+        }
+        // Among equals the one that waits longest.
+        if (best == nullptr || entry.virtual_time < best->virtual_time ||
+            (entry.virtual_time == best->virtual_time && entry.due < best->due)) {
+            chosen = viewer;
+            best = &entry;
+        }
+    }
+    return chosen;
+}
+
+std::optional<TimePoint> FrameScheduler::nextDue() const {
+    std::optional<TimePoint> earliest;
+    for (const auto& [viewer, entry] : viewers_) {
+        if (entry.ready && (!earliest || entry.due < *earliest)) {
+            earliest = entry.due;
+        }
+    }
+    return earliest;
+}
+
+void FrameScheduler::onStarted(uint64_t viewer, TimePoint now) {
+    const auto found = viewers_.find(viewer);
+    if (found == viewers_.end()) {
+        return;
+    }
+    Entry& entry = found->second;
+    const auto interval = std::chrono::duration_cast<Clock::duration>(min_interval_);
+    const bool kept_up = now - entry.due < interval;
+    entry.due = (kept_up ? entry.due : now) + interval;
+    virtual_now_ = std::max(virtual_now_, entry.virtual_time);
+}
+
+void FrameScheduler::onFinished(uint64_t viewer, Seconds cost) {
+    const auto found = viewers_.find(viewer);
+    if (found != viewers_.end()) {
+        found->second.virtual_time += cost;
+    }
+}
+
+} // namespace froxel::stream

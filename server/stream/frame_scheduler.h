@@ -1,0 +1,48 @@
+// Which viewer is drawn next. Pure: no threads, no clock of its own.
+//
+// Viewers share the device's time, not the number of frames: each has a virtual time that grows
+// with what its frames cost, and the ready one with the least goes first (start-time fair
+// queueing, Goyal et al. 1996). A viewer that asks for huge pictures slows itself. One that was
+// idle gets no credit for it: it resumes at the virtual time of the frame drawn last.
+#pragma once
+
+#include "core/clock.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+namespace froxel::stream {
+
+class FrameScheduler {
+  public:
+    // No viewer gets frames closer together than `min_interval` on average.
+    explicit FrameScheduler(Seconds min_interval) : min_interval_(min_interval) {}
+
+    void add(uint64_t viewer);
+    void remove(uint64_t viewer);
+    // Whether the viewer has something new to show and room for it.
+    void setReady(uint64_t viewer, bool ready);
+
+    // The ready viewer to draw now; none when all are idle or not due.
+    [[nodiscard]] std::optional<uint64_t> next(TimePoint now) const;
+    // When the first ready viewer becomes due; may be past.
+    [[nodiscard]] std::optional<TimePoint> nextDue() const;
+
+    void onStarted(uint64_t viewer, TimePoint now);
+    // Device time that one frame of this viewer took.
+    void onFinished(uint64_t viewer, Seconds cost);
+
+  private:
+    struct Entry {
+        bool ready = false;
+        Seconds virtual_time{0};
+        TimePoint due{}; // the grid of an even pace; a viewer that kept up stays on it
+    };
+
+    const Seconds min_interval_;
+    Seconds virtual_now_{0};
+    std::map<uint64_t, Entry> viewers_;
+};
+
+} // namespace froxel::stream

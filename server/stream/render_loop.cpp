@@ -1,0 +1,252 @@
+#include "stream/render_loop.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace froxel::stream {
+
+using session::SessionId;
+using session::SessionState;
+
+struct RenderLoop::Viewer {
+    Viewer(std::weak_ptr<session::FrameSink> its_sink,
+           std::shared_ptr<FramePipeline> its_pipeline,
+           const SessionState& first_state)
+        : sink(std::move(its_sink)), pipeline(std::move(its_pipeline)), state(first_state) {}
+
+    std::weak_ptr<session::FrameSink> sink;
+    std::shared_ptr<FramePipeline> pipeline;
+    std::unique_ptr<ViewSource> source; // made with the first frame
+    SessionState state;
+    TimePoint arrived{};
+    std::optional<SessionState> drawn; // what was last submitted with success
+    uint64_t last_frame_id = 0;
+    uint64_t started = 0; // frames, without those lost on the way
+    uint64_t granted = 0;
+    uint32_t on_device = 0;
+    bool changed = true;
+    bool blocked = false; // this state was refused; waits for another
+    bool leaving = false;
+
+    [[nodiscard]] bool idle() const { return on_device == 0 && pipeline->size() == 0; }
+    [[nodiscard]] bool wantsFrame() const {
+        return !leaving && !blocked && (changed || state.animating());
+    }
+    [[nodiscard]] bool hasRoom() const {
+        return started < granted && on_device + pipeline->size() < FramePipeline::kCapacity &&
+               (source == nullptr || source->canSubmit());
+    }
+};
+
+RenderLoop::RenderLoop(encode::EncodePool& pool, RenderLoopOptions options)
+    : options_(std::move(options)), pool_(pool),
+      mailbox_(std::make_shared<ViewerMailbox>(options_.sessions_max)),
+      scheduler_(options_.min_frame_interval),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+RenderLoop::~RenderLoop() {
+    stop();
+}
+
+void RenderLoop::stop() {
+    thread_.request_stop();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+Result<SessionId>
+RenderLoop::join(std::weak_ptr<session::FrameSink> sink, const SessionState& state, TimePoint now) {
+    return mailbox_->join(std::move(sink), state, now);
+}
+
+void RenderLoop::update(SessionId id, const SessionState& state, TimePoint arrived) {
+    mailbox_->update(id, state, arrived);
+}
+
+void RenderLoop::grant(SessionId id, uint64_t frame_total) {
+    mailbox_->grant(id, frame_total);
+}
+
+void RenderLoop::leave(SessionId id) {
+    mailbox_->leave(id);
+}
+
+void RenderLoop::run(const std::stop_token& stop) {
+    try {
+        source_ = options_.make_source();
+        serve(stop);
+        drain();
+    } catch (const StartupError& error) {
+        fail({error.code(), error.what()});
+    } catch (const std::exception& error) {
+        fail({ErrorCode::kDevice, error.what()});
+    }
+    source_.reset();
+}
+
+void RenderLoop::serve(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        takeNews();
+        if (submitted_.size() < source_->depth() && startNext()) {
+            continue;
+        }
+        if (!submitted_.empty()) {
+            finishOldest();
+            continue;
+        }
+        mailbox_->wait(stop, scheduler_.nextDue());
+    }
+}
+
+void RenderLoop::takeNews() {
+    for (ViewerNews& news : mailbox_->take()) {
+        auto& entry = viewers_[news.id];
+        if (!entry) {
+            auto pipeline = std::make_shared<FramePipeline>(
+                pool_, news.sink, [mailbox = mailbox_] { mailbox->wake(); });
+            entry = std::make_unique<Viewer>(news.sink, std::move(pipeline), *news.state);
+            scheduler_.add(news.id);
+        }
+        Viewer& viewer = *entry;
+        viewer.granted = news.granted;
+        viewer.leaving = news.left;
+        if (news.state) {
+            const bool differs = news.state->version != viewer.state.version;
+            viewer.changed = viewer.changed || differs;
+            viewer.blocked = viewer.blocked && !differs;
+            viewer.state = *news.state;
+            viewer.arrived = news.arrived;
+        }
+    }
+    for (auto viewer = viewers_.begin(); viewer != viewers_.end();) {
+        if (viewer->second->leaving && viewer->second->idle()) {
+            scheduler_.remove(viewer->first);
+            viewer = viewers_.erase(viewer);
+        } else {
+            updateReadiness(viewer->first, *viewer->second);
+            ++viewer;
+        }
+    }
+}
+
+void RenderLoop::updateReadiness(SessionId id, Viewer& viewer) {
+    const FramePipeline::Losses losses = viewer.pipeline->takeLosses();
+    viewer.started -= losses.count;
+    viewer.changed = viewer.changed || losses.retry;
+    scheduler_.setReady(id, viewer.wantsFrame() && viewer.hasRoom());
+}
+
+bool RenderLoop::startNext() {
+    const TimePoint now = Clock::now();
+    const auto id = scheduler_.next(now);
+    if (!id) {
+        return false;
+    }
+    Viewer& viewer = *viewers_.at(*id);
+    const auto started = submit(viewer, now);
+    if (!started) {
+        if (started.error().code != ErrorCode::kCapacity) {
+            throw StartupError(started.error());
+        }
+        refuse(viewer, started.error());
+        return true;
+    }
+    scheduler_.onStarted(*id, now);
+
+    Submitted frame{*id, {}, viewer.state.encoding, now};
+    frame.record.frame_id = ++viewer.last_frame_id;
+    frame.record.applied = viewer.state.applied;
+    frame.record.time_s = viewer.state.light_clock.secondsAt(now);
+    if (!viewer.drawn || viewer.drawn->applied != viewer.state.applied) {
+        frame.record.queue_us = Microseconds(now - viewer.arrived).count();
+    }
+    submitted_.push_back(std::move(frame));
+    viewer.drawn = viewer.state;
+    viewer.changed = false;
+    ++viewer.on_device;
+    ++viewer.started;
+    return true;
+}
+
+Result<void> RenderLoop::submit(Viewer& viewer, TimePoint now) {
+    if (!viewer.source) {
+        auto source = source_->makeView();
+        if (!source) {
+            return source.error();
+        }
+        viewer.source = std::move(*source);
+    }
+    return viewer.source->submit(viewer.state.settings, viewer.state.light_clock.secondsAt(now));
+}
+
+void RenderLoop::refuse(Viewer& viewer, const Error& error) {
+    spdlog::warn("a picture of {}x{} was refused: {}", viewer.state.settings.size.width_px,
+                 viewer.state.settings.size.height_px, error.message);
+    viewer.blocked = true;
+    if (const auto sink = viewer.sink.lock()) {
+        sink->refuse(error, viewer.state, viewer.drawn);
+    }
+}
+
+void RenderLoop::finishOldest() {
+    Submitted frame = std::move(submitted_.front());
+    submitted_.pop_front();
+    Viewer& viewer = *viewers_.at(frame.id);
+    --viewer.on_device;
+    auto collected = viewer.source->collect();
+    if (!collected) {
+        throw StartupError(collected.error());
+    }
+    const TimePoint now = Clock::now();
+    // The device works on one frame at a time: what this one took begins where the last one ended.
+    const Seconds cost = now - std::max(frame.started, last_finish_);
+    last_finish_ = now;
+    scheduler_.onFinished(frame.id, cost);
+    if (viewer.leaving) {
+        return;
+    }
+    session::FrameRecord& record = frame.record;
+    const PixelView& pixels = collected->pixels.view();
+    record.width_px = pixels.width_px;
+    record.height_px = pixels.height_px;
+    record.render_us = Microseconds(now - frame.started).count();
+    record.stats = std::move(collected->stats);
+    viewer.pipeline->push({std::move(collected->pixels), frame.encoding, std::move(record),
+                           std::max(cost, options_.min_frame_interval), now});
+}
+
+void RenderLoop::fail(const Error& error) {
+    failed_ = true;
+    mailbox_->close(error);
+    takeNews();
+    for (auto& [id, viewer] : viewers_) {
+        if (const auto sink = viewer->sink.lock()) {
+            sink->deviceLost(error);
+        }
+    }
+    drain();
+    options_.on_failure(error);
+}
+
+// Views and their pixels go on this thread, after the encoders are done with them.
+void RenderLoop::drain() {
+    while (!submitted_.empty()) {
+        Viewer& viewer = *viewers_.at(submitted_.front().id);
+        --viewer.on_device;
+        submitted_.pop_front();
+        if (const auto collected = viewer.source->collect(); !collected && !failed_) {
+            spdlog::error("a frame under way was lost: {}", collected.error().message);
+        }
+    }
+    const std::stop_token never;
+    while (!std::all_of(viewers_.begin(), viewers_.end(),
+                        [](const auto& entry) { return entry.second->idle(); })) {
+        mailbox_->wait(never, std::nullopt);
+    }
+    viewers_.clear();
+}
+
+} // namespace froxel::stream

@@ -1,0 +1,89 @@
+// The render thread: owns the device's objects, draws for every session in turn, and hands the
+// pictures to the encoders.
+//
+// 1. Takes the mailbox's news: states, credits, departures.
+// 2. Starts a frame for the session that the scheduler names: something changed or moves, its
+//    connection granted a credit, and its pipeline has room.
+// 3. With enough frames on the device, waits for the oldest and pushes it into its pipeline.
+// 4. With nothing to do, sleeps until there is news or a session becomes due. Idle costs nothing.
+#pragma once
+
+#include "encode/encode_pool.h"
+#include "session/stream_port.h"
+#include "stream/frame_pipeline.h"
+#include "stream/frame_scheduler.h"
+#include "stream/frame_source.h"
+#include "stream/viewer_mailbox.h"
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <thread>
+
+namespace froxel::stream {
+
+struct RenderLoopOptions {
+    uint32_t sessions_max = 16;
+    Seconds min_frame_interval{1.0 / 60};
+    // Makes device and scene; runs on the render thread, which then owns them. May take long and
+    // may throw.
+    std::function<std::unique_ptr<FrameSource>()> make_source;
+    // The source could not be made or the device was lost; the loop has ended by itself and its
+    // sessions know. Runs on the render thread.
+    std::function<void(const Error&)> on_failure;
+};
+
+class RenderLoop final : public session::StreamPort {
+  public:
+    // The pool outlives the loop.
+    RenderLoop(encode::EncodePool& pool, RenderLoopOptions options);
+    ~RenderLoop() override;
+    RenderLoop(const RenderLoop&) = delete;
+    RenderLoop& operator=(const RenderLoop&) = delete;
+
+    // Waits for the frames under way; no sink is called after it. The port still answers.
+    void stop();
+
+    [[nodiscard]] Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
+                                                  const session::SessionState& state,
+                                                  TimePoint now) override;
+    void
+    update(session::SessionId id, const session::SessionState& state, TimePoint arrived) override;
+    void grant(session::SessionId id, uint64_t frame_total) override;
+    void leave(session::SessionId id) override;
+
+  private:
+    struct Viewer;
+    struct Submitted {
+        session::SessionId id = 0;
+        session::FrameRecord record;
+        view::Encoding encoding;
+        TimePoint started{};
+    };
+
+    void run(const std::stop_token& stop);
+    void serve(const std::stop_token& stop);
+    void takeNews();
+    void updateReadiness(session::SessionId id, Viewer& viewer);
+    [[nodiscard]] bool startNext();
+    [[nodiscard]] Result<void> submit(Viewer& viewer, TimePoint now);
+    void finishOldest();
+    static void refuse(Viewer& viewer, const Error& error);
+    void fail(const Error& error);
+    void drain();
+
+    const RenderLoopOptions options_;
+    encode::EncodePool& pool_;
+    // Shared with the encoders, which may still be in a last wake() when the loop is gone.
+    const std::shared_ptr<ViewerMailbox> mailbox_;
+    FrameScheduler scheduler_;
+    std::unique_ptr<FrameSource> source_;
+    std::map<session::SessionId, std::unique_ptr<Viewer>> viewers_;
+    std::deque<Submitted> submitted_; // oldest first
+    TimePoint last_finish_{};
+    bool failed_ = false;
+    std::jthread thread_; // last: ends before what it uses
+};
+
+} // namespace froxel::stream

@@ -1,0 +1,56 @@
+#include "stream/renderer_source.h"
+
+#include "render/renderer.h"
+
+#include <utility>
+
+namespace froxel::stream {
+namespace {
+
+class RendererView final : public ViewSource {
+  public:
+    explicit RendererView(render::Renderer& renderer) : view_(renderer) {}
+
+    [[nodiscard]] bool canSubmit() const override { return view_.canSubmit(); }
+
+    [[nodiscard]] Result<void> submit(const view::ViewSettings& settings, double time_s) override {
+        return view_.submit({.settings = settings, .time_s = time_s});
+    }
+
+    [[nodiscard]] Result<SourceFrame> collect() override {
+        auto frame = view_.collect();
+        if (!frame) {
+            return frame.error();
+        }
+        return SourceFrame{std::move(frame->pixels), std::move(frame->stats)};
+    }
+
+  private:
+    render::ViewRenderer view_;
+};
+
+class RendererSource final : public FrameSource {
+  public:
+    RendererSource(std::unique_ptr<gpu::Device> device, const scene::Scene& scene)
+        : device_(std::move(device)), renderer_(*device_, scene) {}
+
+    // A CPU device draws with the host's cores: a second frame would only make the first late.
+    [[nodiscard]] uint32_t depth() const override { return device_->traits().is_cpu ? 1 : 2; }
+
+    [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
+        return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_));
+    }
+
+  private:
+    std::unique_ptr<gpu::Device> device_;
+    render::Renderer renderer_;
+};
+
+} // namespace
+
+std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
+                                                const scene::Scene& scene) {
+    return std::make_unique<RendererSource>(std::move(device), scene);
+}
+
+} // namespace froxel::stream

@@ -1,0 +1,105 @@
+#include "stream/viewer_mailbox.h"
+
+#include "core/text.h"
+
+#include <utility>
+
+namespace froxel::stream {
+
+void ViewerMailbox::publish(Slot& slot) {
+    slot.fresh = true;
+    awake_ = true;
+    wake_.notify_one();
+}
+
+Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink> sink,
+                                               const session::SessionState& state,
+                                               TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    if (closed_) {
+        return *closed_;
+    }
+    if (present_ >= sessions_max_) {
+        return Error{ErrorCode::kCapacity, "all " + numberText(sessions_max_) +
+                                               " sessions of this server are taken; try again "
+                                               "later"};
+    }
+    ++present_;
+    const session::SessionId id = ++last_id_;
+    Slot& slot = slots_[id];
+    slot.news = {id, std::move(sink), state, now, 0, false};
+    publish(slot);
+    return id;
+}
+
+void ViewerMailbox::update(session::SessionId id,
+                           const session::SessionState& state,
+                           TimePoint arrived) {
+    const std::lock_guard lock(mutex_);
+    const auto found = slots_.find(id);
+    if (found == slots_.end() || found->second.news.left) {
+        return;
+    }
+    found->second.news.state = state;
+    found->second.news.arrived = arrived;
+    publish(found->second);
+}
+
+void ViewerMailbox::grant(session::SessionId id, uint64_t frame_total) {
+    const std::lock_guard lock(mutex_);
+    const auto found = slots_.find(id);
+    if (found == slots_.end() || found->second.news.left) {
+        return;
+    }
+    found->second.news.granted = frame_total;
+    publish(found->second);
+}
+
+void ViewerMailbox::leave(session::SessionId id) {
+    const std::lock_guard lock(mutex_);
+    const auto found = slots_.find(id);
+    if (found == slots_.end() || found->second.news.left) {
+        return;
+    }
+    --present_;
+    found->second.news.left = true;
+    publish(found->second);
+}
+
+void ViewerMailbox::wake() {
+    const std::lock_guard lock(mutex_);
+    awake_ = true;
+    wake_.notify_one();
+}
+
+void ViewerMailbox::close(Error reason) {
+    const std::lock_guard lock(mutex_);
+    closed_ = std::move(reason);
+}
+
+std::vector<ViewerNews> ViewerMailbox::take() {
+    std::vector<ViewerNews> all;
+    const std::lock_guard lock(mutex_);
+    for (auto slot = slots_.begin(); slot != slots_.end();) {
+        ViewerNews& news = slot->second.news;
+        if (std::exchange(slot->second.fresh, false)) {
+            all.push_back(news);
+            news.state.reset();
+        }
+        slot = news.left ? slots_.erase(slot) : std::next(slot);
+    }
+    return all;
+}
+
+void ViewerMailbox::wait(const std::stop_token& stop, std::optional<TimePoint> deadline) {
+    std::unique_lock lock(mutex_);
+    const auto awake = [this] { return awake_; };
+    if (deadline) {
+        wake_.wait_until(lock, stop, *deadline, awake);
+    } else {
+        wake_.wait(lock, stop, awake);
+    }
+    awake_ = false;
+}
+
+} // namespace froxel::stream

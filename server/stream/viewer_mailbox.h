@@ -1,0 +1,66 @@
+// What connections tell the render thread, between two of its frames. Bounded: one slot a session,
+// in which a newer state or credit replaces an older one, and as many sessions as allowed. States
+// are whole values that commands were reduced into before, so nothing is lost when one is replaced.
+#pragma once
+
+#include "session/stream_port.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace froxel::stream {
+
+// What is new about one session.
+struct ViewerNews {
+    session::SessionId id = 0;
+    std::weak_ptr<session::FrameSink> sink;
+    std::optional<session::SessionState> state; // none: as before
+    TimePoint arrived{};                        // of the command behind `state`
+    uint64_t granted = 0;                       // as StreamPort::grant
+    bool left = false;
+};
+
+class ViewerMailbox {
+  public:
+    explicit ViewerMailbox(uint32_t sessions_max) : sessions_max_(sessions_max) {}
+
+    // Any thread; as StreamPort.
+    [[nodiscard]] Result<session::SessionId>
+    join(std::weak_ptr<session::FrameSink> sink, const session::SessionState& state, TimePoint now);
+    void update(session::SessionId id, const session::SessionState& state, TimePoint arrived);
+    void grant(session::SessionId id, uint64_t frame_total);
+    void leave(session::SessionId id);
+    // Makes wait() return.
+    void wake();
+    // join() gives this error from now on.
+    void close(Error reason);
+
+    // Render thread.
+    [[nodiscard]] std::vector<ViewerNews> take();
+    // Until there is news, a wake() since the last wait, a stop, or the deadline.
+    void wait(const std::stop_token& stop, std::optional<TimePoint> deadline);
+
+  private:
+    struct Slot {
+        ViewerNews news;
+        bool fresh = false;
+    };
+    void publish(Slot& slot);
+
+    const uint32_t sessions_max_;
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    bool awake_ = false;
+    std::optional<Error> closed_;
+    session::SessionId last_id_ = 0;
+    std::map<session::SessionId, Slot> slots_; // present sessions, and departed ones until taken
+    uint32_t present_ = 0;
+};
+
+} // namespace froxel::stream
