@@ -1,0 +1,190 @@
+// Every control of the panel changes the session's state, and where it should, the picture.
+
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+import { kAllFields, type Field } from '../src/fields';
+import { Renderer } from '../src/gen/froxel/v1/common_pb';
+import { choicesOf } from '../src/schema_names';
+import { settingsOf, type Settings } from '../src/settings';
+import { startServer, type Server } from './server';
+import { launch, Viewer } from './viewer';
+
+/** A value other than the default for each number, and whether it shows in a still picture. */
+const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
+  fov_deg: [75, true],
+  exposure: [2, true],
+  lights: [300, true],
+  light_radius: [4, true],
+  light_intensity: [3, true],
+  light_speed: [2, false],
+  light_seed: [12_345_678, true],
+  ambient: [5, true],
+  'grid.x': [32, false],
+  'grid.y': [16, false],
+  'grid.z': [64, false],
+  quality: [95, false],
+};
+
+let server: Server;
+let browser: Browser;
+let viewer: Viewer;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+  const url = `${server.url}#size=320x180&light_animate=0&lights=100&renderer=clustered_deferred`;
+  viewer = await Viewer.open(browser, url);
+  await viewer.picture();
+  await viewer.openPanel();
+});
+afterAll(async () => {
+  expect(viewer.complaints).toEqual([]);
+  await browser.close();
+  await server.stop();
+});
+
+const told = (): Settings | null => (viewer.state ? settingsOf(viewer.state, null) : null);
+
+async function expectState(field: Field, value: number | boolean): Promise<void> {
+  await viewer.stateWith(`${field.name} = ${String(value)}`, (state) => {
+    const now = settingsOf(state, null)[field.key];
+    return typeof now === 'number' && typeof value === 'number'
+      ? Math.abs(now - value) <= 1e-6 * Math.abs(value)
+      : now === value;
+  });
+}
+
+describe('numbers', () => {
+  for (const field of kAllFields.filter(({ kind }) => kind === 'number')) {
+    it(`Control_${field.name}_SetsIt`, async () => {
+      const entry = kNumbers[field.name];
+      if (!entry) throw new Error(`no test value for ${field.name}`);
+      const [value, visible] = entry;
+      const before = await viewer.settled();
+      await viewer.type(field.name, value);
+      await expectState(field, value);
+      if (visible) await viewer.changed(field.name, before);
+    });
+  }
+
+  it('Slider_ByKeyboard_SetsItsNumberToo', async () => {
+    const before = told()?.exposure ?? 0;
+    await viewer.control('exposure').locator('input[type=range]').press('ArrowLeft');
+    const state = await viewer.stateWith('a lower exposure', ({ exposure }) => exposure < before);
+    const shown = await viewer.control('exposure').locator('input:not([type=range])').inputValue();
+    expect(Number(shown)).toBeCloseTo(state.exposure, 4);
+  });
+});
+
+describe('choices', () => {
+  for (const field of kAllFields) {
+    if (field.kind !== 'choice') continue;
+    it(`Control_${field.name}_TakesEveryChoice`, async () => {
+      const choices = choicesOf(field.schema);
+      for (const { name, value } of [...choices.slice(1), ...choices.slice(0, 1)]) {
+        if (field.name === 'lighting') await viewer.choose('renderer', 'clustered deferred');
+        await viewer.choose(field.name, name.replaceAll('_', ' '));
+        await expectState(field, value);
+      }
+    });
+  }
+
+  it('Renderer_Toon_ChangesThePicture', async () => {
+    await viewer.choose('renderer', 'clustered deferred');
+    const before = await viewer.settled();
+    await viewer.choose('renderer', 'toon fragment');
+    await viewer.changed('toon fragment', before);
+  });
+
+  it('LightingStage_OfAForwardRenderer_CannotBeChosen', async () => {
+    await viewer.choose('renderer', 'naive');
+    await viewer.stateWith('naive', ({ renderer }) => renderer === Renderer.NAIVE);
+    expect(await viewer.control('lighting').getAttribute('class')).toContain('lil-disabled');
+    await viewer.choose('renderer', 'clustered deferred');
+  });
+});
+
+describe('switches', () => {
+  it.each(['light_animate', 'scene_lights'] as const)('Control_%s_GoesOnAndOff', async (name) => {
+    const field = kAllFields.find((candidate) => candidate.name === name);
+    if (!field) throw new Error(`no field ${name}`);
+    const before = told()?.[field.key] === true;
+    for (const value of [!before, before]) {
+      await viewer.control(name).locator('input').click();
+      await expectState(field, value);
+    }
+  });
+
+  it('Animate_MovesThePicture', async () => {
+    await viewer.control('light_animate').locator('input').click();
+    await viewer.changed('animation', await viewer.thumbnail());
+    await viewer.control('light_animate').locator('input').click();
+    await viewer.stateWith('no animation', ({ lightAnimate }) => !lightAnimate);
+  });
+});
+
+describe('others', () => {
+  it('SceneCamera_IsGoneTo', async () => {
+    const names = viewer.received.flatMap(({ body }) =>
+      body.case === 'welcome' ? (body.value.scene?.cameras ?? []) : [],
+    );
+    const name = names[1];
+    if (name === undefined) throw new Error('the scene has no second camera');
+    const before = await viewer.settled();
+    const eye = told()?.eye;
+    await viewer.choose('scene_camera', name);
+    await viewer.stateWith(name, (state) => state.eye?.x !== eye?.x || state.eye?.z !== eye?.z);
+    await viewer.changed(name, before);
+  });
+
+  it('LightBox_IsSetAndTakenAway', async () => {
+    await viewer.type('light_box.max.x', 1.5);
+    await viewer.stateWith('a box to x = 1.5', ({ lightBox }) => lightBox?.max?.x === 1.5);
+    await viewer.control('light_box.clear').locator('button').click();
+    await viewer.stateWith('the scene’s box', ({ lightBox }) => lightBox?.max?.x !== 1.5);
+  });
+
+  it.each(['toonFragment', 'toonCompute'] as const)('Ramp_%s_IsDraggedAndTyped', async (key) => {
+    const ramp = viewer.page.locator('.ramp').nth(key === 'toonFragment' ? 0 : 1);
+    await ramp.scrollIntoViewIfNeeded();
+    const points = viewer.state?.[key]?.points ?? [];
+    const circle = await ramp.locator('circle').nth(1).boundingBox();
+    if (!circle) throw new Error('the ramp shows no points');
+    const { mouse } = viewer.page;
+    await mouse.move(circle.x + circle.width / 2, circle.y + circle.height / 2);
+    await mouse.down();
+    await mouse.move(circle.x + circle.width / 2, circle.y - 12, { steps: 3 });
+    await mouse.up();
+    await viewer.stateWith('a higher point', (state) => {
+      return (state[key]?.points[1]?.y ?? 0) > (points[1]?.y ?? 1) + 0.05;
+    });
+    await ramp.locator('input').nth(2).fill('0.5');
+    await ramp.locator('input').nth(2).press('Enter');
+    await viewer.stateWith('a slope', (state) => state[key]?.points[1]?.slope === 0.5);
+    await ramp.getByTitle('Remove this point').click();
+    await viewer.stateWith('a point less', (state) => {
+      return state[key]?.points.length === points.length - 1;
+    });
+    await ramp.getByTitle('Add a point after this one').click();
+    await viewer.stateWith('a point more', (state) => state[key]?.points.length === points.length);
+  });
+
+  it('Size_ByPresetByNumberAndByTheWindow', async () => {
+    await viewer.choose('size', '640×360');
+    await viewer.stateWith('640 × 360', ({ width, height }) => width === 640 && height === 360);
+    await viewer.choose('size', 'custom');
+    await viewer.type('width', 201);
+    await viewer.type('height', 99);
+    await viewer.stateWith('201 × 99', ({ width, height }) => width === 201 && height === 99);
+    await viewer.choose('size', 'window');
+    await viewer.type('size.scale', 0.25);
+    await viewer.stateWith('a quarter', ({ width, height }) => width === 320 && height === 180);
+  });
+
+  it('Reset_GoesBackToTheServersState', async () => {
+    await viewer.type('exposure', 7);
+    await viewer.stateWith('exposure 7', ({ exposure }) => exposure === 7);
+    await viewer.page.getByRole('button', { name: 'Back to the server’s defaults' }).click();
+    await viewer.stateWith('exposure 1', ({ exposure }) => exposure === 1);
+  });
+});

@@ -1,0 +1,61 @@
+// Starts and stops the froxel binary that FROXEL_BINARY names.
+
+import { spawn, type ChildProcess } from 'node:child_process';
+import { createInterface } from 'node:readline';
+
+const kStartMs = 90_000;
+const kStopMs = 30_000;
+
+export interface Server {
+  readonly url: string;
+  readonly port: number;
+  /** Ends it by SIGTERM; resolves to its exit code. */
+  stop(): Promise<number | null>;
+}
+
+/** Port 0: any free one. Rejects with what the binary said when it gives no URL. */
+export async function startServer(port = 0): Promise<Server> {
+  const binary = process.env.FROXEL_BINARY;
+  if (!binary) throw new Error('FROXEL_BINARY is not set: the path of a froxel binary');
+  const child = spawn(binary, ['serve', '--port', String(port)], {
+    stdio: ['ignore', 'pipe', 'pipe'],
+  });
+  const url = await firstUrl(child);
+  return { url, port: Number(new URL(url).port), stop: () => stop(child) };
+}
+
+function firstUrl(child: ChildProcess): Promise<string> {
+  const log: string[] = [];
+  child.stderr?.on('data', (chunk: Buffer) => {
+    log.push(chunk.toString());
+    if (log.length > 100) log.shift();
+  });
+  return new Promise((resolve, reject) => {
+    const fail = (why: string): void => reject(new Error(`froxel serve ${why}\n${log.join('')}`));
+    const timer = setTimeout(() => {
+      child.kill('SIGKILL');
+      fail('gave no URL in time');
+    }, kStartMs);
+    child.once('error', (error) => fail(error.message));
+    child.once('exit', (code) => fail(`ended with ${String(code)}`));
+    if (!child.stdout) return;
+    createInterface(child.stdout).on('line', (line) => {
+      const url = /https?:\/\/\S+/.exec(line)?.[0];
+      if (url === undefined) return;
+      clearTimeout(timer);
+      resolve(url);
+    });
+  });
+}
+
+function stop(child: ChildProcess): Promise<number | null> {
+  if (child.exitCode !== null) return Promise.resolve(child.exitCode);
+  return new Promise((resolve) => {
+    const timer = setTimeout(() => child.kill('SIGKILL'), kStopMs);
+    child.once('exit', (code) => {
+      clearTimeout(timer);
+      resolve(code);
+    });
+    child.kill('SIGTERM');
+  });
+}

@@ -1,0 +1,110 @@
+// Bad input, and a server that goes away.
+
+import type { Browser } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
+
+import { Renderer, type ViewState } from '../src/gen/froxel/v1/common_pb';
+import { startServer, type Server } from './server';
+import { launch, until, Viewer } from './viewer';
+
+const kStill = '#size=320x180&light_animate=0&lights=50';
+
+let server: Server;
+let browser: Browser;
+let viewer: Viewer;
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+});
+afterEach(() => viewer.close());
+
+async function open(hash: string): Promise<void> {
+  viewer = await Viewer.open(browser, server.url + hash);
+  await viewer.picture();
+}
+
+const banner = (text: RegExp | string): Promise<true> =>
+  until(`a banner with ${String(text)}`, async () => {
+    const shown = await viewer.page.locator('#banner').isVisible();
+    const words = (await viewer.page.locator('#banner-text').textContent()) ?? '';
+    return shown && (typeof text === 'string' ? words.includes(text) : text.test(words)) ? true : null;
+  });
+
+it('ValueOutOfRange_ShowsTheServersWordsAndKeepsTheLastGoodState', async () => {
+  await open(kStill);
+  await viewer.openPanel();
+  await viewer.stateWith('50 lights', ({ lightCount }) => lightCount === 50);
+  await viewer.type('lights', 1e9);
+  await banner('lights');
+  await viewer.screenshot('error');
+  const input = viewer.control('lights').locator('input:not([type=range])');
+  await until('the last good number', async () => (await input.inputValue()) === '50');
+  await viewer.page.locator('#banner-close').click();
+  expect(await viewer.page.locator('#banner').isVisible()).toBe(false);
+  await viewer.type('lights', 60);
+  await viewer.stateWith('60 lights', ({ lightCount }) => lightCount === 60);
+  expect(viewer.connectionCount).toBe(1);
+});
+
+it('NumberThatIsNoWholeOne_IsRefusedHere', async () => {
+  await open(kStill);
+  await viewer.openPanel();
+  await viewer.type('light_seed', 1.5);
+  await banner('whole number');
+  expect(viewer.sent.some(({ body }) => body.case === 'setLights' && body.value.seed === 1)).toBe(false);
+});
+
+it('LinkWithNonsense_IsNamedAndTheRestCounts', async () => {
+  await open(`${kStill}&renderer=fastest`);
+  await banner('renderer=fastest');
+  await viewer.stateWith('50 lights', ({ lightCount }) => lightCount === 50);
+});
+
+it('LinkOutOfRange_ShowsTheServersWords', async () => {
+  await open('#size=320x180&light_animate=0&exposure=-1');
+  await banner('exposure');
+  await viewer.stateWith('320 × 180', ({ width }) => width === 320);
+});
+
+it('ServerRestart_TheViewGoesOn', async () => {
+  const restored = ({ renderer, lightCount }: ViewState): boolean =>
+    renderer === Renderer.FORWARD_PLUS && lightCount === 123;
+  await open(kStill);
+  await viewer.openPanel();
+  await viewer.type('lights', 123);
+  await viewer.choose('renderer', 'forward plus');
+  await viewer.stateWith('forward plus', restored);
+  const before = viewer.received.length;
+  const code = await server.stop();
+  expect(code).toBe(0);
+  await banner(/Next try in/);
+  await viewer.screenshot('reconnect');
+  server = await startServer(server.port);
+  const welcome = await until('Welcome', () =>
+    viewer.received.slice(before).find(({ body }) => body.case === 'welcome'),
+  );
+  expect(welcome.body.case === 'welcome' && welcome.body.value.state?.lightCount).not.toBe(123);
+  await viewer.stateWith('what it was', restored);
+  const frames = viewer.frameCount;
+  await until('new frames', () => viewer.frameCount > frames);
+  await until('no banner', async () => !(await viewer.page.locator('#banner').isVisible()));
+  await viewer.picture();
+});
+
+it('TryNow_ConnectsAtOnce', async () => {
+  await open(kStill);
+  // The page's clock stands: only the button can start the next try.
+  await viewer.page.clock.install();
+  await viewer.page.clock.pauseAt(Date.now() + 60_000);
+  await server.stop();
+  await banner(/Next try in/);
+  server = await startServer(server.port);
+  expect(viewer.connectionCount).toBe(1);
+  await viewer.page.locator('#banner-retry').click();
+  await until('no banner', async () => !(await viewer.page.locator('#banner').isVisible()));
+  expect(viewer.connectionCount).toBe(2);
+});

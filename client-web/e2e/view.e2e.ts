@@ -1,0 +1,215 @@
+// What a viewer sees and does with the page as it opens.
+
+import { readFileSync } from 'node:fs';
+
+import type { Browser } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
+
+import { startServer, type Server } from './server';
+import { difference, launch, until, Viewer } from './viewer';
+
+const kStill = '#size=320x180&light_animate=0&lights=50';
+
+let server: Server;
+let browser: Browser;
+let viewers: Viewer[] = [];
+
+async function open(hash = kStill, options = {}): Promise<Viewer> {
+  const viewer = await Viewer.open(browser, server.url + hash, options);
+  viewers.push(viewer);
+  await viewer.picture();
+  return viewer;
+}
+
+beforeAll(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+afterAll(async () => {
+  await browser.close();
+  expect(await server.stop()).toBe(0);
+});
+afterEach(async () => {
+  const complaints = viewers.flatMap((viewer) => viewer.complaints);
+  await Promise.all(viewers.map((viewer) => viewer.close()));
+  viewers = [];
+  expect(complaints).toEqual([]);
+});
+
+it('Page_AsItOpens_ConnectsAndPaintsAndCounts', async () => {
+  const viewer = await open('');
+  expect(await viewer.page.title()).toBe('Froxel');
+  await until('figures', async () => {
+    const rate = await viewer.page.locator('#stat-fps').textContent();
+    return viewer.frameCount > 10 && Number(rate) > 0 && (await viewer.page.locator('#stats-passes li').count()) > 0;
+  });
+  expect(await viewer.page.locator('#progress').isVisible()).toBe(false);
+  expect(await viewer.page.locator('#banner').isVisible()).toBe(false);
+  await viewer.screenshot('wide');
+});
+
+it('Picture_FollowsTheWindow_WithinTheServersBudget', async () => {
+  const viewer = await open('#light_animate=0&lights=50&size=auto@0.25');
+  await viewer.stateWith('320 × 180', (state) => state.width === 320 && state.height === 180);
+  await viewer.page.setViewportSize({ width: 800, height: 800 });
+  await viewer.stateWith('200 × 200', (state) => state.width === 200 && state.height === 200);
+});
+
+it('Pointer_Wheel_AndKeys_MoveTheCamera', async () => {
+  const viewer = await open();
+  const { mouse, keyboard } = viewer.page;
+  const moves: [string, () => Promise<void>][] = [
+    [
+      'orbit',
+      async () => {
+        await mouse.move(600, 300);
+        await mouse.down();
+        await mouse.move(700, 340, { steps: 8 });
+        await mouse.up();
+      },
+    ],
+    ['wheel', () => mouse.wheel(0, 300)],
+    [
+      'pan',
+      async () => {
+        await mouse.down({ button: 'right' });
+        await mouse.move(600, 400, { steps: 4 });
+        await mouse.up({ button: 'right' });
+      },
+    ],
+    [
+      'fly',
+      async () => {
+        await keyboard.down('w');
+        await viewer.page.waitForTimeout(300); // held for a while is what flying is
+        await keyboard.up('w');
+      },
+    ],
+  ];
+  for (const [name, move] of moves) {
+    const before = await viewer.settled();
+    const { state } = viewer;
+    await move();
+    await viewer.stateWith(name, ({ eye }) => eye?.x !== state?.eye?.x || eye?.z !== state?.eye?.z);
+    await viewer.changed(name, before);
+  }
+});
+
+it('Orbit_SendsAtMostOneCameraForAnAnimationFrame', async () => {
+  const viewer = await open();
+  const { mouse } = viewer.page;
+  await mouse.move(300, 300);
+  await mouse.down();
+  const frames = viewer.page.evaluate(
+    () =>
+      new Promise<number>((resolve) => {
+        let count = 0;
+        const tick = (): void => {
+          count += 1;
+          if (document.body.dataset.done === '1') resolve(count);
+          else requestAnimationFrame(tick);
+        };
+        requestAnimationFrame(tick);
+      }),
+  );
+  await mouse.move(600, 320, { steps: 200 });
+  await viewer.page.evaluate(() => (document.body.dataset.done = '1'));
+  await mouse.up();
+  const cameras = viewer.sent.filter(({ body }) => body.case === 'setCamera').length;
+  expect(cameras).toBeGreaterThan(0);
+  expect(cameras).toBeLessThanOrEqual((await frames) + 1);
+});
+
+it('Link_ReproducesTheView', async () => {
+  const first = await open();
+  const { mouse } = first.page;
+  await mouse.move(600, 300);
+  await mouse.down();
+  await mouse.move(680, 330, { steps: 5 });
+  await mouse.up();
+  await until('the link', () => new URL(first.page.url()).hash.includes('eye='));
+  const { state } = first;
+  const second = await open(new URL(first.page.url()).hash);
+  const far = (a = 0, b = 0): boolean => Math.abs(a - b) > 1e-9;
+  await second.stateWith('the same camera', ({ eye }) => !far(eye?.x, state?.eye?.x));
+  // Not the same to the bit: each session's clock stood still a moment after its start.
+  await until('the same picture', async () => {
+    return difference(await first.thumbnail(), await second.thumbnail()) < 2;
+  });
+});
+
+it('Sessions_AreTheirViewersOwn', async () => {
+  const [first, second] = [await open(), await open()];
+  const before = await second.settled();
+  await first.openPanel();
+  await first.choose('renderer', 'toon fragment');
+  await first.type('exposure', 4);
+  await first.stateWith('exposure 4', ({ exposure }) => exposure === 4);
+  expect(second.state?.exposure).toBe(1);
+  expect(difference(await second.thumbnail(), before)).toBe(0);
+});
+
+it('ScreenshotButton_SavesThePictureAsPng', async () => {
+  const viewer = await open();
+  await viewer.stateWith('320 × 180', ({ width }) => width === 320);
+  await until('a small picture', () => viewer.page.evaluate(() => document.querySelector('canvas')?.width === 320));
+  const [download] = await Promise.all([
+    viewer.page.waitForEvent('download'),
+    viewer.page.locator('#tool-screenshot').click(),
+  ]);
+  expect(download.suggestedFilename()).toMatch(/^froxel-.*\.png$/);
+  const png = readFileSync(await download.path());
+  expect(png.subarray(1, 4).toString()).toBe('PNG');
+  expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([320, 180]);
+});
+
+it('HiddenPage_PausesTheServerUntilItIsSeenAgain', async () => {
+  const viewer = await open('#size=160x90&lights=50&light_animate=1');
+  const hide = (hidden: boolean): Promise<void> =>
+    viewer.page.evaluate((value) => {
+      Object.defineProperty(document, 'hidden', { configurable: true, get: () => value });
+      document.dispatchEvent(new Event('visibilitychange'));
+    }, hidden);
+  await hide(true);
+  let last = -1;
+  await until('no more frames for a second', async () => {
+    last = viewer.frameCount;
+    await viewer.page.waitForTimeout(1000);
+    return viewer.frameCount === last;
+  });
+  await hide(false);
+  await until('frames again', () => viewer.frameCount > last + 5);
+});
+
+it('Help_OpensAndClosesByKey', async () => {
+  const viewer = await open();
+  await viewer.page.keyboard.press('h');
+  expect(await viewer.page.locator('#help').isVisible()).toBe(true);
+  expect(await viewer.page.locator('#about').textContent()).toContain('froxel');
+  await viewer.screenshot('help');
+  await viewer.page.keyboard.press('Escape');
+  expect(await viewer.page.locator('#help').isVisible()).toBe(false);
+});
+
+it('Phone_At360Px_ShowsThePictureAndFoldsTheRest', async () => {
+  const viewer = await open(kStill, {
+    viewport: { width: 360, height: 740 },
+    hasTouch: true,
+    isMobile: true,
+    deviceScaleFactor: 2,
+    colorScheme: 'dark',
+  });
+  const { page } = viewer;
+  await viewer.screenshot('phone');
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  expect(width).toBe(360);
+  expect(await viewer.control('lights').isVisible()).toBe(false);
+  await page.locator('#panel .lil-root > .lil-title').tap();
+  await viewer.openPanel();
+  const control = viewer.control('lights');
+  await control.scrollIntoViewIfNeeded();
+  const box = await control.boundingBox();
+  expect(box && box.x >= 0 && box.x + box.width <= 360).toBe(true);
+  await viewer.screenshot('phone-panel');
+  await viewer.type('lights', 7);
+  await viewer.stateWith('7 lights', ({ lightCount }) => lightCount === 7);
+});

@@ -1,0 +1,201 @@
+// A page in headless Chromium, with what it says and hears on its WebSocket.
+
+import { mkdirSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+
+import { fromBinary } from '@bufbuild/protobuf';
+import {
+  chromium,
+  type Browser,
+  type BrowserContextOptions,
+  type Locator,
+  type Page,
+} from 'playwright-core';
+
+import { decodeBinary } from '../src/framing';
+import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
+import type { ViewState } from '../src/gen/froxel/v1/common_pb';
+import type { FrameHeader, ServerMessage } from '../src/gen/froxel/v1/server_pb';
+
+const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
+const kPatienceMs = 60_000;
+const kPollMs = 50;
+
+export function launch(): Promise<Browser> {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: [
+      '--no-sandbox',
+      '--disable-gpu',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+    ],
+  });
+}
+
+type Nothing = null | undefined | false;
+
+/** Waits until `probe` gives something, and returns it. */
+export async function until<T>(
+  what: string,
+  probe: () => T | Nothing | Promise<T | Nothing>,
+): Promise<T> {
+  const end = Date.now() + kPatienceMs;
+  for (;;) {
+    const value = await probe();
+    if (value !== null && value !== undefined && value !== false) return value;
+    if (Date.now() > end) throw new Error(`waited in vain for: ${what}`);
+    await new Promise((wake) => setTimeout(wake, kPollMs));
+  }
+}
+
+export class Viewer {
+  readonly received: ServerMessage[] = [];
+  readonly sent: ClientMessage[] = [];
+  readonly complaints: string[] = []; // errors on the console, exceptions
+  frameCount = 0;
+  lastFrame: FrameHeader | null = null;
+  connectionCount = 0;
+
+  private constructor(readonly page: Page) {
+    page.on('pageerror', (error) => this.complaints.push(error.message));
+    page.on('console', (message) => {
+      if (message.type() === 'error') this.complaints.push(message.text());
+    });
+    page.on('websocket', (socket) => {
+      this.connectionCount += 1;
+      socket.on('framereceived', ({ payload }) => this.heard(payload));
+      socket.on('framesent', ({ payload }) => {
+        if (typeof payload !== 'string') {
+          this.sent.push(fromBinary(ClientMessageSchema, new Uint8Array(payload)));
+        }
+      });
+    });
+  }
+
+  static async open(
+    browser: Browser,
+    url: string,
+    options: BrowserContextOptions = {},
+  ): Promise<Viewer> {
+    const context = await browser.newContext({
+      viewport: { width: 1280, height: 720 },
+      ...options,
+    });
+    const viewer = new Viewer(await context.newPage());
+    await viewer.page.goto(url);
+    return viewer;
+  }
+
+  close(): Promise<void> {
+    return this.page.context().close();
+  }
+
+  /** The newest complete state that the server told. */
+  get state(): ViewState | undefined {
+    for (const { body } of [...this.received].reverse()) {
+      if (body.case === 'state' || body.case === 'welcome') return body.value.state;
+    }
+    return undefined;
+  }
+
+  stateWith(what: string, test: (state: ViewState) => boolean): Promise<ViewState> {
+    return until(`a state with ${what}`, () => {
+      const { state } = this;
+      return state && test(state) ? state : null;
+    });
+  }
+
+  /** Mean and a coarse 16 × 9 copy of the picture, as bytes of R, G and B. */
+  async thumbnail(): Promise<number[]> {
+    return this.page.evaluate(() => {
+      const source = document.querySelector('canvas');
+      const small = document.createElement('canvas');
+      small.width = 16;
+      small.height = 9;
+      const context = small.getContext('2d');
+      if (!source || !context) return [];
+      context.drawImage(source, 0, 0, small.width, small.height);
+      const { data } = context.getImageData(0, 0, small.width, small.height);
+      return [...data].filter((_, index) => index % 4 !== 3);
+    });
+  }
+
+  async picture(): Promise<number[]> {
+    return until('a picture that is not black', async () => {
+      const pixels = await this.thumbnail();
+      return pixels.some((value) => value > 16) ? pixels : null;
+    });
+  }
+
+  /** Waits until all that was asked for is in the picture, and gives that one's thumbnail. */
+  async settled(): Promise<number[]> {
+    await until('a picture of the newest settings', () => {
+      const asked = this.sent.filter(({ body }) => /^(set|select)/.test(body.case ?? '')).at(-1);
+      const shown = this.sent.filter(({ body }) => body.case === 'ack').at(-1)?.body;
+      const { lastFrame } = this;
+      return (
+        lastFrame !== null &&
+        lastFrame.appliedSeq >= (asked?.seq ?? 0n) &&
+        shown?.case === 'ack' &&
+        shown.value.frameId === lastFrame.frameId
+      );
+    });
+    return this.thumbnail();
+  }
+
+  /** Waits for a picture that differs from `before` by more than JPEG noise. */
+  changed(what: string, before: readonly number[]): Promise<true> {
+    return until(`another picture after ${what}`, async () => {
+      const now = await this.thumbnail();
+      return difference(now, before) > 1 ? true : null;
+    });
+  }
+
+  control(field: string): Locator {
+    return this.page.locator(`#panel [data-field="${field}"]`);
+  }
+
+  /** Opens every folder of the panel, so that each control can be reached. */
+  async openPanel(): Promise<void> {
+    const closed = this.page.locator('#panel .lil-closed > .lil-title:visible');
+    while ((await closed.count()) > 0) {
+      await closed.first().click();
+      await this.page.waitForTimeout(50); // the folder's transition swaps its classes
+    }
+  }
+
+  async type(field: string, value: number): Promise<void> {
+    const input = this.control(field).locator('input:not([type=range])');
+    await input.fill(String(value));
+    await input.press('Enter');
+  }
+
+  choose(field: string, label: string): Promise<string[]> {
+    return this.control(field).locator('select').selectOption({ label });
+  }
+
+  async screenshot(name: string): Promise<void> {
+    mkdirSync(kResults, { recursive: true });
+    await this.page.screenshot({ path: `${kResults}/${name}.png` });
+  }
+
+  private heard(payload: string | Buffer): void {
+    if (typeof payload === 'string') return;
+    const decoded = decodeBinary(new Uint8Array(payload).buffer);
+    if (decoded.kind === 'message') {
+      this.received.push(decoded.message);
+      return;
+    }
+    this.frameCount += 1;
+    this.lastFrame = decoded.frame.header;
+  }
+}
+
+/** Mean absolute difference of two thumbnails, in steps of 8 bits. */
+export function difference(a: readonly number[], b: readonly number[]): number {
+  return a.reduce((sum, value, i) => sum + Math.abs(value - (b[i] ?? 0)), 0) / a.length;
+}

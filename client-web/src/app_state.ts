@@ -1,0 +1,184 @@
+// The page's state and its pure reducer. Effects (sockets, DOM) live elsewhere and only dispatch.
+//
+// `settings` is what the viewer wants, `sent` what the server has been told, `confirmed` what it
+// said last. The server answers every command with its complete state; an answer is adopted only
+// when nothing newer is under way, so that a slider never jumps back to where it was a round trip
+// ago. A refusal takes the settings back to the confirmed ones.
+
+import type { FieldRange, SceneInfo, ServerMessage } from './gen/froxel/v1/server_pb';
+import { cameraOf, settingsOf, type Bounds, type Settings } from './settings';
+import type { SizeMode } from './url_state';
+import { vec } from './vec3';
+
+export type Link =
+  | { readonly phase: 'connecting' }
+  | { readonly phase: 'greeting' } // open, Welcome not yet there
+  | { readonly phase: 'live' }
+  | { readonly phase: 'waiting'; readonly reason: string; readonly retryAtMs: number }
+  | { readonly phase: 'refused'; readonly reason: string }; // trying again is pointless
+
+export interface ServerInfo {
+  readonly version: string;
+  readonly device: string;
+  readonly scene: SceneInfo | null;
+  readonly bounds: Bounds | null;
+  readonly ranges: ReadonlyMap<string, FieldRange>;
+  readonly initial: Settings;
+}
+
+export interface Loading {
+  readonly stage: string;
+  readonly fraction: number;
+}
+
+export interface Notice {
+  readonly text: string;
+  readonly tone: 'error' | 'info';
+}
+
+export interface AppState {
+  readonly link: Link;
+  readonly server: ServerInfo | null;
+  readonly loading: Loading | null;
+  readonly settings: Settings | null;
+  readonly sent: Settings | null;
+  readonly sentSeq: bigint; // newest command that sets state
+  readonly confirmed: Settings | null;
+  /** What the link asked for; merged into the first Welcome's state. */
+  readonly wanted: Partial<Settings>;
+  readonly sizeMode: SizeMode | null; // null: until Welcome tells what the server can do
+  readonly notice: Notice | null;
+}
+
+export type Action =
+  | { readonly type: 'link'; readonly link: Link }
+  | { readonly type: 'received'; readonly message: ServerMessage }
+  | { readonly type: 'edit'; readonly patch: Partial<Settings> }
+  | { readonly type: 'size_mode'; readonly mode: SizeMode }
+  | { readonly type: 'sent'; readonly seq: bigint; readonly settings: Settings }
+  | { readonly type: 'restored'; readonly wanted: Partial<Settings>; readonly size: SizeMode | null }
+  | ({ readonly type: 'notice' } & Notice)
+  | { readonly type: 'dismiss' };
+
+export const kInitialState: AppState = {
+  link: { phase: 'connecting' },
+  server: null,
+  loading: null,
+  settings: null,
+  sent: null,
+  sentSeq: 0n,
+  confirmed: null,
+  wanted: {},
+  sizeMode: null,
+  notice: null,
+};
+
+export function reduce(state: AppState, action: Action): AppState {
+  switch (action.type) {
+    case 'link':
+      return linked(state, action.link);
+    case 'received':
+      return received(state, action.message);
+    case 'edit':
+      return state.settings
+        ? { ...state, settings: { ...state.settings, ...action.patch } }
+        : { ...state, wanted: { ...state.wanted, ...action.patch } };
+    case 'size_mode':
+      return { ...state, sizeMode: action.mode };
+    case 'sent':
+      return { ...state, sent: action.settings, sentSeq: action.seq };
+    case 'restored':
+      return restored(state, action.wanted, action.size);
+    case 'notice':
+      return { ...state, notice: { text: action.text, tone: action.tone } };
+    case 'dismiss':
+      return { ...state, notice: null };
+  }
+}
+
+function linked(state: AppState, link: Link): AppState {
+  // A new connection knows nothing of what the last one was told.
+  const forget = link.phase === 'live' ? {} : { sent: null, sentSeq: 0n, loading: null };
+  return { ...state, ...forget, link };
+}
+
+function restored(state: AppState, wanted: Partial<Settings>, size: SizeMode | null): AppState {
+  const settings = state.settings && { ...state.settings, ...wanted };
+  return { ...state, wanted, settings, sizeMode: size ?? state.sizeMode };
+}
+
+function received(state: AppState, message: ServerMessage): AppState {
+  const { body } = message;
+  switch (body.case) {
+    case 'welcome':
+      return welcomed(state, body.value);
+    case 'state': {
+      const answer = body.value;
+      if (!answer.state) return state;
+      const confirmed = settingsOf(answer.state, state.server?.bounds ?? null);
+      const stale = state.settings !== state.sent || answer.refSeq < state.sentSeq;
+      return stale
+        ? { ...state, confirmed }
+        : { ...state, confirmed, settings: confirmed, sent: confirmed };
+    }
+    case 'error':
+      return {
+        ...state,
+        ...(body.value.refSeq > 0n && { settings: state.confirmed, sent: state.confirmed }),
+        notice: { text: body.value.message, tone: 'error' },
+      };
+    case 'loading':
+      return { ...state, loading: { stage: body.value.stage, fraction: body.value.fraction } };
+    case 'draining':
+      return { ...state, notice: { text: 'The server is going down.', tone: 'info' } };
+    default:
+      return state;
+  }
+}
+
+type Welcome = Extract<ServerMessage['body'], { case: 'welcome' }>['value'];
+
+function welcomed(state: AppState, welcome: Welcome): AppState {
+  if (!welcome.state) {
+    return { ...state, link: { phase: 'refused', reason: 'Welcome without a state' } };
+  }
+  const scene = welcome.scene ?? null;
+  const bounds = boundsOf(scene);
+  const initial = settingsOf(welcome.state, bounds);
+  const server: ServerInfo = {
+    version: welcome.serverVersion,
+    device: welcome.device,
+    scene,
+    bounds,
+    ranges: new Map(welcome.ranges.map((range) => [range.field, range])),
+    initial,
+  };
+  const settings = desired(state, server);
+  return {
+    ...state,
+    link: { phase: 'live' },
+    loading: null,
+    // News of the last connection, such as that the server goes down, is old now.
+    notice: state.notice?.tone === 'info' ? null : state.notice,
+    server,
+    settings,
+    sent: initial,
+    sentSeq: 0n,
+    confirmed: initial,
+    wanted: {},
+  };
+}
+
+/** What to show after Welcome: as before the connection broke, or else as the link says. */
+function desired(state: AppState, server: ServerInfo): Settings {
+  const before = state.settings;
+  if (!before) return { ...server.initial, ...state.wanted };
+  if (state.server?.scene?.name === server.scene?.name) return before;
+  // Another scene: places of the old one mean nothing in it.
+  return { ...before, ...cameraOf(server.initial), lightBox: null };
+}
+
+function boundsOf(scene: SceneInfo | null): Bounds | null {
+  const { min, max } = scene?.bounds ?? {};
+  return min && max ? { min: vec(min.x, min.y, min.z), max: vec(max.x, max.y, max.z) } : null;
+}

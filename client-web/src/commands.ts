@@ -1,0 +1,110 @@
+// What the panel, the keys and the pointer can do, as actions on the store and the connection.
+
+import type { Pose } from './camera_controller';
+import type { Connection } from './connection';
+import { patchFor, type Field } from './fields';
+import { RendererSchema } from './gen/froxel/v1/common_pb';
+import type { InputTarget, View } from './input';
+import type { PanelActions } from './panel';
+import { download, type Picture } from './picture';
+import { choicesOf } from './schema_names';
+import type { Settings } from './settings';
+import { isUint32, type SizeMode } from './url_state';
+import type { Store } from './store';
+import { length, sub } from './vec3';
+
+/** Seconds that flying through a scene from end to end takes. */
+const kFlightSeconds = 12;
+
+export class Commands implements PanelActions, InputTarget {
+  constructor(
+    private readonly store: Store,
+    private readonly connection: Connection,
+    private readonly picture: Picture,
+  ) {}
+
+  edit(patch: Partial<Settings>): void {
+    this.store.dispatch({ type: 'edit', patch });
+  }
+
+  set(field: Field, value: number | boolean): void {
+    if (field.kind === 'number' && field.integer && !isUint32(Number(value))) {
+      this.refuse(`${field.name} = ${value}: a whole number from 0 to 4294967295 is needed`);
+      return;
+    }
+    this.edit(patchFor(field, value));
+  }
+
+  setSizeMode(mode: SizeMode): void {
+    this.store.dispatch({ type: 'size_mode', mode });
+  }
+
+  setSize(width: number, height: number): void {
+    if (isUint32(width) && isUint32(height)) this.edit({ width, height });
+    else this.refuse(`size = ${width} x ${height}: whole numbers are needed`);
+  }
+
+  resetAll(): void {
+    const { server } = this.store.state;
+    if (!server) return;
+    const { width, height } = this.store.state.settings ?? server.initial;
+    this.edit({ ...server.initial, width, height });
+  }
+
+  /** The answer's camera is adopted: the page does not know where the scene's cameras stand. */
+  selectCamera(name: string): void {
+    const seq = this.connection.send({ case: 'selectSceneCamera', value: { name } });
+    const { sent } = this.store.state;
+    if (seq === null || !sent) return;
+    this.store.dispatch({ type: 'sent', seq, settings: sent });
+  }
+
+  selectCameraAt(index: number): void {
+    const name = this.store.state.server?.scene?.cameras[index];
+    if (name !== undefined) this.selectCamera(name);
+  }
+
+  toggleAnimation(): void {
+    const { settings } = this.store.state;
+    if (settings) this.edit({ lightAnimate: !settings.lightAnimate });
+  }
+
+  nextRenderer(): void {
+    const { settings } = this.store.state;
+    if (!settings) return;
+    const values = choicesOf(RendererSchema).map(({ value }) => value);
+    const next = values[(values.indexOf(settings.renderer) + 1) % values.length];
+    if (next !== undefined) this.edit({ renderer: next });
+  }
+
+  async screenshot(): Promise<void> {
+    const png = await this.picture.png();
+    if (!png) {
+      this.refuse('There is no picture to save yet.');
+      return;
+    }
+    const stamp = new Date().toISOString().slice(0, 19).replaceAll(':', '-');
+    download(png, `froxel-${stamp}.png`);
+  }
+
+  view(): View | null {
+    return this.store.state.settings;
+  }
+
+  setPose({ eye, target, up }: Pose): void {
+    this.edit({ eye, target, up });
+  }
+
+  setHalfHeight(halfHeight: number): void {
+    this.edit({ halfHeight });
+  }
+
+  flySpeed(): number {
+    const bounds = this.store.state.server?.bounds;
+    return bounds ? length(sub(bounds.max, bounds.min)) / kFlightSeconds : 1;
+  }
+
+  private refuse(text: string): void {
+    this.store.dispatch({ type: 'notice', tone: 'error', text });
+  }
+}

@@ -1,0 +1,151 @@
+// One viewer's connection: WebSocket, Hello, reconnects. Knows nothing of settings or pictures.
+
+import { backoffMs } from './backoff';
+import {
+  decodeBinary,
+  encodeCommand,
+  FramingError,
+  kProtocolMajor,
+  kProtocolMinor,
+  kSubprotocol,
+  type Frame,
+} from './framing';
+import type { ServerMessage } from './gen/froxel/v1/server_pb';
+import type { ClientBody } from './settings';
+import type { Link } from './app_state';
+
+export interface ConnectionEvents {
+  link(link: Link): void;
+  message(message: ServerMessage): void;
+  frame(frame: Frame, bytes: number): void;
+  /** Something from the server could not be read; the connection goes on. */
+  problem(text: string): void;
+}
+
+/** The part of WebSocket that is used. */
+export type Socket = Pick<
+  WebSocket,
+  'binaryType' | 'bufferedAmount' | 'close' | 'onclose' | 'onmessage' | 'onopen' | 'readyState' | 'send'
+>;
+
+export interface Environment {
+  openSocket(url: string, subprotocol: string): Socket;
+  nowMs(): number; // monotonic
+  random(): number; // [0, 1)
+  after(delayMs: number, action: () => void): () => void; // returns how to cancel
+}
+
+/** A connection that lived this long was a good one: the next delay starts small again. */
+const kStableMs = 5_000;
+const kPingEveryMs = 5_000;
+/** Nothing from the server for so long, in spite of pings: the way is broken. */
+const kSilenceMs = 15_000;
+const kOpen = 1;
+
+const kNoRetryReasons: Readonly<Record<number, string>> = {
+  1008: 'The server closed the connection: too many refused messages.',
+  1009: 'The server closed the connection: a message was too big.',
+  4001: 'This page speaks another protocol version than the server. Reload it.',
+};
+
+const kRetryReasons: Readonly<Record<number, string>> = {
+  4008: 'This connection was too slow for the server.',
+  4010: 'The server is going down.',
+  4029: 'The server has no session left.',
+  4050: 'The server lost its rendering device.',
+};
+
+export class Connection {
+  private socket: Socket | null = null;
+  private seq = 0n;
+  private attempt = 0;
+  private openedAtMs = 0;
+  private heardAtMs = 0;
+  private cancelTimer: () => void = () => undefined;
+
+  constructor(
+    private readonly url: string,
+    private readonly events: ConnectionEvents,
+    private readonly env: Environment,
+  ) {}
+
+  open(): void {
+    this.cancelTimer();
+    this.events.link({ phase: 'connecting' });
+    const socket = this.env.openSocket(this.url, kSubprotocol);
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => this.opened(socket);
+    socket.onmessage = (event: MessageEvent) => this.received(event.data);
+    socket.onclose = (event) => this.closed(socket, event.code, event.reason);
+    this.socket = socket;
+  }
+
+  /** Bytes that wait to leave this machine. */
+  get backlogBytes(): number {
+    return this.socket?.bufferedAmount ?? 0;
+  }
+
+  /** Sends a command and returns its sequence number; null while there is no open connection. */
+  send(body: ClientBody): bigint | null {
+    if (this.socket?.readyState !== kOpen) return null;
+    this.seq += 1n;
+    this.socket.send(encodeCommand(this.seq, this.env.nowMs(), body));
+    return this.seq;
+  }
+
+  private opened(socket: Socket): void {
+    if (socket !== this.socket) return;
+    this.seq = 0n;
+    this.openedAtMs = this.heardAtMs = this.env.nowMs();
+    this.events.link({ phase: 'greeting' });
+    const hello = { protocolMajor: kProtocolMajor, protocolMinor: kProtocolMinor };
+    this.send({ case: 'hello', value: { ...hello, clientName: 'froxel web client' } });
+    this.keepAlive(socket);
+  }
+
+  private received(data: unknown): void {
+    this.heardAtMs = this.env.nowMs();
+    try {
+      if (!(data instanceof ArrayBuffer)) throw new FramingError('a text message from the server');
+      const received = decodeBinary(data);
+      if (received.kind === 'frame') this.events.frame(received.frame, data.byteLength);
+      else this.events.message(received.message);
+    } catch (error) {
+      if (!(error instanceof FramingError)) throw error;
+      this.events.problem(error.message);
+    }
+  }
+
+  private keepAlive(socket: Socket): void {
+    this.cancelTimer = this.env.after(kPingEveryMs, () => {
+      if (socket !== this.socket) return;
+      if (this.env.nowMs() - this.heardAtMs > kSilenceMs) {
+        // close() would wait for an answer that never comes; the browser finishes it later.
+        socket.close();
+        this.closed(socket, 1006, '');
+        return;
+      }
+      this.send({ case: 'ping', value: {} });
+      this.keepAlive(socket);
+    });
+  }
+
+  private closed(socket: Socket, code: number, reason: string): void {
+    if (socket !== this.socket) return; // an older one that the browser closes late
+    this.cancelTimer();
+    this.socket = null;
+    const now = this.env.nowMs();
+    const final = kNoRetryReasons[code];
+    if (final !== undefined) {
+      this.events.link({ phase: 'refused', reason: reason ? `${final} (${reason})` : final });
+      return;
+    }
+    if (this.openedAtMs > 0 && now - this.openedAtMs >= kStableMs) this.attempt = 0;
+    this.openedAtMs = 0;
+    const delay = backoffMs(this.attempt, () => this.env.random());
+    this.attempt += 1;
+    const text = kRetryReasons[code] ?? 'No connection to the server.';
+    this.events.link({ phase: 'waiting', reason: text, retryAtMs: now + delay });
+    this.cancelTimer = this.env.after(delay, () => this.open());
+  }
+}

@@ -1,0 +1,20 @@
+// Elements of index.html by their id.
+
+/** The element, of the expected class; a page without it is a bug. */
+export function element<T extends Element>(id: string, type: new () => T): T {
+  const found = document.getElementById(id);
+  if (!(found instanceof type)) throw new Error(`index.html has no ${type.name} #${id}`);
+  return found;
+}
+
+/** A new element with text; never HTML, so that a server's words stay words. */
+export function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  text = '',
+  className = '',
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  if (text !== '') made.textContent = text;
+  if (className !== '') made.className = className;
+  return made;
+}

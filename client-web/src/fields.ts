@@ -1,0 +1,127 @@
+// The table of scalar settings: the panel builds its controls from it and the URL its keys.
+// `name` is the protocol's name, under which Welcome.ranges tells what the server accepts.
+
+import type { DescEnum } from '@bufbuild/protobuf';
+
+import {
+  ChromaSchema,
+  LightingStageSchema,
+  RendererSchema,
+  ToneMapSchema,
+} from './gen/froxel/v1/common_pb';
+import type { Settings } from './settings';
+
+type KeysOf<T> = {
+  [Key in keyof Settings]: Settings[Key] extends T ? Key : never;
+}[keyof Settings];
+
+interface Base {
+  readonly name: string;
+  readonly label: string;
+  readonly tip: string;
+}
+
+export interface NumberField extends Base {
+  readonly kind: 'number';
+  readonly key: KeysOf<number>;
+  readonly integer: boolean;
+  /** 'log' where useful values span decades, 'none' for a plain number box. */
+  readonly slider: 'linear' | 'log' | 'none';
+}
+
+export interface BooleanField extends Base {
+  readonly kind: 'boolean';
+  readonly key: KeysOf<boolean>;
+}
+
+export interface ChoiceField extends Base {
+  readonly kind: 'choice';
+  readonly key: 'renderer' | 'lighting' | 'toneMap' | 'chroma';
+  readonly schema: DescEnum;
+}
+
+export type Field = NumberField | BooleanField | ChoiceField;
+
+export type Section = 'camera' | 'rendering' | 'lights' | 'clusters' | 'stream';
+
+const number = (
+  key: KeysOf<number>,
+  name: string,
+  label: string,
+  slider: NumberField['slider'],
+  integer: boolean,
+  tip: string,
+): NumberField => ({ kind: 'number', key, name, label, slider, integer, tip });
+
+const choice = (
+  key: ChoiceField['key'],
+  name: string,
+  label: string,
+  schema: DescEnum,
+  tip: string,
+): ChoiceField => ({ kind: 'choice', key, name, label, schema, tip });
+
+const toggle = (
+  key: KeysOf<boolean>,
+  name: string,
+  label: string,
+  tip: string,
+): BooleanField => ({ kind: 'boolean', key, name, label, tip });
+
+export const kFields: Readonly<Record<Section, readonly Field[]>> = {
+  camera: [
+    number('fovDeg', 'fov_deg', 'Field of view °', 'linear', false, 'Full vertical angle'),
+  ],
+  rendering: [
+    choice('renderer', 'renderer', 'Renderer', RendererSchema, 'How the scene is lit'),
+    choice(
+      'lighting',
+      'lighting',
+      'Lighting stage',
+      LightingStageSchema,
+      'Where the deferred renderers light: in a compute or in a fragment pass',
+    ),
+    number('exposure', 'exposure', 'Exposure', 'log', false, 'Multiplies light before the tone map'),
+    choice('toneMap', 'tone_map', 'Tone map', ToneMapSchema, 'From scene light to display colours'),
+  ],
+  lights: [
+    number('lights', 'lights', 'Count', 'log', true, 'Moving point lights'),
+    number(
+      'lightRadius',
+      'light_radius',
+      'Radius m',
+      'log',
+      false,
+      "Where a light's contribution reaches exactly zero",
+    ),
+    number('lightIntensity', 'light_intensity', 'Intensity', 'log', false, 'Scales every moving light'),
+    number('lightSpeed', 'light_speed', 'Speed', 'log', false, "Scales the animation's clock"),
+    number('lightSeed', 'light_seed', 'Seed', 'none', true, 'Places, paths and colours of the lights'),
+    toggle('lightAnimate', 'light_animate', 'Animate', 'Off: time stands still'),
+    number('ambient', 'ambient', 'Ambient', 'log', false, 'Scales the light that comes from everywhere'),
+    toggle('sceneLights', 'scene_lights', 'Scene lights', "The scene's own lights"),
+  ],
+  clusters: [
+    number('gridX', 'grid.x', 'Tiles across', 'linear', true, 'Clusters along the width'),
+    number('gridY', 'grid.y', 'Tiles down', 'linear', true, 'Clusters along the height'),
+    number('gridZ', 'grid.z', 'Depth slices', 'linear', true, 'Clusters along the depth'),
+  ],
+  stream: [
+    number('quality', 'quality', 'JPEG quality', 'linear', true, 'Higher: sharper, more bytes'),
+    choice(
+      'chroma',
+      'chroma',
+      'Chroma',
+      ChromaSchema,
+      '444 keeps full colour resolution, 420 sends fewer bytes',
+    ),
+  ],
+};
+
+export const kAllFields: readonly Field[] = Object.values(kFields).flat();
+
+/** The edit that sets a field; an angle of view makes the projection perspective. */
+export function patchFor(field: Field, value: number | boolean): Partial<Settings> {
+  const extra = field.key === 'fovDeg' ? { orthographic: false } : {};
+  return { [field.key]: value, ...extra };
+}

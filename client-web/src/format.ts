@@ -1,0 +1,24 @@
+// Numbers as people read them.
+
+/** Milliseconds with three significant digits or so; an en dash for none. */
+export function ms(value: number | null): string {
+  if (value === null) return '–';
+  return value < 9.95 ? value.toFixed(2) : value < 99.5 ? value.toFixed(1) : value.toFixed(0);
+}
+
+const kUnits = ['B', 'kB', 'MB', 'GB'] as const;
+
+export function bytes(value: number): string {
+  const power = value < 1 ? 0 : Math.min(kUnits.length - 1, Math.floor(Math.log10(value) / 3));
+  const scaled = value / 1000 ** power;
+  return `${power > 0 && scaled < 99.5 ? scaled.toFixed(1) : scaled.toFixed(0)} ${kUnits[power]}`;
+}
+
+/** Digits in groups of three, parted by thin spaces. */
+export function count(value: number | bigint): string {
+  return String(value).replace(/\B(?=(\d{3})+$)/g, '\u2009');
+}
+
+/** At most seven significant digits, what a 32-bit float holds; whole numbers as they are. */
+export const tidy = (value: number): number =>
+  Number.isInteger(value) ? value : Number(value.toPrecision(7));

@@ -1,0 +1,166 @@
+// Mouse, wheel, keys and touch on the canvas, as camera moves.
+//
+//   left drag orbits, with alt looks around · right, middle or shift drag pans · wheel zooms · WASD and QE fly
+//   one finger orbits · two fingers pan and pinch
+
+import { fly, look, orbit, pan, zoom, type Pose } from './camera_controller';
+
+export interface View extends Pose {
+  readonly fovDeg: number;
+  readonly orthographic: boolean;
+  readonly halfHeight: number;
+}
+
+export interface InputTarget {
+  /** Null while there is nothing to steer. */
+  view(): View | null;
+  setPose(pose: Pose): void;
+  setHalfHeight(halfHeight: number): void;
+  /** Metres a second of flight. */
+  flySpeed(): number;
+}
+
+const kRadPerHeight = Math.PI; // a drag over the whole canvas turns half around
+const kZoomPerPixel = 0.0015;
+const kPixelsPerLine = 16;
+const kFastFactor = 4;
+const kLongestStepS = 0.1; // after a stall the camera does not leap
+
+/** Direction of flight of each key: right, up, forward. Codes, not letters: places on any layout. */
+const kFlyKeys: ReadonlyMap<string, readonly [number, number, number]> = new Map([
+  ['KeyW', [0, 0, 1]],
+  ['KeyS', [0, 0, -1]],
+  ['KeyA', [-1, 0, 0]],
+  ['KeyD', [1, 0, 0]],
+  ['KeyE', [0, 1, 0]],
+  ['KeyQ', [0, -1, 0]],
+]);
+
+interface Pointer {
+  readonly x: number;
+  readonly y: number;
+}
+
+export class CanvasInput {
+  private readonly pointers = new Map<number, Pointer>();
+  private readonly keys = new Set<string>();
+  private lastStepMs: number | null = null; // null: not flying
+  private fast = false;
+
+  constructor(
+    private readonly canvas: HTMLElement,
+    private readonly target: InputTarget,
+    private readonly nextFrame: (action: (nowMs: number) => void) => void,
+  ) {
+    canvas.addEventListener('pointerdown', (event) => this.pointerDown(event));
+    canvas.addEventListener('pointermove', (event) => this.pointerMove(event));
+    for (const type of ['pointerup', 'pointercancel'] as const) {
+      canvas.addEventListener(type, (event) => void this.pointers.delete(event.pointerId));
+    }
+    canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  }
+
+  /** Keys come from the window, so that flying needs no click on the canvas first. */
+  keyDown(event: KeyboardEvent): void {
+    if (!kFlyKeys.has(event.code) || event.ctrlKey || event.metaKey || event.altKey) return;
+    this.fast = event.shiftKey;
+    this.keys.add(event.code);
+    this.scheduleStep();
+  }
+
+  keyUp(event: KeyboardEvent): void {
+    this.fast = event.shiftKey;
+    this.keys.delete(event.code);
+  }
+
+  /** The window lost the focus: no key-up will come. */
+  releaseAll(): void {
+    this.keys.clear();
+    this.pointers.clear();
+  }
+
+  private pointerDown(event: PointerEvent): void {
+    this.canvas.setPointerCapture(event.pointerId);
+    this.canvas.focus({ preventScroll: true });
+    this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+  }
+
+  private pointerMove(event: PointerEvent): void {
+    const from = this.pointers.get(event.pointerId);
+    const view = this.target.view();
+    if (!from || !view) return;
+    const to = { x: event.clientX, y: event.clientY };
+    const height = Math.max(1, this.canvas.clientHeight);
+    const dx = (to.x - from.x) / height;
+    const dy = (to.y - from.y) / height;
+    if (this.pointers.size >= 2) this.pinch(view, event.pointerId, from, to);
+    else if ((event.buttons & 6) !== 0 || event.shiftKey) this.pan(view, dx, dy);
+    else if (event.altKey) this.target.setPose(look(view, dx * kRadPerHeight, dy * kRadPerHeight));
+    else this.target.setPose(orbit(view, dx * kRadPerHeight, dy * kRadPerHeight));
+    this.pointers.set(event.pointerId, to);
+  }
+
+  private pan(view: View, dx: number, dy: number): void {
+    this.target.setPose(pan(view, dx, dy, heightAtTarget(view)));
+  }
+
+  /** Each finger moves the picture by half its way; their distance zooms. */
+  private pinch(view: View, id: number, from: Pointer, to: Pointer): void {
+    const other = [...this.pointers].find(([key]) => key !== id)?.[1];
+    if (!other) return;
+    const before = Math.hypot(from.x - other.x, from.y - other.y);
+    const after = Math.hypot(to.x - other.x, to.y - other.y);
+    if (before > 1 && after > 1) this.zoomBy(view, before / after);
+    const moved = this.target.view();
+    const height = Math.max(1, this.canvas.clientHeight) * 2;
+    if (moved) this.pan(moved, (to.x - from.x) / height, (to.y - from.y) / height);
+  }
+
+  private wheel(event: WheelEvent): void {
+    event.preventDefault();
+    const view = this.target.view();
+    if (!view) return;
+    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? kPixelsPerLine : 1;
+    this.zoomBy(view, Math.exp(event.deltaY * unit * kZoomPerPixel));
+  }
+
+  private zoomBy(view: View, factor: number): void {
+    if (view.orthographic) this.target.setHalfHeight(view.halfHeight * factor);
+    else this.target.setPose(zoom(view, factor));
+  }
+
+  private scheduleStep(): void {
+    if (this.lastStepMs !== null) return;
+    this.lastStepMs = performance.now();
+    this.nextFrame((nowMs) => this.step(nowMs));
+  }
+
+  private step(nowMs: number): void {
+    const view = this.target.view();
+    if (this.keys.size === 0 || this.lastStepMs === null || !view) {
+      this.lastStepMs = null;
+      return;
+    }
+    const seconds = Math.min(kLongestStepS, Math.max(0, (nowMs - this.lastStepMs) / 1000));
+    this.lastStepMs = nowMs;
+    const distance = seconds * this.target.flySpeed() * (this.fast ? kFastFactor : 1);
+    let [right, up, forward] = [0, 0, 0];
+    for (const key of this.keys) {
+      const [r, u, f] = kFlyKeys.get(key) ?? [0, 0, 0];
+      right += r * distance;
+      up += u * distance;
+      forward += f * distance;
+    }
+    this.target.setPose(fly(view, right, up, forward));
+    this.nextFrame((next) => this.step(next));
+  }
+}
+
+/** Metres that the picture's height spans at the target's depth. */
+function heightAtTarget(view: View): number {
+  if (view.orthographic) return 2 * view.halfHeight;
+  const { eye, target } = view;
+  const distance = Math.hypot(target.x - eye.x, target.y - eye.y, target.z - eye.z);
+  return 2 * distance * Math.tan((view.fovDeg * Math.PI) / 360);
+}

@@ -1,0 +1,78 @@
+// Sliding statistics of the last samples.
+
+export class SampleWindow {
+  private readonly samples: number[] = [];
+  private next = 0;
+
+  constructor(private readonly capacity: number) {}
+
+  push(value: number): void {
+    this.samples[this.next] = value;
+    this.next = (this.next + 1) % this.capacity;
+  }
+
+  get count(): number {
+    return this.samples.length;
+  }
+
+  /** The value that `fraction` of the samples do not exceed (nearest rank); null without samples. */
+  percentile(fraction: number): number | null {
+    if (this.samples.length === 0) return null;
+    const sorted = [...this.samples].sort((a, b) => a - b);
+    const rank = Math.ceil(fraction * sorted.length) - 1;
+    return sorted[Math.max(0, Math.min(sorted.length - 1, rank))] ?? null;
+  }
+
+  clear(): void {
+    this.samples.length = 0;
+    this.next = 0;
+  }
+}
+
+/** Sums over the last `spanMs`, as a rate in units a second. */
+export class RateMeter {
+  private readonly events: { atMs: number; amount: number }[] = [];
+
+  constructor(private readonly spanMs: number) {}
+
+  add(atMs: number, amount: number): void {
+    this.events.push({ atMs, amount });
+    this.forget(atMs);
+  }
+
+  perSecond(nowMs: number): number {
+    this.forget(nowMs);
+    const total = this.events.reduce((sum, event) => sum + event.amount, 0);
+    return (total * 1000) / this.spanMs;
+  }
+
+  private forget(nowMs: number): void {
+    while (this.events[0] !== undefined && this.events[0].atMs <= nowMs - this.spanMs) {
+      this.events.shift();
+    }
+  }
+}
+
+/**
+ * Input-to-picture latency on the client's own clock: the server echoes the time stamp of the
+ * newest command a frame shows. Only the first frame that shows a command counts; later frames of
+ * an animation would show an ever older one.
+ */
+export class InputLatency {
+  readonly window = new SampleWindow(128);
+  private shownSeq = 0n;
+
+  /** Returns the new sample in ms, or null where the frame shows no new command. */
+  painted(appliedSeq: bigint, appliedClientTimeUs: bigint, nowMs: number): number | null {
+    if (appliedSeq <= this.shownSeq) return null;
+    this.shownSeq = appliedSeq;
+    const sample = nowMs - Number(appliedClientTimeUs) / 1000;
+    this.window.push(sample);
+    return sample;
+  }
+
+  /** A new connection counts its commands from 1 again. */
+  restart(): void {
+    this.shownSeq = 0n;
+  }
+}

@@ -1,0 +1,137 @@
+// The composition root: puts the parts together and ties them to the page.
+
+import { Banner } from './banner';
+import { CanvasInput } from './input';
+import { Commands } from './commands';
+import { Connection } from './connection';
+import { workerDecoder } from './decoder';
+import { element } from './dom';
+import { Overlay } from './overlay';
+import { Panel } from './panel';
+import { Picture } from './picture';
+import { Presenter } from './presenter';
+import { SettingsSync } from './settings_sync';
+import { isForControl, runShortcut } from './shortcuts';
+import { Stats } from './stats';
+import { Store } from './store';
+import { LinkKeeper } from './link_keeper';
+import { WindowSize } from './window_size';
+
+const kNarrowPx = 640;
+
+const canvas = element('view', HTMLCanvasElement);
+const narrow = window.innerWidth <= kNarrowPx;
+const nowMs = (): number => performance.now();
+const nextFrame = (action: (nowMs: number) => void): void => void requestAnimationFrame(action);
+
+const store = new Store();
+const stats = new Stats();
+const picture = new Picture(canvas);
+const worker = new Worker(new URL('./decode_worker.ts', import.meta.url), { type: 'module' });
+
+const presenter = new Presenter({
+  decode: workerDecoder(worker),
+  nextFrame,
+  nowMs,
+  paint: (bitmap) => picture.paint(bitmap),
+  acknowledge: (frameId) => void connection.send({ case: 'ack', value: { frameId } }),
+  painted: (header, decodeMs) => {
+    stats.painted(header, decodeMs, nowMs());
+    banner.pictureShown();
+  },
+  problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
+});
+
+const connection = new Connection(
+  new URL('ws', document.baseURI).href.replace(/^http/, 'ws').replace(/#.*$/, ''),
+  {
+    link: (link) => {
+      if (link.phase === 'greeting') {
+        presenter.restart();
+        stats.restart();
+      }
+      store.dispatch({ type: 'link', link });
+    },
+    message: (message) => store.dispatch({ type: 'received', message }),
+    frame: (frame, bytes) => {
+      stats.received(bytes, nowMs());
+      presenter.offer(frame);
+    },
+    problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
+  },
+  {
+    openSocket: (url, subprotocol) => new WebSocket(url, subprotocol),
+    nowMs,
+    random: Math.random,
+    after: (delayMs, action) => {
+      const timer = setTimeout(action, delayMs);
+      return () => clearTimeout(timer);
+    },
+  },
+);
+
+const commands = new Commands(store, connection, picture);
+const overlay = new Overlay(stats, () => presenter.droppedCount, !narrow);
+const panel = new Panel(element('panel', HTMLElement), commands, narrow);
+const banner = new Banner({
+  retry: () => connection.open(),
+  dismiss: () => store.dispatch({ type: 'dismiss' }),
+  nowMs,
+});
+const help = element('help', HTMLDialogElement);
+
+new WindowSize(store, canvas);
+new SettingsSync(store, connection, nextFrame);
+const links = new LinkKeeper(store);
+store.listen((state) => {
+  panel.show(state);
+  banner.show(state);
+});
+store.listen(({ server }, before) => {
+  if (!server || server === before.server) return;
+  const scene = server.scene?.name ?? 'no scene';
+  const about = `${scene} on ${server.device} · froxel ${server.version}`;
+  element('about', HTMLElement).textContent = about;
+});
+
+const shortcuts = {
+  screenshot: () => void commands.screenshot(),
+  copyLink: () => void links.copy(),
+  toggleStats: () => overlay.toggle(),
+  togglePanel: () => panel.toggle(),
+  toggleHelp: () => (help.open ? help.close() : help.showModal()),
+  toggleAnimation: () => commands.toggleAnimation(),
+  nextRenderer: () => commands.nextRenderer(),
+  sceneCamera: (index: number) => commands.selectCameraAt(index),
+};
+
+const tools: readonly (readonly [string, () => void])[] = [
+  ['tool-screenshot', shortcuts.screenshot],
+  ['tool-link', shortcuts.copyLink],
+  ['tool-help', shortcuts.toggleHelp],
+  ['tool-fullscreen', () => void toggleFullscreen()],
+];
+for (const [id, action] of tools) {
+  element(id, HTMLButtonElement).addEventListener('click', action);
+}
+
+element('tool-fullscreen', HTMLButtonElement).hidden = !document.fullscreenEnabled;
+
+async function toggleFullscreen(): Promise<void> {
+  if (document.fullscreenElement) await document.exitFullscreen();
+  else await document.documentElement.requestFullscreen();
+}
+
+const input = new CanvasInput(canvas, commands, nextFrame);
+window.addEventListener('keydown', (event) => {
+  if (isForControl(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (!event.repeat && runShortcut(event.key, shortcuts)) event.preventDefault();
+  else input.keyDown(event);
+});
+window.addEventListener('keyup', (event) => input.keyUp(event));
+window.addEventListener('blur', () => input.releaseAll());
+document.addEventListener('visibilitychange', () => presenter.setVisible(!document.hidden));
+presenter.setVisible(!document.hidden);
+
+links.read();
+connection.open();

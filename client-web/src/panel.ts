@@ -1,0 +1,190 @@
+// The settings panel: every command of the protocol, with ranges as the server tells them.
+
+import GUI, { type Controller } from 'lil-gui';
+
+import type { AppState, ServerInfo } from './app_state';
+import { BoxEditor } from './box_editor';
+import { kFields, type Field, type NumberField, type Section } from './fields';
+import { tidy } from './format';
+import { linearScale, logScale } from './range_scale';
+import { choicesOf } from './schema_names';
+import { isDeferred, type Settings } from './settings';
+import { SizeEditor, type SizeActions } from './size_editor';
+import { attachSlider } from './slider';
+import { ToonEditor } from './toon_editor';
+
+export interface PanelActions extends SizeActions {
+  edit(patch: Partial<Settings>): void;
+  set(field: Field, value: number | boolean): void;
+  selectCamera(name: string): void;
+  resetAll(): void;
+}
+
+type Show = (settings: Settings) => void;
+
+const kTitles: Readonly<Record<Section, string>> = {
+  camera: 'Camera',
+  rendering: 'Rendering',
+  lights: 'Lights',
+  clusters: 'Clusters',
+  stream: 'Picture',
+};
+
+export class Panel {
+  private readonly gui: GUI;
+  private shows: Show[] = [];
+  private builtFor: ServerInfo | null = null;
+  private shown: Settings | null = null;
+  private sizeEditor: SizeEditor | null = null;
+
+  constructor(
+    private readonly parent: HTMLElement,
+    private readonly actions: PanelActions,
+    private readonly narrow: boolean,
+  ) {
+    this.gui = this.makeGui();
+  }
+
+  toggle(): void {
+    this.gui.openAnimated(this.gui._closed);
+  }
+
+  show({ server, settings, sizeMode }: AppState): void {
+    if (!server || !settings) return;
+    if (!this.builtFor || !sameControls(server, this.builtFor)) this.build(server);
+    this.builtFor = server;
+    if (settings !== this.shown) for (const show of this.shows) show(settings);
+    this.shown = settings;
+    this.sizeEditor?.show(settings, sizeMode);
+  }
+
+  private makeGui(): GUI {
+    const gui = new GUI({ container: this.parent, title: 'Settings', injectStyles: false });
+    if (this.narrow) gui.close();
+    return gui;
+  }
+
+  private build(server: ServerInfo): void {
+    for (const child of [...this.gui.children]) child.destroy();
+    this.shows = [];
+    this.shown = null;
+    const camera = this.section('camera', server);
+    this.addSceneCameras(camera, server);
+    this.section('rendering', server);
+    const lights = this.section('lights', server);
+    this.addBox(lights, server);
+    this.section('clusters', server).close();
+    this.addToon();
+    const stream = this.section('stream', server);
+    this.sizeEditor = new SizeEditor(stream, server, this.actions);
+    if (this.narrow) for (const folder of this.gui.folders.slice(1)) folder.close();
+    this.gui
+      .add({ reset: () => this.actions.resetAll() }, 'reset')
+      .name('Back to the server’s defaults');
+  }
+
+  private section(section: Section, server: ServerInfo): GUI {
+    const folder = this.gui.addFolder(kTitles[section]);
+    for (const field of kFields[section]) this.addField(folder, field, server);
+    return folder;
+  }
+
+  private addField(folder: GUI, field: Field, server: ServerInfo): void {
+    if (field.kind === 'number') {
+      this.addNumber(folder, field, server);
+      return;
+    }
+    const model: Record<string, number | boolean> = { [field.key]: server.initial[field.key] };
+    const options =
+      field.kind === 'choice'
+        ? Object.fromEntries(
+            choicesOf(field.schema).map(({ name, value }) => [name.replaceAll('_', ' '), value]),
+          )
+        : undefined;
+    const controller = options
+      ? folder.add(model, field.key, options)
+      : folder.add(model, field.key);
+    controller.onChange((value: number | boolean) => this.actions.set(field, value));
+    this.finish(controller, field, (settings) => {
+      model[field.key] = settings[field.key];
+      controller.updateDisplay();
+      if (field.key === 'lighting') controller.enable(isDeferred(settings));
+    });
+  }
+
+  private addNumber(folder: GUI, field: NumberField, server: ServerInfo): void {
+    const model = { value: tidy(server.initial[field.key]) };
+    const controller = folder.add(model, 'value');
+    controller.onFinishChange((value: number) => this.actions.set(field, value));
+    const range = server.ranges.get(field.name);
+    let slide: (value: number) => void = () => undefined;
+    if (range && field.slider !== 'none') {
+      const scale =
+        field.slider === 'log'
+          ? logScale(range, field.integer, server.initial[field.key])
+          : linearScale(range, field.integer);
+      slide = attachSlider(controller, scale, (value) => this.actions.set(field, value));
+    }
+    const limits = range ? ` · ${range.min} to ${range.max}` : '';
+    this.finish(controller, { ...field, tip: field.tip + limits }, (settings) => {
+      const value = tidy(settings[field.key]);
+      // Left alone while equal: the viewer may be typing another one.
+      if (this.shown && tidy(this.shown[field.key]) === value) return;
+      model.value = value;
+      controller.updateDisplay();
+      slide(value);
+    });
+  }
+
+  private finish(controller: Controller, field: Pick<Field, 'label' | 'tip' | 'name'>, show: Show): void {
+    controller.name(field.label);
+    controller.domElement.title = field.tip;
+    controller.domElement.dataset.field = field.name;
+    this.shows.push(show);
+  }
+
+  private addSceneCameras(folder: GUI, server: ServerInfo): void {
+    const names = server.scene?.cameras ?? [];
+    if (names.length === 0) return;
+    const scene = Object.fromEntries(names.map((name) => [name, name]));
+    const choices: Record<string, string> = { 'choose…': '', ...scene };
+    const model = { camera: '' };
+    const controller = folder.add(model, 'camera', choices);
+    controller.onChange((name: string) => {
+      model.camera = ''; // a way to go to, not a state to be in
+      controller.updateDisplay();
+      if (name !== '') this.actions.selectCamera(name);
+    });
+    const tip = "One of the scene's own cameras (keys 1 to 9)";
+    this.finish(controller, { label: 'Go to', tip, name: 'scene_camera' }, () => undefined);
+  }
+
+  private addBox(folder: GUI, server: ServerInfo): void {
+    const editor = new BoxEditor(folder, server.bounds, (lightBox) =>
+      this.actions.edit({ lightBox }),
+    );
+    this.shows.push((settings) => editor.show(settings.lightBox));
+  }
+
+  private addToon(): void {
+    const folder = this.gui.addFolder('Toon ramps');
+    const editors = [
+      ['toonFragment', 'toon fragment: each light’s n·l'],
+      ['toonCompute', 'toon compute: brightness of the sum'],
+    ] as const;
+    for (const [key, caption] of editors) {
+      const editor = new ToonEditor(folder.$children, caption, (ramp) =>
+        this.actions.edit({ [key]: ramp }),
+      );
+      this.shows.push((settings) => editor.show(settings[key]));
+    }
+    folder.close();
+  }
+}
+
+/** Whether a panel built for one server fits another, as after most reconnects. */
+function sameControls(a: ServerInfo, b: ServerInfo): boolean {
+  const shape = ({ scene, bounds, ranges }: ServerInfo): string =>
+    JSON.stringify([scene?.cameras, bounds, [...ranges.values()]]);
+  return shape(a) === shape(b);
+}

@@ -1,0 +1,138 @@
+// Frames on their way to the canvas: at most two are being decoded, the newest wins everywhere, and
+// each one is acknowledged when it was painted or given up. A hidden page neither decodes nor
+// acknowledges, so that the server pauses.
+
+import type { Decode } from './decoder';
+import type { Frame } from './framing';
+import type { FrameHeader } from './gen/froxel/v1/server_pb';
+
+const kMaxDecodes = 2;
+
+export interface PresenterEnvironment {
+  readonly decode: Decode;
+  readonly nextFrame: (action: () => void) => void;
+  readonly nowMs: () => number;
+  readonly paint: (bitmap: ImageBitmap) => void;
+  readonly acknowledge: (frameId: bigint) => void;
+  readonly painted: (header: FrameHeader, decodeMs: number) => void;
+  readonly problem: (text: string) => void;
+}
+
+interface Ready {
+  readonly header: FrameHeader;
+  readonly bitmap: ImageBitmap;
+  readonly decodeMs: number;
+}
+
+export class Presenter {
+  /** Frames that arrived and were never shown, since the page was opened. */
+  droppedCount = 0;
+
+  private waiting: Frame | null = null;
+  private ready: Ready | null = null;
+  private decodes = 0;
+  private lastId = 0n; // newest frame decoded so far
+  private ackedId = 0n; // an acknowledgement covers all frames before it
+  private generation = 0; // of the connection; what an older one left behind is ignored
+  private visible = true;
+  private paintPending = false;
+
+  constructor(private readonly env: PresenterEnvironment) {}
+
+  offer(frame: Frame): void {
+    if (this.waiting) this.drop(this.waiting.header);
+    this.waiting = frame;
+    this.decodeNext();
+  }
+
+  setVisible(visible: boolean): void {
+    this.visible = visible;
+    if (!visible) return;
+    this.decodeNext();
+    this.schedulePaint();
+  }
+
+  /** A new connection counts its frames from 1; the last picture stays. */
+  restart(): void {
+    this.generation += 1;
+    this.waiting = null;
+    this.ready?.bitmap.close();
+    this.ready = null;
+    this.lastId = 0n;
+    this.ackedId = 0n;
+  }
+
+  private decodeNext(): void {
+    if (!this.visible || !this.waiting || this.decodes >= kMaxDecodes) return;
+    const { header } = this.waiting;
+    const frame = this.waiting;
+    this.waiting = null;
+    this.decodes += 1;
+    const { generation } = this;
+    const startMs = this.env.nowMs();
+    this.env.decode(frame).then(
+      (bitmap) => {
+        this.decodes -= 1;
+        if (generation === this.generation) {
+          this.decoded({ header, bitmap, decodeMs: this.env.nowMs() - startMs });
+        } else {
+          bitmap.close();
+        }
+        this.decodeNext();
+      },
+      (error: unknown) => {
+        this.decodes -= 1;
+        if (generation === this.generation) {
+          this.drop(header);
+          this.env.problem(error instanceof Error ? error.message : String(error));
+        }
+        this.decodeNext();
+      },
+    );
+  }
+
+  private decoded(next: Ready): void {
+    if (next.header.frameId <= this.lastId) {
+      next.bitmap.close();
+      this.drop(next.header);
+      return;
+    }
+    this.lastId = next.header.frameId;
+    if (this.ready) {
+      this.ready.bitmap.close();
+      this.drop(this.ready.header);
+    }
+    this.ready = next;
+    this.schedulePaint();
+  }
+
+  private schedulePaint(): void {
+    if (this.paintPending || !this.ready) return;
+    this.paintPending = true;
+    this.env.nextFrame(() => {
+      this.paintPending = false;
+      this.paintReady();
+    });
+  }
+
+  private paintReady(): void {
+    const { ready } = this;
+    if (!ready || !this.visible) return;
+    this.ready = null;
+    this.env.paint(ready.bitmap);
+    ready.bitmap.close();
+    this.acknowledge(ready.header);
+    this.env.painted(ready.header, ready.decodeMs);
+  }
+
+  private drop(header: FrameHeader): void {
+    this.droppedCount += 1;
+    if (this.visible) this.acknowledge(header);
+  }
+
+  private acknowledge({ frameId }: FrameHeader): void {
+    if (frameId <= this.ackedId) return;
+    this.ackedId = frameId;
+    this.env.acknowledge(frameId);
+  }
+}

@@ -1,0 +1,50 @@
+// Slider positions to values. Ranges that span decades get a logarithmic scale; 0, where it is in
+// the range, is the slider's left end. Positions are 0 to kSliderSteps; values are rounded to what
+// a hand can mean.
+
+export const kSliderSteps = 1000;
+/** A logarithmic slider whose range starts at 0 reaches down to this part of the usual value. */
+const kSmallestPart = 1e-3;
+const kDigits = 3;
+
+export interface Range {
+  readonly min: number;
+  readonly max: number;
+}
+
+export interface Scale {
+  toValue(position: number): number;
+  toPosition(value: number): number;
+}
+
+export function linearScale({ min, max }: Range, integer: boolean): Scale {
+  return {
+    toValue: (position) => tidy(min + ((max - min) * position) / kSliderSteps, integer, min, max),
+    toPosition: (value) => clampPosition(((value - min) / (max - min)) * kSliderSteps),
+  };
+}
+
+export function logScale({ min, max }: Range, integer: boolean, usual: number): Scale {
+  const floor = min > 0 ? min : integer ? 1 : (usual > 0 ? usual : 1) * kSmallestPart;
+  const span = Math.log(max / floor);
+  return {
+    toValue: (position) => {
+      if (position <= 0) return min;
+      return tidy(floor * Math.exp((span * position) / kSliderSteps), integer, min, max);
+    },
+    toPosition: (value) => {
+      if (value <= min) return 0;
+      if (value < floor) return 1;
+      return Math.max(1, clampPosition((Math.log(value / floor) / span) * kSliderSteps));
+    },
+  };
+}
+
+function tidy(value: number, integer: boolean, min: number, max: number): number {
+  const rounded = Number(value.toPrecision(kDigits));
+  return Math.min(max, Math.max(min, integer ? Math.round(rounded) : rounded));
+}
+
+function clampPosition(position: number): number {
+  return Math.min(kSliderSteps, Math.max(0, Math.round(position)));
+}

@@ -1,0 +1,141 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+
+import type { Link } from '../src/app_state';
+import { Connection } from '../src/connection';
+import { FakeEnvironment } from './fakes';
+
+let env: FakeEnvironment;
+let connection: Connection;
+let links: Link[];
+let problems: string[];
+let messages: (string | undefined)[];
+const phases = (): string[] => links.map((link) => link.phase);
+
+beforeEach(() => {
+  env = new FakeEnvironment();
+  links = [];
+  problems = [];
+  messages = [];
+  connection = new Connection(
+    'ws://host/ws',
+    {
+      link: (link) => void links.push(link),
+      message: (message) => void messages.push(message.body.case),
+      frame: () => undefined,
+      problem: (text) => void problems.push(text),
+    },
+    env,
+  );
+  connection.open();
+});
+
+describe('Connection', () => {
+  it('Open_AsksForTheSubprotocolAndSaysHelloFirst', () => {
+    expect(env.socket.url).toBe('ws://host/ws');
+    expect(env.socket.subprotocol).toBe('froxel.v1');
+    expect(env.socket.binaryType).toBe('arraybuffer');
+    env.socket.accept();
+    expect(env.socket.sent).toMatchObject([
+      { seq: 1n, clientTimeUs: 1_000_000n, body: { case: 'hello', value: { protocolMajor: 1 } } },
+    ]);
+    expect(phases()).toEqual(['connecting', 'greeting']);
+  });
+
+  it('Send_WhileClosed_IsNullAndSendsNothing', () => {
+    expect(connection.send({ case: 'ping', value: {} })).toBeNull();
+    expect(env.socket.sent).toEqual([]);
+  });
+
+  it('Send_CountsUp', () => {
+    env.socket.accept();
+    expect(connection.send({ case: 'ping', value: {} })).toBe(2n);
+    expect(connection.send({ case: 'ping', value: {} })).toBe(3n);
+  });
+
+  it('Loss_IsFollowedByANewConnectionThatCountsFromOne', () => {
+    env.socket.accept();
+    connection.send({ case: 'ping', value: {} });
+    env.socket.drop(1006);
+    expect(links.at(-1)).toMatchObject({ phase: 'waiting', retryAtMs: 1500 });
+    env.pass(499);
+    expect(env.sockets.length).toBe(1);
+    env.pass(1);
+    expect(env.sockets.length).toBe(2);
+    env.socket.accept();
+    expect(env.socket.sent[0]?.seq).toBe(1n);
+  });
+
+  it('LossAfterLoss_WaitsLonger', () => {
+    env.randomValue = 0.5;
+    const delays: number[] = [];
+    for (let i = 0; i < 4; i += 1) {
+      env.socket.drop(1006);
+      const link = links.at(-1);
+      if (link?.phase !== 'waiting') throw new Error('not waiting');
+      delays.push(link.retryAtMs - env.now);
+      env.pass(link.retryAtMs - env.now);
+    }
+    expect(delays).toEqual([750, 1250, 2250, 4250]);
+  });
+
+  it('AStableConnection_MakesTheNextDelaySmallAgain', () => {
+    env.randomValue = 0.5;
+    for (let i = 0; i < 4; i += 1) {
+      env.socket.drop(1006);
+      env.pass(10_000);
+    }
+    env.socket.accept();
+    env.pass(4_900);
+    env.socket.say({ case: 'pong', value: {} });
+    env.pass(200);
+    env.socket.drop(1006);
+    expect(links.at(-1)).toMatchObject({ phase: 'waiting', retryAtMs: env.now + 750 });
+  });
+
+  it.each([1008, 1009, 4001])('Close_With%i_IsNotTriedAgain', (code) => {
+    env.socket.accept();
+    env.socket.drop(code, 'why');
+    expect(links.at(-1)).toMatchObject({ phase: 'refused' });
+    env.pass(60_000);
+    expect(env.sockets.length).toBe(1);
+  });
+
+  it.each([1000, 1001, 4008, 4010, 4029, 4050])('Close_With%i_IsTriedAgain', (code) => {
+    env.socket.accept();
+    env.socket.drop(code);
+    env.pass(10_000);
+    expect(env.sockets.length).toBe(2);
+  });
+
+  it('Silence_InSpiteOfPings_IsALoss', () => {
+    env.socket.accept();
+    env.pass(15_000);
+    expect(env.socket.said).toEqual(['hello', 'ping', 'ping', 'ping']);
+    expect(env.socket.closedByPage).toBe(false);
+    const first = env.socket;
+    env.pass(5_000);
+    expect(first.closedByPage).toBe(true);
+    expect(links.at(-1)?.phase).toBe('waiting');
+    first.drop(1006); // the browser's late word about it changes nothing
+    expect(phases().filter((phase) => phase === 'waiting').length).toBe(1);
+  });
+
+  it('AnsweredPings_KeepTheConnection', () => {
+    env.socket.accept();
+    for (let i = 0; i < 20; i += 1) {
+      env.pass(5_000);
+      env.socket.say({ case: 'pong', value: {} });
+    }
+    expect(env.sockets.length).toBe(1);
+    expect(env.socket.closedByPage).toBe(false);
+  });
+
+  it('Garbage_IsReportedAndTheConnectionStays', () => {
+    env.socket.accept();
+    env.socket.deliver(new Uint8Array([1, 2, 3, 4]).buffer);
+    env.socket.deliver('text');
+    expect(problems.length).toBe(2);
+    env.socket.say({ case: 'pong', value: {} });
+    expect(messages).toEqual(['pong']);
+  });
+});

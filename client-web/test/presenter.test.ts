@@ -1,0 +1,157 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+
+import type { Frame } from '../src/framing';
+import { Presenter } from '../src/presenter';
+import { FakeFrames, frameHeader, settle } from './fakes';
+
+interface Decode {
+  readonly id: bigint;
+  readonly finish: () => Promise<void>;
+  readonly fail: () => Promise<void>;
+}
+
+let frames: FakeFrames;
+let decodes: Decode[];
+let painted: bigint[];
+let acks: bigint[];
+let problems: string[];
+let openBitmaps: number;
+let presenter: Presenter;
+
+const frame = (id: number): Frame => ({
+  header: frameHeader({ frameId: BigInt(id) }),
+  payload: new Uint8Array(),
+});
+
+function bitmap(id: bigint): ImageBitmap & { id: bigint } {
+  openBitmaps += 1;
+  return { id, width: 1, height: 1, close: () => void (openBitmaps -= 1) };
+}
+
+beforeEach(() => {
+  frames = new FakeFrames();
+  decodes = [];
+  painted = [];
+  acks = [];
+  problems = [];
+  openBitmaps = 0;
+  presenter = new Presenter({
+    decode: ({ header }) =>
+      new Promise((resolve, reject) => {
+        decodes.push({
+          id: header.frameId,
+          finish: () => (resolve(bitmap(header.frameId)), settle()),
+          fail: () => (reject(new Error('bad JPEG')), settle()),
+        });
+      }),
+    nextFrame: frames.next,
+    nowMs: () => 0,
+    paint: (image) => void painted.push((image as ReturnType<typeof bitmap>).id),
+    acknowledge: (id) => void acks.push(id),
+    painted: () => undefined,
+    problem: (text) => void problems.push(text),
+  });
+});
+
+describe('Presenter', () => {
+  it('Frame_IsPaintedAtTheNextAnimationFrameAndAcknowledgedThen', async () => {
+    presenter.offer(frame(1));
+    await decodes[0]?.finish();
+    expect(acks).toEqual([]);
+    frames.run();
+    expect(painted).toEqual([1n]);
+    expect(acks).toEqual([1n]);
+    expect(openBitmaps).toBe(0);
+  });
+
+  it('Decodes_AreTwoAtMostAndTheNewestWaits', async () => {
+    for (const id of [1, 2, 3, 4, 5]) presenter.offer(frame(id));
+    expect(decodes.map(({ id }) => id)).toEqual([1n, 2n]);
+    expect(acks).toEqual([3n, 4n]); // given up for 5
+    await decodes[0]?.finish();
+    expect(decodes.map(({ id }) => id)).toEqual([1n, 2n, 5n]);
+    expect(presenter.droppedCount).toBe(2);
+  });
+
+  it('DecodedTwiceBeforeAPaint_TheNewerIsShown', async () => {
+    presenter.offer(frame(1));
+    presenter.offer(frame(2));
+    await decodes[0]?.finish();
+    await decodes[1]?.finish();
+    frames.run();
+    expect(painted).toEqual([2n]);
+    expect(acks).toEqual([1n, 2n]);
+    expect(openBitmaps).toBe(0);
+  });
+
+  it('DecodedOutOfOrder_TheOlderIsDropped', async () => {
+    presenter.offer(frame(1));
+    presenter.offer(frame(2));
+    await decodes[1]?.finish();
+    await decodes[0]?.finish();
+    frames.run();
+    expect(painted).toEqual([2n]);
+    expect(acks).toEqual([1n, 2n]);
+    expect(openBitmaps).toBe(0);
+  });
+
+  it('DecodedAfterANewerOneWasPainted_IsNotAcknowledgedAgain', async () => {
+    presenter.offer(frame(1));
+    presenter.offer(frame(2));
+    await decodes[1]?.finish();
+    frames.run();
+    await decodes[0]?.finish();
+    expect(acks).toEqual([2n]);
+    expect(presenter.droppedCount).toBe(1);
+    expect(openBitmaps).toBe(0);
+  });
+
+  it('BadPicture_IsReportedAndAcknowledgedAndTheNextOneShown', async () => {
+    presenter.offer(frame(1));
+    await decodes[0]?.fail();
+    expect(problems).toEqual(['bad JPEG']);
+    expect(acks).toEqual([1n]);
+    presenter.offer(frame(2));
+    await decodes[1]?.finish();
+    frames.run();
+    expect(painted).toEqual([2n]);
+  });
+
+  it('HiddenPage_AcknowledgesNothingUntilItIsSeenAgain', async () => {
+    presenter.setVisible(false);
+    presenter.offer(frame(1));
+    presenter.offer(frame(2));
+    expect(decodes.length).toBe(0);
+    expect(acks).toEqual([]);
+    presenter.setVisible(true);
+    await decodes[0]?.finish();
+    frames.run();
+    expect(painted).toEqual([2n]);
+    expect(acks).toEqual([2n]); // an acknowledgement covers all frames before it
+  });
+
+  it('HiddenWhileAPictureWaits_PaintsItAfterwards', async () => {
+    presenter.offer(frame(1));
+    await decodes[0]?.finish();
+    presenter.setVisible(false);
+    frames.run();
+    expect(acks).toEqual([]);
+    presenter.setVisible(true);
+    frames.run();
+    expect(painted).toEqual([1n]);
+  });
+
+  it('Restart_IgnoresWhatTheOldConnectionLeft', async () => {
+    presenter.offer(frame(8));
+    presenter.offer(frame(9));
+    await decodes[0]?.finish();
+    presenter.restart();
+    await decodes[1]?.finish();
+    expect(openBitmaps).toBe(0);
+    presenter.offer(frame(1));
+    await decodes[2]?.finish();
+    frames.run();
+    expect(painted).toEqual([1n]);
+    expect(acks).toEqual([1n]);
+  });
+});

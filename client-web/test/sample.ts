@@ -1,0 +1,72 @@
+// A server's first words, for tests.
+
+import { create, type MessageInitShape } from '@bufbuild/protobuf';
+
+import {
+  Chroma,
+  LightingStage,
+  Renderer,
+  ToneMap,
+  ViewStateSchema,
+  type ViewState,
+} from '../src/gen/froxel/v1/common_pb';
+import type { WelcomeSchema } from '../src/gen/froxel/v1/server_pb';
+import { settingsOf, type Settings } from '../src/settings';
+
+export const kBounds = { min: { x: -10, y: 0, z: -5 }, max: { x: 10, y: 8, z: 5 } };
+
+const kRamp = [
+  { x: 0, y: 0.05, slope: 0 },
+  { x: 0.5, y: 0.35, slope: 0 },
+  { x: 1, y: 1, slope: 0 },
+];
+
+type ViewInit = Omit<MessageInitShape<typeof ViewStateSchema>, '$typeName' | '$unknown'>;
+
+export function viewState(change: ViewInit = {}): ViewState {
+  return create(ViewStateSchema, {
+    eye: { x: -7, y: 2, z: 0 },
+    target: { x: 0, y: 2, z: 0 },
+    up: { x: 0, y: 1, z: 0 },
+    fovDeg: 45,
+    halfHeightM: 1,
+    renderer: Renderer.CLUSTERED_DEFERRED,
+    lighting: LightingStage.COMPUTE,
+    lightCount: 1000,
+    lightRadiusM: 2,
+    lightIntensity: 1,
+    lightSeed: 1,
+    lightAnimate: true,
+    lightSpeed: 1,
+    lightBox: kBounds,
+    ambient: 1,
+    sceneLights: true,
+    grid: { x: 16, y: 9, z: 24 },
+    exposure: 1,
+    toneMap: ToneMap.PBR_NEUTRAL,
+    toonFragment: { points: kRamp },
+    toonCompute: { points: kRamp },
+    width: 960,
+    height: 540,
+    quality: 80,
+    chroma: Chroma.CHROMA_420,
+    ...change,
+  });
+}
+
+export const sampleSettings = (change: Partial<Settings> = {}): Settings => ({
+  ...settingsOf(viewState(), kBounds),
+  ...change,
+});
+
+export function welcome(scene = 'hall'): MessageInitShape<typeof WelcomeSchema> {
+  return {
+    protocolMajor: 1,
+    sessionId: 7n,
+    serverVersion: '0.1',
+    device: 'test device',
+    scene: { name: scene, cameras: ['nave', 'gallery'], bounds: kBounds },
+    state: viewState(),
+    ranges: [{ field: 'lights', min: 0, max: 100_000 }],
+  };
+}

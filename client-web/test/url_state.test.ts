@@ -1,0 +1,96 @@
+import { describe, expect, it } from 'vitest';
+
+import { LightingStage, Renderer } from '../src/gen/froxel/v1/common_pb';
+import { formatLink, parseLink, type SizeMode } from '../src/url_state';
+import { kBounds, sampleSettings } from './sample';
+
+const kAuto: SizeMode = { kind: 'auto', scale: 0.75 };
+const initial = sampleSettings();
+
+describe('links', () => {
+  it('RoundTrip_OfEverything_IsTheSameView', () => {
+    const settings = sampleSettings({
+      eye: { x: 1.5, y: -2, z: 1e6 },
+      renderer: Renderer.TOON_COMPUTE,
+      lighting: LightingStage.FRAGMENT,
+      lights: 31_000,
+      lightRadius: 0.125,
+      lightAnimate: false,
+      lightBox: kBounds,
+      gridZ: 64,
+      toonFragment: [
+        { x: 0, y: 0, slope: 0.5 },
+        { x: 1, y: 1, slope: -3 },
+      ],
+      width: 333,
+      height: 77,
+    });
+    const link = parseLink(`#${formatLink(settings, { kind: 'fixed' }, initial)}`);
+    expect(link.problems).toEqual([]);
+    expect(link.size).toEqual({ kind: 'fixed' });
+    expect({ ...initial, ...link.settings }).toEqual(settings);
+  });
+
+  it('RoundTrip_OfAnOrthographicView_KeepsItsHeight', () => {
+    const settings = sampleSettings({ orthographic: true, halfHeight: 3.5 });
+    const link = parseLink(formatLink(settings, kAuto, initial));
+    expect({ ...initial, ...link.settings }).toEqual(settings);
+  });
+
+  it('RampsAsTheyWere_AreNotInTheLink', () => {
+    expect(formatLink(initial, kAuto, initial)).not.toContain('toon');
+  });
+
+  it('AutomaticSize_IsItsScaleAndNoPixels', () => {
+    const text = formatLink(initial, kAuto, initial);
+    expect(text).toContain('size=auto@0.75');
+    expect(parseLink(text).settings.width).toBeUndefined();
+    expect(parseLink(text).size).toEqual(kAuto);
+  });
+
+  it('Numbers_ReadAsPeopleWriteThem', () => {
+    const float = Math.fround(0.1);
+    expect(formatLink(sampleSettings({ exposure: float }), kAuto, initial)).toContain('exposure=0.1&');
+  });
+
+  it.each([2_147_483_648, 4_294_967_295, 16_777_217])('WholeNumber_%i_StaysExact', (lightSeed) => {
+    const link = parseLink(formatLink(sampleSettings({ lightSeed }), kAuto, initial));
+    expect(link.settings.lightSeed).toBe(lightSeed);
+  });
+
+  it('NothingAfterTheHash_IsNothing', () => {
+    expect(parseLink('')).toEqual({ settings: {}, size: null, problems: [] });
+    expect(parseLink('#')).toEqual({ settings: {}, size: null, problems: [] });
+  });
+
+  it.each([
+    'lights=many',
+    'lights=1.5',
+    'lights=-1',
+    'lights=99999999999',
+    'light_radius=NaN',
+    'exposure=Infinity',
+    'exposure=',
+    'renderer=fastest',
+    'chroma=422',
+    'light_animate=yes',
+    'eye=1,2',
+    'eye=1,2,3,4',
+    'light_box=1,2,3',
+    'light_box=1,2,3;4,5,x',
+    'size=auto@0',
+    'size=100',
+    'size=10x-1',
+    'toon_fragment=0,1',
+    'half_height=x',
+    'colour=red',
+  ])('Nonsense_%s_IsNamedAndHasNoEffect', (entry) => {
+    const link = parseLink(`#${entry}&quality=7`);
+    expect(link.problems).toEqual([`link: ${entry} is not understood`]);
+    expect(link.settings).toEqual({ quality: 7 });
+  });
+
+  it('ValueOutOfTheServersRange_IsLeftToTheServer', () => {
+    expect(parseLink('#lights=4000000000').settings).toEqual({ lights: 4_000_000_000 });
+  });
+});
