@@ -1,0 +1,148 @@
+# shellcheck shell=bash
+# What run.sh, build.sh and test.sh share: the packages, and how to get from a fresh clone to a
+# binary and a page. Sourced, never run. Every function does nothing when its result is there and
+# current, so that a second run needs no network and takes seconds.
+# shellcheck disable=SC2034 # the package lists are read by the sourcing scripts
+
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+# Names as in Debian 12.
+build_packages=(
+    build-essential cmake ninja-build pkg-config
+    libvulkan-dev glslang-tools spirv-tools
+    libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev
+    libglm-dev libboost1.81-dev libspdlog-dev libcli11-dev
+    libturbojpeg0-dev libpng-dev
+    libprotobuf-dev protobuf-compiler
+    ca-certificates
+)
+run_packages=(mesa-vulkan-drivers)
+test_packages=(
+    vulkan-validationlayers libgtest-dev libgmock-dev libbenchmark-dev
+    python3 python3-websockets git ccache
+)
+build_tools=(c++ cmake ninja pkg-config glslangValidator spirv-val protoc node npm)
+
+say() { printf '%s: %s\n' "$(basename "$0")" "$*"; }
+die() {
+    say "$*" >&2
+    exit 1
+}
+
+# Node.js and Chromium often come from elsewhere than Debian; whatever is on the PATH will do.
+add_unless_on_path() { # LIST COMMAND PACKAGE...
+    local -n list=$1
+    command -v "$2" >/dev/null || list+=("${@:3}")
+}
+add_unless_on_path build_packages node nodejs
+add_unless_on_path build_packages npm npm
+add_unless_on_path test_packages chromium chromium
+
+is_debian_12() {
+    [[ -r /etc/os-release ]] || return 1
+    (
+        # shellcheck source=/dev/null
+        . /etc/os-release
+        [[ ${ID:-} == debian && ${VERSION_ID:-} == 12 ]]
+    )
+}
+
+# Prints those of the packages that are not installed.
+missing_packages() {
+    local installed
+    # shellcheck disable=SC2016 # dpkg-query expands the format
+    installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null |
+        sed -n 's/^installed //p' || true)
+    printf '%s\n' "$@" | grep -vxF -f <(printf '%s\n' "$installed") || true
+}
+
+as_root() {
+    if ((EUID == 0)); then
+        "$@"
+    else
+        sudo "$@"
+    fi
+}
+
+apt_get() {
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y \
+        -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 -o Dpkg::Options::=--force-confold \
+        -o Dpkg::Use-Pty=0 "$@" </dev/null >/dev/null
+}
+
+# On Debian 12 installs what is missing; elsewhere says what is needed and goes on if the tools are
+# there (CMake then names any library that is not).
+require_packages() {
+    local missing
+    if is_debian_12; then
+        mapfile -t missing < <(missing_packages "$@")
+        ((${#missing[@]})) || return 0
+        ((EUID == 0)) || command -v sudo >/dev/null ||
+            die "needs root or sudo to install: ${missing[*]}"
+        say "installing (this takes minutes): ${missing[*]}"
+        apt_get update
+        apt_get install --no-install-recommends "${missing[@]}"
+        return
+    fi
+    say "not Debian 12, so nothing is installed; needed are, by their names there: $*"
+    missing=()
+    local tool
+    for tool in "${build_tools[@]}"; do
+        command -v "$tool" >/dev/null || missing+=("$tool")
+    done
+    ((${#missing[@]} == 0)) || die "not found: ${missing[*]}"
+}
+
+# One job a core, but no more than fit into memory: Vulkan's and Boost's headers take over 1 GB.
+job_count() {
+    local by_cores by_memory
+    by_cores=$(nproc)
+    by_memory=$(awk '/^MemAvailable/ { print int($2 / 1500000) }' /proc/meminfo)
+    if ((by_memory < 1)); then
+        by_memory=1
+    fi
+    echo $((by_cores < by_memory ? by_cores : by_memory))
+}
+
+build_binary() { # PRESET
+    (
+        cd "$root"
+        [[ -f build/$1/build.ninja ]] || cmake --preset "$1" >&2
+        cmake --build --preset "$1" --parallel "$(job_count)" >&2
+    )
+}
+
+# Runs a command unless it already succeeded for the same digest.
+once_per() { # NAME DIGEST COMMAND...
+    local stamp=$root/build/stamps/$1
+    [[ -f $stamp && $(<"$stamp") == "$2" ]] && return
+    rm -f "$stamp"
+    "${@:3}" >&2
+    mkdir -p "$(dirname "$stamp")"
+    printf '%s\n' "$2" >"$stamp"
+}
+
+digest() { sha256sum "$@" | sha256sum | cut -d ' ' -f 1; }
+
+install_node_modules() {
+    (
+        cd "$root/client-web"
+        [[ -d node_modules ]] || rm -f "$root/build/stamps/node_modules"
+        once_per node_modules "$(digest package-lock.json)" \
+            npm ci --no-audit --no-fund --loglevel=error
+    )
+}
+
+build_page() {
+    install_node_modules
+    (
+        cd "$root/client-web"
+        [[ -f dist/index.html ]] || rm -f "$root/build/stamps/page"
+        mapfile -d '' -t sources < <(find . ../protocol/froxel \
+            \( -path ./node_modules -o -path ./dist -o -path ./src/gen -o -path ./test-results \) \
+            -prune -o -type f -print0 | sort -z)
+        once_per page "$(digest "${sources[@]}")" npm run --silent build
+    )
+}

@@ -1,0 +1,208 @@
+// Plain HTTP: the page from memory, health, and everything that is not asked for politely.
+#include "integration/test_server.h"
+#include "integration/ws_client.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+namespace froxel::test {
+namespace {
+
+using testing::TempDir;
+
+class HttpTest : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        const std::filesystem::path root = webRoot();
+        std::filesystem::create_directories(root / "assets");
+        std::ofstream(root / "index.html") << "<!doctype html><title>page</title>";
+        std::ofstream(root / "assets" / "main-1a2b.js") << "export {};";
+        std::ofstream(root.parent_path() / "secret.txt") << "secret";
+        std::error_code ignored;
+        std::filesystem::create_symlink("../secret.txt", root / "link.txt", ignored);
+    }
+    static std::filesystem::path webRoot() {
+        // Tests of this suite run in processes of their own, side by side.
+        return std::filesystem::path(TempDir()) / ("froxel_http_test_" + std::to_string(getpid())) /
+               "web";
+    }
+
+    // Sends `raw` and gives all that comes until the server closes.
+    std::string exchange(const std::string& raw) {
+        boost::asio::io_context io;
+        boost::asio::ip::tcp::socket socket(io);
+        socket.connect({boost::asio::ip::address_v4::loopback(), server_.port()});
+        boost::system::error_code error;
+        boost::asio::write(socket, boost::asio::buffer(raw), error);
+        std::string answer;
+        boost::asio::read(socket, boost::asio::dynamic_buffer(answer), error);
+        return answer;
+    }
+    std::string get(const std::string& target, const std::string& headers = {}) {
+        return exchange("GET " + target + " HTTP/1.1\r\nHost: test\r\nConnection: close\r\n" +
+                        headers + "\r\n");
+    }
+    static int statusOf(const std::string& answer) {
+        return answer.size() > 12 ? std::atoi(answer.substr(9, 3).c_str()) : 0;
+    }
+
+    TestServer server_{{.web_root = webRoot()}};
+};
+
+TEST_F(HttpTest, Page_RootWithAQuery_IsServedWithItsHeaders) {
+    const std::string answer = get("/?renderer=naive");
+    EXPECT_EQ(statusOf(answer), 200);
+    for (const char* expected :
+         {"Content-Type: text/html; charset=utf-8", "X-Content-Type-Options: nosniff",
+          "frame-ancestors 'none'", "Cache-Control: no-cache", "ETag: \"", "<title>page</title>"}) {
+        EXPECT_NE(answer.find(expected), std::string::npos) << expected << "\n" << answer;
+    }
+}
+
+TEST_F(HttpTest, Page_HashedAsset_IsImmutable) {
+    const std::string answer = get("/assets/main-1a2b.js");
+    EXPECT_EQ(statusOf(answer), 200);
+    EXPECT_NE(answer.find("Content-Type: text/javascript"), std::string::npos);
+    EXPECT_NE(answer.find("immutable"), std::string::npos);
+}
+
+TEST_F(HttpTest, Page_SameETag_IsNotSentAgain) {
+    const std::string answer = get("/");
+    const size_t at = answer.find("ETag: ") + 6;
+    const std::string etag = answer.substr(at, answer.find("\r\n", at) - at);
+    const std::string again = get("/", "If-None-Match: " + etag + "\r\n");
+    EXPECT_EQ(statusOf(again), 304);
+    EXPECT_EQ(again.find("<title>"), std::string::npos);
+}
+
+TEST_F(HttpTest, Head_Page_HasTheLengthButNoBody) {
+    const std::string answer =
+        exchange("HEAD / HTTP/1.1\r\nHost: test\r\nConnection: close\r\n\r\n");
+    EXPECT_EQ(statusOf(answer), 200);
+    EXPECT_NE(answer.find("Content-Length: 34"), std::string::npos) << answer;
+    EXPECT_TRUE(answer.ends_with("\r\n\r\n"));
+}
+
+TEST_F(HttpTest, KeepAlive_TwoRequests_BothAreAnswered) {
+    const std::string answer =
+        exchange("GET /healthz HTTP/1.1\r\nHost: test\r\n\r\n"
+                 "GET / HTTP/1.1\r\nHost: test\r\nConnection: close\r\n\r\n");
+    EXPECT_NE(answer.find("status"), std::string::npos);
+    EXPECT_NE(answer.find("<title>page"), std::string::npos);
+}
+
+TEST_F(HttpTest, Paths_ThatTryToEscape_AreNotFound) {
+    for (const std::string& target : {std::string("/../secret.txt"),
+                                      std::string("/../../etc/passwd"),
+                                      std::string("/%2e%2e/secret.txt"),
+                                      std::string("/%252e%252e/secret.txt"),
+                                      std::string("/..%5csecret.txt"),
+                                      std::string("/..\\secret.txt"),
+                                      std::string("//etc/passwd"),
+                                      std::string("/assets/../../secret.txt"),
+                                      std::string("/assets/%2e%2e/%2e%2e/secret.txt"),
+                                      std::string("/./index.html"),
+                                      std::string("//index.html"),
+                                      std::string("/index.html/"),
+                                      std::string("/index.html%00"),
+                                      std::string("/link.txt"),
+                                      std::string("/assets"),
+                                      std::string("/assets/"),
+                                      std::string("/INDEX.HTML"),
+                                      std::string("http://test/etc/passwd"),
+                                      std::string("*"),
+                                      "/" + std::string(4000, 'a')}) {
+        const std::string answer = get(target);
+        EXPECT_EQ(statusOf(answer), 404) << target << "\n" << answer;
+        EXPECT_EQ(answer.find("secret\n"), std::string::npos) << target;
+    }
+}
+
+TEST_F(HttpTest, Methods_OtherThanGetAndHead_AreNotAllowed) {
+    for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "PATCH", "FOO"}) {
+        const std::string answer = exchange(std::string(method) + " / HTTP/1.1\r\nHost: test\r\n"
+                                                                  "Connection: close\r\n\r\n");
+        EXPECT_EQ(statusOf(answer), 405) << method << answer;
+        EXPECT_NE(answer.find("Allow: GET, HEAD"), std::string::npos) << method;
+    }
+}
+
+TEST_F(HttpTest, Header_OverTheLimit_Is431) {
+    const std::string answer = get("/", "X-Bomb: " + std::string(9000, 'x') + "\r\n");
+    EXPECT_EQ(statusOf(answer), 431);
+}
+
+TEST_F(HttpTest, Header_NeverEnds_Is408) {
+    EXPECT_EQ(statusOf(exchange("GET / HTTP/1.1\r\nHost: te")), 408);
+}
+
+TEST_F(HttpTest, Requests_Malformed_AreBadAndTheServerLives) {
+    for (const std::string& raw :
+         {std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03 tls hello", 22),
+          std::string(
+              "GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n"),
+          std::string("GET / HTTP/1.1\r\nHost: a\r\nContent-Length: x\r\n\r\n"),
+          std::string("GET / HTTP/3.7\r\n\r\n"), std::string("nonsense\r\n\r\n")}) {
+        EXPECT_EQ(statusOf(exchange(raw)), 400) << raw;
+    }
+    EXPECT_EQ(statusOf(get("/")), 200);
+}
+
+TEST_F(HttpTest, Body_Any_IsRefused) {
+    const std::string answer =
+        exchange("GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\n\r\nhello");
+    EXPECT_EQ(statusOf(answer), 413);
+}
+
+TEST_F(HttpTest, Socket_WithoutUpgrade_Is426) {
+    EXPECT_EQ(statusOf(get("/ws")), 426);
+}
+
+TEST_F(HttpTest, Socket_UpgradeElsewhere_Is404) {
+    EXPECT_EQ(statusOf(exchange("GET /other HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\n"
+                                "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")),
+              404);
+}
+
+TEST_F(HttpTest, Socket_ForeignOrigin_Is403) {
+    EXPECT_EQ(statusOf(exchange("GET /ws HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\n"
+                                "Origin: http://b\r\n"
+                                "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")),
+              403);
+}
+
+TEST_F(HttpTest, Health_Serving_SaysSo) {
+    WsClient(server_.port()).join(); // the scene is there
+    const std::string answer = get("/healthz");
+    EXPECT_EQ(statusOf(answer), 200);
+    EXPECT_NE(answer.find(R"({"status":"serving"})"), std::string::npos) << answer;
+    EXPECT_NE(answer.find("no-store"), std::string::npos);
+}
+
+TEST(HttpLoading, SceneIsNotThere_PageAndHealthAnswer) {
+    TestServer server({.open_at_once = false});
+    boost::asio::io_context io;
+    boost::asio::ip::tcp::socket socket(io);
+    socket.connect({boost::asio::ip::address_v4::loopback(), server.port()});
+    boost::asio::write(
+        socket, boost::asio::buffer(
+                    std::string("GET /healthz HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n")));
+    std::string answer;
+    boost::system::error_code error;
+    boost::asio::read(socket, boost::asio::dynamic_buffer(answer), error);
+    EXPECT_NE(answer.find(R"({"status":"loading"})"), std::string::npos) << answer;
+}
+
+} // namespace
+} // namespace froxel::test

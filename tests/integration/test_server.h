@@ -1,0 +1,42 @@
+// A whole server in this process, on a free port of 127.0.0.1, with a fake device behind it.
+#pragma once
+
+#include "app/serve_run.h"
+#include "support/fake_frame_source.h"
+
+#include <memory>
+#include <optional>
+
+namespace froxel::test {
+
+struct TestServerOptions {
+    uint32_t sessions_max = 8;
+    uint32_t connections_max = 256;
+    view::Size size{64, 48};
+    bool still = false; // lights stand still until a command moves them: pictures only on change
+    bool open_at_once = true; // false: the scene keeps loading until open()
+    std::vector<std::string> allowed_origins{};
+    std::filesystem::path web_root{};
+};
+
+class TestServer {
+  public:
+    explicit TestServer(const TestServerOptions& options = {});
+    ~TestServer();
+
+    [[nodiscard]] uint16_t port() const { return run_->port(); }
+    [[nodiscard]] FakeDevice& device() { return *device_; }
+    [[nodiscard]] app::ServeRun& run() { return *run_; }
+    void open();
+    // Destroys the server; what it leaves behind can be looked at.
+    void end();
+
+  private:
+    std::shared_ptr<FakeDevice> device_ = std::make_shared<FakeDevice>();
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool opened_ = false;
+    std::optional<app::ServeRun> run_;
+};
+
+} // namespace froxel::test

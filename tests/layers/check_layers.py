@@ -1,0 +1,142 @@
+"""Checks the rules of CONTRIBUTING.md and ARCHITECTURE.md that a compiler cannot.
+
+Usage: check_layers.py ROOT. Prints one line for each violation; exit 1 if there is any.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+# What each layer may include besides itself. A layer is a folder of server/, or protocol/;
+# "interface" is shaders/interface and "shaders" the embedded SPIR-V.
+MAY_INCLUDE = {
+    "core": set(),
+    "view": {"core"},
+    "scene": {"core", "view"},
+    "gltf": {"core", "view", "scene"},
+    "hall": {"core", "view", "scene"},
+    "gltf_writer": {"core", "view", "scene"},
+    "light": {"core", "view", "scene", "interface"},
+    "cluster": {"core", "view", "light", "interface"},
+    "gpu": {"core"},
+    "render": {"core", "view", "scene", "light", "cluster", "gpu", "interface", "shaders"},
+    "encode": {"core", "view"},
+    "protocol": {"core"},
+    "session": {"core", "view", "scene", "protocol"},
+    "stream": {"core", "view", "scene", "protocol", "session", "render", "encode", "gpu"},
+    "net": {"core", "protocol", "session"},
+}
+EVERY_LAYER = set(MAY_INCLUDE) | {"interface", "shaders"}
+MAY_INCLUDE["app"] = EVERY_LAYER - {"interface", "shaders"}
+
+# The first folder of an #include "..." where it is not the layer's own name.
+LAYER_OF_FOLDER = {"froxel": "protocol"}  # generated: froxel/v1/client.pb.h
+LAYER_OF_FILE = {"embedded.h": "shaders"}
+
+# (pattern, layers that may, reason)
+RESTRICTED = [
+    (re.compile(r"#include <boost/beast"), {"net"}, "HTTP and WebSocket belong to net"),
+    (re.compile(r"#include <boost/asio"), {"net", "app"}, "sockets belong to net, signals to app"),
+    (re.compile(r'#include (<vulkan/|"gpu/vulkan\.h")'), {"gpu", "render"},
+     "Vulkan belongs to gpu and render"),
+    (re.compile(r"#include <(tiny_gltf|stb_)"), {"gltf"}, "file formats belong to gltf"),
+]
+BANNED = [
+    (re.compile(r"#include <iostream>"), "it adds static constructors; log or print"),
+    (re.compile(r"std::endl"), "it flushes; write '\\n'"),
+    (re.compile(r"\bTODO\b|\bFIXME\b"), "do it, or open an issue"),
+]
+BANNED_IN_TESTS = [
+    (re.compile(r"\bsleep_for\b|\bsleep_until\b|\busleep\("), "wait for a condition"),
+]
+GENERATED = re.compile(r"(\.pb\.(h|cc)|_pb\.(ts|js)|\.spv|\.spv\.h)$|^client-web/(src/gen|dist)/")
+SOURCES = {".h", ".cpp"}
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+MAX_LINES = 400
+
+
+def layer_of_include(path):
+    """The layer that an #include "path" reaches, or None for a name that is no layer's."""
+    if path in LAYER_OF_FILE:
+        return LAYER_OF_FILE[path]
+    folder = path.split("/")[0]
+    folder = LAYER_OF_FOLDER.get(folder, folder)
+    return folder if folder in EVERY_LAYER | {"app"} else None
+
+
+def check_file(name, layer, lines):
+    """Yields the violations of one file of a layer; `layer` is "tests" outside server/."""
+    if name.endswith(".h") and "#pragma once" not in lines:
+        yield f"{name}: no #pragma once"
+    if len(lines) > MAX_LINES:
+        yield f"{name}: {len(lines)} lines, at most {MAX_LINES}; split it by purpose"
+    bans = BANNED + (BANNED_IN_TESTS if layer == "tests" else [])
+    for number, line in enumerate(lines, 1):
+        where = f"{name}:{number}"
+        for pattern, reason in bans:
+            if pattern.search(line):
+                yield f"{where}: {pattern.pattern} is banned: {reason}"
+        if layer == "tests":
+            continue
+        for pattern, allowed, reason in RESTRICTED:
+            if layer not in allowed and pattern.search(line):
+                yield f"{where}: {line.strip()} in {layer}: {reason}"
+        include = INCLUDE.match(line)
+        if not include:
+            continue
+        target = layer_of_include(include[1])
+        if target is None:
+            yield f'{where}: "{include[1]}" does not start with a layer'
+        elif target != layer and target not in MAY_INCLUDE[layer]:
+            allowed = ", ".join(sorted(MAY_INCLUDE[layer])) or "no other layer"
+            yield f"{where}: {layer} may not include {target}, only {allowed}"
+
+
+def layer_folders(root):
+    """(layer, folder) of every layer, and the tests under the name "tests"."""
+    for folder in sorted((root / "server").iterdir()):
+        if folder.is_dir():
+            yield folder.name, folder
+    yield "protocol", root / "protocol"
+    yield "tests", root / "tests"
+
+
+def check_tree(root):
+    """Yields every violation under root."""
+    for layer, folder in layer_folders(root):
+        if layer not in MAY_INCLUDE and layer != "tests":
+            yield f"{folder.relative_to(root)}: no such layer; add it to {Path(__file__).name}"
+            continue
+        for path in sorted(folder.rglob("*")):
+            if path.suffix in SOURCES:
+                lines = path.read_text(encoding="utf-8").splitlines()
+                yield from check_file(str(path.relative_to(root)), layer, lines)
+
+
+def committed_files(root):
+    """Paths that git tracks; none outside a git checkout."""
+    if not (root / ".git").exists():
+        return []
+    listing = subprocess.run(["git", "-C", root, "-c", f"safe.directory={root}", "ls-files"],
+                             check=True, capture_output=True, text=True)
+    return listing.stdout.splitlines()
+
+
+def check_committed(paths):
+    """Yields the paths that are build products."""
+    for path in paths:
+        if GENERATED.search(path):
+            yield f"{path}: generated code is built, never committed"
+
+
+def main():
+    root = Path(sys.argv[1]).resolve()
+    violations = [*check_tree(root), *check_committed(committed_files(root))]
+    for violation in violations:
+        print(violation)
+    return 1 if violations else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,67 @@
+"""The checker finds what it is for."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from check_layers import check_committed, check_file, check_tree
+
+
+def violations(layer, *lines, name="a.cpp"):
+    return list(check_file(name, layer, lines))
+
+
+class CheckLayers(unittest.TestCase):
+    def test_allowed_include_passes(self):
+        self.assertEqual(violations("view", '#include "core/math.h"', '#include "view/a.h"'), [])
+
+    def test_generated_messages_belong_to_protocol(self):
+        include = '#include "froxel/v1/client.pb.h"'
+        self.assertEqual(violations("session", include), [])
+        self.assertEqual(len(violations("render", include)), 1)
+
+    def test_forbidden_include_is_named(self):
+        found = violations("session", "", '#include "render/renderer.h"')
+        self.assertEqual(len(found), 1)
+        self.assertIn("a.cpp:2: session may not include render", found[0])
+
+    def test_include_of_no_layer_is_named(self):
+        self.assertEqual(len(violations("view", '#include "math.h"')), 1)
+
+    def test_sockets_outside_net(self):
+        self.assertEqual(violations("net", "#include <boost/beast/core.hpp>"), [])
+        self.assertEqual(len(violations("app", "#include <boost/beast/core.hpp>")), 1)
+
+    def test_vulkan_outside_gpu_and_render(self):
+        self.assertEqual(violations("render", '#include "gpu/vulkan.h"'), [])
+        self.assertEqual(len(violations("app", '#include "gpu/vulkan.h"')), 1)
+        self.assertEqual(len(violations("app", "#include <vulkan/vulkan.h>")), 1)
+
+    def test_bans(self):
+        self.assertEqual(len(violations("core", "#include <iostream>")), 1)
+        self.assertEqual(len(violations("tests", "out << std::endl;")), 1)
+        self.assertEqual(len(violations("tests", "std::this_thread::sleep_for(1s);")), 1)
+        self.assertEqual(violations("stream", "std::this_thread::sleep_for(1s);"), [])
+
+    def test_header_without_guard(self):
+        self.assertEqual(len(violations("core", "int a;", name="a.h")), 1)
+        self.assertEqual(violations("core", "#pragma once", name="a.h"), [])
+
+    def test_long_file(self):
+        self.assertEqual(violations("core", *[""] * 400), [])
+        self.assertEqual(len(violations("core", *[""] * 401)), 1)
+
+    def test_unknown_folder_is_no_layer(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for layer in ("server/core", "server/util", "protocol", "tests"):
+                (root / layer).mkdir(parents=True)
+            self.assertEqual(len(list(check_tree(root))), 1)
+
+    def test_generated_code(self):
+        built = ["protocol/a.pb.h", "client-web/src/gen/a_pb.ts", "shaders/a.spv"]
+        self.assertEqual(len(list(check_committed(built + ["shaders/a.frag"]))), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,174 @@
+// The exactness contract on pictures: a difference is a bug, not noise.
+#include "hall/hall.h"
+#include "support/draw.h"
+#include "support/gpu_fixture.h"
+#include "support/test_scenes.h"
+
+#include <cmath>
+
+namespace froxel::test {
+
+namespace {
+
+using view::Renderer;
+
+class Exactness : public GpuTest {};
+
+render::FrameInputs inputsFor(const view::Camera& camera, Renderer renderer) {
+    render::FrameInputs inputs;
+    inputs.settings.camera = camera;
+    inputs.settings.size = {120, 68};
+    inputs.settings.renderer = renderer;
+    inputs.time_s = 3.25;
+    return inputs;
+}
+
+// Every camera, light count and radius of the contract: lists against all lights.
+void expectListsExact(render::Renderer& renderer, const scene::Scene& scene) {
+    render::ViewRenderer view(renderer);
+    for (const auto& camera : scene.cameras) {
+        for (const uint32_t count : {0U, 1U, 7U, 100U, 1000U}) {
+            for (const float radius : {0.5F, 2.0F, 12.0F}) {
+                SCOPED_TRACE(camera.name + ", " + std::to_string(count) + " lights of " +
+                             std::to_string(radius) + " m");
+                auto inputs = inputsFor(camera.camera, Renderer::kNaive);
+                inputs.settings.lights.count = count;
+                inputs.settings.lights.radius_m = radius;
+                const Picture naive = draw(view, inputs);
+                inputs.settings.renderer = Renderer::kForwardPlus;
+                EXPECT_EQ(differingFloats(naive, draw(view, inputs)), 0U);
+
+                inputs.settings.renderer = Renderer::kClusteredDeferred;
+                const Picture clustered = draw(view, inputs);
+                inputs.all_lights = true;
+                EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
+            }
+        }
+    }
+}
+
+} // namespace
+
+TEST_F(Exactness, Lists_BuiltinScene_EqualAllLightsBitForBit) {
+    const auto scene = hall::makeHall();
+    render::Renderer renderer(device(), scene);
+    expectListsExact(renderer, scene);
+}
+
+TEST_F(Exactness, Lists_Sponza_EqualAllLightsBitForBit) {
+    const auto scene = loadSponza();
+    if (!scene) {
+        GTEST_SKIP() << "Sponza is not here: set FROXEL_SPONZA to its .gltf file";
+    }
+    ASSERT_EQ(scene->cameras.size(), 4U);
+    render::Renderer renderer(device(), *scene);
+    expectListsExact(renderer, *scene);
+}
+
+TEST_F(Exactness, Grids_AnySize_GiveTheSamePicture) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kClusteredDeferred);
+    inputs.settings.lights.count = 300;
+    const Picture reference = draw(renderer, inputs);
+    for (const view::GridSize grid : {view::GridSize{1, 1, 1},
+                                      {16, 16, 24},
+                                      {15, 15, 15},
+                                      {32, 16, 64},
+                                      {128, 128, 3},
+                                      {7, 1, 256}}) {
+        inputs.settings.grid = grid;
+        EXPECT_EQ(differingFloats(reference, draw(renderer, inputs)), 0U)
+            << grid.x << "x" << grid.y << "x" << grid.z;
+    }
+}
+
+TEST_F(Exactness, LightingStage_FragmentOrCompute_GivesTheSamePicture) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    for (const auto kind :
+         {Renderer::kClusteredDeferred, Renderer::kToonFragment, Renderer::kToonCompute}) {
+        auto inputs = inputsFor(scene.cameras[0].camera, kind);
+        inputs.settings.lights.count = 200;
+        const Picture compute = draw(renderer, inputs);
+        inputs.settings.lighting = view::LightingStage::kFragment;
+        EXPECT_EQ(differingFloats(compute, draw(renderer, inputs)), 0U)
+            << view::kRendererNames[static_cast<size_t>(kind)];
+    }
+}
+
+TEST_F(Exactness, Subgroups_WithAndWithout_GiveTheSamePicture) {
+    const auto scene = makeRoom();
+    std::vector<Picture> with;
+    for (const bool subgroups : {true, false}) {
+        openDevice({.choice = {}, .validation = true, .subgroups = subgroups});
+        render::Renderer renderer(device(), scene);
+        for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+            auto inputs = inputsFor(scene.cameras[0].camera, static_cast<Renderer>(kind));
+            inputs.settings.lights.count = 150;
+            Picture picture = draw(renderer, inputs);
+            if (subgroups) {
+                with.push_back(std::move(picture));
+            } else {
+                EXPECT_EQ(differingFloats(with[kind], picture), 0U) << view::kRendererNames[kind];
+            }
+        }
+    }
+}
+
+TEST_F(Exactness, Frames_SameInputTwice_SameBytes) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+        auto inputs = inputsFor(scene.cameras[1].camera, static_cast<Renderer>(kind));
+        inputs.settings.lights.count = 200;
+        const Picture first = draw(view, inputs);
+        inputs.time_s = 99; // something else in between
+        EXPECT_GT(differingFloats(first, draw(view, inputs)), 0U);
+        inputs.time_s = 3.25;
+        const Picture again = draw(view, inputs);
+        EXPECT_EQ(differingFloats(first, again), 0U) << view::kRendererNames[kind];
+        EXPECT_EQ(first.rgba8, again.rgba8) << view::kRendererNames[kind];
+    }
+}
+
+TEST_F(Exactness, Pictures_AnyOddSize_AreFiniteAndEqual) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (const view::Size size : {view::Size{17, 33}, {119, 16}, {16, 131}, {64, 64}, {16, 16}}) {
+        auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kNaive);
+        inputs.settings.size = size;
+        inputs.settings.lights.count = 100;
+        const Picture naive = draw(view, inputs);
+        ASSERT_EQ(naive.radiance.size(), size_t{3} * size.width_px * size.height_px);
+        for (const float value : naive.radiance) {
+            ASSERT_TRUE(std::isfinite(value));
+        }
+        inputs.settings.renderer = Renderer::kForwardPlus;
+        EXPECT_EQ(differingFloats(naive, draw(view, inputs)), 0U)
+            << size.width_px << "x" << size.height_px;
+    }
+}
+
+TEST_F(Exactness, Scene_FarFromTheOrigin_LooksTheSame) {
+    auto near_scene = makeRoom();
+    auto far_scene = near_scene;
+    const glm::dvec3 away(1'048'576, -524'288, 2'097'152); // exact in double and in the offsets
+    for (auto& instance : far_scene.instances) {
+        instance.world_from_object[3] += glm::dvec4(away, 0);
+    }
+    far_scene.bounds_world = {near_scene.bounds_world.min + away,
+                              near_scene.bounds_world.max + away};
+    auto inputs = inputsFor(near_scene.cameras[0].camera, Renderer::kClusteredDeferred);
+    inputs.settings.lights.count = 0;
+    render::Renderer near_renderer(device(), near_scene);
+    render::Renderer far_renderer(device(), far_scene);
+    const Picture reference = draw(near_renderer, inputs);
+    inputs.settings.camera.eye_world += away;
+    const Picture moved = draw(far_renderer, inputs);
+    EXPECT_EQ(differingFloats(reference, moved), 0U);
+}
+
+} // namespace froxel::test

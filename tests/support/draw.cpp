@@ -1,0 +1,50 @@
+#include "support/draw.h"
+
+#include <gtest/gtest.h>
+
+namespace froxel::test {
+
+Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {
+    inputs.keep_radiance = true;
+    Picture picture;
+    const auto submitted = view.submit(inputs);
+    if (!submitted) {
+        ADD_FAILURE() << submitted.error().message;
+        return picture;
+    }
+    auto frame = view.collect();
+    if (!frame) {
+        ADD_FAILURE() << frame.error().message;
+        return picture;
+    }
+    auto linear = view.readLinear();
+    if (!linear) {
+        ADD_FAILURE() << linear.error().message;
+        return picture;
+    }
+    const PixelView& pixels = frame->pixels.view();
+    picture.width_px = pixels.width_px;
+    picture.height_px = pixels.height_px;
+    picture.rgba8.assign(pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px);
+    picture.radiance = std::move(linear->rgb);
+    picture.stats = frame->stats;
+    return picture;
+}
+
+Picture draw(render::Renderer& renderer, const render::FrameInputs& inputs) {
+    render::ViewRenderer view(renderer);
+    return draw(view, inputs);
+}
+
+size_t differingFloats(const Picture& a, const Picture& b) {
+    if (a.radiance.size() != b.radiance.size()) {
+        return std::max(a.radiance.size(), b.radiance.size());
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < a.radiance.size(); ++i) {
+        count += std::memcmp(&a.radiance[i], &b.radiance[i], sizeof(float)) != 0 ? 1U : 0U;
+    }
+    return count;
+}
+
+} // namespace froxel::test

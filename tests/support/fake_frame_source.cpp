@@ -1,0 +1,105 @@
+#include "support/fake_frame_source.h"
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+#include <vector>
+
+namespace froxel::test {
+
+void FakeDevice::setGate(bool open) {
+    const std::lock_guard lock(mutex_);
+    open_ = open;
+    changed_.notify_all();
+}
+
+void FakeDevice::passGate() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return open_; });
+}
+
+namespace {
+
+constexpr int kReadbackSlots = 3;
+
+// A grey that tells renderers and exposures apart.
+std::byte shadeOf(const view::ViewSettings& settings) {
+    const auto renderer = static_cast<unsigned>(settings.renderer);
+    return std::byte(std::clamp(40.0F + 30.0F * static_cast<float>(renderer), 0.0F, 200.0F) +
+                     std::min(settings.exposure, 4.0F) * 10.0F);
+}
+
+class FakeView final : public stream::ViewSource {
+  public:
+    explicit FakeView(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {
+        ++device_->live_views;
+    }
+    ~FakeView() override { --device_->live_views; }
+
+    [[nodiscard]] bool canSubmit() const override {
+        return static_cast<int>(queue_.size()) + *own_leases_ < kReadbackSlots;
+    }
+
+    [[nodiscard]] Result<void> submit(const view::ViewSettings& settings,
+                                      double /*time_s*/) override {
+        if (device_->lost) {
+            return Error{ErrorCode::kDevice, "the fake device was lost"};
+        }
+        if (uint64_t{settings.size.width_px} * settings.size.height_px > device_->max_area_px) {
+            return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
+        }
+        ++device_->submitted_count;
+        queue_.push_back(settings);
+        return {};
+    }
+
+    [[nodiscard]] Result<stream::SourceFrame> collect() override {
+        device_->passGate();
+        const view::ViewSettings settings = queue_.front();
+        queue_.pop_front();
+        if (device_->lost) {
+            return Error{ErrorCode::kDevice, "the fake device was lost"};
+        }
+        const view::Size size = settings.size;
+        auto pixels = std::make_shared<std::vector<std::byte>>(
+            size_t{4} * size.width_px * size.height_px, shadeOf(settings));
+        const PixelView view{pixels->data(), size.width_px, size.height_px,
+                             size_t{4} * size.width_px};
+        ++device_->live_leases;
+        ++*own_leases_;
+        stream::SourceFrame frame;
+        frame.pixels = PixelLease(view, [pixels, device = device_, own = own_leases_] {
+            --device->live_leases;
+            --*own;
+        });
+        frame.stats.passes = {{"fake", 1.0}};
+        frame.stats.gpu_us = 1;
+        frame.stats.lists.light_count = settings.lights.count;
+        return frame;
+    }
+
+  private:
+    std::shared_ptr<FakeDevice> device_;
+    std::shared_ptr<std::atomic<int>> own_leases_ = std::make_shared<std::atomic<int>>(0);
+    std::deque<view::ViewSettings> queue_;
+};
+
+class FakeSource final : public stream::FrameSource {
+  public:
+    explicit FakeSource(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {}
+    [[nodiscard]] uint32_t depth() const override { return device_->depth; }
+    [[nodiscard]] Result<std::unique_ptr<stream::ViewSource>> makeView() override {
+        return std::unique_ptr<stream::ViewSource>(std::make_unique<FakeView>(device_));
+    }
+
+  private:
+    std::shared_ptr<FakeDevice> device_;
+};
+
+} // namespace
+
+std::unique_ptr<stream::FrameSource> makeFakeSource(std::shared_ptr<FakeDevice> device) {
+    return std::make_unique<FakeSource>(std::move(device));
+}
+
+} // namespace froxel::test

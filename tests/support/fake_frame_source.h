@@ -1,0 +1,39 @@
+// A frame source without a device: pictures of one colour that follows from the settings, and
+// knobs to make it slow, full or lost. Any thread may turn the knobs.
+#pragma once
+
+#include "stream/frame_source.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+
+namespace froxel::test {
+
+// What the test sees of the fake; it outlives the source.
+class FakeDevice {
+  public:
+    std::atomic<uint32_t> depth = 1;
+    std::atomic<uint64_t> max_area_px = uint64_t{4096} * 4096; // larger pictures do not fit
+    std::atomic<bool> lost = false;
+    std::atomic<uint64_t> submitted_count = 0;
+    std::atomic<int> live_views = 0;
+    std::atomic<int> live_leases = 0;
+
+    // While closed, collect() waits: the device is busy.
+    void setGate(bool open);
+    void passGate();
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool open_ = true;
+};
+
+[[nodiscard]] std::unique_ptr<stream::FrameSource>
+makeFakeSource(std::shared_ptr<FakeDevice> device);
+
+} // namespace froxel::test

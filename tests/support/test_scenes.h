@@ -1,0 +1,17 @@
+// The scenes that picture tests draw.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <optional>
+
+namespace froxel::test {
+
+// A floor and a wall with a masked and a glass pane, a mirrored and a squashed box: small, and
+// every kind of material and transform.
+[[nodiscard]] scene::Scene makeRoom();
+
+// Crytek Sponza from FROXEL_SPONZA or beside the checkout; none where it is absent.
+[[nodiscard]] std::optional<scene::Scene> loadSponza();
+
+} // namespace froxel::test

@@ -1,0 +1,152 @@
+"""The built binary from outside: exit codes, one-line errors, files.
+
+FROXEL_BINARY is its path. Everything is drawn by lavapipe, so that a machine's GPU makes no difference.
+"""
+
+import array
+import json
+import os
+import socket
+import struct
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+FROXEL = os.environ["FROXEL_BINARY"]
+SMALL = ["--device", "cpu", "--size", "64x36", "--lights", "20", "--warmup", "0"]
+
+
+def froxel(*arguments, **environment):
+    return subprocess.run([FROXEL, *map(str, arguments)], env={**os.environ, **environment},
+                          capture_output=True, text=True, timeout=120, check=False)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def assert_refused(self, run, code, *parts):
+        """Exit code `code`, nothing on stdout, and one line on stderr with all the parts."""
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertEqual(run.stdout, "")
+        errors = [line for line in run.stderr.splitlines() if line.startswith("froxel: ")]
+        self.assertEqual(len(errors), 1, run.stderr)
+        for part in parts:
+            self.assertIn(part, errors[0])
+
+    def render(self, name, *arguments):
+        out = self.folder / name
+        run = froxel("render", *SMALL, "--out", out, *arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stderr, "")
+        return out.read_bytes()
+
+    def test_usage_is_2(self):
+        self.assert_refused(froxel(), 2, "subcommand")
+        self.assert_refused(froxel("render", "--out", "a.png", "--lights", "many"), 2,
+                            "--lights", "'many'", "0 to 100000")
+
+    def test_unknown_camera_is_2_and_names_those_there_are(self):
+        run = froxel("render", *SMALL, "--out", self.folder / "a.png", "--camera", "Crypt")
+        self.assert_refused(run, 2, "'Crypt'", "Nave")
+
+    def test_missing_scene_is_3(self):
+        run = froxel("info", "--scene", self.folder / "absent.glb")
+        self.assert_refused(run, 3, "absent.glb")
+
+    def test_no_device_is_4(self):
+        run = froxel("info", VK_ICD_FILENAMES="/nonexistent.json",
+                     VK_DRIVER_FILES="/nonexistent.json")
+        self.assert_refused(run, 4)
+
+    def test_taken_address_is_5(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            port = taken.getsockname()[1]
+            run = froxel("serve", "--device", "cpu", "--port", port, "--log-level", "error")
+            self.assert_refused(run, 5, str(port))
+
+    def test_unwritable_output_is_1_before_anything_is_drawn(self):
+        run = froxel("render", *SMALL, "--out", self.folder / "absent" / "a.png")
+        self.assert_refused(run, 1, "absent")
+
+    def test_help_and_version_are_0(self):
+        for arguments in (["--help"], ["--version"], ["render", "--help"], ["--help-all"]):
+            run = froxel(*arguments)
+            self.assertEqual(run.returncode, 0)
+            self.assertEqual(run.stderr, "")
+            self.assertNotEqual(run.stdout, "")
+
+    def test_png_has_the_size_asked_for(self):
+        png = self.render("a.png")
+        self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">II", png[16:24]), (64, 36))
+
+    def test_jpeg_is_one(self):
+        jpeg = self.render("a.jpg", "--quality", "50", "--chroma", "444")
+        self.assertEqual((jpeg[:2], jpeg[-2:]), (b"\xff\xd8", b"\xff\xd9"))
+
+    def test_pfm_is_linear_float_and_not_black(self):
+        pfm = self.render("a.pfm", "--renderer", "naive")
+        header = b"PF\n64 36\n-1.0\n"
+        self.assertEqual(pfm[:len(header)], header)
+        values = array.array("f", pfm[len(header):])
+        self.assertEqual(len(values), 64 * 36 * 3)
+        self.assertGreater(max(values), 0)
+        self.assertTrue(all(value >= 0 for value in values))
+
+    def test_same_options_same_bytes_and_another_seed_others(self):
+        first = self.render("a.pfm", "--time", "1.5")
+        self.assertEqual(first, self.render("b.pfm", "--time", "1.5"))
+        self.assertNotEqual(first, self.render("c.pfm", "--time", "1.5", "--seed", "2"))
+
+    def test_last_of_k_frames_is_the_frame_of_its_time(self):
+        last = self.render("a.pfm", "--time", "1", "--frames", "4")
+        self.assertEqual(last, self.render("b.pfm", "--time", repr(1 + 3 * (1 / 30))))
+        self.assertNotEqual(last, self.render("c.pfm", "--time", "1", "--frames", "4",
+                                              "--no-animate"))
+
+    def test_timings_have_every_statistic(self):
+        timings = self.folder / "t.json"
+        run = froxel("render", *SMALL, "--frames", "3", "--timings", timings)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        report = json.loads(timings.read_text())
+        self.assertEqual(report["schema"], "froxel.timings.v1")
+        self.assertEqual(report["frames"], 3)
+        self.assertEqual(report["device"]["kind"], "cpu")
+        self.assertGreater(len(report["passes"]), 0)
+        for times in [*report["frame"].values(), *(p["gpu_us"] for p in report["passes"])]:
+            self.assertLessEqual(0, times["min"])
+            self.assertLessEqual(times["min"], times["median"])
+            self.assertLessEqual(times["median"], times["p95"])
+            self.assertLessEqual(times["p95"], times["max"])
+        self.assertGreater(report["frame"]["gpu_us"]["min"], 0)
+
+    def test_info_as_json_is_all_that_stdout_has(self):
+        run = froxel("info", "--device", "cpu", "--scene", "builtin", "--json",
+                     "--log-level", "debug")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        report = json.loads(run.stdout)
+        self.assertGreaterEqual(report["scene"]["triangles"], 100_000)
+        self.assertEqual(len(report["scene"]["cameras"]), 5)
+        self.assertEqual(report["device"]["kind"], "cpu")
+        self.assertGreater(report["limits"]["max_picture_side_px"], 0)
+
+    def test_scene_writes_the_hall_and_reads_it_back(self):
+        hall = self.folder / "hall.glb"
+        run = froxel("scene", "--out", hall)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        glb = hall.read_bytes()
+        self.assertEqual(struct.unpack("<4sII", glb[:12]), (b"glTF", 2, len(glb)))
+        reports = [json.loads(froxel("info", "--device", "cpu", "--scene", scene, "--json").stdout)
+                   for scene in ("builtin", hall)]
+        for key in ("triangles", "draws", "materials", "cameras", "lights"):
+            self.assertEqual(reports[0]["scene"][key], reports[1]["scene"][key], key)
+
+
+if __name__ == "__main__":
+    unittest.main()

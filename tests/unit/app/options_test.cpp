@@ -1,0 +1,234 @@
+#include "app/options.h"
+#include "core/error.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace froxel::app {
+namespace {
+
+using testing::HasSubstr;
+
+Options parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "froxel");
+    return parseOptions(static_cast<int>(arguments.size()), arguments.data());
+}
+
+RenderOptions parseRender(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), {"render", "--out", "a.png"});
+    return std::get<RenderOptions>(parse(std::move(arguments)).command);
+}
+
+// The message of the usage error that the arguments must cause.
+std::string refusal(std::vector<const char*> arguments) {
+    try {
+        static_cast<void>(parse(std::move(arguments)));
+    } catch (const StartupError& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "not one line";
+        return error.what();
+    }
+    ADD_FAILURE() << "accepted";
+    return {};
+}
+
+TEST(Options, RenderWithAll_FillsEveryField) {
+    const auto options = parseRender({"--scene",
+                                      "sponza.glb",
+                                      "--renderer",
+                                      "forward_plus",
+                                      "--lights",
+                                      "5000",
+                                      "--light-radius",
+                                      "1.5",
+                                      "--light-box",
+                                      "-10,0,-5;10,8,5",
+                                      "--seed",
+                                      "9",
+                                      "--time",
+                                      "2.5",
+                                      "--size",
+                                      "640x361",
+                                      "--camera",
+                                      "-7,2,0;0,2,0;45",
+                                      "--grid",
+                                      "15x15x15",
+                                      "--frames",
+                                      "20",
+                                      "--timings",
+                                      "t.json",
+                                      "--device",
+                                      "cpu",
+                                      "--exposure",
+                                      "0.5",
+                                      "--tone-map",
+                                      "clamp",
+                                      "--lighting",
+                                      "fragment",
+                                      "--no-scene-lights",
+                                      "--no-animate",
+                                      "--validation"});
+    EXPECT_EQ(options.scene, "sponza.glb");
+    EXPECT_EQ(options.settings.renderer, view::Renderer::kForwardPlus);
+    EXPECT_EQ(options.settings.lights.count, 5000U);
+    EXPECT_EQ(options.settings.lights.radius_m, 1.5F);
+    ASSERT_TRUE(options.settings.lights.box);
+    EXPECT_EQ(options.settings.lights.box->max, glm::dvec3(10, 8, 5));
+    EXPECT_EQ(options.settings.lights.seed, 9U);
+    EXPECT_EQ(options.time_s, 2.5);
+    EXPECT_EQ(options.settings.size, (view::Size{640, 361}));
+    EXPECT_EQ(std::get<view::Camera>(options.camera).eye_world, glm::dvec3(-7, 2, 0));
+    EXPECT_EQ(options.settings.grid, (view::GridSize{15, 15, 15}));
+    EXPECT_EQ(options.frame_count, 20U);
+    EXPECT_EQ(options.timings, "t.json");
+    EXPECT_EQ(options.out, "a.png");
+    EXPECT_EQ(options.device.choice, gpu::DeviceChoice::kCpu);
+    EXPECT_TRUE(options.device.validation);
+    EXPECT_EQ(options.settings.exposure, 0.5F);
+    EXPECT_EQ(options.settings.tone_map, view::ToneMap::kClamp);
+    EXPECT_EQ(options.settings.lighting, view::LightingStage::kFragment);
+    EXPECT_FALSE(options.settings.lights.scene_lights);
+    EXPECT_FALSE(options.settings.lights.animate);
+}
+
+TEST(Options, RenderWithNone_KeepsTheDefaults) {
+    const auto options = parseRender({});
+    EXPECT_EQ(options.scene, "builtin");
+    EXPECT_EQ(options.settings, view::ViewSettings{});
+    EXPECT_EQ(options.camera, CameraChoice(DefaultCamera{}));
+    EXPECT_EQ(options.frame_count, 1U);
+}
+
+TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
+    const auto options = parse({"serve"});
+    const auto& serve = std::get<ServeOptions>(options.command);
+    EXPECT_EQ(serve.port, 8080);
+    EXPECT_EQ(serve.address, "127.0.0.1");
+    EXPECT_FALSE(serve.size || serve.quality || serve.light_count || serve.renderer);
+    EXPECT_EQ(options.log_level, LogLevel::kInfo);
+}
+
+TEST(Options, ServeWithAll_FillsEveryField) {
+    const auto options = parse({"serve",
+                                "--address",
+                                "::1",
+                                "--port",
+                                "0",
+                                "--scene",
+                                "a.glb",
+                                "--size",
+                                "320x200",
+                                "--quality",
+                                "90",
+                                "--lights",
+                                "7",
+                                "--light-radius",
+                                "3",
+                                "--renderer",
+                                "naive",
+                                "--max-sessions",
+                                "2",
+                                "--web-root",
+                                "page",
+                                "--allow-origin",
+                                "https://a.example",
+                                "--allow-origin",
+                                "https://b.example",
+                                "--log-level",
+                                "debug",
+                                "--device",
+                                "gpu"});
+    const auto& serve = std::get<ServeOptions>(options.command);
+    EXPECT_EQ(serve.address, "::1");
+    EXPECT_EQ(serve.port, 0);
+    EXPECT_EQ(serve.scene, "a.glb");
+    EXPECT_EQ(serve.size, (view::Size{320, 200}));
+    EXPECT_EQ(serve.quality, 90U);
+    EXPECT_EQ(serve.light_count, 7U);
+    EXPECT_EQ(serve.light_radius_m, 3.0);
+    EXPECT_EQ(serve.renderer, view::Renderer::kNaive);
+    EXPECT_EQ(serve.sessions_max, 2U);
+    EXPECT_EQ(serve.web_root, "page");
+    EXPECT_THAT(serve.allowed_origins,
+                testing::ElementsAre("https://a.example", "https://b.example"));
+    EXPECT_EQ(serve.device, gpu::DeviceChoice::kGpu);
+    EXPECT_EQ(options.log_level, LogLevel::kDebug);
+}
+
+TEST(Options, InfoAndScene_AreParsed) {
+    const auto info = std::get<InfoOptions>(parse({"info", "--json", "--scene", "a.glb"}).command);
+    EXPECT_TRUE(info.json);
+    EXPECT_EQ(info.scene, "a.glb");
+    const auto scene = std::get<SceneOptions>(parse({"scene", "--out", "hall.glb"}).command);
+    EXPECT_EQ(scene.out, "hall.glb");
+}
+
+TEST(Options, Help_IsTextWithUnitsRangesAndDefaults) {
+    const auto text = std::get<PrintText>(parse({"render", "--help"}).command).text;
+    for (const char* part :
+         {"--light-radius N ", "in metres; 0.001 to 10000 [2]", "[16x9x24]", "16x16 to 4096x4096",
+          "[1]", "naive, forward_plus", "Exit codes: 0 done, 2 usage"}) {
+        EXPECT_THAT(text, HasSubstr(part));
+    }
+    EXPECT_THAT(std::get<PrintText>(parse({"--help"}).command).text, HasSubstr("serve"));
+    EXPECT_THAT(std::get<PrintText>(parse({"--help-all"}).command).text, HasSubstr("--web-root"));
+}
+
+TEST(Options, Version_IsText) {
+    EXPECT_THAT(std::get<PrintText>(parse({"--version"}).command).text,
+                testing::MatchesRegex("froxel [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+struct Refusal {
+    std::vector<const char*> arguments;
+    std::vector<const char*> message; // parts
+};
+
+void PrintTo(const Refusal& refusal, std::ostream* stream) {
+    for (const char* argument : refusal.arguments) {
+        *stream << argument << ' ';
+    }
+}
+
+class BadCommandLine : public testing::TestWithParam<Refusal> {};
+
+TEST_P(BadCommandLine, Parsed_RefusedInOneLine) {
+    const std::string message = refusal(GetParam().arguments);
+    for (const char* part : GetParam().message) {
+        EXPECT_THAT(message, HasSubstr(part));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Options,
+    BadCommandLine,
+    testing::Values(
+        Refusal{{}, {"serve, render, info or scene", "froxel --help"}},
+        Refusal{{"draw"}, {"draw", "froxel --help"}},
+        Refusal{{"render"}, {"--out FILE", "--timings FILE"}},
+        Refusal{{"render", "--out", "a.png", "--lights", "100001"},
+                {"--lights", "'100001'", "from 0 to 100000", "froxel render --help"}},
+        Refusal{{"render", "--out", "a.png", "--lights", "7x"}, {"--lights", "'7x'"}},
+        Refusal{{"render", "--out", "a.png", "--light-radius", "nan"},
+                {"--light-radius", "'nan'", "0.001 to 10000"}},
+        Refusal{{"render", "--out", "a.png", "--renderer", "deferred"},
+                {"--renderer", "'deferred'", "clustered_deferred"}},
+        Refusal{{"render", "--out", "a.png", "--size", "0x0"}, {"--size", "'0x0'", "16x16"}},
+        Refusal{{"render", "--out", "a.png", "--camera", "1,2;3"}, {"--camera", "'1,2;3'"}},
+        Refusal{{"render", "--out", "a.gif"}, {"--out", "a.gif", ".png"}},
+        Refusal{{"render", "--out", "a.png", "--quality", "50"}, {"--quality", "a.png", ".jpg"}},
+        Refusal{{"render", "--out", "a.png", "--lights"}, {"--lights"}},
+        Refusal{{"render", "--out", "a.png", "--seed", "1", "--seed", "2"}, {"--seed"}},
+        Refusal{{"render", "--out", "a.png", "--sed", "1"}, {"--sed"}},
+        Refusal{{"render", "--out", "a.png", "stray"}, {"stray"}},
+        Refusal{{"serve", "--port", "65536"}, {"--port", "'65536'", "0 to 65535"}},
+        Refusal{{"serve", "--log-level", "loud"}, {"--log-level", "'loud'", "debug, info"}},
+        Refusal{{"scene"}, {"--out"}},
+        Refusal{{"scene", "--out", "hall.obj"}, {"--out", "'hall.obj'", ".glb"}}));
+
+} // namespace
+} // namespace froxel::app

@@ -1,0 +1,49 @@
+#include "app/scene_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace froxel::app {
+namespace {
+
+scene::Scene twoCameras() {
+    scene::Scene scene;
+    scene.cameras = {{"nave", view::lookAt({1, 0, 0}, {0, 0, 0}, {0, 1, 0})},
+                     {"apse", view::lookAt({2, 0, 0}, {0, 0, 0}, {0, 1, 0})}};
+    scene.bounds_world.add(glm::dvec3(-1));
+    scene.bounds_world.add(glm::dvec3(1));
+    return scene;
+}
+
+TEST(FindCamera, Default_IsTheFirst) {
+    const auto scene = twoCameras();
+    EXPECT_EQ(findCamera(DefaultCamera{}, scene).value(), scene.cameras[0].camera);
+}
+
+TEST(FindCamera, DefaultWithoutCameras_IsTheOverview) {
+    auto scene = twoCameras();
+    scene.cameras.clear();
+    EXPECT_EQ(findCamera(DefaultCamera{}, scene).value(), view::overview(scene.bounds_world));
+}
+
+TEST(FindCamera, Name_IsThatOne) {
+    const auto scene = twoCameras();
+    EXPECT_EQ(findCamera(std::string("apse"), scene).value(), scene.cameras[1].camera);
+}
+
+TEST(FindCamera, UnknownName_RefusedWithTheNames) {
+    const auto camera = findCamera(std::string("crypt"), twoCameras());
+    ASSERT_TRUE(camera.has_error());
+    EXPECT_EQ(camera.error().code, ErrorCode::kInvalidArgument);
+    EXPECT_EQ(camera.error().message,
+              "--camera: 'crypt' is no camera of this scene; it has nave, apse");
+}
+
+TEST(FindCamera, Numbers_AreTaken) {
+    const auto camera = view::lookAt({3, 4, 5}, {0, 0, 0}, {0, 1, 0});
+    EXPECT_EQ(findCamera(camera, twoCameras()).value(), camera);
+}
+
+} // namespace
+} // namespace froxel::app

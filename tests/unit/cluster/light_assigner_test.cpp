@@ -1,0 +1,138 @@
+// Lists as a whole: counts around every word width, reuse, threads and the limit.
+#include "assign_cases.h"
+#include "cluster/light_assigner.h"
+
+#include <numeric>
+
+namespace froxel::cluster::testing {
+namespace {
+
+light::FrameLights scattered(size_t count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    light::FrameLights lights;
+    for (size_t i = 0; i < count; ++i) {
+        addPoint(lights, {10 * unit(random), 5 * unit(random), -15 + 16 * unit(random)}, 2);
+    }
+    return lights;
+}
+
+ClusterGrid usualGrid() {
+    return makeClusterGrid({16, 9, 24}, {1280, 720}, perspective(45), 0.5, 35);
+}
+
+void expectSame(const LightLists& a, const LightLists& b) {
+    ASSERT_EQ(a.clusters.size(), b.clusters.size());
+    for (size_t i = 0; i < a.clusters.size(); ++i) {
+        ASSERT_EQ(a.clusters[i].offset, b.clusters[i].offset);
+        ASSERT_EQ(a.clusters[i].count, b.clusters[i].count);
+    }
+    EXPECT_EQ(a.indices, b.indices);
+    EXPECT_EQ(a.all_lights, b.all_lights);
+    EXPECT_EQ(a.stats.entry_count, b.stats.entry_count);
+    EXPECT_EQ(a.stats.empty_count, b.stats.empty_count);
+    EXPECT_EQ(a.stats.largest, b.stats.largest);
+}
+
+TEST(LightAssigner, Threads_DoNotChangeTheResult) {
+    for (const size_t count : {0U, 1U, 255U, 256U, 257U, 3000U}) {
+        const auto lights = scattered(count, 5);
+        const LightLists one = assigned(usualGrid(), lights, 1);
+        for (const unsigned threads : {2U, 3U, 8U}) {
+            expectSame(one, assigned(usualGrid(), lights, threads));
+        }
+    }
+}
+
+TEST(LightAssigner, CountsAroundWordWidths_DoNotWrap) {
+    const ClusterGrid grid = makeClusterGrid({1, 1, 1}, {64, 64}, perspective(45), 0.5, 35);
+    for (const uint32_t count : {255U, 256U, 257U, 511U, 512U, 65535U, 65536U, 65537U}) {
+        light::FrameLights lights;
+        for (uint32_t i = 0; i < count; ++i) {
+            addPoint(lights, {0, 0, -10}, 1);
+        }
+        const LightLists lists = assigned(grid, lights, 2);
+        ASSERT_EQ(lists.clusters[0].count, count);
+        std::vector<uint32_t> all(count);
+        std::iota(all.begin(), all.end(), 0U);
+        EXPECT_EQ(lists.indices, all);
+    }
+}
+
+TEST(LightAssigner, DuplicateLights_AreAllListed) {
+    light::FrameLights lights;
+    for (int i = 0; i < 5000; ++i) {
+        addPoint(lights, {0.3, 0.2, -10}, 0.01);
+    }
+    const LightLists lists = assigned(usualGrid(), lights, 2);
+    EXPECT_EQ(lists.stats.largest, 5000U);
+    const auto clusters = clustersByLight(lists, 5000);
+    for (const auto& of_light : clusters) {
+        ASSERT_EQ(of_light, clusters[0]);
+    }
+}
+
+TEST(LightAssigner, ReusedBuffers_HoldNothingOfTheFrameBefore) {
+    LightAssigner assigner(2);
+    LightLists reused;
+    const view::Size sizes[] = {{1280, 720}, {17, 33}, {1919, 1079}, {640, 360}, {640, 360}};
+    const size_t counts[] = {5000, 10, 0, 5000, 700};
+    for (size_t i = 0; i < std::size(counts); ++i) {
+        const uint32_t slices = i % 2 == 0 ? 24U : 7U;
+        const ClusterGrid grid =
+            makeClusterGrid({16, 9, slices}, sizes[i], perspective(45), 0.5, 35);
+        const auto lights = scattered(counts[i], static_cast<unsigned>(i));
+        assigner.assign(grid, lights, reused);
+        expectSame(reused, assigned(grid, lights));
+        EXPECT_EQ(reused.stats.light_count, counts[i]);
+    }
+}
+
+TEST(LightAssigner, Stats_DescribeTheLists) {
+    const LightLists lists = assigned(usualGrid(), scattered(500, 9));
+    uint32_t empty = 0;
+    uint32_t largest = 0;
+    for (const auto& list : lists.clusters) {
+        empty += list.count == 0 ? 1U : 0U;
+        largest = std::max(largest, list.count);
+    }
+    EXPECT_EQ(lists.stats.light_count, 500U);
+    EXPECT_EQ(lists.stats.cluster_count, 16U * 9U * 24U);
+    EXPECT_EQ(lists.stats.empty_count, empty);
+    EXPECT_EQ(lists.stats.largest, largest);
+    EXPECT_DOUBLE_EQ(lists.stats.mean, static_cast<double>(lists.indices.size()) /
+                                           (lists.stats.cluster_count - empty));
+}
+
+TEST(LightAssigner, BeyondTheLimit_EveryClusterNamesAllLights) {
+    const auto lights = scattered(2000, 4);
+    const ClusterGrid grid = usualGrid();
+    const uint64_t entries = assigned(grid, lights).stats.entry_count;
+    for (const unsigned threads : {1U, 2U}) {
+        LightAssigner fits(threads, entries);
+        LightLists lists;
+        fits.assign(grid, lights, lists);
+        EXPECT_FALSE(lists.all_lights);
+
+        LightAssigner full(threads, entries - 1);
+        full.assign(grid, lights, lists);
+        EXPECT_TRUE(lists.all_lights);
+        EXPECT_TRUE(lists.stats.overflowed);
+        ASSERT_EQ(lists.indices.size(), 2000U);
+        for (uint32_t i = 0; i < 2000; ++i) {
+            ASSERT_EQ(lists.indices[i], i);
+        }
+        for (const auto& list : lists.clusters) {
+            ASSERT_EQ(list.offset, 0U);
+            ASSERT_EQ(list.count, 2000U);
+        }
+        EXPECT_EQ(lists.stats.largest, 2000U);
+        EXPECT_EQ(lists.stats.empty_count, 0U);
+
+        full.assign(grid, scattered(10, 1), lists);
+        EXPECT_FALSE(lists.all_lights);
+    }
+}
+
+} // namespace
+} // namespace froxel::cluster::testing

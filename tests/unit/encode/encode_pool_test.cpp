@@ -1,0 +1,127 @@
+#include "encode/encode_pool.h"
+#include "encode/jpeg_encoder.h"
+#include "unit/encode/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <memory>
+
+namespace froxel::encode {
+namespace {
+
+constexpr view::Encoding kEncoding{80, view::Chroma::k420};
+
+EncodeJob job(PixelLease pixels, std::function<void(Result<EncodedFrame>)> done) {
+    return {std::move(pixels), kEncoding, std::move(done)};
+}
+
+// An encoder thread that waits in a job's `done` until told to go on.
+class HeldThread {
+  public:
+    explicit HeldThread(EncodePool& pool) {
+        auto entered = std::make_shared<std::promise<void>>();
+        auto go = gate_.get_future().share();
+        EXPECT_TRUE(pool.submit(job({}, [entered, go](const Result<EncodedFrame>&) {
+            entered->set_value();
+            go.wait();
+        })));
+        entered->get_future().wait();
+    }
+    void release() { gate_.set_value(); }
+
+  private:
+    std::promise<void> gate_;
+};
+
+TEST(EncodePool, Job_GivesTheEncodersBytes) {
+    const Picture picture = makePicture(64, 48);
+    std::promise<Result<EncodedFrame>> promise;
+    EncodePool pool(2, 4);
+    ASSERT_TRUE(pool.submit(job({picture.view(), [] {}},
+                                [&](Result<EncodedFrame> frame) { promise.set_value(frame); })));
+    const EncodedFrame frame = promise.get_future().get().value();
+    EXPECT_EQ(frame.width_px, 64U);
+    EXPECT_EQ(frame.height_px, 48U);
+    EXPECT_GT(frame.encode_us, 0);
+    EXPECT_GE(frame.wait_us, 0);
+    EXPECT_EQ(*frame.bytes, JpegEncoder().encode(picture.view(), kEncoding).value());
+}
+
+TEST(EncodePool, Lease_EndsBeforeDone) {
+    const Picture picture = makePicture(16, 16);
+    std::atomic<bool> ended = false;
+    std::promise<bool> ended_at_done;
+    EncodePool pool(1, 1);
+    ASSERT_TRUE(
+        pool.submit(job({picture.view(), [&] { ended = true; }},
+                        [&](const Result<EncodedFrame>&) { ended_at_done.set_value(ended); })));
+    EXPECT_TRUE(ended_at_done.get_future().get());
+}
+
+TEST(EncodePool, FullQueue_RefusesAndLeavesTheJobUntouched) {
+    const Picture picture = makePicture(16, 16);
+    int ended = 0;
+    EncodePool pool(1, 2);
+    HeldThread held(pool);
+    std::atomic<int> done = 0;
+    const auto count = [&](const Result<EncodedFrame>&) { ++done; };
+    EXPECT_TRUE(pool.submit(job({}, count)));
+    EXPECT_TRUE(pool.submit(job({}, count)));
+    EncodeJob refused = job({picture.view(), [&] { ++ended; }}, count);
+    EXPECT_FALSE(pool.submit(std::move(refused)));
+    EXPECT_EQ(refused.pixels.view().width_px, 16U); // NOLINT(bugprone-use-after-move)
+    EXPECT_TRUE(refused.done);
+    EXPECT_EQ(ended, 0);
+    held.release();
+}
+
+TEST(EncodePool, EmptyPixels_GiveAnError) {
+    std::promise<Result<EncodedFrame>> promise;
+    EncodePool pool(1, 1);
+    ASSERT_TRUE(
+        pool.submit(job({}, [&](Result<EncodedFrame> frame) { promise.set_value(frame); })));
+    EXPECT_EQ(promise.get_future().get().error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(EncodePool, Stopping_EveryAcceptedJobHearsOnce) {
+    const Picture picture = makePicture(320, 200);
+    constexpr int kJobs = 50;
+    std::atomic<int> finished = 0;
+    std::atomic<int> cancelled = 0;
+    std::atomic<int> ended = 0;
+    {
+        EncodePool pool(2, kJobs);
+        for (int i = 0; i < kJobs; ++i) {
+            ASSERT_TRUE(pool.submit(
+                job({picture.view(), [&] { ++ended; }},
+                    [&](const Result<EncodedFrame>& frame) { ++(frame ? finished : cancelled); })));
+        }
+    }
+    EXPECT_EQ(finished + cancelled, kJobs);
+    EXPECT_EQ(ended, kJobs);
+}
+
+TEST(EncodePool, OneThread_KeepsTheOrder) {
+    const Picture picture = makePicture(32, 32);
+    std::vector<int> order;
+    std::promise<void> last;
+    {
+        EncodePool pool(1, 10);
+        for (int i = 0; i < 10; ++i) {
+            ASSERT_TRUE(pool.submit(job({picture.view(), [] {}}, [&, i](const auto&) {
+                order.push_back(i);
+                if (i == 9) {
+                    last.set_value();
+                }
+            })));
+        }
+        last.get_future().wait();
+    }
+    EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+    EXPECT_EQ(order.size(), 10U);
+}
+
+} // namespace
+} // namespace froxel::encode

@@ -1,0 +1,44 @@
+// Synthetic pictures for the encoder's tests.
+#pragma once
+
+#include "core/pixel_view.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace froxel::encode {
+
+struct Picture {
+    uint32_t width_px = 0;
+    uint32_t height_px = 0;
+    size_t stride_bytes = 0;
+    std::vector<std::byte> bytes;
+
+    [[nodiscard]] PixelView view() const {
+        return {bytes.data(), width_px, height_px, stride_bytes};
+    }
+    [[nodiscard]] int channel(uint32_t x, uint32_t y, uint32_t c) const {
+        return std::to_integer<int>(bytes[y * stride_bytes + x * 4 + c]);
+    }
+};
+
+// Smooth gradients with a coloured pattern, so that chroma subsampling and quality both show.
+// Bytes of the padding are 0xEE: an encoder that reads them makes wrong pictures.
+inline Picture makePicture(uint32_t width_px, uint32_t height_px, size_t padding_bytes = 0) {
+    Picture picture{width_px, height_px, width_px * size_t{4} + padding_bytes, {}};
+    picture.bytes.assign(picture.stride_bytes * height_px, std::byte{0xEE});
+    for (uint32_t y = 0; y < height_px; ++y) {
+        for (uint32_t x = 0; x < width_px; ++x) {
+            std::byte* pixel = &picture.bytes[y * picture.stride_bytes + x * 4];
+            const double wave = 0.5 + 0.5 * std::sin(0.35 * x) * std::cos(0.27 * y);
+            pixel[0] = static_cast<std::byte>(255 * wave);
+            pixel[1] = static_cast<std::byte>((x * 3 + y) & 0xFFU);
+            pixel[2] = static_cast<std::byte>(255 * (1 - wave));
+            pixel[3] = std::byte{255};
+        }
+    }
+    return picture;
+}
+
+} // namespace froxel::encode

@@ -1,0 +1,357 @@
+// Files that mean harm or are broken: each one line that names the thing.
+#include "unit/gltf/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+#include <limits>
+#include <sys/stat.h>
+
+namespace froxel::gltf {
+namespace {
+
+using test::Bytes;
+using test::bytesOf;
+using test::failure;
+using test::Json;
+using test::loaded;
+using test::loadText;
+using test::SceneFile;
+using test::TempFolder;
+using testing::HasSubstr;
+
+std::string refusedUri(const std::string& uri) {
+    SceneFile file;
+    file.json["buffers"][0]["uri"] = uri;
+    return failure(file.load());
+}
+
+TEST(Uri, ParentFolder_IsRefused) {
+    for (const char* uri : {"../scene.bin", "a/../../scene.bin", "..", "%2e%2e/scene.bin",
+                            "%2E./scene.bin", "..%2fscene.bin", "..\\scene.bin", "./../x"}) {
+        EXPECT_THAT(refusedUri(uri), HasSubstr("leaves the scene's folder by '..'")) << uri;
+    }
+}
+
+TEST(Uri, AbsolutePath_IsRefused) {
+    for (const char* uri : {"/etc/passwd", "%2fetc/passwd", "//host/share", "\\\\host\\share"}) {
+        EXPECT_THAT(refusedUri(uri), HasSubstr("is absolute")) << uri;
+    }
+}
+
+TEST(Uri, Scheme_IsRefused) {
+    for (const char* uri : {"file:///etc/passwd", "http://127.0.0.1/x", "https://a/b",
+                            "FILE:scene.bin", "C:\\scene.bin"}) {
+        EXPECT_THAT(refusedUri(uri), HasSubstr("has a scheme")) << uri;
+    }
+    EXPECT_THAT(refusedUri("file%3a///etc/passwd"), HasSubstr("is absolute"));
+}
+
+TEST(Uri, BrokenEscape_IsRefused) {
+    for (const char* uri : {"scene%2", "scene%", "scene%zz.bin", "scene%+1.bin"}) {
+        EXPECT_THAT(refusedUri(uri), HasSubstr("broken escape")) << uri;
+    }
+    EXPECT_THAT(refusedUri("scene.bin%00.png"), HasSubstr("NUL"));
+}
+
+TEST(Uri, LinkOutOfTheFolder_IsRefused) {
+    const TempFolder outside;
+    outside.write("secret.bin", std::string(64, 'x'));
+    const TempFolder folder;
+    std::filesystem::create_symlink(outside.path() / "secret.bin", folder.path() / "link.bin");
+    std::filesystem::create_directory_symlink(outside.path(), folder.path() / "sub");
+    for (const char* uri : {"link.bin", "sub/secret.bin"}) {
+        SceneFile file;
+        file.json["buffers"][0]["uri"] = uri;
+        EXPECT_THAT(failure(file.loadIn(folder)), HasSubstr("a link that leaves")) << uri;
+    }
+}
+
+TEST(Uri, LinkInsideTheFolder_IsFollowed) {
+    const TempFolder folder;
+    std::filesystem::create_symlink("scene.bin", folder.path() / "link.bin");
+    SceneFile file;
+    file.json["buffers"][0]["uri"] = "link.bin";
+    EXPECT_EQ(loaded(file.loadIn(folder)).instances.size(), 1U);
+}
+
+TEST(Uri, NeighbourFolderOfTheSamePrefix_IsOutside) {
+    const TempFolder parent;
+    std::filesystem::create_directory(parent.path() / "scene");
+    std::filesystem::create_directory(parent.path() / "scene2");
+    parent.write("scene2/secret.bin", std::string(64, 'x'));
+    std::filesystem::create_symlink("../scene2/secret.bin", parent.path() / "scene/link.bin");
+    SceneFile file;
+    file.json["buffers"][0].update({{"uri", "link.bin"}, {"byteLength", 64}});
+    EXPECT_THAT(failure(load(parent.write("scene/scene.gltf", file.json.dump()))),
+                HasSubstr("a link that leaves"));
+}
+
+TEST(Uri, Pipe_IsRefusedAndDoesNotHang) {
+    const TempFolder folder;
+    ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+    SceneFile file;
+    file.json["buffers"][0]["uri"] = "pipe";
+    EXPECT_THAT(failure(file.loadIn(folder)), HasSubstr("not a regular file"));
+}
+
+TEST(Uri, Folder_IsRefused) {
+    EXPECT_THAT(refusedUri("."), HasSubstr("not a regular file"));
+}
+
+TEST(Uri, UnknownData_IsRefused) {
+    EXPECT_THAT(refusedUri("data:text/html,hello"), HasSubstr("cannot be decoded"));
+    EXPECT_THAT(refusedUri("data:application/octet-stream;base64,"),
+                HasSubstr("cannot be decoded"));
+    EXPECT_THAT(refusedUri("data:application/octet-stream;base64,AAAA"),
+                HasSubstr("buffer 0 says 36 bytes, but there are 3"));
+}
+
+TEST(Buffers, Missing_IsRefused) {
+    EXPECT_THAT(refusedUri("missing.bin"), HasSubstr("buffer 0 cannot open 'missing.bin'"));
+    SceneFile file;
+    file.json["buffers"][0].erase("uri");
+    EXPECT_THAT(failure(file.load()), HasSubstr("buffer 0 has no URI"));
+    file.json.erase("buffers");
+    EXPECT_THAT(failure(file.load()), HasSubstr("uses buffer 0; the file has 0"));
+}
+
+TEST(Buffers, ShorterThanTheySay_AreRefused) {
+    SceneFile file;
+    file.json["buffers"][0]["byteLength"] = 37;
+    EXPECT_THAT(failure(file.load()), HasSubstr("buffer 0 says 37 bytes, but there are 36"));
+}
+
+std::string refusedView(const char* key, const Json& value) {
+    SceneFile file;
+    file.json["bufferViews"][0][key] = value;
+    return failure(file.load());
+}
+
+TEST(Views, OutOfTheirBuffer_AreRefused) {
+    EXPECT_THAT(refusedView("byteOffset", 1), HasSubstr("ends at byte 37, but buffer 0 has 36"));
+    EXPECT_THAT(refusedView("byteLength", 2'147'483'647), HasSubstr("ends at byte 2147483647"));
+    EXPECT_THAT(refusedView("buffer", 1), HasSubstr("bufferView 0 uses buffer 1"));
+    EXPECT_THAT(refusedView("byteStride", 8), HasSubstr("byteStride 8"));
+    EXPECT_THAT(refusedView("byteStride", 16), HasSubstr("ends at byte 44"));
+    EXPECT_THAT(refusedView("byteStride", 300), HasSubstr("byteStride"));
+}
+
+TEST(Views, HugeNumbers_AreRefusedByTheirPlace) {
+    EXPECT_THAT(refusedView("byteOffset", std::numeric_limits<uint64_t>::max()),
+                HasSubstr("/bufferViews/0/byteOffset is 18446744073709551615"));
+    EXPECT_THAT(refusedView("byteLength", 1ULL << 32U), HasSubstr("/bufferViews/0/byteLength"));
+    EXPECT_THAT(refusedView("byteOffset", -4), HasSubstr("/bufferViews/0/byteOffset is -4"));
+    EXPECT_THAT(refusedView("byteOffset", 1.5), HasSubstr("/bufferViews/0/byteOffset is 1.5"));
+    EXPECT_THAT(refusedView("buffer", 1ULL << 32U), HasSubstr("/bufferViews/0/buffer"));
+}
+
+std::string refusedAccessor(const char* key, const Json& value) {
+    SceneFile file;
+    file.json["accessors"][0][key] = value;
+    return failure(file.load());
+}
+
+TEST(Accessors, OutOfTheirView_AreRefused) {
+    EXPECT_THAT(refusedAccessor("count", 4), HasSubstr("accessor 0 ends at byte 48"));
+    EXPECT_THAT(refusedAccessor("byteOffset", 4), HasSubstr("accessor 0 ends at byte 40"));
+    EXPECT_THAT(refusedAccessor("byteOffset", 2'147'483'647), HasSubstr("accessor 0 ends at"));
+    EXPECT_THAT(refusedAccessor("bufferView", 9), HasSubstr("accessor 0 uses bufferView 9"));
+}
+
+TEST(Accessors, HugeCounts_AreRefused) {
+    EXPECT_THAT(refusedAccessor("count", 1ULL << 62U), HasSubstr("/accessors/0/count"));
+    EXPECT_THAT(refusedAccessor("count", 2'000'000'000),
+                HasSubstr("mesh 0 primitive 0 needs 2000000000 vertices"));
+    SceneFile file;
+    file.json["accessors"][0].erase("bufferView");
+    file.json["accessors"][0]["count"] = 2'000'000'001;
+    EXPECT_THAT(failure(file.load()), HasSubstr("needs 2000000001 vertices"));
+}
+
+TEST(Accessors, BadTypes_AreRefused) {
+    EXPECT_THAT(refusedAccessor("componentType", 5124), HasSubstr("componentType 5124"));
+    EXPECT_THAT(refusedAccessor("componentType", 5130), HasSubstr("componentType 5130"));
+    EXPECT_THAT(refusedAccessor("componentType", 1), HasSubstr("componentType"));
+    EXPECT_THAT(refusedAccessor("type", "MAT4"), HasSubstr("is a matrix"));
+    EXPECT_THAT(refusedAccessor("type", "VEC9"), HasSubstr("VEC9"));
+}
+
+TEST(Accessors, MissingProperty_IsRefused) {
+    SceneFile file;
+    file.json["accessors"][0].erase("count");
+    EXPECT_THAT(failure(file.load()), HasSubstr("/accessors/0 has no 'count'"));
+}
+
+TEST(Accessors, NotFinite_AreRefused) {
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        SceneFile file;
+        file.attributes()["POSITION"] = file.addAccessor<float>({0, 0, 0, 1, bad, 0, 0, 1, 0}, 3);
+        EXPECT_THAT(failure(file.load()),
+                    HasSubstr("mesh 0 primitive 0 POSITION accessor 1 element 1 is "));
+    }
+}
+
+TEST(Accessors, FloatIndices_AreRefused) {
+    SceneFile file;
+    file.primitive()["indices"] = file.addAccessor<float>({0, 1, 2}, 1);
+    EXPECT_THAT(failure(file.load()), HasSubstr("accessor 1 as indices"));
+    file.primitive()["indices"] = 44;
+    EXPECT_THAT(failure(file.load()), HasSubstr("uses accessor 44"));
+    file.primitive()["indices"] = Json::object();
+    EXPECT_THAT(failure(file.load()), HasSubstr("an object as indices"));
+}
+
+std::string refusedSparse(const Json& patch) {
+    SceneFile file;
+    const int indices = file.addView(bytesOf<uint16_t>({0, 7}));
+    const int values = file.addView(bytesOf<float>({5, 6, 7, 8, 9, 10}));
+    Json sparse = {{"count", 1},
+                   {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
+                   {"values", {{"bufferView", values}}}};
+    sparse.merge_patch(patch);
+    file.json["accessors"][0]["sparse"] = sparse;
+    return failure(file.load());
+}
+
+TEST(Sparse, BadValues_AreRefused) {
+    EXPECT_THAT(refusedSparse({{"count", 2}}), HasSubstr("sparse index 1 is 7; right is below 3"));
+    EXPECT_THAT(refusedSparse({{"count", 4}}), HasSubstr("substitutes 4 elements of 3"));
+    EXPECT_THAT(refusedSparse({{"indices", {{"componentType", 5126}}}}),
+                HasSubstr("sparse indices of componentType 5126"));
+    EXPECT_THAT(refusedSparse({{"indices", {{"byteOffset", 3}}}}),
+                HasSubstr("sparse indices ends at byte 5"));
+    EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", 16}}}}),
+                HasSubstr("sparse values ends at byte 28"));
+    EXPECT_THAT(refusedSparse({{"values", {{"bufferView", 12}}}}), HasSubstr("bufferView 12"));
+    EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", -1}}}}), HasSubstr("byteOffset is -1"));
+    EXPECT_THAT(refusedSparse({{"indices", nullptr}}), HasSubstr("indices"));
+}
+
+TEST(Document, WrongTypes_AreRefusedByTheirPlace) {
+    const auto refused = [](const char* pointer, const Json& value) {
+        SceneFile file;
+        file.json[Json::json_pointer(pointer)] = value;
+        return failure(file.load());
+    };
+    EXPECT_THAT(refused("/nodes", 5), HasSubstr("/nodes is 5"));
+    EXPECT_THAT(refused("/nodes/0", "x"), HasSubstr("/nodes is \"x\" at '0'"));
+    EXPECT_THAT(refused("/nodes/0/mesh", "0"), HasSubstr("/nodes/0/mesh is \"0\""));
+    EXPECT_THAT(refused("/nodes/0/mesh", 4294967296), HasSubstr("/nodes/0/mesh is 4294967296"));
+    EXPECT_THAT(refused("/nodes/0/children", {-1}), HasSubstr("/nodes/0/children is -1 at '0'"));
+    EXPECT_THAT(refused("/nodes/0/translation", {1, nullptr, 2}),
+                HasSubstr("/nodes/0/translation is null at '1'"));
+    EXPECT_THAT(refused("/meshes/0/primitives/0/attributes/POSITION", 1.5),
+                HasSubstr("attributes is 1.5 at 'POSITION'"));
+    EXPECT_THAT(refused("/accessors/0/normalized", 1), HasSubstr("/accessors/0/normalized is 1"));
+    EXPECT_THAT(refused("/scenes/0/nodes", "all"), HasSubstr("/scenes/0/nodes is \"all\""));
+    EXPECT_THAT(refused("/nodes/0/mesh", 3), HasSubstr("node 0 uses mesh 3; the file has 1"));
+    EXPECT_THAT(refused("/meshes/0/primitives/0/mode", 9), HasSubstr("mode 9"));
+}
+
+TEST(Document, NotGltf_IsRefused) {
+    EXPECT_THAT(failure(loadText("")), HasSubstr("no glTF 2.0 file"));
+    EXPECT_THAT(failure(loadText("hello")), HasSubstr("no glTF 2.0 file"));
+    EXPECT_THAT(failure(loadText("[1]")), HasSubstr("not an object"));
+    EXPECT_THAT(failure(loadText("{}")), HasSubstr("/asset/version"));
+    EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"1.0\"}}")),
+                HasSubstr("/asset/version is '1.0'; 2.0 is supported"));
+    EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"2.0\", \"minVersion\": \"2.1\"}}")),
+                HasSubstr("minVersion is '2.1'"));
+    EXPECT_THAT(failure(loadText("{\"a\": \"\xff\xfe\"}")), HasSubstr("no glTF 2.0 file"));
+    EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"2.0\"}, \"x\": 1e999}")),
+                HasSubstr("no glTF 2.0 file"));
+}
+
+TEST(Document, Empty_IsAnEmptyScene) {
+    const scene::Scene scene = loaded(loadText("{\"asset\": {\"version\": \"2.0\"}}"));
+    EXPECT_TRUE(scene.instances.empty());
+    EXPECT_TRUE(scene.bounds_world.empty());
+    EXPECT_EQ(scene.name, "scene");
+}
+
+TEST(Document, DeepNesting_IsRefusedOrDropped) {
+    const std::string open(1'000'000, '[');
+    const std::string close(1'000'000, ']');
+    const std::string start = "{\"asset\": {\"version\": \"2.0\"}, ";
+    EXPECT_THAT(failure(loadText(start + "\"nodes\": " + open + close + "}")), HasSubstr("/nodes"));
+    EXPECT_THAT(failure(loadText(start + "\"other\": " + open + close + "}")),
+                HasSubstr("nested deeper than 64"));
+    EXPECT_TRUE(loadText(start + "\"extras\": " + open + close + "}").has_value());
+}
+
+TEST(Document, TooManyElements_AreRefused) {
+    std::string nodes;
+    for (int i = 0; i < 1'048'577; ++i) {
+        nodes += "{},";
+    }
+    nodes.back() = ' ';
+    EXPECT_THAT(
+        failure(loadText("{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [" + nodes + "]}")),
+        HasSubstr("/nodes has 1048577 elements; at most 1048576"));
+}
+
+TEST(Document, MissingFile_IsRefused) {
+    const TempFolder folder;
+    EXPECT_THAT(failure(load(folder.path() / "scene.gltf")), HasSubstr("No such file"));
+    EXPECT_THAT(failure(load(folder.path() / "none" / "scene.gltf")), HasSubstr("No such file"));
+    std::filesystem::create_directory(folder.path() / "scene.glb");
+    EXPECT_THAT(failure(load(folder.path() / "scene.glb")), HasSubstr("not a regular file"));
+}
+
+std::string refusedGlb(const Bytes& bytes) {
+    const TempFolder folder;
+    return failure(load(folder.write("scene.glb", bytes)));
+}
+
+void putWord(Bytes& bytes, size_t offset, uint32_t value) {
+    const Bytes word = bytesOf<uint32_t>({value});
+    std::copy(word.begin(), word.end(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+}
+
+TEST(Glb, Whole_IsLoaded) {
+    EXPECT_EQ(loaded(SceneFile().loadGlb()).instances.size(), 1U);
+}
+
+TEST(Glb, CutAnywhere_IsRefused) {
+    const Bytes whole = SceneFile().glb();
+    for (size_t size = 4; size < whole.size(); ++size) {
+        Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+        EXPECT_FALSE(refusedGlb(cut).empty()) << size;
+    }
+}
+
+TEST(Glb, CutWithAFittingHeader_IsRefused) {
+    const Bytes whole = SceneFile().glb();
+    for (size_t size = 12; size < whole.size(); ++size) {
+        Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+        putWord(cut, 8, static_cast<uint32_t>(size));
+        EXPECT_FALSE(refusedGlb(cut).empty()) << size;
+    }
+}
+
+TEST(Glb, BadHeader_IsRefused) {
+    Bytes file = SceneFile().glb();
+    putWord(file, 4, 1);
+    EXPECT_THAT(refusedGlb(file), HasSubstr("GLB version is 1"));
+    file = SceneFile().glb();
+    putWord(file, 8, 0xFFFFFFFF);
+    EXPECT_THAT(refusedGlb(file), HasSubstr("says 4294967295 bytes"));
+    file = SceneFile().glb();
+    putWord(file, 12, 0xFFFFFFFF);
+    EXPECT_THAT(refusedGlb(file), HasSubstr("JSON chunk says 4294967295 bytes"));
+    file = SceneFile().glb();
+    putWord(file, 16, 0x004E4942);
+    EXPECT_THAT(refusedGlb(file), HasSubstr("not of type JSON"));
+}
+
+TEST(Glb, BinaryChunkLongerThanTheFile_IsRefused) {
+    Bytes file = SceneFile().glb();
+    const size_t length_word = file.size() - 36 - 8;
+    putWord(file, length_word, 40); // up to 8 more: what a check without the chunk's header allows
+    EXPECT_THAT(refusedGlb(file), HasSubstr("BIN chunk says 40 bytes, but 36 are left"));
+}
+
+} // namespace
+} // namespace froxel::gltf

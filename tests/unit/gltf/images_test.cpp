@@ -1,0 +1,214 @@
+// Image files: formats, sources and broken ones.
+#include "unit/gltf/image_files.h"
+#include "unit/gltf/scene_file.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <gmock/gmock.h>
+
+namespace froxel::gltf {
+namespace {
+
+using test::Bytes;
+using test::failure;
+using test::Json;
+using test::loaded;
+using test::PngSpec;
+using test::SceneFile;
+using test::TempFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// The triangle with `count` textures of as many images, which are for a test to fill in.
+SceneFile withImages(size_t count) {
+    constexpr const char* kSlots[] = {"emissiveTexture", "occlusionTexture", "normalTexture"};
+    SceneFile file;
+    file.primitive()["material"] = 0;
+    for (size_t i = 0; i < count; ++i) {
+        file.json["materials"][0][kSlots[i]]["index"] = i;
+        file.json["textures"].push_back({{"source", i}});
+        file.json["images"].push_back(Json::object());
+    }
+    return file;
+}
+
+SceneFile withImage(const Bytes& image) {
+    SceneFile file = withImages(1);
+    file.json["images"][0]["bufferView"] = file.addView(image);
+    return file;
+}
+
+std::vector<int> pixelsOf(const Bytes& image) {
+    const scene::Scene scene = loaded(withImage(image).load());
+    std::vector<int> values;
+    if (scene.images.size() == 1) {
+        for (const std::byte value : scene.images[0].rgba8) {
+            values.push_back(std::to_integer<int>(value));
+        }
+    }
+    return values;
+}
+
+PngSpec spec(int color_type, int bit_depth, uint32_t width_px, std::vector<uint8_t> rows) {
+    PngSpec result;
+    result.width_px = width_px;
+    result.bit_depth = bit_depth;
+    result.color_type = color_type;
+    result.rows = std::move(rows);
+    return result;
+}
+
+TEST(Images, RgbPng_GetsAlpha255) {
+    EXPECT_THAT(pixelsOf(test::plainPng(1, 2, 3)), ElementsAre(1, 2, 3, 255));
+}
+
+TEST(Images, RgbaPng_KeepsItsAlpha) {
+    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_RGB_ALPHA, 8, 1, {1, 2, 3, 4}))),
+                ElementsAre(1, 2, 3, 4));
+}
+
+TEST(Images, GreyPng_BecomesRgb) {
+    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY, 8, 2, {7, 200}))),
+                ElementsAre(7, 7, 7, 255, 200, 200, 200, 255));
+    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY, 1, 2, {0x40}))),
+                ElementsAre(0, 0, 0, 255, 255, 255, 255, 255));
+    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY_ALPHA, 8, 1, {9, 8}))),
+                ElementsAre(9, 9, 9, 8));
+}
+
+TEST(Images, SixteenBitPng_BecomesEight) {
+    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_RGB, 16, 1, {255, 255, 128, 128, 0, 0}))),
+                ElementsAre(255, 128, 0, 255));
+    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY, 16, 1, {64, 64}))),
+                ElementsAre(64, 64, 64, 255));
+}
+
+TEST(Images, PalettePng_IsLookedUp) {
+    PngSpec image = spec(PNG_COLOR_TYPE_PALETTE, 8, 2, {1, 0});
+    image.palette = {10, 20, 30, 40, 50, 60};
+    image.palette_alpha = {99};
+    EXPECT_THAT(pixelsOf(pngFile(image)), ElementsAre(40, 50, 60, 255, 10, 20, 30, 99));
+}
+
+TEST(Images, InterlacedPng_HasTopRowFirst) {
+    PngSpec image = spec(PNG_COLOR_TYPE_GRAY, 8, 1, {5, 6});
+    image.height_px = 2;
+    image.interlaced = true;
+    EXPECT_THAT(pixelsOf(pngFile(image)), ElementsAre(5, 5, 5, 255, 6, 6, 6, 255));
+}
+
+TEST(Images, Jpeg_BecomesRgba) {
+    const std::vector<int> pixels = pixelsOf(test::jpegFile(8, 200, 100, 50, false));
+    ASSERT_EQ(pixels.size(), 256U);
+    EXPECT_NEAR(pixels[0], 200, 3);
+    EXPECT_NEAR(pixels[1], 100, 3);
+    EXPECT_NEAR(pixels[2], 50, 3);
+    EXPECT_EQ(pixels[3], 255);
+}
+
+TEST(Images, GreyJpeg_BecomesRgba) {
+    const std::vector<int> pixels = pixelsOf(test::jpegFile(8, 90, 90, 90, true));
+    ASSERT_EQ(pixels.size(), 256U);
+    EXPECT_EQ(pixels[0], pixels[2]);
+    EXPECT_NEAR(pixels[0], 90, 3);
+    EXPECT_EQ(pixels[3], 255);
+}
+
+TEST(Images, FileInASubfolder_IsRead) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder.path() / "my textures");
+    folder.write("my textures/a.png", test::plainPng(1, 2, 3));
+    SceneFile file = withImages(1);
+    file.json["images"][0]["uri"] = "my%20textures/a.png";
+    const scene::Scene scene = loaded(file.loadIn(folder));
+    ASSERT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.images[0].rgba8.at(2), std::byte{3});
+}
+
+TEST(Images, DataUri_IsRead) {
+    SceneFile file = withImages(2);
+    file.json["images"][0]["uri"] =
+        "data:image/png;base64," + test::base64(test::plainPng(1, 2, 3));
+    file.json["images"][1]["uri"] =
+        "data:image/jpeg;base64," + test::base64(test::jpegFile(8, 9, 9, 9, true));
+    const scene::Scene scene = loaded(file.load());
+    ASSERT_EQ(scene.images.size(), 2U);
+    EXPECT_EQ(scene.images[0].width_px + scene.images[1].width_px, 9U);
+}
+
+TEST(Images, Missing_IsRefused) {
+    SceneFile file = withImages(1);
+    EXPECT_THAT(failure(file.load()), HasSubstr("image 0 has neither uri nor bufferView"));
+    file.json["images"][0]["uri"] = "missing.png";
+    EXPECT_THAT(failure(file.load()), HasSubstr("image 0 cannot open 'missing.png'"));
+    file.json["images"][0] = {{"bufferView", 99}};
+    EXPECT_THAT(failure(file.load()), HasSubstr("image 0 uses bufferView 99"));
+}
+
+TEST(Images, OtherFormat_IsRefused) {
+    EXPECT_THAT(failure(withImage(Bytes(64, std::byte{0x42})).load()),
+                HasSubstr("image 0 is neither a PNG nor a JPEG"));
+    EXPECT_THAT(failure(withImage(Bytes(1, std::byte{0x89})).load()),
+                HasSubstr("image 0 is neither"));
+}
+
+TEST(Images, TruncatedPng_IsRefused) {
+    Bytes image = test::plainPng(1, 2, 3);
+    image.resize(image.size() - 20);
+    EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
+    image.resize(20);
+    EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
+}
+
+TEST(Images, DamagedPng_IsRefused) {
+    Bytes image = test::plainPng(1, 2, 3);
+    image.at(45) ^= std::byte{0xFF};
+    EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
+}
+
+TEST(Images, TruncatedJpeg_WarnsOrIsRefused) {
+    Bytes image = test::jpegFile(64, 200, 100, 50, false);
+    Bytes without_header = image;
+    without_header.resize(12);
+    EXPECT_THAT(failure(withImage(without_header).load()),
+                HasSubstr("image 0 is a broken JPEG file"));
+    image.resize(image.size() - 40);
+    EXPECT_THAT(loaded(withImage(image).load()).warnings, ElementsAre(HasSubstr("image 0")));
+}
+
+TEST(Images, SideTooLong_IsRefusedByItsHeader) {
+    EXPECT_THAT(failure(withImage(test::pngClaiming(100'000, 2)).load()),
+                HasSubstr("image 0 has 100000x2 pixels; a side may have 1 to 16384"));
+}
+
+// Each image alone is within the limits; the file says nothing of its pixels, so only the sum of
+// the headers can refuse it this fast.
+TEST(Images, SumTooLarge_IsRefusedByTheHeaders) {
+    SceneFile file = withImages(3);
+    constexpr const char* kSlots[] = {"baseColorTexture", "metallicRoughnessTexture"};
+    for (size_t i = 0; i < 2; ++i) {
+        file.json["materials"][0]["pbrMetallicRoughness"][kSlots[i]]["index"] = 3 + i;
+        file.json["textures"].push_back({{"source", 3 + i}});
+        file.json["images"].push_back(Json::object());
+    }
+    const int view = file.addView(test::pngClaiming(16384, 16384));
+    for (Json& image : file.json["images"]) {
+        image["bufferView"] = view;
+    }
+    EXPECT_THAT(failure(file.load()), HasSubstr("needs 1073741824 bytes of decoded images"));
+}
+
+TEST(Images, LowestBrokenOne_IsNamed) {
+    SceneFile file = withImages(3);
+    Bytes broken = test::plainPng(1, 2, 3);
+    broken.at(45) ^= std::byte{0xFF};
+    file.json["images"][0]["bufferView"] = file.addView(test::plainPng(1, 2, 3));
+    file.json["images"][1]["bufferView"] = file.addView(broken);
+    file.json["images"][2]["bufferView"] = file.addView(broken);
+    // Slots are met in the order normal, occlusion, emissive.
+    EXPECT_THAT(failure(file.load()), HasSubstr("image 2 "));
+}
+
+} // namespace
+} // namespace froxel::gltf

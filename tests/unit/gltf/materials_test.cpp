@@ -1,0 +1,261 @@
+// Materials, textures, samplers.
+#include "unit/gltf/image_files.h"
+#include "unit/gltf/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace froxel::gltf {
+namespace {
+
+using test::failure;
+using test::Json;
+using test::loaded;
+using test::SceneFile;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// The triangle with this material.
+SceneFile withMaterial(const char* material) {
+    SceneFile file;
+    file.json["materials"] = Json::array({Json::parse(material)});
+    file.primitive()["material"] = 0;
+    return file;
+}
+
+// As above, with two textures of two images in bufferViews.
+SceneFile textured(const char* material) {
+    SceneFile file = withMaterial(material);
+    for (int i = 0; i < 2; ++i) {
+        const int view = file.addView(test::plainPng(static_cast<uint8_t>(10 + i), 20, 30));
+        file.add("images", {{"bufferView", view},
+                            {"mimeType", "image/png"},
+                            {"name", "image" + std::to_string(i)}});
+        file.add("textures", {{"source", i}});
+    }
+    return file;
+}
+
+scene::Material onlyMaterial(const SceneFile& file) {
+    const scene::Scene scene = loaded(file.load());
+    if (scene.materials.size() != 1) {
+        ADD_FAILURE() << scene.materials.size() << " materials";
+        return {};
+    }
+    return scene.materials[0];
+}
+
+TEST(Materials, Missing_GetsTheDefault) {
+    const scene::Scene scene = loaded(SceneFile().load());
+    ASSERT_EQ(scene.materials.size(), 1U);
+    EXPECT_EQ(scene.meshes.at(0).primitives.at(0).material, 0U);
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1));
+    EXPECT_EQ(scene.materials[0].metallic, 1);
+    EXPECT_EQ(scene.materials[0].roughness, 1);
+    EXPECT_EQ(scene.materials[0].base_color_texture.texture, scene::kNone);
+}
+
+TEST(Materials, Factors_AreRead) {
+    const scene::Material material = onlyMaterial(withMaterial(R"({
+        "name": "paint", "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
+        "emissiveFactor": [0.1, 0.2, 0.3],
+        "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4],
+                                 "metallicFactor": 0.5, "roughnessFactor": 0.75}})"));
+    EXPECT_EQ(material.name, "paint");
+    EXPECT_EQ(material.base_color, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
+    EXPECT_EQ(material.metallic, 0.5F);
+    EXPECT_EQ(material.roughness, 0.75F);
+    EXPECT_EQ(material.emissive, glm::vec3(0.1F, 0.2F, 0.3F));
+    EXPECT_EQ(material.alpha_mode, scene::AlphaMode::kMask);
+    EXPECT_EQ(material.alpha_cutoff, 0.25F);
+    EXPECT_TRUE(material.double_sided);
+    EXPECT_FALSE(material.unlit);
+}
+
+TEST(Materials, BlendMode_IsRead) {
+    EXPECT_EQ(onlyMaterial(withMaterial(R"({"alphaMode": "BLEND"})")).alpha_mode,
+              scene::AlphaMode::kBlend);
+}
+
+TEST(Materials, UnknownAlphaMode_IsRefused) {
+    EXPECT_THAT(failure(withMaterial(R"({"alphaMode": "GLASS"})").load()),
+                HasSubstr("material 0 has alphaMode 'GLASS'"));
+}
+
+TEST(Materials, FactorOutOfRange_IsClampedWithAWarning) {
+    const scene::Scene scene =
+        loaded(withMaterial(R"({"pbrMetallicRoughness": {"roughnessFactor": 1.5}})").load());
+    EXPECT_EQ(scene.materials.at(0).roughness, 1);
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("material 0 has the roughnessFactor 1.5")));
+}
+
+TEST(Materials, Unlit_IsRead) {
+    SceneFile file = withMaterial(R"({"extensions": {"KHR_materials_unlit": {}}})");
+    file.useExtension("KHR_materials_unlit", true);
+    EXPECT_TRUE(onlyMaterial(file).unlit);
+}
+
+TEST(Materials, EmissiveStrength_MultipliesTheFactor) {
+    SceneFile file = withMaterial(R"({"emissiveFactor": [1, 0.5, 0],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})");
+    file.useExtension("KHR_materials_emissive_strength", true);
+    EXPECT_EQ(onlyMaterial(file).emissive, glm::vec3(8, 4, 0));
+}
+
+TEST(Materials, AllFiveTextures_AreRead) {
+    const SceneFile file = textured(R"({
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+                                 "metallicRoughnessTexture": {"index": 1, "texCoord": 1}},
+        "normalTexture": {"index": 0, "scale": 0.5},
+        "occlusionTexture": {"index": 1, "strength": 0.25},
+        "emissiveTexture": {"index": 1}})");
+    const scene::Scene scene = loaded(file.load());
+    const scene::Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.base_color_texture.texture, 0U);
+    EXPECT_EQ(material.metallic_roughness_texture.texture, 1U);
+    EXPECT_EQ(material.metallic_roughness_texture.texcoord, 1U);
+    EXPECT_EQ(material.normal_texture.texture, 0U);
+    EXPECT_EQ(material.normal_scale, 0.5F);
+    EXPECT_EQ(material.occlusion_texture.texture, 1U);
+    EXPECT_EQ(material.occlusion_strength, 0.25F);
+    EXPECT_EQ(material.emissive_texture.texture, 1U);
+    ASSERT_EQ(scene.images.size(), 2U);
+    EXPECT_EQ(scene.images[1].name, "image1");
+    EXPECT_EQ(scene.images[1].rgba8.at(0), std::byte{11});
+    EXPECT_EQ(scene.textures.at(0).sampler, scene::kNone);
+}
+
+TEST(Materials, OnlyWhatIsUsed_IsLoaded) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 1}})");
+    file.json["images"][0] = {{"uri", "missing.png"}};
+    file.json["materials"].push_back({{"emissiveTexture", {{"index", 0}}}});
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_EQ(scene.materials.size(), 1U);
+    ASSERT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.images[0].name, "image1");
+    EXPECT_EQ(scene.materials[0].emissive_texture.texture, 0U);
+}
+
+TEST(Materials, ImageOfTwoTextures_IsDecodedOnce) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 1},
+                                  "occlusionTexture": {"index": 0}})");
+    file.json["textures"][0]["source"] = 1;
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_EQ(scene.textures.size(), 2U);
+    EXPECT_EQ(scene.images.size(), 1U);
+}
+
+TEST(Materials, TextureTransform_IsRead) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 0, "extensions":
+        {"KHR_texture_transform": {"offset": [0.5, 0.25], "rotation": 1.5, "scale": [2, 3],
+                                   "texCoord": 1}}}})");
+    file.useExtension("KHR_texture_transform", true);
+    const scene::TextureSlot slot = onlyMaterial(file).emissive_texture;
+    EXPECT_EQ(slot.offset, glm::vec2(0.5, 0.25));
+    EXPECT_EQ(slot.rotation_rad, 1.5F);
+    EXPECT_EQ(slot.scale, glm::vec2(2, 3));
+    EXPECT_EQ(slot.texcoord, 1U);
+}
+
+TEST(Materials, ThirdTexcoord_IsIgnoredWithAWarning) {
+    const scene::Scene scene =
+        loaded(textured(R"({"emissiveTexture": {"index": 0, "texCoord": 2}})").load());
+    EXPECT_EQ(scene.materials.at(0).emissive_texture.texture, scene::kNone);
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("TEXCOORD_2")));
+}
+
+TEST(Materials, Sampler_IsRead) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 0}})");
+    file.json["textures"][0]["sampler"] = 0;
+    file.json["samplers"] =
+        Json::parse(R"([{"magFilter": 9728, "minFilter": 9985, "wrapS": 33071, "wrapT": 33648}])");
+    const scene::Scene scene = loaded(file.load());
+    ASSERT_EQ(scene.samplers.size(), 1U);
+    EXPECT_EQ(scene.textures.at(0).sampler, 0U);
+    scene::Sampler expected;
+    expected.wrap_u = scene::Wrap::kClampToEdge;
+    expected.wrap_v = scene::Wrap::kMirroredRepeat;
+    expected.mag = scene::Filter::kNearest;
+    expected.min = scene::Filter::kLinear;
+    expected.mip = scene::Filter::kNearest;
+    EXPECT_EQ(scene.samplers[0], expected);
+}
+
+struct MinFilter {
+    int value;
+    scene::Filter min;
+    scene::Filter mip;
+    bool mipmapped;
+};
+class MinFilters : public testing::TestWithParam<MinFilter> {};
+
+TEST_P(MinFilters, Value_GivesMinMipAndMipmapping) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 0}})");
+    file.json["textures"][0]["sampler"] = 0;
+    file.json["samplers"] = Json::array({{{"minFilter", GetParam().value}}});
+    const scene::Sampler sampler = loaded(file.load()).samplers.at(0);
+    EXPECT_EQ(sampler.min, GetParam().min);
+    EXPECT_EQ(sampler.mipmapped, GetParam().mipmapped);
+    if (sampler.mipmapped) {
+        EXPECT_EQ(sampler.mip, GetParam().mip);
+    }
+}
+
+constexpr auto kNearest = scene::Filter::kNearest;
+constexpr auto kLinear = scene::Filter::kLinear;
+INSTANTIATE_TEST_SUITE_P(All,
+                         MinFilters,
+                         testing::Values(MinFilter{9728, kNearest, kNearest, false},
+                                         MinFilter{9729, kLinear, kNearest, false},
+                                         MinFilter{9984, kNearest, kNearest, true},
+                                         MinFilter{9985, kLinear, kNearest, true},
+                                         MinFilter{9986, kNearest, kLinear, true},
+                                         MinFilter{9987, kLinear, kLinear, true}));
+
+TEST(Materials, BadSampler_IsRefused) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 0}})");
+    file.json["textures"][0]["sampler"] = 0;
+    file.json["samplers"] = Json::array({{{"minFilter", 1}}});
+    EXPECT_THAT(failure(file.load()), HasSubstr("sampler 0 has minFilter 1"));
+    file.json["samplers"] = Json::array({{{"wrapS", 1}}});
+    EXPECT_THAT(failure(file.load()), HasSubstr("sampler 0 has the wrap mode 1"));
+}
+
+TEST(Materials, IndicesOutOfRange_AreRefused) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 2}})");
+    EXPECT_THAT(failure(file.load()),
+                HasSubstr("material 0 emissiveTexture uses texture 2; the file has 2"));
+    file.json["materials"][0]["emissiveTexture"]["index"] = 0;
+    file.json["textures"][0]["source"] = 5;
+    EXPECT_THAT(failure(file.load()), HasSubstr("texture 0 uses image 5"));
+    file.json["textures"][0] = {{"source", 0}, {"sampler", 0}};
+    EXPECT_THAT(failure(file.load()), HasSubstr("texture 0 uses sampler 0; the file has 0"));
+    file.primitive()["material"] = 1;
+    EXPECT_THAT(failure(file.load()), HasSubstr("mesh 0 primitive 0 uses material 1"));
+}
+
+TEST(Extensions, UnsupportedOptional_IsIgnoredWithAWarning) {
+    SceneFile file;
+    file.useExtension("KHR_materials_clearcoat");
+    EXPECT_THAT(loaded(file.load()).warnings, ElementsAre(HasSubstr("KHR_materials_clearcoat")));
+}
+
+TEST(Extensions, UnsupportedRequired_IsRefusedByName) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "ACME_anything"}) {
+        SceneFile file;
+        file.useExtension(name, true);
+        EXPECT_THAT(failure(file.load()), HasSubstr(name));
+    }
+}
+
+TEST(Extensions, TextureWithoutSupportedSource_IsIgnoredWithAWarning) {
+    SceneFile file = textured(R"({"emissiveTexture": {"index": 0}})");
+    file.json["textures"][0] = {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_EQ(scene.materials.at(0).emissive_texture.texture, scene::kNone);
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("texture 0 has no image")));
+}
+
+} // namespace
+} // namespace froxel::gltf

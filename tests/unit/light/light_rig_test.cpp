@@ -1,0 +1,193 @@
+#include "light/light_rig.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace froxel::light {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+scene::PunctualLight punctual(scene::LightType type) {
+    scene::PunctualLight light;
+    light.type = type;
+    light.position_world = {1, 2, -3};
+    light.direction_world = {0, -1, 0};
+    light.color = {1, 0.5F, 0.25F};
+    light.intensity = 4;
+    return light;
+}
+
+FrameLights evaluated(const scene::Scene& scene,
+                      const view::Lights& settings,
+                      const view::Camera& camera = {}) {
+    FrameLights out;
+    LightRig(scene).evaluate(settings, camera, 0, out);
+    return out;
+}
+
+view::Lights noSeeded() {
+    view::Lights settings;
+    settings.count = 0;
+    return settings;
+}
+
+TEST(LightRig, Order_IsSeededThenSceneLights) {
+    scene::Scene scene;
+    scene.bounds_world = {{-1, -1, -1}, {1, 1, 1}};
+    scene.lights = {punctual(scene::LightType::kDirectional), punctual(scene::LightType::kSpot),
+                    punctual(scene::LightType::kPoint)};
+    view::Lights settings;
+    settings.count = 3;
+    const FrameLights lights = evaluated(scene, settings);
+    ASSERT_EQ(lights.lights.size(), 5U);
+    ASSERT_EQ(lights.radii_m.size(), 5U);
+    ASSERT_EQ(lights.spots.size(), 1U);
+    ASSERT_EQ(lights.cones.size(), 1U);
+    ASSERT_EQ(lights.directionals.size(), 1U);
+    EXPECT_EQ(lights.lights[2].spot, io::kNoSpot);
+    EXPECT_EQ(lights.lights[3].spot, 0U);
+    EXPECT_EQ(lights.lights[4].spot, io::kNoSpot);
+    EXPECT_EQ(lights.radii_m[0], 2.0F);
+    EXPECT_EQ(lights.lights[0].inv_radius2, 0.25F);
+}
+
+TEST(LightRig, SceneLightsOff_LeavesThemOut) {
+    scene::Scene scene;
+    scene.lights = {punctual(scene::LightType::kPoint), punctual(scene::LightType::kDirectional)};
+    view::Lights settings = noSeeded();
+    settings.scene_lights = false;
+    const FrameLights lights = evaluated(scene, settings);
+    EXPECT_TRUE(lights.lights.empty());
+    EXPECT_TRUE(lights.directionals.empty());
+}
+
+TEST(LightRig, Range_SetsTheRadius) {
+    scene::Scene scene;
+    scene.lights = {punctual(scene::LightType::kPoint), punctual(scene::LightType::kPoint)};
+    scene.lights[1].range_m = 10;
+    const FrameLights lights = evaluated(scene, noSeeded());
+    EXPECT_EQ(lights.lights[0].inv_radius2, 0.0F);
+    EXPECT_EQ(lights.radii_m[0], std::numeric_limits<float>::infinity());
+    EXPECT_FLOAT_EQ(lights.lights[1].inv_radius2, 0.01F);
+    EXPECT_EQ(lights.radii_m[1], 10.0F);
+    EXPECT_EQ(lights.lights[0].color, glm::vec3(4, 2, 1));
+}
+
+TEST(LightRig, PositionsAndDirections_AreInViewSpace) {
+    scene::Scene scene;
+    scene.lights = {punctual(scene::LightType::kSpot), punctual(scene::LightType::kDirectional)};
+    // Looking along +X: view's right is world's +Z, its back -X.
+    const auto camera = view::lookAt({-9, 2, -3}, {0, 2, -3}, {0, 1, 0});
+    scene.lights[0].direction_world = {3, 0, 0};
+    scene.lights[1].direction_world = {0, -1e-9, 0};
+    const FrameLights lights = evaluated(scene, noSeeded(), camera);
+    EXPECT_LT(glm::distance(lights.lights[0].position_view, glm::vec3(0, 0, -10)), 1e-6F);
+    EXPECT_LT(glm::distance(lights.spots[0].direction_view, glm::vec3(0, 0, -1)), 1e-6F);
+    EXPECT_LT(glm::distance(lights.directionals[0].direction_view, glm::vec3(0, -1, 0)), 1e-6F);
+}
+
+TEST(LightRig, SpotFalloff_GoesFromInnerToOuter) {
+    scene::Scene scene;
+    for (const double outer : {0.3, 0.8, 1.5}) {
+        scene.lights.push_back(punctual(scene::LightType::kSpot));
+        scene.lights.back().inner_cone_rad = outer / 2;
+        scene.lights.back().outer_cone_rad = outer;
+    }
+    const FrameLights lights = evaluated(scene, noSeeded());
+    for (size_t i = 0; i < lights.spots.size(); ++i) {
+        const io::Spot& spot = lights.spots[i];
+        const double outer = scene.lights[i].outer_cone_rad;
+        const auto falloff = [&](double angle) {
+            return std::cos(angle) * static_cast<double>(spot.scale) +
+                   static_cast<double>(spot.offset);
+        };
+        EXPECT_NEAR(falloff(outer / 2), 1, 1e-5);
+        EXPECT_NEAR(falloff(outer), 0, 1e-5);
+        EXPECT_DOUBLE_EQ(lights.cones[i].cos_outer, std::cos(outer));
+        EXPECT_DOUBLE_EQ(lights.cones[i].sin_outer, std::sin(outer));
+    }
+}
+
+TEST(LightRig, SpotWithEqualCones_IsFinite) {
+    scene::Scene scene;
+    scene.lights = {punctual(scene::LightType::kSpot), punctual(scene::LightType::kSpot)};
+    scene.lights[0].inner_cone_rad = scene.lights[0].outer_cone_rad = 0.5;
+    scene.lights[1].inner_cone_rad = scene.lights[1].outer_cone_rad = 0;
+    for (const io::Spot& spot : evaluated(scene, noSeeded()).spots) {
+        EXPECT_NEAR(spot.scale, 1000, 0.1);
+        EXPECT_TRUE(std::isfinite(spot.offset));
+    }
+}
+
+TEST(LightRig, UnusableSceneLights_AreLeftOut) {
+    scene::Scene scene;
+    scene.lights.assign(8, punctual(scene::LightType::kSpot));
+    scene.lights[0].position_world.x = std::nan("");
+    scene.lights[1].intensity = std::numeric_limits<float>::infinity();
+    scene.lights[2].color.y = std::nanf("");
+    scene.lights[3].direction_world = {0, 0, 0};
+    scene.lights[4].range_m = -1;
+    scene.lights[5].outer_cone_rad = kInfinity;
+    scene.lights[6].direction_world.z = kInfinity;
+    EXPECT_EQ(evaluated(scene, noSeeded()).lights.size(), 1U);
+}
+
+TEST(LightRig, ExtremeSceneLights_StayFinite) {
+    scene::Scene scene;
+    scene.lights.assign(3, punctual(scene::LightType::kPoint));
+    scene.lights[0].position_world = {1e300, -1e300, 1e300};
+    scene.lights[1].range_m = 1e-30F;
+    scene.lights[2].intensity = 3e38F;
+    scene.lights[2].color = {3e38F, 0, 1};
+    for (const io::Light& light : evaluated(scene, noSeeded()).lights) {
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_TRUE(std::isfinite(light.position_view[i]));
+            EXPECT_TRUE(std::isfinite(light.color[i]));
+        }
+        const float distance2 = glm::dot(light.position_view, light.position_view);
+        EXPECT_TRUE(std::isfinite(distance2));
+        EXPECT_TRUE(std::isfinite(light.inv_radius2));
+    }
+}
+
+TEST(LightRig, SeededBox_IsTheSettingsOrTheShrunkScene) {
+    scene::Scene scene;
+    scene.bounds_world = {{0, 0, 0}, {100, 10, 50}};
+    view::Lights settings;
+    const LightRig rig(scene);
+    EXPECT_LT(glm::distance(rig.seededBox(settings).min, glm::dvec3(4, 0.4, 2)), 1e-9);
+    EXPECT_LT(glm::distance(rig.seededBox(settings).max, glm::dvec3(96, 9.6, 48)), 1e-9);
+    settings.box = BoundsD3{{-1, -2, -3}, {4, 5, 6}};
+    EXPECT_EQ(rig.seededBox(settings).min, glm::dvec3(-1, -2, -3));
+    EXPECT_EQ(rig.seededBox(settings).max, glm::dvec3(4, 5, 6));
+}
+
+TEST(LightRig, EmptyScene_HasFiniteLights) {
+    view::Lights settings;
+    settings.count = 10;
+    for (const io::Light& light : evaluated(scene::Scene{}, settings).lights) {
+        EXPECT_EQ(light.position_view, glm::vec3(0));
+    }
+}
+
+TEST(LightRig, ReusedBuffers_HoldNothingOfTheFrameBefore) {
+    scene::Scene scene;
+    scene.lights = {punctual(scene::LightType::kSpot), punctual(scene::LightType::kDirectional)};
+    const LightRig rig(scene);
+    view::Lights settings;
+    settings.count = 100;
+    FrameLights lights;
+    rig.evaluate(settings, {}, 1, lights);
+    settings.count = 5;
+    rig.evaluate(settings, {}, 1, lights);
+    EXPECT_EQ(lights.lights.size(), 6U);
+    EXPECT_EQ(lights.radii_m.size(), 6U);
+    EXPECT_EQ(lights.spots.size(), 1U);
+    EXPECT_EQ(lights.directionals.size(), 1U);
+}
+
+} // namespace
+} // namespace froxel::light

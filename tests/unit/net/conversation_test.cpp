@@ -1,0 +1,306 @@
+#include "froxel/v1/client.pb.h"
+#include "froxel/v1/server.pb.h"
+#include "net/conversation.h"
+#include "support/recording_sink.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace froxel::net {
+namespace {
+
+using namespace std::chrono_literals;
+using protocol::CloseCode;
+using protocol::WireFormat;
+
+class FakePort final : public session::StreamPort {
+  public:
+    Result<session::SessionId> join(std::weak_ptr<session::FrameSink> /*sink*/,
+                                    const session::SessionState& state,
+                                    TimePoint /*now*/) override {
+        if (full) {
+            return Error{ErrorCode::kCapacity, "full"};
+        }
+        states.push_back(state);
+        return session::SessionId{7};
+    }
+    void update(session::SessionId /*id*/,
+                const session::SessionState& state,
+                TimePoint /*arrived*/) override {
+        states.push_back(state);
+    }
+    void grant(session::SessionId /*id*/, uint64_t frame_total) override { granted = frame_total; }
+    void leave(session::SessionId id) override { left = id; }
+
+    bool full = false;
+    std::vector<session::SessionState> states;
+    uint64_t granted = 0;
+    session::SessionId left = 0;
+};
+
+class ConversationTest : public testing::Test {
+  protected:
+    void serve() {
+        ServiceStatus status;
+        status.serving = Serving{std::make_shared<const session::SessionContext>(), &port_};
+        talk_.onService(status, now_);
+    }
+    uint64_t say(v1::ClientMessage message) {
+        message.set_seq(++seq_);
+        talk_.onMessage(protocol::bytesOf(message.SerializeAsString()), WireFormat::kBinary, now_);
+        return seq_;
+    }
+    void hello() {
+        v1::ClientMessage message;
+        message.mutable_hello()->set_protocol_major(protocol::kMajor);
+        say(message);
+    }
+    void join() {
+        serve();
+        hello();
+        drainAnswers();
+    }
+    uint64_t setExposure(double exposure) {
+        v1::ClientMessage message;
+        message.mutable_set_exposure()->set_exposure(exposure);
+        return say(message);
+    }
+    uint64_t ack(uint64_t frame_id) {
+        v1::ClientMessage message;
+        message.mutable_ack()->set_frame_id(frame_id);
+        return say(message);
+    }
+    void frame(uint64_t id) {
+        session::ReadyFrame ready;
+        ready.record.frame_id = id;
+        ready.record.width_px = 16;
+        ready.record.height_px = 16;
+        ready.bytes = std::make_shared<const std::vector<std::byte>>(10);
+        ready.ready_at = now_;
+        talk_.onFrame(std::move(ready));
+    }
+    std::optional<v1::ServerMessage> nextAnswer() {
+        const auto out = talk_.nextMessage(now_);
+        if (!out) {
+            return {};
+        }
+        v1::ServerMessage message;
+        protocol::decodeServerMessage(protocol::bytesOf(out->head), out->format, message).value();
+        return message;
+    }
+    v1::FrameHeader nextFrame() {
+        const auto out = talk_.nextMessage(now_).value();
+        v1::FrameHeader header;
+        EXPECT_TRUE(header.ParseFromString(out.head.substr(protocol::kPrefixBytes)));
+        return header;
+    }
+    void drainAnswers() {
+        while (talk_.nextMessage(now_)) {
+        }
+    }
+
+    FakePort port_;
+    TimePoint now_ = TimePoint() + 1h;
+    std::shared_ptr<test::RecordingSink> sink_ = std::make_shared<test::RecordingSink>();
+    Conversation talk_{sink_};
+    uint64_t seq_ = 0;
+};
+
+TEST_F(ConversationTest, Hello_Serving_WelcomesAndGrantsCredit) {
+    serve();
+    hello();
+    EXPECT_EQ(nextAnswer()->welcome().session_id(), 7U);
+    EXPECT_GT(port_.granted, 0U);
+    EXPECT_EQ(talk_.maxMessageBytes(), protocol::kMaxMessageBytes);
+}
+
+TEST_F(ConversationTest, Hello_Loading_WaitsAndKeepsCommandsInOrder) {
+    ServiceStatus loading;
+    loading.loading = {"moving in", 0.5};
+    talk_.onService(loading, now_);
+    hello();
+    EXPECT_EQ(nextAnswer()->loading().stage(), "moving in");
+    setExposure(2);
+    const uint64_t seq = setExposure(3);
+    EXPECT_TRUE(port_.states.empty());
+    serve();
+    EXPECT_TRUE(nextAnswer()->has_welcome());
+    EXPECT_EQ(nextAnswer()->state().ref_seq(), seq);
+    EXPECT_FLOAT_EQ(port_.states.back().settings.exposure, 3);
+}
+
+TEST_F(ConversationTest, Command_WhileLoadingBeyondTheCap_IsRefused) {
+    talk_.onService({}, now_);
+    hello();
+    for (size_t i = 0; i < Conversation::kMaxEarlyCommands; ++i) {
+        setExposure(1);
+    }
+    drainAnswers();
+    const uint64_t seq = setExposure(1);
+    const auto error = nextAnswer()->error();
+    EXPECT_EQ(error.code(), v1::ERROR_CODE_CAPACITY);
+    EXPECT_EQ(error.ref_seq(), seq);
+}
+
+TEST_F(ConversationTest, Hello_NoSessionLeft_IsToldAndCloses) {
+    port_.full = true;
+    serve();
+    hello();
+    EXPECT_EQ(nextAnswer()->error().code(), v1::ERROR_CODE_CAPACITY);
+    EXPECT_FALSE(nextAnswer());
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kCapacity);
+}
+
+TEST_F(ConversationTest, Commands_BeforeTheAnswerIsWritten_AreAnsweredOnce) {
+    join();
+    setExposure(2);
+    setExposure(3);
+    const uint64_t seq = setExposure(4);
+    const auto answer = nextAnswer()->state();
+    EXPECT_EQ(answer.ref_seq(), seq);
+    EXPECT_DOUBLE_EQ(answer.state().exposure(), 4);
+    EXPECT_FALSE(nextAnswer());
+    EXPECT_EQ(port_.states.size(), 4U);
+}
+
+TEST_F(ConversationTest, Command_OutOfRange_KeepsTheState) {
+    join();
+    setExposure(-1);
+    EXPECT_EQ(nextAnswer()->error().field(), "exposure");
+    EXPECT_EQ(port_.states.size(), 1U);
+}
+
+TEST_F(ConversationTest, Frames_WindowIsFull_WaitAndTheNewestIsSent) {
+    join();
+    frame(1);
+    EXPECT_EQ(nextFrame().frame_id(), 1U);
+    frame(2);
+    EXPECT_EQ(nextFrame().frame_id(), 2U);
+    frame(3);
+    frame(4);
+    EXPECT_FALSE(talk_.nextMessage(now_)) << "two are unacknowledged";
+    EXPECT_EQ(port_.granted, 4U) << "no more than those that came";
+    ack(1);
+    const auto header = nextFrame();
+    EXPECT_EQ(header.frame_id(), 4U);
+    EXPECT_EQ(header.dropped_frames(), 1U);
+}
+
+TEST_F(ConversationTest, Frame_WaitedInTheSlot_TellsHowLong) {
+    join();
+    frame(1);
+    now_ += 3ms;
+    EXPECT_EQ(nextFrame().send_wait_us(), 3000U);
+}
+
+TEST_F(ConversationTest, Ack_OfAFrameNeverSent_IsAnError) {
+    join();
+    const uint64_t seq = ack(5);
+    EXPECT_EQ(nextAnswer()->error().ref_seq(), seq);
+}
+
+TEST_F(ConversationTest, Ack_Twice_IsNoError) {
+    join();
+    frame(1);
+    nextFrame();
+    ack(1);
+    ack(1);
+    EXPECT_FALSE(nextAnswer());
+}
+
+TEST_F(ConversationTest, Rejects_TooMany_CloseWithPolicyAfterSayingSo) {
+    join();
+    for (uint32_t i = 0; i <= protocol::kMaxRejects; ++i) {
+        EXPECT_FALSE(talk_.closing());
+        setExposure(-1);
+    }
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kPolicy);
+    v1::ServerMessage last;
+    while (const auto answer = nextAnswer()) {
+        last = *answer;
+    }
+    EXPECT_EQ(last.error().code(), v1::ERROR_CODE_RATE_LIMIT);
+}
+
+TEST_F(ConversationTest, Pings_AnswersAreNotTaken_ClosesAsSlow) {
+    join();
+    for (size_t i = 0; i <= Outbox::kMaxAnswers; ++i) {
+        v1::ClientMessage ping;
+        ping.mutable_ping();
+        say(ping);
+    }
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kSlowConsumer);
+}
+
+TEST_F(ConversationTest, Refused_PictureTooLarge_FallsBackToWhatWasDrawn) {
+    join();
+    const session::SessionState drawn = port_.states.back();
+    v1::ClientMessage large;
+    large.mutable_set_size()->set_width(4096);
+    large.mutable_set_size()->set_height(4096);
+    const uint64_t seq = say(large);
+    const session::SessionState refused = port_.states.back();
+    drainAnswers();
+    talk_.onRefused({ErrorCode::kCapacity, "too large"}, refused, drawn, now_);
+    EXPECT_EQ(nextAnswer()->error().ref_seq(), seq);
+    EXPECT_EQ(nextAnswer()->state().state().width(), drawn.settings.size.width_px);
+    EXPECT_EQ(port_.states.back().settings.size, drawn.settings.size);
+    EXPECT_GT(port_.states.back().version, refused.version);
+}
+
+TEST_F(ConversationTest, Refused_StateChangedMeanwhile_LeavesItToTheStream) {
+    join();
+    const session::SessionState refused = port_.states.back();
+    setExposure(2);
+    drainAnswers();
+    talk_.onRefused({ErrorCode::kCapacity, "too large"}, refused, refused, now_);
+    EXPECT_FALSE(nextAnswer());
+}
+
+TEST_F(ConversationTest, Refused_FirstPicture_Closes) {
+    join();
+    talk_.onRefused({ErrorCode::kCapacity, "too large"}, port_.states.back(), {}, now_);
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kCapacity);
+}
+
+TEST_F(ConversationTest, Draining_Connected_SaysSoAndCloses) {
+    join();
+    frame(1);
+    ServiceStatus status;
+    status.draining = 5000ms;
+    talk_.onService(status, now_);
+    EXPECT_EQ(nextAnswer()->draining().deadline_ms(), 5000U);
+    EXPECT_FALSE(talk_.nextMessage(now_));
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kDraining);
+}
+
+TEST_F(ConversationTest, HelloTimeout_NoHello_Closes) {
+    talk_.onHelloTimeout();
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kPolicy);
+}
+
+TEST_F(ConversationTest, HelloTimeout_Greeted_ChangesNothing) {
+    join();
+    talk_.onHelloTimeout();
+    EXPECT_FALSE(talk_.closing());
+}
+
+TEST(ConversationEnd, AfterWelcome_LeavesTheStream) {
+    FakePort port;
+    {
+        Conversation talk{{}};
+        ServiceStatus status;
+        status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
+        talk.onService(status, TimePoint());
+        v1::ClientMessage hello;
+        hello.set_seq(1);
+        hello.mutable_hello()->set_protocol_major(protocol::kMajor);
+        talk.onMessage(protocol::bytesOf(hello.SerializeAsString()), WireFormat::kBinary,
+                       TimePoint());
+    }
+    EXPECT_EQ(port.left, 7U);
+}
+
+} // namespace
+} // namespace froxel::net

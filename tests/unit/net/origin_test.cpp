@@ -1,0 +1,42 @@
+#include "net/origin.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace froxel::net {
+namespace {
+
+TEST(OriginAllowed, NoOrigin_IsAllowed) {
+    EXPECT_TRUE(originAllowed({}, "host:8080", {}));
+}
+
+TEST(OriginAllowed, SameHost_IsAllowedInAnyCase) {
+    EXPECT_TRUE(originAllowed("http://host:8080", "host:8080", {}));
+    EXPECT_TRUE(originAllowed("https://host", "host", {}));
+    EXPECT_TRUE(originAllowed("HTTP://Host:8080", "hOST:8080", {}));
+    EXPECT_TRUE(originAllowed("http://[::1]:8080", "[::1]:8080", {}));
+}
+
+TEST(OriginAllowed, AnotherHost_IsRefused) {
+    for (const char* foreign :
+         {"http://evil", "http://host:8081", "http://host:8080.evil", "http://evilhost:8080",
+          "http://host:8080/", "http://user@host:8080", "host:8080", "ftp://host:8080", "null", "",
+          "http://"}) {
+        EXPECT_FALSE(originAllowed(foreign, "host:8080", {})) << foreign;
+    }
+}
+
+TEST(OriginAllowed, EmptyHost_MatchesNothing) {
+    EXPECT_FALSE(originAllowed("http://", "", {}));
+}
+
+TEST(OriginAllowed, Listed_IsAllowedExactly) {
+    const std::vector<std::string> listed = {"https://gallery.example"};
+    EXPECT_TRUE(originAllowed("https://gallery.example", "host", listed));
+    EXPECT_FALSE(originAllowed("http://gallery.example", "host", listed));
+    EXPECT_FALSE(originAllowed("https://gallery.example:444", "host", listed));
+}
+
+} // namespace
+} // namespace froxel::net

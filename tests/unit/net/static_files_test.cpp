@@ -1,0 +1,73 @@
+#include "net/static_files.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace froxel::net {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StaticFilesTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        root_ = fs::path(testing::TempDir()) / (std::string("froxel_static_") + test->name());
+        fs::remove_all(root_);
+        fs::create_directories(root_ / "assets");
+    }
+    void TearDown() override { fs::remove_all(root_); }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(root_ / name) << text;
+    }
+
+    fs::path root_;
+};
+
+TEST_F(StaticFilesTest, Load_Folder_HasEveryFileUnderItsPath) {
+    write("index.html", "page");
+    write("favicon.svg", "<svg/>");
+    write("assets/worker-12.js", "work");
+    const auto files = StaticFiles::load(root_).value();
+    EXPECT_EQ(files.count(), 3U);
+    EXPECT_EQ(files.find("/")->body, "page");
+    EXPECT_EQ(files.find("/index.html")->content_type, "text/html; charset=utf-8");
+    EXPECT_FALSE(files.find("/index.html")->immutable);
+    EXPECT_EQ(files.find("/favicon.svg")->content_type, "image/svg+xml");
+    EXPECT_TRUE(files.find("/assets/worker-12.js")->immutable);
+    EXPECT_EQ(files.find("/assets"), nullptr);
+}
+
+TEST_F(StaticFilesTest, Load_ChangedContent_ChangesTheETag) {
+    write("index.html", "one");
+    const std::string before = StaticFiles::load(root_).value().find("/")->etag;
+    EXPECT_EQ(StaticFiles::load(root_).value().find("/")->etag, before);
+    write("index.html", "two");
+    EXPECT_NE(StaticFiles::load(root_).value().find("/")->etag, before);
+}
+
+TEST_F(StaticFilesTest, Load_Links_AreLeftOut) {
+    write("index.html", "page");
+    fs::create_symlink("/etc/hostname", root_ / "link.txt");
+    fs::create_directory_symlink("/etc", root_ / "folder");
+    EXPECT_EQ(StaticFiles::load(root_).value().count(), 1U);
+}
+
+TEST_F(StaticFilesTest, Load_NoIndex_IsAnErrorNamingTheFolder) {
+    const auto files = StaticFiles::load(root_);
+    ASSERT_FALSE(files);
+    EXPECT_EQ(files.error().code, ErrorCode::kIo);
+    EXPECT_NE(files.error().message.find(root_.string()), std::string::npos);
+}
+
+TEST_F(StaticFilesTest, Load_NoFolder_IsAnError) {
+    EXPECT_FALSE(StaticFiles::load(root_ / "nowhere"));
+}
+
+TEST(StaticFiles, Find_NoPage_IsNull) {
+    EXPECT_EQ(StaticFiles().find("/"), nullptr);
+}
+
+} // namespace
+} // namespace froxel::net

@@ -1,0 +1,81 @@
+#include "render/geometry_pack.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace froxel::render {
+
+namespace {
+
+scene::Primitive fan(uint32_t count, bool colored) {
+    scene::Primitive p;
+    p.positions.push_back({0, 0, 0});
+    for (uint32_t i = 0; i <= count; ++i) {
+        const auto t = static_cast<float>(i);
+        p.positions.push_back({std::cos(t), std::sin(t), t * 0.01F});
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        p.indices.insert(p.indices.end(), {0, i + 1, i + 2});
+    }
+    for (const auto& position : p.positions) {
+        p.normals.push_back({0, 0, 1});
+        p.bounds.add(position);
+    }
+    if (colored) {
+        p.colors.assign(p.positions.size(), glm::vec4(0.5F));
+    }
+    return p;
+}
+
+using Triangle = std::array<uint32_t, 3>;
+
+std::vector<Triangle> sortedTriangles(std::span<const uint32_t> indices) {
+    std::vector<Triangle> out;
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+        Triangle t = {indices[i], indices[i + 1], indices[i + 2]};
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end()); // keeps the winding
+        out.push_back(t);
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+} // namespace
+
+TEST(GeometryPack, Meshlets_CoverEveryTriangleOnceWithItsWinding) {
+    scene::Scene scene;
+    scene.meshes.push_back({"fan", {fan(500, false)}});
+    const auto packed = packGeometry(scene);
+    const auto& p = packed.meshes[0][0];
+    EXPECT_EQ(sortedTriangles(packed.indices),
+              sortedTriangles(scene.meshes[0].primitives[0].indices));
+    uint32_t next = p.first_index;
+    for (const auto& meshlet : packed.meshlets) {
+        EXPECT_EQ(meshlet.first_index, next);
+        next += meshlet.index_count;
+        for (uint32_t i = 0; i < meshlet.index_count; ++i) {
+            const auto& at = packed.positions[packed.indices[meshlet.first_index + i]];
+            EXPECT_LE(glm::distance(at, meshlet.center), meshlet.radius * 1.0001F + 1e-6F);
+        }
+    }
+    EXPECT_EQ(next, p.first_index + p.index_count);
+    EXPECT_GT(packed.meshlets.size(), 1U);
+}
+
+TEST(GeometryPack, ExtendedPrimitives_ComeFirst_SoThatStreamsShareOffsets) {
+    scene::Scene scene;
+    scene.meshes.push_back({"plain", {fan(5, false)}});
+    scene.meshes.push_back({"colored", {fan(7, true)}});
+    const auto packed = packGeometry(scene);
+    EXPECT_EQ(packed.extended.size(), scene.meshes[1].primitives[0].positions.size());
+    EXPECT_EQ(packed.meshes[1][0].vertex_offset, 0);
+    EXPECT_TRUE(packed.meshes[1][0].extended);
+    EXPECT_FALSE(packed.meshes[0][0].extended);
+    EXPECT_EQ(packed.surfaces.size(), packed.positions.size());
+}
+
+} // namespace froxel::render

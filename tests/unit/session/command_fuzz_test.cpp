@@ -1,0 +1,131 @@
+// Random and mutated messages: whatever comes in, decoding answers, and what it accepts is valid.
+#include "core/text.h"
+#include "unit/session/messages.h"
+#include "view/ranges.h"
+
+#include <cmath>
+#include <random>
+
+namespace froxel::session {
+namespace {
+
+bool finite(const glm::dvec3& value) {
+    return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
+}
+
+// The promises of command.h that a renderer relies on.
+struct PromiseKept {
+    bool operator()(const SetCamera& c) const {
+        return finite(c.eye_world) && finite(c.target_world) && finite(c.up_world) &&
+               c.eye_world != c.target_world && glm::length(c.up_world) > 0 &&
+               (!c.yfov_rad || (*c.yfov_rad > 0 && *c.yfov_rad < 3.1));
+    }
+    bool operator()(const SetLights& c) const {
+        return (!c.count || view::kLightCountRange.contains(*c.count)) &&
+               (!c.radius_m || view::kLightRadiusRange.contains(*c.radius_m)) &&
+               (!c.box || (finite(c.box->min) && finite(c.box->max) && !c.box->empty()));
+    }
+    bool operator()(const SetGrid& c) const {
+        return c.grid.x > 0 && c.grid.y > 0 && c.grid.z > 0 && c.grid.x <= 128;
+    }
+    bool operator()(const SetSize& c) const {
+        return view::kWidthRange.contains(c.size.width_px) &&
+               view::kHeightRange.contains(c.size.height_px);
+    }
+    bool operator()(const SetRenderer& c) const {
+        return static_cast<size_t>(c.renderer) < view::kRendererNames.size();
+    }
+    bool operator()(const SetToon& c) const {
+        return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2);
+    }
+    template <class Other>
+    bool operator()(const Other& /*command*/) const {
+        return true;
+    }
+};
+
+void expectSane(const CommandResult<CommandMessage>& result) {
+    if (result) {
+        EXPECT_GT(result->stamp.seq, 0U);
+        EXPECT_TRUE(std::visit(PromiseKept{}, result->body)) << result->body.index();
+        return;
+    }
+    EXPECT_FALSE(result.error().message.empty());
+    EXPECT_LT(result.error().message.size(), 500U);
+    EXPECT_EQ(printable(result.error().message, 500), result.error().message);
+}
+
+std::vector<v1::ClientMessage> seeds() {
+    std::vector<v1::ClientMessage> all(6, clientMessage());
+    all[0].mutable_hello()->set_client_name("fuzz");
+    all[1].mutable_set_camera()->mutable_eye()->set_x(1);
+    all[1].mutable_set_camera()->mutable_target()->set_y(1);
+    all[1].mutable_set_camera()->set_fov_deg(45);
+    all[2].mutable_set_lights()->set_count(10);
+    all[2].mutable_set_lights()->mutable_box()->mutable_min()->set_x(-1);
+    all[2].mutable_set_lights()->mutable_box()->mutable_max()->set_x(1);
+    all[3].mutable_set_renderer()->set_renderer(v1::RENDERER_NAIVE);
+    all[3].mutable_set_renderer()->set_lighting(v1::LIGHTING_STAGE_COMPUTE);
+    all[4].mutable_set_toon()->mutable_compute()->add_points();
+    all[4].mutable_set_toon()->mutable_compute()->add_points()->set_x(1);
+    all[5].mutable_set_size()->set_width(64);
+    all[5].mutable_set_size()->set_height(64);
+    return all;
+}
+
+using Random = std::mt19937;
+
+size_t below(Random& random, size_t bound) {
+    return std::uniform_int_distribution<size_t>(0, bound - 1)(random);
+}
+
+std::string mutate(std::string bytes, Random& random) {
+    const size_t edits = 1 + below(random, 4);
+    for (size_t i = 0; i < edits; ++i) {
+        const auto value = static_cast<char>(below(random, 256));
+        switch (below(random, 4)) {
+        case 0:
+            bytes.insert(below(random, bytes.size() + 1), 1, value);
+            break;
+        case 1:
+            bytes = bytes.substr(0, below(random, bytes.size() + 1));
+            break;
+        case 2:
+            bytes += bytes.substr(below(random, bytes.size() + 1));
+            break;
+        default:
+            if (!bytes.empty()) {
+                bytes[below(random, bytes.size())] = value;
+            }
+        }
+    }
+    return bytes;
+}
+
+TEST(CommandFuzz, RandomBytes_AreAnswered) {
+    Random random(1);
+    for (int i = 0; i < 20'000; ++i) {
+        std::string bytes(below(random, 64), '\0');
+        for (char& byte : bytes) {
+            byte = static_cast<char>(below(random, 256));
+        }
+        expectSane(decodeBinary(bytes));
+        expectSane(decodeText(bytes));
+    }
+}
+
+TEST(CommandFuzz, MutatedMessages_AreAnsweredAndStayValid) {
+    Random random(2);
+    const auto all = seeds();
+    ::testing::internal::CaptureStderr();
+    for (int i = 0; i < 20'000; ++i) {
+        const v1::ClientMessage& seed = all[below(random, all.size())];
+        expectSane(decodeBinary(mutate(seed.SerializeAsString(), random)));
+        const auto text = protocol::encodeClientMessage(seed, protocol::WireFormat::kText);
+        expectSane(decodeText(mutate(text, random)));
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), ""); // no client can fill our log
+}
+
+} // namespace
+} // namespace froxel::session

@@ -1,0 +1,178 @@
+// Every ranged field, at both edges and one step beyond, in both encodings.
+#include "core/text.h"
+#include "unit/session/messages.h"
+#include "view/ranges.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace froxel::session {
+namespace {
+
+using Set = std::function<void(v1::ClientMessage&, double)>;
+
+struct RangedField {
+    std::string field;
+    double min = 0;
+    double max = 0;
+    bool is_integer = false;
+    Set set;
+};
+
+template <class T>
+RangedField ranged(const view::Range<T>& range, Set set, std::string field = {}) {
+    return {field.empty() ? std::string(range.field) : std::move(field),
+            static_cast<double>(range.min), static_cast<double>(range.max), std::is_integral_v<T>,
+            std::move(set)};
+}
+
+uint32_t u32(double value) {
+    return static_cast<uint32_t>(value);
+}
+
+v1::Vec3& unit(v1::Vec3& vec) {
+    vec.set_x(1);
+    return vec;
+}
+
+v1::SetGrid& grid(v1::ClientMessage& message) {
+    auto& set = *message.mutable_set_grid();
+    set.mutable_grid()->set_x(4);
+    set.mutable_grid()->set_y(4);
+    set.mutable_grid()->set_z(4);
+    return set;
+}
+
+v1::SetCamera& camera(v1::ClientMessage& message) {
+    auto& set = *message.mutable_set_camera();
+    set.mutable_eye();
+    unit(*set.mutable_target());
+    return set;
+}
+
+v1::ToonRamp::Point& firstPoint(v1::ClientMessage& message) {
+    auto& ramp = *message.mutable_set_toon()->mutable_compute();
+    ramp.add_points();
+    ramp.add_points()->set_x(1);
+    return *ramp.mutable_points(0);
+}
+
+using M = v1::ClientMessage;
+
+const std::vector<RangedField>& fields() {
+    static const std::vector<RangedField> all = {
+        ranged(view::kWidthRange,
+               [](M& m, double v) {
+                   m.mutable_set_size()->set_height(64);
+                   m.mutable_set_size()->set_width(u32(v));
+               }),
+        ranged(view::kHeightRange,
+               [](M& m, double v) {
+                   m.mutable_set_size()->set_width(64);
+                   m.mutable_set_size()->set_height(u32(v));
+               }),
+        ranged(view::kLightCountRange,
+               [](M& m, double v) { m.mutable_set_lights()->set_count(u32(v)); }),
+        ranged(view::kLightRadiusRange,
+               [](M& m, double v) { m.mutable_set_lights()->set_radius_m(v); }),
+        ranged(view::kLightIntensityRange,
+               [](M& m, double v) { m.mutable_set_lights()->set_intensity(v); }),
+        ranged(view::kLightSpeedRange,
+               [](M& m, double v) { m.mutable_set_lights()->set_speed(v); }),
+        ranged(view::kAmbientRange, [](M& m, double v) { m.mutable_set_lights()->set_ambient(v); }),
+        ranged(view::kGridXRange, [](M& m, double v) { grid(m).mutable_grid()->set_x(u32(v)); }),
+        ranged(view::kGridYRange, [](M& m, double v) { grid(m).mutable_grid()->set_y(u32(v)); }),
+        ranged(view::kGridZRange, [](M& m, double v) { grid(m).mutable_grid()->set_z(u32(v)); }),
+        ranged(view::kExposureRange,
+               [](M& m, double v) { m.mutable_set_exposure()->set_exposure(v); }),
+        ranged(view::kFovRange, [](M& m, double v) { camera(m).set_fov_deg(v); }),
+        ranged(view::kHalfHeightRange, [](M& m, double v) { camera(m).set_half_height_m(v); }),
+        ranged(
+            view::kPositionRange, [](M& m, double v) { camera(m).mutable_eye()->set_z(v); },
+            "eye.z"),
+        ranged(
+            view::kPositionRange, [](M& m, double v) { camera(m).mutable_target()->set_y(v); },
+            "target.y"),
+        ranged(
+            view::kPositionRange, [](M& m, double v) { unit(*camera(m).mutable_up()).set_y(v); },
+            "up.y"),
+        ranged(view::kQualityRange,
+               [](M& m, double v) { m.mutable_set_encoding()->set_quality(u32(v)); }),
+        ranged(
+            view::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
+            "toon_compute.points[0].y"),
+        ranged(
+            view::kToonSlopeRange, [](M& m, double v) { firstPoint(m).set_slope(v); },
+            "toon_compute.points[0].slope"),
+    };
+    return all;
+}
+
+class RangedFields : public ::testing::TestWithParam<protocol::WireFormat> {
+  protected:
+    static CommandResult<CommandMessage> decode(const RangedField& field, double value) {
+        v1::ClientMessage message = clientMessage(5);
+        field.set(message, value);
+        return decodeCommand(protocol::bytesOf(protocol::encodeClientMessage(message, GetParam())),
+                             GetParam());
+    }
+    static void expectRefused(const RangedField& field, double value) {
+        const Rejection rejection = refused(decode(field, value));
+        EXPECT_EQ(rejection.code, RejectCode::kOutOfRange) << field.field;
+        EXPECT_EQ(rejection.field, field.field);
+        EXPECT_EQ(rejection.ref_seq, 5U);
+        EXPECT_EQ(rejection.message, field.field + " is " + numberText(value) +
+                                         "; it must be from " + numberText(field.min) + " to " +
+                                         numberText(field.max));
+    }
+};
+
+TEST_P(RangedFields, Edges_AreAccepted) {
+    for (const RangedField& field : fields()) {
+        for (const double edge : {field.min, field.max}) {
+            const auto result = decode(field, edge);
+            EXPECT_TRUE(result) << field.field << " = " << edge << ": " << result.error().message;
+        }
+    }
+}
+
+TEST_P(RangedFields, OneStepBeyond_IsRefusedByNameValueAndRange) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const RangedField& field : fields()) {
+        expectRefused(field,
+                      field.is_integer ? field.max + 1 : std::nextafter(field.max, kInfinity));
+        if (!field.is_integer) {
+            expectRefused(field, std::nextafter(field.min, -kInfinity));
+        } else if (field.min > 0) {
+            expectRefused(field, field.min - 1);
+        }
+    }
+}
+
+TEST_P(RangedFields, NanAndInfinity_AreRefused) {
+    for (const RangedField& field : fields()) {
+        if (!field.is_integer) {
+            expectRefused(field, std::numeric_limits<double>::quiet_NaN());
+            expectRefused(field, std::numeric_limits<double>::infinity());
+            expectRefused(field, -std::numeric_limits<double>::infinity());
+            expectRefused(field, std::numeric_limits<double>::max());
+        } else {
+            expectRefused(field, double{std::numeric_limits<uint32_t>::max()});
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Wire,
+                         RangedFields,
+                         ::testing::Values(protocol::WireFormat::kBinary,
+                                           protocol::WireFormat::kText),
+                         [](const auto& format) {
+                             return format.param == protocol::WireFormat::kBinary ? "Binary"
+                                                                                  : "Text";
+                         });
+
+} // namespace
+} // namespace froxel::session

@@ -1,0 +1,50 @@
+#include "session/session_context.h"
+#include "view/ranges.h"
+
+#include <gtest/gtest.h>
+
+namespace froxel::session {
+namespace {
+
+TEST(Summarize, Instances_AreCountedEach) {
+    scene::Scene scene;
+    scene.name = "two";
+    scene.materials.resize(3);
+    scene.textures.resize(2);
+    scene.lights.resize(1);
+    scene::Primitive two_triangles;
+    two_triangles.indices = {0, 1, 2, 2, 1, 3};
+    scene::Primitive one_triangle;
+    one_triangle.indices = {0, 1, 2};
+    scene.meshes.push_back({"pair", {two_triangles, one_triangle}});
+    scene.meshes.push_back({"unused", {one_triangle}});
+    scene.instances.resize(4);
+    scene.cameras.push_back({"door", {}});
+    scene.bounds_world.add(glm::dvec3(1, 2, 3));
+
+    const SceneSummary summary = summarize(scene);
+    EXPECT_EQ(summary.name, "two");
+    EXPECT_EQ(summary.triangle_count, 12U);
+    EXPECT_EQ(summary.draw_count, 8U);
+    EXPECT_EQ(summary.material_count, 3U);
+    EXPECT_EQ(summary.texture_count, 2U);
+    EXPECT_EQ(summary.punctual_light_count, 1U);
+    EXPECT_EQ(summary.cameras.front().name, "door");
+    EXPECT_EQ(summary.bounds_world.min, glm::dvec3(1, 2, 3));
+}
+
+TEST(DefaultsFor, BothKinds_AreWithinTheRanges) {
+    for (const DeviceKind kind : {DeviceKind::kCpu, DeviceKind::kGpu}) {
+        const SessionDefaults defaults = defaultsFor(kind);
+        EXPECT_TRUE(view::kWidthRange.contains(defaults.size.width_px));
+        EXPECT_TRUE(view::kHeightRange.contains(defaults.size.height_px));
+        EXPECT_TRUE(view::kQualityRange.contains(defaults.encoding.quality));
+        EXPECT_TRUE(view::kLightCountRange.contains(defaults.light_count));
+        EXPECT_TRUE(view::kLightRadiusRange.contains(defaults.light_radius_m));
+        EXPECT_LE(uint64_t{defaults.size.width_px} * defaults.size.height_px, defaults.max_area_px);
+        EXPECT_LE(defaults.max_area_px, uint64_t{4096} * 4096);
+    }
+}
+
+} // namespace
+} // namespace froxel::session

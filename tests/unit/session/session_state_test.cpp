@@ -1,0 +1,223 @@
+#include "session/session_state.h"
+#include "unit/session/context.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <gmock/gmock.h>
+
+namespace froxel::session {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+constexpr TimePoint kStart{50s};
+
+class State : public ::testing::Test {
+  protected:
+    SessionState applied(const SessionState& state, Command body, TimePoint now = kStart) {
+        const auto result = apply(state, {{++seq_, seq_ * 10}, std::move(body)}, context, now);
+        if (!result) {
+            ADD_FAILURE() << result.error().message;
+            return state;
+        }
+        return *result;
+    }
+    static SetLights lights(const std::function<void(SetLights&)>& fill) {
+        SetLights command;
+        fill(command);
+        return command;
+    }
+
+    SessionContext context = makeContext();
+    SessionState initial = initialState(context, kStart);
+
+  private:
+    uint64_t seq_ = 0;
+};
+
+TEST_F(State, Initial_HasTheDefaultsAndTheFirstCamera) {
+    EXPECT_EQ(initial.settings.camera, context.scene.cameras[0].camera);
+    EXPECT_EQ(initial.settings.size, context.defaults.size);
+    EXPECT_EQ(initial.encoding, context.defaults.encoding);
+    EXPECT_EQ(initial.settings.lights.count, context.defaults.light_count);
+    EXPECT_EQ(initial.applied, CommandStamp{});
+    EXPECT_TRUE(initial.animating());
+    EXPECT_EQ(initial.light_clock.secondsAt(kStart), 0);
+}
+
+TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
+    context.scene.cameras.clear();
+    const view::Camera camera = initialState(context, kStart).settings.camera;
+    const BoundsD3& bounds = context.scene.bounds_world;
+    const double half_angle = camera.yfov_rad / 2;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 world(corner & 1 ? bounds.max.x : bounds.min.x,
+                               corner & 2 ? bounds.max.y : bounds.min.y,
+                               corner & 4 ? bounds.max.z : bounds.min.z);
+        const glm::dvec3 position_view =
+            glm::transpose(camera.world_from_view) * (world - camera.eye_world);
+        EXPECT_LT(position_view.z, -camera.near_m);
+        EXPECT_LT(std::abs(position_view.y), -position_view.z * std::tan(half_angle));
+    }
+    context.scene.bounds_world = {};
+    const view::Camera empty = initialState(context, kStart).settings.camera;
+    EXPECT_GT(empty.focus_m, 0);
+}
+
+TEST_F(State, Initial_TinyScene_IsBeyondTheNearPlane) {
+    context.scene.cameras.clear();
+    context.scene.bounds_world = {};
+    context.scene.bounds_world.add(glm::dvec3(-0.001));
+    context.scene.bounds_world.add(glm::dvec3(0.001));
+    const view::Camera camera = initialState(context, kStart).settings.camera;
+    EXPECT_LT(camera.near_m, 0.5 * camera.focus_m);
+}
+
+TEST_F(State, SetCamera_KeepsTheProjectionUnlessTold) {
+    SetCamera command{{1, 2, 3}, {1, 2, 0}, {0, 1, 0}, {}, {}};
+    const SessionState moved = applied(initial, command);
+    EXPECT_EQ(moved.settings.camera.eye_world, glm::dvec3(1, 2, 3));
+    EXPECT_DOUBLE_EQ(moved.settings.camera.focus_m, 3);
+    EXPECT_EQ(moved.settings.camera.yfov_rad, initial.settings.camera.yfov_rad);
+
+    command.half_height_m = 4;
+    const SessionState ortho = applied(moved, command);
+    EXPECT_EQ(ortho.settings.camera.projection, view::Projection::kOrthographic);
+    EXPECT_EQ(ortho.settings.camera.half_height_m, 4);
+
+    command.half_height_m.reset();
+    EXPECT_EQ(applied(ortho, command).settings.camera.projection, view::Projection::kOrthographic);
+    command.yfov_rad = 1.0;
+    const SessionState perspective = applied(ortho, command);
+    EXPECT_EQ(perspective.settings.camera.projection, view::Projection::kPerspective);
+    EXPECT_EQ(perspective.settings.camera.yfov_rad, 1.0);
+}
+
+TEST_F(State, SelectSceneCamera_TakesPoseAndProjection) {
+    const SessionState state = applied(initial, SelectSceneCamera{"plan"});
+    EXPECT_EQ(state.settings.camera, context.scene.cameras[1].camera);
+}
+
+TEST_F(State, SelectSceneCamera_Unknown_NamesWhatThereIs) {
+    const auto result = apply(initial, {{9, 0}, SelectSceneCamera{"na\nve"}}, context, kStart);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, RejectCode::kOutOfRange);
+    EXPECT_EQ(result.error().ref_seq, 9U);
+    EXPECT_EQ(result.error().field, "name");
+    EXPECT_EQ(result.error().message,
+              "name \"na\\x0ave\" is no camera of this scene; it has nave, plan");
+    context.scene.cameras.clear();
+    EXPECT_THAT(
+        apply(initial, {{9, 0}, SelectSceneCamera{"nave"}}, context, kStart).error().message,
+        HasSubstr("it has none"));
+}
+
+TEST_F(State, SetLights_ChangesOnlyWhatIsGiven) {
+    const SessionState state = applied(initial, lights([](SetLights& c) {
+                                           c.count = 7;
+                                           c.ambient = 0.25;
+                                       }));
+    EXPECT_EQ(state.settings.lights.count, 7U);
+    EXPECT_EQ(state.settings.lights.ambient, 0.25F);
+    EXPECT_EQ(state.settings.lights.radius_m, initial.settings.lights.radius_m);
+    EXPECT_EQ(state.settings.lights.seed, initial.settings.lights.seed);
+    EXPECT_EQ(state.settings.lights.animate, initial.settings.lights.animate);
+}
+
+TEST_F(State, SetLights_BoxIsSetAndCleared) {
+    BoundsD3 box;
+    box.add(glm::dvec3(-1));
+    box.add(glm::dvec3(1));
+    const SessionState boxed = applied(initial, lights([&](SetLights& c) { c.box = box; }));
+    EXPECT_EQ(boxed.settings.lights.box, box);
+    const SessionState cleared = applied(boxed, lights([](SetLights& c) { c.clear_box = true; }));
+    EXPECT_FALSE(cleared.settings.lights.box);
+}
+
+TEST_F(State, LightClock_PausesResumesAndChangesSpeedWithoutJumps) {
+    const auto animate = [](bool on) { return lights([on](SetLights& c) { c.animate = on; }); };
+    const auto speed = [](double value) {
+        return lights([value](SetLights& c) { c.speed = value; });
+    };
+    SessionState state = applied(initial, animate(false), kStart + 10s);
+    EXPECT_FALSE(state.animating());
+    EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 99s), 10);
+    state = applied(state, animate(true), kStart + 100s);
+    EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 105s), 15);
+    state = applied(state, speed(2), kStart + 105s);
+    EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 105s), 15);
+    EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 110s), 25);
+    state = applied(state, lights([](SetLights& c) { c.count = 5; }), kStart + 110s);
+    EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 111s), 27);
+    EXPECT_FALSE(applied(state, lights([](SetLights& c) { c.count = 0; })).animating());
+    EXPECT_FALSE(applied(state, speed(0)).animating());
+}
+
+TEST_F(State, TheOtherCommands_SetTheirFields) {
+    view::ToonRamp ramp;
+    ramp.count = 2;
+    SessionState state = applied(initial, SetGrid{{15, 15, 15}});
+    state =
+        applied(state, SetRenderer{view::Renderer::kToonFragment, view::LightingStage::kFragment});
+    state = applied(state, SetRenderer{view::Renderer::kNaive, {}});
+    state = applied(state, SetExposure{2.0, {}});
+    state = applied(state, SetExposure{{}, view::ToneMap::kClamp});
+    state = applied(state, SetToon{ramp, {}});
+    state = applied(state, SetSize{{17, 4096}});
+    state = applied(state, SetEncoding{33, {}});
+    state = applied(state, SetEncoding{{}, view::Chroma::k444});
+    EXPECT_EQ(state.settings.grid, (view::GridSize{15, 15, 15}));
+    EXPECT_EQ(state.settings.renderer, view::Renderer::kNaive);
+    EXPECT_EQ(state.settings.lighting, view::LightingStage::kFragment);
+    EXPECT_EQ(state.settings.exposure, 2.0F);
+    EXPECT_EQ(state.settings.tone_map, view::ToneMap::kClamp);
+    EXPECT_EQ(state.settings.toon_fragment, ramp);
+    EXPECT_EQ(state.settings.toon_compute, initial.settings.toon_compute);
+    EXPECT_EQ(state.settings.size, (view::Size{17, 4096}));
+    EXPECT_EQ(state.encoding, (view::Encoding{33, view::Chroma::k444}));
+    EXPECT_EQ(state.version, initial.version + 9);
+}
+
+TEST_F(State, TooLargeAPicture_IsRefused) {
+    EXPECT_TRUE(apply(initial, {{1, 0}, SetSize{{4096, 4096}}}, context, kStart));
+    context.defaults.max_area_px = 1'000'000;
+    EXPECT_TRUE(apply(initial, {{1, 0}, SetSize{{1000, 1000}}}, context, kStart));
+    const auto result = apply(initial, {{3, 0}, SetSize{{1001, 1000}}}, context, kStart);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().ref_seq, 3U);
+    EXPECT_EQ(result.error().message,
+              "width x height is 1001x1000; this server draws at most 1000000 pixels");
+}
+
+TEST_F(State, SameValueAgain_CountsAsAppliedNotAsChanged) {
+    const SessionState once = applied(initial, SetGrid{{8, 8, 8}});
+    const SessionState twice = applied(once, SetGrid{{8, 8, 8}});
+    EXPECT_EQ(once.version, initial.version + 1);
+    EXPECT_EQ(twice.version, once.version);
+    EXPECT_EQ(twice.applied, (CommandStamp{2, 20}));
+}
+
+TEST_F(State, SameCommands_GiveTheSameState) {
+    const auto play = [&] {
+        SessionState state = initial;
+        state = apply(state, {{1, 0}, SetGrid{{3, 3, 3}}}, context, kStart + 1s).value();
+        SetLights c;
+        c.speed = 0.5;
+        return apply(state, {{2, 0}, c}, context, kStart + 2s).value();
+    };
+    EXPECT_EQ(play().settings, play().settings);
+    EXPECT_EQ(play().light_clock.secondsAt(kStart + 9s), play().light_clock.secondsAt(kStart + 9s));
+}
+
+TEST(SetsState, ConnectionCommands_DoNot) {
+    EXPECT_FALSE(setsState(Hello{}));
+    EXPECT_FALSE(setsState(Ack{}));
+    EXPECT_FALSE(setsState(Ping{}));
+    EXPECT_TRUE(setsState(SetSize{}));
+    EXPECT_TRUE(setsState(SetCamera{}));
+}
+
+} // namespace
+} // namespace froxel::session

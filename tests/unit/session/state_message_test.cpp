@@ -1,0 +1,190 @@
+#include "froxel/v1/server.pb.h"
+#include "protocol/limits.h"
+#include "session/state_message.h"
+#include "unit/session/context.h"
+#include "view/ranges.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace froxel::session {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Welcome, TellsTheServerTheSceneAndTheState) {
+    const SessionContext context = makeContext();
+    const SessionState state = initialState(context, TimePoint(1s));
+    const v1::ServerMessage message = makeWelcome(12, context, state);
+    const v1::Welcome& welcome = message.welcome();
+    EXPECT_EQ(welcome.protocol_major(), protocol::kMajor);
+    EXPECT_EQ(welcome.session_id(), 12U);
+    EXPECT_EQ(welcome.server_version(), "0.1.0");
+    EXPECT_EQ(welcome.device(), "llvmpipe");
+    EXPECT_EQ(welcome.scene().name(), "hall");
+    EXPECT_EQ(welcome.scene().triangles(), 120U);
+    ASSERT_EQ(welcome.scene().cameras_size(), 2);
+    EXPECT_EQ(welcome.scene().cameras(1), "plan");
+    EXPECT_EQ(welcome.scene().bounds().max().y(), 12);
+    EXPECT_EQ(welcome.state().width(), context.defaults.size.width_px);
+    EXPECT_NEAR(welcome.state().eye().x(), -7, 1e-12);
+}
+
+TEST(Welcome, Ranges_AreTheTablesOwn) {
+    const SessionContext context = makeContext();
+    const auto message = makeWelcome(1, context, initialState(context, TimePoint(1s)));
+    ASSERT_EQ(static_cast<size_t>(message.welcome().ranges_size()),
+              std::tuple_size_v<std::decay_t<decltype(view::kCommandRanges)>>);
+    bool found = false;
+    for (const v1::FieldRange& range : message.welcome().ranges()) {
+        if (range.field() == "light_radius") {
+            found = true;
+            EXPECT_EQ(range.min(), view::kLightRadiusRange.min);
+            EXPECT_EQ(range.max(), view::kLightRadiusRange.max);
+        }
+    }
+    EXPECT_TRUE(found);
+}
+
+TEST(StateChanged, CarriesEverySetting) {
+    const SessionContext context = makeContext();
+    SessionState state = initialState(context, TimePoint(1s));
+    state.applied = {44, 5};
+    state.settings.camera = context.scene.cameras[1].camera;
+    state.settings.renderer = view::Renderer::kToonCompute;
+    state.settings.lighting = view::LightingStage::kFragment;
+    state.settings.lights = {3, 1.5F, 2.5F, 9, false, 0.5F, {}, 0.25F, false};
+    state.settings.grid = {1, 2, 3};
+    state.settings.exposure = 0.5F;
+    state.settings.tone_map = view::ToneMap::kClamp;
+    state.settings.toon_compute.count = 2;
+    state.encoding = {42, view::Chroma::k444};
+    const v1::ServerMessage message = makeStateChanged(context, state);
+    EXPECT_EQ(message.state().ref_seq(), 44U);
+    const v1::ViewState& view = message.state().state();
+    EXPECT_TRUE(view.orthographic());
+    EXPECT_EQ(view.half_height_m(), 12);
+    EXPECT_NEAR(view.up().z(), -1, 1e-12);
+    EXPECT_EQ(view.renderer(), v1::RENDERER_TOON_COMPUTE);
+    EXPECT_EQ(view.lighting(), v1::LIGHTING_STAGE_FRAGMENT);
+    EXPECT_EQ(view.light_count(), 3U);
+    EXPECT_EQ(view.light_radius_m(), 1.5);
+    EXPECT_EQ(view.light_intensity(), 2.5);
+    EXPECT_EQ(view.light_seed(), 9U);
+    EXPECT_FALSE(view.light_animate());
+    EXPECT_EQ(view.light_speed(), 0.5);
+    EXPECT_EQ(view.ambient(), 0.25);
+    EXPECT_FALSE(view.scene_lights());
+    EXPECT_EQ(view.grid().z(), 3U);
+    EXPECT_EQ(view.exposure(), 0.5);
+    EXPECT_EQ(view.tone_map(), v1::TONE_MAP_CLAMP);
+    EXPECT_EQ(view.toon_fragment().points_size(), 8);
+    EXPECT_EQ(view.toon_compute().points_size(), 2);
+    EXPECT_EQ(view.quality(), 42U);
+    EXPECT_EQ(view.chroma(), v1::CHROMA_444);
+}
+
+TEST(StateChanged, LightBox_IsTheOneInUse) {
+    SessionContext context = makeContext();
+    SessionState state = initialState(context, TimePoint(1s));
+    EXPECT_EQ(makeStateChanged(context, state).state().state().light_box().min().x(), -20);
+    state.settings.lights.box = BoundsD3{glm::dvec3(-1), glm::dvec3(1)};
+    EXPECT_EQ(makeStateChanged(context, state).state().state().light_box().min().x(), -1);
+    state.settings.lights.box.reset();
+    context.scene.bounds_world = {};
+    EXPECT_FALSE(makeStateChanged(context, state).state().state().has_light_box());
+}
+
+TEST(Error, EveryCode_HasItsOwn) {
+    for (const RejectCode code :
+         {RejectCode::kMalformed, RejectCode::kOutOfRange, RejectCode::kUnsupported,
+          RejectCode::kVersion, RejectCode::kCapacity, RejectCode::kRateLimit,
+          RejectCode::kDevice}) {
+        const auto message = makeError({code, 3, "field", "text"});
+        EXPECT_EQ(static_cast<int>(message.error().code()), static_cast<int>(code) + 1);
+        EXPECT_EQ(message.error().ref_seq(), 3U);
+        EXPECT_EQ(message.error().field(), "field");
+        EXPECT_EQ(message.error().message(), "text");
+    }
+}
+
+TEST(PongAndDraining, CarryTheirNumbers) {
+    EXPECT_EQ(makePong({7, 8}).pong().ref_seq(), 7U);
+    EXPECT_EQ(makePong({7, 8}).pong().client_time_us(), 8U);
+    EXPECT_EQ(makeDraining(1500ms).draining().deadline_ms(), 1500U);
+}
+
+FrameRecord record() {
+    FrameRecord record;
+    record.frame_id = 4;
+    record.applied = {2, 99};
+    record.width_px = 640;
+    record.height_px = 360;
+    record.encoded_bytes = 5;
+    record.queue_us = 1.4;
+    record.render_us = 2.5;
+    record.encode_wait_us = 3;
+    record.encode_us = 4;
+    record.send_wait_us = 5;
+    record.dropped_count = 6;
+    record.time_s = 7.5;
+    record.stats.passes = {{"depth", 10}, {"lighting", 20.6}};
+    record.stats.gpu_us = 30;
+    record.stats.triangle_count = 1000;
+    record.stats.lists = {100, 50, 10, 400, 12, 10.0};
+    return record;
+}
+
+TEST(FrameHeader, CarriesTheRecord) {
+    const v1::FrameHeader header = makeFrameHeader(record());
+    EXPECT_EQ(header.frame_id(), 4U);
+    EXPECT_EQ(header.applied_seq(), 2U);
+    EXPECT_EQ(header.applied_client_time_us(), 99U);
+    ASSERT_EQ(header.parts_size(), 1);
+    EXPECT_EQ(header.parts(0).offset(), 0U);
+    EXPECT_EQ(header.parts(0).length(), 5U);
+    EXPECT_EQ(header.parts(0).width(), 640U);
+    EXPECT_EQ(header.parts(0).codec(), v1::CODEC_JPEG);
+    EXPECT_EQ(header.queue_us(), 1U);
+    EXPECT_EQ(header.render_us(), 3U);
+    EXPECT_EQ(header.gpu_us(), 30U);
+    EXPECT_EQ(header.encode_wait_us(), 3U);
+    EXPECT_EQ(header.encode_us(), 4U);
+    EXPECT_EQ(header.send_wait_us(), 5U);
+    ASSERT_EQ(header.passes_size(), 2);
+    EXPECT_EQ(header.passes(1).name(), "lighting");
+    EXPECT_EQ(header.passes(1).gpu_us(), 21U);
+    EXPECT_EQ(header.light_count(), 100U);
+    EXPECT_EQ(header.list_entries(), 400U);
+    EXPECT_EQ(header.list_mean(), 10.0);
+    EXPECT_EQ(header.list_largest(), 12U);
+    EXPECT_EQ(header.dropped_frames(), 6U);
+    EXPECT_EQ(header.time_s(), 7.5);
+    EXPECT_EQ(header.triangles(), 1000U);
+}
+
+TEST(FrameHeader, WithItsPayload_IsAFrame) {
+    const std::string message = protocol::encodeFramePrefix(makeFrameHeader(record())) + "12345";
+    v1::FrameHeader back;
+    const auto payload = protocol::decodeFrame(protocol::bytesOf(message), back);
+    ASSERT_TRUE(payload) << payload.error().message;
+    EXPECT_EQ(payload->size(), 5U);
+}
+
+TEST(FrameHeader, AbsurdDurations_StopAtTheEnds) {
+    FrameRecord odd = record();
+    odd.queue_us = -3;
+    odd.render_us = 1e300;
+    odd.encode_us = std::numeric_limits<double>::quiet_NaN();
+    odd.encode_wait_us = std::numeric_limits<double>::infinity();
+    const v1::FrameHeader header = makeFrameHeader(odd);
+    EXPECT_EQ(header.queue_us(), 0U);
+    EXPECT_EQ(header.render_us(), std::numeric_limits<uint32_t>::max());
+    EXPECT_EQ(header.encode_us(), 0U);
+    EXPECT_EQ(header.encode_wait_us(), std::numeric_limits<uint32_t>::max());
+}
+
+} // namespace
+} // namespace froxel::session

@@ -1,0 +1,242 @@
+#include "stream/render_loop.h"
+#include "support/fake_frame_source.h"
+#include "support/recording_sink.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+
+namespace froxel::stream {
+namespace {
+
+using namespace std::chrono_literals;
+using test::RecordingSink;
+
+constexpr uint64_t kPlenty = 1000;
+
+class RenderLoopTest : public testing::Test {
+  protected:
+    void start() {
+        RenderLoopOptions options;
+        options.sessions_max = 4;
+        options.min_frame_interval = 0s;
+        options.make_source = [this] { return test::makeFakeSource(device_); };
+        options.on_failure = [this](const Error& error) { failure_.set_value(error); };
+        loop_ = std::make_unique<RenderLoop>(pool_, std::move(options));
+    }
+    session::SessionState still() {
+        auto state = session::initialState(context_, Clock::now());
+        state.settings.size = {32, 16};
+        state.light_clock = state.light_clock.withRate(Clock::now(), 1, false);
+        return state;
+    }
+    session::SessionState moving() {
+        auto state = still();
+        state.light_clock = state.light_clock.withRate(Clock::now(), 1, true);
+        return state;
+    }
+    session::SessionId join(const std::shared_ptr<RecordingSink>& sink,
+                            const session::SessionState& state,
+                            uint64_t credits) {
+        const auto id = loop_->join(sink, state, Clock::now()).value();
+        loop_->grant(id, credits);
+        return id;
+    }
+    static std::shared_ptr<RecordingSink> makeSink() { return std::make_shared<RecordingSink>(); }
+
+    // Everything that was said before has been heard: a viewer that joins now gets its picture.
+    void settle() {
+        const auto sink = makeSink();
+        const auto id = join(sink, still(), 1);
+        ASSERT_TRUE(sink->waitForFrames(1));
+        loop_->leave(id);
+    }
+
+    session::SessionContext context_;
+    std::shared_ptr<test::FakeDevice> device_ = std::make_shared<test::FakeDevice>();
+    std::promise<Error> failure_;
+    encode::EncodePool pool_{2, 8};
+    std::unique_ptr<RenderLoop> loop_;
+};
+
+TEST_F(RenderLoopTest, Draw_StillState_IsDrawnOnce) {
+    start();
+    const auto sink = makeSink();
+    join(sink, still(), kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    settle();
+    EXPECT_EQ(sink->frames().size(), 1U);
+    const auto record = sink->frames()[0].record;
+    EXPECT_EQ(record.frame_id, 1U);
+    EXPECT_EQ(record.width_px, 32U);
+    EXPECT_EQ(record.height_px, 16U);
+}
+
+TEST_F(RenderLoopTest, Draw_NewVersion_IsDrawnAgainAndEchoesTheCommand) {
+    start();
+    const auto sink = makeSink();
+    auto state = still();
+    const auto id = join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    ++state.version;
+    state.applied = {7, 1234};
+    loop_->update(id, state, Clock::now());
+    ASSERT_TRUE(sink->waitForFrames(2));
+    const auto record = sink->frames()[1].record;
+    EXPECT_EQ(record.applied, (session::CommandStamp{7, 1234}));
+    EXPECT_GT(record.queue_us, 0);
+}
+
+TEST_F(RenderLoopTest, Draw_MovingLightsAndCredits_StopsWhenTheyAreSpent) {
+    start();
+    const auto sink = makeSink();
+    const auto id = join(sink, moving(), 3);
+    ASSERT_TRUE(sink->waitForFrames(3));
+    settle();
+    EXPECT_EQ(sink->frames().size(), 3U);
+    loop_->grant(id, 5);
+    ASSERT_TRUE(sink->waitForFrames(5));
+}
+
+TEST_F(RenderLoopTest, Draw_NoCredit_DrawsNothing) {
+    start();
+    const auto sink = makeSink();
+    join(sink, moving(), 0);
+    settle();
+    EXPECT_TRUE(sink->frames().empty());
+}
+
+TEST_F(RenderLoopTest, Draw_TwoViewers_EachGetsItsOwn) {
+    start();
+    const auto first = makeSink();
+    const auto second = makeSink();
+    join(first, moving(), kPlenty);
+    auto other = moving();
+    other.settings.size = {48, 24};
+    join(second, other, kPlenty);
+    ASSERT_TRUE(first->waitForFrames(10));
+    ASSERT_TRUE(second->waitForFrames(10));
+    for (const auto& frame : first->frames()) {
+        ASSERT_EQ(frame.record.width_px, 32U);
+    }
+    for (const auto& frame : second->frames()) {
+        ASSERT_EQ(frame.record.width_px, 48U);
+    }
+}
+
+TEST_F(RenderLoopTest, Draw_DepthTwo_FramesStayInOrder) {
+    device_->depth = 2;
+    start();
+    const auto sink = makeSink();
+    join(sink, moving(), 50);
+    ASSERT_TRUE(sink->waitForFrames(50));
+    uint64_t last = 0;
+    for (const auto& frame : sink->frames()) {
+        ASSERT_GT(frame.record.frame_id, last);
+        last = frame.record.frame_id;
+    }
+}
+
+TEST_F(RenderLoopTest, Refuse_PictureDoesNotFit_TellsAndKeepsServing) {
+    start();
+    const auto sink = makeSink();
+    auto state = moving();
+    const auto id = join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    device_->max_area_px = 1000;
+    state.settings.size = {640, 480};
+    ++state.version;
+    loop_->update(id, state, Clock::now());
+    ASSERT_TRUE(sink->waitFor([](const auto& record) { return !record.refusals.empty(); }));
+    const auto refusal = sink->record().refusals[0];
+    EXPECT_EQ(refusal.error.code, ErrorCode::kCapacity);
+    EXPECT_EQ(refusal.refused.version, state.version);
+    ASSERT_TRUE(refusal.drawn);
+    EXPECT_EQ(refusal.drawn->settings.size, (view::Size{32, 16}));
+
+    settle();
+    EXPECT_EQ(sink->record().refusals.size(), 1U) << "a refused state must not be tried again";
+    const size_t before = sink->frames().size();
+    state.settings.size = {32, 16};
+    ++state.version;
+    loop_->update(id, state, Clock::now());
+    EXPECT_TRUE(sink->waitForFrames(before + 1));
+}
+
+TEST_F(RenderLoopTest, Lost_WhileDrawing_TellsEveryoneAndRefusesNewcomers) {
+    start();
+    const auto first = makeSink();
+    const auto second = makeSink();
+    join(first, moving(), kPlenty);
+    join(second, still(), kPlenty);
+    ASSERT_TRUE(first->waitForFrames(1));
+    ASSERT_TRUE(second->waitForFrames(1));
+    device_->lost = true;
+    const auto told = [](const auto& record) { return record.lost.has_value(); };
+    EXPECT_TRUE(first->waitFor(told));
+    EXPECT_TRUE(second->waitFor(told));
+    EXPECT_EQ(failure_.get_future().get().code, ErrorCode::kDevice);
+    EXPECT_FALSE(loop_->join(makeSink(), still(), Clock::now()));
+}
+
+TEST_F(RenderLoopTest, MakeSource_Throws_ReportsIt) {
+    RenderLoopOptions options;
+    options.make_source = []() -> std::unique_ptr<FrameSource> {
+        throw StartupError({ErrorCode::kScene, "no such scene"});
+    };
+    options.on_failure = [this](const Error& error) { failure_.set_value(error); };
+    const RenderLoop loop(pool_, std::move(options));
+    EXPECT_EQ(failure_.get_future().get().code, ErrorCode::kScene);
+}
+
+TEST_F(RenderLoopTest, Leave_FramesUnderWay_FreesTheViewOnce) {
+    start();
+    for (int i = 0; i < 20; ++i) {
+        const auto sink = makeSink();
+        const auto id = join(sink, moving(), kPlenty);
+        ASSERT_TRUE(sink->waitForFrames(1));
+        loop_->leave(id);
+    }
+    loop_->stop();
+    EXPECT_EQ(device_->live_views, 0);
+    EXPECT_EQ(device_->live_leases, 0);
+}
+
+TEST_F(RenderLoopTest, Stop_DeviceBusy_WaitsForItAndCallsNoSinkAfterwards) {
+    start();
+    const auto sink = makeSink();
+    join(sink, moving(), kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    device_->setGate(false);
+    auto stopped = std::async(std::launch::async, [this] { loop_->stop(); });
+    device_->setGate(true);
+    stopped.get();
+    const size_t count = sink->frames().size();
+    EXPECT_EQ(device_->live_leases, 0);
+    EXPECT_EQ(sink->frames().size(), count);
+    EXPECT_TRUE(loop_->join(makeSink(), still(), Clock::now())) << "the port still answers";
+}
+
+// Frame N is in the encoder while N + 1 is on the device.
+TEST_F(RenderLoopTest, Draw_WhileEncoding_DoesNotWaitForTheEncoder) {
+    start();
+    std::promise<void> release;
+    const std::shared_future<void> released = release.get_future().share();
+    std::vector<std::byte> pixels(4);
+    for (int i = 0; i < 2; ++i) { // both encoder threads
+        ASSERT_TRUE(pool_.submit({PixelLease({pixels.data(), 1, 1, 4}, nullptr),
+                                  {},
+                                  [released](const Result<EncodedFrame>&) { released.wait(); }}));
+    }
+    const auto sink = makeSink();
+    join(sink, moving(), kPlenty);
+    while (device_->submitted_count < 2) {
+        std::this_thread::yield();
+    }
+    EXPECT_TRUE(sink->frames().empty());
+    release.set_value();
+    ASSERT_TRUE(sink->waitForFrames(2));
+}
+
+} // namespace
+} // namespace froxel::stream
