@@ -40,7 +40,7 @@ beforeAll(async () => {
 afterAll(async () => {
   expect(viewer.complaints).toEqual([]);
   await browser.close();
-  await server.stop();
+  expect(await server.stop()).toBe(0);
 });
 
 const told = (): Settings | null => (viewer.state ? settingsOf(viewer.state, null) : null);

@@ -20,16 +20,16 @@ export async function startServer(port = 0): Promise<Server> {
   const child = spawn(binary, ['serve', '--port', String(port)], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
-  const url = await firstUrl(child);
-  return { url, port: Number(new URL(url).port), stop: () => stop(child) };
-}
-
-function firstUrl(child: ChildProcess): Promise<string> {
-  const log: string[] = [];
+  const log: string[] = []; // the last of what it said
   child.stderr?.on('data', (chunk: Buffer) => {
     log.push(chunk.toString());
     if (log.length > 100) log.shift();
   });
+  const url = await firstUrl(child, log);
+  return { url, port: Number(new URL(url).port), stop: () => stop(child, log) };
+}
+
+function firstUrl(child: ChildProcess, log: readonly string[]): Promise<string> {
   return new Promise((resolve, reject) => {
     const fail = (why: string): void => reject(new Error(`froxel serve ${why}\n${log.join('')}`));
     const timer = setTimeout(() => {
@@ -48,7 +48,10 @@ function firstUrl(child: ChildProcess): Promise<string> {
   });
 }
 
-function stop(child: ChildProcess): Promise<number | null> {
+function stop(child: ChildProcess, log: readonly string[]): Promise<number | null> {
+  if (child.signalCode !== null) {
+    throw new Error(`froxel serve had died of ${child.signalCode}\n${log.join('')}`);
+  }
   if (child.exitCode !== null) return Promise.resolve(child.exitCode);
   return new Promise((resolve) => {
     const timer = setTimeout(() => child.kill('SIGKILL'), kStopMs);

@@ -18,7 +18,7 @@ beforeAll(async () => {
 });
 afterAll(async () => {
   await browser.close();
-  await server.stop();
+  expect(await server.stop()).toBe(0);
 });
 afterEach(() => viewer.close());
 

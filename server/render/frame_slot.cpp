@@ -90,7 +90,10 @@ void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
                                        .imageLayout = vk::ImageLayout::eGeneral};
     };
     const auto& t = *slot.targets;
-    const std::array images = {image(t.gbuffer), image(t.depth), image(t.radiance)};
+    // lavapipe binds all of a set, also what no shader of the pass reads: an absent target must not
+    // leave the freed image of an earlier size behind.
+    const std::array images = {image(t.needs.gbuffer ? t.gbuffer : t.depth), image(t.depth),
+                               image(t.radiance)};
     const auto& pixels = t.needs.device_pixels ? t.pixels : slot.readback->buffer;
     const vk::DescriptorBufferInfo buffer{*pixels.handle, 0, VK_WHOLE_SIZE};
     std::vector<vk::WriteDescriptorSet> writes;
@@ -101,9 +104,7 @@ void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
                           .descriptorType = type});
         return writes.back();
     };
-    if (t.needs.gbuffer) {
-        add(0, vk::DescriptorType::eSampledImage).pImageInfo = &images[0];
-    }
+    add(0, vk::DescriptorType::eSampledImage).pImageInfo = &images[0];
     add(1, vk::DescriptorType::eSampledImage).pImageInfo = &images[1];
     add(2, vk::DescriptorType::eStorageImage).pImageInfo = &images[2];
     add(3, vk::DescriptorType::eStorageBuffer).pBufferInfo = &buffer;

@@ -171,4 +171,20 @@ TEST_F(Exactness, Scene_FarFromTheOrigin_LooksTheSame) {
     EXPECT_EQ(differingFloats(reference, moved), 0U);
 }
 
+// Targets come and go with size and renderer; nothing may look at one that went.
+TEST_F(Exactness, Targets_SizeAndRendererChangeInEveryFrame_GiveTheSamePicture) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (uint32_t i = 0; i < 60; ++i) {
+        SCOPED_TRACE(i);
+        auto inputs = inputsFor(scene.cameras[0].camera, i % 2 == 0 ? Renderer::kClusteredDeferred
+                                                                    : Renderer::kForwardPlus);
+        inputs.settings.size = {160 + 16 * (i % 7), 90 + 4 * (i % 5)};
+        inputs.settings.lights.count = 20;
+        const Picture picture = draw(view, inputs);
+        EXPECT_EQ(differingFloats(picture, draw(renderer, inputs)), 0U);
+    }
+}
+
 } // namespace froxel::test
