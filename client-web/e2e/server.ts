@@ -21,7 +21,7 @@ export async function startServer(port = 0): Promise<Server> {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
   const log: string[] = []; // the last of what it said
-  child.stderr?.on('data', (chunk: Buffer) => {
+  child.stderr.on('data', (chunk: Buffer) => {
     log.push(chunk.toString());
     if (log.length > 100) log.shift();
   });

@@ -166,7 +166,7 @@ void addRender(CLI::App& app, Targets& targets) {
     command.name("--renderer", settings.renderer, view::kRendererNames, "How to draw");
     command.name("--lighting", settings.lighting, view::kLightingStageNames,
                  "Stage of deferred lighting");
-    command.value("--grid", "XxYxZ", settings.grid, parseGrid, textOf(settings.grid),
+    command.value("--grid", "XxYxZ", settings.grid.size, parseGrid, textOf(settings.grid.size),
                   fmt::format("Clusters across, down and deep, up to {}x{}x{}",
                               view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
     addLights(command, settings.lights);

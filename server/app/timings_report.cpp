@@ -61,7 +61,7 @@ Json toJson(const view::ViewSettings& settings) {
             {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
             {"width_px", settings.size.width_px},
             {"height_px", settings.size.height_px},
-            {"grid", {settings.grid.x, settings.grid.y, settings.grid.z}},
+            {"grid", {settings.grid.size.x, settings.grid.size.y, settings.grid.size.z}},
             {"camera", toJson(settings.camera)},
             {"lights", toJson(settings.lights)},
             {"exposure", settings.exposure},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,44 @@ struct LightListStats {
     uint64_t entry_count = 0;       // light indices over all lists
     uint32_t largest = 0;           // longest list
     double mean = 0;                // entries per non-empty cluster
+    uint32_t p95 = 0;               // 95 % of the non-empty lists are at most this long, in steps
+                                    // of a sixteenth
+    uint64_t bytes = 0;             // of lists and light indices
     bool overflowed = false;        // past their limit: every cluster names all lights
+    bool all_lights = false;        // no lists: every pixel loops over all lights
+    std::string why;                // of all_lights, or of its opposite
+};
+
+// The cluster grid of a frame; x of 0: none.
+struct GridStats {
+    uint32_t x = 0;
+    uint32_t y = 0;
+    uint32_t z = 0;
+    uint32_t tile_width_px = 0;
+    uint32_t tile_height_px = 0;
+    double near_m = 0;              // slice 0 reaches from the eye to the first plane beyond this
+    double far_m = 0;
+    bool automatic = false;
+    std::string why;                // how the automatic grid was chosen, for a person
+};
+
+// How many light evaluations touched a pixel; only where it was asked for.
+struct PairStats {
+    bool counted = false;
+    uint64_t evaluated = 0;         // (light, pixel) pairs that were looped over
+    uint64_t contributing = 0;      // of which within the light's radius and cone
+};
+
+struct MemoryUse {
+    std::string purpose;
+    uint64_t bytes = 0;
+};
+
+// What seldom changes between frames: in words what the frame's variant leaves out and why, and
+// where the device's memory goes.
+struct FrameDetails {
+    std::vector<std::string> plan;
+    std::vector<MemoryUse> memory;
 };
 
 struct FrameStats {
@@ -31,6 +69,9 @@ struct FrameStats {
     uint32_t triangle_count = 0;    // triangles sent to the rasteriser
     uint32_t draw_count = 0;
     LightListStats lists;
+    GridStats grid;
+    PairStats pairs;
+    std::shared_ptr<const FrameDetails> details; // another one only when something changed
 };
 
 } // namespace froxel

@@ -34,7 +34,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .spots = !lights_.spots.empty(),
             .directional = !lights_.directionals.empty(),
             .keep_radiance = inputs.keep_radiance,
-            .all_lights = inputs.all_lights,
+            .all_lights = inputs.settings.light_loop == view::LightLoop::kAllLights,
             .compute_batches = traits.subgroup_size > 1,
             // Elsewhere a subgroup of fragments may lack some of its invocations at any time.
             .fragment_batches = traits.is_cpu && traits.fragment_subgroups};
@@ -50,7 +50,7 @@ void FrameBuilder::assignLights(const view::ViewSettings& settings, bool lists) 
     const auto& camera = settings.camera;
     const auto range = cluster::litDepthRange(lights_, camera, scene_.bounds_world);
     grid_ =
-        cluster::makeClusterGrid(settings.grid, settings.size, camera, range.near_m, range.far_m);
+        cluster::makeClusterGrid(settings.grid.size, settings.size, camera, range.near_m, range.far_m);
     scene_.light_assigner.assign(grid_, lights_, lists_);
 }
 
@@ -65,7 +65,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
                       draws_);
     });
     scene_.light_rig.evaluate(settings.lights, camera, inputs.time_s, lights_);
-    const bool lists = needsLists(settings.renderer, !lights_.lights.empty(), inputs.all_lights);
+    const bool lists = needsLists(settings.renderer, !lights_.lights.empty(), settings.light_loop == view::LightLoop::kAllLights);
     assignLights(settings, lists);
     culling.get();
     const FramePlan plan = planFrame(settings, facts(inputs));

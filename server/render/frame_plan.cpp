@@ -39,7 +39,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.forward = renderer == Renderer::kNaive || renderer == Renderer::kForwardPlus;
     plan.depth_prepass = renderer == Renderer::kForwardPlus;
     plan.gbuffer = !plan.forward;
-    plan.lighting_compute = plan.gbuffer && settings.lighting == view::LightingStage::kCompute;
+    plan.lighting_compute = plan.gbuffer && settings.lighting != view::LightingStage::kFragment;
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.toon_pass = renderer == Renderer::kToonCompute;
     plan.transparent = facts.transparent_visible;

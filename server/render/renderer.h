@@ -21,7 +21,6 @@ struct FrameInputs {
     view::ViewSettings settings;
     double time_s = 0;          // the lights' clock; pauses and speed are already folded in
     bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
-    bool all_lights = false;    // a reference: loop over every light, without lists
 };
 
 struct RenderedFrame {

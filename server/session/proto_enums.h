@@ -18,6 +18,7 @@ inline constexpr std::array kRendererTable = {
     std::pair{v1::RENDERER_TOON_COMPUTE, view::Renderer::kToonCompute},
 };
 inline constexpr std::array kLightingStageTable = {
+    std::pair{v1::LIGHTING_STAGE_AUTO, view::LightingStage::kAuto},
     std::pair{v1::LIGHTING_STAGE_COMPUTE, view::LightingStage::kCompute},
     std::pair{v1::LIGHTING_STAGE_FRAGMENT, view::LightingStage::kFragment},
 };

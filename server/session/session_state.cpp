@@ -90,7 +90,8 @@ struct Reducer {
     }
 
     Outcome operator()(const SetGrid& command) const {
-        state.settings.grid = command.grid;
+        state.settings.grid.automatic = false;
+        state.settings.grid.size = command.grid;
         return {};
     }
 

@@ -61,9 +61,9 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     fillLights(out, settings.lights, context.scene.bounds_world);
     out.set_renderer(toProto(kRendererTable, settings.renderer));
     out.set_lighting(toProto(kLightingStageTable, settings.lighting));
-    out.mutable_grid()->set_x(settings.grid.x);
-    out.mutable_grid()->set_y(settings.grid.y);
-    out.mutable_grid()->set_z(settings.grid.z);
+    out.mutable_grid()->set_x(settings.grid.size.x);
+    out.mutable_grid()->set_y(settings.grid.size.y);
+    out.mutable_grid()->set_z(settings.grid.size.z);
     out.set_exposure(settings.exposure);
     out.set_tone_map(toProto(kToneMapTable, settings.tone_map));
     fill(*out.mutable_toon_fragment(), settings.toon_fragment);

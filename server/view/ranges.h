@@ -18,7 +18,7 @@ struct Range {
 
 inline constexpr Range<uint32_t> kWidthRange{"width", 16, 4096};
 inline constexpr Range<uint32_t> kHeightRange{"height", 16, 4096};
-inline constexpr Range<uint32_t> kLightCountRange{"lights", 0, 100'000};
+inline constexpr Range<uint32_t> kLightCountRange{"lights", 0, 1'000'000};
 inline constexpr Range<double> kLightRadiusRange{"light_radius", 0.001, 10'000.0};
 inline constexpr Range<double> kLightIntensityRange{"light_intensity", 0.0, 1'000'000.0};
 inline constexpr Range<double> kLightSpeedRange{"light_speed", 0.0, 100.0};

@@ -25,10 +25,44 @@ inline constexpr std::array kRendererNames = {std::string_view("naive"),
                                               std::string_view("toon_fragment"),
                                               std::string_view("toon_compute")};
 
-// Stage of the deferred renderers' lighting pass.
-enum class LightingStage : uint8_t { kCompute, kFragment };
-inline constexpr std::array kLightingStageNames = {std::string_view("compute"),
-                                                   std::string_view("fragment")};
+// Where lights are added up. auto: in compute for the deferred renderers, in the fragment stage for
+// the forward ones. A forward renderer in compute is its twin: a thin prepass leaves which triangle
+// each pixel shows, and a compute pass fetches the material and shades.
+enum class LightingStage : uint8_t { kAuto, kCompute, kFragment };
+inline constexpr std::array kLightingStageNames = {
+    std::string_view("auto"), std::string_view("compute"), std::string_view("fragment")};
+
+// How a surface answers light. pbr: glTF's metallic-roughness model. lambert: its diffuse part alone.
+enum class ShadingModel : uint8_t { kPbr, kLambert };
+inline constexpr std::array kShadingModelNames = {std::string_view("pbr"),
+                                                  std::string_view("lambert")};
+
+// How slices divide depth. Never changes the picture.
+enum class GridLaw : uint8_t { kLogarithmic, kLinear, kHyperbolic };
+inline constexpr std::array kGridLawNames = {std::string_view("logarithmic"),
+                                             std::string_view("linear"),
+                                             std::string_view("hyperbolic")};
+
+// Which lights a pixel loops over. auto: all of them where lists cannot pay. Never changes the
+// picture.
+enum class LightLoop : uint8_t { kAuto, kLists, kAllLights };
+inline constexpr std::array kLightLoopNames = {
+    std::string_view("auto"), std::string_view("lists"), std::string_view("all_lights")};
+
+// How the G-buffer holds the normal: octahedral with bits a component, or as the seeds had it (three
+// halves, two halves and a rebuilt z, a spheremap in two halves).
+enum class NormalEncoding : uint8_t { kOct16, kOct12, kOct10, kOct8, kXyz16, kXy16, kSpheremap16 };
+inline constexpr std::array kNormalEncodingNames = {
+    std::string_view("oct16"), std::string_view("oct12"), std::string_view("oct10"),
+    std::string_view("oct8"),  std::string_view("xyz16"), std::string_view("xy16"),
+    std::string_view("spheremap16")};
+
+// Where the lighting pass takes a pixel's position from: the depth buffer, a stored depth, or a
+// stored position.
+enum class PositionSource : uint8_t { kDepth, kStoredDepth, kFp32, kFp16 };
+inline constexpr std::array kPositionSourceNames = {
+    std::string_view("depth"), std::string_view("stored_depth"), std::string_view("fp32"),
+    std::string_view("fp16")};
 
 enum class ToneMap : uint8_t { kPbrNeutral, kClamp };
 inline constexpr std::array kToneMapNames = {std::string_view("pbr_neutral"),
@@ -48,6 +82,20 @@ struct GridSize {
     uint32_t y = 9;
     uint32_t z = 24;
     bool operator==(const GridSize&) const = default;
+};
+
+struct Grid {
+    bool automatic = true; // size by a cost model; else the one given
+    GridSize size;         // not automatic
+    GridLaw law = GridLaw::kLogarithmic;
+    bool operator==(const Grid&) const = default;
+};
+
+// Only the deferred renderers have one. Anything but the default trades error for bytes.
+struct GbufferLayout {
+    NormalEncoding normal = NormalEncoding::kOct16;
+    PositionSource position = PositionSource::kDepth;
+    bool operator==(const GbufferLayout&) const = default;
 };
 
 struct Lights {
@@ -84,8 +132,12 @@ struct ViewSettings {
     Camera camera;
     Size size;
     Renderer renderer = Renderer::kClusteredDeferred;
-    LightingStage lighting = LightingStage::kCompute;
-    GridSize grid;
+    LightingStage lighting = LightingStage::kAuto;
+    ShadingModel shading = ShadingModel::kPbr;
+    GbufferLayout gbuffer;
+    Grid grid;
+    LightLoop light_loop = LightLoop::kAuto;
+    bool count_pairs = false; // count evaluated and contributing light-pixel pairs; costs time
     Lights lights;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;

@@ -19,6 +19,7 @@ render::FrameInputs inputsFor(const view::Camera& camera, Renderer renderer) {
     inputs.settings.camera = camera;
     inputs.settings.size = {120, 68};
     inputs.settings.renderer = renderer;
+    inputs.settings.light_loop = view::LightLoop::kLists;
     inputs.time_s = 3.25;
     return inputs;
 }
@@ -40,7 +41,7 @@ void expectListsExact(render::Renderer& renderer, const scene::Scene& scene) {
 
                 inputs.settings.renderer = Renderer::kClusteredDeferred;
                 const Picture clustered = draw(view, inputs);
-                inputs.all_lights = true;
+                inputs.settings.light_loop = view::LightLoop::kAllLights;
                 EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
             }
         }
@@ -77,7 +78,7 @@ TEST_F(Exactness, Grids_AnySize_GiveTheSamePicture) {
                                       {32, 16, 64},
                                       {128, 128, 3},
                                       {7, 1, 256}}) {
-        inputs.settings.grid = grid;
+        inputs.settings.grid = {.automatic = false, .size = grid};
         EXPECT_EQ(differingFloats(reference, draw(renderer, inputs)), 0U)
             << grid.x << "x" << grid.y << "x" << grid.z;
     }

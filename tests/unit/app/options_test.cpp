@@ -82,7 +82,7 @@ TEST(Options, RenderWithAll_FillsEveryField) {
     EXPECT_EQ(options.time_s, 2.5);
     EXPECT_EQ(options.settings.size, (view::Size{640, 361}));
     EXPECT_EQ(std::get<view::Camera>(options.camera).eye_world, glm::dvec3(-7, 2, 0));
-    EXPECT_EQ(options.settings.grid, (view::GridSize{15, 15, 15}));
+    EXPECT_EQ(options.settings.grid.size, (view::GridSize{15, 15, 15}));
     EXPECT_EQ(options.frame_count, 20U);
     EXPECT_EQ(options.timings, "t.json");
     EXPECT_EQ(options.out, "a.png");

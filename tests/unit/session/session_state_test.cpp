@@ -168,7 +168,7 @@ TEST_F(State, TheOtherCommands_SetTheirFields) {
     state = applied(state, SetSize{{17, 4096}});
     state = applied(state, SetEncoding{33, {}});
     state = applied(state, SetEncoding{{}, view::Chroma::k444});
-    EXPECT_EQ(state.settings.grid, (view::GridSize{15, 15, 15}));
+    EXPECT_EQ(state.settings.grid.size, (view::GridSize{15, 15, 15}));
     EXPECT_EQ(state.settings.renderer, view::Renderer::kNaive);
     EXPECT_EQ(state.settings.lighting, view::LightingStage::kFragment);
     EXPECT_EQ(state.settings.exposure, 2.0F);

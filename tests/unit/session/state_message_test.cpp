@@ -56,7 +56,7 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.renderer = view::Renderer::kToonCompute;
     state.settings.lighting = view::LightingStage::kFragment;
     state.settings.lights = {3, 1.5F, 2.5F, 9, false, 0.5F, {}, 0.25F, false};
-    state.settings.grid = {1, 2, 3};
+    state.settings.grid = {.automatic = false, .size = {1, 2, 3}};
     state.settings.exposure = 0.5F;
     state.settings.tone_map = view::ToneMap::kClamp;
     state.settings.toon_compute.count = 2;

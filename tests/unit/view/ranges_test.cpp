@@ -33,8 +33,8 @@ TEST(CommandRanges, Defaults_AreAccepted) {
     EXPECT_TRUE(kHeightRange.contains(settings.size.height_px));
     EXPECT_TRUE(kLightCountRange.contains(settings.lights.count));
     EXPECT_TRUE(kLightRadiusRange.contains(settings.lights.radius_m));
-    EXPECT_TRUE(kGridXRange.contains(settings.grid.x));
-    EXPECT_TRUE(kGridZRange.contains(settings.grid.z));
+    EXPECT_TRUE(kGridXRange.contains(settings.grid.size.x));
+    EXPECT_TRUE(kGridZRange.contains(settings.grid.size.z));
     EXPECT_TRUE(kExposureRange.contains(settings.exposure));
     EXPECT_TRUE(kFovRange.contains(glm::degrees(settings.camera.yfov_rad)));
     EXPECT_TRUE(kQualityRange.contains(Encoding{}.quality));
