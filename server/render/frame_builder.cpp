@@ -44,7 +44,8 @@ void FrameBuilder::assignLights(const view::ViewSettings& settings, bool lists) 
     if (!lists) {
         lists_.clusters.clear();
         lists_.indices.clear();
-        lists_.stats = {.light_count = static_cast<uint32_t>(lights_.lights.size())};
+        lists_.stats = {};
+        lists_.stats.light_count = static_cast<uint32_t>(lights_.lights.size());
         return;
     }
     const auto& camera = settings.camera;
