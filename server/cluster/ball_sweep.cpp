@@ -6,47 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace froxel::cluster {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSmallestDepth = std::numeric_limits<double>::min();
 constexpr size_t kMaxRowEdges = view::kGridYRange.max + 1U;
 constexpr size_t kMaxPlanes = view::kGridZRange.max + 1U;
 
-// Where a line through the eye touches a circle; it does so ahead of the eye if depth > 0.
-struct Touch {
-    double depth = 0;
-    double ratio = 0; // coordinate / depth
-};
-
-struct Touches {
-    Touch low;
-    Touch high;
-};
-
-// The circle is at (a, z) in a plane that holds the eye.
-Touches touches(double a, double z, double radius) {
-    const double squared = a * a + z * z;
-    const double tangent2 = squared - radius * radius;
-    if (!(tangent2 > 0)) {
-        return {}; // the eye is inside
-    }
-    const double tangent = std::sqrt(tangent2);
-    const double low = z * tangent + a * radius;
-    const double high = z * tangent - a * radius;
-    return {{tangent * low / squared, (a * tangent - z * radius) / low},
-            {tangent * high / squared, (a * tangent + z * radius) / high}};
-}
-
-// An interval that starts empty.
-struct Interval {
-    double low = kInfinity;
-    double high = -kInfinity;
-};
+using io::Interval;
+using io::Touches;
 
 using RowArray = std::array<double, kMaxRowEdges>;
 
@@ -60,19 +28,21 @@ struct RowTouches {
     RowArray high_depth, high_ratio;
 };
 
-} // namespace
-
-BallSweep::Axis
-BallSweep::axisOf(uint32_t image_px, uint32_t tile_px, double half, uint32_t tiles) {
-    Axis axis;
+io::PictureAxis
+axisOf(uint32_t image_px, uint32_t tile_px, double half, double middle, uint32_t tiles) {
+    io::PictureAxis axis{};
     axis.end = static_cast<double>(image_px) / tile_px;
-    axis.offset = axis.end / 2;
     axis.scale = axis.end / (2 * half);
-    axis.tiles = tiles;
-    axis.half = half;
-    axis.inv_normal = 1 / std::sqrt(1 + half * half);
+    axis.offset = axis.end / 2 - axis.scale * middle;
+    axis.last_tile = tiles - 1.0;
+    axis.low_edge = middle - half;
+    axis.high_edge = middle + half;
+    axis.inv_low_normal = 1 / std::sqrt(1 + axis.low_edge * axis.low_edge);
+    axis.inv_high_normal = 1 / std::sqrt(1 + axis.high_edge * axis.high_edge);
     return axis;
 }
+
+} // namespace
 
 void BallSweep::prepare(const ClusterGrid& grid) {
     FROXEL_ASSERT(grid.size.x <= view::kGridXRange.max && grid.size.y <= view::kGridYRange.max &&
@@ -80,8 +50,11 @@ void BallSweep::prepare(const ClusterGrid& grid) {
                   "a grid within the accepted range");
     perspective_ = grid.projection == view::Projection::kPerspective;
     grid_rows_ = grid.size.y;
-    columns_ = axisOf(grid.image.width_px, grid.tile_width_px, grid.half_x, grid.usedColumns());
-    rows_ = axisOf(grid.image.height_px, grid.tile_height_px, grid.half_y, grid.usedRows());
+    columns_ = axisOf(grid.image.width_px, grid.tile_width_px, grid.half_x, grid.middle_x,
+                      grid.usedColumns());
+    rows_ = axisOf(grid.image.height_px, grid.tile_height_px, grid.half_y, grid.middle_y,
+                   grid.usedRows());
+    used_rows_ = grid.usedRows();
     plane_depths_.assign(grid.plane_depths_m.begin(), grid.plane_depths_m.end());
     inv_plane_depths_.assign(plane_depths_.size(), 0.0);
     for (size_t k = 1; k < plane_depths_.size(); ++k) {
@@ -89,7 +62,7 @@ void BallSweep::prepare(const ClusterGrid& grid) {
     }
     row_edges_.clear();
     row_norms_.clear();
-    for (uint32_t j = 0; j <= rows_.tiles; ++j) {
+    for (uint32_t j = 0; j <= used_rows_; ++j) {
         const double edge = grid.rowEdge(j);
         row_edges_.push_back(edge);
         row_norms_.push_back(std::sqrt(1 + edge * edge));
@@ -100,24 +73,18 @@ void BallSweep::prepare(const ClusterGrid& grid) {
 struct BallSweep::PerspectiveSweep {
     const BallSweep& grid;
     const Ball& ball;
-    double radius2;
     // Slices and rows that the ball may meet, inclusive.
     size_t first_slice, last_slice;
     size_t first_row, last_row;
-    // Of plane first_slice + i: the disc cut out of the ball; its radius is NaN where there is
-    // none.
-    std::array<double, kMaxPlanes> disc2;
-    std::array<double, kMaxPlanes> disc_radius;
+    std::array<double, kMaxPlanes> disc2; // of plane first_slice + i: discOfPlane
     // Of slice first_slice + i: rows met, inclusive; first > last: none.
     std::array<uint16_t, kMaxPlanes> slice_first_row, slice_last_row;
     Touches x_touches;
     RowTouches row_touches;
 
-    PerspectiveSweep(const BallSweep& grid_, const Ball& ball_)
-        : grid(grid_), ball(ball_), radius2(ball_.radius * ball_.radius) {}
+    PerspectiveSweep(const BallSweep& grid_, const Ball& ball_) : grid(grid_), ball(ball_) {}
 
     void findSlices();
-    [[nodiscard]] Interval rowsOf(size_t slice, const Touches& y_touches) const;
     [[nodiscard]] bool findRows();
     void touchRowEdges();
     // The ends of the chords where plane `k` meets the row edges.
@@ -130,8 +97,7 @@ struct BallSweep::PerspectiveSweep {
                    std::vector<Span>& out) const;
 
     [[nodiscard]] bool inSlice(double depth, size_t slice) const {
-        return depth > 0 && depth >= grid.plane_depths_[slice] &&
-               depth <= grid.plane_depths_[slice + 1];
+        return io::touchedWithin(depth, grid.nearDepth(slice), grid.plane_depths_[slice + 1]);
     }
 };
 
@@ -145,106 +111,69 @@ void BallSweep::PerspectiveSweep::findSlices() {
     first_slice = slice(ball.z - ball.radius);
     last_slice = slice(ball.z + ball.radius);
     for (size_t k = first_slice; k <= last_slice + 1; ++k) {
-        const double away = grid.plane_depths_[k] - ball.z;
-        const double squared = radius2 - away * away;
-        disc2[k - first_slice] = squared;
-        disc_radius[k - first_slice] = squared >= 0 ? std::sqrt(squared) : kNone;
+        disc2[k - first_slice] = io::discOfPlane(ball, grid.plane_depths_[k]);
     }
-}
-
-// The interval of y / depth that the ball spans within a slice.
-Interval BallSweep::PerspectiveSweep::rowsOf(size_t slice, const Touches& y_touches) const {
-    Interval y;
-    for (size_t k = slice; k <= slice + 1; ++k) {
-        const double half = disc_radius[k - first_slice];
-        if (std::isnan(half)) {
-            continue;
-        }
-        if (k > 0) {
-            y.low = std::min(y.low, (ball.y - half) * grid.inv_plane_depths_[k]);
-            y.high = std::max(y.high, (ball.y + half) * grid.inv_plane_depths_[k]);
-        } else {
-            y.low = ball.y - half <= 0 ? -kInfinity : y.low;
-            y.high = ball.y + half >= 0 ? kInfinity : y.high;
-        }
-    }
-    if (inSlice(y_touches.low.depth, slice)) {
-        y.low = std::min(y.low, y_touches.low.ratio);
-    }
-    if (inSlice(y_touches.high.depth, slice)) {
-        y.high = std::max(y.high, y_touches.high.ratio);
-    }
-    return y;
 }
 
 bool BallSweep::PerspectiveSweep::findRows() {
-    const Touches y_touches = touches(ball.y, ball.z, ball.radius);
-    const Axis& rows = grid.rows_;
-    const double last_tile = rows.tiles - 1;
-    first_row = rows.tiles;
+    const Touches y_touches = io::touchCircle(ball.y, ball.z, ball.radius);
+    const io::PictureAxis& rows = grid.rows_;
+    const auto cut = [&](size_t k) {
+        return io::planeInterval(ball.y, disc2[k - first_slice], grid.plane_depths_[k],
+                                 grid.inv_plane_depths_[k]);
+    };
+    first_row = grid.used_rows_;
     last_row = 0;
+    Interval near_cut = cut(first_slice);
     for (size_t slice = first_slice; slice <= last_slice; ++slice) {
-        const Interval y = rowsOf(slice, y_touches);
-        const double low = rows.offset + rows.scale * y.low;
-        const double high = rows.offset + rows.scale * y.high;
+        const Interval far_cut = cut(slice + 1);
+        const Interval y =
+            io::touchedInterval(y_touches, grid.nearDepth(slice), grid.plane_depths_[slice + 1],
+                                io::joined(near_cut, far_cut));
+        near_cut = far_cut;
+        const double low = io::tileAt(rows, y.low);
+        const double high = io::tileAt(rows, y.high);
         const size_t i = slice - first_slice;
         if (!(low <= rows.end && high >= 0 && low <= high)) {
             slice_first_row[i] = 1;
             slice_last_row[i] = 0;
             continue;
         }
-        slice_first_row[i] = static_cast<uint16_t>(std::clamp(low, 0.0, last_tile));
-        slice_last_row[i] = static_cast<uint16_t>(std::clamp(high, 0.0, last_tile));
+        slice_first_row[i] = static_cast<uint16_t>(std::clamp(low, 0.0, rows.last_tile));
+        slice_last_row[i] = static_cast<uint16_t>(std::clamp(high, 0.0, rows.last_tile));
         first_row = std::min<size_t>(first_row, slice_first_row[i]);
         last_row = std::max<size_t>(last_row, slice_last_row[i]);
     }
     return first_row <= last_row;
 }
 
-// A row edge is a plane through the eye and the x axis: within it the ball is a circle around
-// (x, along), and the line from the eye to where it touches has the ball's own tangent length.
 void BallSweep::PerspectiveSweep::touchRowEdges() {
-    const double tangent2 = ball.x * ball.x + ball.y * ball.y + ball.z * ball.z - radius2;
-    const double tangent = tangent2 > 0 ? std::sqrt(tangent2) : 0.0; // 0 makes every depth 0
+    const double tangent = io::ballTangent(ball);
     for (size_t j = first_row; j <= last_row + 1; ++j) {
-        const double edge = grid.row_edges_[j];
-        const double norm = grid.row_norms_[j];
-        const double along = (edge * ball.y + ball.z) / norm;
-        const double away = (ball.y - edge * ball.z) / norm;
-        const double circle2 = radius2 - away * away;
-        const double circle = std::sqrt(circle2 > 0 ? circle2 : 0.0);
-        const double scale = tangent / ((ball.x * ball.x + along * along) * norm);
-        const double low = along * tangent + ball.x * circle;
-        const double high = along * tangent - ball.x * circle;
-        row_touches.low_depth[j] = circle2 >= 0 ? scale * low : 0.0;
-        row_touches.low_ratio[j] = norm * (ball.x * tangent - along * circle) / low;
-        row_touches.high_depth[j] = circle2 >= 0 ? scale * high : 0.0;
-        row_touches.high_ratio[j] = norm * (ball.x * tangent + along * circle) / high;
+        const Touches t = io::touchRowEdge(ball, tangent, grid.row_edges_[j], grid.row_norms_[j]);
+        row_touches.low_depth[j] = t.low_depth;
+        row_touches.low_ratio[j] = t.low_ratio;
+        row_touches.high_depth[j] = t.high_depth;
+        row_touches.high_ratio[j] = t.high_ratio;
     }
 }
 
 void BallSweep::PerspectiveSweep::cutPlane(size_t k, RowIntervals& out) const {
     const double disc = disc2[k - first_slice];
-    if (k == 0) {
-        // All edges meet in the eye's own line along x; only its point at the eye has a direction.
-        const double chord2 = disc - ball.y * ball.y;
-        const double half = chord2 >= 0 ? std::sqrt(chord2) : 0.0;
-        const double low = chord2 >= 0 && ball.x - half <= 0 ? -kInfinity : kInfinity;
-        const double high = chord2 >= 0 && ball.x + half >= 0 ? kInfinity : -kInfinity;
-        std::fill(&out.low[first_row], &out.low[last_row + 1] + 1, low);
-        std::fill(&out.high[first_row], &out.high[last_row + 1] + 1, high);
-        return;
-    }
     const double depth = grid.plane_depths_[k];
     const double inv_depth = grid.inv_plane_depths_[k];
+    if (k == 0) {
+        // All edges meet in the eye's own line along x; only its point at the eye has a direction.
+        const Interval x = io::eyeInterval(ball.x, io::chordOfEdge(ball, disc, 0, 0));
+        std::fill(&out.low[first_row], &out.low[last_row + 1] + 1, x.low);
+        std::fill(&out.high[first_row], &out.high[last_row + 1] + 1, x.high);
+        return;
+    }
     for (size_t j = first_row; j <= last_row + 1; ++j) {
-        const double away = grid.row_edges_[j] * depth - ball.y;
-        const double chord2 = disc - away * away;
-        const double half = std::sqrt(chord2 > 0 ? chord2 : 0.0);
-        const double low = (ball.x - half) * inv_depth;
-        const double high = (ball.x + half) * inv_depth;
-        out.low[j] = chord2 >= 0 ? low : kInfinity;
-        out.high[j] = chord2 >= 0 ? high : -kInfinity;
+        const double chord2 = io::chordOfEdge(ball, disc, depth, grid.row_edges_[j]);
+        const Interval x = io::cutInterval(ball.x, chord2, inv_depth);
+        out.low[j] = x.low;
+        out.high[j] = x.high;
     }
 }
 
@@ -252,7 +181,7 @@ void BallSweep::PerspectiveSweep::include(size_t slice,
                                           double inv_depth,
                                           const Interval& x,
                                           RowIntervals& out) const {
-    const double row = grid.rows_.offset + grid.rows_.scale * (ball.y * inv_depth);
+    const double row = io::tileAt(grid.rows_, ball.y * inv_depth);
     const size_t i = slice - first_slice;
     if (row >= slice_first_row[i] && row < slice_last_row[i] + 1.0) {
         const auto j = static_cast<size_t>(row);
@@ -271,38 +200,32 @@ void BallSweep::PerspectiveSweep::emitSlice(size_t slice,
         return;
     }
     // What each edge holds within the slice, then what each row holds between its edges.
-    // A touch at the eye itself has no direction: plane 0 stands for it.
-    const double near_depth = std::max(grid.plane_depths_[slice], kSmallestDepth);
+    const double near_depth = grid.nearDepth(slice);
     const double far_depth = grid.plane_depths_[slice + 1];
     const RowTouches& touch = row_touches;
     RowIntervals x;
     for (size_t j = first; j <= last + 1; ++j) {
-        const bool low = touch.low_depth[j] >= near_depth && touch.low_depth[j] <= far_depth;
-        const bool high = touch.high_depth[j] >= near_depth && touch.high_depth[j] <= far_depth;
-        const double low_touch = low ? touch.low_ratio[j] : kInfinity;
-        const double high_touch = high ? touch.high_ratio[j] : -kInfinity;
-        const double low_cut = std::min(near_cut.low[j], far_cut.low[j]);
-        const double high_cut = std::max(near_cut.high[j], far_cut.high[j]);
-        x.low[j] = std::min(low_touch, low_cut);
-        x.high[j] = std::max(high_touch, high_cut);
+        const Touches t{touch.low_depth[j], touch.low_ratio[j], touch.high_depth[j],
+                        touch.high_ratio[j]};
+        const Interval cut =
+            io::joined({near_cut.low[j], near_cut.high[j]}, {far_cut.low[j], far_cut.high[j]});
+        const Interval held = io::touchedInterval(t, near_depth, far_depth, cut);
+        x.low[j] = held.low;
+        x.high[j] = held.high;
     }
     for (size_t j = first; j <= last; ++j) {
         x.low[j] = std::min(x.low[j], x.low[j + 1]);
         x.high[j] = std::max(x.high[j], x.high[j + 1]);
     }
-    if (inSlice(x_touches.low.depth, slice)) {
-        include(slice, 1 / x_touches.low.depth, {x_touches.low.ratio, -kInfinity}, x);
+    if (inSlice(x_touches.low_depth, slice)) {
+        include(slice, 1 / x_touches.low_depth, {x_touches.low_ratio, -io::kAssignFar}, x);
     }
-    if (inSlice(x_touches.high.depth, slice)) {
-        include(slice, 1 / x_touches.high.depth, {kInfinity, x_touches.high.ratio}, x);
+    if (inSlice(x_touches.high_depth, slice)) {
+        include(slice, 1 / x_touches.high_depth, {io::kAssignFar, x_touches.high_ratio}, x);
     }
     for (size_t k = std::max<size_t>(slice, 1); k <= slice + 1; ++k) {
-        const double half = disc_radius[k - first_slice];
-        if (!std::isnan(half)) {
-            const double inv_depth = grid.inv_plane_depths_[k];
-            include(slice, inv_depth, {(ball.x - half) * inv_depth, (ball.x + half) * inv_depth},
-                    x);
-        }
+        const double inv_depth = grid.inv_plane_depths_[k];
+        include(slice, inv_depth, io::cutInterval(ball.x, disc2[k - first_slice], inv_depth), x);
     }
     grid.emitRows(slice, first, last, x.low.data(), x.high.data(), out);
 }
@@ -313,12 +236,12 @@ void BallSweep::emitRows(size_t slice,
                          const double* low_x,
                          const double* high_x,
                          std::vector<Span>& out) const {
-    const double last_tile = columns_.tiles - 1;
+    const double last_tile = columns_.last_tile;
     for (size_t j = first; j <= last; ++j) {
-        const double low = columns_.offset + columns_.scale * low_x[j];
-        const double high = columns_.offset + columns_.scale * high_x[j];
+        const double low = io::tileAt(columns_, low_x[j]);
+        const double high = io::tileAt(columns_, high_x[j]);
         if (low <= high && low <= columns_.end && high >= 0) {
-            // Clamped before the conversion: these may be infinite.
+            // Clamped before the conversion: these may be beyond any integer.
             out.emplace_back(
                 static_cast<uint32_t>(slice * grid_rows_ + j),
                 static_cast<uint32_t>(static_cast<int>(std::clamp(low, 0.0, last_tile))),
@@ -327,14 +250,8 @@ void BallSweep::emitRows(size_t slice,
     }
 }
 
-bool BallSweep::outsidePicture(const Ball& ball) const {
-    const double x = std::abs(ball.x) - columns_.half * ball.z;
-    const double y = std::abs(ball.y) - rows_.half * ball.z;
-    return x * columns_.inv_normal > ball.radius || y * rows_.inv_normal > ball.radius;
-}
-
 void BallSweep::sweepPerspective(const Ball& ball, std::vector<Span>& out) const {
-    if (outsidePicture(ball)) {
+    if (io::outsidePicture(ball, columns_, rows_)) {
         return;
     }
     PerspectiveSweep sweep(*this, ball);
@@ -343,7 +260,7 @@ void BallSweep::sweepPerspective(const Ball& ball, std::vector<Span>& out) const
         return;
     }
     sweep.touchRowEdges();
-    sweep.x_touches = touches(ball.x, ball.z, ball.radius);
+    sweep.x_touches = io::touchCircle(ball.x, ball.z, ball.radius);
     std::array<RowIntervals, 2> cuts;
     sweep.cutPlane(sweep.first_slice, cuts[sweep.first_slice % 2]);
     for (size_t slice = sweep.first_slice; slice <= sweep.last_slice; ++slice) {
@@ -352,24 +269,21 @@ void BallSweep::sweepPerspective(const Ball& ball, std::vector<Span>& out) const
     }
 }
 
-// Cells are boxes: the chord at the point of the row and slice nearest to the centre is widest.
 void BallSweep::sweepOrthographic(const Ball& ball, std::vector<Span>& out) const {
-    const double radius2 = ball.radius * ball.radius;
     RowIntervals x;
     for (size_t slice = 0; slice + 1 < plane_depths_.size(); ++slice) {
-        const double z =
-            ball.z - std::clamp(ball.z, plane_depths_[slice], plane_depths_[slice + 1]);
-        if (std::abs(z) > ball.radius) {
+        const double near_depth = plane_depths_[slice];
+        const double far_depth = plane_depths_[slice + 1];
+        if (std::abs(io::boxOffset(ball.z, near_depth, far_depth)) > ball.radius) {
             continue;
         }
-        for (size_t j = 0; j < rows_.tiles; ++j) {
-            const double y = ball.y - std::clamp(ball.y, row_edges_[j], row_edges_[j + 1]);
-            const double chord2 = radius2 - y * y - z * z;
-            const double half = chord2 >= 0 ? std::sqrt(chord2) : -kInfinity;
+        for (size_t j = 0; j < used_rows_; ++j) {
+            const double half =
+                io::boxChord(ball, near_depth, far_depth, row_edges_[j], row_edges_[j + 1]);
             x.low[j] = ball.x - half;
             x.high[j] = ball.x + half;
         }
-        emitRows(slice, 0, rows_.tiles - 1, x.low.data(), x.high.data(), out);
+        emitRows(slice, 0, used_rows_ - 1, x.low.data(), x.high.data(), out);
     }
 }
 

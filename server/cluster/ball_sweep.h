@@ -6,22 +6,20 @@
 // places: where a plane through the eye touches the ball (free), touches the circle cut by a plane
 // between two slices, touches the circle cut by a plane between two rows, or at the end of the
 // chord where those two planes meet. Each place is a closed formula; those within the row and slice
-// are compared. Slice 0 reaches the eye, where x / depth may be infinite.
+// are compared. Slice 0 reaches the eye, where x / depth may be infinite. The formulas are in
+// interface/assign_math.h, which the device's assignment shares.
 #pragma once
 
 #include "cluster/cluster_grid.h"
 #include "cluster/span.h"
+#include "interface/assign_math.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace froxel::cluster {
 
-// In the axes of Cell: x right, y down, z the depth ahead of the eye. Finite.
-struct Ball {
-    double x, y, z;
-    double radius;
-};
+using Ball = io::Ball; // in the axes of Cell
 
 // prepare() once a frame; then any number of threads may sweep at once.
 class BallSweep {
@@ -42,24 +40,15 @@ class BallSweep {
                   const double* low_x,
                   const double* high_x,
                   std::vector<Span>& out) const;
-    [[nodiscard]] bool outsidePicture(const Ball& ball) const;
-
-    // A picture axis: tile = offset + scale * coordinate; tiles run over [0, end], the last one
-    // possibly partial.
-    struct Axis {
-        double offset = 0;
-        double scale = 1;
-        double end = 1;
-        uint32_t tiles = 1;
-        double half = 1;
-        double inv_normal = 1; // 1 / length of the picture edge's plane normal (half, 1)
-    };
-    static Axis axisOf(uint32_t image_px, uint32_t tile_px, double half, uint32_t tiles);
+    [[nodiscard]] double nearDepth(size_t slice) const {
+        return slice > 0 ? plane_depths_[slice] : io::kAssignNearest;
+    }
 
     bool perspective_ = true;
     uint32_t grid_rows_ = 1;
-    Axis columns_;
-    Axis rows_;
+    io::PictureAxis columns_{};
+    io::PictureAxis rows_{};
+    uint32_t used_rows_ = 1;
     std::vector<double> plane_depths_;     // slices + 1
     std::vector<double> inv_plane_depths_; // of them; 0 for the eye
     std::vector<double> row_edges_;        // used rows + 1

@@ -19,13 +19,8 @@ namespace {
 // Waking another thread costs about as much as this many lights.
 constexpr size_t kLightsPerMember = 256;
 
-// fp32 shading may find a point this share (of radius and of distance to the eye) nearer to a light
-// than it is.
-constexpr double kDilation = 1e-6;
-
 Ball dilated(Ball ball) {
-    const double distance = glm::length(glm::dvec3(ball.x, ball.y, ball.z));
-    ball.radius += kDilation * (2 * ball.radius + distance);
+    ball.radius = io::dilatedRadius(ball);
     return ball;
 }
 
