@@ -3,9 +3,11 @@
 
 #include "gpu/device_options.h"
 #include "gpu/instance.h"
+#include "gpu/memory_ledger.h"
 #include "gpu/vulkan.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -40,6 +42,8 @@ class Device {
     [[nodiscard]] const ValidationLog& validationLog() const { return instance_.validationLog(); }
     [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
     [[nodiscard]] const vk::raii::PipelineCache& pipelineCache() const { return cache_; }
+    // Of every MemoryArena; shared with them, since some outlive their owners.
+    [[nodiscard]] const std::shared_ptr<MemoryLedger>& memoryLedger() const { return ledger_; }
 
     // Names an object for the validation layer and for captures; nothing without validation.
     template <class Handle>
@@ -58,6 +62,7 @@ class Device {
     vk::raii::Device device_{nullptr};
     vk::raii::Queue queue_{nullptr};
     vk::raii::PipelineCache cache_{nullptr};
+    std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
     uint32_t queue_family_ = 0;
     DeviceTraits traits_;
     vk::PhysicalDeviceLimits limits_;

@@ -43,10 +43,19 @@ vk::DeviceSize alignUp(vk::DeviceSize value, vk::DeviceSize alignment) {
 
 } // namespace
 
-MemoryArena::MemoryArena(const Device& device, vk::DeviceSize chunk_bytes)
-    : device_(device), chunk_bytes_(chunk_bytes) {}
+MemoryArena::MemoryArena(const Device& device, vk::DeviceSize chunk_bytes, std::string_view purpose)
+    : device_(device), ledger_(device.memoryLedger()), chunk_bytes_(chunk_bytes),
+      purpose_(purpose) {}
 
-MemoryArena::Place MemoryArena::place(const vk::MemoryRequirements& requirements, MemoryUse use) {
+MemoryArena::~MemoryArena() {
+    for (const Chunk& chunk : chunks_) {
+        ledger_->remove(chunk.purpose, chunk.size_bytes);
+    }
+}
+
+MemoryArena::Place MemoryArena::place(const vk::MemoryRequirements& requirements,
+                                      MemoryUse use,
+                                      std::string_view name) {
     std::optional<uint32_t> type;
     for (const auto flags : preferences(use)) {
         type = findType(device_.memory(), requirements.memoryTypeBits, flags);
@@ -69,7 +78,8 @@ MemoryArena::Place MemoryArena::place(const vk::MemoryRequirements& requirements
     }
     Chunk chunk;
     chunk.type = *type;
-    chunk.size_bytes = std::max(chunk_bytes_, requirements.size);
+    chunk.size_bytes = std::max(requirements.size, std::min(chunk_bytes_, allocated_bytes_));
+    chunk.purpose = purpose_.empty() ? name : std::string_view(purpose_);
     chunk.memory = device_.handle().allocateMemory(
         {.allocationSize = chunk.size_bytes, .memoryTypeIndex = *type});
     if (use != MemoryUse::kDevice) {
@@ -77,6 +87,7 @@ MemoryArena::Place MemoryArena::place(const vk::MemoryRequirements& requirements
     }
     chunk.used_bytes = requirements.size;
     allocated_bytes_ += chunk.size_bytes;
+    ledger_->add(chunk.purpose, chunk.size_bytes);
     chunks_.push_back(std::move(chunk));
     return {*chunks_.back().memory, 0, chunks_.back().mapped};
 }
@@ -88,7 +99,7 @@ Buffer MemoryArena::makeBuffer(vk::DeviceSize size_bytes,
     Buffer buffer;
     buffer.size_bytes = std::max<vk::DeviceSize>(size_bytes, 16);
     buffer.handle = device_.handle().createBuffer({.size = buffer.size_bytes, .usage = usage});
-    const Place at = place(buffer.handle.getMemoryRequirements(), use);
+    const Place at = place(buffer.handle.getMemoryRequirements(), use, name);
     buffer.handle.bindMemory(at.memory, at.offset);
     buffer.mapped = at.mapped;
     device_.setName(*buffer.handle, name);
@@ -110,7 +121,7 @@ Image MemoryArena::makeImage(const ImageInfo& info, std::string_view name) {
                                       .samples = vk::SampleCountFlagBits::e1,
                                       .tiling = vk::ImageTiling::eOptimal,
                                       .usage = info.usage});
-    const Place at = place(image.handle.getMemoryRequirements(), MemoryUse::kDevice);
+    const Place at = place(image.handle.getMemoryRequirements(), MemoryUse::kDevice, name);
     image.handle.bindMemory(at.memory, at.offset);
     image.view = device_.handle().createImageView(
         {.image = *image.handle,

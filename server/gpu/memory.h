@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,13 +42,17 @@ struct ImageInfo {
     vk::ImageCreateFlags flags = {};
 };
 
-// Linear sub-allocation from chunks. One thread.
+// Linear sub-allocation from chunks. One thread. What it allocates stands in the device's ledger.
 class MemoryArena {
   public:
-    // chunk_bytes: 0 gives every object an allocation of its own.
-    MemoryArena(const Device& device, vk::DeviceSize chunk_bytes);
+    // Every object has an allocation of its own, whose purpose is the object's name.
+    explicit MemoryArena(const Device& device) : MemoryArena(device, 0, {}) {}
+    // Objects share chunks, the next as large as all before it, up to chunk_bytes: at most half of
+    // the arena is idle. purpose: of everything in it.
+    MemoryArena(const Device& device, vk::DeviceSize chunk_bytes, std::string_view purpose);
     MemoryArena(const MemoryArena&) = delete;
     MemoryArena& operator=(const MemoryArena&) = delete;
+    ~MemoryArena();
 
     // Both throw vk::OutOfDeviceMemoryError when memory is short.
     [[nodiscard]] Buffer makeBuffer(vk::DeviceSize size_bytes,
@@ -64,16 +70,19 @@ class MemoryArena {
         vk::DeviceSize size_bytes = 0;
         vk::DeviceSize used_bytes = 0;
         std::byte* mapped = nullptr;
+        std::string purpose;
     };
     struct Place {
         vk::DeviceMemory memory;
         vk::DeviceSize offset = 0;
         std::byte* mapped = nullptr;
     };
-    Place place(const vk::MemoryRequirements& requirements, MemoryUse use);
+    Place place(const vk::MemoryRequirements& requirements, MemoryUse use, std::string_view name);
 
     const Device& device_;
+    std::shared_ptr<MemoryLedger> ledger_;
     vk::DeviceSize chunk_bytes_;
+    std::string purpose_; // empty: the objects' names
     vk::DeviceSize allocated_bytes_ = 0;
     std::vector<Chunk> chunks_;
 };

@@ -34,7 +34,7 @@ vk::Offset3D mipCorner(const Image& image, uint32_t mip) {
 } // namespace
 
 Uploader::Uploader(const Device& device, Timeline& timeline, vk::DeviceSize staging_bytes)
-    : device_(device), timeline_(timeline), arena_(device, 0) {
+    : device_(device), timeline_(timeline), arena_(device) {
     grow(staging_bytes);
 }
 

@@ -46,7 +46,7 @@ void FrameUpload::commit() {
     if (used_bytes_ > buffer_.size_bytes || !*buffer_.handle) {
         using Usage = vk::BufferUsageFlagBits;
         buffer_ = {};
-        arena_ = std::make_unique<gpu::MemoryArena>(device_, 0);
+        arena_ = std::make_unique<gpu::MemoryArena>(device_);
         buffer_ = arena_->makeBuffer(used_bytes_ + used_bytes_ / 2,
                                      Usage::eUniformBuffer | Usage::eStorageBuffer |
                                          Usage::eUniformTexelBuffer | Usage::eVertexBuffer |
@@ -66,11 +66,11 @@ void FrameUpload::clear() {
 }
 
 Readback::Readback(const gpu::Device& device, vk::DeviceSize size_bytes)
-    : arena(device, 0), buffer(arena.makeBuffer(size_bytes,
-                                                vk::BufferUsageFlagBits::eStorageBuffer |
-                                                    vk::BufferUsageFlagBits::eTransferDst,
-                                                gpu::MemoryUse::kReadback,
-                                                "readback")) {}
+    : arena(device), buffer(arena.makeBuffer(size_bytes,
+                                             vk::BufferUsageFlagBits::eStorageBuffer |
+                                                 vk::BufferUsageFlagBits::eTransferDst,
+                                             gpu::MemoryUse::kReadback,
+                                             "readback")) {}
 
 FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines)
     : cmd(timeline.makeCommandBuffer()), timestamps(device), upload(device),

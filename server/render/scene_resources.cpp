@@ -4,15 +4,17 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <thread>
 
 namespace froxel::render {
 
 namespace {
 
-constexpr vk::DeviceSize kChunkBytes = 64U << 20U;
+constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
 constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
 constexpr size_t kTexturesOfMaterial = 5;
 
@@ -25,7 +27,19 @@ io::UvTransform uvTransform(const scene::TextureSlot& slot) {
             .padding0 = 0};
 }
 
-io::Material materialUniforms(const scene::Material& m) {
+// Packs are for devices that sample in software; others have hardware for it.
+std::vector<PackPlan> planPacks(const gpu::Device& device, const scene::Scene& scene) {
+    std::vector<PackPlan> plans(scene.materials.size());
+    if (device.traits().is_cpu) {
+        std::transform(scene.materials.begin(), scene.materials.end(), plans.begin(),
+                       [&](const scene::Material& m) { return planPack(scene, m); });
+    }
+    return plans;
+}
+
+io::Material materialUniforms(const scene::Material& m,
+                              const PackPlan& plan,
+                              const PackedTexture& pack) {
     return {.base_color = m.base_color,
             .emissive = m.emissive,
             .metallic = m.metallic,
@@ -37,11 +51,15 @@ io::Material materialUniforms(const scene::Material& m) {
             .uv_normal = uvTransform(m.normal_texture),
             .uv_metallic_roughness = uvTransform(m.metallic_roughness_texture),
             .uv_occlusion = uvTransform(m.occlusion_texture),
-            .uv_emissive = uvTransform(m.emissive_texture)};
+            .uv_emissive = uvTransform(m.emissive_texture),
+            .uv_pack = uvTransform(packSlot(m, plan)),
+            .pack_log2_size = pack.log2_size,
+            .pack_texel_count = 1U << (pack.log2_size.x + pack.log2_size.y),
+            .pack_last_level = pack.last_level};
 }
 
 std::vector<DrawItem>
-makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const SceneNeeds& needs) {
+makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const SceneNeeds& needs, std::span<const PackPlan> packs) {
     std::vector<DrawItem> items;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const auto& instance = scene.instances[i];
@@ -51,6 +69,7 @@ makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const Scene
                 continue;
             }
             uint32_t flags = needs.material_flags[primitive.material];
+            flags |= packs[primitive.material].flags();
             flags |= primitive.extended ? io::kMaterialExtended : 0U;
             flags |= primitive.tangents ? io::kMaterialTangents : 0U;
             items.push_back({i, primitive, flags, mirrored});
@@ -75,15 +94,15 @@ gpu::Buffer uploadVector(gpu::MemoryArena& arena,
 } // namespace
 
 SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene)
-    : device(device_in), timeline(device_in), needs(findNeeds(scene)),
+    : device(device_in), timeline(device_in), needs(findNeeds(scene)), pack_plans(planPacks(device_in, scene)),
       bounds_world(scene.bounds_world), light_rig(scene),
-      light_assigner(std::max(1U, std::thread::hardware_concurrency())),
-      arena(device_in, kChunkBytes), pipelines(device_in) {
+      light_assigner(std::max(1U, std::thread::hardware_concurrency())), arena(device_in),
+      texture_arena(device_in, kTextureChunkBytes, "textures"), pipelines(device_in) {
     auto geometry = packGeometry(scene);
     for (const auto& instance : scene.instances) {
         instances.push_back(instance.world_from_object);
     }
-    items = makeItems(scene, geometry, needs);
+    items = makeItems(scene, geometry, needs, pack_plans);
     gpu::Uploader uploader(device, timeline, kStagingBytes);
     uploadGeometry(geometry, uploader);
     uploadMaterials(scene, uploader);
@@ -91,7 +110,8 @@ SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene
     indices = std::move(geometry.indices);
     positions = std::move(geometry.positions);
     spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
-                 items.size(), meshlets.size(), textures_->imageCount(), arena.allocatedBytes());
+                 items.size(), meshlets.size(), textures_->imageCount(),
+                 arena.allocatedBytes() + texture_arena.allocatedBytes());
 }
 
 void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader) {
@@ -108,7 +128,7 @@ void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploade
 }
 
 void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
-    textures_ = std::make_unique<TextureStore>(device, arena, uploader);
+    textures_ = std::make_unique<TextureStore>(device, texture_arena, uploader);
     const auto count = static_cast<uint32_t>(scene.materials.size());
     if (count == 0) {
         return;
@@ -118,6 +138,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     std::vector<std::byte> bytes(stride * count);
     const std::array pool_sizes = {
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
+        vk::DescriptorPoolSize{vk::DescriptorType::eUniformTexelBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
                                static_cast<uint32_t>(count * kTexturesOfMaterial)}};
     material_pool_ = device.handle().createDescriptorPool(
@@ -130,7 +151,9 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                                              .descriptorSetCount = count,
                                                              .pSetLayouts = layouts.data()});
     for (uint32_t i = 0; i < count; ++i) {
-        const auto uniforms = materialUniforms(scene.materials[i]);
+        const auto& m = scene.materials[i];
+        const auto uniforms =
+            materialUniforms(m, pack_plans[i], textures_->pack(scene, m, pack_plans[i]));
         std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));
     }
     material_buffer_ =
@@ -139,12 +162,17 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         const auto& m = scene.materials[i];
         const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,
                                               sizeof(io::Material)};
+        const PackPlan& plan = pack_plans[i];
+        const auto unless = [](bool packed, const scene::TextureSlot& slot) {
+            return packed ? scene::TextureSlot{} : slot;
+        };
         const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
-            textures_->get(scene, m.base_color_texture, true),
-            textures_->get(scene, m.normal_texture, false),
-            textures_->get(scene, m.metallic_roughness_texture, false),
+            textures_->get(scene, unless(plan.color, m.base_color_texture), true),
+            textures_->get(scene, unless(plan.normal, m.normal_texture), false),
+            textures_->get(scene, unless(plan.roughness, m.metallic_roughness_texture), false),
             textures_->get(scene, m.occlusion_texture, false),
             textures_->get(scene, m.emissive_texture, true)};
+        const vk::BufferView texels = *textures_->pack(scene, m, plan).view;
         // The five samplers are consecutive bindings of one descriptor each.
         const std::array writes = {
             vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
@@ -156,7 +184,12 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                    .dstBinding = 1,
                                    .descriptorCount = kTexturesOfMaterial,
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                                   .pImageInfo = images.data()}};
+                                   .pImageInfo = images.data()},
+            vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
+                                   .dstBinding = 6,
+                                   .descriptorCount = 1,
+                                   .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                                   .pTexelBufferView = &texels}};
         device.handle().updateDescriptorSets(writes, {});
     }
 }

@@ -30,6 +30,7 @@ class SceneResources {
     gpu::Device& device;
     gpu::Timeline timeline;
     const SceneNeeds needs;
+    const std::vector<PackPlan> pack_plans; // of each material
     const BoundsD3 bounds_world;
     const light::LightRig light_rig;
     cluster::LightAssigner light_assigner;
@@ -40,7 +41,8 @@ class SceneResources {
     std::vector<uint32_t> indices; // the host's copy, for culling by triangle
     std::vector<glm::vec3> positions;
 
-    gpu::MemoryArena arena;
+    gpu::MemoryArena arena; // geometry and materials
+    gpu::MemoryArena texture_arena;
     gpu::Buffer position_buffer;
     gpu::Buffer surface_buffer;
     gpu::Buffer extended_buffer; // empty handle: no primitive needs it

@@ -7,7 +7,7 @@ namespace froxel::render {
 ViewTargets::ViewTargets(const gpu::Device& device,
                          const view::Size& size_in,
                          const TargetNeeds& needs_in)
-    : size(size_in), needs(needs_in), arena(device, 0) {
+    : size(size_in), needs(needs_in), arena(device) {
     using Usage = vk::ImageUsageFlagBits;
     const vk::Extent2D extent{size.width_px, size.height_px};
     depth = arena.makeImage({.format = Pipelines::kDepthFormat,
