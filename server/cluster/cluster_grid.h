@@ -1,11 +1,16 @@
 // How a view's frustum is cut into clusters: one law for assignment and for shaders.
+//
+// Memory. The largest grid in the accepted range (view::kGridXRange and so on) has 4,194,304
+// clusters. Its lists' heads take kClusterBytes each, 32 MiB for every frame in flight; the host's
+// assigner works with as much again, half for each thread (LightAssigner). kMaxGridBytes is what
+// every Vulkan device must be able to bind as one storage buffer.
 #pragma once
 
+#include "cluster/slice_law.h"
 #include "view/camera.h"
+#include "view/ranges.h"
 #include "view/settings.h"
 
-#include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -20,20 +25,12 @@ struct Cell {
     double z0, z1;
 };
 
-// A depth's slice by integers: the bits of a positive float grow with it, piecewise linearly in its
-// logarithm (at most 6 % off a true logarithmic slice). Assignment and shaders agree to the last
-// bit without a table, because nothing here rounds.
-struct SliceLaw {
-    uint32_t first_bits = 0; // of the grid's near depth; nearer ones are in slice 0
-    uint32_t scale = 0;      // slices per step of bits, times 2^(32 + shift)
-    uint32_t shift = 0;
-
-    // At or beyond the slice count: behind the last plane. depth_m must not be negative.
-    [[nodiscard]] uint32_t sliceOf(float depth_m) const {
-        const uint32_t bits = std::max(std::bit_cast<uint32_t>(depth_m), first_bits) - first_bits;
-        return static_cast<uint32_t>((uint64_t{bits} * scale) >> (32U + shift));
-    }
-};
+inline constexpr uint64_t kClusterBytes = 8; // io::ClusterList
+inline constexpr uint64_t kMaxGridBytes = uint64_t{128} << 20U;
+static_assert(uint64_t{view::kGridXRange.max} * view::kGridYRange.max * view::kGridZRange.max *
+                      kClusterBytes <=
+                  kMaxGridBytes,
+              "a grid that a viewer can ask for must fit a storage buffer");
 
 // Clusters are numbered x fastest, then y, then z; row 0 is at the top of the picture.
 // A pixel's column and row are its integer coordinates divided by the tile's size: the last ones
@@ -46,8 +43,12 @@ struct ClusterGrid {
     uint32_t tile_width_px = 1;
     uint32_t tile_height_px = 1;
     view::Projection projection = view::Projection::kPerspective;
-    double half_x = 1; // picture's edge: tangent (perspective) or metres (orthographic)
+    // Half the picture's size and its middle, as Cell has x and y: tangents or metres. The middle
+    // is off 0 where the camera's lens is shifted.
+    double half_x = 1;
     double half_y = 1;
+    double middle_x = 0;
+    double middle_y = 0;
     SliceLaw slice_law;
     std::vector<float> plane_depths_m; // size.z + 1, from 0, strictly ascending; made by the law
 
@@ -67,9 +68,20 @@ struct ClusterGrid {
     [[nodiscard]] Cell cell(uint32_t x, uint32_t y, uint32_t z) const;
 };
 
-// Logarithmic slices from grid_near_m to grid_far_m (metres of depth), the first one stretched to
-// the eye. Far not beyond near is moved to just beyond it. Sizes must be at least 1.
-[[nodiscard]] ClusterGrid makeClusterGrid(const view::GridSize& size,
+// How many clusters, and where slices lie.
+struct GridShape {
+    view::GridSize size;
+    view::GridLaw law = view::GridLaw::kLogarithmic;
+    // 0: the least that `size` tiles cover the picture with.
+    uint32_t tile_width_px = 0;
+    uint32_t tile_height_px = 0;
+    bool operator==(const GridShape&) const = default;
+};
+
+// Slices from grid_near_m to grid_far_m (metres of depth), the first one stretched to the eye. Far
+// not beyond near is moved to just beyond it. Sizes must be at least 1; tiles too small
+// to cover the picture are enlarged.
+[[nodiscard]] ClusterGrid makeClusterGrid(const GridShape& shape,
                                           const view::Size& image,
                                           const view::Camera& camera,
                                           double grid_near_m,

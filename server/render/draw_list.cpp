@@ -50,6 +50,10 @@ glm::mat4 clipFromView(const view::Camera& camera, const ViewProjection& project
     glm::mat4 m(0.0F);
     m[0][0] = static_cast<float>(projection.clip_scale.x);
     m[1][1] = static_cast<float>(projection.clip_scale.y);
+    glm::vec4& carries_w = perspective ? m[2] : m[3];
+    const glm::vec2 offset(projection.clip_offset);
+    carries_w.x = perspective ? -offset.x : offset.x;
+    carries_w.y = perspective ? -offset.y : offset.y;
     m[2][2] = 0;
     m[3][2] = static_cast<float>(camera.near_m);
     m[2][3] = perspective ? -1.0F : 0.0F;

@@ -51,7 +51,7 @@ void FrameBuilder::assignLights(const view::ViewSettings& settings, bool lists) 
     const auto& camera = settings.camera;
     const auto range = cluster::litDepthRange(lights_, camera, scene_.bounds_world);
     grid_ =
-        cluster::makeClusterGrid(settings.grid.size, settings.size, camera, range.near_m, range.far_m);
+        cluster::makeClusterGrid({settings.grid.size, settings.grid.law}, settings.size, camera, range.near_m, range.far_m);
     scene_.light_assigner.assign(grid_, lights_, lists_);
 }
 

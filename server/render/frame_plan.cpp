@@ -6,12 +6,24 @@ namespace froxel::render {
 
 namespace {
 
+uint32_t sliceFlags(view::GridLaw law) {
+    switch (law) {
+    case view::GridLaw::kLogarithmic:
+        return 0;
+    case view::GridLaw::kLinear:
+        return io::kLightSlicesLinear;
+    case view::GridLaw::kHyperbolic:
+        return io::kLightSlicesHyperbolic;
+    }
+    return 0;
+}
+
 uint32_t
 lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lists, bool compute) {
     uint32_t flags = 0;
     if (facts.local_lights) {
         flags |= io::kLightLocal;
-        flags |= lists ? io::kLightLists : 0U;
+        flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
         flags |= facts.spots ? io::kLightSpots : 0U;
         if (compute) {
             flags |= facts.compute_batches ? io::kLightBatched : 0U;

@@ -41,7 +41,8 @@ void fillGrid(const cluster::ClusterGrid& grid, io::Frame& frame) {
     frame.tile_count_x = grid.size.x;
     frame.tile_count_y = grid.size.y;
     frame.slice_count = grid.size.z;
-    frame.slice_first_bits = grid.slice_law.first_bits;
+    frame.slice_first = grid.slice_law.first;
+    frame.slice_unit = grid.slice_law.unit;
     frame.slice_scale = grid.slice_law.scale;
     frame.slice_shift = grid.slice_law.shift;
 }
@@ -55,6 +56,7 @@ ViewProjection makeProjection(const view::Camera& camera, const view::Size& size
                             ? std::tan(camera.yfov_rad * 0.5)
                             : camera.half_height_m;
     p.clip_scale = {1.0 / (half * aspect), -1.0 / half}; // Vulkan's clip space has y down
+    p.clip_offset = {-camera.lens_shift.x, camera.lens_shift.y};
     p.far_m = std::max(far_m, camera.near_m + 1e-3);
     return p;
 }
@@ -67,6 +69,7 @@ io::Frame makeFrameUniforms(const view::ViewSettings& settings,
     const auto& camera = settings.camera;
     io::Frame frame{};
     frame.clip_scale = projection.clip_scale;
+    frame.clip_offset = projection.clip_offset;
     const double near = camera.near_m;
     if (camera.projection == view::Projection::kPerspective) {
         // Reversed-Z, infinite far: depth = near / distance.
@@ -86,7 +89,7 @@ io::Frame makeFrameUniforms(const view::ViewSettings& settings,
     }
     frame.ray_scale = {2.0 / (settings.size.width_px * projection.clip_scale.x),
                        2.0 / (settings.size.height_px * projection.clip_scale.y)};
-    frame.ray_offset = {-1.0 / projection.clip_scale.x, -1.0 / projection.clip_scale.y};
+    frame.ray_offset = (glm::dvec2(-1.0) - projection.clip_offset) / projection.clip_scale;
     frame.width_px = settings.size.width_px;
     frame.height_px = settings.size.height_px;
     frame.tile_width_px = settings.size.width_px;

@@ -11,6 +11,7 @@ namespace froxel::render {
 // How view space maps to the screen and back, in double.
 struct ViewProjection {
     glm::dvec2 clip_scale{1, 1};
+    glm::dvec2 clip_offset{0, 0}; // times w
     double far_m = 0; // orthographic only: where depth reaches 0
 };
 

@@ -9,12 +9,16 @@ enum class Projection { kPerspective, kOrthographic };
 
 struct Camera {
     glm::dvec3 eye_world{0, 0, 0};
-    glm::dmat3 world_from_view{1};      // columns: right, up, back (the camera looks along -Z)
+    glm::dmat3 world_from_view{1}; // columns: right, up, back (the camera looks along -Z)
     Projection projection = Projection::kPerspective;
     double yfov_rad = 0.7853981633974483; // full vertical angle; perspective only
-    double half_height_m = 1;           // half the vertical extent; orthographic only
-    double near_m = 0.05;               // distance of the near plane; there is no far plane
-    double focus_m = 5;                 // distance to what is looked at: where an orbit turns
+    double half_height_m = 1;             // half the vertical extent; orthographic only
+    // Where the picture's middle lies, right and up of the view axis, in half pictures: at {1, 0}
+    // the axis meets the left edge. Off-centre frusta for tiled displays and for straight
+    // verticals.
+    glm::dvec2 lens_shift{0, 0};
+    double near_m = 0.05; // distance of the near plane; there is no far plane
+    double focus_m = 5;   // distance to what is looked at: where an orbit turns
 
     [[nodiscard]] glm::dvec3 target_world() const {
         return eye_world - world_from_view[2] * focus_m;

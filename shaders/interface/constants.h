@@ -25,6 +25,11 @@ FROXEL_CONST uint kMaterialUvTransform = 1U << 8; // a slot has a transform or T
 FROXEL_CONST uint kMaterialExtended = 1U << 9;    // vertices carry uv1, colour and tangent
 FROXEL_CONST uint kMaterialTangents = 1U << 10;   // the tangents are from the file
 FROXEL_CONST uint kMaterialBlend = 1U << 11;
+// Slots that are read from the material's packed texels (render/texel_pack.h).
+FROXEL_CONST uint kMaterialPackedColor = 1U << 12;
+FROXEL_CONST uint kMaterialPackedNormal = 1U << 13;
+FROXEL_CONST uint kMaterialPackedRoughness = 1U << 14;
+FROXEL_CONST uint kMaterialPackedPair = 1U << 15; // two words a texel: normal or roughness too
 
 // Light flags: which lights a frame has and how they are looped over.
 FROXEL_CONST uint kLightLocal = 1U << 0;       // any point or spot light
@@ -34,6 +39,8 @@ FROXEL_CONST uint kLightDirectional = 1U << 3;
 FROXEL_CONST uint kLightBatched = 1U << 4;     // a subgroup fetches lights together
 FROXEL_CONST uint kLightToon = 1U << 5;        // n.l through the toon ramp
 FROXEL_CONST uint kLightPartial = 1U << 6;     // batched where a subgroup may lack invocations
+FROXEL_CONST uint kLightSlicesLinear = 1U << 12; // cluster::SliceLaw; neither: logarithmic
+FROXEL_CONST uint kLightSlicesHyperbolic = 1U << 13;
 
 // Output flags: targets and what the last pass does.
 FROXEL_CONST uint kOutputPixels = 1U << 0;     // lighting also exposes, tone maps and packs

@@ -18,8 +18,9 @@ struct ToonSegment {
 FROXEL_SIZE_ASSERT(ToonSegment, 20);
 
 struct Frame {
-    // clip = (x * clip_scale.x, y * clip_scale.y, clip_z.x + clip_z.y * z, clip_w.x + clip_w.y * z)
+    // clip = (xy * clip_scale + clip_offset * w, clip_z.x + clip_z.y * z, w = clip_w.x + clip_w.y * z)
     vec2 clip_scale;
+    vec2 clip_offset; // of an off-centre frustum
     vec2 clip_z;
     vec2 clip_w;
     // distance along the view axis = (num.x + num.y * depth) / (den.x + den.y * depth)
@@ -38,8 +39,8 @@ struct Frame {
     uint slice_count;
     uint light_count;
     uint directional_count;
-    // slice = (max(bits(distance), first) - first) * scale >> (32 + shift): cluster::SliceLaw
-    uint slice_first_bits;
+    // cluster::SliceLaw: slice = key(distance) * scale >> (32 + shift)
+    uint slice_first;
     uint slice_scale;
     uint slice_shift;
     vec3 up_view;       // world up
@@ -47,12 +48,12 @@ struct Frame {
     vec3 ambient_sky;   // linear radiance from above
     float orthographic; // 1: all view rays are parallel
     vec3 ambient_ground;
-    float padding0;
+    float slice_unit;
     vec3 background; // linear radiance of empty pixels
     float padding1;
     ToonSegment toon[kMaxToonSegments];
 };
-FROXEL_SIZE_ASSERT(Frame, 356);
+FROXEL_SIZE_ASSERT(Frame, 364);
 
 // One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
 struct UvTransform {
@@ -76,8 +77,12 @@ struct Material {
     UvTransform uv_metallic_roughness;
     UvTransform uv_occlusion;
     UvTransform uv_emissive;
+    UvTransform uv_pack;
+    uvec2 pack_log2_size;
+    uint pack_texel_count; // of level 0
+    uint pack_last_level;
 };
-FROXEL_SIZE_ASSERT(Material, 208);
+FROXEL_SIZE_ASSERT(Material, 256);
 
 FROXEL_IO_NAMESPACE_END
 

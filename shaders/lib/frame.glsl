@@ -16,7 +16,12 @@ layout(set = 0, binding = 3) uniform utextureBuffer index_texels;  // light inde
 layout(set = 0, binding = 4) uniform textureBuffer spot_texels;    // io::Spot: 2 texels
 layout(set = 0, binding = 5, scalar) readonly buffer SunBlock { DirectionalLight suns[]; };
 
+#ifdef FROXEL_VISIBILITY
+uint visible_flags; // of this invocation's pixel; MATERIAL_FLAGS: what any of them may have
+bool hasMaterial(uint flag) { return (MATERIAL_FLAGS & visible_flags & flag) != 0; }
+#else
 bool hasMaterial(uint flag) { return (MATERIAL_FLAGS & flag) != 0; }
+#endif
 bool hasLight(uint flag) { return (LIGHT_FLAGS & flag) != 0; }
 bool hasOutput(uint flag) { return (OUTPUT_FLAGS & flag) != 0; }
 
@@ -35,13 +40,28 @@ vec3 positionFromDistance(uvec2 pixel, float distance) {
 
 const uint kNoCluster = 0xffffffffu;
 
+// A depth in fixed point: the unit is a power of two, so nothing rounds but the conversion, down.
+uint fixedPoint(float distance) {
+    return uint(min(distance * frame.slice_unit, 2147483520.0));
+}
+
+// Grows with distance, by the law of the grid; the formulas are cluster::SliceLaw's.
+uint sliceKey(float distance) {
+    if (hasLight(kLightSlicesHyperbolic)) {
+        uint left = 0xffffffffu / max(fixedPoint(distance), 1u);
+        return frame.slice_first - min(left, frame.slice_first);
+    }
+    uint key =
+        hasLight(kLightSlicesLinear) ? fixedPoint(distance) : floatBitsToUint(distance);
+    return max(key, frame.slice_first) - frame.slice_first;
+}
+
 // The cluster of a pixel at a distance; kNoCluster beyond the grid, where no light reaches. In
-// integers, so that it is what the assignment took it to be (cluster::SliceLaw).
+// integers, so that it is what the assignment took it to be.
 uint clusterAt(uvec2 pixel, float distance) {
-    uint bits = max(floatBitsToUint(distance), frame.slice_first_bits) - frame.slice_first_bits;
     uint slice;
     uint fraction;
-    umulExtended(bits, frame.slice_scale, slice, fraction);
+    umulExtended(sliceKey(distance), frame.slice_scale, slice, fraction);
     slice >>= frame.slice_shift;
     uvec2 tile = pixel / uvec2(frame.tile_width_px, frame.tile_height_px);
     uint cluster = (slice * frame.tile_count_y + tile.y) * frame.tile_count_x + tile.x;

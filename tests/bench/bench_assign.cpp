@@ -53,7 +53,7 @@ void assign(benchmark::State& state) {
     for (auto _ : state) {
         const auto range =
             cluster::litDepthRange(lights, setup.settings.camera, setup.scene.bounds_world);
-        const auto grid = cluster::makeClusterGrid(size, setup.settings.size, setup.settings.camera,
+        const auto grid = cluster::makeClusterGrid({size}, setup.settings.size, setup.settings.camera,
                                                    range.near_m, range.far_m);
         assigner.assign(grid, lights, lists);
         benchmark::DoNotOptimize(lists.indices.data());

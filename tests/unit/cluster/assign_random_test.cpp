@@ -13,6 +13,7 @@ struct Shape {
     view::Camera camera;
     double near_m;
     double far_m;
+    view::GridLaw law = view::GridLaw::kLogarithmic;
 };
 
 void PrintTo(const Shape& shape, std::ostream* out) {
@@ -36,13 +37,21 @@ light::FrameLights randomLights(std::mt19937& random, double far_m, double half_
 
 TEST_P(AssignRandom, Lights_MeetExactlyTheClustersOfTheOracle) {
     const Shape& shape = GetParam();
-    const ClusterGrid grid =
-        makeClusterGrid(shape.grid, shape.image, shape.camera, shape.near_m, shape.far_m);
+    const ClusterGrid grid = makeClusterGrid({shape.grid, shape.law}, shape.image, shape.camera,
+                                             shape.near_m, shape.far_m);
     const bool flat = shape.camera.projection == view::Projection::kOrthographic;
     const double extent = flat ? grid.half_x / shape.far_m : grid.half_x;
     std::mt19937 random(7);
     expectExact(grid, randomLights(random, shape.far_m, extent, 600));
 }
+
+view::Camera shifted(view::Camera camera, double x, double y) {
+    camera.lens_shift = {x, y};
+    return camera;
+}
+
+constexpr auto kLinear = view::GridLaw::kLinear;
+constexpr auto kHyperbolic = view::GridLaw::kHyperbolic;
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes,
@@ -60,6 +69,24 @@ INSTANTIATE_TEST_SUITE_P(
         Shape{"one_tile", {1, 1, 24}, {1280, 720}, perspective(45), 0.1, 30},
         Shape{"near_is_far", {4, 4, 8}, {640, 360}, perspective(45), 10, 10},
         Shape{"deep", {4, 4, 64}, {640, 360}, perspective(45), 1e-3, 1e5},
+        Shape{"linear", {16, 9, 24}, {1280, 720}, perspective(45), 0.1, 30, kLinear},
+        Shape{"hyperbolic", {16, 9, 24}, {1280, 720}, perspective(45), 0.1, 30, kHyperbolic},
+        Shape{"shifted", {16, 9, 24}, {1280, 720}, shifted(perspective(60), 0.5, -0.3), 0.1, 30},
+        Shape{"axis_outside", {9, 9, 9}, {640, 480}, shifted(perspective(40), -2.5, 1.7), 0.1, 30},
+        Shape{"far_off", {9, 9, 9}, {640, 480}, shifted(perspective(20), 30, 0), 0.1, 30},
+        Shape{"shifted_linear",
+              {7, 5, 11},
+              {333, 777},
+              shifted(perspective(90), 0.2, 1.1),
+              0.1,
+              30,
+              kLinear},
+        Shape{"orthographic_shifted",
+              {9, 9, 5},
+              {641, 480},
+              shifted(orthographic(5), 1.5, -3),
+              0.1,
+              30},
         Shape{"orthographic", {16, 9, 24}, {1280, 720}, orthographic(8), 0.1, 30},
         Shape{"orthographic_odd", {16, 9, 3}, {1919, 1079}, orthographic(0.5), 0.1, 2}));
 

@@ -65,7 +65,7 @@ TEST_P(AssignShading, Fp32Pixels_FindEveryLightThatReachesThem) {
     const Scene& scene = GetParam();
     std::mt19937 random(21);
     const auto lights = scattered(random, 300, scene.spread, scene.far_m, scene.radius);
-    const ClusterGrid grid = makeClusterGrid(scene.grid, scene.image, scene.camera,
+    const ClusterGrid grid = makeClusterGrid({scene.grid}, scene.image, scene.camera,
                                              scene.far_m / 100, scene.far_m * 1.5);
     const LightLists lists = assigned(grid, lights);
     const bool flat = scene.camera.projection == view::Projection::kOrthographic;
