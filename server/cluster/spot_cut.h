@@ -4,6 +4,7 @@
 #include "cluster/ball_sweep.h"
 #include "cluster/cluster_grid.h"
 #include "core/math.h"
+#include "interface/assign_cone.h"
 #include "light/frame_lights.h"
 
 #include <optional>
@@ -24,15 +25,12 @@ class SpotCut {
     [[nodiscard]] Ball bound() const;
     // Whether the spot cannot light a point within the cell. False is not proof that it does.
     [[nodiscard]] bool misses(const Cell& cell, view::Projection projection) const;
+    [[nodiscard]] const io::Cone& cone() const { return cone_; }
 
   private:
-    SpotCut(const glm::dvec3& apex, const glm::dvec3& axis, double cos_half, double range);
+    explicit SpotCut(const io::Cone& cone) : cone_(cone) {}
 
-    glm::dvec3 apex_;
-    glm::dvec3 axis_;
-    double cos_half_;
-    double sin_half_;
-    double range_;
+    io::Cone cone_;
 };
 
 } // namespace froxel::cluster

@@ -12,16 +12,22 @@
 #include <cmath>
 #define FROXEL_FUNCTION inline
 #define FROXEL_PRECISE
-#define FROXEL_DOUBLE(literal) literal
 #else
 #define FROXEL_FUNCTION
 #define FROXEL_PRECISE precise
-#define FROXEL_DOUBLE(literal) literal##LF
 #endif
 
 FROXEL_IO_NAMESPACE_BEGIN
 
+// kAssignFar: beyond any coordinate. Not infinity: shader compilers may assume that there is none.
+// kAssignNearest: the least depth that is ahead of the eye.
+// kAssignSlack: fp32 shading may find a point this share (of radius and of distance to the eye)
+// nearer to a light than it is.
 #ifdef __cplusplus
+inline constexpr double kAssignFar = 1e300;
+inline constexpr double kAssignNearest = 2.2250738585072014e-308;
+inline constexpr double kAssignSlack = 1e-6;
+
 inline double assignDivide(double a, double b) {
     return a / b;
 }
@@ -31,12 +37,11 @@ inline double assignSqrt(double a) {
 using std::abs;
 using std::max;
 using std::min;
+#else
+const double kAssignFar = 1e300LF;
+const double kAssignNearest = 2.2250738585072014e-308LF;
+const double kAssignSlack = 1e-6LF;
 #endif
-
-// Beyond any coordinate. Not infinity: shader compilers may assume that there is none.
-FROXEL_CONST double kAssignFar = FROXEL_DOUBLE(1e300);
-// The least depth that is ahead of the eye.
-FROXEL_CONST double kAssignNearest = FROXEL_DOUBLE(2.2250738585072014e-308);
 
 // In the axes of cluster::Cell: x right, y down, z the depth ahead of the eye. Finite.
 struct Ball {
@@ -62,16 +67,13 @@ struct PictureAxis {
     double high_edge;
     double inv_low_normal; // 1 / sqrt(1 + low_edge^2): of the normal of the plane through the eye
     double inv_high_normal;
-    double last_tile;  // tiles - 1
+    double last_tile; // tiles - 1
 };
 
-// fp32 shading may find a point this share (of radius and of distance to the eye) nearer to a light
-// than it is.
 FROXEL_FUNCTION double dilatedRadius(Ball ball) {
     FROXEL_PRECISE double distance =
         assignSqrt(ball.x * ball.x + ball.y * ball.y + ball.z * ball.z);
-    FROXEL_PRECISE double radius =
-        ball.radius + FROXEL_DOUBLE(1e-6) * (2.0 * ball.radius + distance);
+    FROXEL_PRECISE double radius = ball.radius + kAssignSlack * (2.0 * ball.radius + distance);
     return radius;
 }
 
@@ -164,9 +166,11 @@ FROXEL_FUNCTION Interval cutInterval(double centre, double half2, double inv_dep
 // The same in the plane of the eye, where a point has a side but no ratio.
 FROXEL_FUNCTION Interval eyeInterval(double centre, double half2) {
     FROXEL_PRECISE double half_width = assignSqrt(half2 > 0.0 ? half2 : 0.0);
+    FROXEL_PRECISE double low = centre - half_width;
+    FROXEL_PRECISE double high = centre + half_width;
     Interval i;
-    i.low = half2 >= 0.0 && centre - half_width <= 0.0 ? -kAssignFar : kAssignFar;
-    i.high = half2 >= 0.0 && centre + half_width >= 0.0 ? kAssignFar : -kAssignFar;
+    i.low = half2 >= 0.0 && low <= 0.0 ? -kAssignFar : kAssignFar;
+    i.high = half2 >= 0.0 && high >= 0.0 ? kAssignFar : -kAssignFar;
     return i;
 }
 

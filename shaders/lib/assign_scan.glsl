@@ -1,0 +1,21 @@
+// Prefix sums over a workgroup of kAssignScanGroup invocations; all must call.
+shared uint scan_words[kAssignScanGroup];
+
+uint saturated(uint sum) { return min(sum, kAssignSaturated); }
+
+// The sum of the invocations before this one; `total` is that of all. Saturates, so values must not
+// pass kAssignSaturated.
+uint scanGroup(uint value, out uint total) {
+    uint self = gl_LocalInvocationIndex;
+    barrier();
+    scan_words[self] = value;
+    for (uint step = 1u; step < kAssignScanGroup; step <<= 1u) {
+        barrier();
+        uint before = self >= step ? scan_words[self - step] : 0u;
+        barrier();
+        scan_words[self] = saturated(scan_words[self] + before);
+    }
+    barrier();
+    total = scan_words[kAssignScanGroup - 1u];
+    return self > 0u ? scan_words[self - 1u] : 0u;
+}
