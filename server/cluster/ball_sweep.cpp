@@ -7,6 +7,15 @@
 #include <array>
 #include <cmath>
 
+// A second copy of a function, and of all it calls, for CPUs with AVX2: a fifth off the time of
+// assignment. Nothing contracts or reorders, so both find the same to the last bit. The choice at
+// load time runs too early for sanitizers.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define FROXEL_WIDE_CLONES [[gnu::flatten, gnu::target_clones("avx2", "default")]]
+#else
+#define FROXEL_WIDE_CLONES
+#endif
+
 namespace froxel::cluster {
 namespace {
 
@@ -250,6 +259,7 @@ void BallSweep::emitRows(size_t slice,
     }
 }
 
+FROXEL_WIDE_CLONES
 void BallSweep::sweepPerspective(const Ball& ball, std::vector<Span>& out) const {
     if (io::outsidePicture(ball, columns_, rows_)) {
         return;

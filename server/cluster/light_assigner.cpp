@@ -2,6 +2,7 @@
 
 #include "cluster/ball_sweep.h"
 #include "cluster/crew.h"
+#include "cluster/line_lists.h"
 #include "cluster/span.h"
 #include "cluster/spot_cut.h"
 #include "core/assert.h"
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 namespace froxel::cluster {
 namespace {
@@ -23,23 +23,6 @@ Ball dilated(Ball ball) {
     ball.radius = io::dilatedRadius(ball);
     return ball;
 }
-
-// A run of consecutive lights, swept and filled in by one thread.
-struct Chunk {
-    size_t first_light = 0;
-    size_t last_light = 0; // one past
-    std::vector<Span> spans;
-    std::vector<uint32_t> span_counts; // of each light
-    // A line is a row of a slice, with one element more than it has clusters. First how many spans
-    // begin here less how many ended before: its running sum counts a cluster's entries in two
-    // additions a span. Then where the cluster's next entry goes.
-    std::vector<uint32_t> lines;
-    uint64_t entry_count = 0;
-
-    [[nodiscard]] uint32_t* line(const ClusterGrid& grid, uint32_t index) {
-        return &lines[size_t{index} * (grid.size.x + 1U)];
-    }
-};
 
 void appendAll(const ClusterGrid& grid, std::vector<Span>& spans) {
     for (uint32_t z = 0; z < grid.size.z; ++z) {
@@ -105,18 +88,23 @@ void appendLight(const ClusterGrid& grid,
 
 struct LightAssigner::Impl {
     Impl(unsigned threads, uint64_t max_entries_)
-        : crew(threads), chunks(threads), max_entries(max_entries_) {}
+        : crew(threads), chunks(threads), tallies(threads), max_entries(max_entries_) {}
 
-    void sweepChunk(const ClusterGrid& grid, const light::FrameLights& lights, Chunk& chunk);
-    void placeLists(const ClusterGrid& grid, unsigned members, LightLists& out);
-    // Makes the lists of one line, from `offset` on; returns where the next list goes.
-    uint32_t placeLine(
-        const ClusterGrid& grid, unsigned members, uint32_t line, uint32_t offset, LightLists& out);
-    static void fillChunk(const ClusterGrid& grid, Chunk& chunk, std::vector<uint32_t>& indices);
+    // Finds the spans of the member's share of the lights.
+    void sweepLights(const ClusterGrid& grid,
+                     const light::FrameLights& lights,
+                     unsigned member,
+                     unsigned members);
+    // Where each line's lists begin.
+    void placeLines(unsigned members);
+    // Makes the lists of the member's share of the lines.
+    void fillLines(const ClusterGrid& grid, unsigned member, unsigned members, LightLists& out);
     static void nameAllLights(const ClusterGrid& grid, size_t light_count, LightLists& out);
 
     Crew crew;
-    std::vector<Chunk> chunks;
+    std::vector<SpanChunk> chunks; // of each member
+    std::vector<ListTally> tallies;
+    std::vector<uint32_t> line_offsets; // lines + 1
     uint64_t max_entries;
     BallSweep sweep;
     std::atomic<bool> overflow{false};
@@ -129,78 +117,61 @@ LightAssigner::LightAssigner(unsigned threads, uint64_t max_entries)
 
 LightAssigner::~LightAssigner() = default;
 
-// Finds the chunk's spans and counts its entries for each cluster.
-void LightAssigner::Impl::sweepChunk(const ClusterGrid& grid,
-                                     const light::FrameLights& lights,
-                                     Chunk& chunk) {
-    chunk.spans.clear();
-    chunk.span_counts.clear();
-    chunk.lines.assign(size_t{grid.size.x + 1U} * grid.size.y * grid.size.z, 0);
-    chunk.entry_count = 0;
-    for (size_t light = chunk.first_light; light < chunk.last_light; ++light) {
-        const size_t begin = chunk.spans.size();
-        appendLight(grid, sweep, lights, light, chunk.spans);
-        chunk.span_counts.push_back(static_cast<uint32_t>(chunk.spans.size() - begin));
-        for (size_t i = begin; i < chunk.spans.size(); ++i) {
-            const Span span = chunk.spans[i];
-            uint32_t* line = chunk.line(grid, span.line());
-            ++line[span.first()];
-            --line[span.last() + 1U];
-            chunk.entry_count += span.count();
-        }
-        if (chunk.entry_count > max_entries || overflow.load(std::memory_order_relaxed)) {
+void LightAssigner::Impl::sweepLights(const ClusterGrid& grid,
+                                      const light::FrameLights& lights,
+                                      unsigned member,
+                                      unsigned members) {
+    const size_t light_count = lights.lights.size();
+    const size_t first = light_count * member / members;
+    const size_t end = light_count * (member + 1U) / members;
+    SpanChunk& chunk = chunks[member];
+    chunk.begin(first, size_t{grid.size.y} * grid.size.z);
+    for (size_t light = first; light < end; ++light) {
+        appendLight(grid, sweep, lights, light, chunk.spans());
+        chunk.endLight();
+        if (chunk.entryCount() > max_entries || overflow.load(std::memory_order_relaxed)) {
             overflow.store(true, std::memory_order_relaxed);
             return;
         }
     }
+    chunk.sortByLine();
 }
 
-// Turns counts into offsets: within a cluster's list the chunks follow each other.
-uint32_t LightAssigner::Impl::placeLine(
-    const ClusterGrid& grid, unsigned members, uint32_t line, uint32_t offset, LightLists& out) {
-    const size_t first_cluster = size_t{line} * grid.size.x;
-    for (unsigned member = 0; member < members; ++member) {
-        uint32_t* counts = chunks[member].line(grid, line);
-        std::partial_sum(counts, counts + grid.size.x, counts);
-    }
-    for (uint32_t x = 0; x < grid.size.x; ++x) {
-        const uint32_t begin = offset;
-        for (unsigned member = 0; member < members; ++member) {
-            uint32_t& cursor = chunks[member].line(grid, line)[x];
-            offset += std::exchange(cursor, offset);
-        }
-        out.clusters[first_cluster + x] = {begin, offset - begin};
-    }
-    return offset;
-}
-
-void LightAssigner::Impl::placeLists(const ClusterGrid& grid, unsigned members, LightLists& out) {
+void LightAssigner::Impl::placeLines(unsigned members) {
     uint32_t offset = 0;
-    for (uint32_t line = 0; line < grid.size.y * grid.size.z; ++line) {
-        offset = placeLine(grid, members, line, offset, out);
+    for (uint32_t line = 0; line + 1 < line_offsets.size(); ++line) {
+        line_offsets[line] = offset;
+        for (unsigned member = 0; member < members; ++member) {
+            offset += chunks[member].entryCount(line);
+        }
     }
-    for (const io::ClusterList& list : out.clusters) {
-        out.stats.empty_count += list.count == 0 ? 1U : 0U;
-        out.stats.largest = std::max(out.stats.largest, list.count);
-    }
-    out.stats.entry_count = offset;
-    out.indices.resize(offset);
+    line_offsets.back() = offset;
 }
 
-void LightAssigner::Impl::fillChunk(const ClusterGrid& grid,
-                                    Chunk& chunk,
-                                    std::vector<uint32_t>& indices) {
-    auto span = chunk.spans.begin();
-    auto light = static_cast<uint32_t>(chunk.first_light);
-    for (const uint32_t span_count : chunk.span_counts) {
-        for (const auto end = span + span_count; span != end; ++span) {
-            uint32_t* line = chunk.line(grid, span->line());
-            for (uint32_t x = span->first(); x <= span->last(); ++x) {
-                indices[line[x]++] = light;
-            }
+void LightAssigner::Impl::fillLines(const ClusterGrid& grid,
+                                    unsigned member,
+                                    unsigned members,
+                                    LightLists& out) {
+    ListTally tally;
+    // For each about the same number of entries and clusters.
+    const auto work = [&](uint32_t line) {
+        return uint64_t{line_offsets[line]} + uint64_t{line} * grid.size.x;
+    };
+    const auto line_count = static_cast<uint32_t>(line_offsets.size() - 1);
+    const auto boundary = [&](unsigned share) {
+        uint32_t line = 0;
+        while (line < line_count && work(line) * members < work(line_count) * share) {
+            ++line;
         }
-        ++light;
+        return line;
+    };
+    const uint32_t end = boundary(member + 1U);
+    for (uint32_t line = boundary(member); line < end; ++line) {
+        fillLine({chunks.data(), members}, line, line_offsets[line],
+                 {&out.clusters[size_t{line} * grid.size.x], grid.size.x}, out.indices,
+                 line_offsets.back() + member, tally);
     }
+    tallies[member] = tally;
 }
 
 void LightAssigner::Impl::nameAllLights(const ClusterGrid& grid,
@@ -213,6 +184,7 @@ void LightAssigner::Impl::nameAllLights(const ClusterGrid& grid,
     std::iota(out.indices.begin(), out.indices.end(), 0U);
     out.stats.entry_count = uint64_t{count} * grid.clusterCount();
     out.stats.largest = count;
+    out.stats.p95 = count;
     out.stats.overflowed = true;
 }
 
@@ -230,28 +202,36 @@ void LightAssigner::assign(const ClusterGrid& grid,
 
     impl.sweep.prepare(grid);
     impl.overflow = false;
+    impl.line_offsets.resize(size_t{grid.size.y} * grid.size.z + 1U);
     const size_t wanted = light_count / kLightsPerMember + 1;
     const auto members = static_cast<unsigned>(std::min<size_t>(wanted, impl.crew.members()));
-    for (unsigned member = 0; member < members; ++member) {
-        impl.chunks[member].first_light = light_count * member / members;
-        impl.chunks[member].last_light = light_count * (member + 1) / members;
-    }
     impl.crew.run(members,
-                  [&](unsigned member) { impl.sweepChunk(grid, lights, impl.chunks[member]); });
+                  [&](unsigned member) { impl.sweepLights(grid, lights, member, members); });
     uint64_t entry_count = 0;
     for (unsigned member = 0; member < members; ++member) {
-        entry_count += impl.chunks[member].entry_count;
+        entry_count += impl.chunks[member].entryCount();
     }
     if (impl.overflow || entry_count > impl.max_entries) {
         Impl::nameAllLights(grid, light_count, out);
     } else {
-        impl.placeLists(grid, members, out);
-        impl.crew.run(members, [&](unsigned member) {
-            Impl::fillChunk(grid, impl.chunks[member], out.indices);
-        });
+        impl.placeLines(members);
+        out.indices.resize(entry_count + members); // with a spare place for each
+        impl.crew.run(members,
+                      [&](unsigned member) { impl.fillLines(grid, member, members, out); });
+        out.indices.resize(entry_count);
+        ListTally tally;
+        for (unsigned member = 0; member < members; ++member) {
+            tally.add(impl.tallies[member]);
+        }
+        out.stats.entry_count = entry_count;
+        out.stats.empty_count = tally.empty_count;
+        out.stats.largest = tally.largest;
+        out.stats.p95 = tally.lengths.p95(tally.largest);
     }
     const uint32_t filled = out.stats.cluster_count - out.stats.empty_count;
     out.stats.mean = filled > 0 ? static_cast<double>(out.stats.entry_count) / filled : 0.0;
+    out.stats.bytes =
+        out.clusters.size() * sizeof(io::ClusterList) + out.indices.size() * sizeof(uint32_t);
 }
 
 } // namespace froxel::cluster

@@ -12,6 +12,13 @@ namespace froxel::cluster {
 class ListHistogram {
   public:
     void add(uint32_t length) { ++counts_[io::histogramBucket(length)]; }
+    void add(const ListHistogram& other) {
+        for (size_t bucket = 0; bucket < counts_.size(); ++bucket) {
+            counts_[bucket] += other.counts_[bucket];
+        }
+    }
+
+    void addBucket(uint32_t bucket, uint32_t lists) { counts_[bucket] += lists; }
 
     // 95 % of the lists that are not empty are at most this long; exact to a sixteenth. 0: none.
     // `largest`: the longest of all, a tighter bound than its bucket's.

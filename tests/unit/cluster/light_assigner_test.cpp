@@ -32,6 +32,8 @@ void expectSame(const LightLists& a, const LightLists& b) {
     EXPECT_EQ(a.stats.entry_count, b.stats.entry_count);
     EXPECT_EQ(a.stats.empty_count, b.stats.empty_count);
     EXPECT_EQ(a.stats.largest, b.stats.largest);
+    EXPECT_EQ(a.stats.p95, b.stats.p95);
+    EXPECT_EQ(a.stats.bytes, b.stats.bytes);
 }
 
 TEST(LightAssigner, Threads_DoNotChangeTheResult) {
@@ -41,6 +43,34 @@ TEST(LightAssigner, Threads_DoNotChangeTheResult) {
         for (const unsigned threads : {2U, 3U, 8U}) {
             expectSame(one, assigned(usualGrid(), lights, threads));
         }
+    }
+}
+
+// The largest grid there is, its lines in uneven shares; and one line.
+TEST(LightAssigner, Threads_OnExtremeGrids_DoNotChangeTheResult) {
+    const auto lights = scattered(1500, 6);
+    for (const view::GridSize size : {view::GridSize{128, 128, 256}, {128, 1, 1}, {1, 128, 256}}) {
+        const ClusterGrid grid = makeClusterGrid({size}, {1280, 720}, perspective(45), 0.5, 35);
+        const LightLists one = assigned(grid, lights, 1);
+        expectSame(one, assigned(grid, lights, 2));
+        expectSame(one, assigned(grid, lights, 5));
+    }
+}
+
+TEST(LightAssigner, AMillionSmallLights_AreAssigned) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    light::FrameLights lights;
+    for (int i = 0; i < 1'000'000; ++i) {
+        addPoint(lights, {10 * unit(random), 5 * unit(random), -15 + 16 * unit(random)}, 0.3);
+    }
+    const LightLists lists = assigned(usualGrid(), lights, 2);
+    EXPECT_FALSE(lists.all_lights);
+    const auto clusters = clustersByLight(lists, lights.lights.size());
+    for (size_t i = 0; i < lights.lights.size(); i += 5003) {
+        const auto needed = reference::clustersOf(usualGrid(), ballOf(lights, i));
+        ASSERT_TRUE(
+            std::includes(clusters[i].begin(), clusters[i].end(), needed.begin(), needed.end()));
     }
 }
 
@@ -100,6 +130,17 @@ TEST(LightAssigner, Stats_DescribeTheLists) {
     EXPECT_EQ(lists.stats.cluster_count, 16U * 9U * 24U);
     EXPECT_EQ(lists.stats.empty_count, empty);
     EXPECT_EQ(lists.stats.largest, largest);
+    std::vector<uint32_t> lengths;
+    for (const auto& list : lists.clusters) {
+        if (list.count > 0) {
+            lengths.push_back(list.count);
+        }
+    }
+    std::sort(lengths.begin(), lengths.end());
+    const uint32_t p95 = lengths[(lengths.size() * 95 + 99) / 100 - 1];
+    EXPECT_GE(lists.stats.p95, p95);
+    EXPECT_LE(lists.stats.p95, p95 + p95 / 16);
+    EXPECT_EQ(lists.stats.bytes, lists.clusters.size() * 8 + lists.indices.size() * 4);
     EXPECT_DOUBLE_EQ(lists.stats.mean, static_cast<double>(lists.indices.size()) /
                                            (lists.stats.cluster_count - empty));
 }
