@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -21,12 +22,14 @@ struct RequiredFeature {
 using Features = vk::StructureChain<vk::PhysicalDeviceFeatures2,
                                     vk::PhysicalDeviceVulkan11Features,
                                     vk::PhysicalDeviceVulkan12Features,
-                                    vk::PhysicalDeviceVulkan13Features>;
+                                    vk::PhysicalDeviceVulkan13Features,
+                                    vk::PhysicalDeviceRobustness2FeaturesEXT>;
 
 std::vector<RequiredFeature> requiredFeatures(const Features& features) {
     const auto& core = features.get<vk::PhysicalDeviceFeatures2>().features;
     const auto& v12 = features.get<vk::PhysicalDeviceVulkan12Features>();
     const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
+    const auto& robustness = features.get<vk::PhysicalDeviceRobustness2FeaturesEXT>();
     return {{"independentBlend", core.independentBlend == VK_TRUE},
             {"multiDrawIndirect", core.multiDrawIndirect == VK_TRUE},
             {"drawIndirectFirstInstance", core.drawIndirectFirstInstance == VK_TRUE},
@@ -35,13 +38,15 @@ std::vector<RequiredFeature> requiredFeatures(const Features& features) {
             {"timelineSemaphore", v12.timelineSemaphore == VK_TRUE},
             {"synchronization2", v13.synchronization2 == VK_TRUE},
             {"dynamicRendering", v13.dynamicRendering == VK_TRUE},
-            {"maintenance4", v13.maintenance4 == VK_TRUE}};
+            {"maintenance4", v13.maintenance4 == VK_TRUE},
+            {"nullDescriptor", robustness.nullDescriptor == VK_TRUE}};
 }
 
 Features queryFeatures(const vk::raii::PhysicalDevice& physical) {
     return physical
         .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
-                      vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>();
+                      vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features,
+                      vk::PhysicalDeviceRobustness2FeaturesEXT>();
 }
 
 std::optional<uint32_t> findQueueFamily(const vk::raii::PhysicalDevice& physical) {
@@ -159,6 +164,9 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
         .setSynchronization2(VK_TRUE)
         .setDynamicRendering(VK_TRUE)
         .setMaintenance4(VK_TRUE);
+    // What a frame lacks is described by nothing, rather than by a stand-in.
+    enabled.get<vk::PhysicalDeviceRobustness2FeaturesEXT>().setNullDescriptor(VK_TRUE);
+    const std::array extensions = {VK_EXT_ROBUSTNESS_2_EXTENSION_NAME};
 
     const float priority = 1.0F;
     const vk::DeviceQueueCreateInfo queue{
@@ -166,7 +174,10 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
     device_ = vk::raii::Device(
         physical_, vk::DeviceCreateInfo{.pNext = &enabled.get<vk::PhysicalDeviceFeatures2>(),
                                         .queueCreateInfoCount = 1,
-                                        .pQueueCreateInfos = &queue});
+                                        .pQueueCreateInfos = &queue,
+                                        .enabledExtensionCount =
+                                            static_cast<uint32_t>(extensions.size()),
+                                        .ppEnabledExtensionNames = extensions.data()});
     queue_ = device_.getQueue(queue_family_, 0);
     cache_ = device_.createPipelineCache({});
     spdlog::info("device name=\"{}\" driver=\"{}\" kind={} subgroup={}", traits_.name,

@@ -81,7 +81,7 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     upload.clear();
     Blocks blocks;
     const auto place = [&](size_t binding, auto span) {
-        blocks[binding] = {upload.add(span), span.size_bytes()};
+        blocks[binding] = span.empty() ? Block{} : Block{upload.add(span), span.size_bytes()};
     };
     place(0, std::span<const io::Frame>(&uniforms_, 1));
     place(1, std::span<const io::Light>(lights_.lights));
@@ -110,20 +110,24 @@ void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
     std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
     slot.texel_views.clear();
     for (uint32_t i = 0; i < infos.size(); ++i) {
-        const auto bytes = std::max<vk::DeviceSize>(blocks[i].bytes, 16);
-        infos[i] = vk::DescriptorBufferInfo{slot.upload.buffer(), blocks[i].offset, bytes};
+        // What the frame lacks is described as none.
+        const auto& [offset, bytes] = blocks[i];
+        infos[i] = bytes > 0 ? vk::DescriptorBufferInfo{slot.upload.buffer(), offset, bytes}
+                             : vk::DescriptorBufferInfo{.buffer = {}, .range = VK_WHOLE_SIZE};
         writes[i] = {.dstSet = *slot.frame_set,
                      .dstBinding = i,
                      .descriptorCount = 1,
                      .descriptorType = Pipelines::kFrameBindingTypes[i],
                      .pBufferInfo = &infos[i]};
         if (Pipelines::kFrameTexelFormats[i] != vk::Format::eUndefined) {
-            slot.texel_views.push_back(
-                scene_.device.handle().createBufferView({.buffer = slot.upload.buffer(),
-                                                         .format = Pipelines::kFrameTexelFormats[i],
-                                                         .offset = blocks[i].offset,
-                                                         .range = bytes}));
-            views[i] = *slot.texel_views.back();
+            if (bytes > 0) {
+                slot.texel_views.push_back(scene_.device.handle().createBufferView(
+                    {.buffer = slot.upload.buffer(),
+                     .format = Pipelines::kFrameTexelFormats[i],
+                     .offset = offset,
+                     .range = bytes}));
+                views[i] = *slot.texel_views.back();
+            }
             writes[i].pTexelBufferView = &views[i];
         }
     }

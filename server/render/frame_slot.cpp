@@ -91,9 +91,8 @@ void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
     };
     const auto& t = *slot.targets;
     // lavapipe binds all of a set, also what no shader of the pass reads: an absent target must not
-    // leave the freed image of an earlier size behind.
-    const std::array images = {image(t.needs.gbuffer ? t.gbuffer : t.depth), image(t.depth),
-                               image(t.radiance)};
+    // leave the freed image of an earlier size behind, so it is described as none.
+    const std::array images = {image(t.gbuffer), image(t.depth), image(t.radiance)};
     const auto& pixels = t.needs.device_pixels ? t.pixels : slot.readback->buffer;
     const vk::DescriptorBufferInfo buffer{*pixels.handle, 0, VK_WHOLE_SIZE};
     std::vector<vk::WriteDescriptorSet> writes;

@@ -21,12 +21,13 @@ ViewTargets::ViewTargets(const gpu::Device& device,
                                    .usage = Usage::eColorAttachment | Usage::eSampled},
                                   "gbuffer");
     }
-    // Shaders that can store radiance name it even where they do not: a texel stands in.
-    radiance =
-        arena.makeImage({.format = Pipelines::kRadianceFormat,
-                         .extent = needs.radiance ? extent : vk::Extent2D{1, 1},
-                         .usage = Usage::eColorAttachment | Usage::eStorage | Usage::eTransferSrc},
-                        "radiance");
+    if (needs.radiance) {
+        radiance = arena.makeImage(
+            {.format = Pipelines::kRadianceFormat,
+             .extent = extent,
+             .usage = Usage::eColorAttachment | Usage::eStorage | Usage::eTransferSrc},
+            "radiance");
+    }
     if (needs.device_pixels) {
         pixels = arena.makeBuffer(vk::DeviceSize{4} * size.width_px * size.height_px,
                                   vk::BufferUsageFlagBits::eStorageBuffer |

@@ -30,7 +30,7 @@ struct ViewTargets {
     gpu::MemoryArena arena;
     gpu::Image depth;
     gpu::Image gbuffer;  // null handle: not needed
-    gpu::Image radiance; // one texel: not needed
+    gpu::Image radiance; // null handle: not needed
     gpu::Buffer pixels;  // null handle: not needed
     bool fresh = true;   // the images still await their first transition
 };
