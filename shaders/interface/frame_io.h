@@ -50,7 +50,7 @@ struct Frame {
     vec3 ambient_ground;
     float slice_unit;
     vec3 background; // linear radiance of empty pixels
-    float padding1;
+    float light_inv_radius2; // of every local light, where they are equal
     ToonSegment toon[kMaxToonSegments];
 };
 FROXEL_SIZE_ASSERT(Frame, 364);

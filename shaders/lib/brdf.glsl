@@ -1,6 +1,7 @@
 // Metallic-roughness shading as glTF 2.0 appendix B defines it: GGX distribution, height-correlated
 // Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A light only adds
 // weights that do not depend on the surface's colours; those are applied once, at the end.
+// With kLightLambert only base colour / pi is left of it: no eye, no roughness, no metalness.
 
 const float kPi = 3.14159265358979;
 const float kEpsilon2 = 1e-4; // (1 cm)^2: the floor of the squared distance to a light
@@ -15,7 +16,7 @@ struct Surface {
 };
 
 struct LightSum {
-    vec3 diffuse;  // sum of E (1 - p), where p = (1 - l.h)^5
+    vec3 diffuse;  // sum of E (1 - p), where p = (1 - l.h)^5; lambert: of E
     vec3 specular; // sum of E D V (1 - p)
     vec3 grazing;  // sum of E D V p
 };
@@ -26,6 +27,11 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     Surface s;
     s.position_view = position_view;
     s.normal_view = normal_view;
+    if (hasLight(kLightLambert)) {
+        s.to_eye_view = vec3(0.0);
+        s.n_dot_v = s.alpha2 = s.visibility_v = 0.0;
+        return s;
+    }
     s.to_eye_view =
         frame.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
     s.n_dot_v = max(abs(dot(normal_view, s.to_eye_view)), 1e-4);
@@ -42,6 +48,11 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, v
     precise float e = attenuation * facing;
     // toon_fragment: the ramp is for what a surface scatters; a highlight stays where it is.
     precise float scattered = hasLight(kLightToon) ? attenuation * toonRamp(facing) : e;
+    if (hasLight(kLightLambert)) {
+        precise vec3 lambert = fma(color, vec3(scattered), sum.diffuse);
+        sum.diffuse = lambert;
+        return;
+    }
     // The half vector only appears by |l + v|^2 and n.(l + v): no need to normalise it.
     precise float h2 = max(fma(2.0, v_dot_l, 2.0), 1e-6);
     precise float n_dot_sum = facing + s.n_dot_v;
@@ -80,6 +91,9 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
 
 // Outgoing radiance of all that was added.
 vec3 shadeSum(LightSum sum, vec3 base_color, float metallic) {
+    if (hasLight(kLightLambert)) {
+        return base_color * sum.diffuse / kPi;
+    }
     vec3 f0 = mix(vec3(0.04), base_color, metallic);
     vec3 albedo = base_color * (1.0 - metallic);
     vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);

@@ -3,8 +3,12 @@ layout(set = 1, binding = 0) uniform utexture2D gbuffer_image;
 layout(set = 1, binding = 1) uniform texture2D depth_image;
 layout(set = 1, binding = 2, rgba32f) uniform image2D radiance_image;
 layout(set = 1, binding = 3, scalar) writeonly buffer PixelBlock { uint pixels[]; };
+layout(set = 1, binding = 4) uniform utexture2D extra_image; // the G-buffer's second target
 
-bool insideScreen(uvec2 pixel) { return pixel.x < frame.width_px && pixel.y < frame.height_px; }
+// Without &&: what it guards would be loaded for each invocation on a software rasteriser.
+bool insideScreen(uvec2 pixel) {
+    return all(lessThan(pixel, uvec2(frame.width_px, frame.height_px)));
+}
 
 void storePixel(uvec2 pixel, vec3 radiance) {
     pixels[pixel.y * frame.width_px + pixel.x] = displayPixel(radiance);

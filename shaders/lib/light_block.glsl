@@ -1,0 +1,72 @@
+// Bounds of the surfaces that a subgroup shades, against which each invocation tests one light, so
+// that only lights that can add anything are evaluated. What is left out would have added +0: the
+// distance to the box is computed by the same monotonic steps as a pixel's own, and the facing test
+// has a margin for rounding.
+
+// Not max(): that asks for NaN first on a software rasteriser. Written out: a loop over doubling
+// steps is not unrolled there.
+vec3 largest(vec3 a, vec3 b) {
+    return vec3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+
+vec3 largestOfBlock(vec3 v) {
+    v = BATCH_SIZE > 1 ? largest(v, subgroupShuffleXor(v, 1)) : v;
+    v = BATCH_SIZE > 2 ? largest(v, subgroupShuffleXor(v, 2)) : v;
+    v = BATCH_SIZE > 4 ? largest(v, subgroupShuffleXor(v, 4)) : v;
+    v = BATCH_SIZE > 8 ? largest(v, subgroupShuffleXor(v, 8)) : v;
+    return BATCH_SIZE > 16 ? largest(v, subgroupShuffleXor(v, 16)) : v;
+}
+
+// The subgroup's bits together, in every invocation: a ballot that costs no loop where it is done
+// in software.
+uint gatherBits(uint bits) {
+    bits |= BATCH_SIZE > 1 ? subgroupShuffleXor(bits, 1) : 0u;
+    bits |= BATCH_SIZE > 2 ? subgroupShuffleXor(bits, 2) : 0u;
+    bits |= BATCH_SIZE > 4 ? subgroupShuffleXor(bits, 4) : 0u;
+    bits |= BATCH_SIZE > 8 ? subgroupShuffleXor(bits, 8) : 0u;
+    return bits | (BATCH_SIZE > 16 ? subgroupShuffleXor(bits, 16) : 0u);
+}
+
+struct Block {
+    vec3 low_view;
+    vec3 high_view;
+    vec3 centre_view;
+    vec3 normal_view; // not unit
+    float turn;       // farthest that a pixel's normal is from that
+    float ahead;      // greatest normal . (centre - position), and the margin
+};
+
+// Of the invocations for which `mine` holds; at least one.
+Block makeBlock(Surface s, bool mine) {
+    const vec3 kNone = vec3(-1e30);
+    Block b;
+    b.high_view = largestOfBlock(mine ? s.position_view : kNone);
+    b.low_view = -largestOfBlock(mine ? -s.position_view : kNone);
+    b.centre_view = 0.5 * (b.low_view + b.high_view);
+    vec3 normal_high = largestOfBlock(mine ? s.normal_view : kNone);
+    vec3 normal_low = -largestOfBlock(mine ? -s.normal_view : kNone);
+    b.normal_view = 0.5 * (normal_low + normal_high);
+    vec3 turn = s.normal_view - b.normal_view;
+    float ahead = dot(s.normal_view, b.centre_view - s.position_view);
+    vec3 worst = largestOfBlock(mine ? vec3(dot(turn, turn), ahead, 0.0) : kNone);
+    // A product of three terms is off by less than 1e-6 of its terms' sizes, here and in a pixel.
+    vec3 size = b.high_view - b.low_view;
+    b.turn = sqrt(worst.x) * 1.0001 + 1e-5;
+    b.ahead = worst.y + 1e-5 * (size.x + size.y + size.z);
+    return b;
+}
+
+// Whether a light may add anything to a surface of the block.
+bool mayLight(Block b, LocalLight light) {
+    vec3 away = max(max(b.low_view - light.position_view, light.position_view - b.high_view), 0.0);
+    precise float d2 = fma(away.z, away.z, fma(away.y, away.y, away.x * away.x));
+    precise float x = d2 * light.inv_radius2;
+    bool in_reach = x < 1.0;
+    if (hasLight(kLightToon)) {
+        return in_reach; // the ramp may lift what faces away
+    }
+    // normal . (light - position) = normal . (light - centre) + normal . (centre - position)
+    vec3 to_light = light.position_view - b.centre_view;
+    float facing = dot(b.normal_view, to_light) + b.turn * sqrt(dot(to_light, to_light)) + b.ahead;
+    return in_reach && facing > 0.0;
+}
