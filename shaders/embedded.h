@@ -25,4 +25,7 @@ std::span<const uint32_t> lighting_batched_comp();
 std::span<const uint32_t> toon_comp();
 std::span<const uint32_t> tonemap_comp();
 
+// Every one of them, for what must know whether any has changed.
+std::span<const std::span<const uint32_t>> all();
+
 } // namespace froxel::shaders

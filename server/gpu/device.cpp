@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace froxel::gpu {
@@ -179,7 +180,7 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
                                             static_cast<uint32_t>(extensions.size()),
                                         .ppEnabledExtensionNames = extensions.data()});
     queue_ = device_.getQueue(queue_family_, 0);
-    cache_ = device_.createPipelineCache({});
+    loadPipelineCache(options.pipeline_cache);
     spdlog::info("device name=\"{}\" driver=\"{}\" kind={} subgroup={}", traits_.name,
                  traits_.driver, traits_.is_cpu ? "cpu" : "gpu", traits_.subgroup_size);
 } catch (const vk::SystemError& error) {
@@ -190,10 +191,52 @@ Device::~Device() {
     if (*device_) {
         try {
             device_.waitIdle();
+            savePipelineCache();
         } catch (const vk::SystemError& error) {
             spdlog::warn("device: waiting at the end failed: {}", error.what());
         }
     }
+}
+
+void Device::loadPipelineCache(const PipelineCacheOptions& options) {
+    std::vector<std::byte> bytes;
+    if (!options.folder.empty()) {
+        const auto properties = physical_.getProperties();
+        cache_key_ = {.vendor = properties.vendorID,
+                      .device = properties.deviceID,
+                      .driver_version = properties.driverVersion,
+                      .build = options.build,
+                      .uuid = properties.pipelineCacheUUID};
+        cache_file_ = pipelineCacheFile(options.folder, cache_key_);
+        auto content = readPipelineCache(cache_file_, cache_key_);
+        if (!content.refused.empty()) {
+            spdlog::warn("pipeline cache '{}' {}: ignored", cache_file_.string(), content.refused);
+        }
+        bytes = std::move(content.bytes);
+        cache_hash_ = bytes.empty() ? 0 : hashBytes(bytes);
+        spdlog::debug("pipeline cache '{}' bytes={}", cache_file_.string(), bytes.size());
+    }
+    cache_ = device_.createPipelineCache(
+        {.initialDataSize = bytes.size(), .pInitialData = bytes.data()});
+}
+
+void Device::savePipelineCache() {
+    if (cache_file_.empty()) {
+        return;
+    }
+    const auto data = cache_.getData();
+    const auto bytes = std::as_bytes(std::span(data));
+    const uint64_t hash = hashBytes(bytes);
+    if (hash == cache_hash_) {
+        return;
+    }
+    const auto written = writePipelineCache(cache_file_, cache_key_, bytes);
+    if (!written) {
+        spdlog::info("pipeline cache not kept: {}", written.error().message);
+        return;
+    }
+    cache_hash_ = hash;
+    spdlog::debug("pipeline cache '{}' written bytes={}", cache_file_.string(), bytes.size());
 }
 
 void Device::nameObject(vk::ObjectType type, uint64_t handle, std::string_view name) const {

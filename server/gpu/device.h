@@ -4,6 +4,7 @@
 #include "gpu/device_options.h"
 #include "gpu/instance.h"
 #include "gpu/memory_ledger.h"
+#include "gpu/pipeline_cache.h"
 #include "gpu/vulkan.h"
 
 #include <cstdint>
@@ -42,6 +43,9 @@ class Device {
     [[nodiscard]] const ValidationLog& validationLog() const { return instance_.validationLog(); }
     [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
     [[nodiscard]] const vk::raii::PipelineCache& pipelineCache() const { return cache_; }
+    // Writes to disk what was compiled since the last time, if anything; also done at the end. A
+    // folder that cannot be written is no failure: one line in the log.
+    void savePipelineCache();
     // Of every MemoryArena; shared with them, since some outlive their owners.
     [[nodiscard]] const std::shared_ptr<MemoryLedger>& memoryLedger() const { return ledger_; }
 
@@ -55,6 +59,7 @@ class Device {
     [[nodiscard]] bool labels() const { return instance_.validating(); }
 
   private:
+    void loadPipelineCache(const PipelineCacheOptions& options);
     void nameObject(vk::ObjectType type, uint64_t handle, std::string_view name) const;
 
     Instance instance_;
@@ -62,6 +67,9 @@ class Device {
     vk::raii::Device device_{nullptr};
     vk::raii::Queue queue_{nullptr};
     vk::raii::PipelineCache cache_{nullptr};
+    PipelineCacheKey cache_key_;
+    std::filesystem::path cache_file_; // empty: none
+    uint64_t cache_hash_ = 0;          // of what the file holds
     std::shared_ptr<MemoryLedger> ledger_ = std::make_shared<MemoryLedger>();
     uint32_t queue_family_ = 0;
     DeviceTraits traits_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 
 namespace froxel::gpu {
@@ -12,8 +13,15 @@ enum class DeviceChoice : uint8_t { kAuto, kGpu, kCpu };
 inline constexpr std::array kDeviceChoiceNames = {std::string_view("auto"), std::string_view("gpu"),
                                                   std::string_view("cpu")};
 
+// Where compiled pipelines are kept from run to run.
+struct PipelineCacheOptions {
+    std::filesystem::path folder; // empty: nowhere
+    uint64_t build = 0;           // hash of the build's shaders
+};
+
 struct DeviceOptions {
     DeviceChoice choice = DeviceChoice::kAuto;
+    PipelineCacheOptions pipeline_cache;
     bool validation = false; // with the Khronos validation layer
     bool subgroups = true;   // false: as on a device without subgroup operations
 };
