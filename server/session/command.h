@@ -24,6 +24,7 @@ struct SetCamera {
     glm::dvec3 up_world{0, 1, 0};        // not zero
     std::optional<double> yfov_rad;      // makes the projection perspective
     std::optional<double> half_height_m; // makes it orthographic; never both
+    std::optional<glm::dvec2> lens_shift;
 };
 
 struct SelectSceneCamera {
@@ -33,6 +34,9 @@ struct SelectSceneCamera {
 struct SetRenderer {
     view::Renderer renderer = view::Renderer::kNaive;
     std::optional<view::LightingStage> lighting;
+    std::optional<view::ShadingModel> shading;
+    std::optional<view::NormalEncoding> normal;
+    std::optional<view::PositionSource> position;
 };
 
 struct SetLights {
@@ -46,10 +50,15 @@ struct SetLights {
     std::optional<bool> scene_lights;
     std::optional<BoundsD3> box; // min < max on every axis
     bool clear_box = false;      // never together with box
+    std::optional<view::LightLoop> light_loop;
+    std::optional<bool> count_pairs;
+    std::optional<double> time_s; // of the lights' clock
 };
 
 struct SetGrid {
-    view::GridSize grid;
+    std::optional<view::GridSize> size; // turns automatic off
+    std::optional<bool> automatic;      // never true together with size
+    std::optional<view::GridLaw> law;
 };
 
 struct SetExposure {

@@ -75,6 +75,11 @@ Command decode(const v1::SetCamera& camera, FieldValidator& fields) {
     if (camera.has_half_height_m()) {
         command.half_height_m = fields.number(view::kHalfHeightRange, camera.half_height_m());
     }
+    if (camera.has_lens_shift()) {
+        const v1::Vec2& shift = camera.lens_shift();
+        command.lens_shift = {fields.number(view::kLensShiftXRange, shift.x()),
+                              fields.number(view::kLensShiftYRange, shift.y())};
+    }
     if (command.yfov_rad && command.half_height_m) {
         fields.fail(RejectCode::kOutOfRange, view::kHalfHeightRange.field,
                     "comes together with fov_deg; a camera has one of them");
@@ -97,6 +102,18 @@ Command decode(const v1::SetRenderer& renderer, FieldValidator& fields) {
     if (renderer.has_lighting()) {
         command.lighting =
             enumeration(fields, "lighting", kLightingStageTable, renderer.lighting());
+    }
+    if (renderer.has_shading()) {
+        command.shading = enumeration(fields, "shading", kShadingModelTable, renderer.shading());
+    }
+    const v1::GbufferLayout& layout = renderer.gbuffer();
+    if (layout.has_normal()) {
+        command.normal =
+            enumeration(fields, "gbuffer.normal", kNormalEncodingTable, layout.normal());
+    }
+    if (layout.has_position()) {
+        command.position =
+            enumeration(fields, "gbuffer.position", kPositionSourceTable, layout.position());
     }
     return command;
 }
@@ -151,15 +168,39 @@ Command decode(const v1::SetLights& lights, FieldValidator& fields) {
     if (command.box && command.clear_box) {
         fields.fail(RejectCode::kOutOfRange, "clear_box", "comes together with box; send one");
     }
+    if (lights.has_light_loop()) {
+        command.light_loop =
+            enumeration(fields, "light_loop", kLightLoopTable, lights.light_loop());
+    }
+    if (lights.has_count_pairs()) {
+        command.count_pairs = lights.count_pairs();
+    }
+    if (lights.has_time_s()) {
+        command.time_s = fields.number(view::kTimeRange, lights.time_s());
+    }
     return command;
 }
 
 Command decode(const v1::SetGrid& set, FieldValidator& fields) {
-    fields.require(set.has_grid(), "grid");
-    const v1::Grid& grid = set.grid();
-    return SetGrid{{fields.number(view::kGridXRange, grid.x()),
-                    fields.number(view::kGridYRange, grid.y()),
-                    fields.number(view::kGridZRange, grid.z())}};
+    fields.require(set.has_grid() || set.has_automatic() || set.has_law(), "grid");
+    SetGrid command;
+    if (set.has_grid()) {
+        const v1::Grid& grid = set.grid();
+        command.size = {fields.number(view::kGridXRange, grid.x()),
+                        fields.number(view::kGridYRange, grid.y()),
+                        fields.number(view::kGridZRange, grid.z())};
+    }
+    if (set.has_automatic()) {
+        command.automatic = set.automatic();
+    }
+    if (set.has_law()) {
+        command.law = enumeration(fields, "law", kGridLawTable, set.law());
+    }
+    if (command.size && command.automatic.value_or(false)) {
+        fields.fail(RejectCode::kOutOfRange, "automatic",
+                    "is true and comes together with grid; send one");
+    }
+    return command;
 }
 
 Command decode(const v1::SetExposure& set, FieldValidator& fields) {

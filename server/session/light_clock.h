@@ -4,6 +4,8 @@
 
 #include "core/clock.h"
 
+#include <optional>
+
 namespace froxel::session {
 
 class LightClock {
@@ -19,6 +21,16 @@ class LightClock {
         LightClock clock(now, speed, running);
         clock.base_s_ = secondsAt(now);
         return clock;
+    }
+    // Another time at `now`, the same rate.
+    [[nodiscard]] LightClock withTime(TimePoint now, double seconds) const {
+        LightClock clock(now, speed_, running_);
+        clock.base_s_ = seconds;
+        return clock;
+    }
+    // Where it stands; none while time passes.
+    [[nodiscard]] std::optional<double> stoppedAt() const {
+        return moving() ? std::nullopt : std::optional(base_s_);
     }
     // Whether time passes at all, that is, whether pictures change by themselves.
     [[nodiscard]] bool moving() const { return running_ && speed_ > 0; }

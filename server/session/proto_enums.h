@@ -22,6 +22,35 @@ inline constexpr std::array kLightingStageTable = {
     std::pair{v1::LIGHTING_STAGE_COMPUTE, view::LightingStage::kCompute},
     std::pair{v1::LIGHTING_STAGE_FRAGMENT, view::LightingStage::kFragment},
 };
+inline constexpr std::array kShadingModelTable = {
+    std::pair{v1::SHADING_MODEL_PBR, view::ShadingModel::kPbr},
+    std::pair{v1::SHADING_MODEL_LAMBERT, view::ShadingModel::kLambert},
+};
+inline constexpr std::array kGridLawTable = {
+    std::pair{v1::GRID_LAW_LOGARITHMIC, view::GridLaw::kLogarithmic},
+    std::pair{v1::GRID_LAW_LINEAR, view::GridLaw::kLinear},
+    std::pair{v1::GRID_LAW_HYPERBOLIC, view::GridLaw::kHyperbolic},
+};
+inline constexpr std::array kLightLoopTable = {
+    std::pair{v1::LIGHT_LOOP_AUTO, view::LightLoop::kAuto},
+    std::pair{v1::LIGHT_LOOP_LISTS, view::LightLoop::kLists},
+    std::pair{v1::LIGHT_LOOP_ALL_LIGHTS, view::LightLoop::kAllLights},
+};
+inline constexpr std::array kNormalEncodingTable = {
+    std::pair{v1::NORMAL_ENCODING_OCT16, view::NormalEncoding::kOct16},
+    std::pair{v1::NORMAL_ENCODING_OCT12, view::NormalEncoding::kOct12},
+    std::pair{v1::NORMAL_ENCODING_OCT10, view::NormalEncoding::kOct10},
+    std::pair{v1::NORMAL_ENCODING_OCT8, view::NormalEncoding::kOct8},
+    std::pair{v1::NORMAL_ENCODING_XYZ16, view::NormalEncoding::kXyz16},
+    std::pair{v1::NORMAL_ENCODING_XY16, view::NormalEncoding::kXy16},
+    std::pair{v1::NORMAL_ENCODING_SPHEREMAP16, view::NormalEncoding::kSpheremap16},
+};
+inline constexpr std::array kPositionSourceTable = {
+    std::pair{v1::POSITION_SOURCE_DEPTH, view::PositionSource::kDepth},
+    std::pair{v1::POSITION_SOURCE_STORED_DEPTH, view::PositionSource::kStoredDepth},
+    std::pair{v1::POSITION_SOURCE_FP32, view::PositionSource::kFp32},
+    std::pair{v1::POSITION_SOURCE_FP16, view::PositionSource::kFp16},
+};
 inline constexpr std::array kToneMapTable = {
     std::pair{v1::TONE_MAP_PBR_NEUTRAL, view::ToneMap::kPbrNeutral},
     std::pair{v1::TONE_MAP_CLAMP, view::ToneMap::kClamp},
@@ -33,6 +62,11 @@ inline constexpr std::array kChromaTable = {
 
 static_assert(kRendererTable.size() == view::kRendererNames.size());
 static_assert(kLightingStageTable.size() == view::kLightingStageNames.size());
+static_assert(kShadingModelTable.size() == view::kShadingModelNames.size());
+static_assert(kGridLawTable.size() == view::kGridLawNames.size());
+static_assert(kLightLoopTable.size() == view::kLightLoopNames.size());
+static_assert(kNormalEncodingTable.size() == view::kNormalEncodingNames.size());
+static_assert(kPositionSourceTable.size() == view::kPositionSourceNames.size());
 static_assert(kToneMapTable.size() == view::kToneMapNames.size());
 static_assert(kChromaTable.size() == view::kChromaNames.size());
 

@@ -6,6 +6,7 @@
 #include "view/settings.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct SessionDefaults {
     uint32_t light_count = 1000;
     float light_radius_m = 2.0F;
     view::Renderer renderer = view::Renderer::kClusteredDeferred;
+    view::ViewSettings other;             // what the fields above and the camera do not say
+    std::optional<glm::dvec2> lens_shift; // of the first camera; absent: its own
     uint64_t max_area_px = uint64_t{4096} * 4096;
 };
 

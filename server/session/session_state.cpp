@@ -36,6 +36,7 @@ struct Reducer {
         camera.yfov_rad = before.yfov_rad;
         camera.half_height_m = before.half_height_m;
         camera.near_m = before.near_m;
+        camera.lens_shift = command.lens_shift.value_or(before.lens_shift);
         if (command.yfov_rad) {
             camera.projection = view::Projection::kPerspective;
             camera.yfov_rad = *command.yfov_rad;
@@ -68,6 +69,9 @@ struct Reducer {
     Outcome operator()(const SetRenderer& command) const {
         state.settings.renderer = command.renderer;
         assignIfGiven(state.settings.lighting, command.lighting);
+        assignIfGiven(state.settings.shading, command.shading);
+        assignIfGiven(state.settings.gbuffer.normal, command.normal);
+        assignIfGiven(state.settings.gbuffer.position, command.position);
         return {};
     }
 
@@ -85,13 +89,20 @@ struct Reducer {
         if (command.clear_box) {
             lights.box.reset();
         }
+        assignIfGiven(state.settings.light_loop, command.light_loop);
+        assignIfGiven(state.settings.count_pairs, command.count_pairs);
         state.light_clock = state.light_clock.withRate(now, lights.speed, lights.animate);
+        if (command.time_s) {
+            state.light_clock = state.light_clock.withTime(now, *command.time_s);
+        }
         return {};
     }
 
     Outcome operator()(const SetGrid& command) const {
-        state.settings.grid.automatic = false;
-        state.settings.grid.size = command.grid;
+        view::Grid& grid = state.settings.grid;
+        assignIfGiven(grid.size, command.size);
+        grid.automatic = command.automatic.value_or(grid.automatic && !command.size);
+        assignIfGiven(grid.law, command.law);
         return {};
     }
 
@@ -136,9 +147,10 @@ struct Reducer {
 
 SessionState initialState(const SessionContext& context, TimePoint now) {
     const SessionDefaults& defaults = context.defaults;
-    view::ViewSettings settings;
+    view::ViewSettings settings = defaults.other;
     settings.camera = context.scene.cameras.empty() ? view::overview(context.scene.bounds_world)
                                                     : context.scene.cameras.front().camera;
+    settings.camera.lens_shift = defaults.lens_shift.value_or(settings.camera.lens_shift);
     settings.size = defaults.size;
     settings.renderer = defaults.renderer;
     settings.lights.count = defaults.light_count;
@@ -158,12 +170,14 @@ CommandResult<SessionState> apply(SessionState state,
                                   TimePoint now) {
     const view::ViewSettings settings_before = state.settings;
     const view::Encoding encoding_before = state.encoding;
+    const double time_before_s = state.light_clock.secondsAt(now);
     if (auto rejection = std::visit(Reducer{state, context, now}, message.body)) {
         rejection->ref_seq = message.stamp.seq;
         return *rejection;
     }
     state.applied = message.stamp;
-    if (state.settings != settings_before || state.encoding != encoding_before) {
+    if (state.settings != settings_before || state.encoding != encoding_before ||
+        state.light_clock.secondsAt(now) != time_before_s) {
         ++state.version;
     }
     return state;

@@ -14,7 +14,7 @@ struct SessionState {
     view::Encoding encoding;
     LightClock light_clock;
     CommandStamp applied; // newest accepted command that sets state
-    uint64_t version = 1; // grows whenever settings or encoding differ from before
+    uint64_t version = 1; // grows whenever settings, encoding or the lights' time are set anew
 
     // Whether the picture changes without a command.
     [[nodiscard]] bool animating() const {

@@ -39,6 +39,8 @@ void fillCamera(v1::ViewState& out, const view::Camera& camera) {
     out.set_fov_deg(glm::degrees(camera.yfov_rad));
     out.set_half_height_m(camera.half_height_m);
     out.set_orthographic(camera.projection == view::Projection::kOrthographic);
+    out.mutable_lens_shift()->set_x(camera.lens_shift.x);
+    out.mutable_lens_shift()->set_y(camera.lens_shift.y);
 }
 
 void fillLights(v1::ViewState& out, const view::Lights& lights, const BoundsD3& scene_bounds) {
@@ -61,9 +63,19 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     fillLights(out, settings.lights, context.scene.bounds_world);
     out.set_renderer(toProto(kRendererTable, settings.renderer));
     out.set_lighting(toProto(kLightingStageTable, settings.lighting));
+    out.set_shading(toProto(kShadingModelTable, settings.shading));
+    out.mutable_gbuffer()->set_normal(toProto(kNormalEncodingTable, settings.gbuffer.normal));
+    out.mutable_gbuffer()->set_position(toProto(kPositionSourceTable, settings.gbuffer.position));
     out.mutable_grid()->set_x(settings.grid.size.x);
     out.mutable_grid()->set_y(settings.grid.size.y);
     out.mutable_grid()->set_z(settings.grid.size.z);
+    out.set_grid_automatic(settings.grid.automatic);
+    out.set_grid_law(toProto(kGridLawTable, settings.grid.law));
+    out.set_light_loop(toProto(kLightLoopTable, settings.light_loop));
+    out.set_count_pairs(settings.count_pairs);
+    if (const auto stopped_s = state.light_clock.stoppedAt()) {
+        out.set_light_time_s(*stopped_s);
+    }
     out.set_exposure(settings.exposure);
     out.set_tone_map(toProto(kToneMapTable, settings.tone_map));
     fill(*out.mutable_toon_fragment(), settings.toon_fragment);
@@ -115,6 +127,32 @@ v1::ErrorCode protoCode(RejectCode code) {
         return v1::ERROR_CODE_DEVICE;
     }
     return v1::ERROR_CODE_UNSPECIFIED;
+}
+
+void fillLists(v1::FrameHeader& out, const LightListStats& lists) {
+    out.set_light_count(lists.light_count);
+    out.set_list_entries(lists.entry_count);
+    out.set_list_mean(lists.mean);
+    out.set_list_p95(lists.p95);
+    out.set_list_largest(lists.largest);
+    out.set_list_clusters(lists.cluster_count);
+    out.set_list_empty(lists.empty_count);
+    out.set_list_bytes(lists.bytes);
+    out.set_lists_overflowed(lists.overflowed);
+    out.set_all_lights(lists.all_lights);
+    out.set_list_why(lists.why);
+}
+
+void fill(v1::FrameGrid& out, const GridStats& grid) {
+    out.set_x(grid.x);
+    out.set_y(grid.y);
+    out.set_z(grid.z);
+    out.set_tile_width_px(grid.tile_width_px);
+    out.set_tile_height_px(grid.tile_height_px);
+    out.set_near_m(grid.near_m);
+    out.set_far_m(grid.far_m);
+    out.set_automatic(grid.automatic);
+    out.set_why(grid.why);
 }
 
 // Durations and counts on the wire stop at the largest u32: 71 minutes, where exactness is moot.
@@ -176,6 +214,20 @@ v1::ServerMessage makeDraining(std::chrono::milliseconds deadline) {
     return message;
 }
 
+v1::ServerMessage makeFrameDetails(const FrameDetails& details) {
+    v1::ServerMessage message;
+    v1::FrameDetails& out = *message.mutable_details();
+    for (const std::string& line : details.plan) {
+        out.add_plan(line);
+    }
+    for (const MemoryUse& use : details.memory) {
+        v1::MemoryUse& row = *out.add_memory();
+        row.set_purpose(use.purpose);
+        row.set_bytes(use.bytes);
+    }
+    return message;
+}
+
 v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     v1::FrameHeader header;
     header.set_frame_id(record.frame_id);
@@ -200,12 +252,14 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
         out.set_name(pass.name);
         out.set_gpu_us(saturated(pass.gpu_us));
     }
-    const LightListStats& lists = record.stats.lists;
-    header.set_light_count(lists.light_count);
-    header.set_list_entries(lists.entry_count);
-    header.set_list_mean(lists.mean);
-    header.set_list_largest(lists.largest);
-    header.set_lists_overflowed(lists.overflowed);
+    fillLists(header, record.stats.lists);
+    if (record.stats.grid.x > 0) {
+        fill(*header.mutable_grid(), record.stats.grid);
+    }
+    if (record.stats.pairs.counted) {
+        header.mutable_pairs()->set_evaluated(record.stats.pairs.evaluated);
+        header.mutable_pairs()->set_contributing(record.stats.pairs.contributing);
+    }
     header.set_dropped_frames(record.dropped_count);
     header.set_time_s(record.time_s);
     header.set_triangles(record.stats.triangle_count);

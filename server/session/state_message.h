@@ -18,6 +18,7 @@ makeWelcome(uint64_t session_id, const SessionContext& context, const SessionSta
 [[nodiscard]] v1::ServerMessage makeError(const Rejection& rejection);
 [[nodiscard]] v1::ServerMessage makePong(const CommandStamp& ping);
 [[nodiscard]] v1::ServerMessage makeDraining(std::chrono::milliseconds deadline);
+[[nodiscard]] v1::ServerMessage makeFrameDetails(const FrameDetails& details);
 
 // One frame's way through the server, in microseconds where not said otherwise.
 struct FrameRecord {

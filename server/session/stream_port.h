@@ -29,8 +29,9 @@ class FrameSink {
   public:
     virtual ~FrameSink() = default;
     virtual void deliver(ReadyFrame frame) = 0;
-    // The picture of `refused` cannot be made (kCapacity: its size does not fit). `drawn` is what
-    // was drawn last, none before the first picture; the session falls back to it.
+    // The picture of `refused` cannot be made (kCapacity: its size does not fit; kUnsupported: the
+    // device cannot do what its settings ask for). `drawn` is what was drawn last, none before the
+    // first picture; the session falls back to it.
     virtual void refuse(Error error, SessionState refused, std::optional<SessionState> drawn) = 0;
     // No picture comes any more.
     virtual void deviceLost(Error error) = 0;

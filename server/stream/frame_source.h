@@ -24,7 +24,8 @@ class ViewSource {
     // Whether a readback slot is free.
     [[nodiscard]] virtual bool canSubmit() const = 0;
     // Starts one frame at `time_s` of the lights' clock. Errors: kCapacity when this size does not
-    // fit (earlier ones still work), kDevice when the device is lost.
+    // fit and kUnsupported when the device cannot do what the settings ask for (earlier ones still
+    // work), kDevice when the device is lost.
     [[nodiscard]] virtual Result<void> submit(const view::ViewSettings& settings,
                                               double time_s) = 0;
     // Waits for the oldest frame submitted. Errors: kDevice.

@@ -148,7 +148,8 @@ bool RenderLoop::startNext() {
     Viewer& viewer = *viewers_.at(*id);
     const auto started = submit(viewer, now);
     if (!started) {
-        if (started.error().code != ErrorCode::kCapacity) {
+        const ErrorCode code = started.error().code;
+        if (code != ErrorCode::kCapacity && code != ErrorCode::kUnsupported) {
             throw StartupError(started.error());
         }
         refuse(viewer, started.error());

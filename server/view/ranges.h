@@ -29,6 +29,9 @@ inline constexpr Range<uint32_t> kGridZRange{"grid.z", 1, 256};
 inline constexpr Range<double> kExposureRange{"exposure", 0.0001, 10'000.0};
 inline constexpr Range<double> kFovRange{"fov_deg", 1.0, 170.0};
 inline constexpr Range<double> kHalfHeightRange{"half_height", 0.0001, 1e7};
+// Half pictures: enough for one of 64 x 64 tiles of a wall.
+inline constexpr Range<double> kLensShiftXRange{"lens_shift.x", -64.0, 64.0};
+inline constexpr Range<double> kLensShiftYRange{"lens_shift.y", -64.0, 64.0};
 inline constexpr Range<double> kPositionRange{"position", -1e7, 1e7};
 inline constexpr Range<double> kFocusRange{"focus", 1e-6, 1e8}; // from eye to target
 inline constexpr Range<double> kUpRange{"up", 1e-6, 1e8};       // length of the up vector
@@ -42,6 +45,7 @@ inline constexpr std::tuple kCommandRanges{
     kWidthRange,      kHeightRange,  kLightCountRange, kLightRadiusRange, kLightIntensityRange,
     kLightSpeedRange, kAmbientRange, kGridXRange,      kGridYRange,       kGridZRange,
     kExposureRange,   kFovRange,     kHalfHeightRange, kPositionRange,    kFocusRange,
-    kUpRange,         kQualityRange, kToonRange,       kToonSlopeRange};
+    kUpRange,         kQualityRange, kToonRange,       kToonSlopeRange,   kTimeRange,
+    kLensShiftXRange, kLensShiftYRange};
 
 } // namespace froxel::view

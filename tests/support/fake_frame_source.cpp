@@ -29,6 +29,24 @@ std::byte shadeOf(const view::ViewSettings& settings) {
                      std::min(settings.exposure, 4.0F) * 10.0F);
 }
 
+// As a real renderer's would be, in round numbers.
+void fillStats(FrameStats& stats, const view::ViewSettings& settings) {
+    static const auto kDetails = std::make_shared<const FrameDetails>(
+        FrameDetails{{"nothing is drawn: no passes"}, {{"pixels", 4096}, {"light lists", 512}}});
+    stats.details = kDetails;
+    stats.lists.light_count = settings.lights.count;
+    stats.lists.cluster_count = 8;
+    stats.lists.empty_count = 2;
+    stats.lists.entry_count = 30;
+    stats.lists.mean = 5;
+    stats.lists.p95 = 9;
+    stats.lists.largest = 10;
+    stats.lists.bytes = 184;
+    const view::GridSize& size = settings.grid.size;
+    stats.grid = {size.x, size.y, size.z, 32, 24, 0.5, 40, settings.grid.automatic, "a fake"};
+    stats.pairs = {settings.count_pairs, 1000, 250};
+}
+
 class FakeView final : public stream::ViewSource {
   public:
     explicit FakeView(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {
@@ -47,6 +65,9 @@ class FakeView final : public stream::ViewSource {
         }
         if (uint64_t{settings.size.width_px} * settings.size.height_px > device_->max_area_px) {
             return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
+        }
+        if (!device_->computes && settings.lighting == view::LightingStage::kCompute) {
+            return Error{ErrorCode::kUnsupported, "the fake device has no compute stage"};
         }
         ++device_->submitted_count;
         queue_.push_back(settings);
@@ -74,7 +95,7 @@ class FakeView final : public stream::ViewSource {
         });
         frame.stats.passes = {{"fake", 1.0}};
         frame.stats.gpu_us = 1;
-        frame.stats.lists.light_count = settings.lights.count;
+        fillStats(frame.stats, settings);
         return frame;
     }
 

@@ -19,6 +19,7 @@ class FakeDevice {
     std::atomic<uint32_t> depth = 1;
     std::atomic<uint64_t> max_area_px = uint64_t{4096} * 4096; // larger pictures do not fit
     std::atomic<bool> lost = false;
+    std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage
     std::atomic<uint64_t> submitted_count = 0;
     std::atomic<int> live_views = 0;
     std::atomic<int> live_leases = 0;

@@ -93,7 +93,8 @@ TEST(DecodeCommand, SetCamera_WithoutADirection_IsRefused) {
 
     v1::ClientMessage no_up = cameraMessage();
     no_up.mutable_set_camera()->mutable_up();
-    EXPECT_EQ(refused(decodeBinary(no_up)).message, "up is 0; it must be from 0.000001 to 100000000");
+    EXPECT_EQ(refused(decodeBinary(no_up)).message,
+              "up is 0; it must be from 0.000001 to 100000000");
 
     v1::ClientMessage no_eye = cameraMessage();
     no_eye.mutable_set_camera()->clear_eye();
@@ -143,7 +144,7 @@ TEST(DecodeCommand, SetRenderer_KnowsEveryNameAndNoOther) {
 TEST(DecodeCommand, OtherEnums_GivenButUnknown_AreUnsupported) {
     v1::ClientMessage lighting = clientMessage();
     lighting.mutable_set_renderer()->set_renderer(v1::RENDERER_NAIVE);
-    lighting.mutable_set_renderer()->set_lighting(static_cast<v1::LightingStage>(3));
+    lighting.mutable_set_renderer()->set_lighting(static_cast<v1::LightingStage>(99));
     EXPECT_EQ(refused(decodeBinary(lighting)).field, "lighting");
     v1::ClientMessage tone_map = clientMessage();
     tone_map.mutable_set_exposure()->set_tone_map(v1::TONE_MAP_UNSPECIFIED);
@@ -198,6 +199,52 @@ TEST(DecodeCommand, SetGridWithoutGrid_IsRefused) {
     v1::ClientMessage message = clientMessage();
     message.mutable_set_grid();
     EXPECT_EQ(refused(decodeBinary(message)).message, "grid is missing");
+}
+
+TEST(DecodeCommand, SetGridAutomatic_TogetherWithAGrid_OnlyWhereItIsOff) {
+    v1::ClientMessage message = clientMessage();
+    v1::SetGrid& set = *message.mutable_set_grid();
+    set.set_automatic(true);
+    EXPECT_EQ(accepted<SetGrid>(decodeBinary(message)).automatic, true);
+    set.mutable_grid()->set_x(5);
+    set.mutable_grid()->set_y(5);
+    set.mutable_grid()->set_z(5);
+    EXPECT_EQ(refused(decodeBinary(message)).field, "automatic");
+    set.set_automatic(false);
+    EXPECT_EQ(accepted<SetGrid>(decodeBinary(message)).size, (view::GridSize{5, 5, 5}));
+}
+
+// Every enum of the schema: each value is taken, an unknown one and UNSPECIFIED are named.
+TEST(DecodeCommand, Enums_Unknown_AreNamedWithWhatIsKnown) {
+    struct Case {
+        std::string body;
+        std::string field;
+        std::string known;
+    };
+    const auto renderer = [](const std::string& rest) {
+        return R"("setRenderer":{"renderer":"RENDERER_NAIVE",)" + rest + "}";
+    };
+    const std::vector<Case> cases = {
+        {renderer(R"("lighting":VALUE)"), "lighting", "LIGHTING_STAGE_AUTO"},
+        {renderer(R"("shading":VALUE)"), "shading", "SHADING_MODEL_LAMBERT"},
+        {renderer(R"("gbuffer":{"normal":VALUE})"), "gbuffer.normal", "NORMAL_ENCODING_OCT12"},
+        {renderer(R"("gbuffer":{"position":VALUE})"), "gbuffer.position", "POSITION_SOURCE_FP16"},
+        {R"("setLights":{"lightLoop":VALUE})", "light_loop", "LIGHT_LOOP_ALL_LIGHTS"},
+        {R"("setGrid":{"law":VALUE})", "law", "GRID_LAW_HYPERBOLIC"},
+    };
+    const auto with = [](const Case& test, const std::string& value) {
+        std::string body = test.body;
+        return decodeBody(body.replace(body.find("VALUE"), 5, value));
+    };
+    for (const Case& test : cases) {
+        EXPECT_TRUE(with(test, '"' + test.known + '"')) << test.known;
+        for (const char* value : {"0", "99"}) {
+            const Rejection rejection = refused(with(test, value));
+            EXPECT_EQ(rejection.code, RejectCode::kUnsupported);
+            EXPECT_EQ(rejection.field, test.field);
+            EXPECT_NE(rejection.message.find(test.known), std::string::npos) << rejection.message;
+        }
+    }
 }
 
 void addPoint(v1::ToonRamp& ramp, double x, double y, double slope = 0) {

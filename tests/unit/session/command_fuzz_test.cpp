@@ -26,7 +26,9 @@ struct PromiseKept {
                (!c.box || (finite(c.box->min) && finite(c.box->max) && !c.box->empty()));
     }
     bool operator()(const SetGrid& c) const {
-        return c.grid.x > 0 && c.grid.y > 0 && c.grid.z > 0 && c.grid.x <= 128;
+        return (!c.size || (c.size->x > 0 && c.size->y > 0 && c.size->z > 0 && c.size->x <= 128)) &&
+               !(c.size && c.automatic.value_or(false)) &&
+               (!c.law || static_cast<size_t>(*c.law) < view::kGridLawNames.size());
     }
     bool operator()(const SetSize& c) const {
         return view::kWidthRange.contains(c.size.width_px) &&

@@ -47,7 +47,7 @@ TEST(CommandJson, UnknownFields_AreIgnoredAtAnyDepth) {
     EXPECT_EQ(
         accepted<SetGrid>(
             decodeBody(R"("x":[{"y":null}],"setGrid":{"new":1,"grid":{"x":1,"y":2,"z":3,"w":4}})"))
-            .grid,
+            .size,
         (view::GridSize{1, 2, 3}));
 }
 

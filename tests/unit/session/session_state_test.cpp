@@ -30,6 +30,12 @@ class State : public ::testing::Test {
         return command;
     }
 
+    static SetGrid gridOf(const view::GridSize& size) {
+        SetGrid command;
+        command.size = size;
+        return command;
+    }
+
     SessionContext context = makeContext();
     SessionState initial = initialState(context, kStart);
 
@@ -76,7 +82,7 @@ TEST_F(State, Initial_TinyScene_IsBeyondTheNearPlane) {
 }
 
 TEST_F(State, SetCamera_KeepsTheProjectionUnlessTold) {
-    SetCamera command{{1, 2, 3}, {1, 2, 0}, {0, 1, 0}, {}, {}};
+    SetCamera command{{1, 2, 3}, {1, 2, 0}, {0, 1, 0}, {}, {}, {}};
     const SessionState moved = applied(initial, command);
     EXPECT_EQ(moved.settings.camera.eye_world, glm::dvec3(1, 2, 3));
     EXPECT_DOUBLE_EQ(moved.settings.camera.focus_m, 3);
@@ -88,6 +94,11 @@ TEST_F(State, SetCamera_KeepsTheProjectionUnlessTold) {
     EXPECT_EQ(ortho.settings.camera.half_height_m, 4);
 
     command.half_height_m.reset();
+    command.lens_shift = {0.5, -1};
+    const SessionState shifted = applied(ortho, command);
+    EXPECT_EQ(shifted.settings.camera.lens_shift, glm::dvec2(0.5, -1));
+    command.lens_shift.reset();
+    EXPECT_EQ(applied(shifted, command).settings.camera.lens_shift, glm::dvec2(0.5, -1));
     EXPECT_EQ(applied(ortho, command).settings.camera.projection, view::Projection::kOrthographic);
     command.yfov_rad = 1.0;
     const SessionState perspective = applied(ortho, command);
@@ -155,13 +166,79 @@ TEST_F(State, LightClock_PausesResumesAndChangesSpeedWithoutJumps) {
     EXPECT_FALSE(applied(state, speed(0)).animating());
 }
 
+TEST_F(State, LightClock_TimeGiven_IsTakenWhetherItStandsOrRuns) {
+    const SetLights at_three = lights([](SetLights& c) { c.time_s = 3.0; });
+    const SessionState running = applied(initial, at_three, kStart + 10s);
+    EXPECT_DOUBLE_EQ(running.light_clock.secondsAt(kStart + 11s), 4);
+    EXPECT_FALSE(running.light_clock.stoppedAt());
+    const SessionState stopped = applied(initial, lights([](SetLights& c) {
+                                             c.animate = false;
+                                             c.time_s = 3.0;
+                                         }),
+                                         kStart + 10s);
+    EXPECT_EQ(stopped.light_clock.stoppedAt(), 3.0);
+    EXPECT_EQ(applied(stopped, at_three, kStart + 20s).version, stopped.version);
+    const SessionState moved = applied(stopped, lights([](SetLights& c) { c.time_s = 5.0; }));
+    EXPECT_EQ(moved.version, stopped.version + 1) << "it looks different";
+}
+
+TEST_F(State, SetGrid_ASizeTurnsAutomaticOff_TrueTurnsItOn) {
+    EXPECT_TRUE(initial.settings.grid.automatic);
+    SessionState state = applied(initial, gridOf({2, 3, 4}));
+    EXPECT_FALSE(state.settings.grid.automatic);
+    SetGrid law;
+    law.law = view::GridLaw::kHyperbolic;
+    state = applied(state, law);
+    EXPECT_FALSE(state.settings.grid.automatic);
+    EXPECT_EQ(state.settings.grid.law, view::GridLaw::kHyperbolic);
+    SetGrid automatic;
+    automatic.automatic = true;
+    state = applied(state, automatic);
+    EXPECT_TRUE(state.settings.grid.automatic);
+    EXPECT_EQ(state.settings.grid.size, (view::GridSize{2, 3, 4})) << "to go back to";
+    automatic.automatic = false;
+    state = applied(state, automatic);
+    EXPECT_EQ(state.settings.grid, (view::Grid{false, {2, 3, 4}, view::GridLaw::kHyperbolic}));
+}
+
+TEST_F(State, SetRenderer_PartsOfTheLayout_AreSetOneByOne) {
+    SetRenderer command;
+    command.renderer = view::Renderer::kNaive;
+    command.shading = view::ShadingModel::kLambert;
+    command.normal = view::NormalEncoding::kXyz16;
+    SessionState state = applied(initial, command);
+    EXPECT_EQ(state.settings.shading, view::ShadingModel::kLambert);
+    EXPECT_EQ(state.settings.gbuffer,
+              (view::GbufferLayout{view::NormalEncoding::kXyz16, view::PositionSource::kDepth}));
+    command = {};
+    command.position = view::PositionSource::kFp32;
+    state = applied(state, command);
+    EXPECT_EQ(state.settings.gbuffer,
+              (view::GbufferLayout{view::NormalEncoding::kXyz16, view::PositionSource::kFp32}));
+    EXPECT_EQ(state.settings.shading, view::ShadingModel::kLambert);
+}
+
+TEST_F(State, SetLights_LoopAndPairs_AreSetAndKept) {
+    const SessionState state = applied(initial, lights([](SetLights& c) {
+                                           c.light_loop = view::LightLoop::kAllLights;
+                                           c.count_pairs = true;
+                                       }));
+    EXPECT_EQ(state.settings.light_loop, view::LightLoop::kAllLights);
+    EXPECT_TRUE(state.settings.count_pairs);
+    EXPECT_EQ(applied(state, SetLights{}).settings, state.settings);
+}
+
 TEST_F(State, TheOtherCommands_SetTheirFields) {
     view::ToonRamp ramp;
     ramp.count = 2;
-    SessionState state = applied(initial, SetGrid{{15, 15, 15}});
-    state =
-        applied(state, SetRenderer{view::Renderer::kToonFragment, view::LightingStage::kFragment});
-    state = applied(state, SetRenderer{view::Renderer::kNaive, {}});
+    SessionState state = applied(initial, gridOf({15, 15, 15}));
+    SetRenderer renderer;
+    renderer.renderer = view::Renderer::kToonFragment;
+    renderer.lighting = view::LightingStage::kFragment;
+    state = applied(state, renderer);
+    renderer = {};
+    renderer.renderer = view::Renderer::kNaive;
+    state = applied(state, renderer);
     state = applied(state, SetExposure{2.0, {}});
     state = applied(state, SetExposure{{}, view::ToneMap::kClamp});
     state = applied(state, SetToon{ramp, {}});
@@ -192,8 +269,8 @@ TEST_F(State, TooLargeAPicture_IsRefused) {
 }
 
 TEST_F(State, SameValueAgain_CountsAsAppliedNotAsChanged) {
-    const SessionState once = applied(initial, SetGrid{{8, 8, 8}});
-    const SessionState twice = applied(once, SetGrid{{8, 8, 8}});
+    const SessionState once = applied(initial, gridOf({8, 8, 8}));
+    const SessionState twice = applied(once, gridOf({8, 8, 8}));
     EXPECT_EQ(once.version, initial.version + 1);
     EXPECT_EQ(twice.version, once.version);
     EXPECT_EQ(twice.applied, (CommandStamp{2, 20}));
@@ -202,7 +279,7 @@ TEST_F(State, SameValueAgain_CountsAsAppliedNotAsChanged) {
 TEST_F(State, SameCommands_GiveTheSameState) {
     const auto play = [&] {
         SessionState state = initial;
-        state = apply(state, {{1, 0}, SetGrid{{3, 3, 3}}}, context, kStart + 1s).value();
+        state = apply(state, {{1, 0}, gridOf({3, 3, 3})}, context, kStart + 1s).value();
         SetLights c;
         c.speed = 0.5;
         return apply(state, {{2, 0}, c}, context, kStart + 2s).value();

@@ -53,10 +53,17 @@ TEST(StateChanged, CarriesEverySetting) {
     SessionState state = initialState(context, TimePoint(1s));
     state.applied = {44, 5};
     state.settings.camera = context.scene.cameras[1].camera;
+    state.settings.camera.lens_shift = {0.25, -0.5};
     state.settings.renderer = view::Renderer::kToonCompute;
     state.settings.lighting = view::LightingStage::kFragment;
     state.settings.lights = {3, 1.5F, 2.5F, 9, false, 0.5F, {}, 0.25F, false};
-    state.settings.grid = {.automatic = false, .size = {1, 2, 3}};
+    state.settings.shading = view::ShadingModel::kLambert;
+    state.settings.gbuffer = {view::NormalEncoding::kXy16, view::PositionSource::kFp16};
+    state.settings.light_loop = view::LightLoop::kLists;
+    state.settings.count_pairs = true;
+    state.settings.grid = {.automatic = false, .size = {1, 2, 3}, .law = view::GridLaw::kLinear};
+    state.light_clock =
+        state.light_clock.withTime(TimePoint(2s), 6.5).withRate(TimePoint(2s), 1, false);
     state.settings.exposure = 0.5F;
     state.settings.tone_map = view::ToneMap::kClamp;
     state.settings.toon_compute.count = 2;
@@ -66,6 +73,8 @@ TEST(StateChanged, CarriesEverySetting) {
     const v1::ViewState& view = message.state().state();
     EXPECT_TRUE(view.orthographic());
     EXPECT_EQ(view.half_height_m(), 12);
+    EXPECT_EQ(view.lens_shift().x(), 0.25);
+    EXPECT_EQ(view.lens_shift().y(), -0.5);
     EXPECT_NEAR(view.up().z(), -1, 1e-12);
     EXPECT_EQ(view.renderer(), v1::RENDERER_TOON_COMPUTE);
     EXPECT_EQ(view.lighting(), v1::LIGHTING_STAGE_FRAGMENT);
@@ -78,12 +87,28 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.ambient(), 0.25);
     EXPECT_FALSE(view.scene_lights());
     EXPECT_EQ(view.grid().z(), 3U);
+    EXPECT_FALSE(view.grid_automatic());
+    EXPECT_EQ(view.grid_law(), v1::GRID_LAW_LINEAR);
+    EXPECT_EQ(view.shading(), v1::SHADING_MODEL_LAMBERT);
+    EXPECT_EQ(view.gbuffer().normal(), v1::NORMAL_ENCODING_XY16);
+    EXPECT_EQ(view.gbuffer().position(), v1::POSITION_SOURCE_FP16);
+    EXPECT_EQ(view.light_loop(), v1::LIGHT_LOOP_LISTS);
+    EXPECT_TRUE(view.count_pairs());
+    EXPECT_EQ(view.light_time_s(), 6.5);
     EXPECT_EQ(view.exposure(), 0.5);
     EXPECT_EQ(view.tone_map(), v1::TONE_MAP_CLAMP);
     EXPECT_EQ(view.toon_fragment().points_size(), 8);
     EXPECT_EQ(view.toon_compute().points_size(), 2);
     EXPECT_EQ(view.quality(), 42U);
     EXPECT_EQ(view.chroma(), v1::CHROMA_444);
+}
+
+TEST(StateChanged, LightTime_IsToldOnlyWhereItStands) {
+    const SessionContext context = makeContext();
+    SessionState state = initialState(context, TimePoint(1s));
+    EXPECT_FALSE(makeStateChanged(context, state).state().state().has_light_time_s());
+    state.light_clock = state.light_clock.withRate(TimePoint(3s), 0, true);
+    EXPECT_EQ(makeStateChanged(context, state).state().state().light_time_s(), 2);
 }
 
 TEST(StateChanged, LightBox_IsTheOneInUse) {
@@ -133,7 +158,18 @@ FrameRecord record() {
     record.stats.passes = {{"depth", 10}, {"lighting", 20.6}};
     record.stats.gpu_us = 30;
     record.stats.triangle_count = 1000;
-    record.stats.lists = {100, 50, 10, 400, 12, 10.0};
+    LightListStats& lists = record.stats.lists;
+    lists.light_count = 100;
+    lists.cluster_count = 50;
+    lists.empty_count = 10;
+    lists.entry_count = 400;
+    lists.largest = 12;
+    lists.mean = 10.0;
+    lists.p95 = 11;
+    lists.bytes = 2000;
+    lists.all_lights = true;
+    lists.why = "few lights";
+    record.stats.grid = {5, 3, 10, 64, 32, 0.5, 40, true, "cheapest of 9"};
     return record;
 }
 
@@ -160,9 +196,45 @@ TEST(FrameHeader, CarriesTheRecord) {
     EXPECT_EQ(header.list_entries(), 400U);
     EXPECT_EQ(header.list_mean(), 10.0);
     EXPECT_EQ(header.list_largest(), 12U);
+    EXPECT_EQ(header.list_p95(), 11U);
+    EXPECT_EQ(header.list_clusters(), 50U);
+    EXPECT_EQ(header.list_empty(), 10U);
+    EXPECT_EQ(header.list_bytes(), 2000U);
+    EXPECT_TRUE(header.all_lights());
+    EXPECT_EQ(header.list_why(), "few lights");
+    EXPECT_EQ(header.grid().x(), 5U);
+    EXPECT_EQ(header.grid().z(), 10U);
+    EXPECT_EQ(header.grid().tile_width_px(), 64U);
+    EXPECT_EQ(header.grid().tile_height_px(), 32U);
+    EXPECT_EQ(header.grid().near_m(), 0.5);
+    EXPECT_EQ(header.grid().far_m(), 40);
+    EXPECT_TRUE(header.grid().automatic());
+    EXPECT_EQ(header.grid().why(), "cheapest of 9");
+    EXPECT_FALSE(header.has_pairs());
     EXPECT_EQ(header.dropped_frames(), 6U);
     EXPECT_EQ(header.time_s(), 7.5);
     EXPECT_EQ(header.triangles(), 1000U);
+}
+
+TEST(FrameHeader, GridAndPairs_AreThereOnlyWhereTheFrameHasThem) {
+    FrameRecord bare = record();
+    bare.stats.grid = {};
+    bare.stats.pairs = {true, 5'000'000'000, 3};
+    const v1::FrameHeader header = makeFrameHeader(bare);
+    EXPECT_FALSE(header.has_grid());
+    EXPECT_EQ(header.pairs().evaluated(), 5'000'000'000U);
+    EXPECT_EQ(header.pairs().contributing(), 3U);
+}
+
+TEST(FrameDetails, CarryTheirLinesAndRowsInOrder) {
+    const FrameDetails details{{"no masks: no discard", "no spots"},
+                               {{"textures", 5'000'000'000}, {"lists", 7}}};
+    const v1::ServerMessage message = makeFrameDetails(details);
+    ASSERT_EQ(message.details().plan_size(), 2);
+    EXPECT_EQ(message.details().plan(1), "no spots");
+    ASSERT_EQ(message.details().memory_size(), 2);
+    EXPECT_EQ(message.details().memory(0).purpose(), "textures");
+    EXPECT_EQ(message.details().memory(0).bytes(), 5'000'000'000U);
 }
 
 TEST(FrameHeader, WithItsPayload_IsAFrame) {

@@ -163,6 +163,24 @@ TEST_F(RenderLoopTest, Refuse_PictureDoesNotFit_TellsAndKeepsServing) {
     EXPECT_TRUE(sink->waitForFrames(before + 1));
 }
 
+TEST_F(RenderLoopTest, Refuse_DeviceCannot_TellsAndKeepsServing) {
+    device_->computes = false;
+    start();
+    const auto sink = makeSink();
+    auto state = still();
+    const auto id = join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    state.settings.lighting = view::LightingStage::kCompute;
+    ++state.version;
+    loop_->update(id, state, Clock::now());
+    ASSERT_TRUE(sink->waitFor([](const auto& record) { return !record.refusals.empty(); }));
+    EXPECT_EQ(sink->record().refusals[0].error.code, ErrorCode::kUnsupported);
+    state.settings.lighting = view::LightingStage::kAuto;
+    ++state.version;
+    loop_->update(id, state, Clock::now());
+    EXPECT_TRUE(sink->waitForFrames(2));
+}
+
 TEST_F(RenderLoopTest, Lost_WhileDrawing_TellsEveryoneAndRefusesNewcomers) {
     start();
     const auto first = makeSink();
