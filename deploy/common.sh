@@ -15,7 +15,7 @@ build_packages=(
     libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev
     libglm-dev libboost1.81-dev libspdlog-dev libcli11-dev
     libturbojpeg0-dev libpng-dev
-    libprotobuf-dev protobuf-compiler
+    libprotobuf-dev protobuf-compiler prometheus-cpp-dev
     ca-certificates
 )
 run_packages=(mesa-vulkan-drivers)

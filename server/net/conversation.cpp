@@ -16,6 +16,7 @@ using session::Rejection;
 Conversation::~Conversation() {
     if (id_ != 0) {
         service_.serving->port->leave(id_);
+        metrics_->sessionClosed();
     }
 }
 
@@ -71,7 +72,9 @@ void Conversation::begin(TimePoint now) {
         return;
     }
     id_ = *id;
+    metrics_->sessionOpened();
     state_ = state;
+    welcome_ = state;
     answer(session::makeWelcome(id_, context, *state_));
     grantCredits();
     for (const CommandMessage& message : std::exchange(early_, {})) {
@@ -130,6 +133,9 @@ void Conversation::onFrame(session::ReadyFrame frame) {
         return;
     }
     window_.onProduced(frame.cost);
+    if (outbox_.hasFrame()) {
+        metrics_->frameDropped();
+    }
     outbox_.putFrame(std::move(frame));
     grantCredits();
 }
@@ -142,15 +148,19 @@ void Conversation::onRefused(const Error& error,
     if (closing_ || !state_ || state_->version != refused.version) {
         return;
     }
-    answer(session::makeError({RejectCode::kCapacity, refused.applied.seq, "", error.message}));
-    if (!drawn) {
-        close(CloseCode::kCapacity, "the first picture does not fit");
+    const bool unsupported = error.code == ErrorCode::kUnsupported;
+    answer(session::makeError({unsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
+                               refused.applied.seq, "", error.message}));
+    if (!drawn && refused.settings == welcome_->settings) {
+        close(CloseCode::kCapacity, "the first picture cannot be made");
         return;
     }
-    const view::Lights& lights = drawn->settings.lights;
+    // A client may have changed much before its first picture.
+    const session::SessionState& good = drawn ? *drawn : *welcome_;
+    const view::Lights& lights = good.settings.lights;
     state_->light_clock = state_->light_clock.withRate(now, lights.speed, lights.animate);
-    state_->settings = drawn->settings;
-    state_->encoding = drawn->encoding;
+    state_->settings = good.settings;
+    state_->encoding = good.encoding;
     ++state_->version;
     service_.serving->port->update(id_, *state_, now);
     outbox_.putState();
@@ -223,9 +233,25 @@ std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
         return Outgoing{protocol::encodeServerMessage(message, format), nullptr, format};
     }
     case Outbox::Next::kFrame:
+        if (auto details = detailsMessage()) {
+            return details;
+        }
         return frameMessage(now);
     }
     return {};
+}
+
+// What the next picture's details say, where that is news: decided now, since pictures before it
+// may have been replaced unsent.
+std::optional<Outgoing> Conversation::detailsMessage() {
+    const auto& details = outbox_.frame().record.stats.details;
+    if (!details || details == told_details_) {
+        return {};
+    }
+    told_details_ = details;
+    const auto format = reader_.replyFormat();
+    return Outgoing{protocol::encodeServerMessage(session::makeFrameDetails(*details), format),
+                    nullptr, format};
 }
 
 Outgoing Conversation::frameMessage(TimePoint now) {
@@ -234,6 +260,7 @@ Outgoing Conversation::frameMessage(TimePoint now) {
     frame.record.dropped_count = outbox_.droppedCount();
     window_.onSent(frame.record.frame_id, now);
     grantCredits();
+    metrics_->frameSent(frame.record);
     return {protocol::encodeFramePrefix(session::makeFrameHeader(frame.record)),
             std::move(frame.bytes), protocol::WireFormat::kBinary};
 }

@@ -2,6 +2,7 @@
 // when the connection must close. One strand; never blocks.
 #pragma once
 
+#include "net/metrics.h"
 #include "net/outbox.h"
 #include "net/service.h"
 #include "protocol/limits.h"
@@ -26,7 +27,8 @@ class Conversation {
     // Commands that wait while the scene is loading.
     static constexpr size_t kMaxEarlyCommands = 64;
 
-    explicit Conversation(std::weak_ptr<session::FrameSink> sink) : sink_(std::move(sink)) {}
+    Conversation(std::weak_ptr<session::FrameSink> sink, std::shared_ptr<Metrics> metrics)
+        : sink_(std::move(sink)), metrics_(std::move(metrics)) {}
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
@@ -63,9 +65,11 @@ class Conversation {
     void answer(const v1::ServerMessage& message);
     void close(protocol::CloseCode code, std::string reason);
     void grantCredits();
+    [[nodiscard]] std::optional<Outgoing> detailsMessage();
     [[nodiscard]] Outgoing frameMessage(TimePoint now);
 
     const std::weak_ptr<session::FrameSink> sink_;
+    const std::shared_ptr<Metrics> metrics_;
     session::CommandReader reader_;
     session::RejectBudget rejects_;
     session::CreditWindow window_;
@@ -73,7 +77,9 @@ class Conversation {
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
     std::string client_name_;
-    std::optional<session::SessionState> state_; // from Welcome on
+    std::optional<session::SessionState> state_;   // from Welcome on
+    std::optional<session::SessionState> welcome_; // as Welcome told it
+    std::shared_ptr<const FrameDetails> told_details_;
     session::SessionId id_ = 0;
     uint64_t delivered_ = 0; // pictures that came from the stream
     uint64_t granted_ = 0;

@@ -52,7 +52,7 @@ Response file(const Request& request, const StaticFile& found) {
     return response;
 }
 
-Response route(const Request& request, const StaticFiles& files, const ServiceStatus& status) {
+Response route(const Request& request, const Site& site) {
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
         Response response =
             text(http::status::method_not_allowed, "only GET and HEAD are answered here");
@@ -61,7 +61,10 @@ Response route(const Request& request, const StaticFiles& files, const ServiceSt
     }
     const std::string_view path = pathOf(request);
     if (path == "/healthz") {
-        return health(status);
+        return health(site.service->status());
+    }
+    if (path == "/metrics") {
+        return make(http::status::ok, Metrics::kContentType, site.metrics->text());
     }
     if (path == kSocketPath) {
         Response response =
@@ -69,7 +72,7 @@ Response route(const Request& request, const StaticFiles& files, const ServiceSt
         response.set(http::field::upgrade, "websocket");
         return response;
     }
-    if (const StaticFile* found = files.find(path)) {
+    if (const StaticFile* found = site.files.find(path)) {
         return file(request, *found);
     }
     return text(http::status::not_found,
@@ -83,8 +86,8 @@ std::string_view pathOf(const Request& request) {
     return target.substr(0, target.find('?'));
 }
 
-Response respond(const Request& request, const StaticFiles& files, const ServiceStatus& status) {
-    Response response = route(request, files, status);
+Response respond(const Request& request, const Site& site) {
+    Response response = route(request, site);
     response.version(request.version());
     response.keep_alive(request.keep_alive());
     const size_t body_bytes = response.body().size();

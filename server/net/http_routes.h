@@ -1,9 +1,8 @@
-// What the server answers to a plain HTTP request: the page, its health, or an error. Pure; any
-// thread.
+// What the server answers to a plain HTTP request: the page, its health, its metrics, or an error.
+// Any thread.
 #pragma once
 
-#include "net/service.h"
-#include "net/static_files.h"
+#include "net/site.h"
 
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
@@ -22,8 +21,7 @@ inline constexpr std::string_view kSocketPath = "/ws";
 [[nodiscard]] std::string_view pathOf(const Request& request);
 
 // Routes that are not an upgrade. HEAD gets the headers of GET.
-[[nodiscard]] Response
-respond(const Request& request, const StaticFiles& files, const ServiceStatus& status);
+[[nodiscard]] Response respond(const Request& request, const Site& site);
 
 // An error with one line of text for a person; closes the connection.
 [[nodiscard]] Response refusal(boost::beast::http::status status, std::string line);

@@ -148,7 +148,7 @@ void HttpSession::onRequest() {
     if (wants_socket) {
         upgrade(std::move(request));
     } else {
-        write(respond(request, site_->files, site_->service->status()));
+        write(respond(request, *site_));
     }
 }
 

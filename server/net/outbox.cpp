@@ -47,6 +47,11 @@ void Outbox::takeState() {
     state_was_last_ = true;
 }
 
+const session::ReadyFrame& Outbox::frame() const {
+    FROXEL_ASSERT(frame_.has_value(), "no picture waits");
+    return *frame_;
+}
+
 session::ReadyFrame Outbox::takeFrame() {
     FROXEL_ASSERT(frame_.has_value(), "no picture waits");
     state_was_last_ = false;

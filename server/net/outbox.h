@@ -42,6 +42,8 @@ class Outbox {
     [[nodiscard]] session::ReadyFrame takeFrame();
 
     [[nodiscard]] bool hasFrame() const { return frame_.has_value(); }
+    // The picture that takeFrame() gives next.
+    [[nodiscard]] const session::ReadyFrame& frame() const;
     // Pictures that a newer one replaced.
     [[nodiscard]] uint32_t droppedCount() const { return dropped_count_; }
 

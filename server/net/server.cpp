@@ -22,6 +22,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     }
     site->allowed_origins = options.allowed_origins;
     site->service = std::make_shared<Service>();
+    site->metrics = std::make_shared<Metrics>();
     return site;
 }
 

@@ -1,7 +1,8 @@
-// What all connections of one server have in common. Immutable but for the service, which any
-// thread may use.
+// What all connections of one server have in common. Immutable but for the service and the metrics,
+// which any thread may use.
 #pragma once
 
+#include "net/metrics.h"
 #include "net/service.h"
 #include "net/static_files.h"
 
@@ -15,6 +16,7 @@ struct Site {
     StaticFiles files;
     std::vector<std::string> allowed_origins; // besides the server's own
     std::shared_ptr<Service> service;
+    std::shared_ptr<Metrics> metrics;
 };
 
 // Counts a connection for as long as it is held.

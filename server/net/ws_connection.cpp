@@ -24,6 +24,7 @@ constexpr std::chrono::seconds kIdleTimeout{20};
 // Beast's idle timer is re-armed by reads alone, so a client that sends but never reads would pin
 // a write for ever. The allowance lets a large picture through a link of 0.5 Mbit/s.
 constexpr std::chrono::seconds kWriteTimeout{5};
+constexpr std::chrono::seconds kLinger{2};
 constexpr size_t kSlowestBytesPerSecond = size_t{64} * 1024;
 
 std::string peerName(const beast::tcp_stream& stream) {
@@ -72,7 +73,7 @@ void WsConnection::onStrand(Work work) {
 void WsConnection::start(Request upgrade) {
     upgrade_ = std::move(upgrade);
     setOptions();
-    conversation_.emplace(weak_from_this());
+    conversation_.emplace(weak_from_this(), site_->metrics);
     stream_.async_accept(upgrade_, [self = shared_from_this()](ErrorCode error) {
         if (error) {
             self->abandon("handshake: " + error.message());
@@ -147,7 +148,7 @@ void WsConnection::onRead(ErrorCode error) {
 }
 
 void WsConnection::write() {
-    if (writing_ || closing_ || !conversation_) {
+    if (writing_ || closing_ || lingering_ || !conversation_) {
         return;
     }
     writing_ = conversation_->nextMessage(Clock::now());
@@ -184,13 +185,29 @@ void WsConnection::armWriteDeadline(size_t bytes) {
 }
 
 void WsConnection::onWritten(ErrorCode error) {
+    if (!error) {
+        site_->metrics->bytesSent(writing_->size());
+    }
     writing_.reset();
     write_deadline_.cancel();
     if (error) {
-        abandon(error.message());
+        linger();
     } else {
         write();
     }
+}
+
+// A write that fails may be the echo of a read that failed: Beast is then saying why (close 1009,
+// say) and reading until the client has heard it. Closing the socket now would reset the connection
+// and lose that.
+void WsConnection::linger() {
+    lingering_ = true;
+    write_deadline_.expires_after(kLinger);
+    write_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
+        if (!error) {
+            self->abandon("nothing can be written");
+        }
+    });
 }
 
 void WsConnection::closeSocket() {

@@ -53,6 +53,7 @@ class WsConnection final : public session::FrameSink,
     void write();
     void onWritten(ErrorCode error);
     void armWriteDeadline(size_t bytes);
+    void linger();
     void closeSocket();
     void abandon(const std::string& why);
 
@@ -66,7 +67,8 @@ class WsConnection final : public session::FrameSink,
     boost::asio::steady_timer write_deadline_;
     boost::beast::flat_buffer buffer_;
     std::optional<Outgoing> writing_;
-    bool closing_ = false; // the close handshake was begun
+    bool closing_ = false;   // the close handshake was begun
+    bool lingering_ = false; // nothing more can be written; the read in progress ends it
 };
 
 } // namespace froxel::net

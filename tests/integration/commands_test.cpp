@@ -118,7 +118,34 @@ TEST_F(CommandsTest, EveryCommand_Valid_ChangesTheState) {
     grid->set_x(15);
     grid->set_y(14);
     grid->set_z(13);
-    EXPECT_EQ(change(message).grid().y(), 14U);
+    const v1::ViewState gridded = change(message);
+    EXPECT_EQ(gridded.grid().y(), 14U);
+    EXPECT_FALSE(gridded.grid_automatic());
+    message.mutable_set_grid()->set_automatic(true);
+    message.mutable_set_grid()->set_law(v1::GRID_LAW_LINEAR);
+    const v1::ViewState automatic = change(message);
+    EXPECT_TRUE(automatic.grid_automatic());
+    EXPECT_EQ(automatic.grid_law(), v1::GRID_LAW_LINEAR);
+
+    auto* renderer = message.mutable_set_renderer();
+    renderer->set_renderer(v1::RENDERER_CLUSTERED_DEFERRED);
+    renderer->set_lighting(v1::LIGHTING_STAGE_FRAGMENT);
+    renderer->set_shading(v1::SHADING_MODEL_LAMBERT);
+    renderer->mutable_gbuffer()->set_normal(v1::NORMAL_ENCODING_OCT8);
+    renderer->mutable_gbuffer()->set_position(v1::POSITION_SOURCE_STORED_DEPTH);
+    const v1::ViewState shaded = change(message);
+    EXPECT_EQ(shaded.shading(), v1::SHADING_MODEL_LAMBERT);
+    EXPECT_EQ(shaded.gbuffer().normal(), v1::NORMAL_ENCODING_OCT8);
+    EXPECT_EQ(shaded.gbuffer().position(), v1::POSITION_SOURCE_STORED_DEPTH);
+
+    lights = message.mutable_set_lights();
+    lights->set_light_loop(v1::LIGHT_LOOP_LISTS);
+    lights->set_count_pairs(true);
+    lights->set_time_s(12.5);
+    const v1::ViewState looped = change(message);
+    EXPECT_EQ(looped.light_loop(), v1::LIGHT_LOOP_LISTS);
+    EXPECT_TRUE(looped.count_pairs());
+    EXPECT_DOUBLE_EQ(looped.light_time_s(), 12.5);
 
     message.mutable_set_exposure()->set_exposure(2);
     message.mutable_set_exposure()->set_tone_map(v1::TONE_MAP_CLAMP);
@@ -187,6 +214,39 @@ TEST_F(CommandsTest, SetSize_DoesNotFitTheDevice_FallsBackToTheLastGoodSize) {
     client_.expectFrame([&](const auto& header) { return header.applied_seq() >= next; });
 }
 
+TEST_F(CommandsTest, DeviceCannot_FallsBackToTheLastGoodState) {
+    const auto before = client_.join().state();
+    client_.expectFrame();
+    server_.device().computes = false;
+    ClientMessage message = setRenderer(v1::RENDERER_NAIVE);
+    message.mutable_set_renderer()->set_lighting(v1::LIGHTING_STAGE_COMPUTE);
+    const uint64_t seq = client_.send(message);
+    const v1::Error error = client_.expectError();
+    EXPECT_EQ(error.code(), v1::ERROR_CODE_UNSUPPORTED);
+    EXPECT_EQ(error.ref_seq(), seq);
+    EXPECT_EQ(client_.expectState(seq).renderer(), before.renderer());
+    const uint64_t next = client_.send(setExposure(2));
+    client_.expectFrame([&](const auto& header) { return header.applied_seq() >= next; });
+}
+
+TEST_F(CommandsTest, Details_ComeOnceBeforeTheFirstFrame) {
+    client_.join();
+    const auto details = client_.expect(ServerMessage::kDetails).details();
+    EXPECT_EQ(details.plan_size(), 1);
+    EXPECT_EQ(details.memory(0).bytes(), 4096U);
+    const Frame frame = client_.expectFrame();
+    EXPECT_EQ(frame.header.frame_id(), 1U);
+    EXPECT_EQ(frame.header.grid().why(), "a fake");
+    EXPECT_EQ(frame.header.list_p95(), 9U);
+    EXPECT_FALSE(frame.header.has_pairs());
+    ClientMessage count;
+    count.mutable_set_lights()->set_count_pairs(true);
+    const uint64_t seq = client_.send(count);
+    const Frame counted =
+        client_.expectFrame([&](const auto& header) { return header.applied_seq() >= seq; });
+    EXPECT_EQ(counted.header.pairs().contributing(), 250U);
+}
+
 TEST_F(CommandsTest, BadValues_Any_AreNamedAndChangeNothing) {
     client_.join();
     const auto good = change(setExposure(1.5));
@@ -202,7 +262,7 @@ TEST_F(CommandsTest, BadValues_Any_AreNamedAndChangeNothing) {
         {setSize(100, 4097), "height"},
     };
     ClientMessage lights;
-    lights.mutable_set_lights()->set_count(100'001);
+    lights.mutable_set_lights()->set_count(1'000'001);
     cases.push_back({lights, "lights"});
     for (const Case& bad : cases) {
         const uint64_t seq = client_.send(bad.message);

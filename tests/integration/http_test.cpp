@@ -11,6 +11,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <unistd.h>
 
@@ -188,6 +191,55 @@ TEST_F(HttpTest, Health_Serving_SaysSo) {
     EXPECT_EQ(statusOf(answer), 200);
     EXPECT_NE(answer.find(R"({"status":"serving"})"), std::string::npos) << answer;
     EXPECT_NE(answer.find("no-store"), std::string::npos);
+}
+
+// The exposition format as its reader checks it: HELP and TYPE before samples of their name, a
+// number in each, cumulative buckets that end at the count.
+TEST_F(HttpTest, Metrics_WithAViewer_ParseAndCount) {
+    WsClient viewer(server_.port());
+    viewer.join();
+    viewer.expectFrame();
+    viewer.expectFrame();
+    const std::string answer = get("/metrics");
+    EXPECT_EQ(statusOf(answer), 200);
+    EXPECT_NE(answer.find("Content-Type: text/plain; version=0.0.4"), std::string::npos);
+    const std::string body = answer.substr(answer.find("\r\n\r\n") + 4);
+    const std::regex sample(
+        R"re(([a-z0-9_]+)(\{[a-z_]+="[^"\n]*"(,[a-z_]+="[^"\n]*")*\})? (-?[0-9.e+-]+|\+Inf|NaN))re");
+    std::map<std::string, std::string> types;
+    std::map<std::string, double> values;
+    std::istringstream lines(body);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string hash, kind, name, type;
+        if (line[0] == '#') {
+            words >> hash >> kind >> name >> type;
+            EXPECT_TRUE(kind == "HELP" || kind == "TYPE") << line;
+            if (kind == "TYPE") {
+                types[name] = type;
+            }
+            continue;
+        }
+        std::smatch parts;
+        ASSERT_TRUE(std::regex_match(line, parts, sample)) << line;
+        const std::string family =
+            std::regex_replace(parts[1].str(), std::regex("_(bucket|sum|count)$"), "");
+        EXPECT_TRUE(types.count(family) || types.count(parts[1])) << line;
+        EXPECT_TRUE(values.emplace(line.substr(0, line.rfind(' ')), std::stod(parts[4])).second)
+            << "twice: " << line;
+    }
+    EXPECT_EQ(types["froxel_stage_duration_seconds"], "histogram");
+    EXPECT_EQ(types["froxel_frames_sent_total"], "counter");
+    EXPECT_EQ(values["froxel_sessions"], 1);
+    EXPECT_GE(values["froxel_frames_sent_total"], 2);
+    EXPECT_GT(values["froxel_sent_bytes_total"], 100);
+    EXPECT_EQ(values["froxel_light_list_p95_entries"], 9);
+    EXPECT_EQ(values["froxel_device_memory_bytes{purpose=\"pixels\"}"], 4096);
+    for (const char* stage : {"queue", "render", "gpu", "encode_wait", "encode", "send_wait"}) {
+        const std::string label = std::string("{stage=\"") + stage;
+        EXPECT_EQ(values["froxel_stage_duration_seconds_bucket" + label + "\",le=\"+Inf\"}"],
+                  values["froxel_stage_duration_seconds_count" + label + "\"}"]);
+    }
 }
 
 TEST(HttpLoading, SceneIsNotThere_PageAndHealthAnswer) {

@@ -82,6 +82,18 @@ TEST(Messages, OverTheCap_CloseWithTooBig) {
     EXPECT_EQ(client.expectClosed().code, 1009);
 }
 
+// Pictures that are on their way out must not cut off the words.
+TEST(Messages, OverTheCapWhilePicturesFlow_CloseWithTooBig) {
+    TestServer server({.size = {640, 480}});
+    for (int i = 0; i < 20; ++i) {
+        WsClient client(server.port());
+        client.join();
+        client.expectFrame();
+        client.sendRaw(std::string(size_t{200} * 1024, 'x'), WireFormat::kBinary);
+        ASSERT_EQ(client.expectClosed().code, 1009) << i;
+    }
+}
+
 TEST(Messages, HelloOverItsCap_ClosesWithTooBig) {
     TestServer server;
     WsClient client(server.port());

@@ -71,8 +71,9 @@ class ConversationTest : public testing::Test {
         message.mutable_ack()->set_frame_id(frame_id);
         return say(message);
     }
-    void frame(uint64_t id) {
+    void frame(uint64_t id, std::shared_ptr<const FrameDetails> details = nullptr) {
         session::ReadyFrame ready;
+        ready.record.stats.details = std::move(details);
         ready.record.frame_id = id;
         ready.record.width_px = 16;
         ready.record.height_px = 16;
@@ -103,7 +104,8 @@ class ConversationTest : public testing::Test {
     FakePort port_;
     TimePoint now_ = TimePoint() + 1h;
     std::shared_ptr<test::RecordingSink> sink_ = std::make_shared<test::RecordingSink>();
-    Conversation talk_{sink_};
+    std::shared_ptr<Metrics> metrics_ = std::make_shared<Metrics>();
+    Conversation talk_{sink_, metrics_};
     uint64_t seq_ = 0;
 };
 
@@ -194,6 +196,41 @@ TEST_F(ConversationTest, Frame_WaitedInTheSlot_TellsHowLong) {
     EXPECT_EQ(nextFrame().send_wait_us(), 3000U);
 }
 
+std::shared_ptr<const FrameDetails> detailsOf(const char* line) {
+    return std::make_shared<const FrameDetails>(FrameDetails{{line}, {{"textures", 7}}});
+}
+
+TEST_F(ConversationTest, Details_News_GoBeforeTheFirstFrameThatTheyAreTrueOf) {
+    join();
+    const auto first = detailsOf("first");
+    frame(1, first);
+    EXPECT_EQ(nextAnswer()->details().plan(0), "first");
+    EXPECT_EQ(nextFrame().frame_id(), 1U);
+    frame(2, first);
+    EXPECT_EQ(nextFrame().frame_id(), 2U) << "they hold until the next ones";
+    ack(2);
+    frame(3, detailsOf("second"));
+    EXPECT_EQ(nextAnswer()->details().plan(0), "second");
+    EXPECT_EQ(nextFrame().frame_id(), 3U);
+}
+
+TEST_F(ConversationTest, Details_OfAFrameThatWasReplaced_AreNotSent) {
+    join();
+    frame(1, detailsOf("replaced"));
+    frame(2, detailsOf("sent"));
+    EXPECT_EQ(nextAnswer()->details().plan(0), "sent");
+    EXPECT_EQ(nextFrame().frame_id(), 2U);
+}
+
+TEST_F(ConversationTest, Details_ReplacedBetweenThemAndTheirFrame_AreFollowedByTheNewOnes) {
+    join();
+    frame(1, detailsOf("old"));
+    EXPECT_EQ(nextAnswer()->details().plan(0), "old");
+    frame(2, detailsOf("new"));
+    EXPECT_EQ(nextAnswer()->details().plan(0), "new");
+    EXPECT_EQ(nextFrame().frame_id(), 2U);
+}
+
 TEST_F(ConversationTest, Ack_OfAFrameNeverSent_IsAnError) {
     join();
     const uint64_t seq = ack(5);
@@ -258,6 +295,30 @@ TEST_F(ConversationTest, Refused_StateChangedMeanwhile_LeavesItToTheStream) {
     EXPECT_FALSE(nextAnswer());
 }
 
+TEST_F(ConversationTest, Refused_DeviceCannot_SaysUnsupportedAndGoesOn) {
+    join();
+    const session::SessionState drawn = port_.states.back();
+    const uint64_t seq = setExposure(2);
+    drainAnswers();
+    talk_.onRefused({ErrorCode::kUnsupported, "no"}, port_.states.back(), drawn, now_);
+    const auto error = nextAnswer()->error();
+    EXPECT_EQ(error.code(), v1::ERROR_CODE_UNSUPPORTED);
+    EXPECT_EQ(error.ref_seq(), seq);
+    EXPECT_DOUBLE_EQ(nextAnswer()->state().state().exposure(), 1);
+    EXPECT_FALSE(talk_.closing());
+}
+
+TEST_F(ConversationTest, Refused_BeforeTheFirstPicture_FallsBackToWelcome) {
+    join();
+    const session::SessionState first = port_.states.back();
+    setExposure(2);
+    drainAnswers();
+    talk_.onRefused({ErrorCode::kUnsupported, "no"}, port_.states.back(), {}, now_);
+    EXPECT_TRUE(nextAnswer()->has_error());
+    EXPECT_EQ(port_.states.back().settings, first.settings);
+    EXPECT_FALSE(talk_.closing());
+}
+
 TEST_F(ConversationTest, Refused_FirstPicture_Closes) {
     join();
     talk_.onRefused({ErrorCode::kCapacity, "too large"}, port_.states.back(), {}, now_);
@@ -289,7 +350,7 @@ TEST_F(ConversationTest, HelloTimeout_Greeted_ChangesNothing) {
 TEST(ConversationEnd, AfterWelcome_LeavesTheStream) {
     FakePort port;
     {
-        Conversation talk{{}};
+        Conversation talk{{}, std::make_shared<Metrics>()};
         ServiceStatus status;
         status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
         talk.onService(status, TimePoint());

@@ -11,6 +11,13 @@ Request request(http::verb verb, std::string_view target) {
     return Request(verb, boost::beast::string_view(target.data(), target.size()), 11);
 }
 
+Site makeSite() {
+    Site site;
+    site.service = std::make_shared<Service>();
+    site.metrics = std::make_shared<Metrics>();
+    return site;
+}
+
 TEST(PathOf, Query_IsCutOff) {
     EXPECT_EQ(pathOf(request(http::verb::get, "/a/b?c=/d?e")), "/a/b");
     EXPECT_EQ(pathOf(request(http::verb::get, "/")), "/");
@@ -18,24 +25,24 @@ TEST(PathOf, Query_IsCutOff) {
 }
 
 TEST(Respond, PageIsNotBuilt_SaysHowToBuildIt) {
-    const auto response = respond(request(http::verb::get, "/"), {}, {});
+    const auto response = respond(request(http::verb::get, "/"), makeSite());
     EXPECT_EQ(response.result(), http::status::not_found);
     EXPECT_NE(response.body().find("build.sh"), std::string::npos);
 }
 
 TEST(Respond, Health_FollowsTheService) {
-    ServiceStatus status;
-    const auto health = [&] { return respond(request(http::verb::get, "/healthz"), {}, status); };
+    const Site site = makeSite();
+    const auto health = [&] { return respond(request(http::verb::get, "/healthz"), site); };
     EXPECT_EQ(health().body(), R"({"status":"loading"})");
-    status.serving = Serving{};
+    site.service->setServing({});
     EXPECT_EQ(health().body(), R"({"status":"serving"})");
-    status.draining = std::chrono::milliseconds(1);
+    site.service->setDraining(std::chrono::milliseconds(1));
     EXPECT_EQ(health().result(), http::status::service_unavailable);
 }
 
 TEST(Respond, EveryAnswer_HasTheSecurityHeaders) {
-    for (const char* target : {"/", "/healthz", "/ws", "/nothing"}) {
-        const auto response = respond(request(http::verb::get, target), {}, {});
+    for (const char* target : {"/", "/healthz", "/metrics", "/ws", "/nothing"}) {
+        const auto response = respond(request(http::verb::get, target), makeSite());
         EXPECT_EQ(response["X-Content-Type-Options"], "nosniff") << target;
         EXPECT_NE(response["Content-Security-Policy"].find("frame-ancestors 'none'"),
                   std::string_view::npos)
