@@ -28,6 +28,16 @@ class BallSweep {
     // Appends one Span for each row of each slice that the ball meets; slices and rows ascend.
     void sweep(const Ball& ball, std::vector<Span>& out) const;
 
+    // What it prepared, for the device's assignment.
+    [[nodiscard]] const io::PictureAxis& columns() const { return columns_; }
+    [[nodiscard]] const io::PictureAxis& rows() const { return rows_; }
+    [[nodiscard]] const std::vector<double>& planeDepths() const { return plane_depths_; }
+    [[nodiscard]] const std::vector<double>& inversePlaneDepths() const {
+        return inv_plane_depths_;
+    }
+    [[nodiscard]] const std::vector<double>& rowEdges() const { return row_edges_; }
+    [[nodiscard]] const std::vector<double>& rowNorms() const { return row_norms_; }
+
   private:
     struct PerspectiveSweep;
 

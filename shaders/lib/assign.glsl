@@ -1,15 +1,5 @@
 // Set 0 of the light assignment on the device. Every shader of it includes this.
-// The device must round these correctly; assign_probe.comp finds out.
-double assignDivide(double a, double b) {
-    precise double quotient = a / b;
-    return quotient;
-}
-
-double assignSqrt(double a) {
-    precise double root = sqrt(a);
-    return root;
-}
-
+#include "lib/assign_round.glsl"
 #include "interface/assign_io.h"
 #include "interface/light_io.h"
 
