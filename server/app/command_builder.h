@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/value_parsers.h"
+#include "app/pipeline_cache_option.h"
 #include "gpu/device_options.h"
 
 #include <CLI/CLI.hpp>
@@ -108,6 +109,13 @@ class CommandBuilder {
     void device(gpu::DeviceChoice& choice, bool& validation) {
         name("--device", choice, gpu::kDeviceChoiceNames, "Vulkan device, a GPU before a CPU");
         cli_.add_flag("--validation", validation, "Turn on the Vulkan validation layer (slow)");
+    }
+
+    void pipelineCache(gpu::PipelineCacheOptions& target) {
+        target = defaultPipelineCache();
+        value("--pipeline-cache", "DIR|off", target, parsePipelineCache,
+              "$XDG_CACHE_HOME/froxel or ~/.cache/froxel",
+              "Folder where compiled pipelines are kept from run to run");
     }
 
   private:

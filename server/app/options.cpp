@@ -116,6 +116,7 @@ void addServe(CLI::App& app, Targets& targets) {
     command.number("--port", options.port, kPortRange, "TCP port, 0 for any free one");
     addSceneOption(command, options.scene, options.scene);
     command.device(options.device, options.validation);
+    command.pipelineCache(options.pipeline_cache);
     command.number("--max-sessions", options.sessions_max, kSessionsRange, "Viewers at once");
     addFirstView(command, options);
     command.text("--web-root", "DIR", options.web_root, "web beside the binary, else the build's",
@@ -163,6 +164,7 @@ void addRender(CLI::App& app, Targets& targets) {
     auto& settings = options.settings;
     addSceneOption(command, options.scene, options.scene);
     command.device(options.device.choice, options.device.validation);
+    command.pipelineCache(options.device.pipeline_cache);
     command.name("--renderer", settings.renderer, view::kRendererNames, "How to draw");
     command.name("--lighting", settings.lighting, view::kLightingStageNames,
                  "Stage of deferred lighting");

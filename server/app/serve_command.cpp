@@ -43,7 +43,9 @@ OpenedScene openScene(const ServeOptions& options,
                       const std::function<void(net::LoadingProgress)>& report) {
     report({"opening the device", 0.0});
     auto device = std::make_unique<gpu::Device>(
-        gpu::DeviceOptions{.choice = options.device, .validation = options.validation});
+        gpu::DeviceOptions{.choice = options.device,
+                           .pipeline_cache = options.pipeline_cache,
+                           .validation = options.validation});
     const gpu::DeviceTraits& traits = device->traits();
 
     report({"loading the scene", 0.1});

@@ -18,6 +18,7 @@ struct ServeOptions {
     std::string scene = "builtin";     // as for loadScene()
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
+    gpu::PipelineCacheOptions pipeline_cache;
     uint32_t sessions_max = 16; // viewers at once; more are refused
     // What a viewer gets before asking for anything; absent: session::defaultsFor(the device).
     std::optional<view::Size> size;
