@@ -3,16 +3,18 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { kAllFields, type Field } from '../src/fields';
+import { isGridSide, kAllFields, type Field } from '../src/fields';
 import { Renderer } from '../src/gen/froxel/v1/common_pb';
 import { choicesOf } from '../src/schema_names';
 import { settingsOf, type Settings } from '../src/settings';
 import { startServer, type Server } from './server';
-import { launch, Viewer } from './viewer';
+import { difference, launch, until, Viewer } from './viewer';
 
 /** A value other than the default for each number, and whether it shows in a still picture. */
 const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   fov_deg: [75, true],
+  'lens_shift.x': [0.5, true],
+  'lens_shift.y': [-0.25, true],
   exposure: [2, true],
   lights: [300, true],
   light_radius: [4, true],
@@ -45,6 +47,11 @@ afterAll(async () => {
 
 const told = (): Settings | null => (viewer.state ? settingsOf(viewer.state, null) : null);
 
+async function setSwitch(name: string, on: boolean): Promise<void> {
+  await viewer.control(name).locator('input').setChecked(on);
+  await viewer.settled();
+}
+
 async function expectState(field: Field, value: number | boolean): Promise<void> {
   await viewer.stateWith(`${field.name} = ${String(value)}`, (state) => {
     const now = settingsOf(state, null)[field.key];
@@ -60,6 +67,7 @@ describe('numbers', () => {
       const entry = kNumbers[field.name];
       if (!entry) throw new Error(`no test value for ${field.name}`);
       const [value, visible] = entry;
+      if (isGridSide(field)) await setSwitch('grid.auto', false);
       const before = await viewer.settled();
       await viewer.type(field.name, value);
       await expectState(field, value);
@@ -82,7 +90,7 @@ describe('choices', () => {
     it(`Control_${field.name}_TakesEveryChoice`, async () => {
       const choices = choicesOf(field.schema);
       for (const { name, value } of [...choices.slice(1), ...choices.slice(0, 1)]) {
-        if (field.name === 'lighting') await viewer.choose('renderer', 'clustered deferred');
+        if (field.name !== 'renderer') await viewer.choose('renderer', 'clustered deferred');
         await viewer.choose(field.name, name.replaceAll('_', ' '));
         await expectState(field, value);
       }
@@ -96,16 +104,40 @@ describe('choices', () => {
     await viewer.changed('toon fragment', before);
   });
 
-  it('LightingStage_OfAForwardRenderer_CannotBeChosen', async () => {
+  it('GbufferOfAForwardRenderer_CannotBeChosen', async () => {
     await viewer.choose('renderer', 'naive');
     await viewer.stateWith('naive', ({ renderer }) => renderer === Renderer.NAIVE);
-    expect(await viewer.control('lighting').getAttribute('class')).toContain('lil-disabled');
+    for (const name of ['gbuffer.normal', 'gbuffer.position']) {
+      expect(await viewer.control(name).getAttribute('class')).toContain('lil-disabled');
+    }
     await viewer.choose('renderer', 'clustered deferred');
+  });
+
+  it('Shading_Lambert_ChangesThePicture', async () => {
+    const before = await viewer.settled();
+    await viewer.choose('shading', 'lambert');
+    await viewer.changed('lambert', before);
+    await viewer.choose('shading', 'pbr');
+  });
+
+  it('LightLoopGridAndLaw_NeverChangeThePicture', async () => {
+    const before = await viewer.settled();
+    for (const [name, label] of [
+      ['light_loop', 'all lights'],
+      ['light_loop', 'lists'],
+      ['grid.law', 'hyperbolic'],
+      ['grid.law', 'linear'],
+    ] as const) {
+      await viewer.choose(name, label);
+      expect(difference(await viewer.settled(), before)).toBe(0);
+    }
+    await viewer.choose('light_loop', 'auto');
+    await viewer.choose('grid.law', 'logarithmic');
   });
 });
 
 describe('switches', () => {
-  it.each(['light_animate', 'scene_lights'] as const)('Control_%s_GoesOnAndOff', async (name) => {
+  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto'] as const)('Control_%s_GoesOnAndOff', async (name) => {
     const field = kAllFields.find((candidate) => candidate.name === name);
     if (!field) throw new Error(`no field ${name}`);
     const before = told()?.[field.key] === true;
@@ -120,6 +152,28 @@ describe('switches', () => {
     await viewer.changed('animation', await viewer.thumbnail());
     await viewer.control('light_animate').locator('input').click();
     await viewer.stateWith('no animation', ({ lightAnimate }) => !lightAnimate);
+  });
+});
+
+describe('the grid', () => {
+  it('Automatic_ShowsTheOneInUseAndLocksTheSides', async () => {
+    await setSwitch('grid.auto', true);
+    await viewer.settled();
+    const { grid } = viewer.lastFrame ?? {};
+    expect(grid?.automatic).toBe(true);
+    expect(grid?.why).not.toBe('');
+    const shown = viewer.control('grid.in_use').locator('input');
+    const text = `${grid?.x} × ${grid?.y} × ${grid?.z}`;
+    await until(text, async () => (await shown.inputValue()) === text);
+    expect(await viewer.control('grid.x').getAttribute('class')).toContain('lil-disabled');
+  });
+
+  it('ByHand_IsTheOneInUse', async () => {
+    await setSwitch('grid.auto', false);
+    await viewer.type('grid.x', 7);
+    await viewer.stateWith('7 tiles across', ({ grid }) => grid?.x === 7);
+    await until('them in a frame', () => viewer.lastFrame?.grid?.x === 7);
+    await setSwitch('grid.auto', true);
   });
 });
 

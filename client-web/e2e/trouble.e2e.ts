@@ -3,7 +3,8 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 
-import { Renderer, type ViewState } from '../src/gen/froxel/v1/common_pb';
+import { LightingStage, Renderer, type ViewState } from '../src/gen/froxel/v1/common_pb';
+import { ErrorCode } from '../src/gen/froxel/v1/server_pb';
 import { startServer, type Server } from './server';
 import { launch, until, Viewer } from './viewer';
 
@@ -45,6 +46,32 @@ it('ValueOutOfRange_ShowsTheServersWordsAndKeepsTheLastGoodState', async () => {
   await until('the last good number', async () => (await input.inputValue()) === '50');
   await viewer.page.locator('#banner-close').click();
   expect(await viewer.page.locator('#banner').isVisible()).toBe(false);
+  await viewer.type('lights', 60);
+  await viewer.stateWith('60 lights', ({ lightCount }) => lightCount === 60);
+  expect(viewer.connectionCount).toBe(1);
+});
+
+// lavapipe has no descriptor indexing, which the forward renderers' compute stage needs. On a
+// device that has it, the setting is simply taken.
+it('SettingThatTheDeviceCannotDo_ShowsWhyAndKeepsTheLastGoodState', async () => {
+  await open(`${kStill}&renderer=forward_plus`);
+  await viewer.openPanel();
+  await viewer.settled();
+  await viewer.choose('lighting', 'compute');
+  await viewer.settled();
+  const told = viewer.received.flatMap(({ body }) => (body.case === 'error' ? [body.value] : []));
+  if (!told[0]) {
+    expect(viewer.state?.lighting).toBe(LightingStage.COMPUTE);
+    return;
+  }
+  expect(told[0].code).toBe(ErrorCode.UNSUPPORTED);
+  expect(told[0].message).not.toBe('');
+  await banner(told[0].message);
+  await viewer.stateWith('what it was', ({ lighting }) => lighting !== LightingStage.COMPUTE);
+  const shown = viewer.control('lighting').locator('select');
+  await until('the last good choice', async () => {
+    return (await shown.locator('option:checked').textContent()) !== 'compute';
+  });
   await viewer.type('lights', 60);
   await viewer.stateWith('60 lights', ({ lightCount }) => lightCount === 60);
   expect(viewer.connectionCount).toBe(1);

@@ -5,7 +5,7 @@
 // when nothing newer is under way, so that a slider never jumps back to where it was a round trip
 // ago. A refusal takes the settings back to the confirmed ones.
 
-import type { FieldRange, SceneInfo, ServerMessage } from './gen/froxel/v1/server_pb';
+import type { FieldRange, FrameDetails, SceneInfo, ServerMessage } from './gen/froxel/v1/server_pb';
 import { cameraOf, settingsOf, type Bounds, type Settings } from './settings';
 import type { SizeMode } from './url_state';
 import { vec } from './vec3';
@@ -48,6 +48,7 @@ export interface AppState {
   readonly wanted: Partial<Settings>;
   readonly sizeMode: SizeMode | null; // null: until Welcome tells what the server can do
   readonly notice: Notice | null;
+  readonly details: FrameDetails | null; // of the frames from now on
 }
 
 export type Action =
@@ -71,6 +72,7 @@ export const kInitialState: AppState = {
   wanted: {},
   sizeMode: null,
   notice: null,
+  details: null,
 };
 
 export function reduce(state: AppState, action: Action): AppState {
@@ -129,6 +131,8 @@ function received(state: AppState, message: ServerMessage): AppState {
       };
     case 'loading':
       return { ...state, loading: { stage: body.value.stage, fraction: body.value.fraction } };
+    case 'details':
+      return { ...state, details: body.value };
     case 'draining':
       return { ...state, notice: { text: 'The server is going down.', tone: 'info' } };
     default:

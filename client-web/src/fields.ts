@@ -5,8 +5,13 @@ import type { DescEnum } from '@bufbuild/protobuf';
 
 import {
   ChromaSchema,
+  GridLawSchema,
   LightingStageSchema,
+  LightLoopSchema,
+  NormalEncodingSchema,
+  PositionSourceSchema,
   RendererSchema,
+  ShadingModelSchema,
   ToneMapSchema,
 } from './gen/froxel/v1/common_pb';
 import type { Settings } from './settings';
@@ -14,6 +19,17 @@ import type { Settings } from './settings';
 type KeysOf<T> = {
   [Key in keyof Settings]: Settings[Key] extends T ? Key : never;
 }[keyof Settings];
+
+type ChoiceKey =
+  | 'renderer'
+  | 'lighting'
+  | 'shading'
+  | 'gbufferNormal'
+  | 'gbufferPosition'
+  | 'gridLaw'
+  | 'lightLoop'
+  | 'toneMap'
+  | 'chroma';
 
 interface Base {
   readonly name: string;
@@ -36,7 +52,7 @@ export interface BooleanField extends Base {
 
 export interface ChoiceField extends Base {
   readonly kind: 'choice';
-  readonly key: 'renderer' | 'lighting' | 'toneMap' | 'chroma';
+  readonly key: ChoiceKey;
   readonly schema: DescEnum;
 }
 
@@ -71,6 +87,22 @@ const toggle = (
 export const kFields: Readonly<Record<Section, readonly Field[]>> = {
   camera: [
     number('fovDeg', 'fov_deg', 'Field of view °', 'linear', false, 'Full vertical angle'),
+    number(
+      'lensShiftX',
+      'lens_shift.x',
+      'Lens shift →',
+      'none',
+      false,
+      'Moves the picture’s middle right of the view axis, in half widths',
+    ),
+    number(
+      'lensShiftY',
+      'lens_shift.y',
+      'Lens shift ↑',
+      'none',
+      false,
+      'Moves the picture’s middle above the view axis, in half heights: straight verticals',
+    ),
   ],
   rendering: [
     choice('renderer', 'renderer', 'Renderer', RendererSchema, 'How the scene is lit'),
@@ -79,7 +111,28 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'lighting',
       'Lighting stage',
       LightingStageSchema,
-      'Where the deferred renderers light: in a compute or in a fragment pass',
+      'Where lights are added up. auto: compute for the deferred renderers, fragment for the others',
+    ),
+    choice(
+      'shading',
+      'shading',
+      'Shading',
+      ShadingModelSchema,
+      'pbr: metallic-roughness; lambert: its diffuse part alone',
+    ),
+    choice(
+      'gbufferNormal',
+      'gbuffer.normal',
+      'G-buffer normal',
+      NormalEncodingSchema,
+      'How the deferred renderers keep normals: octahedral with bits a component, or three others',
+    ),
+    choice(
+      'gbufferPosition',
+      'gbuffer.position',
+      'G-buffer place',
+      PositionSourceSchema,
+      'Where deferred lighting takes a pixel’s position from',
     ),
     number('exposure', 'exposure', 'Exposure', 'log', false, 'Multiplies light before the tone map'),
     choice('toneMap', 'tone_map', 'Tone map', ToneMapSchema, 'From scene light to display colours'),
@@ -102,6 +155,26 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
     toggle('sceneLights', 'scene_lights', 'Scene lights', "The scene's own lights"),
   ],
   clusters: [
+    choice(
+      'lightLoop',
+      'light_loop',
+      'Light loop',
+      LightLoopSchema,
+      'Which lights a pixel loops over. auto: all of them where lists cannot pay',
+    ),
+    toggle(
+      'countPairs',
+      'count_pairs',
+      'Count pairs',
+      'Evaluated and contributing (light, pixel) pairs, in the figures; costs time',
+    ),
+    toggle(
+      'gridAutomatic',
+      'grid.auto',
+      'Automatic',
+      'The server chooses the grid; off: the size below',
+    ),
+    choice('gridLaw', 'grid.law', 'Slices', GridLawSchema, 'How slices divide depth'),
     number('gridX', 'grid.x', 'Tiles across', 'linear', true, 'Clusters along the width'),
     number('gridY', 'grid.y', 'Tiles down', 'linear', true, 'Clusters along the height'),
     number('gridZ', 'grid.z', 'Depth slices', 'linear', true, 'Clusters along the depth'),
@@ -120,8 +193,19 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
 
 export const kAllFields: readonly Field[] = Object.values(kFields).flat();
 
-/** The edit that sets a field; an angle of view makes the projection perspective. */
+const kGridSides: readonly string[] = ['gridX', 'gridY', 'gridZ'];
+
+/** Whether a field is one of the grid's sides, which count only while it is not automatic. */
+export const isGridSide = ({ key }: Field): boolean => kGridSides.includes(key);
+
+/**
+ * The edit that sets a field; an angle of view makes the projection perspective, and a side of the
+ * grid makes it one by hand.
+ */
 export function patchFor(field: Field, value: number | boolean): Partial<Settings> {
-  const extra = field.key === 'fovDeg' ? { orthographic: false } : {};
-  return { [field.key]: value, ...extra };
+  return {
+    [field.key]: value,
+    ...(field.key === 'fovDeg' && { orthographic: false }),
+    ...(isGridSide(field) && { gridAutomatic: false }),
+  };
 }

@@ -19,6 +19,14 @@ export function count(value: number | bigint): string {
   return String(value).replace(/\B(?=(\d{3})+$)/g, '\u2009');
 }
 
+/** A cluster grid as people write it. */
+export const gridText = ({ x, y, z }: { x: number; y: number; z: number }): string =>
+  `${x} × ${y} × ${z}`;
+
+/** Parts of a whole in percent; an en dash for parts of nothing. */
+export const percent = (part: number, whole: number): string =>
+  whole > 0 ? `${((part / whole) * 100).toPrecision(3)} %` : '–';
+
 /** At most seven significant digits, what a 32-bit float holds; whole numbers as they are. */
 export const tidy = (value: number): number =>
   Number.isInteger(value) ? value : Number(value.toPrecision(7));

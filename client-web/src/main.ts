@@ -37,6 +37,7 @@ const presenter = new Presenter({
   acknowledge: (frameId) => void connection.send({ case: 'ack', value: { frameId } }),
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
+    panel.showGrid(header.grid);
     banner.pictureShown();
   },
   problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
@@ -86,6 +87,9 @@ const links = new LinkKeeper(store);
 store.listen((state) => {
   panel.show(state);
   banner.show(state);
+});
+store.listen(({ details }, before) => {
+  if (details && details !== before.details) overlay.showDetails(details);
 });
 store.listen(({ server }, before) => {
   if (!server || server === before.server) return;

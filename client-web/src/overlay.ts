@@ -1,8 +1,10 @@
 // The statistics card.
 
+import { Details } from './details';
 import { element, make } from './dom';
-import { bytes, count, ms } from './format';
+import { bytes, count, gridText, ms } from './format';
 import { Graph } from './graph';
+import type { FrameDetails, FrameHeader } from './gen/froxel/v1/server_pb';
 import { kStages, type Figures, type Stats } from './stats';
 
 const kRefreshMs = 250;
@@ -14,12 +16,19 @@ interface Bar {
   readonly ms: number;
 }
 
+function listText({ allLights, listsOverflowed, ...header }: FrameHeader): string {
+  if (allLights || listsOverflowed) return 'all lights';
+  const { listMean, listP95, listLargest } = header;
+  return `${listMean.toFixed(1)} · ${count(listP95)} · ${count(listLargest)}`;
+}
+
 export class Overlay {
   private readonly card = element('stats', HTMLElement);
   private readonly list = element('stats-list', HTMLElement);
   private readonly fps = element('stat-fps', HTMLElement);
   private readonly latency = element('stat-latency', HTMLElement);
   private readonly values = new Map<string, HTMLElement>();
+  private readonly details = new Details();
   private readonly graph = new Graph(element('graph', HTMLElement), kGraphWidth, kGraphHeight);
 
   /** `droppedHere` counts frames that arrived and were not shown. */
@@ -38,6 +47,10 @@ export class Overlay {
     this.refresh();
   }
 
+  showDetails(details: FrameDetails): void {
+    this.details.showDetails(details);
+  }
+
   private refresh(): void {
     const figures = this.stats.figures(performance.now());
     this.fps.textContent = figures.framesPerSecond.toFixed(figures.framesPerSecond < 10 ? 1 : 0);
@@ -53,6 +66,7 @@ export class Overlay {
       'stats-stages',
       kStages.map((stage) => ({ name: stage, ms: figures.stagesMs[stage] ?? 0 })),
     );
+    if (figures.last) this.details.showFrame(figures.last);
     this.graph.show(this.stats.history);
   }
 
@@ -66,8 +80,8 @@ export class Overlay {
     this.value('GPU · encode', '', `${ms(last.gpuUs / 1000)} · ${ms(last.encodeUs / 1000)}`);
     this.value('Triangles', '', count(last.triangles));
     this.value('Lights', '', count(last.lightCount));
-    const largest = count(last.listLargest) + (last.listsOverflowed ? ' (all lights)' : '');
-    this.value('List mean · largest', '', `${last.listMean.toFixed(1)} · ${largest}`);
+    this.value('Lists mean · p95 · largest', '', listText(last));
+    this.value('Grid', '', last.grid ? gridText(last.grid) : '–');
     const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
     this.value('Dropped server · here', '', dropped);
   }

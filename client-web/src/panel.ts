@@ -4,8 +4,9 @@ import GUI, { type Controller } from 'lil-gui';
 
 import type { AppState, ServerInfo } from './app_state';
 import { BoxEditor } from './box_editor';
-import { kFields, type Field, type NumberField, type Section } from './fields';
-import { tidy } from './format';
+import { isGridSide, kFields, type Field, type NumberField, type Section } from './fields';
+import { gridText, tidy } from './format';
+import type { FrameGrid } from './gen/froxel/v1/server_pb';
 import { linearScale, logScale } from './range_scale';
 import { choicesOf } from './schema_names';
 import { isDeferred, type Settings } from './settings';
@@ -36,6 +37,7 @@ export class Panel {
   private builtFor: ServerInfo | null = null;
   private shown: Settings | null = null;
   private sizeEditor: SizeEditor | null = null;
+  private gridInUse: Controller | null = null;
 
   constructor(
     private readonly parent: HTMLElement,
@@ -58,6 +60,14 @@ export class Panel {
     this.sizeEditor?.show(settings, sizeMode);
   }
 
+  /** The grid of the picture that is shown; none where no light is assigned to clusters. */
+  showGrid(grid: FrameGrid | undefined): void {
+    if (!this.gridInUse) return;
+    const text = grid ? gridText(grid) : 'none';
+    if (this.gridInUse.getValue() !== text) this.gridInUse.setValue(text);
+    this.gridInUse.domElement.title = grid?.why ?? 'No light is assigned to clusters';
+  }
+
   private makeGui(): GUI {
     const gui = new GUI({ container: this.parent, title: 'Settings', injectStyles: false });
     if (this.narrow) gui.close();
@@ -73,7 +83,9 @@ export class Panel {
     this.section('rendering', server);
     const lights = this.section('lights', server);
     this.addBox(lights, server);
-    this.section('clusters', server).close();
+    const clusters = this.section('clusters', server);
+    this.addGridInUse(clusters);
+    clusters.close();
     this.addToon();
     const stream = this.section('stream', server);
     this.sizeEditor = new SizeEditor(stream, server, this.actions);
@@ -108,7 +120,7 @@ export class Panel {
     this.finish(controller, field, (settings) => {
       model[field.key] = settings[field.key];
       controller.updateDisplay();
-      if (field.key === 'lighting') controller.enable(isDeferred(settings));
+      if (field.name.startsWith('gbuffer.')) controller.enable(isDeferred(settings));
     });
   }
 
@@ -127,6 +139,7 @@ export class Panel {
     }
     const limits = range ? ` · ${range.min} to ${range.max}` : '';
     this.finish(controller, { ...field, tip: field.tip + limits }, (settings) => {
+      if (isGridSide(field)) controller.enable(!settings.gridAutomatic);
       const value = tidy(settings[field.key]);
       // Left alone while equal: the viewer may be typing another one.
       if (this.shown && tidy(this.shown[field.key]) === value) return;
@@ -157,6 +170,11 @@ export class Panel {
     });
     const tip = "One of the scene's own cameras (keys 1 to 9)";
     this.finish(controller, { label: 'Go to', tip, name: 'scene_camera' }, () => undefined);
+  }
+
+  private addGridInUse(folder: GUI): void {
+    this.gridInUse = folder.add({ text: '–' }, 'text').disable();
+    this.finish(this.gridInUse, { label: 'In use', tip: '', name: 'grid.in_use' }, () => undefined);
   }
 
   private addBox(folder: GUI, server: ServerInfo): void {

@@ -6,7 +6,12 @@ import type { ClientMessageSchema } from './gen/froxel/v1/client_pb';
 import {
   Renderer,
   type Chroma,
+  type GridLaw,
   type LightingStage,
+  type LightLoop,
+  type NormalEncoding,
+  type PositionSource,
+  type ShadingModel,
   type ToneMap,
   type ToonRamp,
   type Vec3,
@@ -34,8 +39,13 @@ export interface Settings {
   readonly fovDeg: number; // full vertical angle; perspective only
   readonly halfHeight: number; // metres; orthographic only
   readonly orthographic: boolean;
+  readonly lensShiftX: number; // of the picture's middle off the view axis, in half pictures
+  readonly lensShiftY: number;
   readonly renderer: Renderer;
   readonly lighting: LightingStage;
+  readonly shading: ShadingModel;
+  readonly gbufferNormal: NormalEncoding;
+  readonly gbufferPosition: PositionSource;
   readonly lights: number;
   readonly lightRadius: number;
   readonly lightIntensity: number;
@@ -45,7 +55,12 @@ export interface Settings {
   readonly lightBox: Bounds | null; // null: the scene's bounds
   readonly ambient: number;
   readonly sceneLights: boolean;
-  readonly gridX: number;
+  readonly lightLoop: LightLoop;
+  readonly countPairs: boolean;
+  readonly lightTime: number | null; // seconds where the lights' clock stands; null: it runs
+  readonly gridAutomatic: boolean;
+  readonly gridLaw: GridLaw;
+  readonly gridX: number; // the size given by hand, used while not automatic
   readonly gridY: number;
   readonly gridZ: number;
   readonly exposure: number;
@@ -61,12 +76,12 @@ export interface Settings {
 /** The part of the settings that SetCamera carries. */
 export type CameraSettings = Pick<
   Settings,
-  'eye' | 'target' | 'up' | 'fovDeg' | 'halfHeight' | 'orthographic'
+  'eye' | 'target' | 'up' | 'fovDeg' | 'halfHeight' | 'orthographic' | 'lensShiftX' | 'lensShiftY'
 >;
 
 export function cameraOf(settings: Settings): CameraSettings {
-  const { eye, target, up, fovDeg, halfHeight, orthographic } = settings;
-  return { eye, target, up, fovDeg, halfHeight, orthographic };
+  const { eye, target, up, fovDeg, halfHeight, orthographic, lensShiftX, lensShiftY } = settings;
+  return { eye, target, up, fovDeg, halfHeight, orthographic, lensShiftX, lensShiftY };
 }
 
 export type ClientBody = NonNullable<MessageInitShape<typeof ClientMessageSchema>['body']>;
@@ -87,8 +102,13 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     fovDeg: state.fovDeg,
     halfHeight: state.halfHeightM,
     orthographic: state.orthographic,
+    lensShiftX: state.lensShift?.x ?? 0,
+    lensShiftY: state.lensShift?.y ?? 0,
     renderer: state.renderer,
     lighting: state.lighting,
+    shading: state.shading,
+    gbufferNormal: state.gbuffer?.normal ?? 0,
+    gbufferPosition: state.gbuffer?.position ?? 0,
     lights: state.lightCount,
     lightRadius: state.lightRadiusM,
     lightIntensity: state.lightIntensity,
@@ -98,6 +118,11 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     lightBox: box && sceneBounds && sameBounds(box, sceneBounds) ? null : box,
     ambient: state.ambient,
     sceneLights: state.sceneLights,
+    lightLoop: state.lightLoop,
+    countPairs: state.countPairs,
+    lightTime: state.lightTimeS ?? null,
+    gridAutomatic: state.gridAutomatic,
+    gridLaw: state.gridLaw,
     gridX: state.grid?.x ?? 0,
     gridY: state.grid?.y ?? 0,
     gridZ: state.grid?.z ?? 0,
@@ -112,7 +137,7 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
   };
 }
 
-/** Whether the lighting stage matters. */
+/** Whether there is a G-buffer. */
 export function isDeferred({ renderer }: Settings): boolean {
   return renderer !== Renderer.NAIVE && renderer !== Renderer.FORWARD_PLUS;
 }
@@ -136,11 +161,18 @@ function sameProjection(a: CameraSettings, b: CameraSettings): boolean {
 export function cameraCommand(from: CameraSettings, to: CameraSettings): ClientBody | null {
   const samePose = equal(from.eye, to.eye) && equal(from.target, to.target) && equal(from.up, to.up);
   const keepProjection = sameProjection(from, to);
-  if (samePose && keepProjection) return null;
+  const keepShift = from.lensShiftX === to.lensShiftX && from.lensShiftY === to.lensShiftY;
+  if (samePose && keepProjection && keepShift) return null;
   const projection = to.orthographic ? { halfHeightM: to.halfHeight } : { fovDeg: to.fovDeg };
   return {
     case: 'setCamera',
-    value: { eye: to.eye, target: to.target, up: to.up, ...(keepProjection ? {} : projection) },
+    value: {
+      eye: to.eye,
+      target: to.target,
+      up: to.up,
+      ...(keepProjection ? {} : projection),
+      ...(keepShift ? {} : { lensShift: { x: to.lensShiftX, y: to.lensShiftY } }),
+    },
   };
 }
 
@@ -153,16 +185,13 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   if (changed('width', 'height')) {
     commands.push({ case: 'setSize', value: { width: to.width, height: to.height } });
   }
-  if (changed('renderer', 'lighting')) {
-    const stage = changed('lighting') ? { lighting: to.lighting } : {};
-    commands.push({ case: 'setRenderer', value: { renderer: to.renderer, ...stage } });
+  if (changed('renderer', 'lighting', 'shading', 'gbufferNormal', 'gbufferPosition')) {
+    commands.push({ case: 'setRenderer', value: rendererChanges(from, to) });
   }
   const lights = lightChanges(from, to);
   if (Object.keys(lights).length > 0) commands.push({ case: 'setLights', value: lights });
-  if (changed('gridX', 'gridY', 'gridZ')) {
-    const grid = { x: to.gridX, y: to.gridY, z: to.gridZ };
-    commands.push({ case: 'setGrid', value: { grid } });
-  }
+  const grid = gridChanges(from, to);
+  if (Object.keys(grid).length > 0) commands.push({ case: 'setGrid', value: grid });
   if (changed('exposure', 'toneMap')) {
     commands.push({
       case: 'setExposure',
@@ -195,6 +224,35 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   return commands;
 }
 
+type RendererValue = Extract<ClientBody, { case: 'setRenderer' }>['value'];
+
+function rendererChanges(from: Settings, to: Settings): RendererValue {
+  const gbuffer = {
+    ...(from.gbufferNormal !== to.gbufferNormal && { normal: to.gbufferNormal }),
+    ...(from.gbufferPosition !== to.gbufferPosition && { position: to.gbufferPosition }),
+  };
+  return {
+    renderer: to.renderer,
+    ...(from.lighting !== to.lighting && { lighting: to.lighting }),
+    ...(from.shading !== to.shading && { shading: to.shading }),
+    ...(Object.keys(gbuffer).length > 0 && { gbuffer }),
+  };
+}
+
+type GridValue = Extract<ClientBody, { case: 'setGrid' }>['value'];
+
+/** A size turns automatic off, so that the two never come together. */
+function gridChanges(from: Settings, to: Settings): GridValue {
+  const sized = from.gridX !== to.gridX || from.gridY !== to.gridY || from.gridZ !== to.gridZ;
+  const switched = from.gridAutomatic !== to.gridAutomatic;
+  return {
+    ...(to.gridAutomatic && switched && { automatic: true }),
+    ...(!to.gridAutomatic &&
+      (sized || switched) && { grid: { x: to.gridX, y: to.gridY, z: to.gridZ } }),
+    ...(from.gridLaw !== to.gridLaw && { law: to.gridLaw }),
+  };
+}
+
 type LightsValue = Extract<ClientBody, { case: 'setLights' }>['value'];
 
 function lightChanges(from: Settings, to: Settings): LightsValue {
@@ -207,6 +265,9 @@ function lightChanges(from: Settings, to: Settings): LightsValue {
     ...(from.lightSpeed !== to.lightSpeed && { speed: to.lightSpeed }),
     ...(from.ambient !== to.ambient && { ambient: to.ambient }),
     ...(from.sceneLights !== to.sceneLights && { sceneLights: to.sceneLights }),
+    ...(from.lightLoop !== to.lightLoop && { lightLoop: to.lightLoop }),
+    ...(from.countPairs !== to.countPairs && { countPairs: to.countPairs }),
+    ...(to.lightTime !== null && from.lightTime !== to.lightTime && { timeS: to.lightTime }),
     ...(!sameBounds(from.lightBox, to.lightBox) &&
       (to.lightBox ? { box: to.lightBox } : { clearBox: true })),
   };

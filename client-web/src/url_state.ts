@@ -2,7 +2,7 @@
 // ranges are not judged here: the server refuses them and says why.
 
 import type { Settings } from './settings';
-import { kAllFields, patchFor, type Field } from './fields';
+import { isGridSide, kAllFields, patchFor, type Field } from './fields';
 import { choicesOf } from './schema_names';
 import type { Bounds, Ramp } from './settings';
 import { vec, type Vec } from './vec3';
@@ -30,9 +30,12 @@ export function formatLink(settings: Settings, size: SizeMode, initial: Settings
   const put = (name: string, value: string): void => void parts.push(`${name}=${value}`);
   for (const field of kAllFields) {
     if (field.key === 'fovDeg' && settings.orthographic) continue;
+    if (isGridSide(field) && settings.gridAutomatic) continue;
     put(field.name, formatField(field, settings));
   }
   if (settings.orthographic) put('half_height', short(settings.halfHeight));
+  // To the last bit: two pages of a scene that stands still show the same picture.
+  if (settings.lightTime !== null) put('light_time', String(settings.lightTime));
   for (const key of kVectors) put(key, formatVec(settings[key]));
   if (settings.lightBox) {
     put('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
@@ -77,6 +80,10 @@ function parseEntry(name: string, text: string): Entry | null {
   if (name === 'half_height') {
     const halfHeight = parseNumber(text);
     return halfHeight === null ? null : { settings: { halfHeight, orthographic: true } };
+  }
+  if (name === 'light_time') {
+    const lightTime = parseNumber(text);
+    return lightTime === null ? null : { settings: { lightTime } };
   }
   if (name === 'light_box') {
     const lightBox = parseBox(text);

@@ -23,11 +23,20 @@ function sent(state: AppState, seq: bigint): AppState {
 
 const live = run(kInitialState, welcomed());
 
+describe('details', () => {
+  it('HoldUntilTheNextOnes', () => {
+    expect(live.details).toBeNull();
+    const plan = (line: string): Action => received({ case: 'details', value: { plan: [line] } });
+    const state = run(live, plan('old'), plan('new'), answer(1n, 5));
+    expect(state.details?.plan).toEqual(['new']);
+  });
+});
+
 describe('welcome', () => {
   it('BringsTheServersStateRangesAndScene', () => {
     expect(live.link.phase).toBe('live');
     expect(live.settings?.lights).toBe(1000);
-    expect(live.server?.ranges.get('lights')?.max).toBe(100_000);
+    expect(live.server?.ranges.get('lights')?.max).toBe(1_000_000);
     expect(live.server?.scene?.cameras).toEqual(['nave', 'gallery']);
     expect(live.sent).toBe(live.confirmed);
   });

@@ -3,7 +3,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { kAllFields, patchFor } from '../src/fields';
-import { bytes, count, ms, tidy } from '../src/format';
+import { bytes, count, gridText, ms, percent, tidy } from '../src/format';
 import { ChromaSchema, RendererSchema } from '../src/gen/froxel/v1/common_pb';
 import { dragged, evaluate, inserted, removed } from '../src/ramp';
 import { kSliderSteps, linearScale, logScale } from '../src/range_scale';
@@ -16,7 +16,7 @@ describe('scales', () => {
     ['linear', linearScale({ min: 1, max: 100 }, true)],
     ['log', logScale({ min: 0.001, max: 10_000 }, false, 2)],
     ['log from zero', logScale({ min: 0, max: 1000 }, false, 1)],
-    ['log of whole numbers from zero', logScale({ min: 0, max: 100_000 }, true, 1000)],
+    ['log of whole numbers from zero', logScale({ min: 0, max: 1_000_000 }, true, 1000)],
   ])('%s_NeverFallsAndComesBackToItsPosition', (_, scale) => {
     let last = -Infinity;
     for (let position = 0; position <= kSliderSteps; position += 1) {
@@ -28,9 +28,9 @@ describe('scales', () => {
   });
 
   it('Ends_AreTheRange', () => {
-    const scale = logScale({ min: 0, max: 100_000 }, true, 1000);
+    const scale = logScale({ min: 0, max: 1_000_000 }, true, 1000);
     expect(scale.toValue(0)).toBe(0);
-    expect(scale.toValue(kSliderSteps)).toBe(100_000);
+    expect(scale.toValue(kSliderSteps)).toBe(1_000_000);
     expect(scale.toPosition(0)).toBe(0);
     expect(scale.toPosition(1e9)).toBe(kSliderSteps);
   });
@@ -114,6 +114,12 @@ describe('names', () => {
     for (const field of kAllFields) expect(settings[field.key]).toBeDefined();
   });
 
+  it('SideOfTheGrid_MakesItOneByHand', () => {
+    const field = kAllFields.find(({ key }) => key === 'gridY');
+    if (!field) throw new Error('no field for the tiles');
+    expect(patchFor(field, 7)).toEqual({ gridY: 7, gridAutomatic: false });
+  });
+
   it('AngleOfView_MakesTheProjectionPerspective', () => {
     const field = kAllFields.find(({ key }) => key === 'fovDeg');
     if (!field) throw new Error('no field for the angle');
@@ -134,6 +140,11 @@ describe('format', () => {
       '2.5 MB',
       '3000 GB',
     ]);
+  });
+
+  it('GridsAndShares_ReadAsPeopleWriteThem', () => {
+    expect(gridText({ x: 16, y: 9, z: 24 })).toBe('16 × 9 × 24');
+    expect([percent(1, 3), percent(0, 5), percent(1, 0)]).toEqual(['33.3 %', '0.00 %', '–']);
   });
 
   it('Tidy_RoundsFloatsButNoWholeNumbers', () => {

@@ -4,8 +4,13 @@ import { create, type MessageInitShape } from '@bufbuild/protobuf';
 
 import {
   Chroma,
+  GridLaw,
   LightingStage,
+  LightLoop,
+  NormalEncoding,
+  PositionSource,
   Renderer,
+  ShadingModel,
   ToneMap,
   ViewStateSchema,
   type ViewState,
@@ -31,7 +36,13 @@ export function viewState(change: ViewInit = {}): ViewState {
     fovDeg: 45,
     halfHeightM: 1,
     renderer: Renderer.CLUSTERED_DEFERRED,
-    lighting: LightingStage.COMPUTE,
+    lighting: LightingStage.AUTO,
+    shading: ShadingModel.PBR,
+    gbuffer: { normal: NormalEncoding.OCT16, position: PositionSource.DEPTH },
+    lightLoop: LightLoop.AUTO,
+    gridAutomatic: true,
+    gridLaw: GridLaw.LOGARITHMIC,
+    lensShift: { x: 0, y: 0 },
     lightCount: 1000,
     lightRadiusM: 2,
     lightIntensity: 1,
@@ -67,6 +78,6 @@ export function welcome(scene = 'hall'): MessageInitShape<typeof WelcomeSchema> 
     device: 'test device',
     scene: { name: scene, cameras: ['nave', 'gallery'], bounds: kBounds },
     state: viewState(),
-    ranges: [{ field: 'lights', min: 0, max: 100_000 }],
+    ranges: [{ field: 'lights', min: 0, max: 1_000_000 }],
   };
 }

@@ -1,6 +1,16 @@
 import { describe, expect, it } from 'vitest';
 
-import { Chroma, LightingStage, Renderer, ToneMap } from '../src/gen/froxel/v1/common_pb';
+import {
+  Chroma,
+  GridLaw,
+  LightingStage,
+  LightLoop,
+  NormalEncoding,
+  PositionSource,
+  Renderer,
+  ShadingModel,
+  ToneMap,
+} from '../src/gen/froxel/v1/common_pb';
 import { cameraCommand, settingCommands, settingsOf, type Settings } from '../src/settings';
 import { kBounds, sampleSettings, viewState } from './sample';
 
@@ -9,6 +19,11 @@ const commandsFor = (change: Partial<Settings>): unknown =>
   settingCommands(base, { ...base, ...change });
 
 describe('settingsOf', () => {
+  it('LightTime_OfLightsThatMove_IsNone', () => {
+    expect(base.lightTime).toBeNull();
+    expect(settingsOf(viewState({ lightTimeS: 0 }), kBounds).lightTime).toBe(0);
+  });
+
   it('LightBox_ThatIsTheScenesBounds_IsNone', () => {
     expect(base.lightBox).toBeNull();
     const box = { min: { x: 0, y: 0, z: 0 }, max: { x: 1, y: 1, z: 1 } };
@@ -45,7 +60,45 @@ describe('settingCommands', () => {
     ['ambient', { ambient: 0 }, { case: 'setLights', value: { ambient: 0 } }],
     ['scene lights', { sceneLights: false }, { case: 'setLights', value: { sceneLights: false } }],
     ['box', { lightBox: kBounds }, { case: 'setLights', value: { box: kBounds } }],
-    ['grid', { gridY: 5 }, { case: 'setGrid', value: { grid: { x: 16, y: 5, z: 24 } } }],
+    ['light loop', { lightLoop: LightLoop.LISTS }, { case: 'setLights', value: { lightLoop: 2 } }],
+    ['pair counting', { countPairs: true }, { case: 'setLights', value: { countPairs: true } }],
+    ['lights’ clock', { lightTime: 0 }, { case: 'setLights', value: { timeS: 0 } }],
+    [
+      'grid',
+      { gridY: 5, gridAutomatic: false },
+      { case: 'setGrid', value: { grid: { x: 16, y: 5, z: 24 } } },
+    ],
+    ['grid law', { gridLaw: GridLaw.LINEAR }, { case: 'setGrid', value: { law: GridLaw.LINEAR } }],
+    [
+      'shading',
+      { shading: ShadingModel.LAMBERT },
+      {
+        case: 'setRenderer',
+        value: { renderer: Renderer.CLUSTERED_DEFERRED, shading: ShadingModel.LAMBERT },
+      },
+    ],
+    [
+      'half of the G-buffer layout',
+      { gbufferNormal: NormalEncoding.XY16 },
+      {
+        case: 'setRenderer',
+        value: {
+          renderer: Renderer.CLUSTERED_DEFERRED,
+          gbuffer: { normal: NormalEncoding.XY16 },
+        },
+      },
+    ],
+    [
+      'other half of the G-buffer layout',
+      { gbufferPosition: PositionSource.FP16 },
+      {
+        case: 'setRenderer',
+        value: {
+          renderer: Renderer.CLUSTERED_DEFERRED,
+          gbuffer: { position: PositionSource.FP16 },
+        },
+      },
+    ],
     ['exposure', { exposure: 2 }, { case: 'setExposure', value: { exposure: 2 } }],
     [
       'tone map',
@@ -67,6 +120,26 @@ describe('settingCommands', () => {
     expect(commandsFor(change)).toEqual([command]);
   });
 
+  it('GridByHand_BackToAutomatic_SendsNoSize', () => {
+    const byHand = { ...base, gridAutomatic: false, gridX: 3 };
+    expect(settingCommands(byHand, base)).toEqual([
+      { case: 'setGrid', value: { automatic: true } },
+    ]);
+  });
+
+  it('AutomaticOff_SendsTheSizeToUse', () => {
+    expect(commandsFor({ gridAutomatic: false })).toEqual([
+      { case: 'setGrid', value: { grid: { x: 16, y: 9, z: 24 } } },
+    ]);
+  });
+
+  it('LightsThatGoOn_SetNoClock', () => {
+    const stopped = { ...base, lightAnimate: false, lightTime: 5 };
+    expect(settingCommands(stopped, base)).toEqual([
+      { case: 'setLights', value: { animate: true } },
+    ]);
+  });
+
   it('BoxTakenAway_IsClearBox', () => {
     const boxed = { ...base, lightBox: kBounds };
     expect(settingCommands(boxed, base)).toEqual([
@@ -79,7 +152,8 @@ describe('settingCommands', () => {
   });
 
   it('ChangesOfManyKinds_KeepTheirOwnCommands', () => {
-    const commands = settingCommands(base, { ...base, lights: 1, quality: 1, gridX: 1 });
+    const grid = { gridX: 1, gridAutomatic: false };
+    const commands = settingCommands(base, { ...base, lights: 1, quality: 1, ...grid });
     expect(commands.map((command) => command.case)).toEqual([
       'setLights',
       'setGrid',
@@ -107,6 +181,13 @@ describe('cameraCommand', () => {
     expect(cameraCommand(base, { ...base, fovDeg: 60 })).toEqual({
       case: 'setCamera',
       value: { eye, target, up, fovDeg: 60 },
+    });
+  });
+
+  it('LensShift_IsSentOnlyWhereItChanged', () => {
+    expect(cameraCommand(base, { ...base, lensShiftY: 0.5 })).toEqual({
+      case: 'setCamera',
+      value: { eye, target, up, lensShift: { x: 0, y: 0.5 } },
     });
   });
 

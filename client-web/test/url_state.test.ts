@@ -1,6 +1,14 @@
 import { describe, expect, it } from 'vitest';
 
-import { LightingStage, Renderer } from '../src/gen/froxel/v1/common_pb';
+import {
+  GridLaw,
+  LightingStage,
+  LightLoop,
+  NormalEncoding,
+  PositionSource,
+  Renderer,
+  ShadingModel,
+} from '../src/gen/froxel/v1/common_pb';
 import { formatLink, parseLink, type SizeMode } from '../src/url_state';
 import { kBounds, sampleSettings } from './sample';
 
@@ -17,7 +25,17 @@ describe('links', () => {
       lightRadius: 0.125,
       lightAnimate: false,
       lightBox: kBounds,
+      gridAutomatic: false,
       gridZ: 64,
+      gridLaw: GridLaw.HYPERBOLIC,
+      lightLoop: LightLoop.ALL_LIGHTS,
+      countPairs: true,
+      lightTime: 0.1 + 0.2,
+      shading: ShadingModel.LAMBERT,
+      gbufferNormal: NormalEncoding.SPHEREMAP16,
+      gbufferPosition: PositionSource.STORED_DEPTH,
+      lensShiftX: -0.5,
+      lensShiftY: 1,
       toonFragment: [
         { x: 0, y: 0, slope: 0.5 },
         { x: 1, y: 1, slope: -3 },
@@ -39,6 +57,20 @@ describe('links', () => {
 
   it('RampsAsTheyWere_AreNotInTheLink', () => {
     expect(formatLink(initial, kAuto, initial)).not.toContain('toon');
+  });
+
+  it('AutomaticGrid_HasNoSizeInTheLink', () => {
+    const text = formatLink(initial, kAuto, initial);
+    expect(text).toContain('grid.auto=1');
+    expect(text).not.toContain('grid.x');
+  });
+
+  it('GridSize_InAnOldLink_IsOneByHand', () => {
+    expect(parseLink('grid.x=5').settings).toEqual({ gridX: 5, gridAutomatic: false });
+  });
+
+  it('LightTime_WhileTheLightsMove_IsNotInTheLink', () => {
+    expect(formatLink(initial, kAuto, initial)).not.toContain('light_time');
   });
 
   it('AutomaticSize_IsItsScaleAndNoPixels', () => {
@@ -83,6 +115,9 @@ describe('links', () => {
     'size=10x-1',
     'toon_fragment=0,1',
     'half_height=x',
+    'light_time=noon',
+    'gbuffer.normal=oct7',
+    'grid.auto=maybe',
     'colour=red',
   ])('Nonsense_%s_IsNamedAndHasNoEffect', (entry) => {
     const link = parseLink(`#${entry}&quality=7`);
