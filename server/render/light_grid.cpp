@@ -1,0 +1,77 @@
+#include "render/light_grid.h"
+
+#include "cluster/light_spread.h"
+
+namespace froxel::render {
+
+void LightGrid::choose(const view::ViewSettings& settings,
+                       const light::FrameLights& lights,
+                       const BoundsD3& scene_bounds_world,
+                       bool cpu_device) {
+    lists_ = false;
+    if (lights.lights.empty()) {
+        why_ = "there is no point or spot light";
+    } else if (settings.renderer == view::Renderer::kNaive) {
+        why_ = "the naive renderer loops over all lights";
+    } else if (settings.light_loop == view::LightLoop::kAllLights) {
+        why_ = "looping over all lights was asked for";
+    } else {
+        chooseGrid(settings, lights, scene_bounds_world, cpu_device);
+    }
+}
+
+void LightGrid::chooseGrid(const view::ViewSettings& settings,
+                           const light::FrameLights& lights,
+                           const BoundsD3& scene_bounds_world,
+                           bool cpu_device) {
+    const view::Camera& camera = settings.camera;
+    range_ = cluster::litDepthRange(lights, camera, scene_bounds_world);
+    const cluster::ClusterGrid frustum = cluster::makeClusterGrid(
+        {.size = {1, 1, 1}}, settings.size, camera, range_.near_m, range_.far_m);
+    const cluster::LightSpread spread = cluster::lightSpread(frustum, lights);
+    const cluster::GridFacts facts{.frustum = frustum,
+                                   .range = range_,
+                                   .law = settings.grid.law,
+                                   .lights = spread,
+                                   .costs = cpu_device ? cluster::kCpuCosts : cluster::kGpuCosts};
+    cluster::GridShape shape{.size = settings.grid.size, .law = settings.grid.law};
+    double list_length = 0;
+    automatic_ = settings.grid.automatic;
+    if (automatic_) {
+        cluster::GridChoice choice = cluster::chooseGrid(facts, memory_);
+        shape = choice.shape;
+        list_length = choice.list_length;
+        grid_why_ = std::move(choice.why);
+        memory_ = choice.memory;
+    } else {
+        list_length = cluster::expectedListLength(facts, shape);
+        grid_why_ = "its size was given";
+    }
+    cluster::LoopChoice loop{false, "lists were asked for"};
+    if (settings.light_loop == view::LightLoop::kAuto) {
+        loop = cluster::chooseLoop(facts, list_length, memory_);
+    }
+    memory_.all_lights = loop.all_lights;
+    why_ = std::move(loop.why);
+    lists_ = !loop.all_lights;
+    if (lists_) {
+        grid_ = cluster::makeClusterGrid(shape, settings.size, camera, range_.near_m, range_.far_m);
+    }
+}
+
+GridStats LightGrid::stats() const {
+    if (!lists_) {
+        return {};
+    }
+    return {.x = grid_.size.x,
+            .y = grid_.size.y,
+            .z = grid_.size.z,
+            .tile_width_px = grid_.tile_width_px,
+            .tile_height_px = grid_.tile_height_px,
+            .near_m = range_.near_m,
+            .far_m = range_.far_m,
+            .automatic = automatic_,
+            .why = grid_why_};
+}
+
+} // namespace froxel::render

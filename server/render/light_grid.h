@@ -1,0 +1,47 @@
+// Which grid a view's frame has, and whether its pixels loop over lists or over all lights.
+#pragma once
+
+#include "cluster/cluster_grid.h"
+#include "cluster/grid_choice.h"
+#include "core/frame_stats.h"
+#include "core/math.h"
+#include "light/frame_lights.h"
+#include "view/settings.h"
+
+#include <string>
+
+namespace froxel::render {
+
+// Keep one a view: it remembers its last choice, so that grids do not flip from frame to frame.
+// Nothing that it decides changes the picture.
+class LightGrid {
+  public:
+    // Decides for one frame and makes the grid if it needs one.
+    void choose(const view::ViewSettings& settings,
+                const light::FrameLights& lights,
+                const BoundsD3& scene_bounds_world,
+                bool cpu_device);
+
+    // Whether there are lists, and with them a grid.
+    [[nodiscard]] bool lists() const { return lists_; }
+    [[nodiscard]] const cluster::ClusterGrid& grid() const { return grid_; }
+    [[nodiscard]] GridStats stats() const;
+    // Why lists, or why not.
+    [[nodiscard]] const std::string& why() const { return why_; }
+
+  private:
+    void chooseGrid(const view::ViewSettings& settings,
+                    const light::FrameLights& lights,
+                    const BoundsD3& scene_bounds_world,
+                    bool cpu_device);
+
+    bool lists_ = false;
+    bool automatic_ = false;
+    std::string why_;
+    std::string grid_why_;
+    cluster::DepthRange range_{};
+    cluster::ClusterGrid grid_;
+    cluster::GridMemory memory_;
+};
+
+} // namespace froxel::render
