@@ -17,14 +17,29 @@ vec3 largestOfBlock(vec3 v) {
     return BATCH_SIZE > 16 ? largest(v, subgroupShuffleXor(v, 16)) : v;
 }
 
-// The subgroup's bits together, in every invocation: a ballot that costs no loop where it is done
-// in software.
-uint gatherBits(uint bits) {
+// At most 8 invocations: a software rasteriser, where ballots and reductions are loops and a shuffle
+// is one instruction. Elsewhere they are one instruction, and a shuffle waits.
+const bool kSoftwareSubgroup = BATCH_SIZE <= 8;
+
+// Bit i: whether invocation i passes; at most 32 invocations.
+uint gatherBits(bool passes) {
+    if (!kSoftwareSubgroup) {
+        return subgroupBallot(passes).x;
+    }
+    uint bits = passes ? 1u << gl_SubgroupInvocationID : 0u;
     bits |= BATCH_SIZE > 1 ? subgroupShuffleXor(bits, 1) : 0u;
     bits |= BATCH_SIZE > 2 ? subgroupShuffleXor(bits, 2) : 0u;
-    bits |= BATCH_SIZE > 4 ? subgroupShuffleXor(bits, 4) : 0u;
-    bits |= BATCH_SIZE > 8 ? subgroupShuffleXor(bits, 8) : 0u;
-    return bits | (BATCH_SIZE > 16 ? subgroupShuffleXor(bits, 16) : 0u);
+    return bits | (BATCH_SIZE > 4 ? subgroupShuffleXor(bits, 4) : 0u);
+}
+
+// Of a whole subgroup.
+uint leastOfBlock(uint v) {
+    if (!kSoftwareSubgroup) {
+        return subgroupMin(v);
+    }
+    v = BATCH_SIZE > 1 ? min(v, subgroupShuffleXor(v, 1)) : v;
+    v = BATCH_SIZE > 2 ? min(v, subgroupShuffleXor(v, 2)) : v;
+    return BATCH_SIZE > 4 ? min(v, subgroupShuffleXor(v, 4)) : v;
 }
 
 struct Block {
@@ -34,6 +49,8 @@ struct Block {
     vec3 normal_view; // not unit
     float turn;       // farthest that a pixel's normal is from that
     float ahead;      // greatest normal . (centre - position), and the margin
+    float reach2;     // of equal radii: (theirs + the block's)^2
+    float slack;      // of equal radii: what `turn` and `ahead` come to within reach
 };
 
 // Of the invocations for which `mine` holds; at least one.
@@ -47,26 +64,38 @@ Block makeBlock(Surface s, bool mine) {
     vec3 normal_low = -largestOfBlock(mine ? -s.normal_view : kNone);
     b.normal_view = 0.5 * (normal_low + normal_high);
     vec3 turn = s.normal_view - b.normal_view;
-    float ahead = dot(s.normal_view, b.centre_view - s.position_view);
-    vec3 worst = largestOfBlock(mine ? vec3(dot(turn, turn), ahead, 0.0) : kNone);
+    vec3 from_centre = s.position_view - b.centre_view;
+    vec3 own = vec3(dot(turn, turn), -dot(s.normal_view, from_centre), dot(from_centre, from_centre));
+    vec3 worst = largestOfBlock(mine ? own : kNone);
     // A product of three terms is off by less than 1e-6 of its terms' sizes, here and in a pixel.
     vec3 size = b.high_view - b.low_view;
     b.turn = sqrt(worst.x) * 1.0001 + 1e-5;
     b.ahead = worst.y + 1e-5 * (size.x + size.y + size.z);
+    // 1e15 m: farther than any light is
+    float radius = inversesqrt(max(frame.light_inv_radius2, 1e-32));
+    float reach = (radius + sqrt(worst.z)) * 1.0001;
+    b.reach2 = reach * reach;
+    b.slack = b.turn * reach + b.ahead;
     return b;
 }
 
 // Whether a light may add anything to a surface of the block.
 bool mayLight(Block b, LocalLight light) {
-    vec3 away = max(max(b.low_view - light.position_view, light.position_view - b.high_view), 0.0);
-    precise float d2 = fma(away.z, away.z, fma(away.y, away.y, away.x * away.x));
-    precise float x = d2 * light.inv_radius2;
-    bool in_reach = x < 1.0;
-    if (hasLight(kLightToon)) {
-        return in_reach; // the ramp may lift what faces away
-    }
     // normal . (light - position) = normal . (light - centre) + normal . (centre - position)
     vec3 to_light = light.position_view - b.centre_view;
-    float facing = dot(b.normal_view, to_light) + b.turn * sqrt(dot(to_light, to_light)) + b.ahead;
-    return in_reach && facing > 0.0;
+    float facing = dot(b.normal_view, to_light);
+    bool in_reach;
+    if (hasLight(kLightEqualRadii)) {
+        in_reach = dot(to_light, to_light) < b.reach2;
+        facing += b.slack;
+    } else {
+        vec3 away =
+            max(max(b.low_view - light.position_view, light.position_view - b.high_view), 0.0);
+        precise float d2 = fma(away.z, away.z, fma(away.y, away.y, away.x * away.x));
+        precise float x = d2 * light.inv_radius2;
+        in_reach = x < 1.0;
+        facing += b.turn * sqrt(dot(to_light, to_light)) + b.ahead;
+    }
+    // A ramp may lift what faces away.
+    return in_reach && (hasLight(kLightToon) || facing > 0.0);
 }

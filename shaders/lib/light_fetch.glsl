@@ -15,11 +15,19 @@ LocalLight darkLight() {
     return LocalLight(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 1.0);
 }
 
-LocalLight fetchLight(uint index) {
+// Where it is and how far it reaches.
+LocalLight fetchReach(uint index) {
     vec4 a = texelFetch(light_texels, int(2u * index));
+    LocalLight light = darkLight();
+    light.position_view = a.xyz;
+    light.inv_radius2 = hasLight(kLightEqualRadii) ? frame.light_inv_radius2 : a.w;
+    return light;
+}
+
+// The rest.
+void fetchColor(uint index, inout LocalLight light) {
     vec4 b = texelFetch(light_texels, int(2u * index + 1u));
-    float inv_radius2 = hasLight(kLightEqualRadii) ? frame.light_inv_radius2 : a.w;
-    LocalLight light = LocalLight(a.xyz, inv_radius2, b.xyz, vec3(0.0), 0.0, 1.0);
+    light.color = b.xyz;
     if (hasLight(kLightSpots)) {
         uint spot = floatBitsToUint(b.w);
         if (spot != kNoSpot) {
@@ -29,6 +37,11 @@ LocalLight fetchLight(uint index) {
             light.cone_offset = texelFetch(spot_texels, int(2u * spot + 1u)).x;
         }
     }
+}
+
+LocalLight fetchLight(uint index) {
+    LocalLight light = fetchReach(index);
+    fetchColor(index, light);
     return light;
 }
 

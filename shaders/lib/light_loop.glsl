@@ -64,10 +64,15 @@ void addCulledBatches(Surface s, ClusterList list, bool mine, float share, inout
     Block block = makeBlock(s, mine);
     uint first = 0;
     do {
-        bool inside = first + gl_SubgroupInvocationID < list.count;
-        LocalLight light = fetchOfBatch(false, list, first);
+        uint slot = first + gl_SubgroupInvocationID;
+        bool inside = slot < list.count;
+        uint index = fetchIndex(list.offset + (inside ? slot : 0u));
+        LocalLight light = fetchReach(index);
         bool passes = inside && mayLight(block, light);
-        uint left = gatherBits(passes ? 1u << gl_SubgroupInvocationID : 0u);
+        if (passes) {
+            fetchColor(index, light);
+        }
+        uint left = gatherBits(passes);
         // Where none passes, this adds the +0 of one that did not.
         do {
             // The exponent of the lowest bit: findLSB is a dozen instructions in software.
@@ -78,17 +83,6 @@ void addCulledBatches(Surface s, ClusterList list, bool mine, float share, inout
         } while (left != 0u);
         first += BATCH_SIZE;
     } while (first < list.count);
-}
-
-// Least of the subgroup, which is whole.
-uint leastOfBlock(uint v) {
-    v = BATCH_SIZE > 1 ? min(v, subgroupShuffleXor(v, 1)) : v;
-    v = BATCH_SIZE > 2 ? min(v, subgroupShuffleXor(v, 2)) : v;
-    v = BATCH_SIZE > 4 ? min(v, subgroupShuffleXor(v, 4)) : v;
-    v = BATCH_SIZE > 8 ? min(v, subgroupShuffleXor(v, 8)) : v;
-    v = BATCH_SIZE > 16 ? min(v, subgroupShuffleXor(v, 16)) : v;
-    v = BATCH_SIZE > 32 ? min(v, subgroupShuffleXor(v, 32)) : v;
-    return BATCH_SIZE > 64 ? min(v, subgroupShuffleXor(v, 64)) : v;
 }
 
 // Every invocation of the subgroup must arrive here; `lit` is false where there is nothing to
