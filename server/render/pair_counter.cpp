@@ -1,0 +1,106 @@
+#include "render/pair_counter.h"
+
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "interface/constants.h"
+#include "interface/pairs_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace froxel::render {
+
+namespace {
+
+vk::raii::DescriptorSetLayout setLayout(const gpu::Device& device) {
+    const std::array bindings = {vk::DescriptorSetLayoutBinding{
+        0, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::PipelineLayout
+pipelineLayout(const gpu::Device& device, const Pipelines& shared, vk::DescriptorSetLayout own) {
+    const std::array sets = {shared.frameLayout(), shared.screenLayout(), own};
+    return device.handle().createPipelineLayout(
+        {.setLayoutCount = static_cast<uint32_t>(sets.size()), .pSetLayouts = sets.data()});
+}
+
+vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, 1};
+    return device.handle().createDescriptorPool(
+        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+         .maxSets = 1,
+         .poolSizeCount = 1,
+         .pPoolSizes = &size});
+}
+
+// Only what decides which lights a pixel is handed.
+constexpr uint32_t kUsedFlags = io::kLightLocal | io::kLightLists | io::kLightSpots |
+                                io::kLightEqualRadii | io::kLightLong | io::kLightSlicesLinear |
+                                io::kLightSlicesHyperbolic;
+
+uint64_t join(uint32_t low, uint32_t high) {
+    return uint64_t{high} << 32U | low;
+}
+
+} // namespace
+
+PairCounter::PairCounter(const gpu::Device& device, const Pipelines& shared)
+    : device_(device), arena_(device),
+      counts_(arena_.makeBuffer(sizeof(io::PairCounts),
+                                vk::BufferUsageFlagBits::eStorageBuffer |
+                                    vk::BufferUsageFlagBits::eTransferDst,
+                                gpu::MemoryUse::kReadback,
+                                "pair counts")),
+      set_layout_(setLayout(device)), layout_(pipelineLayout(device, shared, *set_layout_)),
+      pool_(makePool(device)) {
+    const auto layout = *set_layout_;
+    auto sets = device.handle().allocateDescriptorSets(
+        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout});
+    set_ = std::move(sets[0]);
+    const vk::DescriptorBufferInfo buffer{*counts_.handle, 0, VK_WHOLE_SIZE};
+    device.handle().updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = *set_,
+                               .dstBinding = 0,
+                               .descriptorCount = 1,
+                               .descriptorType = vk::DescriptorType::eStorageBuffer,
+                               .pBufferInfo = &buffer},
+        {});
+}
+
+void PairCounter::recordClear(const vk::raii::CommandBuffer& cmd) const {
+    cmd.fillBuffer(*counts_.handle, 0, VK_WHOLE_SIZE, 0);
+}
+
+void PairCounter::recordCount(const vk::raii::CommandBuffer& cmd,
+                              vk::DescriptorSet frame_set,
+                              vk::DescriptorSet screen_set,
+                              uint32_t light_flags,
+                              const vk::Extent2D& size_px) {
+    const uint32_t flags = light_flags & kUsedFlags;
+    if (light_flags_ != flags) {
+        // The slot's last frame has finished: nothing uses the old one.
+        pipeline_ = gpu::makeComputePipeline(
+            device_, shaders::count_pairs_comp(),
+            {0, flags, 0, std::max(1U, device_.traits().subgroup_size)}, *layout_, "count pairs");
+        light_flags_ = flags;
+    }
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+    const std::array sets = {frame_set, screen_set, *set_};
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
+    const auto groups = [](uint32_t pixels) {
+        return (pixels + io::kScreenGroup - 1) / io::kScreenGroup;
+    };
+    cmd.dispatch(groups(size_px.width), groups(size_px.height), 1);
+}
+
+PairStats PairCounter::read() const {
+    io::PairCounts counts{};
+    std::memcpy(&counts, counts_.mapped, sizeof(counts));
+    return {.counted = true,
+            .evaluated = join(counts.evaluated_low, counts.evaluated_high),
+            .contributing = join(counts.contributing_low, counts.contributing_high)};
+}
+
+} // namespace froxel::render

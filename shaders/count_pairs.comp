@@ -1,0 +1,74 @@
+// Counts the light-pixel pairs of the solid surfaces in view: the lights that a pixel's list hands
+// it (all lights without lists), and those of them that reach it. Only recorded on request.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "interface/pairs_io.h"
+#include "lib/frame.glsl"
+#include "lib/light_loop.glsl"
+
+layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
+
+layout(set = 1, binding = 1) uniform texture2D depth_image;
+layout(set = 2, binding = 0, scalar) buffer PairBlock { PairCounts counts; };
+
+shared uint group_evaluated;
+shared uint group_contributing;
+
+// Within radius and cone; facing is not asked for.
+bool reaches(LocalLight light, vec3 position) {
+    vec3 to_light = light.position_view - position;
+    float x = dot(to_light, to_light) * light.inv_radius2;
+    return x < 1.0 && (!hasLight(kLightSpots) || coneShare(light, to_light) > 0.0);
+}
+
+void countPixel(uvec2 pixel, float depth) {
+    bool all_lights = !hasLight(kLightLists);
+    float distance = distanceFromDepth(depth);
+    vec3 position = positionFromDistance(pixel, distance);
+    uint cluster = all_lights ? kNoCluster : clusterAt(pixel, distance);
+    ClusterList list = ClusterList(0u, all_lights ? frame.light_count : 0u);
+    if (cluster != kNoCluster) {
+        list = fetchList(cluster);
+    }
+    uint contributing = 0;
+    for (uint first = 0; first < list.count; first += kPlainStep) {
+        [[unroll]] for (uint k = 0; k < kPlainStep; ++k) {
+            uint i = first + k;
+            if (kPlainStep == 1 || i < list.count) {
+                uint index = all_lights ? i : fetchIndex(list.offset + i);
+                contributing += reaches(fetchLight(index), position) ? 1u : 0u;
+            }
+        }
+    }
+    atomicAdd(group_evaluated, list.count);
+    atomicAdd(group_contributing, contributing);
+}
+
+void main() {
+    if (gl_LocalInvocationIndex == 0) {
+        group_evaluated = 0;
+        group_contributing = 0;
+    }
+    barrier();
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (all(lessThan(pixel, uvec2(frame.width_px, frame.height_px)))) {
+        float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
+        if (depth > 0.0) {
+            countPixel(pixel, depth);
+        }
+    }
+    barrier();
+    if (gl_LocalInvocationIndex == 0) {
+        // 64 bits by hand: an old value that wraps carries one.
+        if (atomicAdd(counts.evaluated_low, group_evaluated) + group_evaluated < group_evaluated) {
+            atomicAdd(counts.evaluated_high, 1u);
+        }
+        if (atomicAdd(counts.contributing_low, group_contributing) + group_contributing <
+            group_contributing) {
+            atomicAdd(counts.contributing_high, 1u);
+        }
+    }
+}
