@@ -1,0 +1,137 @@
+#include "render/visibility_passes.h"
+
+#include "interface/constants.h"
+#include "render/rendering_scope.h"
+#include "render/visibility_scene.h"
+
+#include <array>
+
+namespace froxel::render {
+
+namespace {
+
+using Point = vk::PipelineBindPoint;
+
+void bindCompute(const FrameContext& frame, vk::Pipeline pipeline) {
+    const auto& cmd = frame.slot.cmd;
+    cmd.bindPipeline(Point::eCompute, pipeline);
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
+                             frame.slot.visibility->set()};
+    cmd.bindDescriptorSets(Point::eCompute, frame.visibility->pipelines.computeLayout(), 0, sets,
+                           {});
+}
+
+void push(const FrameContext& frame, const std::array<uint32_t, 2>& words) {
+    frame.slot.cmd.pushConstants<uint32_t>(frame.visibility->pipelines.computeLayout(),
+                                           vk::ShaderStageFlagBits::eCompute, 0, words);
+}
+
+// A pipeline over every pixel: once with all textures, or once for each material.
+void resolve(const FrameContext& frame, vk::Pipeline pipeline) {
+    const auto& cmd = frame.slot.cmd;
+    const auto& scene = *frame.visibility;
+    bindCompute(frame, pipeline);
+    const auto& size = frame.slot.targets->size;
+    const auto shade = [&](vk::DescriptorSet textures, uint32_t material, bool last) {
+        cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3, textures, {});
+        push(frame, {material, last ? 1U : 0U});
+        const auto groups = [](uint32_t size_px) {
+            return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;
+        };
+        cmd.dispatch(groups(size.width_px), groups(size.height_px), 1);
+    };
+    if (scene.pipelines.bindless()) {
+        shade(scene.textureSet(), io::kAnyMaterial, true);
+        return;
+    }
+    for (const uint32_t material : scene.materials_in_use) {
+        shade(frame.scene.materialSet(material), material,
+              material == scene.materials_in_use.back());
+    }
+}
+
+void bindGeometry(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    const auto& scene = frame.scene;
+    const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
+                                *scene.extended_buffer.handle ? *scene.extended_buffer.handle
+                                                              : *scene.surface_buffer.handle};
+    const std::array<vk::DeviceSize, 3> offsets = {0, 0, 0};
+    cmd.bindVertexBuffers(0, buffers, offsets);
+    cmd.bindIndexBuffer(*scene.index_buffer.handle, 0, vk::IndexType::eUint32);
+    const auto layout = frame.visibility->pipelines.rasterLayout();
+    cmd.bindDescriptorSets(Point::eGraphics, layout, 0, *frame.slot.frame_set, {});
+    cmd.bindDescriptorSets(Point::eGraphics, layout, 2, frame.slot.visibility->set(), {});
+}
+
+void drawGroup(const FrameContext& frame, uint32_t index) {
+    const auto& cmd = frame.slot.cmd;
+    auto& scene = *frame.visibility;
+    const VisibilityGroup& group = scene.groups[index];
+    cmd.bindPipeline(Point::eGraphics, scene.pipelines.raster(group.material_flags));
+    const bool both_sides = (group.material_flags & io::kMaterialDoubleSided) != 0;
+    cmd.setCullMode(both_sides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+    cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise
+                                    : vk::FrontFace::eCounterClockwise);
+    if ((group.material_flags & io::kMaterialMask) != 0) {
+        cmd.bindDescriptorSets(Point::eGraphics, scene.pipelines.rasterLayout(), 1,
+                               frame.scene.materialSet(group.material), {});
+    }
+    constexpr uint32_t kStride = sizeof(io::DrawCommand);
+    const vk::DeviceSize first =
+        vk::DeviceSize{group.blocks.first_block} * io::kCullGroup * kStride;
+    if (frame.scene.device.traits().draw_indirect_count) {
+        cmd.drawIndexedIndirectCount(*scene.commands.handle, first, *scene.draw_counts.handle,
+                                     index * sizeof(uint32_t), group.meshlet_count, kStride);
+    } else {
+        cmd.drawIndexedIndirect(*scene.commands.handle, first, group.meshlet_count, kStride);
+    }
+}
+
+} // namespace
+
+void recordEmptyDraws(const FrameContext& frame) {
+    frame.slot.cmd.fillBuffer(*frame.visibility->commands.handle, 0, VK_WHOLE_SIZE, 0);
+}
+
+void recordCull(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
+    bindCompute(frame, frame.visibility->pipelines.cull());
+    push(frame, {frame.plan.cull_meshlets ? 0U : 1U, 0});
+    frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
+}
+
+void recordCompact(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "compact");
+    bindCompute(frame, frame.visibility->pipelines.compact());
+    frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
+}
+
+void recordVisibility(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "visibility");
+    // Ids of empty pixels are never read: their depth says so.
+    const std::array colors = {
+        attachment(frame.slot.targets->ids, vk::AttachmentLoadOp::eDontCare)};
+    const auto depth =
+        attachment(frame.slot.targets->depth, vk::AttachmentLoadOp::eClear, farDepth());
+    const Rendering rendering(frame, colors, &depth);
+    bindGeometry(frame);
+    for (uint32_t i = 0; i < frame.visibility->groups.size(); ++i) {
+        drawGroup(frame, i);
+    }
+}
+
+void recordVisibilityGbuffer(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "resolve");
+    resolve(frame, frame.visibility->pipelines.gbuffer(
+                       {frame.visibility->material_flags, 0, frame.plan.gbuffer_output_flags}));
+}
+
+void recordVisibilityShade(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "shade");
+    resolve(frame, frame.visibility->pipelines.shade({frame.visibility->material_flags,
+                                                      frame.plan.lighting_light_flags,
+                                                      frame.plan.lighting_output_flags}));
+}
+
+} // namespace froxel::render

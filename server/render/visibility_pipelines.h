@@ -1,0 +1,58 @@
+// Pipelines and layouts of the visibility passes. Sets: 0 frame; 1 material (raster) or screen
+// (resolve); 2 geometry and draws; 3 every texture of the scene, or one material's.
+#pragma once
+
+#include "render/pipelines.h"
+
+#include <map>
+
+namespace froxel::render {
+
+class VisibilityPipelines {
+  public:
+    static constexpr uint32_t kBufferBindings = 13; // of set 2; then ids and G-buffer
+    static constexpr vk::Format kIdFormat = vk::Format::eR32Uint;
+
+    [[nodiscard]] static constexpr vk::DescriptorType bindingType(uint32_t binding) {
+        return binding < kBufferBindings    ? vk::DescriptorType::eStorageBuffer
+               : binding == kBufferBindings ? vk::DescriptorType::eSampledImage
+                                            : vk::DescriptorType::eStorageImage;
+    }
+
+    // texture_count: of the whole scene; 0 where materials are bound one at a time.
+    VisibilityPipelines(const gpu::Device& device,
+                        const Pipelines& shared,
+                        uint32_t texture_count);
+
+    // Depth and ids. material_flags: of a masked material, else of its faces alone.
+    [[nodiscard]] vk::Pipeline raster(uint32_t material_flags);
+    // From ids to the G-buffer, and from ids to radiance.
+    [[nodiscard]] vk::Pipeline gbuffer(const VariantKey& key);
+    [[nodiscard]] vk::Pipeline shade(const VariantKey& key);
+    [[nodiscard]] vk::Pipeline cull() const { return *cull_; }
+    [[nodiscard]] vk::Pipeline compact() const { return *compact_; }
+
+    [[nodiscard]] bool bindless() const { return bindless_; }
+    [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
+    [[nodiscard]] vk::DescriptorSetLayout textureLayout() const { return *texture_layout_; }
+    [[nodiscard]] vk::PipelineLayout rasterLayout() const { return *raster_layout_; }
+    [[nodiscard]] vk::PipelineLayout computeLayout() const { return *compute_layout_; }
+
+  private:
+    [[nodiscard]] gpu::SpecConstants constants(const VariantKey& key) const;
+    [[nodiscard]] vk::raii::Pipeline makeRaster(uint32_t material_flags) const;
+
+    const gpu::Device& device_;
+    bool bindless_;
+    vk::raii::DescriptorSetLayout set_layout_;
+    vk::raii::DescriptorSetLayout texture_layout_;
+    vk::raii::PipelineLayout raster_layout_;
+    vk::raii::PipelineLayout compute_layout_;
+    vk::raii::Pipeline cull_;
+    vk::raii::Pipeline compact_;
+    std::map<uint32_t, vk::raii::Pipeline> raster_;
+    std::map<VariantKey, vk::raii::Pipeline> gbuffer_;
+    std::map<VariantKey, vk::raii::Pipeline> shade_;
+};
+
+} // namespace froxel::render

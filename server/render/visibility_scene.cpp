@@ -1,0 +1,256 @@
+#include "render/visibility_scene.h"
+
+#include "core/assert.h"
+#include "interface/constants.h"
+#include "render/scene_resources.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace froxel::render {
+
+namespace {
+
+using Usage = vk::BufferUsageFlagBits;
+
+constexpr size_t kMostMeshlets = size_t{1} << (32 - io::kTriangleBits);
+
+bool solid(const DrawItem& item) {
+    return (item.material_flags & io::kMaterialBlend) == 0;
+}
+
+// The flags that tell the raster pass's pipelines apart: all of a masked material's, else its faces.
+uint32_t rasterFlags(const DrawItem& item) {
+    const bool masked = (item.material_flags & io::kMaterialMask) != 0;
+    return masked ? item.material_flags : item.material_flags & io::kMaterialDoubleSided;
+}
+
+// Items of one group have equal keys; opaque ones come first, they need no shading.
+auto groupKey(const DrawItem& item) {
+    const bool masked = (item.material_flags & io::kMaterialMask) != 0;
+    return std::tuple(masked, masked ? item.primitive.material : 0U, rasterFlags(item),
+                      item.mirrored);
+}
+
+// Placed meshlets in the order of their draws, groups filled up to whole workgroups.
+class Placer {
+  public:
+    explicit Placer(const SceneResources& scene) : scene_(scene) {
+        std::vector<uint32_t> order;
+        for (uint32_t i = 0; i < scene.items.size(); ++i) {
+            if (solid(scene.items[i])) {
+                order.push_back(i);
+            }
+        }
+        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+            return groupKey(scene.items[a]) < groupKey(scene.items[b]);
+        });
+        const DrawItem* last = nullptr;
+        for (const uint32_t i : order) {
+            const DrawItem& item = scene.items[i];
+            if (last == nullptr || groupKey(*last) != groupKey(item)) {
+                closeGroup();
+                groups.push_back({item.primitive.material, rasterFlags(item), item.mirrored,
+                                  io::MeshletGroup{blockCount(), 0}, 0});
+            }
+            place(item);
+            last = &item;
+        }
+        closeGroup();
+    }
+
+    std::vector<io::VisibleItem> items;
+    std::vector<io::PlacedMeshlet> meshlets;
+    std::vector<VisibilityGroup> groups;
+    uint32_t triangle_count = 0;
+
+  private:
+    [[nodiscard]] uint32_t blockCount() const {
+        return static_cast<uint32_t>(meshlets.size() / io::kCullGroup);
+    }
+    void closeGroup() {
+        if (groups.empty()) {
+            return;
+        }
+        while (meshlets.size() % io::kCullGroup != 0) {
+            io::PlacedMeshlet filler{};
+            filler.draw_group = static_cast<uint32_t>(groups.size()) - 1;
+            meshlets.push_back(filler);
+        }
+        auto& blocks = groups.back().blocks;
+        blocks.block_count = blockCount() - blocks.first_block;
+    }
+    void place(const DrawItem& item) {
+        const auto& primitive = item.primitive;
+        const auto item_index = static_cast<uint32_t>(items.size());
+        items.push_back({item.instance, static_cast<uint32_t>(primitive.vertex_offset),
+                         primitive.material, item.material_flags});
+        for (uint32_t i = 0; i < primitive.meshlet_count; ++i) {
+            const Meshlet& m = scene_.meshlets[primitive.first_meshlet + i];
+            FROXEL_ASSERT(m.index_count <= 3U << io::kTriangleBits,
+                          "an id has bits for every triangle of a meshlet");
+            meshlets.push_back({item_index, m.first_index, m.index_count, m.radius, m.center,
+                                m.cone_cutoff, m.cone_axis,
+                                static_cast<uint32_t>(groups.size()) - 1});
+            triangle_count += m.index_count / 3;
+        }
+        groups.back().meshlet_count += primitive.meshlet_count;
+    }
+
+    const SceneResources& scene_;
+};
+
+template <class T>
+gpu::Buffer uploadTable(gpu::MemoryArena& arena,
+                        gpu::Uploader& uploader,
+                        const std::vector<T>& table,
+                        std::string_view name) {
+    const auto bytes = std::as_bytes(std::span(table));
+    auto buffer = arena.makeBuffer(bytes.size(), Usage::eStorageBuffer | Usage::eTransferDst,
+                                   gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, bytes);
+    return buffer;
+}
+
+uint32_t textureCount(const SceneResources& scene) {
+    return scene.device.traits().descriptor_indexing
+               ? static_cast<uint32_t>(scene.material_textures.size())
+               : 0;
+}
+
+} // namespace
+
+std::string VisibilityScene::unusable(const SceneResources& scene) {
+    const auto& traits = scene.device.traits();
+    if (!traits.visibility_lacks.empty()) {
+        return "the device lacks " + traits.visibility_lacks;
+    }
+    size_t meshlet_count = 0;
+    for (const auto& item : scene.items) {
+        // Groups fill up workgroups: at most one a material and winding.
+        meshlet_count += solid(item) ? item.primitive.meshlet_count : 0;
+    }
+    meshlet_count += size_t{io::kCullGroup} * 4 * (scene.material_uniforms.size() + 1);
+    if (meshlet_count > kMostMeshlets) {
+        return "the scene has more than " + std::to_string(kMostMeshlets) + " meshlets";
+    }
+    return {};
+}
+
+VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
+    : arena(scene.device), pipelines(scene.device, scene.pipelines, textureCount(scene)) {
+    const Placer placed(scene);
+    groups = placed.groups;
+    triangle_count = placed.triangle_count;
+    block_count = static_cast<uint32_t>(placed.meshlets.size() / io::kCullGroup);
+    std::vector<io::MeshletGroup> blocks;
+    for (const auto& group : groups) {
+        blocks.push_back(group.blocks);
+    }
+    for (const auto& item : placed.items) {
+        material_flags |= item.flags;
+        materials_in_use.push_back(item.material_index);
+    }
+    std::sort(materials_in_use.begin(), materials_in_use.end());
+    materials_in_use.erase(std::unique(materials_in_use.begin(), materials_in_use.end()),
+                           materials_in_use.end());
+
+    items = uploadTable(arena, uploader, placed.items, "visible items");
+    meshlets = uploadTable(arena, uploader, placed.meshlets, "placed meshlets");
+    group_buffer = uploadTable(arena, uploader, blocks, "meshlet groups");
+    materials = uploadTable(arena, uploader, scene.material_uniforms, "materials (storage)");
+    const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
+        return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
+                                name);
+    };
+    commands = scratch(placed.meshlets.size() * sizeof(io::DrawCommand),
+                       Usage::eIndirectBuffer | Usage::eTransferDst,
+                       "culled draws");
+    ranks = scratch(placed.meshlets.size() * sizeof(uint32_t), {}, "cull ranks");
+    block_counts = scratch(block_count * sizeof(uint32_t), {}, "cull block counts");
+    draw_counts =
+        scratch(groups.size() * sizeof(uint32_t), Usage::eIndirectBuffer, "culled draw counts");
+    if (textureCount(scene) > 0) {
+        writeTextures(scene);
+    }
+}
+
+void VisibilityScene::writeTextures(const SceneResources& scene) {
+    const auto& textures = scene.material_textures;
+    const auto count = static_cast<uint32_t>(textures.size());
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, count};
+    pool_ = scene.device.handle().createDescriptorPool(
+        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+         .maxSets = 1,
+         .poolSizeCount = 1,
+         .pPoolSizes = &size});
+    const auto layout = pipelines.textureLayout();
+    texture_set_ = std::move(scene.device.handle().allocateDescriptorSets(
+        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+    const vk::WriteDescriptorSet write{.dstSet = *texture_set_,
+                                       .dstBinding = 0,
+                                       .descriptorCount = count,
+                                       .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                       .pImageInfo = textures.data()};
+    scene.device.handle().updateDescriptorSets(write, {});
+}
+
+VisibilityFrame::VisibilityFrame(const gpu::Device& device, const VisibilityScene& scene)
+    : device_(device), pool_(nullptr) {
+    using Type = vk::DescriptorType;
+    const std::array sizes = {
+        vk::DescriptorPoolSize{Type::eStorageBuffer, VisibilityPipelines::kBufferBindings},
+        vk::DescriptorPoolSize{Type::eSampledImage, 1},
+        vk::DescriptorPoolSize{Type::eStorageImage, 1}};
+    pool_ = device.handle().createDescriptorPool(
+        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+         .maxSets = 1,
+         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
+         .pPoolSizes = sizes.data()});
+    const auto layout = scene.pipelines.setLayout();
+    set_ = std::move(device.handle().allocateDescriptorSets(
+        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+}
+
+void VisibilityFrame::write(const Bindings& bindings) {
+    const auto whole = [](const gpu::Buffer& buffer) {
+        return vk::DescriptorBufferInfo{*buffer.handle, 0, VK_WHOLE_SIZE};
+    };
+    const auto& r = bindings.resources;
+    const auto& s = bindings.scene;
+    const std::array<vk::DescriptorBufferInfo, VisibilityPipelines::kBufferBindings> buffers = {
+        whole(r.position_buffer),
+        whole(r.surface_buffer),
+        whole(*r.extended_buffer.handle ? r.extended_buffer : r.surface_buffer),
+        whole(r.index_buffer),
+        whole(s.items),
+        whole(s.meshlets),
+        whole(s.group_buffer),
+        whole(s.materials),
+        bindings.instances,
+        whole(s.commands),
+        whole(s.ranks),
+        whole(s.block_counts),
+        whole(s.draw_counts)};
+    const std::array images = {
+        vk::DescriptorImageInfo{.imageView = bindings.ids,
+                                .imageLayout = vk::ImageLayout::eGeneral},
+        vk::DescriptorImageInfo{.imageView = bindings.words,
+                                .imageLayout = vk::ImageLayout::eGeneral}};
+    std::array<vk::WriteDescriptorSet, VisibilityPipelines::kBufferBindings + 2> writes;
+    for (uint32_t i = 0; i < writes.size(); ++i) {
+        writes[i] = {.dstSet = *set_,
+                     .dstBinding = i,
+                     .descriptorCount = 1,
+                     .descriptorType = VisibilityPipelines::bindingType(i)};
+        if (i < buffers.size()) {
+            writes[i].pBufferInfo = &buffers[i];
+        } else {
+            writes[i].pImageInfo = &images[i - buffers.size()];
+        }
+    }
+    device_.handle().updateDescriptorSets(writes, {});
+}
+
+} // namespace froxel::render

@@ -1,0 +1,46 @@
+// Draw commands of the visible meshlets, in the order of the placed meshlets, packed group by group.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "lib/frame.glsl"
+#include "lib/visibility_set.glsl"
+#include "lib/visibility_draws.glsl"
+
+layout(local_size_x = kCullGroup) in;
+
+shared uint partial[kCullGroup];
+
+// Visible meshlets of the group's workgroups before this one.
+uint countBefore(uint first_block, uint lane) {
+    uint sum = 0;
+    for (uint block = first_block + lane; block < gl_WorkGroupID.x; block += kCullGroup) {
+        sum += block_counts[block];
+    }
+    partial[lane] = sum;
+    barrier();
+    for (uint step = kCullGroup / 2; step > 0; step /= 2) {
+        if (lane < step) {
+            partial[lane] += partial[lane + step];
+        }
+        barrier();
+    }
+    return partial[0];
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    uint lane = gl_LocalInvocationIndex;
+    PlacedMeshlet m = meshlets[i];
+    MeshletGroup group = groups[m.draw_group];
+    uint before = countBefore(group.first_block, lane);
+    uint rank = ranks[i];
+    if (rank != kCulled) {
+        DrawCommand draw = DrawCommand(m.index_count, 1u, m.first_index,
+                                       items[m.item].vertex_offset, i);
+        commands[group.first_block * kCullGroup + before + rank] = draw;
+    }
+    if (lane == 0 && gl_WorkGroupID.x + 1 == group.first_block + group.block_count) {
+        draw_counts[m.draw_group] = before + block_counts[gl_WorkGroupID.x];
+    }
+}

@@ -1,0 +1,78 @@
+// Which placed meshlets may be seen: inside the frustum and not facing away as a whole. Never leaves
+// out anything visible. One invocation a meshlet; its rank among those of its workgroup keeps order.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "lib/frame.glsl"
+#include "lib/visibility_set.glsl"
+#include "lib/visibility_draws.glsl"
+
+layout(local_size_x = kCullGroup) in;
+
+layout(push_constant) uniform CullBlock { uint keep_all; };
+
+// Spheres are tested with this share of slack, and the rounding of the planes on top.
+const float kSlack = 1e-4;
+const float kRounding = 1e-6;
+
+// Whether a sphere lies outside x * normal.x + y * normal.y + z * normal.z + offset >= 0, a plane in
+// view space, taken to object space: no transform of the radius is needed.
+bool beyond(InstanceView view, vec3 normal, float offset, vec3 center, float radius) {
+    vec4 plane = view.row0 * normal.x + view.row1 * normal.y + view.row2 * normal.z;
+    plane.w += offset;
+    float reach = length(plane.xyz) * (radius * (1.0 + kSlack) + kSlack * 1e-2);
+    float rounding = kRounding * (dot(abs(plane.xyz), abs(center)) + abs(plane.w));
+    return dot(plane.xyz, center) + plane.w < -reach - rounding;
+}
+
+// w + x, w - x, w + y, w - y and w - z of clip space, all linear in view space.
+bool outside(InstanceView view, vec3 center, float radius) {
+    vec2 s = frame.clip_scale;
+    vec2 more = 1.0 + frame.clip_offset;
+    vec2 less = 1.0 - frame.clip_offset;
+    vec2 w = frame.clip_w;
+    return beyond(view, vec3(s.x, 0.0, w.y * more.x), w.x * more.x, center, radius) ||
+           beyond(view, vec3(-s.x, 0.0, w.y * less.x), w.x * less.x, center, radius) ||
+           beyond(view, vec3(0.0, s.y, w.y * more.y), w.x * more.y, center, radius) ||
+           beyond(view, vec3(0.0, -s.y, w.y * less.y), w.x * less.y, center, radius) ||
+           beyond(view, vec3(0.0, 0.0, w.y - frame.clip_z.y), w.x - frame.clip_z.x, center, radius);
+}
+
+bool facesAway(InstanceView view, PlacedMeshlet m, uint flags) {
+    // An eye too far away for its object space (a singular or tiny scale) says nothing.
+    bool known = frame.orthographic == 0.0 && all(lessThan(abs(view.eye_object), vec3(1e6)));
+    if (!known || (flags & kMaterialDoubleSided) != 0 || m.cone_cutoff >= 1.0) {
+        return false;
+    }
+    vec3 toward = m.center - view.eye_object;
+    float rounding = kRounding * length(view.eye_object);
+    return dot(toward, m.cone_axis) >=
+           m.cone_cutoff * length(toward) + m.radius * (1.0 + kSlack) + kSlack + rounding;
+}
+
+shared uint scan[kCullGroup];
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    uint lane = gl_LocalInvocationIndex;
+    PlacedMeshlet m = meshlets[i];
+    bool visible = m.index_count > 0;
+    if (visible && keep_all == 0) {
+        VisibleItem item = items[m.item];
+        InstanceView view = instances[item.instance];
+        visible = !outside(view, m.center, m.radius) && !facesAway(view, m, item.flags);
+    }
+    scan[lane] = visible ? 1u : 0u;
+    barrier();
+    for (uint step = 1; step < kCullGroup; step *= 2) {
+        uint before = lane >= step ? scan[lane - step] : 0u;
+        barrier();
+        scan[lane] += before;
+        barrier();
+    }
+    ranks[i] = visible ? scan[lane] - 1u : kCulled;
+    if (lane == kCullGroup - 1) {
+        block_counts[gl_WorkGroupID.x] = scan[lane];
+    }
+}

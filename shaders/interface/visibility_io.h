@@ -1,0 +1,67 @@
+// The visibility pass: what its ids name, and what culling reads (scalar block layout).
+#ifndef FROXEL_INTERFACE_VISIBILITY_IO_H
+#define FROXEL_INTERFACE_VISIBILITY_IO_H
+
+#include "compat.h"
+
+FROXEL_IO_NAMESPACE_BEGIN
+
+// A pixel's id = (placed meshlet << kTriangleBits) | triangle of the meshlet.
+FROXEL_CONST uint kTriangleBits = 7U;
+FROXEL_CONST uint kCullGroup = 256U; // placed meshlets a workgroup of the culling passes
+FROXEL_CONST uint kCulled = 0xffffffffU;
+FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
+FROXEL_CONST uint kTexturesOfMaterial = 5U; // base colour, normal, roughness, occlusion, emission
+
+// A primitive of an instance.
+struct VisibleItem {
+    uint instance;
+    uint vertex_offset;
+    uint material_index;
+    uint flags; // material flags
+};
+FROXEL_SIZE_ASSERT(VisibleItem, 16);
+
+// A meshlet of an item, and its bounds in object space (render::Meshlet).
+struct PlacedMeshlet {
+    uint item;
+    uint first_index;
+    uint index_count; // 0: fills up a workgroup
+    float radius;
+    vec3 center;
+    float cone_cutoff;
+    vec3 cone_axis;
+    uint draw_group;
+};
+FROXEL_SIZE_ASSERT(PlacedMeshlet, 48);
+
+// Meshlets drawn with one pipeline and material: a run of workgroups and of draw commands.
+struct MeshletGroup {
+    uint first_block;
+    uint block_count;
+};
+FROXEL_SIZE_ASSERT(MeshletGroup, 8);
+
+// An instance as this frame's camera sees it: view_from_object by rows; the eye in object space.
+struct InstanceView {
+    vec4 row0;
+    vec4 row1;
+    vec4 row2;
+    vec3 eye_object;
+    uint mirrored;
+};
+FROXEL_SIZE_ASSERT(InstanceView, 64);
+
+// VkDrawIndexedIndirectCommand.
+struct DrawCommand {
+    uint index_count;
+    uint instance_count;
+    uint first_index;
+    uint vertex_offset;
+    uint first_instance;
+};
+FROXEL_SIZE_ASSERT(DrawCommand, 20);
+
+FROXEL_IO_NAMESPACE_END
+
+#endif

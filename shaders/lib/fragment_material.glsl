@@ -1,0 +1,14 @@
+// Set 1 of the fragment stage: a draw's material; textures and derivatives come from the quad.
+#define MATERIAL_SET 1
+layout(set = 1, binding = 0, scalar) uniform MaterialBlock { Material material; };
+layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
+layout(set = 1, binding = 2) uniform sampler2D normal_texture;
+layout(set = 1, binding = 3) uniform sampler2D metallic_roughness_texture;
+layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
+layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+
+#define sampleMaterial(slot, v, t) texture(slot##_texture, slotUv(v, t))
+#define uvDx(v, t) dFdx(slotUv(v, t))
+#define uvDy(v, t) dFdy(slotUv(v, t))
+#define positionDx(position) dFdx(position)
+#define positionDy(position) dFdy(position)

@@ -1,0 +1,111 @@
+// From a pixel's id to its triangle, and from there to what the rasteriser would have interpolated.
+
+struct VisibleTriangle {
+    uvec3 vertices;
+    uint item;
+    // In view space: a corner and the edges from it.
+    vec3 corner;
+    vec3 edge1;
+    vec3 edge2;
+};
+
+vec3 viewPoint(InstanceView view, vec3 position_object) {
+    vec4 p = vec4(position_object, 1.0);
+    return vec3(dot(view.row0, p), dot(view.row1, p), dot(view.row2, p));
+}
+
+VisibleTriangle fetchTriangle(uint id) {
+    PlacedMeshlet placed = meshlets[id >> kTriangleBits];
+    uint first = placed.first_index + 3u * (id & ((1u << kTriangleBits) - 1u));
+    VisibleTriangle t;
+    t.item = placed.item;
+    t.vertices = uvec3(indices[first], indices[first + 1u], indices[first + 2u]) +
+                 items[placed.item].vertex_offset;
+    InstanceView view = instances[items[placed.item].instance];
+    t.corner = viewPoint(view, positions[t.vertices.x]);
+    t.edge1 = viewPoint(view, positions[t.vertices.y]) - t.corner;
+    t.edge2 = viewPoint(view, positions[t.vertices.z]) - t.corner;
+    return t;
+}
+
+// The ray of a pixel meets the triangle's plane at corner + x * edge1 + y * edge2 (Moeller and
+// Trumbore 1997): perspective-correct weights of the second and third corner.
+vec2 planeCoordinates(VisibleTriangle t, vec2 pixel) {
+    vec2 ray = (pixel + 0.5) * frame.ray_scale + frame.ray_offset;
+    vec3 direction = vec3(ray * frame.ray_spread.y, -1.0);
+    vec3 from_corner = vec3(ray * frame.ray_spread.x, 0.0) - t.corner;
+    vec3 across = cross(direction, t.edge2);
+    float area = dot(t.edge1, across);
+    vec2 weights = vec2(dot(from_corner, across), dot(direction, cross(from_corner, t.edge1)));
+    return area != 0.0 ? weights / area : vec2(0.0); // edge-on
+}
+
+// A vertex attribute as an affine function of the plane's coordinates.
+#define interpolate(a, b, c, w) ((a) + ((b) - (a)) * (w).x + ((c) - (a)) * (w).y)
+#define change(a, b, c, w) (((b) - (a)) * (w).x + ((c) - (a)) * (w).y)
+
+// As surface.vert.
+vec3 viewNormal(InstanceView view, vec3 normal_object) {
+    vec3 c0 = cross(view.row1.xyz, view.row2.xyz);
+    float side = view.mirrored != 0u ? -1.0 : 1.0;
+    return side * vec3(dot(c0, normal_object),
+                       dot(cross(view.row2.xyz, view.row0.xyz), normal_object),
+                       dot(cross(view.row0.xyz, view.row1.xyz), normal_object));
+}
+
+vec4 viewTangent(InstanceView view, vec4 tangent_object) {
+    vec3 t = vec3(dot(view.row0.xyz, tangent_object.xyz), dot(view.row1.xyz, tangent_object.xyz),
+                  dot(view.row2.xyz, tangent_object.xyz));
+    float side = view.mirrored != 0u ? -1.0 : 1.0;
+    return vec4(dot(t, t) > 0.0 ? normalize(t) : t, tangent_object.w * side);
+}
+
+// Whether the pixel looks at the triangle's front.
+bool showsFront(VisibleTriangle t, InstanceView view, uvec2 pixel) {
+    vec2 ray = (vec2(pixel) + 0.5) * frame.ray_scale + frame.ray_offset;
+    vec3 direction = vec3(ray * frame.ray_spread.y, -1.0);
+    bool counter_clockwise = dot(cross(t.edge1, t.edge2), direction) < 0.0;
+    return counter_clockwise != (view.mirrored != 0u);
+}
+
+// Fills visible_flags, visible_material and gradients; returns what the vertex stage would have
+// handed on. Gradients are differences inside the pixel's quad, as a rasteriser takes them.
+VertexData fetchSurface(uint id, uvec2 pixel, out bool front) {
+    VisibleTriangle t = fetchTriangle(id);
+    VisibleItem item = items[t.item];
+    InstanceView view = instances[item.instance];
+    visible_flags = item.flags;
+    visible_material = item.material_index;
+    front = showsFront(t, view, pixel);
+
+    vec2 step = 1.0 - 2.0 * vec2(pixel & 1u);
+    vec2 w = planeCoordinates(t, vec2(pixel));
+    vec2 w_dx = (planeCoordinates(t, vec2(pixel) + vec2(step.x, 0.0)) - w) * step.x;
+    vec2 w_dy = (planeCoordinates(t, vec2(pixel) + vec2(0.0, step.y)) - w) * step.y;
+    // The pixel's centre lies in the triangle; of slivers the arithmetic may say otherwise.
+    w = clamp(w, vec2(0.0), vec2(1.0, 1.0 - clamp(w.x, 0.0, 1.0)));
+    gradients.position_dx = t.edge1 * w_dx.x + t.edge2 * w_dx.y;
+    gradients.position_dy = t.edge1 * w_dy.x + t.edge2 * w_dy.y;
+
+    SurfaceVertex a = surfaces[t.vertices.x];
+    SurfaceVertex b = surfaces[t.vertices.y];
+    SurfaceVertex c = surfaces[t.vertices.z];
+    VertexData v = VertexData(viewNormal(view, interpolate(a.normal, b.normal, c.normal, w)),
+                              interpolate(a.uv0, b.uv0, c.uv0, w), vec2(0.0), vec4(1.0), vec4(0.0));
+    gradients.uv0_dx = change(a.uv0, b.uv0, c.uv0, w_dx);
+    gradients.uv0_dy = change(a.uv0, b.uv0, c.uv0, w_dy);
+    gradients.uv1_dx = vec2(0.0);
+    gradients.uv1_dy = vec2(0.0);
+    if (hasMaterial(kMaterialExtended)) {
+        ExtendedVertex d = extended[t.vertices.x];
+        ExtendedVertex e = extended[t.vertices.y];
+        ExtendedVertex f = extended[t.vertices.z];
+        v.uv1 = interpolate(d.uv1, e.uv1, f.uv1, w);
+        v.color = interpolate(d.color, e.color, f.color, w);
+        v.tangent_view = interpolate(viewTangent(view, d.tangent), viewTangent(view, e.tangent),
+                                     viewTangent(view, f.tangent), w);
+        gradients.uv1_dx = change(d.uv1, e.uv1, f.uv1, w_dx);
+        gradients.uv1_dy = change(d.uv1, e.uv1, f.uv1, w_dy);
+    }
+    return v;
+}
