@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <future>
+#include <thread>
+#include <vector>
 
 namespace froxel::light {
 namespace {
@@ -13,6 +16,9 @@ namespace {
 constexpr size_t kBatch = 128;
 
 constexpr size_t kHues = 256;
+
+// Starting a thread costs about as much as a few thousand lights.
+constexpr size_t kLightsPerThread = 32'768;
 
 // A bijective 64-bit mixer (xor-shift and multiply, three rounds): every input bit reaches every
 // output bit. Integer arithmetic only, so that a seed means the same lights everywhere.
@@ -69,6 +75,75 @@ double triangleWave(double x) {
     return std::min(1.0, 2.0 * std::abs(x - ((x + kRounder) - kRounder)));
 }
 
+// What every light's formula shares.
+struct SeededFrame {
+    glm::dvec3 origin; // of the box, in view space
+    glm::dmat3 view_from_box;
+    glm::dvec3 cycles; // per-axis waves at unit speed
+    float inv_radius2;
+    float intensity;
+    uint64_t key;
+};
+
+SeededFrame seededFrame(const view::Lights& settings,
+                        const view::Camera& camera,
+                        const BoundsD3& box_world,
+                        double time_s) {
+    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+    const glm::dvec3 extent = box_world.size();
+    const glm::dvec3 origin = view_from_world * (box_world.min - camera.eye_world);
+    const glm::dmat3 view_from_box(view_from_world[0] * extent.x, view_from_world[1] * extent.y,
+                                   view_from_world[2] * extent.z);
+    // Per-axis speeds are 1/sqrt(3) of the overall ones. A period is twice the box; a flat box
+    // stands still on that axis.
+    glm::dvec3 cycles{0};
+    for (int axis = 0; axis < 3; ++axis) {
+        cycles[axis] = extent[axis] > 0 ? time_s / (2.0 * std::sqrt(3.0) * extent[axis]) : 0.0;
+    }
+    return {.origin = origin,
+            .view_from_box = view_from_box,
+            .cycles = cycles,
+            .inv_radius2 = inverseRadius2(static_cast<double>(settings.radius_m)),
+            .intensity = settings.intensity,
+            .key = mix(uint64_t{settings.seed} + 0x632be59bd9b4e019U)};
+}
+
+// Lights [begin, end) of all.
+void fillRange(const SeededFrame& frame, size_t begin, size_t end, std::span<io::Light> out) {
+    const auto& hues = hueTable();
+    std::array<std::array<double, kBatch>, 3> wave;
+    for (size_t first = begin; first < end; first += kBatch) {
+        const size_t count = std::min(kBatch, end - first);
+        for (size_t i = 0; i < count; ++i) {
+            const uint64_t index = (first + i) * 3U;
+            const Fractions phase(mix(frame.key + index));
+            const Fractions speed(mix(frame.key + index + 1U));
+            const Fractions look(mix(frame.key + index + 2U));
+            for (size_t axis = 0; axis < 3; ++axis) {
+                const double rate =
+                    (0.2 + 1.3 * speed.values[axis]) * frame.cycles[static_cast<int>(axis)];
+                wave[axis][i] = phase.values[axis] + rate;
+            }
+            const auto hue = static_cast<size_t>(look.values[0] * kHues);
+            const auto gain = static_cast<float>(0.5 + look.values[1]) * frame.intensity;
+            io::Light& light = out[first + i];
+            light.inv_radius2 = frame.inv_radius2;
+            light.color = hues[hue] * gain;
+            light.spot = io::kNoSpot;
+        }
+        for (auto& axis : wave) {
+            for (double& x : axis) {
+                x = triangleWave(x);
+            }
+        }
+        for (size_t i = 0; i < count; ++i) {
+            const glm::dvec3 position =
+                frame.origin + frame.view_from_box * glm::dvec3(wave[0][i], wave[1][i], wave[2][i]);
+            out[first + i].position_view = glm::vec3(position);
+        }
+    }
+}
+
 } // namespace
 
 float inverseRadius2(double radius_m) {
@@ -82,51 +157,18 @@ void fillSeededLights(const view::Lights& settings,
                       const BoundsD3& box_world,
                       double time_s,
                       std::span<io::Light> out) {
-    const auto& hues = hueTable();
-    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
-    const glm::dvec3 extent = box_world.size();
-    const glm::dvec3 origin = view_from_world * (box_world.min - camera.eye_world);
-    const glm::dmat3 view_from_box(view_from_world[0] * extent.x, view_from_world[1] * extent.y,
-                                   view_from_world[2] * extent.z);
-    // Per-axis speeds are 1/sqrt(3) of the overall ones. A period is twice the box; a flat box
-    // stands still on that axis.
-    glm::dvec3 cycles{0};
-    for (int axis = 0; axis < 3; ++axis) {
-        cycles[axis] = extent[axis] > 0 ? time_s / (2.0 * std::sqrt(3.0) * extent[axis]) : 0.0;
+    const SeededFrame frame = seededFrame(settings, camera, box_world, time_s);
+    const size_t threads = std::clamp<size_t>(out.size() / kLightsPerThread, 1,
+                                              std::max(1U, std::thread::hardware_concurrency()));
+    std::vector<std::future<void>> others;
+    for (size_t i = 1; i < threads; ++i) {
+        others.push_back(std::async(std::launch::async, [&, i] {
+            fillRange(frame, out.size() * i / threads, out.size() * (i + 1) / threads, out);
+        }));
     }
-    const float inv_radius2 = inverseRadius2(static_cast<double>(settings.radius_m));
-    const uint64_t key = mix(uint64_t{settings.seed} + 0x632be59bd9b4e019U);
-
-    std::array<std::array<double, kBatch>, 3> wave;
-    for (size_t first = 0; first < out.size(); first += kBatch) {
-        const size_t count = std::min(kBatch, out.size() - first);
-        for (size_t i = 0; i < count; ++i) {
-            const uint64_t index = (first + i) * 3U;
-            const Fractions phase(mix(key + index));
-            const Fractions speed(mix(key + index + 1U));
-            const Fractions look(mix(key + index + 2U));
-            for (size_t axis = 0; axis < 3; ++axis) {
-                const double rate =
-                    (0.2 + 1.3 * speed.values[axis]) * cycles[static_cast<int>(axis)];
-                wave[axis][i] = phase.values[axis] + rate;
-            }
-            const auto hue = static_cast<size_t>(look.values[0] * kHues);
-            const auto gain = static_cast<float>(0.5 + look.values[1]) * settings.intensity;
-            io::Light& light = out[first + i];
-            light.inv_radius2 = inv_radius2;
-            light.color = hues[hue] * gain;
-            light.spot = io::kNoSpot;
-        }
-        for (auto& axis : wave) {
-            for (double& x : axis) {
-                x = triangleWave(x);
-            }
-        }
-        for (size_t i = 0; i < count; ++i) {
-            const glm::dvec3 position =
-                origin + view_from_box * glm::dvec3(wave[0][i], wave[1][i], wave[2][i]);
-            out[first + i].position_view = glm::vec3(position);
-        }
+    fillRange(frame, 0, out.size() / threads, out);
+    for (auto& other : others) {
+        other.get();
     }
 }
 

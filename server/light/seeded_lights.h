@@ -10,7 +10,8 @@
 
 namespace froxel::light {
 
-// Fills `out` (element i is light i of the seed). On every axis a light runs to and fro through the
+// Fills `out` (element i is light i of the seed), many lights by several threads: each light is its
+// own formula, so how many does not matter. On every axis a light runs to and fro through the
 // box at a constant speed, a triangle wave with a uniform phase: the density is uniform at every
 // time, and no light leaves the box. Overall speeds are 0.2 to 1.5 m/s of the clock.
 //

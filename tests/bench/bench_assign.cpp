@@ -36,7 +36,7 @@ void evaluate(benchmark::State& state) {
         benchmark::DoNotOptimize(lights.lights.data());
     }
 }
-BENCHMARK(evaluate)->Arg(1'000)->Arg(5'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(evaluate)->Arg(1'000)->Arg(5'000)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
 
 // Arguments: lights, radius in cm, threads, grid x, y, z.
 void assign(benchmark::State& state) {
@@ -72,6 +72,8 @@ BENCHMARK(assign)
     ->Args({100'000, 20, 1, 16, 9, 24})
     ->Args({100'000, 20, 2, 16, 9, 24})
     ->Args({100'000, 200, 2, 16, 9, 24})
+    ->Args({1'000'000, 30, 1, 16, 9, 24})
+    ->Args({1'000'000, 30, 2, 40, 23, 32})
     ->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace froxel::light {
@@ -94,6 +95,15 @@ TEST(SeededLights, LongerLists_BeginWithTheShorter) {
     for (size_t i = 0; i < few.size(); ++i) {
         EXPECT_EQ(few[i].position_view, many[i].position_view);
         EXPECT_EQ(few[i].color, many[i].color);
+    }
+}
+
+// Many lights are shared among threads, in ranges that depend on the machine.
+TEST(SeededLights, ManyLights_AreTheSameAsFew) {
+    const auto many = lightsAt(settingsOf(300'001), 3.5);
+    for (const uint32_t count : {1U, 32'767U, 100'000U}) {
+        const auto few = lightsAt(settingsOf(count), 3.5);
+        ASSERT_EQ(std::memcmp(few.data(), many.data(), few.size() * sizeof(io::Light)), 0);
     }
 }
 
