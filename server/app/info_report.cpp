@@ -1,6 +1,6 @@
 #include "app/info_report.h"
 
-#include "render/scene_needs.h"
+#include "render/plan_words.h"
 #include "session/session_context.h"
 
 #include <nlohmann/json.hpp>
@@ -100,7 +100,7 @@ Json sceneReport(const scene::Scene& scene) {
             {"cameras", cameras},
             {"lights", lightsOf(scene)},
             {"bounds_m", boundsOf(scene)},
-            {"needs", render::explainNeeds(scene)},
+            {"needs", render::sceneWords(render::findNeeds(scene))},
             {"warnings", scene.warnings}};
 }
 

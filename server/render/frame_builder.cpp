@@ -69,7 +69,8 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     const bool lists = needsLists(settings.renderer, !lights_.lights.empty(), settings.light_loop == view::LightLoop::kAllLights);
     assignLights(settings, lists);
     culling.get();
-    const FramePlan plan = planFrame(settings, facts(inputs));
+    planned_ = generalised(facts(inputs), inputs.generic);
+    const FramePlan plan = planFrame(settings, planned_);
     uniforms_ = makeFrameUniforms(settings, projection, plan.lists ? &grid_ : nullptr,
                                   static_cast<uint32_t>(lights_.lights.size()),
                                   static_cast<uint32_t>(lights_.directionals.size()));

@@ -25,6 +25,8 @@ class FrameBuilder {
     [[nodiscard]] UploadOffsets upload(FrameSlot& slot);
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
+    // What the last plan was made from.
+    [[nodiscard]] const FrameFacts& plannedFacts() const { return planned_; }
     [[nodiscard]] const LightListStats& listStats() const { return lists_.stats; }
     [[nodiscard]] glm::vec3 background() const { return uniforms_.background; }
 
@@ -46,6 +48,7 @@ class FrameBuilder {
     cluster::ClusterGrid grid_;
     cluster::LightLists lists_;
     DrawList draws_;
+    FrameFacts planned_;
     io::Frame uniforms_{};
 };
 

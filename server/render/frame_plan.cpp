@@ -44,6 +44,18 @@ bool needsLists(view::Renderer renderer, bool local_lights, bool all_lights) {
     return renderer != view::Renderer::kNaive && local_lights && !all_lights;
 }
 
+FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
+    facts.spots |= parts.spots && facts.local_lights;
+    facts.directional |= parts.directional;
+    facts.wide_gbuffer |= parts.wide_gbuffer;
+    facts.transparent_visible |= parts.transparent;
+    facts.equal_radii &= !parts.uneven_radii;
+    facts.compute_batches &= !parts.plain_loops;
+    facts.fragment_batches &= !parts.plain_loops;
+    facts.culled_batches &= !parts.uncut_loops;
+    return facts;
+}
+
 FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts) {
     using view::Renderer;
     FramePlan plan;

@@ -19,7 +19,21 @@ struct FrameFacts {
     bool all_lights = false;       // lists are not asked for
     bool compute_batches = false;  // subgroups fetch lights together in compute
     bool fragment_batches = false; // and in the fragment stage
+    bool operator==(const FrameFacts&) const = default;
 };
+
+// For tests: what a frame is drawn as having, though it lacks it. Another variant and the same bits.
+struct GenericParts {
+    bool spots = false;
+    bool directional = false;
+    bool wide_gbuffer = false;
+    bool transparent = false;     // a blend pass over nothing, and a tone map of its own
+    bool uneven_radii = false;
+    bool plain_loops = false;     // no lights fetched together
+    bool uncut_loops = false;     // none of them skipped
+    bool operator==(const GenericParts&) const = default;
+};
+[[nodiscard]] FrameFacts generalised(FrameFacts facts, const GenericParts& parts);
 
 struct FramePlan {
     bool depth_prepass = false;
@@ -39,6 +53,7 @@ struct FramePlan {
     uint32_t lighting_output_flags = 0;
     uint32_t toon_output_flags = 0;
     uint32_t tonemap_output_flags = 0;
+    bool operator==(const FramePlan&) const = default;
 };
 
 // FramePlan::lists by itself: known before it is known what is in view.

@@ -12,10 +12,6 @@ constexpr size_t kMeshletVertices = 96;
 constexpr size_t kMeshletTriangles = 124;
 constexpr float kConeWeight = 0.5F;
 
-bool isExtended(const scene::Primitive& primitive) {
-    return !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
-}
-
 void packVertices(const scene::Primitive& source, bool extended, PackedGeometry& out) {
     out.positions.insert(out.positions.end(), source.positions.begin(), source.positions.end());
     for (size_t i = 0; i < source.positions.size(); ++i) {
@@ -82,6 +78,10 @@ PackedPrimitive packPrimitive(const scene::Primitive& source, PackedGeometry& ou
 }
 
 } // namespace
+
+bool isExtended(const scene::Primitive& primitive) {
+    return !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
+}
 
 PackedGeometry packGeometry(const scene::Scene& scene) {
     PackedGeometry out;

@@ -59,6 +59,9 @@ struct PackedGeometry {
     std::vector<std::vector<PackedPrimitive>> meshes; // as in scene::Scene::meshes
 };
 
+// Whether the primitive has ExtendedVertex data.
+[[nodiscard]] bool isExtended(const scene::Primitive& primitive);
+
 [[nodiscard]] PackedGeometry packGeometry(const scene::Scene& scene);
 
 } // namespace froxel::render

@@ -54,8 +54,7 @@ void bindGeometry(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
     const auto& scene = frame.scene;
     const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
-                                *scene.extended_buffer.handle ? *scene.extended_buffer.handle
-                                                              : *scene.surface_buffer.handle,
+                                *scene.extended_buffer.handle, // none: no pipeline reads it
                                 frame.slot.upload.buffer()};
     const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, frame.offsets.rows};
     cmd.bindVertexBuffers(0, buffers, offsets);

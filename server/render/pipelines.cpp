@@ -13,6 +13,11 @@ namespace {
 using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
+constexpr std::array<std::string_view, 5> kGeometryNames = {
+    "depth prepass", "gbuffer", "forward", "forward after depth", "transparent"};
+constexpr std::array<std::string_view, 3> kScreenNames = {"lighting", "toon", "tonemap"};
+constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
+
 constexpr vk::ShaderStageFlags kAllStages = Stage::eVertex | Stage::eFragment | Stage::eCompute;
 
 vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
@@ -145,9 +150,7 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
         info.depth_write = false;
         info.blend = true;
     }
-    static constexpr std::array kNames = {"depth prepass", "gbuffer", "forward",
-                                          "forward after depth", "transparent"};
-    return gpu::makeGraphicsPipeline(device_, info, kNames[static_cast<size_t>(pass)]);
+    return gpu::makeGraphicsPipeline(device_, info, kGeometryNames[static_cast<size_t>(pass)]);
 }
 
 vk::Pipeline Pipelines::geometry(GeometryPass pass, const VariantKey& key) {
@@ -183,8 +186,22 @@ vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
         info.constants = constants(key);
         info.layout = *screen_layout_;
         info.color_formats = {kRadianceFormat};
-        return gpu::makeGraphicsPipeline(device_, info, "lighting (fragment)");
+        return gpu::makeGraphicsPipeline(device_, info, kFragmentLightingName);
     });
+}
+
+std::vector<Pipelines::Made> Pipelines::made() const {
+    std::vector<Made> all;
+    for (const auto& [id, pipeline] : geometry_) {
+        all.push_back({kGeometryNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
+    }
+    for (const auto& [id, pipeline] : screen_) {
+        all.push_back({kScreenNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
+    }
+    for (const auto& [key, pipeline] : fragment_lighting_) {
+        all.push_back({kFragmentLightingName, key});
+    }
+    return all;
 }
 
 } // namespace froxel::render

@@ -7,7 +7,9 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
 namespace froxel::render {
 
@@ -52,6 +54,13 @@ class Pipelines {
     [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
     // The lighting pass in the fragment stage.
     [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key);
+
+    // The variants made so far, of every kind.
+    struct Made {
+        std::string_view pass;
+        VariantKey key;
+    };
+    [[nodiscard]] std::vector<Made> made() const;
 
     [[nodiscard]] vk::DescriptorSetLayout frameLayout() const { return *frame_layout_; }
     [[nodiscard]] vk::DescriptorSetLayout materialLayout() const { return *material_layout_; }

@@ -4,6 +4,7 @@
 #include "render/frame_builder.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
+#include "render/memory_report.h"
 #include "render/scene_resources.h"
 
 #include <array>
@@ -64,6 +65,7 @@ struct ViewRenderer::Impl {
     std::vector<std::unique_ptr<FrameSlot>> slots;
     std::deque<FrameSlot*> pending; // submitted, oldest first
     std::shared_ptr<ViewTargets> targets;
+    FrameDetailsKeeper details;
 };
 
 void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
@@ -107,6 +109,8 @@ void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
     slot.stats.triangle_count = builder.draws().triangle_count;
     slot.stats.draw_count = static_cast<uint32_t>(builder.draws().commands.size());
     slot.stats.lists = builder.listStats();
+    slot.stats.details = details.update(inputs.settings, builder.plannedFacts(), plan, scene.needs,
+                                        *scene.device.memoryLedger());
     slot.stats.host_us = microsSince(start);
     slot.submitted = start;
     slot.done_value = scene.timeline.submit(slot.cmd);

@@ -6,6 +6,7 @@
 #include "core/frame_stats.h"
 #include "core/pixel_view.h"
 #include "gpu/device.h"
+#include "render/frame_plan.h"
 #include "scene/scene.h"
 #include "view/settings.h"
 
@@ -21,6 +22,8 @@ struct FrameInputs {
     view::ViewSettings settings;
     double time_s = 0;          // the lights' clock; pauses and speed are already folded in
     bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
+    // For tests and measurements.
+    GenericParts generic;
 };
 
 struct RenderedFrame {

@@ -1,8 +1,7 @@
 #include "render/scene_needs.h"
 
 #include "interface/constants.h"
-
-#include <algorithm>
+#include "render/geometry_pack.h"
 
 namespace froxel::render {
 
@@ -43,11 +42,6 @@ bool needsWide(const scene::Material& m) {
             m.occlusion_texture.texture != scene::kNone);
 }
 
-template <class Items, class Test>
-size_t count(const Items& items, Test test) {
-    return static_cast<size_t>(std::count_if(items.begin(), items.end(), test));
-}
-
 } // namespace
 
 SceneNeeds findNeeds(const scene::Scene& scene) {
@@ -58,39 +52,18 @@ SceneNeeds findNeeds(const scene::Scene& scene) {
         needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;
         needs.blended |= material.alpha_mode == scene::AlphaMode::kBlend;
     }
+    for (const auto& mesh : scene.meshes) {
+        for (const auto& primitive : mesh.primitives) {
+            ++needs.primitive_count;
+            needs.extended_count += isExtended(primitive) ? 1U : 0U;
+        }
+    }
     for (const auto& light : scene.lights) {
-        needs.spots |= light.type == scene::LightType::kSpot;
-        needs.directional |= light.type == scene::LightType::kDirectional;
+        needs.lights.points += light.type == scene::LightType::kPoint ? 1U : 0U;
+        needs.lights.spots += light.type == scene::LightType::kSpot ? 1U : 0U;
+        needs.lights.directionals += light.type == scene::LightType::kDirectional ? 1U : 0U;
     }
     return needs;
-}
-
-std::vector<std::string> explainNeeds(const scene::Scene& scene) {
-    const SceneNeeds needs = findNeeds(scene);
-    const auto line = [](const char* what, bool needed, const std::string& why) {
-        return std::string(what) + (needed ? ": yes, " : ": no, ") + why;
-    };
-    const auto with = [&](uint32_t flag) {
-        return std::to_string(
-            count(needs.material_flags, [&](uint32_t f) { return (f & flag) != 0; }));
-    };
-    const auto lights = [&](scene::LightType type) {
-        return std::to_string(count(scene.lights, [&](const auto& l) { return l.type == type; }));
-    };
-    return {
-        line("transparent pass", needs.blended, with(io::kMaterialBlend) + " blended materials"),
-        line("alpha test", needs.masked, with(io::kMaterialMask) + " masked materials"),
-        line("normal mapping", with(io::kMaterialNormalTexture) != "0",
-             with(io::kMaterialNormalTexture) + " materials with normal textures"),
-        line("metallic-roughness textures", with(io::kMaterialRoughnessTexture) != "0",
-             with(io::kMaterialRoughnessTexture) + " materials with one"),
-        line("wide G-buffer (16 instead of 8 bytes a pixel)", needs.wide_gbuffer,
-             needs.wide_gbuffer ? "metalness, occlusion, emission or unlit materials are present"
-                                : "no metalness, occlusion, emission or unlit material"),
-        line("spot light falloff", needs.spots, lights(scene::LightType::kSpot) + " spot lights"),
-        line("directional lights", needs.directional,
-             lights(scene::LightType::kDirectional) + " directional lights"),
-    };
 }
 
 } // namespace froxel::render

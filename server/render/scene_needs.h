@@ -4,7 +4,6 @@
 #include "scene/scene.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace froxel::render {
@@ -14,13 +13,15 @@ struct SceneNeeds {
     bool wide_gbuffer = false;            // metalness, occlusion, emission or unlit somewhere
     bool masked = false;
     bool blended = false;
-    bool spots = false;
-    bool directional = false;
+    uint32_t primitive_count = 0;
+    uint32_t extended_count = 0; // primitives with a second texcoord, colours or tangents
+    struct Lights {
+        uint32_t points = 0;
+        uint32_t spots = 0;
+        uint32_t directionals = 0;
+    } lights; // the scene's own
 };
 
 [[nodiscard]] SceneNeeds findNeeds(const scene::Scene& scene);
-
-// One line each: a pass or feature, whether this scene needs it and why.
-[[nodiscard]] std::vector<std::string> explainNeeds(const scene::Scene& scene);
 
 } // namespace froxel::render

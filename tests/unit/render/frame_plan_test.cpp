@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 namespace froxel::render {
 
 namespace {
@@ -66,41 +69,152 @@ TEST(FramePlan, NoLights_AnyRenderer_NeitherListsNorLightCode) {
     }
 }
 
-// Over every renderer, stage and combination of facts.
-TEST(FramePlan, EveryCombination_ExactlyOnePassPacksPixels) {
-    for (uint32_t bits = 0; bits < (1U << 9U); ++bits) {
-        const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
-        const FrameFacts facts{.wide_gbuffer = has(0),
-                               .transparent_visible = has(1),
-                               .local_lights = has(2),
-                               .spots = has(3),
-                               .directional = has(4),
-                               .keep_radiance = has(5),
-                               .all_lights = has(6),
-                               .compute_batches = has(7),
-                               .fragment_batches = has(8)};
-        for (uint8_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
-            for (const auto stage : {LightingStage::kCompute, LightingStage::kFragment}) {
-                const auto p = plan(static_cast<Renderer>(kind), facts, stage);
-                const int packing = (p.tonemap ? 1 : 0) +
-                                    ((p.lighting_output_flags & io::kOutputPixels) != 0 ? 1 : 0) +
-                                    ((p.toon_output_flags & io::kOutputPixels) != 0 ? 1 : 0);
-                ASSERT_EQ(packing, 1);
-                ASSERT_NE(p.forward, p.gbuffer);
-                ASSERT_EQ(p.gbuffer, p.lighting_compute || p.lighting_fragment);
-                // Whoever reads radiance finds it written, and asked for.
-                const bool reads = p.tonemap || p.toon_pass || facts.keep_radiance;
-                ASSERT_EQ(p.radiance, reads);
-                if (reads && p.lighting_compute) {
-                    ASSERT_NE(p.lighting_output_flags & io::kOutputRadiance, 0U);
-                }
-                if (p.toon_pass && (p.tonemap || facts.keep_radiance)) {
-                    ASSERT_NE(p.toon_output_flags & io::kOutputRadiance, 0U);
-                }
-                ASSERT_FALSE(facts.all_lights && p.lists);
+namespace {
+
+// What must hold of every plan; empty when it does.
+std::string
+brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
+    const auto has = [](uint32_t flags, uint32_t flag) { return (flags & flag) != 0; };
+    const bool compute_lights = p.lighting_compute || p.visibility_shade;
+    const bool lit_by_lighting = p.gbuffer || p.visibility_shade;
+    const bool lighting_packs = has(p.lighting_output_flags, io::kOutputPixels);
+    const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
+    const bool lighting_stores = has(p.lighting_output_flags, io::kOutputRadiance);
+    const bool toon_stores = has(p.toon_output_flags, io::kOutputRadiance);
+    const std::pair<bool, const char*> rules[] = {
+        {p.forward + p.gbuffer + p.visibility_shade == 1, "solid surfaces are shaded in one way"},
+        {p.gbuffer == (p.lighting_compute || p.lighting_fragment), "a G-buffer is lit"},
+        {!(p.lighting_compute && p.lighting_fragment), "in one stage"},
+        {!p.lighting_fragment || settings.lighting == LightingStage::kFragment,
+         "the fragment stage lights a G-buffer only where asked to"},
+        {!p.depth_prepass || (p.forward && settings.renderer == Renderer::kForwardPlus),
+         "only forward_plus has a prepass"},
+        {!p.visibility_shade || (p.visibility && isForward(settings.renderer)),
+         "only forward renderers shade from ids"},
+        {p.visibility == facts.visibility, "ids are drawn where they can be"},
+        {p.toon_pass == (settings.renderer == Renderer::kToonCompute), "toon_compute has its pass"},
+        {p.transparent == facts.transparent_visible, "blending only where something is blended"},
+        {p.tonemap + lighting_packs + toon_packs == 1, "exactly one pass packs pixels"},
+        {!p.transparent || p.tonemap, "tones are mapped after blending"},
+        {p.tonemap || compute_lights || p.toon_pass, "only compute passes map tones on the way"},
+        {p.tonemap || !p.toon_pass || toon_packs, "the toon pass is the last"},
+        {p.radiance == (p.tonemap || p.toon_pass || facts.keep_radiance),
+         "the radiance target is there if somebody reads it"},
+        {p.radiance || (!lighting_stores && !toon_stores), "nothing is stored for nobody"},
+        {lighting_stores == (p.radiance && compute_lights), "whoever reads radiance finds it"},
+        {toon_stores == (p.toon_pass && (p.tonemap || facts.keep_radiance)),
+         "and finds what the toon pass made of it"},
+        {!p.lists || (facts.local_lights && !facts.all_lights), "lists only of local lights"},
+        {!p.lists || settings.renderer != Renderer::kNaive, "naive has no lists"},
+        {p.gbuffer || p.gbuffer_output_flags == 0, "no layout without a G-buffer"},
+        {!p.gbuffer || has(p.gbuffer_output_flags, io::kOutputWideGbuffer) == facts.wide_gbuffer,
+         "wide if the scene needs it"},
+        {!p.gbuffer || (p.lighting_output_flags & p.gbuffer_output_flags) == p.gbuffer_output_flags,
+         "lighting reads the layout that was written"},
+        {has(p.tonemap_output_flags, io::kOutputClamp) ==
+             (settings.tone_map == view::ToneMap::kClamp),
+         "the tone map asked for"},
+    };
+    for (const auto& [holds, rule] : rules) {
+        if (!holds) {
+            return rule;
+        }
+    }
+    for (const uint32_t flags : {p.forward_light_flags, p.lighting_light_flags}) {
+        const bool local = has(flags, io::kLightLocal);
+        const bool lists = has(flags, io::kLightLists);
+        const bool any = local || has(flags, io::kLightDirectional);
+        const uint32_t laws = io::kLightSlicesLinear | io::kLightSlicesHyperbolic;
+        const uint32_t of_local = io::kLightLists | io::kLightSpots | io::kLightBatched |
+                                  io::kLightPartial | io::kLightEqualRadii | io::kLightCulled |
+                                  io::kLightLong | laws;
+        const std::pair<bool, const char*> light_rules[] = {
+            {local == facts.local_lights, "local light code if there are any"},
+            {local || (flags & of_local) == 0, "nothing of local lights without one"},
+            {has(flags, io::kLightDirectional) == facts.directional, "suns if there are any"},
+            {lists == p.lists, "lists are read if they are made"},
+            {has(flags, io::kLightSpots) == (local && facts.spots), "cones if there are spots"},
+            {has(flags, io::kLightEqualRadii) == (local && facts.equal_radii),
+             "a constant radius if there is one"},
+            {lists || (flags & laws) == 0, "no slices without lists"},
+            {(flags & laws) != laws, "one slice law"},
+            {!has(flags, io::kLightPartial) || has(flags, io::kLightBatched), "partial batches"},
+            {!has(flags, io::kLightCulled) || (lists && has(flags, io::kLightBatched)),
+             "only batches of lists are culled"},
+            {!has(flags, io::kLightBatched) || facts.compute_batches || facts.fragment_batches,
+             "batches if a subgroup can"},
+            {has(flags, io::kLightToon) == (any && settings.renderer == Renderer::kToonFragment),
+             "the ramp if there is light to bend"},
+            {has(flags, io::kLightLambert) == (settings.shading == view::ShadingModel::kLambert),
+             "the shading model asked for"},
+        };
+        for (const auto& [holds, rule] : light_rules) {
+            if (!holds) {
+                return rule;
             }
         }
     }
+    const bool in_compute = lit_by_lighting && compute_lights;
+    if (in_compute && has(p.lighting_light_flags, io::kLightPartial)) {
+        return "whole subgroups in compute";
+    }
+    return {};
+}
+
+} // namespace
+
+// The key of a frame is a pure function: every combination of settings that it looks at and of
+// facts, by the rules above.
+TEST(FramePlan, EveryCombination_KeepsTheRules) {
+    constexpr uint32_t kFacts = 14;
+    view::ViewSettings settings;
+    for (uint32_t setting = 0; setting < 5 * 3 * 2 * 2 * 3; ++setting) {
+        uint32_t rest = setting;
+        const auto next = [&rest](uint32_t count) {
+            const uint32_t value = rest % count;
+            rest /= count;
+            return value;
+        };
+        settings.renderer = static_cast<Renderer>(next(5));
+        settings.lighting = static_cast<LightingStage>(next(3));
+        settings.shading = static_cast<view::ShadingModel>(next(2));
+        settings.tone_map = static_cast<view::ToneMap>(next(2));
+        settings.grid.law = static_cast<view::GridLaw>(next(3));
+        for (uint32_t bits = 0; bits < (1U << kFacts); ++bits) {
+            const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
+            const FrameFacts facts{.wide_gbuffer = has(0),
+                                   .transparent_visible = has(1),
+                                   .local_lights = has(2),
+                                   .spots = has(3),
+                                   .equal_radii = has(4),
+                                   .long_loops = has(5),
+                                   .directional = has(6),
+                                   .keep_radiance = has(7),
+                                   .all_lights = has(8),
+                                   .compute_batches = has(9),
+                                   .fragment_batches = has(10),
+                                   .culled_batches = has(11),
+                                   .visibility = has(12),
+                                   .cull_meshlets = has(13)};
+            const auto p = planFrame(settings, facts);
+            ASSERT_EQ(brokenRule(settings, facts, p), "")
+                << "settings " << setting << ", facts " << bits;
+            ASSERT_EQ(p, planFrame(settings, facts));
+        }
+    }
+}
+
+TEST(FramePlan, GenericParts_OnlyWiden) {
+    const FrameFacts bare{.local_lights = true, .equal_radii = true, .compute_batches = true};
+    EXPECT_EQ(generalised(bare, {}), bare);
+    const auto wide = generalised(bare, {.spots = true,
+                                         .directional = true,
+                                         .wide_gbuffer = true,
+                                         .transparent = true,
+                                         .uneven_radii = true});
+    EXPECT_TRUE(wide.spots && wide.directional && wide.wide_gbuffer && wide.transparent_visible);
+    EXPECT_FALSE(wide.equal_radii);
+    EXPECT_FALSE(generalised({}, {.spots = true}).spots); // no light to have a cone
 }
 
 } // namespace froxel::render

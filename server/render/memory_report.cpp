@@ -1,0 +1,70 @@
+#include "render/memory_report.h"
+
+#include "render/plan_words.h"
+
+#include <spdlog/fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace froxel::render {
+
+namespace {
+
+bool sameUses(const std::vector<MemoryUse>& a, const std::vector<MemoryUse>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+        return x.purpose == y.purpose && x.bytes == y.bytes;
+    });
+}
+
+} // namespace
+
+std::vector<MemoryUse> memoryReport(const gpu::MemoryLedger& ledger) {
+    std::vector<MemoryUse> uses;
+    for (const auto& [purpose, bytes] : ledger.byPurpose()) {
+        uses.push_back({purpose, bytes});
+    }
+    std::stable_sort(uses.begin(), uses.end(),
+                     [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
+    return uses;
+}
+
+void FrameDetailsKeeper::logOnce(const Key& key, const std::vector<std::string>& words) {
+    constexpr size_t kMost = 64;
+    if (logged_.size() < kMost && std::find(logged_.begin(), logged_.end(), key) == logged_.end()) {
+        logged_.push_back(key);
+        spdlog::info("plan: {}", fmt::join(words, "; "));
+    }
+}
+
+std::shared_ptr<const FrameDetails> FrameDetailsKeeper::update(const view::ViewSettings& settings,
+                                                               const FrameFacts& facts,
+                                                               const FramePlan& plan,
+                                                               const SceneNeeds& needs,
+                                                               const gpu::MemoryLedger& ledger) {
+    const Key key{settings.renderer, settings.shading, settings.gbuffer, facts, plan};
+    const uint64_t version = ledger.version();
+    const bool same_plan = key_ == key;
+    if (details_ && same_plan && ledger_version_ == version) {
+        return details_;
+    }
+    FrameDetails made;
+    if (details_ && same_plan) {
+        made.plan = details_->plan;
+    } else {
+        made.plan = frameWords(settings, facts, plan);
+        logOnce(key, made.plan);
+        const auto scene_words = sceneWords(needs);
+        made.plan.insert(made.plan.end(), scene_words.begin(), scene_words.end());
+    }
+    made.memory = memoryReport(ledger);
+    key_ = key;
+    ledger_version_ = version;
+    if (details_ && same_plan && sameUses(made.memory, details_->memory)) {
+        return details_;
+    }
+    details_ = std::make_shared<const FrameDetails>(std::move(made));
+    return details_;
+}
+
+} // namespace froxel::render

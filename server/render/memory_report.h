@@ -1,0 +1,46 @@
+// FrameStats::details: made anew only when what it says has changed.
+#pragma once
+
+#include "core/frame_stats.h"
+#include "gpu/memory_ledger.h"
+#include "render/frame_plan.h"
+#include "render/scene_needs.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace froxel::render {
+
+// Largest first. Of all viewers: the device's memory is theirs together.
+[[nodiscard]] std::vector<MemoryUse> memoryReport(const gpu::MemoryLedger& ledger);
+
+// One a viewer.
+class FrameDetailsKeeper {
+  public:
+    // The frame's details; logs the plan's lines when they are new.
+    [[nodiscard]] std::shared_ptr<const FrameDetails> update(const view::ViewSettings& settings,
+                                                             const FrameFacts& facts,
+                                                             const FramePlan& plan,
+                                                             const SceneNeeds& needs,
+                                                             const gpu::MemoryLedger& ledger);
+
+  private:
+    // Everything that the lines are made of.
+    struct Key {
+        view::Renderer renderer{};
+        view::ShadingModel shading{};
+        view::GbufferLayout gbuffer;
+        FrameFacts facts;
+        FramePlan plan;
+        bool operator==(const Key&) const = default;
+    };
+    void logOnce(const Key& key, const std::vector<std::string>& words);
+
+    std::optional<Key> key_;
+    std::vector<Key> logged_; // a viewer may go to and fro: each is told once
+    uint64_t ledger_version_ = 0;
+    std::shared_ptr<const FrameDetails> details_;
+};
+
+} // namespace froxel::render

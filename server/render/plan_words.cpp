@@ -1,0 +1,165 @@
+#include "render/plan_words.h"
+
+#include "interface/constants.h"
+#include "render/gbuffer_layout.h"
+
+#include <algorithm>
+
+namespace froxel::render {
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+template <class Names, class Enum>
+std::string nameOf(const Names& names, Enum value) {
+    return std::string(names[static_cast<size_t>(value)]);
+}
+
+size_t with(const SceneNeeds& needs, uint32_t flag) {
+    const auto& all = needs.material_flags;
+    return static_cast<size_t>(
+        std::count_if(all.begin(), all.end(), [&](uint32_t f) { return (f & flag) != 0; }));
+}
+
+// "normal maps on 18 of 25 materials", or what their absence saves.
+std::string share(const char* what, size_t count, size_t total, const char* of, const char* none) {
+    if (count == 0) {
+        return none;
+    }
+    return std::string(what) + " on " + std::to_string(count) + " of " + std::to_string(total) +
+           " " + of;
+}
+
+std::string counted(size_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string lightWords(const FrameFacts& facts, const FramePlan& plan, bool naive) {
+    if (!facts.local_lights) {
+        return facts.directional ? "no point or spot light: no assignment, no lists"
+                                 : "no lights: no assignment, no lists, no light loop";
+    }
+    if (plan.lists) {
+        return "light lists: a pixel loops over its cluster's lights";
+    }
+    return naive ? "naive: no lists, every fragment loops over all lights"
+                 : "lists do not pay or are not asked for: every pixel loops over all lights";
+}
+
+void addLightWords(Lines& lines,
+                   const view::ViewSettings& settings,
+                   const FrameFacts& facts,
+                   const FramePlan& plan) {
+    lines.push_back(lightWords(facts, plan, settings.renderer == view::Renderer::kNaive));
+    const uint32_t flags = plan.gbuffer || plan.visibility_shade ? plan.lighting_light_flags
+                                                                 : plan.forward_light_flags;
+    if (facts.local_lights) {
+        lines.emplace_back(facts.spots ? "spot lights: cones are fetched and cut"
+                                       : "no spot light: no cone data");
+        lines.emplace_back(facts.equal_radii ? "all radii equal: radius is a constant"
+                                             : "radii differ: each light brings its own");
+        if ((flags & io::kLightCulled) != 0) {
+            lines.emplace_back("subgroups fetch lights together and skip what reaches none of "
+                               "their pixels");
+        } else if ((flags & io::kLightBatched) != 0) {
+            lines.emplace_back("subgroups fetch lights together");
+        }
+    }
+    if (!facts.directional) {
+        lines.emplace_back("no directional light: no loop over them");
+    }
+    if (settings.shading == view::ShadingModel::kLambert) {
+        lines.emplace_back("lambert: no specular part, no roughness textures");
+    }
+}
+
+void addSolidWords(Lines& lines,
+                   const view::ViewSettings& settings,
+                   const FrameFacts& facts,
+                   const FramePlan& plan) {
+    if (plan.visibility) {
+        lines.emplace_back(plan.cull_meshlets
+                               ? "visibility: the device culls meshlets and rasters triangle ids"
+                               : "visibility: the device rasters triangle ids, nothing culled");
+    }
+    if (plan.gbuffer) {
+        const auto bytes =
+            std::to_string(gbufferBytesPerPixel(settings.gbuffer, facts.wide_gbuffer));
+        lines.push_back((facts.wide_gbuffer
+                             ? "metalness, occlusion, emission or unlit surfaces: G-buffer of "
+                             : "no metalness, occlusion, emission or unlit: G-buffer of ") +
+                        bytes + " bytes a pixel");
+    } else {
+        lines.emplace_back("no G-buffer: surfaces are shaded at once");
+    }
+    if (plan.forward) {
+        lines.emplace_back(plan.depth_prepass ? "depth prepass: each pixel is shaded once"
+                                              : "no depth prepass");
+    }
+}
+
+std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
+    if (!plan.tonemap) {
+        return plan.toon_pass ? "the toon pass maps tones: no pass for it"
+                              : "lighting maps tones: no pass for it";
+    }
+    if (facts.transparent_visible) {
+        return "tone map in a pass of its own, after blending";
+    }
+    return "tone map in a pass of its own, after a fragment stage";
+}
+
+} // namespace
+
+std::vector<std::string> sceneWords(const SceneNeeds& needs) {
+    const size_t total = needs.material_flags.size();
+    const auto materials = [&](const char* what, uint32_t flag, const char* none) {
+        return share(what, with(needs, flag), total, "materials", none);
+    };
+    const uint32_t textures = io::kMaterialBaseColorTexture | io::kMaterialNormalTexture |
+                              io::kMaterialRoughnessTexture | io::kMaterialOcclusionTexture |
+                              io::kMaterialEmissiveTexture;
+    const auto& lights = needs.lights;
+    return {
+        materials("textures", textures, "no textures: nothing is sampled"),
+        materials("normal maps", io::kMaterialNormalTexture, "no normal maps: no tangent frames"),
+        materials("metallic-roughness textures", io::kMaterialRoughnessTexture,
+                  "no metallic-roughness textures"),
+        materials("alpha masks", io::kMaterialMask, "no alpha masks: no discard"),
+        materials("blending", io::kMaterialBlend, "no blended materials: no sort, no blend pass"),
+        materials("unlit shading", io::kMaterialUnlit, "no unlit materials"),
+        materials("both sides drawn", io::kMaterialDoubleSided,
+                  "no double-sided materials: back faces are culled"),
+        materials("texture transforms or a second set", io::kMaterialUvTransform,
+                  "no texture transforms: coordinates are used as they are"),
+        needs.wide_gbuffer ? "metalness, occlusion, emission or unlit surfaces: wide G-buffer"
+                           : "no metalness, occlusion, emission or unlit surfaces: thin G-buffer",
+        share("second coordinates, colours or tangents", needs.extended_count,
+              needs.primitive_count, "primitives",
+              "no second coordinates, colours or tangents: no vertex stream for them"),
+        lights.points + lights.spots + lights.directionals == 0
+            ? std::string("no lights of the scene's own")
+            : counted(lights.points, "point light", "point lights") + ", " +
+                  counted(lights.spots, "spot light", "spot lights") + ", " +
+                  counted(lights.directionals, "directional light", "directional lights")};
+}
+
+std::vector<std::string>
+frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan) {
+    const bool compute = plan.lighting_compute || plan.visibility_shade;
+    Lines lines = {nameOf(view::kRendererNames, settings.renderer) + ", " +
+                   nameOf(view::kShadingModelNames, settings.shading) + ", lighting in " +
+                   (compute ? "compute" : "the fragment stage")};
+    addSolidWords(lines, settings, facts, plan);
+    addLightWords(lines, settings, facts, plan);
+    lines.emplace_back(plan.transparent ? "transparent surfaces in view: sorted and blended"
+                                        : "no transparent surface in view: no sort, no blend pass");
+    lines.push_back(toneMapWords(facts, plan));
+    if (!plan.radiance) {
+        lines.emplace_back("nobody reads linear radiance: no target for it");
+    }
+    return lines;
+}
+
+} // namespace froxel::render

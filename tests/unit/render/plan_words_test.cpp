@@ -1,0 +1,90 @@
+#include "render/memory_report.h"
+#include "render/plan_words.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace froxel::render {
+
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+std::vector<std::string> wordsOf(const view::ViewSettings& settings, const FrameFacts& facts) {
+    return frameWords(settings, facts, planFrame(settings, facts));
+}
+
+scene::Scene sceneOf(uint32_t materials, uint32_t with_normal_maps) {
+    scene::Scene scene;
+    scene.materials.resize(materials);
+    for (uint32_t i = 0; i < with_normal_maps; ++i) {
+        scene.materials[i].normal_texture.texture = 0;
+    }
+    return scene;
+}
+
+} // namespace
+
+TEST(PlanWords, NoLights_SayWhatIsSaved) {
+    const auto words = wordsOf({}, {});
+    EXPECT_THAT(words, Contains("no lights: no assignment, no lists, no light loop"));
+    EXPECT_THAT(words, Not(Contains(HasSubstr("cone"))));
+    EXPECT_THAT(words, Contains("no transparent surface in view: no sort, no blend pass"));
+    EXPECT_THAT(words, Contains("nobody reads linear radiance: no target for it"));
+}
+
+TEST(PlanWords, LightsOfOneRadius_AreNamed) {
+    const auto words = wordsOf({}, {.local_lights = true, .equal_radii = true});
+    EXPECT_THAT(words, Contains("all radii equal: radius is a constant"));
+    EXPECT_THAT(words, Contains("no spot light: no cone data"));
+    EXPECT_THAT(words, Contains(HasSubstr("light lists")));
+}
+
+TEST(PlanWords, Scene_CountsMaterials) {
+    EXPECT_THAT(sceneWords(findNeeds(sceneOf(25, 18))),
+                Contains("normal maps on 18 of 25 materials"));
+    EXPECT_THAT(sceneWords(findNeeds(sceneOf(25, 0))),
+                Contains("no normal maps: no tangent frames"));
+}
+
+TEST(MemoryReport, Largest_ComesFirst) {
+    gpu::MemoryLedger ledger;
+    ledger.add("indices", 5);
+    ledger.add("textures", 50);
+    ledger.add("depth", 7);
+    const auto report = memoryReport(ledger);
+    ASSERT_THAT(report, SizeIs(3));
+    EXPECT_EQ(report[0].purpose, "textures");
+    EXPECT_EQ(report[2].bytes, 5U);
+}
+
+TEST(FrameDetails, OnlyAChange_MakesAnotherObject) {
+    gpu::MemoryLedger ledger;
+    ledger.add("depth", 7);
+    FrameDetailsKeeper keeper;
+    const SceneNeeds needs;
+    FrameFacts facts;
+    const auto update = [&] {
+        return keeper.update({}, facts, planFrame({}, facts), needs, ledger);
+    };
+    const auto first = update();
+    EXPECT_EQ(first, update());
+    ledger.add("depth", 1);
+    ledger.remove("depth", 1);
+    EXPECT_EQ(first, update()); // came and went
+    ledger.add("textures", 1);
+    const auto second = update();
+    EXPECT_NE(first, second);
+    EXPECT_EQ(first->plan, second->plan);
+    EXPECT_THAT(second->memory, SizeIs(2));
+    facts.transparent_visible = true;
+    const auto third = update();
+    EXPECT_NE(second, third);
+    EXPECT_THAT(third->plan, Contains("transparent surfaces in view: sorted and blended"));
+}
+
+} // namespace froxel::render
