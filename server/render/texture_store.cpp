@@ -26,9 +26,6 @@ vk::Filter filter(scene::Filter value) {
     return value == scene::Filter::kLinear ? vk::Filter::eLinear : vk::Filter::eNearest;
 }
 
-// Image index of the white texel.
-constexpr uint32_t kWhite = scene::kNone;
-
 } // namespace
 
 TextureStore::TextureStore(const gpu::Device& device,
@@ -38,21 +35,15 @@ TextureStore::TextureStore(const gpu::Device& device,
 
 vk::DescriptorImageInfo
 TextureStore::get(const scene::Scene& scene, const scene::TextureSlot& slot, bool srgb) {
-    scene::Sampler settings;
-    const gpu::Image* chosen = nullptr;
+    constexpr auto kLayout = vk::ImageLayout::eShaderReadOnlyOptimal;
     if (slot.texture == scene::kNone) {
-        static const scene::Image white{"white", 1, 1, std::vector<std::byte>(4, std::byte{255})};
-        chosen = &image(white, kWhite, false);
-    } else {
-        const auto& texture = scene.textures[slot.texture];
-        if (texture.sampler != scene::kNone) {
-            settings = scene.samplers[texture.sampler];
-        }
-        chosen = &image(scene.images[texture.image], texture.image, srgb);
+        return {.sampler = sampler({}), .imageLayout = kLayout};
     }
-    return {.sampler = sampler(settings),
-            .imageView = *chosen->view,
-            .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+    const auto& texture = scene.textures[slot.texture];
+    const auto settings =
+        texture.sampler != scene::kNone ? scene.samplers[texture.sampler] : scene::Sampler{};
+    const auto& chosen = image(scene.images[texture.image], texture.image, srgb);
+    return {.sampler = sampler(settings), .imageView = *chosen.view, .imageLayout = kLayout};
 }
 
 const gpu::Image& TextureStore::image(const scene::Image& source, uint32_t index, bool srgb) {

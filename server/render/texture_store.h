@@ -14,8 +14,8 @@ class TextureStore {
   public:
     TextureStore(const gpu::Device& device, gpu::MemoryArena& arena, gpu::Uploader& uploader);
 
-    // The descriptor of a slot's texture; a white texel where the slot has none. `srgb` says how
-    // the colours are encoded. Throws vk::SystemError.
+    // The descriptor of a slot's texture; of nothing where the slot has none. `srgb` says how the
+    // colours are encoded. Throws vk::SystemError.
     [[nodiscard]] vk::DescriptorImageInfo
     get(const scene::Scene& scene, const scene::TextureSlot& slot, bool srgb);
 
