@@ -160,23 +160,23 @@ TEST_F(Shading, Lambert_AgainstPbr_IsAnotherPicture) {
 // A light of another radius, too far away to add anything, makes the radius no constant any more;
 // a spot likewise brings in cones.
 TEST_F(Shading, EqualRadiiAndNoSpots_AgainstTheGenericVariant_GiveTheSamePicture) {
-    for (const auto shading : {ShadingModel::kPbr, ShadingModel::kLambert}) {
-        for (const auto type : {scene::LightType::kPoint, scene::LightType::kSpot}) {
-            auto equal = makeRoom();
-            addPoint(equal, {0, 1, 1}, 1.5F);
-            auto mixed = equal;
-            addPoint(mixed, {0, 1e6, 0}, 3);
-            mixed.lights.back().type = type;
-            render::Renderer equal_renderer(device(), equal);
-            render::Renderer mixed_renderer(device(), mixed);
-            for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
-                auto inputs = inputsFor(equal.cameras[0].camera, static_cast<Renderer>(kind));
+    for (const auto type : {scene::LightType::kPoint, scene::LightType::kSpot}) {
+        auto equal = makeRoom();
+        addPoint(equal, {0, 1, 1}, 1.5F);
+        auto mixed = equal;
+        addPoint(mixed, {0, 1e6, 0}, 3);
+        mixed.lights.back().type = type;
+        render::Renderer equal_renderer(device(), equal);
+        render::Renderer mixed_renderer(device(), mixed);
+        for (const auto kind : {Renderer::kNaive, Renderer::kClusteredDeferred}) {
+            for (const auto shading : {ShadingModel::kPbr, ShadingModel::kLambert}) {
+                auto inputs = inputsFor(equal.cameras[0].camera, kind);
                 inputs.settings.shading = shading;
                 inputs.settings.lights.count = 150;
                 inputs.settings.lights.radius_m = 1.5F;
                 EXPECT_EQ(
                     differingFloats(draw(equal_renderer, inputs), draw(mixed_renderer, inputs)), 0U)
-                    << view::kRendererNames[kind];
+                    << nameOf(kind);
             }
         }
     }
@@ -187,7 +187,9 @@ TEST_F(Shading, MoreLightsThanALoopHasIterations_AnyLoop_AddsThemAll) {
     const auto scene = makeFloor();
     std::vector<Picture> pictures;
     for (const bool subgroups : {true, false}) {
-        openDevice({.choice = {}, .validation = true, .subgroups = subgroups});
+        gpu::DeviceOptions options;
+        options.subgroups = subgroups;
+        openDevice(options);
         render::Renderer renderer(device(), scene);
         for (const auto kind : {Renderer::kNaive, Renderer::kForwardPlus}) {
             auto inputs = inputsFor(view::lookAt({0, 4, 1}, {0, 0, 0}, {0, 1, 0}), kind);
