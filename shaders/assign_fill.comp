@@ -1,4 +1,4 @@
-// Light assignment, sixth pass: puts each light into the lists of its spans, in any order.
+// Light assignment, fifth pass: puts each light into the lists of its spans, in any order.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
-// Light assignment, fifth pass: gives every cluster its run in the light index list, and notes
-// which runs are to be put in order.
+// Light assignment, fourth pass: adds up the blocks before its own, gives every cluster its run in
+// the light index list, and notes which runs are to be put in order.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,9 +14,34 @@ shared uint long_total;
 shared uint short_base;
 shared uint long_base;
 
+// The entries of the blocks before this one, and of all; both saturate.
+uint blockOffset(out uint entry_count) {
+    uint block_count = (frame.cluster_count + kAssignScanBlock - 1u) / kAssignScanBlock;
+    uint before = 0u;
+    uint all = 0u;
+    for (uint i = gl_LocalInvocationIndex; i < block_count; i += kAssignScanGroup) {
+        uint sum = block_sums[i];
+        all = saturated(all + sum);
+        before = saturated(before + (i < gl_WorkGroupID.x ? sum : 0u));
+    }
+    uint offset;
+    scanGroup(all, entry_count);
+    scanGroup(before, offset);
+    return offset;
+}
+
+uint outcomeOf(uint entry_count) {
+    if (totals.task_count > frame.task_capacity) {
+        return kAssignShort;
+    }
+    if (entry_count > frame.max_entries) {
+        return kAssignAllLights;
+    }
+    return entry_count > frame.index_capacity ? kAssignShort : kAssignLists;
+}
+
 // Without lists of its own each cluster has the one of all lights, or none.
-void placeSame() {
-    uint count = totals.outcome == kAssignAllLights ? frame.light_count : 0u;
+void placeSame(uint count) {
     for (uint i = 0u; i < kAssignScanEach; ++i) {
         uint cluster = gl_WorkGroupID.x * kAssignScanBlock + i * kAssignScanGroup +
                        gl_LocalInvocationIndex;
@@ -38,38 +63,30 @@ void reserveQueue() {
     }
 }
 
-void main() {
-    if (totals.outcome != kAssignLists) {
-        placeSame();
-        return;
-    }
+void placeLists(uint block_offset) {
     uint self = gl_LocalInvocationIndex;
     uint first = gl_WorkGroupID.x * kAssignScanBlock;
+    for (uint i = self; i < kAssignScanBlock; i += kAssignScanGroup) {
+        counts[i] = first + i < frame.cluster_count ? cursors[first + i] : 0u;
+    }
     if (self == 0u) {
         short_total = 0u;
         long_total = 0u;
     }
-    for (uint i = self; i < kAssignScanBlock; i += kAssignScanGroup) {
-        counts[i] = first + i < frame.cluster_count ? cursors[first + i] : 0u;
-    }
     barrier();
     uint sum = 0u;
-    for (uint i = 0u; i < kAssignScanEach; ++i) {
-        sum += counts[self * kAssignScanEach + i];
-    }
-    uint total;
-    uint offset = block_sums[gl_WorkGroupID.x] + scanGroup(sum, total);
-    uint short_at = 0u;
-    uint long_at = 0u;
     uint short_own = 0u;
     uint long_own = 0u;
     for (uint i = 0u; i < kAssignScanEach; ++i) {
         uint count = counts[self * kAssignScanEach + i];
+        sum += count;
         short_own += count > 0u && count <= kAssignShortList ? 1u : 0u;
         long_own += count > kAssignShortList ? 1u : 0u;
     }
-    short_at = short_own > 0u ? atomicAdd(short_total, short_own) : 0u;
-    long_at = long_own > 0u ? atomicAdd(long_total, long_own) : 0u;
+    uint total;
+    uint offset = block_offset + scanGroup(sum, total);
+    uint short_at = short_own > 0u ? atomicAdd(short_total, short_own) : 0u;
+    uint long_at = long_own > 0u ? atomicAdd(long_total, long_own) : 0u;
     barrier();
     if (self == 0u) {
         reserveQueue();
@@ -90,5 +107,20 @@ void main() {
             queue[short_at++] = cluster;
         }
         offset += count;
+    }
+}
+
+void main() {
+    uint entry_count;
+    uint offset = blockOffset(entry_count);
+    uint outcome = outcomeOf(entry_count);
+    if (gl_WorkGroupID.x == 0u && gl_LocalInvocationIndex == 0u) {
+        totals.entry_count = entry_count;
+        totals.outcome = outcome;
+    }
+    if (outcome == kAssignLists) {
+        placeLists(offset);
+    } else {
+        placeSame(outcome == kAssignAllLights ? frame.light_count : 0u);
     }
 }

@@ -25,6 +25,7 @@ struct LightListStats {
                                     // of a sixteenth
     uint64_t bytes = 0;             // of lists and light indices
     bool overflowed = false;        // past their limit: every cluster names all lights
+    uint32_t redraw_count = 0;      // times the frame was drawn again since its lists had to grow
     bool all_lights = false;        // no lists: every pixel loops over all lights
     std::string why;                // of all_lights, or of its opposite
 };

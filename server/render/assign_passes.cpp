@@ -55,10 +55,6 @@ void recordAssignSum(const AssignContext& assign) {
     dispatch(assign, AssignPass::kSum, scanGroups(assign));
 }
 
-void recordAssignScan(const AssignContext& assign) {
-    dispatch(assign, AssignPass::kScan, 1);
-}
-
 void recordAssignPlace(const AssignContext& assign) {
     dispatch(assign, AssignPass::kPlace, scanGroups(assign));
 }

@@ -17,8 +17,7 @@ void recordAssignClear(const AssignContext& assign); // transfer: counters and c
 void recordAssignBound(const AssignContext& assign); // writes tasks and how many groups they take
 void recordAssignCount(const AssignContext& assign); // indirect; writes spans, adds to cursors
 void recordAssignSum(const AssignContext& assign);   // reads cursors; writes block sums
-void recordAssignScan(const AssignContext& assign);  // block sums in place; writes the outcome
-void recordAssignPlace(const AssignContext& assign); // writes lists, cursors and the queue
+void recordAssignPlace(const AssignContext& assign); // writes lists, cursors, queue, outcome
 void recordAssignFill(const AssignContext& assign);  // indirect; writes unordered indices
 void recordAssignOrder(const AssignContext& assign); // indirect, twice; writes indices
 void recordAssignCopy(const AssignContext& assign);  // transfer: counters to the host

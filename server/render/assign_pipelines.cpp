@@ -109,7 +109,6 @@ AssignPipelines::AssignPipelines(const gpu::Device& device)
     add(assign_bound_comp(), "assign bound");
     add(assign_count_comp(), "assign count");
     add(assign_sum_comp(), "assign sum");
-    add(assign_scan_comp(), "assign scan");
     add(assign_place_comp(), "assign place");
     add(assign_fill_comp(), "assign fill");
     add(assign_order_comp(), "assign order");

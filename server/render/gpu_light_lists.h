@@ -10,6 +10,7 @@
 #include "interface/assign_io.h"
 #include "light/frame_lights.h"
 #include "render/assign_pipelines.h"
+#include "render/list_limits.h"
 
 #include <cstdint>
 #include <memory>
@@ -17,15 +18,6 @@
 #include <vector>
 
 namespace froxel::render {
-
-// How much the lists may hold. The defaults start small and grow by need; a test may start smaller.
-struct ListLimits {
-    uint32_t first_entries = 1U << 18U;
-    uint32_t first_tasks = 1U << 16U;
-    uint64_t max_entries = cluster::LightAssigner::kDefaultMaxEntries; // beyond: all lights
-    // 192 MiB. Beyond, the host assigns: lights so large that their lines alone are too many.
-    uint32_t max_tasks = 1U << 22U;
-};
 
 struct ListCapacity {
     uint32_t clusters = 0;

@@ -1,0 +1,19 @@
+// How much the light lists that a device makes may hold.
+#pragma once
+
+#include "cluster/light_assigner.h"
+
+#include <cstdint>
+
+namespace froxel::render {
+
+// The defaults start small and grow by need; a test may start smaller.
+struct ListLimits {
+    uint32_t first_entries = 1U << 18U;
+    uint32_t first_tasks = 1U << 16U;
+    uint64_t max_entries = cluster::LightAssigner::kDefaultMaxEntries; // beyond: all lights
+    // 192 MiB. Beyond, the host assigns: lights so large that their lines alone are too many.
+    uint32_t max_tasks = 1U << 22U;
+};
+
+} // namespace froxel::render
