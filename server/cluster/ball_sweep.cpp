@@ -192,7 +192,8 @@ void BallSweep::PerspectiveSweep::include(size_t slice,
                                           RowIntervals& out) const {
     const double row = io::tileAt(grid.rows_, ball.y * inv_depth);
     const size_t i = slice - first_slice;
-    if (row >= slice_first_row[i] && row < slice_last_row[i] + 1.0) {
+    // The last row may end with the picture, before its tile does.
+    if (row >= slice_first_row[i] && row < slice_last_row[i] + 1.0 && row <= grid.rows_.end) {
         const auto j = static_cast<size_t>(row);
         out.low[j] = std::min(out.low[j], x.low);
         out.high[j] = std::max(out.high[j], x.high);

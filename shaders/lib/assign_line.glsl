@@ -40,7 +40,8 @@ Interval rowsBetween(Ball ball, Touches y_touches, uint k0, uint k1) {
 void widen(Ball ball, uint row, double inv_depth, Interval point, inout Interval x) {
     precise double ratio = ball.y * inv_depth;
     double tile = tileAt(frame.rows, ratio);
-    if (tile >= double(row) && tile < double(row) + 1.0) {
+    // The last row may end with the picture, before its tile does.
+    if (tile >= double(row) && tile < double(row) + 1.0 && tile <= frame.rows.end) {
         x = joined(x, point);
     }
 }
