@@ -59,6 +59,29 @@ TEST(FrameUniforms, Ray_OfAPixelCentre_ProjectsBackToIt) {
     EXPECT_GT(frame.ray_offset.y, 0); // the top row looks up
 }
 
+// The middle pixel of a shifted picture looks half a picture to the right and a quarter down.
+TEST(FrameUniforms, ShiftedLens_MovesRaysAndProjectionAlike) {
+    for (const auto kind : {view::Projection::kPerspective, view::Projection::kOrthographic}) {
+        view::ViewSettings settings;
+        settings.size = {640, 360};
+        settings.camera.projection = kind;
+        settings.camera.lens_shift = {0.5, -0.25};
+        const auto frame = frameFor(settings);
+        const double half_y = kind == view::Projection::kPerspective
+                                  ? std::tan(settings.camera.yfov_rad / 2)
+                                  : settings.camera.half_height_m;
+        const glm::vec2 ray = glm::vec2(320, 180) * frame.ray_scale + frame.ray_offset;
+        EXPECT_NEAR(ray.x, 0.5 * half_y * 640 / 360, 1e-5);
+        EXPECT_NEAR(ray.y, -0.25 * half_y, 1e-5);
+        const float distance = 7;
+        const glm::vec2 xy = ray * (frame.ray_spread.x + frame.ray_spread.y * distance);
+        const float w = frame.clip_w.x - frame.clip_w.y * distance;
+        const glm::vec2 clip = xy * frame.clip_scale + frame.clip_offset * w;
+        EXPECT_NEAR(clip.x / w, 0, 1e-6);
+        EXPECT_NEAR(clip.y / w, 0, 1e-6);
+    }
+}
+
 TEST(FrameUniforms, Toon_HermitePoints_AreMetWithTheirSlopes) {
     view::ViewSettings settings;
     settings.toon_fragment.count = 3;
