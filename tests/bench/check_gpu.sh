@@ -2,23 +2,25 @@
 # Checks and times a GPU: ./tests/bench/check_gpu.sh FROXEL OUT [SCENE.gltf]
 # Draws every renderer on the built-in scene (and SCENE), requires forward_plus to equal naive bit for
 # bit, and writes pictures and timings to OUT. Needs only the froxel binary and a Vulkan driver.
+# FROXEL_ASSIGNMENT_TEST=render_gpu_assignment_test also compares the light lists that the GPU makes with
+# the host's, entry by entry.
 set -euo pipefail
 froxel=$1
 out=$2
 mkdir -p "$out"
 failures=0
 
-check() { # SCENE NAME LIGHTS [options]
-    local scene=$1 name=$2 lights=$3 renderer
-    shift 3
+check() { # SCENE NAME LIGHTS STAGE [options]
+    local scene=$1 name=$2 lights=$3 stage=$4 renderer
+    shift 4
     for renderer in naive forward_plus; do
         "$froxel" render --device gpu --scene "$scene" --lights "$lights" --size 960x540 --warmup 0 \
-            --renderer "$renderer" --out "$out/$renderer.pfm" "$@" >/dev/null
+            --renderer "$renderer" --lighting "$stage" --out "$out/$renderer.pfm" "$@" >/dev/null
     done
     if cmp -s "$out/naive.pfm" "$out/forward_plus.pfm"; then
-        echo "equal: $name, $lights lights"
+        echo "equal: $name, $lights lights, $stage"
     else
-        echo "DIFFERENT: $name, $lights lights: forward_plus is not naive"
+        echo "DIFFERENT: $name, $lights lights, $stage: forward_plus is not naive"
         failures=$((failures + 1))
     fi
     rm -f "$out/naive.pfm" "$out/forward_plus.pfm"
@@ -31,6 +33,10 @@ measure() { # SCENE NAME LIGHTS RENDERER SIZE [options]
 }
 
 "$froxel" info --device gpu
+if [ -n "${FROXEL_ASSIGNMENT_TEST:-}" ]; then
+    FROXEL_TEST_DEVICE=gpu "$FROXEL_ASSIGNMENT_TEST" --gtest_filter='GpuAssignment.*' --gtest_brief=1 ||
+        failures=$((failures + 1))
+fi
 scenes=("builtin|hall|--camera Nave")
 if [ $# -ge 3 ]; then
     scenes+=("$3|sponza|--camera -7,2,0;0,2,0;45 --light-box -10,0,-5;10,8,5")
@@ -39,7 +45,8 @@ for entry in "${scenes[@]}"; do
     IFS='|' read -r scene name text <<<"$entry"
     read -ra options <<<"$text"
     for lights in 0 7 1000; do
-        check "$scene" "$name" "$lights" "${options[@]}"
+        check "$scene" "$name" "$lights" fragment "${options[@]}"
+        check "$scene" "$name" "$lights" compute "${options[@]}"
     done
     for renderer in forward_plus clustered_deferred toon_fragment toon_compute; do
         measure "$scene" "$name" 1000 "$renderer" 1920x1080 "${options[@]}"
