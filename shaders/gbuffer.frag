@@ -9,6 +9,9 @@
 #include "lib/fragment_inputs.glsl"
 
 layout(location = 0) out uvec4 words;
+#ifdef FROXEL_EXTRA
+layout(location = 1) out uvec4 extra;
+#endif
 
 void main() {
     VertexData v = vertexData();
@@ -19,4 +22,7 @@ void main() {
         discard;
     }
     words = packGbuffer(g);
+#ifdef FROXEL_EXTRA
+    extra = packExtra(g, position, gl_FragCoord.z);
+#endif
 }

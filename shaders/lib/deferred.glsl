@@ -2,11 +2,20 @@
 
 // Every invocation of a subgroup calls this together; `inside` is false beyond the picture's edge.
 vec3 lightPixel(uvec2 pixel, bool inside) {
-    float depth = inside ? texelFetch(depth_image, ivec2(pixel), 0).x : 0.0;
+    uvec4 extra = uvec4(0u);
+    if (readsExtra()) {
+        extra = texelFetch(extra_image, ivec2(pixel), 0);
+    }
+    float depth = 0.0;
+    if (inside) {
+        depth = kPositionSource == kPositionStoredDepth
+                    ? uintBitsToFloat(extra.x)
+                    : texelFetch(depth_image, ivec2(pixel), 0).x;
+    }
     bool covered = depth > 0.0;
     float distance = distanceFromDepth(covered ? depth : 1.0);
-    GbufferSample g = unpackGbuffer(texelFetch(gbuffer_image, ivec2(pixel), 0));
-    vec3 position = positionFromDistance(pixel, distance);
+    GbufferSample g = unpackGbuffer(texelFetch(gbuffer_image, ivec2(pixel), 0), extra);
+    vec3 position = extraPosition(extra, positionFromDistance(pixel, distance));
     Surface s = makeSurface(position, g.normal_view, g.roughness);
     LightSum sum = sumLights(s, pixel, distance, covered && !g.unlit);
     vec3 lit = shadeSum(sum, g.base_color, g.metallic) +

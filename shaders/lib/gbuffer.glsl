@@ -1,6 +1,11 @@
-// The G-buffer's words: x = octahedral normal, y = base colour (gamma 2) and roughness,
-// and in the wide layout z = metalness, occlusion, unlit, w = emission (shared exponent).
+// The G-buffer's words: x = normal, y = base colour (gamma 2) and roughness, and in the wide layout
+// z = metalness, occlusion, unlit, w = emission (shared exponent). Layouts that were asked for
+// instead of the default keep more in a second target: the position, then the third half of xyz16.
+#include "interface/gbuffer_io.h"
 #include "lib/octahedral.glsl"
+
+const uint kNormalEncoding = (OUTPUT_FLAGS >> kOutputNormalShift) & 7u;
+const uint kPositionSource = (OUTPUT_FLAGS >> kOutputPositionShift) & 3u;
 
 struct GbufferSample {
     vec3 normal_view;
@@ -31,18 +36,105 @@ vec3 unpackSharedExponent(uint word) {
     return vec3(m) * exp2(float(word >> 27) - 24.0);
 }
 
+uint packNormal(vec3 n) {
+    switch (kNormalEncoding) {
+    case kNormalOct12:
+        return packSigned(octahedral(n), 12);
+    case kNormalOct10:
+        return packSigned(octahedral(n), 10);
+    case kNormalOct8:
+        return packSigned(octahedral(n), 8);
+    case kNormalXyz16:
+    case kNormalXy16:
+        return packHalf2x16(n.xy);
+    case kNormalSpheremap16:
+        return packHalf2x16(spheremap(n));
+    default:
+        return packSnorm2x16(octahedral(n));
+    }
+}
+
+// z: xyz16's third half.
+vec3 unpackNormal(uint word, float z) {
+    switch (kNormalEncoding) {
+    case kNormalOct12:
+        return octahedralNormal(unpackSigned(word, 12));
+    case kNormalOct10:
+        return octahedralNormal(unpackSigned(word, 10));
+    case kNormalOct8:
+        return octahedralNormal(unpackSigned(word, 8));
+    case kNormalXyz16:
+        return normalize(vec3(unpackHalf2x16(word), z));
+    case kNormalXy16: {
+        vec2 xy = unpackHalf2x16(word);
+        return vec3(xy, sqrt(max(1.0 - dot(xy, xy), 0.0)));
+    }
+    case kNormalSpheremap16:
+        return spheremapNormal(unpackHalf2x16(word));
+    default:
+        return octahedralNormal(unpackSnorm2x16(word));
+    }
+}
+
 uvec4 packGbuffer(GbufferSample g) {
     uvec4 words;
-    words.x = packOctahedral(g.normal_view);
+    words.x = packNormal(g.normal_view);
     words.y = packUnorm4x8(vec4(sqrt(g.base_color), g.roughness));
     words.z = packUnorm4x8(vec4(g.metallic, g.occlusion, g.unlit ? 1.0 : 0.0, 0.0));
     words.w = packSharedExponent(g.emissive);
     return words;
 }
 
-GbufferSample unpackGbuffer(uvec4 words) {
+// The second target's words: 16, 32, 64 or 128 bits of them exist (render/gbuffer_layout.h).
+uvec4 packExtra(GbufferSample g, vec3 position_view, float depth) {
+    uint z = kNormalEncoding == kNormalXyz16 ? packHalf2x16(vec2(g.normal_view.z, 0.0)) : 0u;
+    switch (kPositionSource) {
+    case kPositionStoredDepth:
+        return uvec4(floatBitsToUint(depth), z, 0u, 0u);
+    case kPositionFp32:
+        return uvec4(floatBitsToUint(position_view), z);
+    case kPositionFp16: {
+        vec3 p = clamp(position_view, vec3(-65504.0), vec3(65504.0));
+        return uvec4(packHalf2x16(p.xy), packHalf2x16(vec2(p.z, 0.0)) | (z << 16), 0u, 0u);
+    }
+    default:
+        return uvec4(z, 0u, 0u, 0u);
+    }
+}
+
+bool readsExtra() {
+    return kPositionSource != kPositionDepth || kNormalEncoding == kNormalXyz16;
+}
+
+// xyz16's third half.
+float extraNormalZ(uvec4 extra) {
+    switch (kPositionSource) {
+    case kPositionStoredDepth:
+        return unpackHalf2x16(extra.y).x;
+    case kPositionFp32:
+        return unpackHalf2x16(extra.w).x;
+    case kPositionFp16:
+        return unpackHalf2x16(extra.y).y;
+    default:
+        return unpackHalf2x16(extra.x).x;
+    }
+}
+
+// The position where it is stored; elsewhere the one given.
+vec3 extraPosition(uvec4 extra, vec3 from_depth) {
+    switch (kPositionSource) {
+    case kPositionFp32:
+        return uintBitsToFloat(extra.xyz);
+    case kPositionFp16:
+        return vec3(unpackHalf2x16(extra.x), unpackHalf2x16(extra.y).x);
+    default:
+        return from_depth;
+    }
+}
+
+GbufferSample unpackGbuffer(uvec4 words, uvec4 extra) {
     GbufferSample g;
-    g.normal_view = unpackOctahedral(words.x);
+    g.normal_view = unpackNormal(words.x, extraNormalZ(extra));
     vec4 base = unpackUnorm4x8(words.y);
     g.base_color = base.rgb * base.rgb;
     g.roughness = base.a;

@@ -1,0 +1,21 @@
+// What a G-buffer layout costs and how shaders are told of it.
+#pragma once
+
+#include "gpu/vulkan.h"
+#include "view/settings.h"
+
+#include <cstdint>
+
+namespace froxel::render {
+
+// The layout as output flags (shaders/interface/gbuffer_io.h); 0 for the default.
+[[nodiscard]] uint32_t layoutFlags(const view::GbufferLayout& layout);
+
+// The second target: eUndefined where the layout needs none.
+[[nodiscard]] vk::Format extraFormat(const view::GbufferLayout& layout);
+[[nodiscard]] vk::Format extraFormat(uint32_t output_flags);
+
+// Of both targets, without the depth buffer's 4; wide: SceneNeeds::wide_gbuffer.
+[[nodiscard]] uint32_t gbufferBytesPerPixel(const view::GbufferLayout& layout, bool wide);
+
+} // namespace froxel::render

@@ -1,0 +1,50 @@
+#include "render/gbuffer_layout.h"
+
+#include <gtest/gtest.h>
+
+namespace froxel::render {
+
+namespace {
+
+using view::GbufferLayout;
+using view::NormalEncoding;
+using view::PositionSource;
+
+} // namespace
+
+TEST(GbufferLayout, Default_HasNoFlagsAndNoSecondTarget) {
+    EXPECT_EQ(layoutFlags({}), 0U);
+    EXPECT_EQ(extraFormat(GbufferLayout{}), vk::Format::eUndefined);
+    EXPECT_EQ(gbufferBytesPerPixel({}, false), 8U);
+    EXPECT_EQ(gbufferBytesPerPixel({}, true), 16U);
+}
+
+TEST(GbufferLayout, EveryLayout_GivesItsFormatFromItsFlags) {
+    for (size_t n = 0; n < view::kNormalEncodingNames.size(); ++n) {
+        for (size_t p = 0; p < view::kPositionSourceNames.size(); ++p) {
+            const GbufferLayout layout{static_cast<NormalEncoding>(n),
+                                       static_cast<PositionSource>(p)};
+            EXPECT_EQ(extraFormat(layoutFlags(layout)), extraFormat(layout));
+        }
+    }
+}
+
+TEST(GbufferLayout, Bytes_AreThoseOfTheTable) {
+    const auto bytes = [](NormalEncoding n, PositionSource p) {
+        return gbufferBytesPerPixel({n, p}, false);
+    };
+    for (const auto n :
+         {NormalEncoding::kOct16, NormalEncoding::kOct12, NormalEncoding::kOct10,
+          NormalEncoding::kOct8, NormalEncoding::kXy16, NormalEncoding::kSpheremap16}) {
+        EXPECT_EQ(bytes(n, PositionSource::kDepth), 8U);
+        EXPECT_EQ(bytes(n, PositionSource::kStoredDepth), 12U);
+        EXPECT_EQ(bytes(n, PositionSource::kFp16), 16U);
+        EXPECT_EQ(bytes(n, PositionSource::kFp32), 24U);
+    }
+    EXPECT_EQ(bytes(NormalEncoding::kXyz16, PositionSource::kDepth), 10U);
+    EXPECT_EQ(bytes(NormalEncoding::kXyz16, PositionSource::kStoredDepth), 16U);
+    EXPECT_EQ(bytes(NormalEncoding::kXyz16, PositionSource::kFp16), 16U);
+    EXPECT_EQ(bytes(NormalEncoding::kXyz16, PositionSource::kFp32), 24U);
+}
+
+} // namespace froxel::render
