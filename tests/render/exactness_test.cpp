@@ -102,7 +102,9 @@ TEST_F(Exactness, Subgroups_WithAndWithout_GiveTheSamePicture) {
     const auto scene = makeRoom();
     std::vector<Picture> with;
     for (const bool subgroups : {true, false}) {
-        openDevice({.choice = {}, .validation = true, .subgroups = subgroups});
+        gpu::DeviceOptions options;
+        options.subgroups = subgroups;
+        openDevice(options);
         render::Renderer renderer(device(), scene);
         for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
             auto inputs = inputsFor(scene.cameras[0].camera, static_cast<Renderer>(kind));
