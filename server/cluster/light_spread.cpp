@@ -8,7 +8,7 @@ namespace {
 
 // Half the side of a cube as large as a ball of radius 1: cbrt(4 pi / 3) / 2.
 constexpr double kHalfCubeOfBall = 0.806;
-constexpr size_t kSeenDepths = 64;
+constexpr size_t kSeenDepths = 16;
 
 // Whether the ball may reach the picture; generous behind its corners.
 bool seen(const ClusterGrid& grid, const glm::dvec3& position_view, double radius) {

@@ -4,6 +4,7 @@
 //   cmake --build build/test --target bench_assign && build/test/tests/bench/bench_assign
 #include "cluster/cluster_grid.h"
 #include "cluster/depth_range.h"
+#include "cluster/grid_choice.h"
 #include "cluster/light_assigner.h"
 #include "light/light_rig.h"
 
@@ -36,7 +37,28 @@ void evaluate(benchmark::State& state) {
         benchmark::DoNotOptimize(lights.lights.data());
     }
 }
-BENCHMARK(evaluate)->Arg(1'000)->Arg(5'000)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(evaluate)->Arg(1'000)->Arg(5'000)->Arg(100'000)->Arg(1'000'000)->Unit(
+    benchmark::kMillisecond);
+
+// The automatic grid of a frame.
+void choose(benchmark::State& state) {
+    const Setup setup(static_cast<uint32_t>(state.range(0)), 2);
+    const light::LightRig rig(setup.scene);
+    light::FrameLights lights;
+    rig.evaluate(setup.settings.lights, setup.settings.camera, 0, lights);
+    const auto range =
+        cluster::litDepthRange(lights, setup.settings.camera, setup.scene.bounds_world);
+    const auto frustum = cluster::makeClusterGrid({.size = {1, 1, 1}}, setup.settings.size,
+                                                  setup.settings.camera, range.near_m, range.far_m);
+    for (auto _ : state) {
+        const auto spread = cluster::lightSpread(frustum, lights);
+        const auto choice = cluster::chooseGrid(
+            {frustum, range, view::GridLaw::kLogarithmic, spread, cluster::kCpuCosts}, {});
+        benchmark::DoNotOptimize(choice.list_length);
+        state.SetLabel(choice.why);
+    }
+}
+BENCHMARK(choose)->Arg(1'000)->Arg(5'000)->Arg(1'000'000)->Unit(benchmark::kMicrosecond);
 
 // Arguments: lights, radius in cm, threads, grid x, y, z.
 void assign(benchmark::State& state) {
@@ -53,8 +75,8 @@ void assign(benchmark::State& state) {
     for (auto _ : state) {
         const auto range =
             cluster::litDepthRange(lights, setup.settings.camera, setup.scene.bounds_world);
-        const auto grid = cluster::makeClusterGrid({size}, setup.settings.size, setup.settings.camera,
-                                                   range.near_m, range.far_m);
+        const auto grid = cluster::makeClusterGrid(
+            {size}, setup.settings.size, setup.settings.camera, range.near_m, range.far_m);
         assigner.assign(grid, lights, lists);
         benchmark::DoNotOptimize(lists.indices.data());
     }
