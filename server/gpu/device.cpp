@@ -43,6 +43,22 @@ std::vector<RequiredFeature> requiredFeatures(const Features& features) {
             {"nullDescriptor", robustness.nullDescriptor == VK_TRUE}};
 }
 
+// What the visibility passes stand on; a device without them draws in other ways.
+std::vector<RequiredFeature> visibilityFeatures(const Features& features) {
+    const auto& core = features.get<vk::PhysicalDeviceFeatures2>().features;
+    return {
+        {"geometryShader (for gl_PrimitiveID)", core.geometryShader == VK_TRUE},
+        {"shaderStorageImageExtendedFormats", core.shaderStorageImageExtendedFormats == VK_TRUE},
+        {"shaderStorageImageWriteWithoutFormat",
+         core.shaderStorageImageWriteWithoutFormat == VK_TRUE}};
+}
+
+bool hasDescriptorIndexing(const Features& features) {
+    const auto& v12 = features.get<vk::PhysicalDeviceVulkan12Features>();
+    return v12.descriptorIndexing == VK_TRUE && v12.runtimeDescriptorArray == VK_TRUE &&
+           v12.shaderSampledImageArrayNonUniformIndexing == VK_TRUE;
+}
+
 Features queryFeatures(const vk::raii::PhysicalDevice& physical) {
     return physical
         .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
@@ -110,7 +126,8 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, DeviceChoice
         }
         reasons += std::string("; ") + properties.deviceName.data() + " " + reason;
     }
-    const char* wanted = choice == DeviceChoice::kGpu   ? "no usable GPU"
+    const char* wanted = choice == DeviceChoice::kGpu
+                             ? "no usable GPU (--device auto takes a CPU device, too)"
                          : choice == DeviceChoice::kCpu ? "no usable CPU device (Debian: "
                                                           "mesa-vulkan-drivers)"
                                                         : "no usable Vulkan device";
@@ -150,9 +167,20 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
     traits_ = readTraits(physical_, options.subgroups);
     limits_ = physical_.getProperties().limits;
     memory_ = physical_.getMemoryProperties();
+    const Features present = queryFeatures(physical_);
+    traits_.descriptor_indexing = options.descriptor_indexing && hasDescriptorIndexing(present);
+    for (const auto& feature : visibilityFeatures(present)) {
+        if (!feature.present || !options.visibility) {
+            traits_.visibility_lacks += (traits_.visibility_lacks.empty() ? "" : ", ");
+            traits_.visibility_lacks += feature.name;
+        }
+    }
+
+    traits_.float64 = present.get<vk::PhysicalDeviceFeatures2>().features.shaderFloat64 == VK_TRUE;
 
     Features enabled;
     auto& core = enabled.get<vk::PhysicalDeviceFeatures2>().features;
+    core.setShaderFloat64(traits_.float64 ? VK_TRUE : VK_FALSE);
     core.setIndependentBlend(VK_TRUE)
         .setMultiDrawIndirect(VK_TRUE)
         .setDrawIndirectFirstInstance(VK_TRUE)
@@ -161,6 +189,23 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
         .setScalarBlockLayout(VK_TRUE)
         .setTimelineSemaphore(VK_TRUE)
         .setHostQueryReset(VK_TRUE);
+    if (traits_.visibility_lacks.empty()) {
+        core.setGeometryShader(VK_TRUE)
+            .setShaderStorageImageExtendedFormats(VK_TRUE)
+            .setShaderStorageImageWriteWithoutFormat(VK_TRUE);
+    }
+    // lavapipe 22.3 takes the counts of such a draw for all later indirect draws.
+    traits_.draw_indirect_count =
+        !traits_.is_cpu &&
+        present.get<vk::PhysicalDeviceVulkan12Features>().drawIndirectCount == VK_TRUE;
+    enabled.get<vk::PhysicalDeviceVulkan12Features>().setDrawIndirectCount(
+        traits_.draw_indirect_count);
+    if (traits_.descriptor_indexing) {
+        enabled.get<vk::PhysicalDeviceVulkan12Features>()
+            .setDescriptorIndexing(VK_TRUE)
+            .setRuntimeDescriptorArray(VK_TRUE)
+            .setShaderSampledImageArrayNonUniformIndexing(VK_TRUE);
+    }
     enabled.get<vk::PhysicalDeviceVulkan13Features>()
         .setSynchronization2(VK_TRUE)
         .setDynamicRendering(VK_TRUE)
@@ -173,12 +218,12 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
     const vk::DeviceQueueCreateInfo queue{
         .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
     device_ = vk::raii::Device(
-        physical_, vk::DeviceCreateInfo{.pNext = &enabled.get<vk::PhysicalDeviceFeatures2>(),
-                                        .queueCreateInfoCount = 1,
-                                        .pQueueCreateInfos = &queue,
-                                        .enabledExtensionCount =
-                                            static_cast<uint32_t>(extensions.size()),
-                                        .ppEnabledExtensionNames = extensions.data()});
+        physical_,
+        vk::DeviceCreateInfo{.pNext = &enabled.get<vk::PhysicalDeviceFeatures2>(),
+                             .queueCreateInfoCount = 1,
+                             .pQueueCreateInfos = &queue,
+                             .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+                             .ppEnabledExtensionNames = extensions.data()});
     queue_ = device_.getQueue(queue_family_, 0);
     loadPipelineCache(options.pipeline_cache);
     spdlog::info("device name=\"{}\" driver=\"{}\" kind={} subgroup={}", traits_.name,

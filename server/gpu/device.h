@@ -22,6 +22,10 @@ struct DeviceTraits {
     bool is_cpu = false;        // a software rasteriser: host memory is its memory
     uint32_t subgroup_size = 0; // 0: lacks vote, ballot, arithmetic or shuffle in compute
     bool fragment_subgroups = false;
+    bool draw_indirect_count = false;
+    bool descriptor_indexing = false; // shaders pick a texture for each invocation
+    std::string visibility_lacks;     // features that the visibility passes miss; empty: none
+    bool float64 = false;             // doubles in shaders
     double timestamp_period_ns = 1;
     float max_anisotropy = 1;
 };

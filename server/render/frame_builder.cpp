@@ -1,6 +1,7 @@
 #include "render/frame_builder.h"
 
-#include "cluster/depth_range.h"
+#include "render/gbuffer_layout.h"
+#include "render/visibility_instances.h"
 
 #include <algorithm>
 #include <array>
@@ -24,35 +25,129 @@ double farthestDepth(const view::Camera& camera, const BoundsD3& bounds) {
     return farthest * 1.001;
 }
 
+// Seeded lights, which come first, have one radius.
+bool equalRadii(const light::FrameLights& lights, uint32_t seeded_count) {
+    const auto& radii = lights.radii_m;
+    const size_t first = std::min<size_t>(seeded_count > 0 ? seeded_count - 1 : 0, radii.size());
+    return std::all_of(radii.begin() + static_cast<std::ptrdiff_t>(first), radii.end(),
+                       [&](float radius) { return radius == radii[first]; });
+}
+
+// Whether the loops of a subgroup could pass the 65,535 iterations that llvmpipe gives a shader:
+// one for each light that passes the cull and one a batch, for every list that its pixels have.
+bool longLoops(const cluster::LightLists& lists,
+               const light::FrameLights& lights,
+               uint32_t subgroup_size) {
+    const uint64_t longest =
+        lists.clusters.empty() ? lights.lights.size() : uint64_t{lists.stats.largest};
+    return longest * (subgroup_size + 1U) > 60'000;
+}
+
+bool storesHalves(const view::ViewSettings& settings) {
+    return !isForward(settings.renderer) &&
+           settings.gbuffer.position == view::PositionSource::kFp16;
+}
+
+// A position in halves lies up to 2^-11 of each coordinate off its pixel, and so perhaps in another
+// cluster: lights are assigned as if they reached that much farther. Spots as points.
+void growForHalves(const light::FrameLights& lights, light::FrameLights& grown) {
+    constexpr float kShare = 1.0F / 1024.0F;
+    grown.lights = lights.lights;
+    grown.radii_m = lights.radii_m;
+    for (size_t i = 0; i < grown.lights.size(); ++i) {
+        io::Light& light = grown.lights[i];
+        float& radius_m = grown.radii_m[i];
+        radius_m += kShare * glm::length(glm::abs(light.position_view) + radius_m);
+        light.inv_radius2 = 1.0F / (radius_m * radius_m);
+        light.spot = io::kNoSpot;
+    }
+}
+
 } // namespace
+
+bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
+    const auto& traits = scene_.device.traits();
+    const bool pays = !traits.is_cpu && traits.descriptor_indexing;
+    // Only the rasteriser writes one.
+    const bool second_target = extraFormat(inputs.settings.gbuffer) != vk::Format::eUndefined;
+    const bool wanted = isForward(inputs.settings.renderer)
+                            ? inputs.settings.lighting == view::LightingStage::kCompute
+                            : !second_target && (inputs.geometry == GeometryPath::kVisibility ||
+                                                 (inputs.geometry == GeometryPath::kAuto && pays));
+    return wanted && scene_.visibility_unusable.empty() && !scene_.visibility().groups.empty();
+}
 
 FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
     const auto& traits = scene_.device.traits();
-    return {.wide_gbuffer = scene_.needs.wide_gbuffer,
+    return {.wide_gbuffer = inputs.settings.shading == view::ShadingModel::kLambert
+                                ? scene_.needs.wide_lambert
+                                : scene_.needs.wide_gbuffer,
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
+            .equal_radii = equalRadii(lights_, inputs.settings.lights.count),
+            .long_loops = traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
             .directional = !lights_.directionals.empty(),
             .keep_radiance = inputs.keep_radiance,
-            .all_lights = inputs.settings.light_loop == view::LightLoop::kAllLights,
+            .all_lights = !light_grid_.lists(),
             .compute_batches = traits.subgroup_size > 1,
             // Elsewhere a subgroup of fragments may lack some of its invocations at any time.
-            .fragment_batches = traits.is_cpu && traits.fragment_subgroups};
+            .fragment_batches = traits.is_cpu && traits.fragment_subgroups,
+            // The lights that pass are the bits of one word. In software a lambert light costs less
+            // than its test.
+            .culled_batches =
+                traits.subgroup_size > 1 && traits.subgroup_size <= 32 &&
+                !(traits.is_cpu && inputs.settings.shading == view::ShadingModel::kLambert),
+            .visibility = visibility_,
+            .cull_meshlets = inputs.cull_meshlets};
 }
 
-void FrameBuilder::assignLights(const view::ViewSettings& settings, bool lists) {
-    if (!lists) {
+bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
+    const bool wanted =
+        inputs.assignment == AssignmentPlace::kDevice ||
+        (inputs.assignment == AssignmentPlace::kAuto && !scene_.device.traits().is_cpu);
+    // Grown lights are assigned on the host.
+    if (!wanted || storesHalves(inputs.settings) || !light_grid_.lists() ||
+        scene_.assignment() == nullptr) {
+        return false;
+    }
+    const auto& settings = inputs.settings;
+    if (settings.lights != refused_.lights || settings.grid != refused_.grid ||
+        settings.size != refused_.size) {
+        device_lists_.clearRefusal();
+    }
+    return !device_lists_.refused();
+}
+
+bool FrameBuilder::acceptLists(const io::AssignTotals& totals) {
+    return device_lists_.accept(totals);
+}
+
+void FrameBuilder::assignLights(const FrameInputs& inputs) {
+    const auto& settings = inputs.settings;
+    const bool grown = storesHalves(settings);
+    if (grown) {
+        growForHalves(lights_, grown_);
+    }
+    const light::FrameLights& reach = grown ? grown_ : lights_;
+    light_grid_.choose(settings, reach, scene_.bounds_world, scene_.device.traits().is_cpu);
+    on_device_ = assignsOnDevice(inputs);
+    if (on_device_) {
+        refused_ = settings;
+        lists_.clusters.clear();
+        lists_.indices.clear();
+        lists_.stats = {};
+        (void)device_lists_.prepare(light_grid_.grid(), lights_);
+    } else if (light_grid_.lists()) {
+        scene_.light_assigner.assign(light_grid_.grid(), reach, lists_);
+    } else {
         lists_.clusters.clear();
         lists_.indices.clear();
         lists_.stats = {};
         lists_.stats.light_count = static_cast<uint32_t>(lights_.lights.size());
-        return;
+        lists_.stats.all_lights = !lights_.lights.empty();
     }
-    const auto& camera = settings.camera;
-    const auto range = cluster::litDepthRange(lights_, camera, scene_.bounds_world);
-    grid_ =
-        cluster::makeClusterGrid({settings.grid.size, settings.grid.law}, settings.size, camera, range.near_m, range.far_m);
-    scene_.light_assigner.assign(grid_, lights_, lists_);
+    lists_.stats.why = light_grid_.why();
 }
 
 FramePlan FrameBuilder::build(const FrameInputs& inputs) {
@@ -61,19 +156,25 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     const auto projection =
         makeProjection(camera, settings.size, farthestDepth(camera, scene_.bounds_world));
     // Culling and light assignment do not need each other: 7 becomes 5 ms on two cores (Sponza).
+    visibility_ = choosesVisibility(inputs);
     auto culling = std::async(std::launch::async, [&] {
         buildDrawList(scene_, camera, settings.size, projection, scene_.device.traits().is_cpu,
-                      draws_);
+                      !visibility_, draws_);
+        if (visibility_) {
+            placeInstances(scene_, camera, draws_.rows, instances_);
+            orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
+        }
     });
     scene_.light_rig.evaluate(settings.lights, camera, inputs.time_s, lights_);
-    const bool lists = needsLists(settings.renderer, !lights_.lights.empty(), settings.light_loop == view::LightLoop::kAllLights);
-    assignLights(settings, lists);
+    assignLights(inputs);
     culling.get();
     planned_ = generalised(facts(inputs), inputs.generic);
     const FramePlan plan = planFrame(settings, planned_);
-    uniforms_ = makeFrameUniforms(settings, projection, plan.lists ? &grid_ : nullptr,
+    uniforms_ = makeFrameUniforms(settings, projection, plan.lists ? &light_grid_.grid() : nullptr,
                                   static_cast<uint32_t>(lights_.lights.size()),
                                   static_cast<uint32_t>(lights_.directionals.size()));
+    uniforms_.light_inv_radius2 =
+        lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
     return plan;
 }
 
@@ -90,6 +191,7 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     place(3, std::span<const uint32_t>(lists_.indices));
     place(4, std::span<const io::Spot>(lights_.spots));
     place(5, std::span<const io::DirectionalLight>(lights_.directionals));
+    const AssignOffsets assign = uploadAssignment(upload, blocks);
     UploadOffsets offsets;
     offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));
     if (!draws_.indices.empty()) {
@@ -99,10 +201,44 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
             command.firstIndex += static_cast<uint32_t>(first);
         }
     }
+    if (visibility_) {
+        offsets.instances = upload.add(std::span<const io::InstanceView>(instances_));
+        offsets.meshlet_order = upload.add(std::span<const uint32_t>(meshlet_order_));
+    }
     offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
     upload.commit();
     writeFrameSet(slot, blocks);
+    writeAssignment(slot, assign);
     return offsets;
+}
+
+AssignOffsets FrameBuilder::uploadAssignment(FrameUpload& upload, Blocks& blocks) const {
+    if (!on_device_) {
+        return {};
+    }
+    const AssignData& data = device_lists_.data();
+    const ListBuffers& buffers = *device_lists_.buffers();
+    blocks[2] = {.bytes = data.frame[0].cluster_count * sizeof(io::ClusterList),
+                 .buffer = *buffers.lists.handle};
+    blocks[3] = {.bytes = uint64_t{buffers.capacity.entries} * sizeof(uint32_t),
+                 .buffer = *buffers.indices.handle};
+    return {.frame = upload.add(std::span<const io::AssignFrame>(data.frame)),
+            .tables = upload.add(std::span<const double>(data.tables)),
+            .lights = blocks[1].offset,
+            .radii = upload.add(data.radii_m),
+            .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
+}
+
+void FrameBuilder::writeAssignment(FrameSlot& slot, const AssignOffsets& offsets) const {
+    slot.device_lists = on_device_;
+    if (!on_device_) {
+        return;
+    }
+    if (!slot.assignment) {
+        slot.assignment = std::make_unique<AssignSlot>(scene_.device, *scene_.assignment());
+    }
+    slot.assignment->write(device_lists_.buffers(), device_lists_.data(), slot.upload.buffer(),
+                           offsets);
 }
 
 void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
@@ -112,8 +248,9 @@ void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
     slot.texel_views.clear();
     for (uint32_t i = 0; i < infos.size(); ++i) {
         // What the frame lacks is described as none.
-        const auto& [offset, bytes] = blocks[i];
-        infos[i] = bytes > 0 ? vk::DescriptorBufferInfo{slot.upload.buffer(), offset, bytes}
+        const auto& [offset, bytes, own] = blocks[i];
+        const vk::Buffer buffer = own ? own : slot.upload.buffer();
+        infos[i] = bytes > 0 ? vk::DescriptorBufferInfo{buffer, offset, bytes}
                              : vk::DescriptorBufferInfo{.buffer = {}, .range = VK_WHOLE_SIZE};
         writes[i] = {.dstSet = *slot.frame_set,
                      .dstBinding = i,
@@ -123,7 +260,7 @@ void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
         if (Pipelines::kFrameTexelFormats[i] != vk::Format::eUndefined) {
             if (bytes > 0) {
                 slot.texel_views.push_back(scene_.device.handle().createBufferView(
-                    {.buffer = slot.upload.buffer(),
+                    {.buffer = buffer,
                      .format = Pipelines::kFrameTexelFormats[i],
                      .offset = offset,
                      .range = bytes}));

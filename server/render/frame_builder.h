@@ -1,7 +1,6 @@
 // The host's part of a frame: what is drawn, which lights there are, which lists they make.
 #pragma once
 
-#include "cluster/cluster_grid.h"
 #include "cluster/light_assigner.h"
 #include "interface/frame_io.h"
 #include "light/frame_lights.h"
@@ -9,6 +8,8 @@
 #include "render/frame_plan.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
+#include "render/gpu_light_lists.h"
+#include "render/light_grid.h"
 #include "render/renderer.h"
 #include "render/scene_resources.h"
 
@@ -17,10 +18,14 @@ namespace froxel::render {
 // Keep one a viewer and build into it again: its buffers are reused.
 class FrameBuilder {
   public:
-    explicit FrameBuilder(SceneResources& scene) : scene_(scene) {}
+    FrameBuilder(SceneResources& scene, const ListLimits& limits)
+        : scene_(scene), device_lists_(scene.device, limits) {}
 
     // Culls, evaluates lights, plans, assigns lights to clusters.
     [[nodiscard]] FramePlan build(const FrameInputs& inputs);
+    // After a frame with lists from the device: whether they are whole. If not, the frame must be
+    // built again, for which there will be room.
+    [[nodiscard]] bool acceptLists(const io::AssignTotals& totals);
     // Puts what build() made into the slot's buffer and describes it to the shaders.
     [[nodiscard]] UploadOffsets upload(FrameSlot& slot);
 
@@ -28,6 +33,7 @@ class FrameBuilder {
     // What the last plan was made from.
     [[nodiscard]] const FrameFacts& plannedFacts() const { return planned_; }
     [[nodiscard]] const LightListStats& listStats() const { return lists_.stats; }
+    [[nodiscard]] GridStats gridStats() const { return light_grid_.stats(); }
     [[nodiscard]] glm::vec3 background() const { return uniforms_.background; }
 
   private:
@@ -35,20 +41,33 @@ class FrameBuilder {
     struct Block {
         vk::DeviceSize offset = 0;
         vk::DeviceSize bytes = 0;
+        vk::Buffer buffer = {}; // null: the upload buffer
     };
     using Blocks = std::array<Block, Pipelines::kFrameBindings>;
 
-    // Fills grid and lists, or empties them.
-    void assignLights(const view::ViewSettings& settings, bool lists);
+    // Chooses the grid and fills the lists, or empties them.
+    void assignLights(const FrameInputs& inputs);
+    [[nodiscard]] bool assignsOnDevice(const FrameInputs& inputs);
+    // Where the device's assignment finds its data; finishes with writeAssignment.
+    [[nodiscard]] AssignOffsets uploadAssignment(FrameUpload& upload, Blocks& blocks) const;
+    void writeAssignment(FrameSlot& slot, const AssignOffsets& offsets) const;
+    [[nodiscard]] bool choosesVisibility(const FrameInputs& inputs);
     [[nodiscard]] FrameFacts facts(const FrameInputs& inputs) const;
     void writeFrameSet(FrameSlot& slot, const Blocks& blocks) const;
 
     SceneResources& scene_;
     light::FrameLights lights_;
-    cluster::ClusterGrid grid_;
-    cluster::LightLists lists_;
+    light::FrameLights grown_; // as lights_, for positions in halves
+    LightGrid light_grid_;
+    cluster::LightLists lists_; // made by the host
+    GpuLightLists device_lists_;
+    bool on_device_ = false;
+    view::ViewSettings refused_; // what the device's lists were too small for
     DrawList draws_;
     FrameFacts planned_;
+    bool visibility_ = false;
+    std::vector<io::InstanceView> instances_; // for the visibility passes
+    std::vector<uint32_t> meshlet_order_;
     io::Frame uniforms_{};
 };
 

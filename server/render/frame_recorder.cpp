@@ -1,6 +1,7 @@
 #include "render/frame_recorder.h"
 
 #include "render/passes.h"
+#include "render/visibility_passes.h"
 
 #include <vector>
 
@@ -35,12 +36,42 @@ void recordForward(const FrameContext& frame) {
     recordForwardPass(frame);
 }
 
+// Depth and ids; what follows reads them in compute.
+void recordVisible(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    if (!frame.scene.device.traits().draw_indirect_count) {
+        recordEmptyDraws(frame);
+    }
+    recordCull(frame);
+    // ranks and counts of visible meshlets, empty draws -> compaction's loads and stores
+    barrier(cmd, Stage::eComputeShader | Stage::eTransfer,
+            Access::eShaderStorageWrite | Access::eTransferWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderStorageWrite);
+    recordCompact(frame);
+    // draws and their counts -> indirect draws
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eDrawIndirect,
+            Access::eIndirectCommandRead);
+    recordVisibility(frame);
+    // depth and ids -> loads of the pass that shades or fills the G-buffer
+    barrier(cmd, kDepthStages | Stage::eColorAttachmentOutput,
+            Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite,
+            Stage::eComputeShader, Access::eShaderSampledRead);
+}
+
 void recordDeferred(const FrameContext& frame) {
-    recordGbuffer(frame);
+    if (frame.plan.visibility) {
+        recordVisible(frame);
+        recordVisibilityGbuffer(frame);
+        // G-buffer -> lighting's loads; depth is there already
+        barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
+                Access::eShaderSampledRead);
+    } else {
+        recordGbuffer(frame);
     // G-buffer and depth -> lighting's loads
     barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput,
             Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite, kShaders,
             Access::eShaderSampledRead);
+    }
     if (frame.plan.lighting_compute) {
         recordLightingCompute(frame);
     } else {
@@ -75,6 +106,8 @@ void transitionFresh(const vk::raii::CommandBuffer& cmd, ViewTargets& targets) {
     };
     add(targets.depth, vk::ImageAspectFlagBits::eDepth);
     add(targets.gbuffer, vk::ImageAspectFlagBits::eColor);
+    add(targets.gbuffer_extra, vk::ImageAspectFlagBits::eColor);
+    add(targets.ids, vk::ImageAspectFlagBits::eColor);
     add(targets.radiance, vk::ImageAspectFlagBits::eColor);
     cmd.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
                           .pImageMemoryBarriers = barriers.data()});
@@ -91,11 +124,27 @@ void recordFrame(const FrameContext& frame) {
     barrier(frame.slot.cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eAllCommands,
             Access::eMemoryRead | Access::eMemoryWrite);
     transitionFresh(slot.cmd, *slot.targets);
+    if (slot.device_lists) {
+        recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
+    }
 
-    if (frame.plan.forward) {
+    if (frame.plan.visibility_shade) {
+        recordVisible(frame);
+        recordVisibilityShade(frame);
+    } else if (frame.plan.forward) {
         recordForward(frame);
     } else {
         recordDeferred(frame);
+    }
+    if (frame.plan.count_pairs) {
+        slot.pairs->recordClear(slot.cmd);
+        // cleared counters, depth -> counting
+        barrier(slot.cmd, Stage::eClear | kDepthStages,
+                Access::eTransferWrite | Access::eDepthStencilAttachmentWrite,
+                Stage::eComputeShader,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite |
+                    Access::eShaderSampledRead);
+        recordCountPairs(frame);
     }
     if (frame.plan.transparent) {
         // solid surfaces' radiance and depth -> blending and depth test
@@ -120,10 +169,53 @@ void recordFrame(const FrameContext& frame) {
                 Access::eTransferRead);
         recordReadback(frame);
     }
-    // pixels -> host
-    barrier(frame.slot.cmd, Stage::eComputeShader | Stage::eCopy,
-            Access::eShaderStorageWrite | Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    recordHostRead(slot.cmd); // pixels and counters
     slot.cmd.end();
+}
+
+void recordHostRead(const vk::raii::CommandBuffer& cmd) {
+    barrier(cmd, Stage::eComputeShader | Stage::eCopy,
+            Access::eShaderStorageWrite | Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+}
+
+void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) {
+    const auto& cmd = assign.cmd;
+    const auto next = [&] {
+        // a pass's buffers and indirect arguments -> the next one's
+        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+                Stage::eComputeShader | Stage::eDrawIndirect,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite |
+                    Access::eIndirectCommandRead);
+    };
+    {
+        const gpu::PassScope scope(timestamps, cmd, "assign_count");
+        recordAssignClear(assign);
+        // cleared counters -> first use
+        barrier(cmd, Stage::eAllTransfer, Access::eTransferWrite, Stage::eComputeShader,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite);
+        recordAssignBound(assign);
+        next();
+        recordAssignCount(assign);
+        next();
+    }
+    {
+        const gpu::PassScope scope(timestamps, cmd, "assign_scan");
+        recordAssignSum(assign);
+        next();
+        recordAssignPlace(assign);
+        next();
+    }
+    {
+        const gpu::PassScope scope(timestamps, cmd, "assign_fill");
+        recordAssignFill(assign);
+        next();
+    }
+    const gpu::PassScope scope(timestamps, cmd, "assign_order");
+    recordAssignOrder(assign);
+    // lists and indices -> shading; counters -> copy
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders | Stage::eCopy,
+            Access::eShaderRead | Access::eTransferRead);
+    recordAssignCopy(assign);
 }
 
 void recordRadianceCopy(const vk::raii::CommandBuffer& cmd,

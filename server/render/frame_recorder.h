@@ -1,6 +1,7 @@
 // The frame: which pass follows which, and the barriers between them. The only file that has any.
 #pragma once
 
+#include "render/assign_passes.h"
 #include "render/draw_list.h"
 #include "render/frame_plan.h"
 #include "render/frame_slot.h"
@@ -12,6 +13,9 @@ namespace froxel::render {
 struct UploadOffsets {
     vk::DeviceSize rows = 0;
     vk::DeviceSize commands = 0;
+    // For the visibility passes: io::InstanceView of each, and in which order meshlets are drawn.
+    vk::DeviceSize instances = 0;
+    vk::DeviceSize meshlet_order = 0;
 };
 
 struct FrameContext {
@@ -21,10 +25,18 @@ struct FrameContext {
     const DrawList& draws;
     UploadOffsets offsets;
     glm::vec3 background{0};
+    VisibilityScene* visibility = nullptr; // where the plan has it
 };
 
 // Records slot.cmd from begin to end.
 void recordFrame(const FrameContext& frame);
+
+// Records the assignment of lights on the device, from clearing its counters to copying them to the
+// host; lists and indices are ready for shaders.
+void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps);
+
+// What compute shaders and copies wrote -> the host, once the commands have completed.
+void recordHostRead(const vk::raii::CommandBuffer& cmd);
 
 // Copies the radiance target, RGBA fp32, to a host buffer, for after a frame.
 void recordRadianceCopy(const vk::raii::CommandBuffer& cmd,

@@ -5,8 +5,12 @@
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "gpu/timestamps.h"
+#include "render/gpu_light_lists.h"
+#include "render/pair_counter.h"
 #include "render/pipelines.h"
+#include "render/renderer.h"
 #include "render/view_targets.h"
+#include "render/visibility_scene.h"
 
 #include <array>
 #include <atomic>
@@ -72,6 +76,13 @@ struct FrameSlot {
     vk::raii::DescriptorSet frame_set{nullptr};
     vk::raii::DescriptorSet screen_set{nullptr};
     std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
+    std::unique_ptr<VisibilityFrame> visibility;   // null: no frame asked for it yet
+    std::unique_ptr<PairCounter> pairs;            // likewise
+    bool counts_pairs = false;                     // in the frame last recorded
+    std::unique_ptr<AssignSlot> assignment;        // likewise
+    bool device_lists = false; // the frame last recorded had its lists made on the device
+    bool stale = false;        // an older frame was drawn again after this one
+    FrameInputs inputs;        // of that frame, to draw it again
     bool in_flight = false;
     uint64_t done_value = 0;
     FrameStats stats;

@@ -21,6 +21,13 @@ double microsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
 }
 
+// Whether there is no other way to draw what is asked for.
+bool needsVisibility(const FrameInputs& inputs) {
+    return inputs.geometry == GeometryPath::kVisibility ||
+           (isForward(inputs.settings.renderer) &&
+            inputs.settings.lighting == view::LightingStage::kCompute);
+}
+
 } // namespace
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
@@ -29,7 +36,8 @@ Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
 Renderer::~Renderer() = default;
 
 struct ViewRenderer::Impl {
-    explicit Impl(SceneResources& scene_in) : scene(scene_in), builder(scene_in) {
+    Impl(SceneResources& scene_in, const ListLimits& limits)
+        : scene(scene_in), builder(scene_in, limits) {
         for (uint32_t i = 0; i < kReadbackSlots; ++i) {
             slots.push_back(
                 std::make_unique<FrameSlot>(scene.device, scene.timeline, scene.pipelines));
@@ -51,7 +59,10 @@ struct ViewRenderer::Impl {
         return nullptr;
     }
     void prepareTargets(FrameSlot& slot, const FramePlan& plan, const view::Size& size);
+    void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     void submit(FrameSlot& slot, const FrameInputs& inputs);
+    // Draws a completed frame again until its lists are whole. Throws vk::SystemError.
+    [[nodiscard]] Result<void> redraw(FrameSlot& slot);
     // Gives the targets back, so that a smaller picture may fit.
     [[nodiscard]] Error outOfMemory(const char* whose, const view::Size& size) {
         targets.reset();
@@ -72,14 +83,19 @@ void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
                                         const FramePlan& plan,
                                         const view::Size& size) {
     const TargetNeeds wanted{.gbuffer = plan.gbuffer,
-                             .wide_gbuffer = scene.needs.wide_gbuffer,
+                             .gbuffer_flags = plan.gbuffer_output_flags,
                              .radiance = plan.radiance,
+                             .visibility = plan.visibility,
                              .device_pixels = !scene.device.traits().is_cpu};
     if (!targets || targets->size != size || !targets->needs.covers(wanted)) {
         TargetNeeds grown = wanted;
         if (targets && targets->size == size) {
-            grown.gbuffer |= targets->needs.gbuffer;
+            if (!wanted.gbuffer && targets->needs.gbuffer) {
+                grown.gbuffer = true;
+                grown.gbuffer_flags = targets->needs.gbuffer_flags;
+            }
             grown.radiance |= targets->needs.radiance;
+            grown.visibility |= targets->needs.visibility;
         }
         // Frames in flight keep the old targets alive through their slots.
         targets.reset();
@@ -93,33 +109,88 @@ void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
     }
 }
 
+void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
+    if (!slot.visibility) {
+        slot.visibility = std::make_unique<VisibilityFrame>(scene.device, scene.visibility());
+    }
+    const auto& t = *slot.targets;
+    slot.visibility->write({.resources = scene,
+                            .scene = scene.visibility(),
+                            .instances = {slot.upload.buffer(), offsets.instances,
+                                          scene.instances.size() * sizeof(io::InstanceView)},
+                            .order = {slot.upload.buffer(), offsets.meshlet_order,
+                                      scene.visibility().placed.size() * sizeof(uint32_t)},
+                            .ids = *t.ids.view,
+                            .words = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view});
+}
+
 void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
     const auto start = Clock::now();
     const FramePlan plan = builder.build(inputs);
     prepareTargets(slot, plan, inputs.settings.size);
     const UploadOffsets offsets = builder.upload(slot);
     writeScreenSet(scene.device, slot);
+    if (plan.visibility) {
+        writeVisibilitySet(slot, offsets);
+    }
+    if (plan.count_pairs && !slot.pairs) {
+        slot.pairs = std::make_unique<PairCounter>(scene.device, scene.pipelines);
+    }
     recordFrame({.scene = scene,
                  .slot = slot,
                  .plan = plan,
                  .draws = builder.draws(),
                  .offsets = offsets,
-                 .background = builder.background()});
+                 .background = builder.background(),
+                 .visibility = plan.visibility ? &scene.visibility() : nullptr});
     slot.stats = {};
     slot.stats.triangle_count = builder.draws().triangle_count;
+    if (plan.visibility) { // the host does not know what the device culls
+        slot.stats.triangle_count += scene.visibility().triangle_count;
+    }
     slot.stats.draw_count = static_cast<uint32_t>(builder.draws().commands.size());
     slot.stats.lists = builder.listStats();
     slot.stats.details = details.update(inputs.settings, builder.plannedFacts(), plan, scene.needs,
                                         *scene.device.memoryLedger());
+    slot.stats.grid = builder.gridStats();
+    slot.counts_pairs = plan.count_pairs;
+    slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
     slot.stats.host_us = microsSince(start);
     slot.submitted = start;
     slot.done_value = scene.timeline.submit(slot.cmd);
     slot.in_flight = true;
-    pending.push_back(&slot);
+    slot.stale = false;
 }
 
-ViewRenderer::ViewRenderer(Renderer& renderer)
-    : impl_(std::make_unique<Impl>(renderer.resources())) {}
+// The targets are the view's: frames submitted since must be drawn again after this one, so that
+// readLinear() still finds the last.
+Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
+    uint32_t count = 0;
+    const auto submitted = slot.submitted;
+    while (slot.stale || (slot.device_lists && !builder.acceptLists(slot.assignment->totals()))) {
+        const FrameInputs inputs = slot.inputs;
+        submit(slot, inputs);
+        if (const auto done = scene.timeline.wait(slot.done_value); !done) {
+            return done.error();
+        }
+        ++count;
+    }
+    slot.submitted = submitted;
+    if (slot.device_lists) {
+        std::string why = std::move(slot.stats.lists.why);
+        slot.stats.lists = listStats(slot.assignment->totals(), slot.assignment->lightCount(),
+                                     slot.assignment->clusterCount());
+        slot.stats.lists.why = std::move(why);
+    }
+    slot.stats.lists.redraw_count = count;
+    for (FrameSlot* later : pending) {
+        later->stale |= count > 0 && later != &slot;
+    }
+    return {};
+}
+
+ViewRenderer::ViewRenderer(Renderer& renderer, const ListLimits& limits)
+    : impl_(std::make_unique<Impl>(renderer.resources(), limits)) {}
 
 ViewRenderer::~ViewRenderer() = default;
 
@@ -134,8 +205,18 @@ uint32_t ViewRenderer::inFlight() const {
 Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
     FrameSlot* slot = impl_->freeSlot();
     FROXEL_ASSERT(slot != nullptr, "submit needs a free readback slot");
+    if (const auto& why = impl_->scene.visibility_unusable;
+        !why.empty() && needsVisibility(inputs)) {
+        return Error{
+            ErrorCode::kUnsupported,
+            "lighting: compute is not available for renderer " +
+                std::string(view::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]) +
+                ", since " + why + "; use auto or fragment"};
+    }
     try {
+        slot->inputs = inputs;
         impl_->submit(*slot, inputs);
+        impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
         impl_->targets.reset();
         return Error{ErrorCode::kCapacity, "the device has no memory for a picture of " +
@@ -157,9 +238,20 @@ Result<RenderedFrame> ViewRenderer::collect() {
     impl_->pending.pop_front();
     slot.in_flight = false;
     try {
+        if (const auto whole = impl_->redraw(slot); !whole) {
+            return whole.error();
+        }
+        slot.in_flight = false;
         slot.timestamps.read(slot.stats);
+    } catch (const vk::OutOfDeviceMemoryError&) {
+        slot.in_flight = false;
+        return Error{ErrorCode::kCapacity,
+                     "the device has no memory for this many light list entries"};
     } catch (const vk::SystemError& error) {
-        return Error{ErrorCode::kDevice, std::string("reading timestamps failed: ") + error.what()};
+        return Error{ErrorCode::kDevice, std::string("finishing a frame failed: ") + error.what()};
+    }
+    if (slot.counts_pairs) {
+        slot.stats.pairs = slot.pairs->read();
     }
     slot.stats.frame_us = microsSince(slot.submitted);
     slot.readback->leased = true;

@@ -7,6 +7,7 @@
 #include "core/pixel_view.h"
 #include "gpu/device.h"
 #include "render/frame_plan.h"
+#include "render/list_limits.h"
 #include "scene/scene.h"
 #include "view/settings.h"
 
@@ -18,12 +19,23 @@ namespace froxel::render {
 
 class SceneResources;
 
+// How a deferred frame's solid surfaces reach the G-buffer. auto: through the visibility passes on
+// a GPU that has what they need, where they are faster. Differs in rounding alone.
+enum class GeometryPath : uint8_t { kAuto, kRaster, kVisibility };
+
+// Where light lists are made. auto: on a GPU that rounds as the host does, else on the host. The
+// lists are the same.
+enum class AssignmentPlace : uint8_t { kAuto, kHost, kDevice };
+
 struct FrameInputs {
     view::ViewSettings settings;
     double time_s = 0;          // the lights' clock; pauses and speed are already folded in
     bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
     // For tests and measurements.
-    GenericParts generic;
+    GenericParts generic = {};
+    GeometryPath geometry = GeometryPath::kAuto;
+    bool cull_meshlets = true; // in the visibility passes
+    AssignmentPlace assignment = AssignmentPlace::kAuto;
 };
 
 struct RenderedFrame {
@@ -58,7 +70,7 @@ class ViewRenderer {
   public:
     static constexpr uint32_t kReadbackSlots = 3;
 
-    explicit ViewRenderer(Renderer& renderer);
+    explicit ViewRenderer(Renderer& renderer, const ListLimits& limits = {});
     ~ViewRenderer();
     ViewRenderer(const ViewRenderer&) = delete;
     ViewRenderer& operator=(const ViewRenderer&) = delete;
@@ -66,9 +78,11 @@ class ViewRenderer {
     // Whether a readback slot is free; submit() must not be called otherwise.
     [[nodiscard]] bool canSubmit() const;
     // Records and submits one frame; returns at once where the device runs on its own.
-    // Errors: kCapacity when targets of this size do not fit; kDevice when the device is lost.
+    // Errors: kCapacity when targets of this size do not fit; kDevice when the device is lost;
+    // kUnsupported when the settings ask for what the device lacks.
     [[nodiscard]] Result<void> submit(const FrameInputs& inputs);
-    // Waits for the oldest submitted frame. Errors: kDevice.
+    // Waits for the oldest submitted frame; draws it again where its light lists did not fit the
+    // device's memory for them. Errors: kCapacity, kDevice.
     [[nodiscard]] Result<RenderedFrame> collect();
     [[nodiscard]] uint32_t inFlight() const;
     // The linear picture of the frame last submitted, which had keep_radiance (not a fast path:

@@ -37,12 +37,13 @@ std::vector<PackPlan> planPacks(const gpu::Device& device, const scene::Scene& s
     return plans;
 }
 
-io::Material materialUniforms(const scene::Material& m,
+io::Material materialUniforms(const scene::Scene& scene,
+                              const scene::Material& m,
                               const PackPlan& plan,
                               const PackedTexture& pack) {
     return {.base_color = m.base_color,
             .emissive = m.emissive,
-            .metallic = m.metallic,
+            .metallic = plan.roughness ? packedMetalness(scene, m) : m.metallic,
             .roughness = m.roughness,
             .normal_scale = m.normal_scale,
             .occlusion_strength = m.occlusion_strength,
@@ -58,8 +59,10 @@ io::Material materialUniforms(const scene::Material& m,
             .pack_last_level = pack.last_level};
 }
 
-std::vector<DrawItem>
-makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const SceneNeeds& needs, std::span<const PackPlan> packs) {
+std::vector<DrawItem> makeItems(const scene::Scene& scene,
+                                const PackedGeometry& geometry,
+                                const SceneNeeds& needs,
+                                std::span<const PackPlan> packs) {
     std::vector<DrawItem> items;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const auto& instance = scene.instances[i];
@@ -94,8 +97,8 @@ gpu::Buffer uploadVector(gpu::MemoryArena& arena,
 } // namespace
 
 SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene)
-    : device(device_in), timeline(device_in), needs(findNeeds(scene)), pack_plans(planPacks(device_in, scene)),
-      bounds_world(scene.bounds_world), light_rig(scene),
+    : device(device_in), timeline(device_in), needs(findNeeds(scene)),
+      pack_plans(planPacks(device_in, scene)), bounds_world(scene.bounds_world), light_rig(scene),
       light_assigner(std::max(1U, std::thread::hardware_concurrency())), arena(device_in),
       texture_arena(device_in, kTextureChunkBytes, "textures"), pipelines(device_in) {
     auto geometry = packGeometry(scene);
@@ -106,9 +109,12 @@ SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene
     gpu::Uploader uploader(device, timeline, kStagingBytes);
     uploadGeometry(geometry, uploader);
     uploadMaterials(scene, uploader);
+    visibility_unusable = VisibilityScene::unusable(*this);
     meshlets = std::move(geometry.meshlets);
-    indices = std::move(geometry.indices);
-    positions = std::move(geometry.positions);
+    if (device.traits().is_cpu) {
+        indices = std::move(geometry.indices);
+        positions = std::move(geometry.positions);
+    }
     spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
                  items.size(), meshlets.size(), textures_->imageCount(),
                  arena.allocatedBytes() + texture_arena.allocatedBytes());
@@ -116,15 +122,16 @@ SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene
 
 void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader) {
     using Usage = vk::BufferUsageFlagBits;
-    position_buffer =
-        uploadVector(arena, uploader, geometry.positions, Usage::eVertexBuffer, "positions");
+    constexpr auto kVertices = Usage::eVertexBuffer | Usage::eStorageBuffer;
+    position_buffer = uploadVector(arena, uploader, geometry.positions, kVertices, "positions");
     surface_buffer =
-        uploadVector(arena, uploader, geometry.surfaces, Usage::eVertexBuffer, "surface vertices");
+        uploadVector(arena, uploader, geometry.surfaces, kVertices, "surface vertices");
     if (!geometry.extended.empty()) {
-        extended_buffer = uploadVector(arena, uploader, geometry.extended, Usage::eVertexBuffer,
-                                       "extended vertices");
+        extended_buffer =
+            uploadVector(arena, uploader, geometry.extended, kVertices, "extended vertices");
     }
-    index_buffer = uploadVector(arena, uploader, geometry.indices, Usage::eIndexBuffer, "indices");
+    index_buffer = uploadVector(arena, uploader, geometry.indices,
+                                Usage::eIndexBuffer | Usage::eStorageBuffer, "indices");
 }
 
 void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
@@ -153,8 +160,9 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     for (uint32_t i = 0; i < count; ++i) {
         const auto& m = scene.materials[i];
         const auto uniforms =
-            materialUniforms(m, pack_plans[i], textures_->pack(scene, m, pack_plans[i]));
+            materialUniforms(scene, m, pack_plans[i], textures_->pack(scene, m, pack_plans[i]));
         std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));
+        material_uniforms.push_back(uniforms);
     }
     material_buffer_ =
         uploadVector(arena, uploader, bytes, vk::BufferUsageFlagBits::eUniformBuffer, "materials");
@@ -163,15 +171,22 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,
                                               sizeof(io::Material)};
         const PackPlan& plan = pack_plans[i];
-        const auto unless = [](bool packed, const scene::TextureSlot& slot) {
-            return packed ? scene::TextureSlot{} : slot;
+        // Only what the material's shader samples, and not from the pack.
+        const auto used = [&](uint32_t flag, bool packed, const scene::TextureSlot& slot) {
+            const bool sampled = (needs.material_flags[i] & flag) != 0;
+            return sampled && !packed ? slot : scene::TextureSlot{};
         };
+        const auto base = used(io::kMaterialBaseColorTexture, plan.color, m.base_color_texture);
+        const auto normal = used(io::kMaterialNormalTexture, plan.normal, m.normal_texture);
+        const auto roughness =
+            used(io::kMaterialRoughnessTexture, plan.roughness, m.metallic_roughness_texture);
+        const auto occlusion = used(io::kMaterialOcclusionTexture, false, m.occlusion_texture);
+        const auto emissive = used(io::kMaterialEmissiveTexture, false, m.emissive_texture);
         const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
-            textures_->get(scene, unless(plan.color, m.base_color_texture), true),
-            textures_->get(scene, unless(plan.normal, m.normal_texture), false),
-            textures_->get(scene, unless(plan.roughness, m.metallic_roughness_texture), false),
-            textures_->get(scene, m.occlusion_texture, false),
-            textures_->get(scene, m.emissive_texture, true)};
+            textures_->get(scene, base, true), textures_->get(scene, normal, false),
+            textures_->get(scene, roughness, false), textures_->get(scene, occlusion, false),
+            textures_->get(scene, emissive, true)};
+        material_textures.insert(material_textures.end(), images.begin(), images.end());
         const vk::BufferView texels = *textures_->pack(scene, m, plan).view;
         // The five samplers are consecutive bindings of one descriptor each.
         const std::array writes = {
@@ -192,6 +207,27 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                    .pTexelBufferView = &texels}};
         device.handle().updateDescriptorSets(writes, {});
     }
+}
+
+VisibilityScene& SceneResources::visibility() {
+    if (!visibility_) {
+        gpu::Uploader uploader(device, timeline, kStagingBytes);
+        visibility_ = std::make_unique<VisibilityScene>(*this, uploader);
+    }
+    return *visibility_;
+}
+
+const AssignPipelines* SceneResources::assignment() {
+    if (!assignment_tried_) {
+        assignment_tried_ = true;
+        const std::string why = AssignPipelines::unusable(device, timeline);
+        if (why.empty()) {
+            assignment_ = std::make_unique<AssignPipelines>(device);
+        } else {
+            spdlog::info("lights are assigned on the host: {}", why);
+        }
+    }
+    return assignment_.get();
 }
 
 } // namespace froxel::render

@@ -5,10 +5,12 @@
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "light/light_rig.h"
+#include "render/assign_pipelines.h"
 #include "render/geometry_pack.h"
 #include "render/pipelines.h"
 #include "render/scene_needs.h"
 #include "render/texture_store.h"
+#include "render/visibility_scene.h"
 
 #include <cstdint>
 #include <vector>
@@ -38,7 +40,8 @@ class SceneResources {
     std::vector<glm::dmat4> instances; // world_from_object
     std::vector<DrawItem> items;
     std::vector<Meshlet> meshlets;
-    std::vector<uint32_t> indices; // the host's copy, for culling by triangle
+    // The host's copies, for culling by triangle; empty on a GPU, which does not.
+    std::vector<uint32_t> indices;
     std::vector<glm::vec3> positions;
 
     gpu::MemoryArena arena; // geometry and materials
@@ -47,7 +50,15 @@ class SceneResources {
     gpu::Buffer surface_buffer;
     gpu::Buffer extended_buffer; // empty handle: no primitive needs it
     gpu::Buffer index_buffer;
+    std::vector<io::Material> material_uniforms;
+    std::vector<vk::DescriptorImageInfo> material_textures; // kTexturesOfMaterial of each
+    std::string visibility_unusable; // why; empty: visibility passes can draw the scene
     Pipelines pipelines;
+
+    // Made at the first call. Null: the device cannot assign lights as the host does.
+    [[nodiscard]] const AssignPipelines* assignment();
+    // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
+    [[nodiscard]] VisibilityScene& visibility();
 
     [[nodiscard]] vk::DescriptorSet materialSet(uint32_t material) const {
         return *material_sets_[material];
@@ -61,6 +72,9 @@ class SceneResources {
     std::unique_ptr<TextureStore> textures_;
     vk::raii::DescriptorPool material_pool_{nullptr};
     std::vector<vk::raii::DescriptorSet> material_sets_;
+    std::unique_ptr<VisibilityScene> visibility_;
+    bool assignment_tried_ = false;
+    std::unique_ptr<AssignPipelines> assignment_;
 };
 
 } // namespace froxel::render
