@@ -1,4 +1,4 @@
-// Draw commands of the visible meshlets, in the order of the placed meshlets, packed group by group.
+// Draw commands of the visible meshlets, in the frame's order, packed group by group.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,7 +15,7 @@ shared uint partial[kCullGroup];
 uint countBefore(uint first_block, uint lane) {
     uint sum = 0;
     for (uint block = first_block + lane; block < gl_WorkGroupID.x; block += kCullGroup) {
-        sum += block_counts[block];
+        sum += counts[group_count + block];
     }
     partial[lane] = sum;
     barrier();
@@ -31,16 +31,17 @@ uint countBefore(uint first_block, uint lane) {
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uint lane = gl_LocalInvocationIndex;
-    PlacedMeshlet m = meshlets[i];
+    uint placed = order[i];
+    PlacedMeshlet m = meshlets[placed];
     MeshletGroup group = groups[m.draw_group];
     uint before = countBefore(group.first_block, lane);
     uint rank = ranks[i];
     if (rank != kCulled) {
         DrawCommand draw = DrawCommand(m.index_count, 1u, m.first_index,
-                                       items[m.item].vertex_offset, i);
+                                       items[m.item].vertex_offset, placed);
         commands[group.first_block * kCullGroup + before + rank] = draw;
     }
     if (lane == 0 && gl_WorkGroupID.x + 1 == group.first_block + group.block_count) {
-        draw_counts[m.draw_group] = before + block_counts[gl_WorkGroupID.x];
+        counts[m.draw_group] = before + counts[group_count + gl_WorkGroupID.x];
     }
 }

@@ -10,8 +10,6 @@
 
 layout(local_size_x = kCullGroup) in;
 
-layout(push_constant) uniform CullBlock { uint keep_all; };
-
 // Spheres are tested with this share of slack, and the rounding of the planes on top.
 const float kSlack = 1e-4;
 const float kRounding = 1e-6;
@@ -56,7 +54,7 @@ shared uint scan[kCullGroup];
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uint lane = gl_LocalInvocationIndex;
-    PlacedMeshlet m = meshlets[i];
+    PlacedMeshlet m = meshlets[order[i]];
     bool visible = m.index_count > 0;
     if (visible && keep_all == 0) {
         VisibleItem item = items[m.item];
@@ -73,6 +71,6 @@ void main() {
     }
     ranks[i] = visible ? scan[lane] - 1u : kCulled;
     if (lane == kCullGroup - 1) {
-        block_counts[gl_WorkGroupID.x] = scan[lane];
+        counts[group_count + gl_WorkGroupID.x] = scan[lane];
     }
 }

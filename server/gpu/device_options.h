@@ -24,6 +24,9 @@ struct DeviceOptions {
     PipelineCacheOptions pipeline_cache;
     bool validation = false; // with the Khronos validation layer
     bool subgroups = true;   // false: as on a device without subgroup operations
+    // false: as on a device without what they need.
+    bool descriptor_indexing = true;
+    bool visibility = true; // visibility passes
 };
 
 } // namespace froxel::gpu

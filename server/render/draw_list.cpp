@@ -111,7 +111,7 @@ class Builder {
           clip_from_view_(clipFromView(camera, projection)),
           half_size_px_(glm::vec2(size.width_px, size.height_px) * 0.5F), out_(out) {}
 
-    void build();
+    void build(bool solid_wanted);
 
   private:
     void placeInstances();
@@ -329,13 +329,15 @@ void Builder::addTransparent(std::vector<Visible>& visible) {
             out_.transparent);
 }
 
-void Builder::build() {
+void Builder::build(bool solid_wanted) {
     placeInstances();
     std::vector<Visible> solid;
     std::vector<Visible> transparent;
     for (uint32_t i = 0; i < scene_.items.size(); ++i) {
         const bool blend = (scene_.items[i].material_flags & io::kMaterialBlend) != 0;
-        collect(i, blend ? transparent : solid);
+        if (blend || solid_wanted) {
+            collect(i, blend ? transparent : solid);
+        }
     }
     addSolid(solid);
     addTransparent(transparent);
@@ -351,13 +353,14 @@ void buildDrawList(const SceneResources& scene,
                    const view::Size& size,
                    const ViewProjection& projection,
                    bool by_triangle,
+                   bool solid,
                    DrawList& out) {
     out.commands.clear();
     out.solid.clear();
     out.transparent.clear();
     out.indices.clear();
     out.triangle_count = 0;
-    Builder(scene, camera, size, projection, by_triangle, out).build();
+    Builder(scene, camera, size, projection, by_triangle, out).build(solid);
 }
 
 } // namespace froxel::render

@@ -39,12 +39,14 @@ struct DrawList {
     uint32_t triangle_count = 0;
 };
 
-// by_triangle: also cull single triangles, into DrawList::indices. Pure.
+// by_triangle: also cull single triangles, into DrawList::indices. solid: false leaves out all but
+// transparent surfaces. Pure.
 void buildDrawList(const SceneResources& scene,
                    const view::Camera& camera,
                    const view::Size& size,
                    const ViewProjection& projection,
                    bool by_triangle,
+                   bool solid,
                    DrawList& out);
 
 } // namespace froxel::render

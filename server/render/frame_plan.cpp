@@ -1,6 +1,7 @@
 #include "render/frame_plan.h"
 
 #include "interface/constants.h"
+#include "render/gbuffer_layout.h"
 
 namespace froxel::render {
 
@@ -25,20 +26,30 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= io::kLightLocal;
         flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
         flags |= facts.spots ? io::kLightSpots : 0U;
+        flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
+        flags |= facts.long_loops ? io::kLightLong : 0U;
         if (compute) {
             flags |= facts.compute_batches ? io::kLightBatched : 0U;
         } else {
             flags |= facts.fragment_batches ? io::kLightBatched | io::kLightPartial : 0U;
         }
+        // All lights stay the plain loop: what lists are measured and tested against.
+        const bool culled = lists && facts.culled_batches && !facts.long_loops;
+        flags |= culled && (flags & io::kLightBatched) != 0 ? io::kLightCulled : 0U;
     }
     flags |= facts.directional ? io::kLightDirectional : 0U;
     if (flags != 0 && settings.renderer == view::Renderer::kToonFragment) {
         flags |= io::kLightToon;
     }
+    flags |= settings.shading == view::ShadingModel::kLambert ? io::kLightLambert : 0U;
     return flags;
 }
 
 } // namespace
+
+bool isForward(view::Renderer renderer) {
+    return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
+}
 
 bool needsLists(view::Renderer renderer, bool local_lights, bool all_lights) {
     return renderer != view::Renderer::kNaive && local_lights && !all_lights;
@@ -60,29 +71,38 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     using view::Renderer;
     FramePlan plan;
     const Renderer renderer = settings.renderer;
-    plan.forward = renderer == Renderer::kNaive || renderer == Renderer::kForwardPlus;
-    plan.depth_prepass = renderer == Renderer::kForwardPlus;
-    plan.gbuffer = !plan.forward;
+    plan.visibility = facts.visibility;
+    plan.visibility_shade = facts.visibility && isForward(renderer);
+    plan.cull_meshlets = facts.cull_meshlets;
+    plan.forward = isForward(renderer) && !plan.visibility_shade;
+    plan.depth_prepass = renderer == Renderer::kForwardPlus && plan.forward;
+    plan.gbuffer = !isForward(renderer);
     plan.lighting_compute = plan.gbuffer && settings.lighting != view::LightingStage::kFragment;
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.toon_pass = renderer == Renderer::kToonCompute;
     plan.transparent = facts.transparent_visible;
     plan.lists = needsLists(renderer, facts.local_lights, facts.all_lights);
+    plan.count_pairs = settings.count_pairs && facts.local_lights;
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
-    const bool compute_ends = !plan.transparent && (plan.lighting_compute || plan.toon_pass);
+    const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
+    const bool compute_ends = !plan.transparent && (compute_lights || plan.toon_pass);
     plan.tonemap = !compute_ends;
     plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance;
 
     plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
-    plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, plan.lighting_compute);
+    plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
 
     const uint32_t wide = facts.wide_gbuffer ? io::kOutputWideGbuffer : 0U;
     const uint32_t tone = settings.tone_map == view::ToneMap::kClamp ? io::kOutputClamp : 0U;
     const uint32_t pixels = io::kOutputPixels | tone;
-    plan.gbuffer_output_flags = wide;
-    plan.lighting_output_flags = wide;
-    if (plan.lighting_compute) {
+    plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(settings.gbuffer) : 0U;
+    plan.lighting_output_flags = plan.gbuffer_output_flags;
+    if (settings.shading == view::ShadingModel::kLambert) {
+        plan.gbuffer_unused_material_flags =
+            io::kMaterialRoughnessTexture | io::kMaterialPackedRoughness;
+    }
+    if (compute_lights) {
         plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;
         plan.lighting_output_flags |= compute_ends && !plan.toon_pass ? pixels : 0U;
     }

@@ -14,31 +14,40 @@ struct FrameFacts {
     bool transparent_visible = false; // blended surfaces are in view
     bool local_lights = false;        // any point or spot light
     bool spots = false;
+    bool equal_radii = false; // all local lights reach equally far
+    bool long_loops = false;  // more iterations than a software rasteriser's loops may have
     bool directional = false;
     bool keep_radiance = false;    // the linear picture is asked for
     bool all_lights = false;       // lists are not asked for
     bool compute_batches = false;  // subgroups fetch lights together in compute
     bool fragment_batches = false; // and in the fragment stage
+    bool culled_batches = false;   // and skip what adds nothing to any of their pixels
+    bool visibility = false;       // solid surfaces come from the visibility passes
+    bool cull_meshlets = true;
     bool operator==(const FrameFacts&) const = default;
 };
 
-// For tests: what a frame is drawn as having, though it lacks it. Another variant and the same bits.
+// For tests: what a frame is drawn as having, though it lacks it. Another variant and the same
+// bits.
 struct GenericParts {
     bool spots = false;
     bool directional = false;
     bool wide_gbuffer = false;
-    bool transparent = false;     // a blend pass over nothing, and a tone map of its own
+    bool transparent = false; // a blend pass over nothing, and a tone map of its own
     bool uneven_radii = false;
-    bool plain_loops = false;     // no lights fetched together
-    bool uncut_loops = false;     // none of them skipped
+    bool plain_loops = false; // no lights fetched together
+    bool uncut_loops = false; // none of them skipped
     bool operator==(const GenericParts&) const = default;
 };
 [[nodiscard]] FrameFacts generalised(FrameFacts facts, const GenericParts& parts);
 
 struct FramePlan {
     bool depth_prepass = false;
-    bool forward = false; // solid surfaces by the forward shader
-    bool gbuffer = false; // else by geometry pass and lighting pass
+    bool forward = false;          // solid surfaces by the forward shader
+    bool gbuffer = false;          // else by geometry pass and lighting pass
+    bool visibility = false;       // solid surfaces by ids of triangles, culled on the device
+    bool visibility_shade = false; // these are shaded at once, without a G-buffer
+    bool cull_meshlets = true;
     bool lighting_compute = false;
     bool lighting_fragment = false;
     bool toon_pass = false;
@@ -46,17 +55,21 @@ struct FramePlan {
     bool tonemap = false;  // a pass of its own
     bool lists = false;    // lights are assigned to clusters
     bool radiance = false; // the radiance target exists
+    bool count_pairs = false;
 
     uint32_t forward_light_flags = 0;
     uint32_t lighting_light_flags = 0;
     uint32_t gbuffer_output_flags = 0;
+    uint32_t gbuffer_unused_material_flags = 0; // what the shading model has no use for
     uint32_t lighting_output_flags = 0;
     uint32_t toon_output_flags = 0;
     uint32_t tonemap_output_flags = 0;
     bool operator==(const FramePlan&) const = default;
 };
 
-// FramePlan::lists by itself: known before it is known what is in view.
+// isForward: by its name; needsLists: FramePlan::lists by itself: known before it is known what is
+// in view.
+[[nodiscard]] bool isForward(view::Renderer renderer);
 [[nodiscard]] bool needsLists(view::Renderer renderer, bool local_lights, bool all_lights);
 
 [[nodiscard]] FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts);

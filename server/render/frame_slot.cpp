@@ -13,7 +13,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
         vk::DescriptorPoolSize{Type::eUniformBuffer, 1},
         vk::DescriptorPoolSize{Type::eUniformTexelBuffer, Pipelines::kFrameBindings},
         vk::DescriptorPoolSize{Type::eStorageBuffer, 2},
-        vk::DescriptorPoolSize{Type::eSampledImage, 2},
+        vk::DescriptorPoolSize{Type::eSampledImage, 3},
         vk::DescriptorPoolSize{Type::eStorageImage, 1}};
     return device.handle().createDescriptorPool(
         {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
@@ -92,7 +92,8 @@ void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
     const auto& t = *slot.targets;
     // lavapipe binds all of a set, also what no shader of the pass reads: an absent target must not
     // leave the freed image of an earlier size behind, so it is described as none.
-    const std::array images = {image(t.gbuffer), image(t.depth), image(t.radiance)};
+    const std::array images = {image(t.gbuffer), image(t.depth), image(t.radiance),
+                               image(t.gbuffer_extra)};
     const auto& pixels = t.needs.device_pixels ? t.pixels : slot.readback->buffer;
     const vk::DescriptorBufferInfo buffer{*pixels.handle, 0, VK_WHOLE_SIZE};
     std::vector<vk::WriteDescriptorSet> writes;
@@ -107,6 +108,7 @@ void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
     add(1, vk::DescriptorType::eSampledImage).pImageInfo = &images[1];
     add(2, vk::DescriptorType::eStorageImage).pImageInfo = &images[2];
     add(3, vk::DescriptorType::eStorageBuffer).pBufferInfo = &buffer;
+    add(4, vk::DescriptorType::eSampledImage).pImageInfo = &images[3];
     device.handle().updateDescriptorSets(writes, {});
 }
 

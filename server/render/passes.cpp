@@ -1,54 +1,17 @@
 #include "render/passes.h"
 
 #include "interface/constants.h"
+#include "render/rendering_scope.h"
 
 #include <array>
 #include <span>
+#include <vector>
 
 namespace froxel::render {
 
 namespace {
 
 using LoadOp = vk::AttachmentLoadOp;
-
-vk::Rect2D area(const FrameContext& frame) {
-    return {{0, 0}, {frame.slot.targets->size.width_px, frame.slot.targets->size.height_px}};
-}
-
-vk::RenderingAttachmentInfo attachment(const gpu::Image& image,
-                                       LoadOp load,
-                                       const vk::ClearValue& clear = vk::ClearDepthStencilValue{}) {
-    return {.imageView = *image.view,
-            .imageLayout = vk::ImageLayout::eGeneral,
-            .loadOp = load,
-            .storeOp = vk::AttachmentStoreOp::eStore,
-            .clearValue = clear};
-}
-
-// One rendering scope with the frame's viewport.
-class Rendering {
-  public:
-    Rendering(const FrameContext& frame,
-              std::span<const vk::RenderingAttachmentInfo> colors,
-              const vk::RenderingAttachmentInfo* depth)
-        : cmd_(frame.slot.cmd) {
-        const auto rect = area(frame);
-        cmd_.beginRendering({.renderArea = rect,
-                             .layerCount = 1,
-                             .colorAttachmentCount = static_cast<uint32_t>(colors.size()),
-                             .pColorAttachments = colors.data(),
-                             .pDepthAttachment = depth});
-        cmd_.setViewport(0, vk::Viewport{0, 0, static_cast<float>(rect.extent.width),
-                                         static_cast<float>(rect.extent.height), 0, 1});
-        cmd_.setScissor(0, rect);
-    }
-    ~Rendering() { cmd_.endRendering(); }
-    Rendering(const Rendering&) = delete;
-    Rendering& operator=(const Rendering&) = delete;
-
-  private:
-    const vk::raii::CommandBuffer& cmd_;
-};
 
 void bindGeometry(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
@@ -75,7 +38,8 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
         return {masked ? group.material_flags : 0U, 0, 0};
     }
     case GeometryPass::kGbuffer:
-        return {group.material_flags, 0, plan.gbuffer_output_flags};
+        return {group.material_flags & ~plan.gbuffer_unused_material_flags, 0,
+                plan.gbuffer_output_flags};
     default:
         return {group.material_flags, plan.forward_light_flags, 0};
     }
@@ -107,10 +71,6 @@ void drawGroups(const FrameContext& frame, GeometryPass pass, std::span<const Dr
                                     vk::DeviceSize{group.first_command} * kStride,
                                 group.command_count, kStride);
     }
-}
-
-vk::ClearValue farDepth() {
-    return vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0};
 }
 
 vk::ClearValue background(const FrameContext& frame) {
@@ -158,7 +118,12 @@ void recordForwardPass(const FrameContext& frame) {
 void recordGbuffer(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "gbuffer");
     // Words of empty pixels are never read: their depth says so.
-    const std::array colors = {attachment(frame.slot.targets->gbuffer, LoadOp::eDontCare)};
+    std::vector colors = {attachment(frame.slot.targets->gbuffer, LoadOp::eDontCare)};
+    if (*frame.slot.targets->gbuffer_extra.handle) {
+        // A stored depth of 0 is an empty pixel.
+        colors.push_back(attachment(frame.slot.targets->gbuffer_extra, LoadOp::eClear,
+                                    vk::ClearColorValue(std::array<uint32_t, 4>{})));
+    }
     const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
     const Rendering rendering(frame, colors, &depth);
     drawGroups(frame, GeometryPass::kGbuffer, frame.draws.solid);
@@ -198,6 +163,15 @@ void recordTransparent(const FrameContext& frame) {
 void recordTonemap(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "tonemap");
     dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags});
+}
+
+void recordCountPairs(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "count_pairs");
+    const auto& size = frame.slot.targets->size;
+    frame.slot.pairs->recordCount(frame.slot.cmd, *frame.slot.frame_set, *frame.slot.screen_set,
+                                  frame.plan.forward ? frame.plan.forward_light_flags
+                                                     : frame.plan.lighting_light_flags,
+                                  {size.width_px, size.height_px});
 }
 
 void recordReadback(const FrameContext& frame) {

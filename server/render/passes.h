@@ -14,6 +14,7 @@ void recordLightingFragment(const FrameContext& frame); // reads both; writes ra
 void recordToon(const FrameContext& frame);        // reads radiance; writes radiance and/or pixels
 void recordTransparent(const FrameContext& frame); // blends over radiance, tests depth
 void recordTonemap(const FrameContext& frame);     // reads radiance, writes pixels
+void recordCountPairs(const FrameContext& frame);  // reads depth
 void recordReadback(const FrameContext& frame);    // copies pixels to the host
 
 } // namespace froxel::render

@@ -2,6 +2,7 @@
 
 #include "embedded.h"
 #include "interface/constants.h"
+#include "render/gbuffer_layout.h"
 
 #include <algorithm>
 #include <array>
@@ -32,13 +33,15 @@ vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
 }
 
 vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
-    std::array<vk::DescriptorSetLayoutBinding, 6> bindings;
+    // Uniforms, five textures, packed texels.
+    std::array<vk::DescriptorSetLayoutBinding, 7> bindings;
     for (uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {.binding = i,
-                       .descriptorType =
-                           i == 0 ? Type::eUniformBuffer : Type::eCombinedImageSampler,
+                       .descriptorType = i == 0   ? Type::eUniformBuffer
+                                         : i == 6 ? Type::eUniformTexelBuffer
+                                                  : Type::eCombinedImageSampler,
                        .descriptorCount = 1,
-                       .stageFlags = Stage::eFragment};
+                       .stageFlags = Stage::eFragment | Stage::eCompute};
     }
     return gpu::makeSetLayout(device, bindings);
 }
@@ -49,7 +52,8 @@ vk::raii::DescriptorSetLayout screenSetLayout(const gpu::Device& device) {
         vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, stages},
         vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, stages},
         vk::DescriptorSetLayoutBinding{2, Type::eStorageImage, 1, Stage::eCompute},
-        vk::DescriptorSetLayoutBinding{3, Type::eStorageBuffer, 1, Stage::eCompute}};
+        vk::DescriptorSetLayoutBinding{3, Type::eStorageBuffer, 1, Stage::eCompute},
+        vk::DescriptorSetLayoutBinding{4, Type::eSampledImage, 1, stages}};
     return gpu::makeSetLayout(device, bindings);
 }
 
@@ -82,12 +86,15 @@ void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool extend
     }
 }
 
-gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched) {
+gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32_t output_flags) {
     using namespace shaders;
     switch (pass) {
     case GeometryPass::kDepth:
         return extended ? depth_masked_extended_frag() : depth_masked_frag();
     case GeometryPass::kGbuffer:
+        if (extraFormat(output_flags) != vk::Format::eUndefined) {
+            return extended ? gbuffer_extra_extended_frag() : gbuffer_extra_frag();
+        }
         return extended ? gbuffer_extended_frag() : gbuffer_frag();
     default:
         break;
@@ -135,10 +142,13 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
                   : extended ? shaders::surface_extended_vert()
                              : shaders::surface_vert();
     if (surface) {
-        info.fragment = fragmentShader(pass, extended, batched);
+        info.fragment = fragmentShader(pass, extended, batched, key.output_flags);
     }
     if (pass == GeometryPass::kGbuffer) {
-        info.color_formats = {gbufferFormat((key.output_flags & io::kOutputWideGbuffer) != 0)};
+        info.color_formats = {gbufferFormat(key.output_flags)};
+        if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
+            info.color_formats.push_back(extraFormat(key.output_flags));
+        }
     } else if (!depth_only) {
         info.color_formats = {kRadianceFormat};
     }

@@ -3,6 +3,7 @@
 
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
+#include "interface/constants.h"
 
 #include <array>
 #include <cstdint>
@@ -68,8 +69,8 @@ class Pipelines {
     [[nodiscard]] vk::PipelineLayout geometryPipelineLayout() const { return *geometry_layout_; }
     [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const { return *screen_layout_; }
 
-    [[nodiscard]] static vk::Format gbufferFormat(bool wide) {
-        return wide ? vk::Format::eR32G32B32A32Uint : vk::Format::eR32G32Uint;
+    [[nodiscard]] static vk::Format gbufferFormat(uint32_t output_flags) {
+        return (output_flags & io::kOutputWideGbuffer) != 0 ? vk::Format::eR32G32B32A32Uint : vk::Format::eR32G32Uint;
     }
 
   private:

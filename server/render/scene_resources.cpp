@@ -27,10 +27,13 @@ io::UvTransform uvTransform(const scene::TextureSlot& slot) {
             .padding0 = 0};
 }
 
-// Packs are for devices that sample in software; others have hardware for it.
+// Packs are for devices that sample in software. Off: pictures of the built-in scene differ by 1.5 of
+// 255 (RMSE) from those of the driver's own filtering in float, which nobody has explained yet.
+constexpr bool kPackTextures = false;
+
 std::vector<PackPlan> planPacks(const gpu::Device& device, const scene::Scene& scene) {
     std::vector<PackPlan> plans(scene.materials.size());
-    if (device.traits().is_cpu) {
+    if (kPackTextures && device.traits().is_cpu) {
         std::transform(scene.materials.begin(), scene.materials.end(), plans.begin(),
                        [&](const scene::Material& m) { return planPack(scene, m); });
     }

@@ -1,6 +1,8 @@
 #include "render/view_targets.h"
 
+#include "render/gbuffer_layout.h"
 #include "render/pipelines.h"
+#include "render/visibility_pipelines.h"
 
 namespace froxel::render {
 
@@ -16,10 +18,25 @@ ViewTargets::ViewTargets(const gpu::Device& device,
                              .aspect = vk::ImageAspectFlagBits::eDepth},
                             "depth");
     if (needs.gbuffer) {
-        gbuffer = arena.makeImage({.format = Pipelines::gbufferFormat(needs.wide_gbuffer),
+        gbuffer = arena.makeImage({.format = Pipelines::gbufferFormat(needs.gbuffer_flags),
                                    .extent = extent,
-                                   .usage = Usage::eColorAttachment | Usage::eSampled},
+                                   .usage = Usage::eColorAttachment | Usage::eSampled |
+                                            (needs.visibility ? Usage::eStorage : Usage{})},
                                   "gbuffer");
+        if (const auto format = extraFormat(needs.gbuffer_flags);
+            format != vk::Format::eUndefined) {
+            gbuffer_extra = arena.makeImage({.format = format,
+                                             .extent = extent,
+                                             .usage = Usage::eColorAttachment | Usage::eSampled},
+                                            "gbuffer extra");
+        }
+    }
+    if (needs.visibility) {
+        ids = arena.makeImage(
+            {.format = VisibilityPipelines::kIdFormat,
+             .extent = extent,
+             .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eStorage},
+            "visible ids");
     }
     if (needs.radiance) {
         radiance = arena.makeImage(

@@ -11,12 +11,15 @@ namespace froxel::render {
 // Which targets exist; a frame may use targets that have more than it needs.
 struct TargetNeeds {
     bool gbuffer = false;
-    bool wide_gbuffer = false;
+    uint32_t gbuffer_flags = 0; // FramePlan::gbuffer_output_flags: its formats
     bool radiance = false;
+    bool visibility = false;
     bool device_pixels = false; // packed pixels are copied to the host rather than written there
 
     [[nodiscard]] bool covers(const TargetNeeds& other) const {
-        return (gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
+        const bool same_gbuffer = gbuffer && gbuffer_flags == other.gbuffer_flags;
+        return (same_gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
+               (visibility || !other.visibility) &&
                (device_pixels || !other.device_pixels);
     }
 };
@@ -30,6 +33,8 @@ struct ViewTargets {
     gpu::MemoryArena arena;
     gpu::Image depth;
     gpu::Image gbuffer;  // null handle: not needed
+    gpu::Image gbuffer_extra; // null handle: the layout has no second target
+    gpu::Image ids;      // of visible triangles; null handle: not needed
     gpu::Image radiance; // null handle: not needed
     gpu::Buffer pixels;  // null handle: not needed
     bool fresh = true;   // the images still await their first transition

@@ -3,6 +3,7 @@
 
 #include "interface/visibility_io.h"
 #include "render/draw_list.h"
+#include "render/visibility_scene.h"
 
 #include <span>
 #include <vector>
@@ -14,5 +15,11 @@ void placeInstances(const SceneResources& scene,
                     const view::Camera& camera,
                     std::span<const InstanceRows> rows,
                     std::vector<io::InstanceView>& out);
+
+// Indices of the placed meshlets, each group's near ones first: what lies behind is spared by the
+// depth test. In buckets of distance, and in their own order inside one. Pure.
+void orderMeshlets(const VisibilityScene& visibility,
+                   std::span<const InstanceRows> rows,
+                   std::vector<uint32_t>& order);
 
 } // namespace froxel::render

@@ -71,8 +71,7 @@ void drawGroup(const FrameContext& frame, uint32_t index) {
     cmd.bindPipeline(Point::eGraphics, scene.pipelines.raster(group.material_flags));
     const bool both_sides = (group.material_flags & io::kMaterialDoubleSided) != 0;
     cmd.setCullMode(both_sides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-    cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise
-                                    : vk::FrontFace::eCounterClockwise);
+    cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
     if ((group.material_flags & io::kMaterialMask) != 0) {
         cmd.bindDescriptorSets(Point::eGraphics, scene.pipelines.rasterLayout(), 1,
                                frame.scene.materialSet(group.material), {});
@@ -81,7 +80,7 @@ void drawGroup(const FrameContext& frame, uint32_t index) {
     const vk::DeviceSize first =
         vk::DeviceSize{group.blocks.first_block} * io::kCullGroup * kStride;
     if (frame.scene.device.traits().draw_indirect_count) {
-        cmd.drawIndexedIndirectCount(*scene.commands.handle, first, *scene.draw_counts.handle,
+        cmd.drawIndexedIndirectCount(*scene.commands.handle, first, *scene.counts.handle,
                                      index * sizeof(uint32_t), group.meshlet_count, kStride);
     } else {
         cmd.drawIndexedIndirect(*scene.commands.handle, first, group.meshlet_count, kStride);
@@ -97,13 +96,15 @@ void recordEmptyDraws(const FrameContext& frame) {
 void recordCull(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
     bindCompute(frame, frame.visibility->pipelines.cull());
-    push(frame, {frame.plan.cull_meshlets ? 0U : 1U, 0});
+    push(frame, {frame.plan.cull_meshlets ? 0U : 1U,
+                 static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
 void recordCompact(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "compact");
     bindCompute(frame, frame.visibility->pipelines.compact());
+    push(frame, {0, static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 

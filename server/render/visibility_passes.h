@@ -7,9 +7,9 @@
 namespace froxel::render {
 
 void recordEmptyDraws(const FrameContext& frame); // where draws cannot be counted on the device
-void recordCull(const FrameContext& frame);    // writes ranks and counts of the visible meshlets
-void recordCompact(const FrameContext& frame); // reads those; writes draws and their counts
-void recordVisibility(const FrameContext& frame);        // reads draws; writes depth, ids
+void recordCull(const FrameContext& frame);       // writes ranks and counts of the visible meshlets
+void recordCompact(const FrameContext& frame);    // reads those; writes draws and their counts
+void recordVisibility(const FrameContext& frame); // reads draws; writes depth, ids
 void recordVisibilityGbuffer(const FrameContext& frame); // reads depth, ids; writes G-buffer
 void recordVisibilityShade(const FrameContext& frame); // reads depth, ids; writes radiance, pixels
 

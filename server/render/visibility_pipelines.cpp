@@ -123,8 +123,8 @@ vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {
 vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
     return findOrMake(shade_, key, [&] {
         const bool batched = (key.light_flags & io::kLightBatched) != 0;
-        const auto plain =
-            bindless_ ? shaders::visibility_shade_bindless_comp() : shaders::visibility_shade_comp();
+        const auto plain = bindless_ ? shaders::visibility_shade_bindless_comp()
+                                     : shaders::visibility_shade_comp();
         const auto together = bindless_ ? shaders::visibility_shade_batched_bindless_comp()
                                         : shaders::visibility_shade_batched_comp();
         return gpu::makeComputePipeline(device_, batched ? together : plain, constants(key),

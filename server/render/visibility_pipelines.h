@@ -20,9 +20,7 @@ class VisibilityPipelines {
     }
 
     // texture_count: of the whole scene; 0 where materials are bound one at a time.
-    VisibilityPipelines(const gpu::Device& device,
-                        const Pipelines& shared,
-                        uint32_t texture_count);
+    VisibilityPipelines(const gpu::Device& device, const Pipelines& shared, uint32_t texture_count);
 
     // Depth and ids. material_flags: of a masked material, else of its faces alone.
     [[nodiscard]] vk::Pipeline raster(uint32_t material_flags);

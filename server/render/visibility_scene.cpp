@@ -20,7 +20,8 @@ bool solid(const DrawItem& item) {
     return (item.material_flags & io::kMaterialBlend) == 0;
 }
 
-// The flags that tell the raster pass's pipelines apart: all of a masked material's, else its faces.
+// The flags that tell the raster pass's pipelines apart: all of a masked material's, else its
+// faces.
 uint32_t rasterFlags(const DrawItem& item) {
     const bool masked = (item.material_flags & io::kMaterialMask) != 0;
     return masked ? item.material_flags : item.material_flags & io::kMaterialDoubleSided;
@@ -140,15 +141,17 @@ std::string VisibilityScene::unusable(const SceneResources& scene) {
 
 VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
     : arena(scene.device), pipelines(scene.device, scene.pipelines, textureCount(scene)) {
-    const Placer placed(scene);
-    groups = placed.groups;
-    triangle_count = placed.triangle_count;
-    block_count = static_cast<uint32_t>(placed.meshlets.size() / io::kCullGroup);
+    Placer placer(scene);
+    groups = std::move(placer.groups);
+    placed = std::move(placer.meshlets);
+    triangle_count = placer.triangle_count;
+    block_count = static_cast<uint32_t>(placed.size() / io::kCullGroup);
     std::vector<io::MeshletGroup> blocks;
     for (const auto& group : groups) {
         blocks.push_back(group.blocks);
     }
-    for (const auto& item : placed.items) {
+    for (const auto& item : placer.items) {
+        item_instances.push_back(item.instance);
         material_flags |= item.flags;
         materials_in_use.push_back(item.material_index);
     }
@@ -156,21 +159,19 @@ VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
     materials_in_use.erase(std::unique(materials_in_use.begin(), materials_in_use.end()),
                            materials_in_use.end());
 
-    items = uploadTable(arena, uploader, placed.items, "visible items");
-    meshlets = uploadTable(arena, uploader, placed.meshlets, "placed meshlets");
+    items = uploadTable(arena, uploader, placer.items, "visible items");
+    meshlets = uploadTable(arena, uploader, placed, "placed meshlets");
     group_buffer = uploadTable(arena, uploader, blocks, "meshlet groups");
     materials = uploadTable(arena, uploader, scene.material_uniforms, "materials (storage)");
     const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
         return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
                                 name);
     };
-    commands = scratch(placed.meshlets.size() * sizeof(io::DrawCommand),
-                       Usage::eIndirectBuffer | Usage::eTransferDst,
-                       "culled draws");
-    ranks = scratch(placed.meshlets.size() * sizeof(uint32_t), {}, "cull ranks");
-    block_counts = scratch(block_count * sizeof(uint32_t), {}, "cull block counts");
-    draw_counts =
-        scratch(groups.size() * sizeof(uint32_t), Usage::eIndirectBuffer, "culled draw counts");
+    commands = scratch(placed.size() * sizeof(io::DrawCommand),
+                       Usage::eIndirectBuffer | Usage::eTransferDst, "culled draws");
+    ranks = scratch(placed.size() * sizeof(uint32_t), {}, "cull ranks");
+    counts = scratch((groups.size() + block_count) * sizeof(uint32_t), Usage::eIndirectBuffer,
+                     "culled draw counts");
     if (textureCount(scene) > 0) {
         writeTextures(scene);
     }
@@ -231,13 +232,12 @@ void VisibilityFrame::write(const Bindings& bindings) {
         bindings.instances,
         whole(s.commands),
         whole(s.ranks),
-        whole(s.block_counts),
-        whole(s.draw_counts)};
-    const std::array images = {
-        vk::DescriptorImageInfo{.imageView = bindings.ids,
-                                .imageLayout = vk::ImageLayout::eGeneral},
-        vk::DescriptorImageInfo{.imageView = bindings.words,
-                                .imageLayout = vk::ImageLayout::eGeneral}};
+        whole(s.counts),
+        bindings.order};
+    const std::array images = {vk::DescriptorImageInfo{.imageView = bindings.ids,
+                                                       .imageLayout = vk::ImageLayout::eGeneral},
+                               vk::DescriptorImageInfo{.imageView = bindings.words,
+                                                       .imageLayout = vk::ImageLayout::eGeneral}};
     std::array<vk::WriteDescriptorSet, VisibilityPipelines::kBufferBindings + 2> writes;
     for (uint32_t i = 0; i < writes.size(); ++i) {
         writes[i] = {.dstSet = *set_,

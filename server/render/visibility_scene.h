@@ -1,5 +1,5 @@
-// What the visibility passes know of a scene: every solid meshlet where it is placed, in the order of
-// their draws, and all materials at once. Made when a frame first asks for it.
+// What the visibility passes know of a scene: every solid meshlet where it is placed, in the order
+// of their draws, and all materials at once. Made when a frame first asks for it.
 #pragma once
 
 #include "gpu/memory.h"
@@ -36,6 +36,8 @@ class VisibilityScene {
 
     std::vector<VisibilityGroup> groups;
     std::vector<uint32_t> materials_in_use;
+    std::vector<io::PlacedMeshlet> placed; // the host's copy, for ordering them
+    std::vector<uint32_t> item_instances;
     uint32_t block_count = 0;
     uint32_t material_flags = 0; // of any solid item
     uint32_t triangle_count = 0;
@@ -48,8 +50,7 @@ class VisibilityScene {
     // Written by culling; frames of all viewers follow each other on one queue.
     gpu::Buffer commands;
     gpu::Buffer ranks;
-    gpu::Buffer block_counts;
-    gpu::Buffer draw_counts;
+    gpu::Buffer counts;
 
     VisibilityPipelines pipelines;
 
@@ -74,6 +75,7 @@ class VisibilityFrame {
         const SceneResources& resources;
         const VisibilityScene& scene;
         vk::DescriptorBufferInfo instances; // io::InstanceView
+        vk::DescriptorBufferInfo order;     // of the placed meshlets
         vk::ImageView ids;
         vk::ImageView words; // G-buffer
     };

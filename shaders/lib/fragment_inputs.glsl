@@ -14,5 +14,3 @@ VertexData vertexData() {
     return VertexData(normal_view_in, uv0_in, vec2(0.0), vec4(1.0), vec4(0.0));
 #endif
 }
-
-bool maskedOut(vec4 base) { return hasMaterial(kMaterialMask) && base.a < material.alpha_cutoff; }

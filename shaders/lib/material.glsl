@@ -1,11 +1,12 @@
-// Set 1: a draw's material, and what it looks like at a fragment.
-
-layout(set = 1, binding = 0, scalar) uniform MaterialBlock { Material material; };
-layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
-layout(set = 1, binding = 2) uniform sampler2D normal_texture;
-layout(set = 1, binding = 3) uniform sampler2D metallic_roughness_texture;
-layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
-layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+// What a material looks like at a point of a surface.
+#ifdef FROXEL_VISIBILITY
+#include "lib/visibility_material.glsl"
+#else
+#include "lib/fragment_material.glsl"
+#endif
+#ifndef FROXEL_BINDLESS
+#include "lib/texel_pack.glsl"
+#endif
 
 // What the vertex stage hands on.
 struct VertexData {
@@ -24,10 +25,20 @@ vec2 slotUv(VertexData v, UvTransform t) {
     return vec2(dot(t.row0.xy, uv) + t.row0.z, dot(t.row1.xy, uv) + t.row1.z);
 }
 
+// The compiler merges calls for one fragment.
+PackSample packSample(VertexData v) {
+    vec2 uv = slotUv(v, material.uv_pack);
+    return samplePack(uv, uvDx(v, material.uv_pack), uvDy(v, material.uv_pack));
+}
+
 vec4 baseColor(VertexData v) {
     vec4 color = material.base_color;
-    if (hasMaterial(kMaterialBaseColorTexture)) {
-        color *= texture(base_color_texture, slotUv(v, material.uv_base_color));
+    if (hasMaterial(kMaterialPackedColor)) {
+        PackSample texel = packSample(v);
+        bool alpha = hasMaterial(kMaterialMask) || hasMaterial(kMaterialBlend);
+        color *= vec4(texel.color, alpha ? texel.rest.w : 1.0);
+    } else if (hasMaterial(kMaterialBaseColorTexture)) {
+        color *= sampleMaterial(base_color, v, material.uv_base_color);
     }
     if (hasMaterial(kMaterialExtended)) {
         color *= v.color;
@@ -35,12 +46,16 @@ vec4 baseColor(VertexData v) {
     return color;
 }
 
+bool maskedOut(vec4 base) { return hasMaterial(kMaterialMask) && base.a < material.alpha_cutoff; }
+
 // The tangent frame of a triangle from screen-space derivatives (Mikkelsen 2020, "Surface Gradient
 // Based Bump Mapping Framework"): constant over a triangle, right for mirrored texture coordinates,
 // and nothing to store. Derivatives are taken of the same values in every renderer.
 vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view) {
-    vec2 uv = slotUv(v, material.uv_normal);
-    vec3 sampled = texture(normal_texture, uv).xyz * 2.0 - 1.0;
+    vec3 stored = hasMaterial(kMaterialPackedNormal)
+                      ? packSample(v).rest.xyz
+                      : sampleMaterial(normal, v, material.uv_normal).xyz;
+    vec3 sampled = stored * 2.0 - 1.0;
     sampled.xy *= material.normal_scale;
     vec3 t;
     vec3 b;
@@ -48,10 +63,10 @@ vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view) {
         t = v.tangent_view.xyz;
         b = cross(n, t) * v.tangent_view.w;
     } else {
-        vec3 dpx = dFdx(position_view);
-        vec3 dpy = dFdy(position_view);
-        vec2 dux = dFdx(uv);
-        vec2 duy = dFdy(uv);
+        vec3 dpx = positionDx(position_view);
+        vec3 dpy = positionDy(position_view);
+        vec2 dux = uvDx(v, material.uv_normal);
+        vec2 duy = uvDy(v, material.uv_normal);
         vec3 across_x = cross(n, dpx);
         vec3 across_y = cross(dpy, n);
         // Gradients of u and v over the surface, up to a common factor. glTF's green channel
@@ -84,19 +99,21 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     g.normal_view = n;
     g.roughness = material.roughness;
     g.metallic = material.metallic;
-    if (hasMaterial(kMaterialRoughnessTexture)) {
-        vec4 mr = texture(metallic_roughness_texture, slotUv(v, material.uv_metallic_roughness));
+    if (hasMaterial(kMaterialPackedRoughness)) {
+        g.roughness *= packSample(v).rest.w; // the metalness is the same all over
+    } else if (hasMaterial(kMaterialRoughnessTexture)) {
+        vec4 mr = sampleMaterial(metallic_roughness, v, material.uv_metallic_roughness);
         g.roughness *= mr.g;
         g.metallic *= mr.b;
     }
     g.occlusion = 1.0;
     if (hasMaterial(kMaterialOcclusionTexture)) {
-        float r = texture(occlusion_texture, slotUv(v, material.uv_occlusion)).r;
+        float r = sampleMaterial(occlusion, v, material.uv_occlusion).r;
         g.occlusion = 1.0 + material.occlusion_strength * (r - 1.0);
     }
     g.emissive = material.emissive;
     if (hasMaterial(kMaterialEmissiveTexture)) {
-        g.emissive *= texture(emissive_texture, slotUv(v, material.uv_emissive)).rgb;
+        g.emissive *= sampleMaterial(emissive, v, material.uv_emissive).rgb;
     }
     g.unlit = hasMaterial(kMaterialUnlit);
     return g;
