@@ -12,11 +12,11 @@ const uint emissive_slot = 4u;
 
 // Only software rasterisers have packed texels.
 struct PackSample {
-    vec4 color;
+    vec3 color;
     vec4 rest;
 };
 PackSample samplePack(vec2 uv, vec2 duv_dx, vec2 duv_dy) {
-    return PackSample(vec4(1.0), vec4(1.0));
+    return PackSample(vec3(1.0), vec4(1.0));
 }
 #else
 #define MATERIAL_SET 3
