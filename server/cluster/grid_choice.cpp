@@ -147,7 +147,7 @@ std::string describe(const GridFacts& facts, const GridChoice& choice, const Exp
     return "tiles of " + std::to_string(choice.memory.tile_px) + " pixels and " +
            std::to_string(choice.memory.slices) + " slices: a pixel is expected to loop over " +
            rounded(expected.list_length) + " of " + std::to_string(facts.lights.light_count) +
-           " lights, lists to hold " + rounded(expected.entries) + " entries";
+           " lights";
 }
 
 } // namespace
