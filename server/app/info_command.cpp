@@ -2,8 +2,11 @@
 
 #include "app/device_summary.h"
 #include "app/info_report.h"
+#include "app/scene_camera.h"
 #include "app/scene_source.h"
+#include "app/timings_report.h"
 #include "gpu/device.h"
+#include "render/renderer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -32,18 +35,36 @@ Json limitsOf(const gpu::Device& device) {
             {"timestamp_period_ns", limits.timestampPeriod}};
 }
 
+// One frame with default settings from the scene's first camera: what the automatic choices are
+// there, what is left out and where memory goes is best told by doing it.
+Json drawOnce(gpu::Device& device, const scene::Scene& scene) {
+    view::ViewSettings settings;
+    settings.camera = findCamera(DefaultCamera{}, scene).value();
+    render::Renderer renderer(device, scene);
+    render::ViewRenderer viewer(renderer);
+    viewer.submit({.settings = settings}).value();
+    const auto frame = viewer.collect();
+    Json report = frameReport(frame.value().stats);
+    report["size_px"] = {settings.size.width_px, settings.size.height_px};
+    return report;
+}
+
 } // namespace
 
-void runInfo(const InfoOptions& options) {
+void runInfo(const InfoOptions& options) try {
     Json report;
+    gpu::Device device(options.device);
     if (!options.scene.empty()) {
-        report["scene"] = sceneReport(loadScene(options.scene).value());
+        const auto scene = loadScene(options.scene).value();
+        report["scene"] = sceneReport(scene);
+        report["frame"] = drawOnce(device, scene);
     }
-    const gpu::Device device(options.device);
     report["device"] = toJson(summarize(device.traits()));
     report["limits"] = limitsOf(device);
     const std::string text = options.json ? report.dump(2) + "\n" : toText(report);
     std::fputs(text.c_str(), stdout);
+} catch (const vk::SystemError& error) {
+    throw StartupError({ErrorCode::kDevice, std::string("Vulkan: ") + error.what()});
 }
 
 } // namespace froxel::app

@@ -13,7 +13,8 @@ struct InfoOptions {
     bool json = false;
 };
 
-// Prints to standard output. Throws StartupError.
+// Prints to standard output. With a scene it draws one frame with default settings, for what only a
+// frame knows: the grid that is chosen, the plan in words, memory by purpose. Throws StartupError.
 void runInfo(const InfoOptions& options);
 
 } // namespace froxel::app

@@ -37,10 +37,6 @@ std::string textOf(const view::Size& size) {
     return fmt::format("{}x{}", size.width_px, size.height_px);
 }
 
-std::string textOf(const view::GridSize& grid) {
-    return fmt::format("{}x{}x{}", grid.x, grid.y, grid.z);
-}
-
 template <class Names, class Enum>
 std::string textOf(const Names& names, Enum value) {
     return std::string(names[static_cast<size_t>(value)]);
@@ -87,6 +83,34 @@ std::string byDevice(Text text) {
     return cpu == gpu ? cpu : fmt::format("{} on a CPU device, {} on a GPU", cpu, gpu);
 }
 
+// What both pictures and first views take: where and how lights are added up.
+void addShading(CommandBuilder& command, view::ViewSettings& settings) {
+    command.name("--lighting", settings.lighting, view::kLightingStageNames,
+                 "Stage that adds lights up; auto: compute if deferred, else fragment");
+    command.name("--shading", settings.shading, view::kShadingModelNames,
+                 "Metallic-roughness, or its diffuse part alone");
+    const auto grid = [&settings](const std::string& text) {
+        return parseGridChoice(text, settings.grid);
+    };
+    command.value("--grid", "auto|XxYxZ", settings.grid, grid, "auto",
+                  fmt::format("Clusters across, down and deep, up to {}x{}x{}",
+                              view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+    command.name("--grid-law", settings.grid.law, view::kGridLawNames, "How slices divide depth");
+    command.name("--light-loop", settings.light_loop, view::kLightLoopNames,
+                 "Lights that a pixel loops over; auto: all where lists cannot pay");
+    command.name("--gbuffer-normal", settings.gbuffer.normal, view::kNormalEncodingNames,
+                 "How deferred renderers keep normals");
+    command.name("--gbuffer-position", settings.gbuffer.position, view::kPositionSourceNames,
+                 "Where deferred lighting takes positions from");
+    command.cli().add_flag("--count-pairs", settings.count_pairs,
+                           "Count evaluated and contributing (light, pixel) pairs (slower)");
+}
+
+void addLensShift(CommandBuilder& command, std::optional<glm::dvec2>& target) {
+    command.value("--lens-shift", "X,Y", target, parseLensShift, "the camera's",
+                  "The picture's middle off the view axis, right and up, in half pictures");
+}
+
 // What a viewer starts with; each may change it.
 void addFirstView(CommandBuilder& command, ServeOptions& options) {
     using Defaults = session::SessionDefaults;
@@ -107,6 +131,8 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
         "--renderer", options.renderer, view::kRendererNames,
         byDevice([](const Defaults& d) { return textOf(view::kRendererNames, d.renderer); }),
         "First renderer");
+    addShading(command, options.other);
+    addLensShift(command, options.lens_shift);
 }
 
 void addServe(CLI::App& app, Targets& targets) {
@@ -166,17 +192,14 @@ void addRender(CLI::App& app, Targets& targets) {
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
     command.name("--renderer", settings.renderer, view::kRendererNames, "How to draw");
-    command.name("--lighting", settings.lighting, view::kLightingStageNames,
-                 "Stage of deferred lighting");
-    command.value("--grid", "XxYxZ", settings.grid.size, parseGrid, textOf(settings.grid.size),
-                  fmt::format("Clusters across, down and deep, up to {}x{}x{}",
-                              view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+    addShading(command, settings);
     addLights(command, settings.lights);
     command.number("--time", options.time_s, view::kTimeRange, "The lights' clock in seconds");
     command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),
                   sizeHelp("Picture"));
     command.value("--camera", "CAMERA", options.camera, parseCamera, "the scene's first",
                   "Its name, or \"ex,ey,ez;tx,ty,tz;fov\" in metres and degrees");
+    addLensShift(command, options.lens_shift);
     command.number("--exposure", settings.exposure, view::kExposureRange,
                    "Multiplies linear radiance");
     command.name("--tone-map", settings.tone_map, view::kToneMapNames, "After the exposure");

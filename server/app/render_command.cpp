@@ -105,6 +105,8 @@ void runRender(const RenderOptions& options) try {
     gpu::Device device(options.device);
     auto run = describeRun(options, device.traits());
     run.settings.camera = findCamera(options.camera, scene).value();
+    auto& lens_shift = run.settings.camera.lens_shift;
+    lens_shift = options.lens_shift.value_or(lens_shift);
     render::Renderer renderer(device, scene);
     render::ViewRenderer viewer(renderer);
     const auto last = drawAll(options, viewer, run);

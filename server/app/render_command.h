@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace froxel::app {
@@ -19,7 +20,8 @@ struct RenderOptions {
     gpu::DeviceOptions device;
     view::ViewSettings settings; // but for the camera, which `camera` chooses
     CameraChoice camera;
-    double time_s = 0; // the lights' clock of the first frame
+    std::optional<glm::dvec2> lens_shift; // of whichever camera it is
+    double time_s = 0;                    // the lights' clock of the first frame
     view::Encoding encoding;
     std::filesystem::path out; // empty: no picture; else .png, .jpg or .pfm, of the last frame
     uint32_t frame_count = 1;  // frame k is drawn at time_s + k * kFrameStepS

@@ -35,6 +35,8 @@ session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_
     defaults.light_radius_m = static_cast<float>(
         options.light_radius_m.value_or(static_cast<double>(defaults.light_radius_m)));
     defaults.renderer = options.renderer.value_or(defaults.renderer);
+    defaults.other = options.other;
+    defaults.lens_shift = options.lens_shift;
     return defaults;
 }
 

@@ -26,6 +26,8 @@ struct ServeOptions {
     std::optional<uint32_t> light_count;
     std::optional<double> light_radius_m;
     std::optional<view::Renderer> renderer;
+    view::ViewSettings other; // of the first view, what the fields above and the camera do not say
+    std::optional<glm::dvec2> lens_shift;
     // The built page. Empty: web/ beside the binary, else where this build made it.
     std::filesystem::path web_root;
     // Origins ("https://example.org") that may connect besides the server's own.

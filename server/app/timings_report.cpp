@@ -31,13 +31,19 @@ Json toJson(std::vector<double> samples) {
 Json toJson(const view::Camera& camera) {
     Json json = {{"eye", toJson(camera.eye_world)},
                  {"target", toJson(camera.target_world())},
-                 {"up", toJson(camera.world_from_view[1])}};
+                 {"up", toJson(camera.world_from_view[1])},
+                 {"lens_shift", {camera.lens_shift.x, camera.lens_shift.y}}};
     if (camera.projection == view::Projection::kPerspective) {
         json["yfov_deg"] = glm::degrees(camera.yfov_rad);
     } else {
         json["half_height_m"] = camera.half_height_m;
     }
     return json;
+}
+
+template <class Sides>
+Json sizeOf(const Sides& sides) {
+    return {sides.x, sides.y, sides.z};
 }
 
 Json toJson(const view::Lights& lights) {
@@ -59,27 +65,34 @@ Json toJson(const view::ViewSettings& settings) {
     };
     return {{"renderer", nameOf(view::kRendererNames, settings.renderer)},
             {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
+            {"shading", nameOf(view::kShadingModelNames, settings.shading)},
+            {"gbuffer",
+             {{"normal", nameOf(view::kNormalEncodingNames, settings.gbuffer.normal)},
+              {"position", nameOf(view::kPositionSourceNames, settings.gbuffer.position)}}},
             {"width_px", settings.size.width_px},
             {"height_px", settings.size.height_px},
-            {"grid", {settings.grid.size.x, settings.grid.size.y, settings.grid.size.z}},
+            {"grid", settings.grid.automatic ? Json("auto") : sizeOf(settings.grid.size)},
+            {"grid_law", nameOf(view::kGridLawNames, settings.grid.law)},
+            {"light_loop", nameOf(view::kLightLoopNames, settings.light_loop)},
+            {"count_pairs", settings.count_pairs},
             {"camera", toJson(settings.camera)},
             {"lights", toJson(settings.lights)},
             {"exposure", settings.exposure},
             {"tone_map", nameOf(view::kToneMapNames, settings.tone_map)}};
 }
 
-Json toJson(const FrameStats& stats) {
-    const auto& lists = stats.lists;
-    return {{"triangles", stats.triangle_count},
-            {"draws", stats.draw_count},
-            {"light_lists",
-             {{"lights", lists.light_count},
-              {"clusters", lists.cluster_count},
-              {"empty", lists.empty_count},
-              {"entries", lists.entry_count},
-              {"largest", lists.largest},
-              {"overflowed", lists.overflowed},
-              {"mean", lists.mean}}}};
+Json toJson(const LightListStats& lists) {
+    return {{"lights", lists.light_count},
+            {"clusters", lists.cluster_count},
+            {"empty", lists.empty_count},
+            {"entries", lists.entry_count},
+            {"largest", lists.largest},
+            {"overflowed", lists.overflowed},
+            {"mean", lists.mean},
+            {"p95", lists.p95},
+            {"bytes", lists.bytes},
+            {"all_lights", lists.all_lights},
+            {"why", lists.why}};
 }
 
 Json frameTimes(const std::vector<FrameStats>& frames) {
@@ -116,7 +129,39 @@ Json passTimes(const std::vector<FrameStats>& frames) {
     return json;
 }
 
+Json toJson(const GridStats& grid) {
+    if (grid.x == 0) {
+        return nullptr;
+    }
+    return {{"size", sizeOf(grid)},        {"tile_px", {grid.tile_width_px, grid.tile_height_px}},
+            {"near_m", grid.near_m},       {"far_m", grid.far_m},
+            {"automatic", grid.automatic}, {"why", grid.why}};
+}
+
+Json toJson(const PairStats& pairs) {
+    return pairs.counted
+               ? Json{{"evaluated", pairs.evaluated}, {"contributing", pairs.contributing}}
+               : Json(nullptr);
+}
+
+Json memoryOf(const FrameDetails& details) {
+    Json memory = Json::object();
+    for (const auto& use : details.memory) {
+        memory[use.purpose] = use.bytes;
+    }
+    return memory;
+}
+
 } // namespace
+
+Json frameReport(const FrameStats& stats) {
+    const FrameDetails none;
+    const FrameDetails& details = stats.details ? *stats.details : none;
+    return {{"triangles", stats.triangle_count}, {"draws", stats.draw_count},
+            {"grid", toJson(stats.grid)},        {"light_lists", toJson(stats.lists)},
+            {"pairs", toJson(stats.pairs)},      {"plan", details.plan},
+            {"memory_bytes", memoryOf(details)}};
+}
 
 Json timingsReport(const TimedRun& run) {
     return {{"schema", "froxel.timings.v1"},
@@ -131,7 +176,7 @@ Json timingsReport(const TimedRun& run) {
             {"step_s", run.step_s},
             {"frame", frameTimes(run.frames)},
             {"passes", passTimes(run.frames)},
-            {"last_frame", toJson(run.frames.back())}};
+            {"last_frame", frameReport(run.frames.back())}};
 }
 
 } // namespace froxel::app

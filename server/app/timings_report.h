@@ -14,8 +14,7 @@
 //                     host_us: host work up to submission; frame_us: from submission's call to
 //                     readable pixels on the host's clock
 //   passes            [{name, frames, gpu_us}]: in the order of first use; frames: how many had it
-//   last_frame        {triangles, draws, light_lists: {lights, clusters, empty, entries, largest,
-//                     overflowed, mean}}
+//   last_frame        frameReport()
 //
 // Each *_us under frame and passes is {min, median, p95, max} in microseconds.
 #pragma once
@@ -43,5 +42,14 @@ struct TimedRun {
 };
 
 [[nodiscard]] nlohmann::ordered_json timingsReport(const TimedRun& run);
+
+//   triangles, draws
+//   grid          {size, tile_px, near_m, far_m, automatic, why}: the one in use; null: none
+//   light_lists   {lights, clusters, empty, entries, largest, overflowed, mean, p95, bytes,
+//                 all_lights, why}
+//   pairs         {evaluated, contributing}: (light, pixel) pairs; null: not counted
+//   plan          a line each: what the frame's variant leaves out, and why
+//   memory_bytes  {purpose: bytes} of the device's memory
+[[nodiscard]] nlohmann::ordered_json frameReport(const FrameStats& stats);
 
 } // namespace froxel::app

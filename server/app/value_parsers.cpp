@@ -124,10 +124,37 @@ Result<view::GridSize> parseGrid(std::string_view text) {
             return view::GridSize{*x, *y, *z};
         }
     }
-    return invalid(text, fmt::format("XxYxZ clusters from {}x{}x{} to {}x{}x{}, such as 16x9x24",
-                                     view::kGridXRange.min, view::kGridYRange.min,
-                                     view::kGridZRange.min, view::kGridXRange.max,
-                                     view::kGridYRange.max, view::kGridZRange.max));
+    return invalid(
+        text, fmt::format("auto or XxYxZ clusters from {}x{}x{} to {}x{}x{}, such as 16x9x24",
+                          view::kGridXRange.min, view::kGridYRange.min, view::kGridZRange.min,
+                          view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+}
+
+Result<view::Grid> parseGridChoice(std::string_view text, const view::Grid& before) {
+    view::Grid grid = before;
+    grid.automatic = text == "auto";
+    if (!grid.automatic) {
+        const auto size = parseGrid(text);
+        if (!size) {
+            return size.error();
+        }
+        grid.size = *size;
+    }
+    return grid;
+}
+
+Result<glm::dvec2> parseLensShift(std::string_view text) {
+    const auto parts = split(text, ',');
+    if (parts.size() == 2) {
+        const auto x = readInRange(parts[0], view::kLensShiftXRange);
+        const auto y = readInRange(parts[1], view::kLensShiftYRange);
+        if (x && y) {
+            return glm::dvec2(*x, *y);
+        }
+    }
+    return invalid(text, fmt::format("\"x,y\" in half pictures, each from {} to {}, such as "
+                                     "\"0,0.5\"",
+                                     view::kLensShiftXRange.min, view::kLensShiftXRange.max));
 }
 
 Result<BoundsD3> parseBox(std::string_view text) {

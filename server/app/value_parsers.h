@@ -23,7 +23,7 @@ struct DefaultCamera {
 };
 using CameraChoice = std::variant<DefaultCamera, std::string, view::Camera>;
 
-// "a whole number from 0 to 100000": for messages and help.
+// "a whole number from 0 to 1000000": for messages and help.
 [[nodiscard]] std::string describe(const view::Range<uint32_t>& range);
 [[nodiscard]] std::string describe(const view::Range<double>& range);
 // "naive, forward_plus or toon_compute": for messages and help.
@@ -42,6 +42,12 @@ using CameraChoice = std::variant<DefaultCamera, std::string, view::Camera>;
 
 // "16x9x24": tiles across, tiles down, depth slices.
 [[nodiscard]] Result<view::GridSize> parseGrid(std::string_view text);
+
+// "auto", or a size as above, which is not automatic; the law stays as in `before`.
+[[nodiscard]] Result<view::Grid> parseGridChoice(std::string_view text, const view::Grid& before);
+
+// "0.5,-1": right and up, in half pictures.
+[[nodiscard]] Result<glm::dvec2> parseLensShift(std::string_view text);
 
 // "x,y,z;x,y,z" in metres: the least corner, then the greatest, apart on every axis.
 [[nodiscard]] Result<BoundsD3> parseBox(std::string_view text);

@@ -125,6 +125,18 @@ class CommandLine(unittest.TestCase):
             self.assertLessEqual(times["median"], times["p95"])
             self.assertLessEqual(times["p95"], times["max"])
         self.assertGreater(report["frame"]["gpu_us"]["min"], 0)
+        last = report["last_frame"]
+        self.assertTrue(last["grid"]["automatic"])
+        self.assertEqual(len(last["grid"]["size"]), 3)
+        self.assertIsNone(last["pairs"])
+
+    def test_settings_that_never_change_the_picture_do_not(self):
+        first = self.render("a.pfm")
+        for options in (["--grid", "7x5x9"], ["--grid-law", "linear"],
+                        ["--light-loop", "all_lights"], ["--lighting", "fragment"]):
+            self.assertEqual(first, self.render("b.pfm", *options), options)
+        self.assertNotEqual(first, self.render("c.pfm", "--shading", "lambert"))
+        self.assertNotEqual(first, self.render("c.pfm", "--lens-shift", "0.5,0"))
 
     def test_info_as_json_is_all_that_stdout_has(self):
         run = froxel("info", "--device", "cpu", "--scene", "builtin", "--json",
@@ -135,6 +147,8 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(len(report["scene"]["cameras"]), 5)
         self.assertEqual(report["device"]["kind"], "cpu")
         self.assertGreater(report["limits"]["max_picture_side_px"], 0)
+        self.assertTrue(report["frame"]["grid"]["automatic"])
+        self.assertIn("memory_bytes", report["frame"])
 
     def test_scene_writes_the_hall_and_reads_it_back(self):
         hall = self.folder / "hall.glb"

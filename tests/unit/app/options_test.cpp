@@ -57,6 +57,19 @@ TEST(Options, RenderWithAll_FillsEveryField) {
                                       "-7,2,0;0,2,0;45",
                                       "--grid",
                                       "15x15x15",
+                                      "--grid-law",
+                                      "hyperbolic",
+                                      "--light-loop",
+                                      "all_lights",
+                                      "--shading",
+                                      "lambert",
+                                      "--gbuffer-normal",
+                                      "oct10",
+                                      "--gbuffer-position",
+                                      "fp16",
+                                      "--count-pairs",
+                                      "--lens-shift",
+                                      "0,0.5",
                                       "--frames",
                                       "20",
                                       "--timings",
@@ -82,7 +95,13 @@ TEST(Options, RenderWithAll_FillsEveryField) {
     EXPECT_EQ(options.time_s, 2.5);
     EXPECT_EQ(options.settings.size, (view::Size{640, 361}));
     EXPECT_EQ(std::get<view::Camera>(options.camera).eye_world, glm::dvec3(-7, 2, 0));
-    EXPECT_EQ(options.settings.grid.size, (view::GridSize{15, 15, 15}));
+    EXPECT_EQ(options.settings.grid, (view::Grid{false, {15, 15, 15}, view::GridLaw::kHyperbolic}));
+    EXPECT_EQ(options.settings.light_loop, view::LightLoop::kAllLights);
+    EXPECT_EQ(options.settings.shading, view::ShadingModel::kLambert);
+    EXPECT_EQ(options.settings.gbuffer,
+              (view::GbufferLayout{view::NormalEncoding::kOct10, view::PositionSource::kFp16}));
+    EXPECT_TRUE(options.settings.count_pairs);
+    EXPECT_EQ(options.lens_shift, glm::dvec2(0, 0.5));
     EXPECT_EQ(options.frame_count, 20U);
     EXPECT_EQ(options.timings, "t.json");
     EXPECT_EQ(options.out, "a.png");
@@ -109,6 +128,7 @@ TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
     EXPECT_EQ(serve.port, 8080);
     EXPECT_EQ(serve.address, "127.0.0.1");
     EXPECT_FALSE(serve.size || serve.quality || serve.light_count || serve.renderer);
+    EXPECT_EQ(serve.other, view::ViewSettings{});
     EXPECT_EQ(options.log_level, LogLevel::kInfo);
 }
 
@@ -130,6 +150,14 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "3",
                                 "--renderer",
                                 "naive",
+                                "--lighting",
+                                "compute",
+                                "--grid",
+                                "4x5x6",
+                                "--light-loop",
+                                "lists",
+                                "--lens-shift",
+                                "-1,1",
                                 "--max-sessions",
                                 "2",
                                 "--web-root",
@@ -151,6 +179,10 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.light_count, 7U);
     EXPECT_EQ(serve.light_radius_m, 3.0);
     EXPECT_EQ(serve.renderer, view::Renderer::kNaive);
+    EXPECT_EQ(serve.other.lighting, view::LightingStage::kCompute);
+    EXPECT_EQ(serve.other.grid, (view::Grid{.automatic = false, .size = {4, 5, 6}}));
+    EXPECT_EQ(serve.other.light_loop, view::LightLoop::kLists);
+    EXPECT_EQ(serve.lens_shift, glm::dvec2(-1, 1));
     EXPECT_EQ(serve.sessions_max, 2U);
     EXPECT_EQ(serve.web_root, "page");
     EXPECT_THAT(serve.allowed_origins,
@@ -170,8 +202,8 @@ TEST(Options, InfoAndScene_AreParsed) {
 TEST(Options, Help_IsTextWithUnitsRangesAndDefaults) {
     const auto text = std::get<PrintText>(parse({"render", "--help"}).command).text;
     for (const char* part :
-         {"--light-radius N ", "in metres; 0.001 to 10000 [2]", "[16x9x24]", "16x16 to 4096x4096",
-          "[1]", "naive, forward_plus", "Exit codes: 0 done, 2 usage"}) {
+         {"--light-radius N ", "in metres; 0.001 to 10000 [2]", "auto|XxYxZ", "[auto]",
+          "16x16 to 4096x4096", "[1]", "naive, forward_plus", "Exit codes: 0 done, 2 usage"}) {
         EXPECT_THAT(text, HasSubstr(part));
     }
     EXPECT_THAT(std::get<PrintText>(parse({"--help"}).command).text, HasSubstr("serve"));
@@ -210,8 +242,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{}, {"serve, render, info or scene", "froxel --help"}},
         Refusal{{"draw"}, {"draw", "froxel --help"}},
         Refusal{{"render"}, {"--out FILE", "--timings FILE"}},
-        Refusal{{"render", "--out", "a.png", "--lights", "100001"},
-                {"--lights", "'100001'", "from 0 to 100000", "froxel render --help"}},
+        Refusal{{"render", "--out", "a.png", "--lights", "1000001"},
+                {"--lights", "'1000001'", "from 0 to 1000000", "froxel render --help"}},
         Refusal{{"render", "--out", "a.png", "--lights", "7x"}, {"--lights", "'7x'"}},
         Refusal{{"render", "--out", "a.png", "--light-radius", "nan"},
                 {"--light-radius", "'nan'", "0.001 to 10000"}},

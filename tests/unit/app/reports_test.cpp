@@ -67,7 +67,37 @@ TEST(TimingsReport, Settings_AreRecorded) {
     EXPECT_EQ(settings["camera"]["eye"], nlohmann::json({-7.0, 2.0, 0.0}));
     EXPECT_EQ(settings["camera"]["target"], nlohmann::json({0.0, 2.0, 0.0}));
     EXPECT_EQ(settings["lights"]["box_m"]["max"], nlohmann::json({10.0, 8.0, 5.0}));
-    EXPECT_EQ(settings["grid"], nlohmann::json({16, 9, 24}));
+    EXPECT_EQ(settings["grid"], "auto");
+    EXPECT_EQ(settings["shading"], "pbr");
+    EXPECT_EQ(settings["gbuffer"]["normal"], "oct16");
+    run.settings.grid.automatic = false;
+    EXPECT_EQ(timingsReport(run)["settings"]["grid"], nlohmann::json({16, 9, 24}));
+}
+
+TEST(FrameReport, WhatAFrameDoesNotHave_IsNullOrEmpty) {
+    const auto report = frameReport({});
+    EXPECT_TRUE(report["grid"].is_null());
+    EXPECT_TRUE(report["pairs"].is_null());
+    EXPECT_TRUE(report["plan"].empty());
+    EXPECT_TRUE(report["memory_bytes"].is_object());
+}
+
+TEST(FrameReport, GridListsPairsPlanAndMemory_AreThere) {
+    FrameStats stats;
+    stats.grid = {30, 17, 32, 64, 60, 0.25, 40, true, "cheapest"};
+    stats.lists.p95 = 88;
+    stats.lists.why = "lists pay";
+    stats.pairs = {true, 100, 25};
+    stats.details =
+        std::make_shared<const FrameDetails>(FrameDetails{{"no masks"}, {{"textures", 7}}});
+    const auto report = frameReport(stats);
+    EXPECT_EQ(report["grid"]["size"], nlohmann::json({30, 17, 32}));
+    EXPECT_EQ(report["grid"]["why"], "cheapest");
+    EXPECT_EQ(report["light_lists"]["p95"], 88);
+    EXPECT_EQ(report["light_lists"]["why"], "lists pay");
+    EXPECT_EQ(report["pairs"]["contributing"], 25);
+    EXPECT_EQ(report["plan"][0], "no masks");
+    EXPECT_EQ(report["memory_bytes"]["textures"], 7);
 }
 
 scene::Scene triangleTwice() {

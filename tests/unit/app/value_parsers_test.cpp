@@ -34,14 +34,14 @@ class BadWhole : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(BadWhole, Parsed_RefusedWithRange) {
     expectRefused(parseNumber(GetParam(), view::kLightCountRange), GetParam(),
-                  "a whole number from 0 to 100000");
+                  "a whole number from 0 to 1000000");
 }
 
 INSTANTIATE_TEST_SUITE_P(
     ParseNumber,
     BadWhole,
     testing::Values(
-        "", " 1", "1 ", "-1", "+1", "100001", "1.5", "1e3", "0x10", "99999999999999999999", "ten"));
+        "", " 1", "1 ", "-1", "+1", "1000001", "1.5", "1e3", "0x10", "99999999999999999999", "ten"));
 
 class BadReal : public testing::TestWithParam<std::string_view> {};
 
@@ -100,6 +100,22 @@ TEST(ParseGrid, SeedGrids_Accepted) {
 TEST(ParseGrid, OutOfRange_RefusedWithRange) {
     for (const char* text : {"0x9x24", "16x129x24", "16x9x257", "16x9", "16x9x24x1", "axbxc"}) {
         expectRefused(parseGrid(text), text, "from 1x1x1 to 128x128x256");
+    }
+}
+
+TEST(ParseGridChoice, AutoOrASize_KeepsTheLaw) {
+    const view::Grid before{.automatic = true, .size = {}, .law = view::GridLaw::kLinear};
+    const view::Grid sized = parseGridChoice("3x4x5", before).value();
+    EXPECT_EQ(sized, (view::Grid{false, {3, 4, 5}, view::GridLaw::kLinear}));
+    EXPECT_EQ(parseGridChoice("auto", sized).value(),
+              (view::Grid{true, {3, 4, 5}, view::GridLaw::kLinear}));
+    expectRefused(parseGridChoice("automatic", before), "automatic", "auto or XxYxZ");
+}
+
+TEST(ParseLensShift, TwoNumbers_Accepted) {
+    EXPECT_EQ(parseLensShift("-64,0.5").value(), glm::dvec2(-64, 0.5));
+    for (const char* text : {"", "1", "1,", "1,2,3", "nan,0", "0,64.1", "0;0"}) {
+        expectRefused(parseLensShift(text), text, "from -64 to 64");
     }
 }
 
