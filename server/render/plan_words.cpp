@@ -156,6 +156,9 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     lines.emplace_back(plan.transparent ? "transparent surfaces in view: sorted and blended"
                                         : "no transparent surface in view: no sort, no blend pass");
     lines.push_back(toneMapWords(facts, plan));
+    if (plan.count_pairs) {
+        lines.emplace_back("light-pixel pairs are counted, in a pass of its own");
+    }
     if (!plan.radiance) {
         lines.emplace_back("nobody reads linear radiance: no target for it");
     }

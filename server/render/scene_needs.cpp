@@ -36,9 +36,9 @@ uint32_t materialFlags(const scene::Material& m) {
     return flags;
 }
 
-bool needsWide(const scene::Material& m) {
+bool needsWide(const scene::Material& m, bool metalness) {
     return m.alpha_mode != scene::AlphaMode::kBlend &&
-           (m.metallic != 0 || m.unlit || m.emissive != glm::vec3(0) ||
+           ((metalness && m.metallic != 0) || m.unlit || m.emissive != glm::vec3(0) ||
             m.occlusion_texture.texture != scene::kNone);
 }
 
@@ -48,7 +48,8 @@ SceneNeeds findNeeds(const scene::Scene& scene) {
     SceneNeeds needs;
     for (const auto& material : scene.materials) {
         needs.material_flags.push_back(materialFlags(material));
-        needs.wide_gbuffer |= needsWide(material);
+        needs.wide_gbuffer |= needsWide(material, true);
+        needs.wide_lambert |= needsWide(material, false);
         needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;
         needs.blended |= material.alpha_mode == scene::AlphaMode::kBlend;
     }

@@ -11,6 +11,7 @@ namespace froxel::render {
 struct SceneNeeds {
     std::vector<uint32_t> material_flags; // io::kMaterial* of each material
     bool wide_gbuffer = false;            // metalness, occlusion, emission or unlit somewhere
+    bool wide_lambert = false;            // the same without metalness
     bool masked = false;
     bool blended = false;
     uint32_t primitive_count = 0;

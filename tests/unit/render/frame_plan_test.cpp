@@ -106,6 +106,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "and finds what the toon pass made of it"},
         {!p.lists || (facts.local_lights && !facts.all_lights), "lists only of local lights"},
         {!p.lists || settings.renderer != Renderer::kNaive, "naive has no lists"},
+        {p.count_pairs == (settings.count_pairs && facts.local_lights),
+         "pairs are counted where asked and there are any"},
         {p.gbuffer || p.gbuffer_output_flags == 0, "no layout without a G-buffer"},
         {!p.gbuffer || has(p.gbuffer_output_flags, io::kOutputWideGbuffer) == facts.wide_gbuffer,
          "wide if the scene needs it"},
@@ -168,7 +170,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
 TEST(FramePlan, EveryCombination_KeepsTheRules) {
     constexpr uint32_t kFacts = 14;
     view::ViewSettings settings;
-    for (uint32_t setting = 0; setting < 5 * 3 * 2 * 2 * 3; ++setting) {
+    for (uint32_t setting = 0; setting < 5 * 3 * 2 * 2 * 3 * 2; ++setting) {
         uint32_t rest = setting;
         const auto next = [&rest](uint32_t count) {
             const uint32_t value = rest % count;
@@ -180,6 +182,7 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
         settings.shading = static_cast<view::ShadingModel>(next(2));
         settings.tone_map = static_cast<view::ToneMap>(next(2));
         settings.grid.law = static_cast<view::GridLaw>(next(3));
+        settings.count_pairs = next(2) != 0;
         for (uint32_t bits = 0; bits < (1U << kFacts); ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
             const FrameFacts facts{.wide_gbuffer = has(0),
