@@ -24,7 +24,6 @@ constexpr std::chrono::seconds kIdleTimeout{20};
 // Beast's idle timer is re-armed by reads alone, so a client that sends but never reads would pin
 // a write for ever. The allowance lets a large picture through a link of 0.5 Mbit/s.
 constexpr std::chrono::seconds kWriteTimeout{5};
-constexpr std::chrono::seconds kLinger{2};
 constexpr size_t kSlowestBytesPerSecond = size_t{64} * 1024;
 
 std::string peerName(const beast::tcp_stream& stream) {
@@ -43,9 +42,9 @@ protocol::ByteSpan bytesOf(const beast::flat_buffer& buffer) {
 WsConnection::WsConnection(beast::tcp_stream stream,
                            std::shared_ptr<const Site> site,
                            ConnectionTicket ticket)
-    : stream_(std::move(stream)), site_(std::move(site)), ticket_(std::move(ticket)),
-      peer_(peerName(stream_.next_layer())), hello_deadline_(stream_.get_executor()),
-      write_deadline_(stream_.get_executor()) {}
+    : stream_(LingeringStream(std::move(stream))), site_(std::move(site)),
+      ticket_(std::move(ticket)), peer_(peerName(stream_.next_layer())),
+      hello_deadline_(stream_.get_executor()), write_deadline_(stream_.get_executor()) {}
 
 WsConnection::~WsConnection() = default;
 
@@ -202,7 +201,7 @@ void WsConnection::onWritten(ErrorCode error) {
 // and lose that.
 void WsConnection::linger() {
     lingering_ = true;
-    write_deadline_.expires_after(kLinger);
+    write_deadline_.expires_after(2 * LingeringStream::kLinger);
     write_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
         if (!error) {
             self->abandon("nothing can be written");

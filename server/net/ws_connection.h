@@ -4,6 +4,7 @@
 
 #include "net/conversation.h"
 #include "net/http_routes.h"
+#include "net/lingering_stream.h"
 #include "net/site.h"
 
 #include <boost/asio/steady_timer.hpp>
@@ -39,7 +40,7 @@ class WsConnection final : public session::FrameSink,
     void onServiceChanged() override;
 
   private:
-    using Stream = boost::beast::websocket::stream<boost::beast::tcp_stream>;
+    using Stream = boost::beast::websocket::stream<LingeringStream>;
     using ErrorCode = boost::beast::error_code;
 
     template <class Work>

@@ -121,6 +121,7 @@ TEST_F(CommandsTest, EveryCommand_Valid_ChangesTheState) {
     const v1::ViewState gridded = change(message);
     EXPECT_EQ(gridded.grid().y(), 14U);
     EXPECT_FALSE(gridded.grid_automatic());
+    message.mutable_set_grid()->clear_grid();
     message.mutable_set_grid()->set_automatic(true);
     message.mutable_set_grid()->set_law(v1::GRID_LAW_LINEAR);
     const v1::ViewState automatic = change(message);

@@ -90,7 +90,8 @@ TEST(Messages, OverTheCapWhilePicturesFlow_CloseWithTooBig) {
         client.join();
         client.expectFrame();
         client.sendRaw(std::string(size_t{200} * 1024, 'x'), WireFormat::kBinary);
-        ASSERT_EQ(client.expectClosed().code, 1009) << i;
+        const Closed closed = client.expectClosed();
+        ASSERT_EQ(closed.code, 1009) << i << " " << closed.reason;
     }
 }
 
