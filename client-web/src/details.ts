@@ -1,5 +1,5 @@
 // The fold of the statistics card: how well the light lists fit, which grid was chosen and why, what
-// this view's renderer leaves out, and where the device's memory goes.
+// this view needs and leaves out, and where the device's memory goes.
 
 import { element, make } from './dom';
 import { bytes, count, gridText, percent } from './format';
@@ -20,6 +20,9 @@ export function listRows(header: FrameHeader): Row[] {
     { name: '… empty', value: count(header.listEmpty) },
     { name: 'Lists in memory', value: bytes(Number(header.listBytes)) },
   ];
+  if (header.listRedraws > 0) {
+    rows.push({ name: 'Drawn again', value: `${header.listRedraws} × for longer lists` });
+  }
   if (!pairs) return rows;
   const share = percent(Number(pairs.contributing), Number(pairs.evaluated));
   return [

@@ -4,7 +4,7 @@ import { Details } from './details';
 import { element, make } from './dom';
 import { bytes, count, gridText, ms } from './format';
 import { Graph } from './graph';
-import type { FrameDetails, FrameHeader } from './gen/froxel/v1/server_pb';
+import type { FrameDetails } from './gen/froxel/v1/server_pb';
 import { kStages, type Figures, type Stats } from './stats';
 
 const kRefreshMs = 250;
@@ -14,12 +14,6 @@ const kGraphHeight = 84;
 interface Bar {
   readonly name: string;
   readonly ms: number;
-}
-
-function listText({ allLights, listsOverflowed, ...header }: FrameHeader): string {
-  if (allLights || listsOverflowed) return 'all lights';
-  const { listMean, listP95, listLargest } = header;
-  return `${listMean.toFixed(1)} · ${count(listP95)} · ${count(listLargest)}`;
 }
 
 export class Overlay {
@@ -80,7 +74,10 @@ export class Overlay {
     this.value('GPU · encode', '', `${ms(last.gpuUs / 1000)} · ${ms(last.encodeUs / 1000)}`);
     this.value('Triangles', '', count(last.triangles));
     this.value('Lights', '', count(last.lightCount));
-    this.value('Lists mean · p95 · largest', '', listText(last));
+    const lists = !last.allLights && !last.listsOverflowed;
+    const usual = `${last.listMean.toFixed(1)} · ${count(last.listP95)}`;
+    this.value('List mean · p95', '', lists ? usual : 'all lights');
+    this.value('Largest list', '', lists ? count(last.listLargest) : '–');
     this.value('Grid', '', last.grid ? gridText(last.grid) : '–');
     const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
     this.value('Dropped server · here', '', dropped);

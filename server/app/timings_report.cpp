@@ -88,6 +88,7 @@ Json toJson(const LightListStats& lists) {
             {"entries", lists.entry_count},
             {"largest", lists.largest},
             {"overflowed", lists.overflowed},
+            {"redraws", lists.redraw_count},
             {"mean", lists.mean},
             {"p95", lists.p95},
             {"bytes", lists.bytes},

@@ -45,7 +45,7 @@ struct TimedRun {
 
 //   triangles, draws
 //   grid          {size, tile_px, near_m, far_m, automatic, why}: the one in use; null: none
-//   light_lists   {lights, clusters, empty, entries, largest, overflowed, mean, p95, bytes,
+//   light_lists   {lights, clusters, empty, entries, largest, overflowed, redraws, mean, p95, bytes,
 //                 all_lights, why}
 //   pairs         {evaluated, contributing}: (light, pixel) pairs; null: not counted
 //   plan          a line each: what the frame's variant leaves out, and why

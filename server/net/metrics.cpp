@@ -81,6 +81,8 @@ struct Metrics::Impl {
     Counter& dropped =
         counter("froxel_frames_dropped_total", "Pictures that a newer one replaced unsent.");
     Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of pictures and messages sent.");
+    Counter& redraws = counter("froxel_light_list_redraws_total",
+                               "Times that a picture was drawn again since its lists had to grow.");
     std::array<Histogram*, kStages.size()> stages{};
     std::array<Gauge*, kListGauges.size()> lists{};
     prometheus::Family<Counter>& pairs =
@@ -126,6 +128,7 @@ void Metrics::sessionClosed() {
 
 void Metrics::frameSent(const FrameRecord& record) {
     impl_->sent.Increment();
+    impl_->redraws.Increment(static_cast<double>(record.stats.lists.redraw_count));
     for (size_t i = 0; i < kStages.size(); ++i) {
         impl_->stages[i]->Observe(kStages[i].micros(record) / 1e6);
     }

@@ -139,6 +139,7 @@ void fillLists(v1::FrameHeader& out, const LightListStats& lists) {
     out.set_list_empty(lists.empty_count);
     out.set_list_bytes(lists.bytes);
     out.set_lists_overflowed(lists.overflowed);
+    out.set_list_redraws(lists.redraw_count);
     out.set_all_lights(lists.all_lights);
     out.set_list_why(lists.why);
 }

@@ -168,6 +168,7 @@ FrameRecord record() {
     lists.p95 = 11;
     lists.bytes = 2000;
     lists.all_lights = true;
+    lists.redraw_count = 2;
     lists.why = "few lights";
     record.stats.grid = {5, 3, 10, 64, 32, 0.5, 40, true, "cheapest of 9"};
     return record;
@@ -201,6 +202,7 @@ TEST(FrameHeader, CarriesTheRecord) {
     EXPECT_EQ(header.list_empty(), 10U);
     EXPECT_EQ(header.list_bytes(), 2000U);
     EXPECT_TRUE(header.all_lights());
+    EXPECT_EQ(header.list_redraws(), 2U);
     EXPECT_EQ(header.list_why(), "few lights");
     EXPECT_EQ(header.grid().x(), 5U);
     EXPECT_EQ(header.grid().z(), 10U);
