@@ -1,26 +1,12 @@
 #include "app/pipeline_cache_option.h"
 
-#include "embedded.h"
 #include "gpu/pipeline_cache.h"
-
-#include <span>
+#include "render/build_hash.h"
 
 namespace froxel::app {
 
-namespace {
-
-uint64_t hashOfShaders() {
-    uint64_t hash = gpu::hashBytes({});
-    for (const auto& words : shaders::all()) {
-        hash = gpu::hashBytes(std::as_bytes(words), hash);
-    }
-    return hash;
-}
-
-} // namespace
-
 gpu::PipelineCacheOptions defaultPipelineCache() {
-    return {.folder = gpu::defaultPipelineCacheFolder(), .build = hashOfShaders()};
+    return {.folder = gpu::defaultPipelineCacheFolder(), .build = render::hashOfShaders()};
 }
 
 Result<gpu::PipelineCacheOptions> parsePipelineCache(const std::string& text) {
@@ -30,7 +16,7 @@ Result<gpu::PipelineCacheOptions> parsePipelineCache(const std::string& text) {
     if (text == "off") {
         return gpu::PipelineCacheOptions{};
     }
-    return gpu::PipelineCacheOptions{.folder = text, .build = hashOfShaders()};
+    return gpu::PipelineCacheOptions{.folder = text, .build = render::hashOfShaders()};
 }
 
 } // namespace froxel::app

@@ -12,8 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <gmock/gmock.h>
-#include <iostream>
-#include <map>
 
 namespace froxel::test {
 
@@ -286,48 +284,6 @@ TEST_F(GpuAssignment, MillionSmallLights_GiveTheHostsLists) {
     const ClusterGrid grid =
         cluster::makeClusterGrid({{16, 9, 24}}, {1920, 1080}, perspective(45), 1, 20);
     expectSame(assigner_->assign(grid, lights), onHost(grid, lights));
-}
-
-// Not a test: Sponza's standard view, median of each pass. Run it with
-// --gtest_also_run_disabled_tests --gtest_filter=*Timings*.
-TEST_F(GpuAssignment, DISABLED_Timings_OfSponzasView) {
-    struct Load {
-        uint32_t count;
-        double radius_m;
-    };
-    for (const Load load : {Load{5'000, 2}, {100'000, 0.7}, {1'000'000, 0.3}}) {
-        std::mt19937 random(5);
-        std::uniform_real_distribution<double> unit(0, 1);
-        FrameLights lights;
-        for (uint32_t i = 0; i < load.count; ++i) {
-            addPoint(lights, {10 * unit(random) - 5, 8 * unit(random) - 2, 3 - 20 * unit(random)},
-                     load.radius_m);
-        }
-        for (const view::GridSize size :
-             {view::GridSize{16, 9, 24}, {32, 18, 32}, {64, 36, 64}, {120, 68, 64}}) {
-            const ClusterGrid grid =
-                cluster::makeClusterGrid({size}, {1920, 1080}, perspective(45), 2.8, 17);
-            std::map<std::string, std::vector<double>> samples;
-            cluster::LightLists lists;
-            for (int i = 0; i < 15; ++i) {
-                lists = assigner_->assign(grid, lights);
-                double total = 0;
-                for (const auto& pass : assigner_->times().passes) {
-                    samples[pass.name].push_back(pass.gpu_us);
-                    total += pass.gpu_us;
-                }
-                samples["total"].push_back(total);
-            }
-            std::cout << load.count << " lights of " << load.radius_m << " m, " << size.x << "x"
-                      << size.y << "x" << size.z << ", " << lists.stats.entry_count
-                      << " entries, largest " << lists.stats.largest << ", us:";
-            for (auto& [name, values] : samples) {
-                std::nth_element(values.begin(), values.begin() + 7, values.end());
-                std::cout << " " << name << " " << values[7];
-            }
-            std::cout << "\n";
-        }
-    }
 }
 
 } // namespace froxel::test

@@ -114,10 +114,4 @@ bool DeviceAssigner::refused() const {
     return impl_->lists.refused();
 }
 
-FrameStats DeviceAssigner::times() const {
-    FrameStats stats;
-    impl_->timestamps.read(stats);
-    return stats;
-}
-
 } // namespace froxel::test

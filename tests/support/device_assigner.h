@@ -21,7 +21,6 @@ class DeviceAssigner {
                                              const light::FrameLights& lights);
     [[nodiscard]] uint32_t attempts() const; // of the last call
     [[nodiscard]] bool refused() const;
-    [[nodiscard]] FrameStats times() const; // of the last attempt: its passes
 
   private:
     struct Impl;
