@@ -24,6 +24,7 @@ export class SizeEditor {
   private readonly model = { mode: kAuto, scale: 1, width: 0, height: 0 };
   private readonly controllers: { mode: Controller; scale: Controller; sides: Controller[] };
   private readonly slide: (value: number) => void;
+  private shown = { width: 0, height: 0 };
 
   constructor(parent: GUI, server: ServerInfo, actions: SizeActions) {
     const mode = parent
@@ -63,8 +64,10 @@ export class SizeEditor {
     const preset = kPresets.find((name) => name === `${width}×${height}`);
     this.model.mode = auto ? kAuto : (preset ?? kCustom);
     if (auto) this.model.scale = mode.scale;
-    this.model.width = width;
-    this.model.height = height;
+    // Left alone while equal: the viewer may be typing another one.
+    if (this.shown.width !== width) this.model.width = width;
+    if (this.shown.height !== height) this.model.height = height;
+    this.shown = { width, height };
     this.controllers.mode.updateDisplay();
     this.controllers.scale.enable(auto).updateDisplay();
     this.slide(this.model.scale);
