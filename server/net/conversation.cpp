@@ -4,9 +4,6 @@
 #include "froxel/v1/server.pb.h"
 #include "session/state_message.h"
 
-#include <spdlog/fmt/fmt.h>
-#include <spdlog/spdlog.h>
-
 #include <utility>
 
 namespace froxel::net {
@@ -250,9 +247,6 @@ std::optional<Outgoing> Conversation::detailsMessage() {
     const auto& details = outbox_.frame().record.stats.details;
     if (!details || details == told_details_) {
         return {};
-    }
-    if (!told_details_ || told_details_->plan != details->plan) {
-        spdlog::info("session={} draws with: {}", id_, fmt::join(details->plan, "; "));
     }
     told_details_ = details;
     const auto format = reader_.replyFormat();
