@@ -99,8 +99,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(settings.gbuffer) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
     if (settings.shading == view::ShadingModel::kLambert) {
-        plan.gbuffer_unused_material_flags =
-            io::kMaterialRoughnessTexture | io::kMaterialPackedRoughness;
+        plan.gbuffer_unused_material_flags = io::kMaterialRoughnessTexture;
     }
     if (compute_lights) {
         plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;

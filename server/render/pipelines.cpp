@@ -33,13 +33,12 @@ vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
 }
 
 vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
-    // Uniforms, five textures, packed texels.
-    std::array<vk::DescriptorSetLayoutBinding, 7> bindings;
+    // Uniforms, five textures.
+    std::array<vk::DescriptorSetLayoutBinding, 6> bindings;
     for (uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {.binding = i,
-                       .descriptorType = i == 0   ? Type::eUniformBuffer
-                                         : i == 6 ? Type::eUniformTexelBuffer
-                                                  : Type::eCombinedImageSampler,
+                       .descriptorType =
+                           i == 0 ? Type::eUniformBuffer : Type::eCombinedImageSampler,
                        .descriptorCount = 1,
                        .stageFlags = Stage::eFragment | Stage::eCompute};
     }

@@ -27,26 +27,10 @@ io::UvTransform uvTransform(const scene::TextureSlot& slot) {
             .padding0 = 0};
 }
 
-// Packs are for devices that sample in software. Off: pictures of the built-in scene differ by 1.5 of
-// 255 (RMSE) from those of the driver's own filtering in float, which nobody has explained yet.
-constexpr bool kPackTextures = false;
-
-std::vector<PackPlan> planPacks(const gpu::Device& device, const scene::Scene& scene) {
-    std::vector<PackPlan> plans(scene.materials.size());
-    if (kPackTextures && device.traits().is_cpu) {
-        std::transform(scene.materials.begin(), scene.materials.end(), plans.begin(),
-                       [&](const scene::Material& m) { return planPack(scene, m); });
-    }
-    return plans;
-}
-
-io::Material materialUniforms(const scene::Scene& scene,
-                              const scene::Material& m,
-                              const PackPlan& plan,
-                              const PackedTexture& pack) {
+io::Material materialUniforms(const scene::Material& m) {
     return {.base_color = m.base_color,
             .emissive = m.emissive,
-            .metallic = plan.roughness ? packedMetalness(scene, m) : m.metallic,
+            .metallic = m.metallic,
             .roughness = m.roughness,
             .normal_scale = m.normal_scale,
             .occlusion_strength = m.occlusion_strength,
@@ -55,17 +39,11 @@ io::Material materialUniforms(const scene::Scene& scene,
             .uv_normal = uvTransform(m.normal_texture),
             .uv_metallic_roughness = uvTransform(m.metallic_roughness_texture),
             .uv_occlusion = uvTransform(m.occlusion_texture),
-            .uv_emissive = uvTransform(m.emissive_texture),
-            .uv_pack = uvTransform(packSlot(m, plan)),
-            .pack_log2_size = pack.log2_size,
-            .pack_texel_count = 1U << (pack.log2_size.x + pack.log2_size.y),
-            .pack_last_level = pack.last_level};
+            .uv_emissive = uvTransform(m.emissive_texture)};
 }
 
-std::vector<DrawItem> makeItems(const scene::Scene& scene,
-                                const PackedGeometry& geometry,
-                                const SceneNeeds& needs,
-                                std::span<const PackPlan> packs) {
+std::vector<DrawItem>
+makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const SceneNeeds& needs) {
     std::vector<DrawItem> items;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const auto& instance = scene.instances[i];
@@ -75,7 +53,6 @@ std::vector<DrawItem> makeItems(const scene::Scene& scene,
                 continue;
             }
             uint32_t flags = needs.material_flags[primitive.material];
-            flags |= packs[primitive.material].flags();
             flags |= primitive.extended ? io::kMaterialExtended : 0U;
             flags |= primitive.tangents ? io::kMaterialTangents : 0U;
             items.push_back({i, primitive, flags, mirrored});
@@ -101,14 +78,14 @@ gpu::Buffer uploadVector(gpu::MemoryArena& arena,
 
 SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene)
     : device(device_in), timeline(device_in), needs(findNeeds(scene)),
-      pack_plans(planPacks(device_in, scene)), bounds_world(scene.bounds_world), light_rig(scene),
+      bounds_world(scene.bounds_world), light_rig(scene),
       light_assigner(std::max(1U, std::thread::hardware_concurrency())), arena(device_in),
       texture_arena(device_in, kTextureChunkBytes, "textures"), pipelines(device_in) {
     auto geometry = packGeometry(scene);
     for (const auto& instance : scene.instances) {
         instances.push_back(instance.world_from_object);
     }
-    items = makeItems(scene, geometry, needs, pack_plans);
+    items = makeItems(scene, geometry, needs);
     gpu::Uploader uploader(device, timeline, kStagingBytes);
     uploadGeometry(geometry, uploader);
     uploadMaterials(scene, uploader);
@@ -148,7 +125,6 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     std::vector<std::byte> bytes(stride * count);
     const std::array pool_sizes = {
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
-        vk::DescriptorPoolSize{vk::DescriptorType::eUniformTexelBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
                                static_cast<uint32_t>(count * kTexturesOfMaterial)}};
     material_pool_ = device.handle().createDescriptorPool(
@@ -161,9 +137,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                                              .descriptorSetCount = count,
                                                              .pSetLayouts = layouts.data()});
     for (uint32_t i = 0; i < count; ++i) {
-        const auto& m = scene.materials[i];
-        const auto uniforms =
-            materialUniforms(scene, m, pack_plans[i], textures_->pack(scene, m, pack_plans[i]));
+        const auto uniforms = materialUniforms(scene.materials[i]);
         std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));
         material_uniforms.push_back(uniforms);
     }
@@ -173,24 +147,20 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         const auto& m = scene.materials[i];
         const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,
                                               sizeof(io::Material)};
-        const PackPlan& plan = pack_plans[i];
-        // Only what the material's shader samples, and not from the pack.
-        const auto used = [&](uint32_t flag, bool packed, const scene::TextureSlot& slot) {
-            const bool sampled = (needs.material_flags[i] & flag) != 0;
-            return sampled && !packed ? slot : scene::TextureSlot{};
+        // Only what the material's shader samples.
+        const auto used = [&](uint32_t flag, const scene::TextureSlot& slot) {
+            return (needs.material_flags[i] & flag) != 0 ? slot : scene::TextureSlot{};
         };
-        const auto base = used(io::kMaterialBaseColorTexture, plan.color, m.base_color_texture);
-        const auto normal = used(io::kMaterialNormalTexture, plan.normal, m.normal_texture);
-        const auto roughness =
-            used(io::kMaterialRoughnessTexture, plan.roughness, m.metallic_roughness_texture);
-        const auto occlusion = used(io::kMaterialOcclusionTexture, false, m.occlusion_texture);
-        const auto emissive = used(io::kMaterialEmissiveTexture, false, m.emissive_texture);
+        const auto base = used(io::kMaterialBaseColorTexture, m.base_color_texture);
+        const auto normal = used(io::kMaterialNormalTexture, m.normal_texture);
+        const auto roughness = used(io::kMaterialRoughnessTexture, m.metallic_roughness_texture);
+        const auto occlusion = used(io::kMaterialOcclusionTexture, m.occlusion_texture);
+        const auto emissive = used(io::kMaterialEmissiveTexture, m.emissive_texture);
         const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
             textures_->get(scene, base, true), textures_->get(scene, normal, false),
             textures_->get(scene, roughness, false), textures_->get(scene, occlusion, false),
             textures_->get(scene, emissive, true)};
         material_textures.insert(material_textures.end(), images.begin(), images.end());
-        const vk::BufferView texels = *textures_->pack(scene, m, plan).view;
         // The five samplers are consecutive bindings of one descriptor each.
         const std::array writes = {
             vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
@@ -202,12 +172,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                    .dstBinding = 1,
                                    .descriptorCount = kTexturesOfMaterial,
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                                   .pImageInfo = images.data()},
-            vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
-                                   .dstBinding = 6,
-                                   .descriptorCount = 1,
-                                   .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
-                                   .pTexelBufferView = &texels}};
+                                   .pImageInfo = images.data()}};
         device.handle().updateDescriptorSets(writes, {});
     }
 }

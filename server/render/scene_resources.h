@@ -32,7 +32,6 @@ class SceneResources {
     gpu::Device& device;
     gpu::Timeline timeline;
     const SceneNeeds needs;
-    const std::vector<PackPlan> pack_plans; // of each material
     const BoundsD3 bounds_world;
     const light::LightRig light_rig;
     cluster::LightAssigner light_assigner;

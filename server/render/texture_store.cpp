@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <span>
 
 namespace froxel::render {
 
@@ -32,7 +31,7 @@ vk::Filter filter(scene::Filter value) {
 TextureStore::TextureStore(const gpu::Device& device,
                            gpu::MemoryArena& arena,
                            gpu::Uploader& uploader)
-    : device_(device), arena_(arena), uploader_(uploader), pack_arena_(device) {}
+    : device_(device), arena_(arena), uploader_(uploader) {}
 
 vk::DescriptorImageInfo
 TextureStore::get(const scene::Scene& scene, const scene::TextureSlot& slot, bool srgb) {
@@ -63,39 +62,6 @@ const gpu::Image& TextureStore::image(const scene::Image& source, uint32_t index
                          source.name);
     uploader_.uploadImage(made, source.rgba8);
     return images_.emplace(key, std::move(made)).first->second;
-}
-
-const PackedTexture& TextureStore::pack(const scene::Scene& scene,
-                                        const scene::Material& material,
-                                        const PackPlan& plan) {
-    const auto imageOf = [&](bool used, const scene::TextureSlot& slot) {
-        return used ? scene.textures[slot.texture].image : scene::kNone;
-    };
-    const auto key =
-        std::pair(plan, std::array{imageOf(plan.color, material.base_color_texture),
-                                   imageOf(plan.normal, material.normal_texture),
-                                   imageOf(plan.roughness, material.metallic_roughness_texture)});
-    if (const auto found = packs_.find(key); found != packs_.end()) {
-        return found->second;
-    }
-    if (!plan.any()) {
-        return packs_.emplace(key, PackedTexture{}).first->second;
-    }
-    const TexelPack made = packTexels(scene, material, plan);
-    const auto bytes = std::as_bytes(std::span(made.words));
-    PackedTexture packed{.buffer =
-                             pack_arena_.makeBuffer(bytes.size(),
-                                                    vk::BufferUsageFlagBits::eUniformTexelBuffer |
-                                                        vk::BufferUsageFlagBits::eTransferDst,
-                                                    gpu::MemoryUse::kDevice, "packed textures"),
-                         .log2_size = made.log2_size,
-                         .last_level = made.last_level};
-    uploader_.upload(packed.buffer, bytes);
-    packed.view = device_.handle().createBufferView(
-        {.buffer = *packed.buffer.handle,
-         .format = plan.pair() ? vk::Format::eR32G32Uint : vk::Format::eR32Uint,
-         .range = VK_WHOLE_SIZE});
-    return packs_.emplace(key, std::move(packed)).first->second;
 }
 
 vk::Sampler TextureStore::sampler(const scene::Sampler& settings) {

@@ -25,11 +25,6 @@ FROXEL_CONST uint kMaterialUvTransform = 1U << 8; // a slot has a transform or T
 FROXEL_CONST uint kMaterialExtended = 1U << 9;    // vertices carry uv1, colour and tangent
 FROXEL_CONST uint kMaterialTangents = 1U << 10;   // the tangents are from the file
 FROXEL_CONST uint kMaterialBlend = 1U << 11;
-// Slots that are read from the material's packed texels (render/texel_pack.h).
-FROXEL_CONST uint kMaterialPackedColor = 1U << 12;
-FROXEL_CONST uint kMaterialPackedNormal = 1U << 13;
-FROXEL_CONST uint kMaterialPackedRoughness = 1U << 14;
-FROXEL_CONST uint kMaterialPackedPair = 1U << 15; // two words a texel: normal or roughness too
 
 // Light flags: which lights a frame has and how they are looped over.
 FROXEL_CONST uint kLightLocal = 1U << 0;       // any point or spot light

@@ -77,12 +77,8 @@ struct Material {
     UvTransform uv_metallic_roughness;
     UvTransform uv_occlusion;
     UvTransform uv_emissive;
-    UvTransform uv_pack;
-    uvec2 pack_log2_size;
-    uint pack_texel_count; // of level 0
-    uint pack_last_level;
 };
-FROXEL_SIZE_ASSERT(Material, 256);
+FROXEL_SIZE_ASSERT(Material, 208);
 
 FROXEL_IO_NAMESPACE_END
 

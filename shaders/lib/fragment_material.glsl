@@ -1,5 +1,4 @@
 // Set 1 of the fragment stage: a draw's material; textures and derivatives come from the quad.
-#define MATERIAL_SET 1
 layout(set = 1, binding = 0, scalar) uniform MaterialBlock { Material material; };
 layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
 layout(set = 1, binding = 2) uniform sampler2D normal_texture;

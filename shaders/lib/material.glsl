@@ -4,9 +4,6 @@
 #else
 #include "lib/fragment_material.glsl"
 #endif
-#ifndef FROXEL_BINDLESS
-#include "lib/texel_pack.glsl"
-#endif
 
 // What the vertex stage hands on.
 struct VertexData {
@@ -25,19 +22,9 @@ vec2 slotUv(VertexData v, UvTransform t) {
     return vec2(dot(t.row0.xy, uv) + t.row0.z, dot(t.row1.xy, uv) + t.row1.z);
 }
 
-// The compiler merges calls for one fragment.
-PackSample packSample(VertexData v) {
-    vec2 uv = slotUv(v, material.uv_pack);
-    return samplePack(uv, uvDx(v, material.uv_pack), uvDy(v, material.uv_pack));
-}
-
 vec4 baseColor(VertexData v) {
     vec4 color = material.base_color;
-    if (hasMaterial(kMaterialPackedColor)) {
-        PackSample texel = packSample(v);
-        bool alpha = hasMaterial(kMaterialMask) || hasMaterial(kMaterialBlend);
-        color *= vec4(texel.color, alpha ? texel.rest.w : 1.0);
-    } else if (hasMaterial(kMaterialBaseColorTexture)) {
+    if (hasMaterial(kMaterialBaseColorTexture)) {
         color *= sampleMaterial(base_color, v, material.uv_base_color);
     }
     if (hasMaterial(kMaterialExtended)) {
@@ -52,10 +39,7 @@ bool maskedOut(vec4 base) { return hasMaterial(kMaterialMask) && base.a < materi
 // Based Bump Mapping Framework"): constant over a triangle, right for mirrored texture coordinates,
 // and nothing to store. Derivatives are taken of the same values in every renderer.
 vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view) {
-    vec3 stored = hasMaterial(kMaterialPackedNormal)
-                      ? packSample(v).rest.xyz
-                      : sampleMaterial(normal, v, material.uv_normal).xyz;
-    vec3 sampled = stored * 2.0 - 1.0;
+    vec3 sampled = sampleMaterial(normal, v, material.uv_normal).xyz * 2.0 - 1.0;
     sampled.xy *= material.normal_scale;
     vec3 t;
     vec3 b;
@@ -99,9 +83,7 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     g.normal_view = n;
     g.roughness = material.roughness;
     g.metallic = material.metallic;
-    if (hasMaterial(kMaterialPackedRoughness)) {
-        g.roughness *= packSample(v).rest.w; // the metalness is the same all over
-    } else if (hasMaterial(kMaterialRoughnessTexture)) {
+    if (hasMaterial(kMaterialRoughnessTexture)) {
         vec4 mr = sampleMaterial(metallic_roughness, v, material.uv_metallic_roughness);
         g.roughness *= mr.g;
         g.metallic *= mr.b;

@@ -9,17 +9,7 @@ const uint occlusion_slot = 3u;
 const uint emissive_slot = 4u;
 #define slotTexture(slot) \
     scene_textures[nonuniformEXT(visible_material * kTexturesOfMaterial + slot##_slot)]
-
-// Only software rasterisers have packed texels.
-struct PackSample {
-    vec3 color;
-    vec4 rest;
-};
-PackSample samplePack(vec2 uv, vec2 duv_dx, vec2 duv_dy) {
-    return PackSample(vec3(1.0), vec4(1.0));
-}
 #else
-#define MATERIAL_SET 3
 // One material a dispatch.
 layout(set = 3, binding = 1) uniform sampler2D base_color_texture;
 layout(set = 3, binding = 2) uniform sampler2D normal_texture;

@@ -137,8 +137,8 @@ TEST_F(Variants, NothingAtAll_AllocatesAndCompilesNothingForIt) {
     render::ViewRenderer view(renderer);
     drawPlain(view, inputsFor(scene, Renderer::kClusteredDeferred, 0));
     const auto purposes = memory();
-    for (const char* absent : {"textures", "packed textures", "extended vertices", "radiance",
-                               "visible ids", "staging", "lights", "light lists"}) {
+    for (const char* absent : {"textures", "extended vertices", "radiance", "visible ids",
+                               "staging", "lights", "light lists"}) {
         EXPECT_THAT(purposes, Not(Contains(Key(absent)))) << absent;
     }
     EXPECT_FALSE(anyMaterialFlag(renderer, ~0U));
@@ -201,7 +201,6 @@ TEST_F(Variants, UnlitMaterial_LoadsNoTextureThatItDoesNotShow) {
     }
     const render::Renderer renderer(device(), scene);
     EXPECT_THAT(memory(), Not(Contains(Key("textures"))));
-    EXPECT_THAT(memory(), Not(Contains(Key("packed textures"))));
 }
 
 TEST_F(Variants, Memory_DetailsAreTheLedgersAndGoWithTheirOwners) {
