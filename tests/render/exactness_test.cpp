@@ -78,9 +78,12 @@ TEST_F(Exactness, Grids_AnySize_GiveTheSamePicture) {
                                       {32, 16, 64},
                                       {128, 128, 3},
                                       {7, 1, 256}}) {
-        inputs.settings.grid = {.automatic = false, .size = grid};
-        EXPECT_EQ(differingFloats(reference, draw(renderer, inputs)), 0U)
-            << grid.x << "x" << grid.y << "x" << grid.z;
+        for (const auto law :
+             {view::GridLaw::kLogarithmic, view::GridLaw::kLinear, view::GridLaw::kHyperbolic}) {
+            inputs.settings.grid = {.automatic = false, .size = grid, .law = law};
+            EXPECT_EQ(differingFloats(reference, draw(renderer, inputs)), 0U)
+                << grid.x << "x" << grid.y << "x" << grid.z;
+        }
     }
 }
 
@@ -181,8 +184,8 @@ TEST_F(Exactness, Targets_SizeAndRendererChangeInEveryFrame_GiveTheSamePicture) 
     render::ViewRenderer view(renderer);
     for (uint32_t i = 0; i < 60; ++i) {
         SCOPED_TRACE(i);
-        auto inputs = inputsFor(scene.cameras[0].camera, i % 2 == 0 ? Renderer::kClusteredDeferred
-                                                                    : Renderer::kForwardPlus);
+        auto inputs = inputsFor(scene.cameras[0].camera,
+                                i % 2 == 0 ? Renderer::kClusteredDeferred : Renderer::kForwardPlus);
         inputs.settings.size = {160 + 16 * (i % 7), 90 + 4 * (i % 5)};
         inputs.settings.lights.count = 20;
         const Picture picture = draw(view, inputs);
