@@ -51,10 +51,6 @@ bool isForward(view::Renderer renderer) {
     return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
 }
 
-bool needsLists(view::Renderer renderer, bool local_lights, bool all_lights) {
-    return renderer != view::Renderer::kNaive && local_lights && !all_lights;
-}
-
 FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
     facts.spots |= parts.spots && facts.local_lights;
     facts.directional |= parts.directional;
@@ -81,7 +77,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.toon_pass = renderer == Renderer::kToonCompute;
     plan.transparent = facts.transparent_visible;
-    plan.lists = needsLists(renderer, facts.local_lights, facts.all_lights);
+    plan.lists = renderer != Renderer::kNaive && facts.local_lights && !facts.all_lights;
     plan.count_pairs = settings.count_pairs && facts.local_lights;
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.

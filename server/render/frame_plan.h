@@ -67,10 +67,8 @@ struct FramePlan {
     bool operator==(const FramePlan&) const = default;
 };
 
-// isForward: by its name; needsLists: FramePlan::lists by itself: known before it is known what is
-// in view.
+// Whether surfaces are shaded as they are drawn, without a G-buffer.
 [[nodiscard]] bool isForward(view::Renderer renderer);
-[[nodiscard]] bool needsLists(view::Renderer renderer, bool local_lights, bool all_lights);
 
 [[nodiscard]] FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts);
 

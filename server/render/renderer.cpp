@@ -63,13 +63,6 @@ struct ViewRenderer::Impl {
     void submit(FrameSlot& slot, const FrameInputs& inputs);
     // Draws a completed frame again until its lists are whole. Throws vk::SystemError.
     [[nodiscard]] Result<void> redraw(FrameSlot& slot);
-    // Gives the targets back, so that a smaller picture may fit.
-    [[nodiscard]] Error outOfMemory(const char* whose, const view::Size& size) {
-        targets.reset();
-        return {ErrorCode::kCapacity,
-                std::string("the ") + whose + " has no memory for a picture of " +
-                    std::to_string(size.width_px) + "x" + std::to_string(size.height_px)};
-    }
 
     SceneResources& scene;
     FrameBuilder builder;
@@ -218,7 +211,7 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
         impl_->submit(*slot, inputs);
         impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
-        impl_->targets.reset();
+        impl_->targets.reset(); // so that a smaller picture may fit
         return Error{ErrorCode::kCapacity, "the device has no memory for a picture of " +
                                                std::to_string(inputs.settings.size.width_px) + "x" +
                                                std::to_string(inputs.settings.size.height_px)};
