@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/frame_stats.h"
+#include "core/linear_image.h"
 #include "core/pixel_view.h"
 #include "gpu/device.h"
 #include "render/frame_plan.h"
@@ -41,13 +42,6 @@ struct FrameInputs {
 struct RenderedFrame {
     PixelLease pixels; // RGBA8 sRGB
     FrameStats stats;
-};
-
-// Linear fp32 radiance before exposure and tone map: [height][width][3], top row first.
-struct LinearImage {
-    uint32_t width_px = 0;
-    uint32_t height_px = 0;
-    std::vector<float> rgb;
 };
 
 // Geometry, textures and pipelines shared by all viewers of one scene.

@@ -22,6 +22,8 @@ MAY_INCLUDE = {
     "gpu": {"core"},
     "render": {"core", "view", "scene", "light", "cluster", "gpu", "interface", "shaders"},
     "encode": {"core", "view"},
+    "measure": {"core"},
+    "reference": {"core", "view", "scene", "light"},
     "protocol": {"core"},
     "session": {"core", "view", "scene", "protocol"},
     "stream": {"core", "view", "scene", "protocol", "session", "render", "encode", "gpu"},
