@@ -113,6 +113,18 @@ void transitionFresh(const vk::raii::CommandBuffer& cmd, ViewTargets& targets) {
                           .pImageMemoryBarriers = barriers.data()});
 }
 
+void copyImage(const vk::raii::CommandBuffer& cmd,
+               const gpu::Image& image,
+               vk::ImageAspectFlags aspect,
+               const gpu::Buffer& to,
+               vk::DeviceSize offset) {
+    cmd.copyImageToBuffer(
+        *image.handle, vk::ImageLayout::eGeneral, *to.handle,
+        vk::BufferImageCopy{.bufferOffset = offset,
+                            .imageSubresource = {aspect, 0, 0, 1},
+                            .imageExtent = {image.extent.width, image.extent.height, 1}});
+}
+
 } // namespace
 
 void recordFrame(const FrameContext& frame) {
@@ -223,11 +235,20 @@ void recordRadianceCopy(const vk::raii::CommandBuffer& cmd,
                         const gpu::Buffer& to) {
     // the frame's last write of radiance -> copy
     barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
-    cmd.copyImageToBuffer(
-        *targets.radiance.handle, vk::ImageLayout::eGeneral, *to.handle,
-        vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                            .imageExtent = {targets.size.width_px, targets.size.height_px, 1}});
+    copyImage(cmd, targets.radiance, vk::ImageAspectFlagBits::eColor, to, 0);
     // copy -> host
+    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+}
+
+void recordVisibilityCopy(const vk::raii::CommandBuffer& cmd,
+                          const ViewTargets& targets,
+                          const gpu::Buffer& to) {
+    // the frame's last writes of ids and depth -> copies
+    barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
+    copyImage(cmd, targets.ids, vk::ImageAspectFlagBits::eColor, to, 0);
+    copyImage(cmd, targets.depth, vk::ImageAspectFlagBits::eDepth, to,
+              vk::DeviceSize{4} * targets.size.width_px * targets.size.height_px);
+    // copies -> host
     barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 

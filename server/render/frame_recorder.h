@@ -43,4 +43,9 @@ void recordRadianceCopy(const vk::raii::CommandBuffer& cmd,
                         const ViewTargets& targets,
                         const gpu::Buffer& to);
 
+// Likewise which triangles are visible: all ids, then all depths, 4 bytes each.
+void recordVisibilityCopy(const vk::raii::CommandBuffer& cmd,
+                          const ViewTargets& targets,
+                          const gpu::Buffer& to);
+
 } // namespace froxel::render

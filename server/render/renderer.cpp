@@ -6,6 +6,7 @@
 #include "render/frame_slot.h"
 #include "render/memory_report.h"
 #include "render/scene_resources.h"
+#include "render/visibility_readback.h"
 
 #include <array>
 #include <cstring>
@@ -280,6 +281,16 @@ Result<LinearImage> ViewRenderer::readLinear() {
                      std::string("reading the picture failed: ") + error.what()};
     }
     return image;
+}
+
+Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
+    FROXEL_ASSERT(impl_->targets, "readVisibility needs a frame");
+    try {
+        return copyVisibility(impl_->scene, *impl_->targets, scene);
+    } catch (const vk::SystemError& error) {
+        return Error{ErrorCode::kDevice,
+                     std::string("reading the visible triangles failed: ") + error.what()};
+    }
 }
 
 } // namespace froxel::render

@@ -6,6 +6,7 @@
 #include "core/frame_stats.h"
 #include "core/linear_image.h"
 #include "core/pixel_view.h"
+#include "core/visibility.h"
 #include "gpu/device.h"
 #include "render/frame_plan.h"
 #include "render/list_limits.h"
@@ -82,6 +83,9 @@ class ViewRenderer {
     // The linear picture of the frame last submitted, which had keep_radiance (not a fast path:
     // waits and copies).
     [[nodiscard]] Result<LinearImage> readLinear();
+    // Which triangles the frame last collected shows, which took the visibility passes; `scene` is
+    // the renderer's (not a fast path: see visibility_readback.h). Errors: kDevice.
+    [[nodiscard]] Result<Visibility> readVisibility(const scene::Scene& scene);
 
   private:
     struct Impl;

@@ -14,7 +14,8 @@ ViewTargets::ViewTargets(const gpu::Device& device,
     const vk::Extent2D extent{size.width_px, size.height_px};
     depth = arena.makeImage({.format = Pipelines::kDepthFormat,
                              .extent = extent,
-                             .usage = Usage::eDepthStencilAttachment | Usage::eSampled,
+                             .usage = Usage::eDepthStencilAttachment | Usage::eSampled |
+                                      (needs.visibility ? Usage::eTransferSrc : Usage{}),
                              .aspect = vk::ImageAspectFlagBits::eDepth},
                             "depth");
     if (needs.gbuffer) {
@@ -35,7 +36,8 @@ ViewTargets::ViewTargets(const gpu::Device& device,
         ids = arena.makeImage(
             {.format = VisibilityPipelines::kIdFormat,
              .extent = extent,
-             .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eStorage},
+             .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eStorage |
+                      Usage::eTransferSrc},
             "visible ids");
     }
     if (needs.radiance) {

@@ -1,0 +1,24 @@
+// What a device says each pixel shows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace froxel {
+
+// One pixel's solid surface: which triangle of which placed mesh covers the pixel's centre.
+struct VisibleTriangle {
+    static constexpr uint32_t kNothing = 0xFFFFFFFF;
+    uint32_t instance = kNothing; // index into scene::Scene::instances
+    uint32_t primitive = 0;       // of the instance's mesh
+    uint32_t triangle = 0;        // of the primitive: its indices 3 i, 3 i + 1, 3 i + 2
+    bool operator==(const VisibleTriangle&) const = default;
+};
+
+struct Visibility {
+    uint32_t width_px = 0;
+    uint32_t height_px = 0;
+    std::vector<VisibleTriangle> pixels; // [height][width], top row first
+};
+
+} // namespace froxel
