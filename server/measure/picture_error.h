@@ -1,52 +1,65 @@
 // How far a picture is from its reference, in numbers. Pure functions, any thread. Pictures of
-// different sizes are a bug of the caller (FROXEL_ASSERT).
+// different sizes, empty pictures and tiles without a size are a bug of the caller (FROXEL_ASSERT).
 #pragma once
 
 #include "core/linear_image.h"
 #include "core/pixel_view.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace froxel::measure {
 
 // Over all channels of all pixels, in the unit of the pictures compared: linear radiance, or 1/255
-// steps divided by 255. A picture with a non-finite value is counted in nonfinite_count, and such a
-// pixel in nothing else.
+// steps divided by 255. A pixel with a non-finite value in either picture is counted in pixel_count
+// and nonfinite_count, and in nothing else; where no pixel is finite the errors are NaN.
 struct DifferenceStats {
     double max_abs = 0;
-    double p999_abs = 0;          // 99.9th percentile of the absolute difference
-    double rmse = 0;              // sqrt(mean (a - b)^2)
-    double relative_rmse = 0;     // sqrt(mean (a - b)^2 / (b^2 + 0.01)), b the reference
-    double psnr_db = 0;           // 20 log10(peak / rmse); infinity where equal
-    double peak = 1;              // of psnr_db
+    double p999_abs = 0;      // 99.9th percentile of the absolute difference, nearest rank
+    double rmse = 0;          // sqrt(mean (a - b)^2)
+    double relative_rmse = 0; // sqrt(mean (a - b)^2 / (b^2 + 0.01)), b the reference
+    double psnr_db = std::numeric_limits<double>::infinity(); // 20 log10(peak / rmse)
+    double peak = 1;                                          // of psnr_db
     uint64_t pixel_count = 0;
     uint64_t differing_count = 0; // pixels with any difference
-    uint64_t nonfinite_count = 0; // pixels of either picture with a NaN or infinity
+    uint64_t nonfinite_count = 0;
 };
 
 // What only the shown picture (sRGB, 8 bit) has.
 struct PerceivedStats {
     uint64_t above_1_255_count = 0; // pixels with a channel more than 1/255 off
-    double mssim = 1;               // Wang et al. 2004: 11x11 Gaussian, sigma 1.5, luma
-    double flip = 0;                // mean LDR-FLIP (Andersson et al. 2020) at kPixelsPerDegree
+    double mssim = 1;               // structural_similarity.h, on luma of ITU-R BT.601
+    double flip = 0;                // mean LDR-FLIP (flip.h) at kPixelsPerDegree
 };
 
-// Tiles' borders against elsewhere: mean step of the error across vertical and horizontal borders of
-// tiles over its mean step elsewhere. 1: tiles do not show; 0 where there is no error.
+// Pixels of a tile; the last column and row of tiles may be cut by the picture's border.
 struct TileGrid {
     uint32_t width_px = 0;
     uint32_t height_px = 0;
 };
 
-inline constexpr double kPixelsPerDegree = 67; // 0.7 m from a 0.7 m wide screen of 3840 pixels
+// Of FLIP: 0.7 m from a 0.7 m wide screen of 3840 pixels has 67.0 pixels a degree (0.7 * 3840 / 0.7
+// * pi / 180), as in the papers.
+inline constexpr double kPixelsPerDegree = 67.020643276582250;
 
-[[nodiscard]] DifferenceStats linearDifference(const LinearImage& picture,
-                                               const LinearImage& reference);
+// `peak`: the radiance that is shown as white, for psnr_db.
+[[nodiscard]] DifferenceStats
+linearDifference(const LinearImage& picture, const LinearImage& reference, double peak = 1);
 [[nodiscard]] DifferenceStats shownDifference(const PixelView& picture, const PixelView& reference);
 [[nodiscard]] PerceivedStats perceivedDifference(const PixelView& picture,
                                                  const PixelView& reference);
-// Mean HDR-FLIP (Andersson et al. 2021); its exposures come from the reference.
+
+// Mean HDR-FLIP: Andersson, Nilsson, Shirley and Akenine-Moeller, "Visualizing Errors in Rendered
+// High Dynamic Range Images", Eurographics 2021: the largest LDR-FLIP of each pixel over a range of
+// exposures under the ACES curve (Narkowicz 2016). The reference's brightest and median luminance
+// reach 0.85 at the first and the last exposure; a stop apart, at least two. Negative values count
+// as 0. NaN where either picture has a non-finite value.
 [[nodiscard]] double hdrFlip(const LinearImage& picture, const LinearImage& reference);
+
+// Do tiles show in the error? Mean absolute step of the error (picture - reference) between
+// neighbours across borders of tiles, over its mean elsewhere. 0: no error; 1: borders do not stand
+// out, or one of the two kinds does not exist; infinity: only borders have steps. Steps at
+// non-finite pixels are left out.
 [[nodiscard]] double
 tileEdgeRatio(const LinearImage& picture, const LinearImage& reference, const TileGrid& tiles);
 

@@ -50,7 +50,7 @@ TEST(Summarize, FewSamples_PercentilesAreMeasuredSamples) {
     EXPECT_EQ(summary.p99, 30);
 }
 
-TEST(Summarize, DeathTest_NoOrNonFiniteSamples_AreABug) {
+TEST(StatisticsDeathTest, NoOrNonFiniteSamples_AreABug) {
     EXPECT_DEATH((void)summarize({}), "need a sample");
     EXPECT_DEATH((void)summarize({1, std::numeric_limits<double>::quiet_NaN()}), "finite");
 }

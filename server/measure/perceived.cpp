@@ -1,0 +1,174 @@
+#include "core/assert.h"
+#include "measure/flip.h"
+#include "measure/picture_error.h"
+#include "measure/pixels.h"
+#include "measure/structural_similarity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace froxel::measure {
+
+namespace {
+
+flip::RgbPlanes planesLike(size_t width_px, size_t height_px) {
+    const Plane<float> plane{width_px, height_px, std::vector<float>(width_px * height_px)};
+    return {plane, plane, plane};
+}
+
+flip::RgbPlanes linearPlanes(const PixelView& view) {
+    static const auto kLinear = [] {
+        std::array<float, 256> table{};
+        for (size_t i = 0; i < table.size(); ++i) {
+            table[i] = flip::linearFromSrgb(static_cast<float>(i) / 255);
+        }
+        return table;
+    }();
+    auto planes = planesLike(view.width_px, view.height_px);
+    for (uint32_t y = 0; y < view.height_px; ++y) {
+        for (uint32_t x = 0; x < view.width_px; ++x) {
+            const auto bytes = bytesAt(view, x, y);
+            for (size_t c = 0; c < 3; ++c) {
+                planes[c].row(y)[x] = kLinear[bytes[c]];
+            }
+        }
+    }
+    return planes;
+}
+
+// ITU-R BT.601 luma of the coded values, 0..255.
+Plane<double> lumaOf(const PixelView& view) {
+    Plane<double> luma{view.width_px, view.height_px, {}};
+    luma.values.reserve(size_t{view.width_px} * view.height_px);
+    for (uint32_t y = 0; y < view.height_px; ++y) {
+        for (uint32_t x = 0; x < view.width_px; ++x) {
+            const auto [r, g, b] = bytesAt(view, x, y);
+            luma.values.push_back(0.299 * r + 0.587 * g + 0.114 * b);
+        }
+    }
+    return luma;
+}
+
+uint64_t countAboveOneStep(const PixelView& picture, const PixelView& reference) {
+    uint64_t count = 0;
+    for (uint32_t y = 0; y < picture.height_px; ++y) {
+        for (uint32_t x = 0; x < picture.width_px; ++x) {
+            const auto a = bytesAt(picture, x, y);
+            const auto b = bytesAt(reference, x, y);
+            const bool above =
+                std::abs(a[0] - b[0]) > 1 || std::abs(a[1] - b[1]) > 1 || std::abs(a[2] - b[2]) > 1;
+            count += above ? 1U : 0U;
+        }
+    }
+    return count;
+}
+
+double meanOf(const Plane<float>& plane) {
+    return std::accumulate(plane.values.begin(), plane.values.end(), 0.0) /
+           static_cast<double>(plane.values.size());
+}
+
+// Narkowicz's fit of the ACES curve, "ACES Filmic Tone Mapping Curve", 2016, his scale of 0.6
+// included: (A x^2 + B x) / (C x^2 + D x + E), x linear radiance times exposure.
+constexpr double kAcesA = 0.6 * 0.6 * 2.51;
+constexpr double kAcesB = 0.6 * 0.03;
+constexpr double kAcesC = 0.6 * 0.6 * 2.43;
+constexpr double kAcesD = 0.6 * 0.59;
+constexpr double kAcesE = 0.14;
+
+double aces(double x) {
+    // Beyond 1e6 it is at its limit, and squares of larger values would overflow a float's
+    // exposure.
+    const double bounded = std::min(x, 1e6);
+    const double y = (kAcesA * bounded * bounded + kAcesB * bounded) /
+                     (kAcesC * bounded * bounded + kAcesD * bounded + kAcesE);
+    return std::min(y, 1.0);
+}
+
+// The x > 0 that aces() takes to t.
+double acesInverse(double t) {
+    const double p = (kAcesB - kAcesD * t) / (kAcesA - kAcesC * t);
+    const double q = -kAcesE * t / (kAcesA - kAcesC * t);
+    return -0.5 * p + std::sqrt(0.25 * p * p - q);
+}
+
+constexpr double kShownAtEnds = 0.85;
+// A reference that is black by half still gets a range of exposures.
+constexpr double kLeastMedian = std::numeric_limits<float>::epsilon();
+
+// log2 of what radiance is multiplied by, a stop or less apart.
+std::vector<double> exposuresFor(const LinearImage& reference) {
+    std::vector<double> luminances(reference.rgb.size() / 3);
+    for (size_t i = 0; i < luminances.size(); ++i) {
+        const auto [r, g, b] = pixelAt(reference, i);
+        luminances[i] = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    }
+    const size_t middle = luminances.size() / 2;
+    const auto upper = luminances.begin() + static_cast<std::ptrdiff_t>(middle);
+    std::nth_element(luminances.begin(), upper, luminances.end());
+    const double brightest = *std::max_element(upper, luminances.end());
+    const double lower =
+        luminances.size() % 2 == 1 ? *upper : *std::max_element(luminances.begin(), upper);
+    if (brightest <= 0) {
+        return {0};
+    }
+    const double median = std::max(0.5 * (lower + *upper), kLeastMedian);
+    const double first = std::log2(acesInverse(kShownAtEnds) / brightest);
+    const double last = std::log2(acesInverse(kShownAtEnds) / median);
+    const auto count = static_cast<size_t>(std::max(2.0, std::ceil(last - first)));
+    std::vector<double> exposures(count);
+    for (size_t i = 0; i < count; ++i) {
+        exposures[i] =
+            first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1);
+    }
+    return exposures;
+}
+
+flip::RgbPlanes toneMapped(const LinearImage& image, double exposure) {
+    auto planes = planesLike(image.width_px, image.height_px);
+    const double factor = std::exp2(exposure);
+    for (size_t i = 0; i < image.rgb.size() / 3; ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            const double radiance = std::max(image.rgb[3 * i + c], 0.0F);
+            planes[c].values[i] = static_cast<float>(aces(factor * radiance));
+        }
+    }
+    return planes;
+}
+
+bool allFinite(const LinearImage& image) {
+    return std::all_of(image.rgb.begin(), image.rgb.end(),
+                       [](float value) { return std::isfinite(value); });
+}
+
+} // namespace
+
+PerceivedStats perceivedDifference(const PixelView& picture, const PixelView& reference) {
+    expectAlike(picture, reference);
+    return {.above_1_255_count = countAboveOneStep(picture, reference),
+            .mssim = meanStructuralSimilarity(lumaOf(picture), lumaOf(reference)),
+            .flip = meanOf(
+                flip::errors(linearPlanes(picture), linearPlanes(reference), kPixelsPerDegree))};
+}
+
+double hdrFlip(const LinearImage& picture, const LinearImage& reference) {
+    expectAlike(picture, reference);
+    if (!allFinite(picture) || !allFinite(reference)) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    auto worst = planesLike(picture.width_px, picture.height_px)[0];
+    for (const double exposure : exposuresFor(reference)) {
+        const auto errors = flip::errors(toneMapped(picture, exposure),
+                                         toneMapped(reference, exposure), kPixelsPerDegree);
+        std::transform(errors.values.begin(), errors.values.end(), worst.values.begin(),
+                       worst.values.begin(), [](float a, float b) { return std::max(a, b); });
+    }
+    return meanOf(worst);
+}
+
+} // namespace froxel::measure
