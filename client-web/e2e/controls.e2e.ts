@@ -19,6 +19,7 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   lights: [300, true],
   light_radius: [4, true],
   light_intensity: [3, true],
+  light_cutoff: [0.01, true],
   light_speed: [2, false],
   light_seed: [12_345_678, true],
   ambient: [5, true],

@@ -49,6 +49,7 @@ export interface Settings {
   readonly lights: number;
   readonly lightRadius: number;
   readonly lightIntensity: number;
+  readonly lightCutoff: number;
   readonly lightSeed: number;
   readonly lightAnimate: boolean;
   readonly lightSpeed: number;
@@ -112,6 +113,7 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     lights: state.lightCount,
     lightRadius: state.lightRadiusM,
     lightIntensity: state.lightIntensity,
+    lightCutoff: state.lightCutoff,
     lightSeed: state.lightSeed,
     lightAnimate: state.lightAnimate,
     lightSpeed: state.lightSpeed,
@@ -260,6 +262,7 @@ function lightChanges(from: Settings, to: Settings): LightsValue {
     ...(from.lights !== to.lights && { count: to.lights }),
     ...(from.lightRadius !== to.lightRadius && { radiusM: to.lightRadius }),
     ...(from.lightIntensity !== to.lightIntensity && { intensity: to.lightIntensity }),
+    ...(from.lightCutoff !== to.lightCutoff && { cutoff: to.lightCutoff }),
     ...(from.lightSeed !== to.lightSeed && { seed: to.lightSeed }),
     ...(from.lightAnimate !== to.lightAnimate && { animate: to.lightAnimate }),
     ...(from.lightSpeed !== to.lightSpeed && { speed: to.lightSpeed }),

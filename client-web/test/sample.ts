@@ -46,6 +46,7 @@ export function viewState(change: ViewInit = {}): ViewState {
     lightCount: 1000,
     lightRadiusM: 2,
     lightIntensity: 1,
+    lightCutoff: 0,
     lightSeed: 1,
     lightAnimate: true,
     lightSpeed: 1,

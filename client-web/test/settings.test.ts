@@ -54,6 +54,7 @@ describe('settingCommands', () => {
     ['light count', { lights: 0 }, { case: 'setLights', value: { count: 0 } }],
     ['light radius', { lightRadius: 3 }, { case: 'setLights', value: { radiusM: 3 } }],
     ['intensity', { lightIntensity: 0 }, { case: 'setLights', value: { intensity: 0 } }],
+    ['cut-off', { lightCutoff: 0.01 }, { case: 'setLights', value: { cutoff: 0.01 } }],
     ['seed', { lightSeed: 9 }, { case: 'setLights', value: { seed: 9 } }],
     ['animate', { lightAnimate: false }, { case: 'setLights', value: { animate: false } }],
     ['speed', { lightSpeed: 2 }, { case: 'setLights', value: { speed: 2 } }],

@@ -1,5 +1,6 @@
 #include "light/light_rig.h"
 
+#include "light/light_cutoff.h"
 #include "light/seeded_lights.h"
 
 #include <algorithm>
@@ -100,6 +101,17 @@ BoundsD3 LightRig::seededBox(const view::Lights& settings) const {
     return box;
 }
 
+void LightRig::addSceneLights(const view::Camera& camera, FrameLights& out) const {
+    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+    for (const scene::PunctualLight& light : scene_lights_) {
+        if (light.type == scene::LightType::kDirectional) {
+            addDirectional(light, view_from_world, out);
+        } else {
+            addLocal(light, camera, view_from_world, out);
+        }
+    }
+}
+
 void LightRig::evaluate(const view::Lights& settings,
                         const view::Camera& camera,
                         double time_s,
@@ -110,16 +122,11 @@ void LightRig::evaluate(const view::Lights& settings,
     out.cones.clear();
     out.directionals.clear();
     fillSeededLights(settings, camera, seededBox(settings), time_s, out.lights);
-    if (!settings.scene_lights) {
-        return;
+    if (settings.scene_lights) {
+        addSceneLights(camera, out);
     }
-    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
-    for (const scene::PunctualLight& light : scene_lights_) {
-        if (light.type == scene::LightType::kDirectional) {
-            addDirectional(light, view_from_world, out);
-        } else {
-            addLocal(light, camera, view_from_world, out);
-        }
+    if (settings.cutoff > 0) {
+        cutLights(out, static_cast<double>(settings.cutoff));
     }
 }
 

@@ -31,9 +31,16 @@ class LightRig {
     // bounds less kShrink of their size on every side.
     [[nodiscard]] BoundsD3 seededBox(const view::Lights& settings) const;
 
+    // The scene's lights that frames hold, in file order.
+    [[nodiscard]] const std::vector<scene::PunctualLight>& sceneLights() const {
+        return scene_lights_;
+    }
+
     static constexpr double kShrink = 0.04;
 
   private:
+    void addSceneLights(const view::Camera& camera, FrameLights& out) const;
+
     std::vector<scene::PunctualLight> scene_lights_;
     BoundsD3 scene_bounds_world_;
 };

@@ -80,7 +80,6 @@ struct SeededFrame {
     glm::dvec3 origin; // of the box, in view space
     glm::dmat3 view_from_box;
     glm::dvec3 cycles; // per-axis waves at unit speed
-    float inv_radius2;
     float intensity;
     uint64_t key;
 };
@@ -103,13 +102,39 @@ SeededFrame seededFrame(const view::Lights& settings,
     return {.origin = origin,
             .view_from_box = view_from_box,
             .cycles = cycles,
-            .inv_radius2 = inverseRadius2(static_cast<double>(settings.radius_m)),
             .intensity = settings.intensity,
             .key = mix(uint64_t{settings.seed} + 0x632be59bd9b4e019U)};
 }
 
+// Writes lights as the shaders read them.
+struct ShaderLights {
+    std::span<io::Light> out;
+    float inv_radius2;
+
+    void look(size_t index, const glm::vec3& color) const {
+        io::Light& light = out[index];
+        light.inv_radius2 = inv_radius2;
+        light.color = color;
+        light.spot = io::kNoSpot;
+    }
+    void place(size_t index, const glm::dvec3& position) const {
+        out[index].position_view = glm::vec3(position);
+    }
+};
+
+// Writes them unrounded.
+struct WorldLights {
+    std::span<SeededLight> out;
+
+    void look(size_t index, const glm::vec3& color) const { out[index].color = color; }
+    void place(size_t index, const glm::dvec3& position) const {
+        out[index].position_world = position;
+    }
+};
+
 // Lights [begin, end) of all.
-void fillRange(const SeededFrame& frame, size_t begin, size_t end, std::span<io::Light> out) {
+template <class Lights>
+void fillRange(const SeededFrame& frame, size_t begin, size_t end, const Lights& out) {
     const auto& hues = hueTable();
     std::array<std::array<double, kBatch>, 3> wave;
     for (size_t first = begin; first < end; first += kBatch) {
@@ -126,10 +151,7 @@ void fillRange(const SeededFrame& frame, size_t begin, size_t end, std::span<io:
             }
             const auto hue = static_cast<size_t>(look.values[0] * kHues);
             const auto gain = static_cast<float>(0.5 + look.values[1]) * frame.intensity;
-            io::Light& light = out[first + i];
-            light.inv_radius2 = frame.inv_radius2;
-            light.color = hues[hue] * gain;
-            light.spot = io::kNoSpot;
+            out.look(first + i, hues[hue] * gain);
         }
         for (auto& axis : wave) {
             for (double& x : axis) {
@@ -139,7 +161,7 @@ void fillRange(const SeededFrame& frame, size_t begin, size_t end, std::span<io:
         for (size_t i = 0; i < count; ++i) {
             const glm::dvec3 position =
                 frame.origin + frame.view_from_box * glm::dvec3(wave[0][i], wave[1][i], wave[2][i]);
-            out[first + i].position_view = glm::vec3(position);
+            out.place(first + i, position);
         }
     }
 }
@@ -158,18 +180,27 @@ void fillSeededLights(const view::Lights& settings,
                       double time_s,
                       std::span<io::Light> out) {
     const SeededFrame frame = seededFrame(settings, camera, box_world, time_s);
+    const ShaderLights lights{out, inverseRadius2(static_cast<double>(settings.radius_m))};
     const size_t threads = std::clamp<size_t>(out.size() / kLightsPerThread, 1,
                                               std::max(1U, std::thread::hardware_concurrency()));
     std::vector<std::future<void>> others;
     for (size_t i = 1; i < threads; ++i) {
         others.push_back(std::async(std::launch::async, [&, i] {
-            fillRange(frame, out.size() * i / threads, out.size() * (i + 1) / threads, out);
+            fillRange(frame, out.size() * i / threads, out.size() * (i + 1) / threads, lights);
         }));
     }
-    fillRange(frame, 0, out.size() / threads, out);
+    fillRange(frame, 0, out.size() / threads, lights);
     for (auto& other : others) {
         other.get();
     }
+}
+
+std::vector<SeededLight>
+seededLights(const view::Lights& settings, const BoundsD3& box_world, double time_s) {
+    std::vector<SeededLight> lights(settings.count);
+    const SeededFrame frame = seededFrame(settings, {}, box_world, time_s); // the world's own axes
+    fillRange(frame, 0, lights.size(), WorldLights{lights});
+    return lights;
 }
 
 } // namespace froxel::light

@@ -7,6 +7,7 @@
 #include "view/settings.h"
 
 #include <span>
+#include <vector>
 
 namespace froxel::light {
 
@@ -23,6 +24,14 @@ void fillSeededLights(const view::Lights& settings,
                       const BoundsD3& box_world,
                       double time_s,
                       std::span<io::Light> out);
+
+// The same lights in world space, before they are rounded.
+struct SeededLight {
+    glm::dvec3 position_world{0};
+    glm::vec3 color{0}; // linear, times intensity
+};
+[[nodiscard]] std::vector<SeededLight>
+seededLights(const view::Lights& settings, const BoundsD3& box_world, double time_s);
 
 // 1 / radius^2 as the shaders take it; finite for every radius > 0, and 0 for infinity.
 [[nodiscard]] float inverseRadius2(double radius_m);

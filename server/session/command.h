@@ -43,6 +43,7 @@ struct SetLights {
     std::optional<uint32_t> count;
     std::optional<double> radius_m;
     std::optional<double> intensity;
+    std::optional<double> cutoff;
     std::optional<uint32_t> seed;
     std::optional<bool> animate;
     std::optional<double> speed;

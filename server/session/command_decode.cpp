@@ -146,6 +146,9 @@ Command decode(const v1::SetLights& lights, FieldValidator& fields) {
     if (lights.has_intensity()) {
         command.intensity = fields.number(view::kLightIntensityRange, lights.intensity());
     }
+    if (lights.has_cutoff()) {
+        command.cutoff = fields.number(view::kLightCutoffRange, lights.cutoff());
+    }
     if (lights.has_seed()) {
         command.seed = lights.seed();
     }

@@ -80,6 +80,7 @@ struct Reducer {
         assignIfGiven(lights.count, command.count);
         assignIfGiven(lights.radius_m, command.radius_m);
         assignIfGiven(lights.intensity, command.intensity);
+        assignIfGiven(lights.cutoff, command.cutoff);
         assignIfGiven(lights.seed, command.seed);
         assignIfGiven(lights.animate, command.animate);
         assignIfGiven(lights.speed, command.speed);

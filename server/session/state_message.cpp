@@ -47,6 +47,7 @@ void fillLights(v1::ViewState& out, const view::Lights& lights, const BoundsD3& 
     out.set_light_count(lights.count);
     out.set_light_radius_m(lights.radius_m);
     out.set_light_intensity(lights.intensity);
+    out.set_light_cutoff(lights.cutoff);
     out.set_light_seed(lights.seed);
     out.set_light_animate(lights.animate);
     out.set_light_speed(lights.speed);

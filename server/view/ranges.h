@@ -21,6 +21,7 @@ inline constexpr Range<uint32_t> kHeightRange{"height", 16, 4096};
 inline constexpr Range<uint32_t> kLightCountRange{"lights", 0, 1'000'000};
 inline constexpr Range<double> kLightRadiusRange{"light_radius", 0.001, 10'000.0};
 inline constexpr Range<double> kLightIntensityRange{"light_intensity", 0.0, 1'000'000.0};
+inline constexpr Range<double> kLightCutoffRange{"light_cutoff", 0.0, 1'000.0};
 inline constexpr Range<double> kLightSpeedRange{"light_speed", 0.0, 100.0};
 inline constexpr Range<double> kAmbientRange{"ambient", 0.0, 1'000.0};
 inline constexpr Range<uint32_t> kGridXRange{"grid.x", 1, 128};
@@ -46,6 +47,6 @@ inline constexpr std::tuple kCommandRanges{
     kLightSpeedRange, kAmbientRange, kGridXRange,      kGridYRange,       kGridZRange,
     kExposureRange,   kFovRange,     kHalfHeightRange, kPositionRange,    kFocusRange,
     kUpRange,         kQualityRange, kToonRange,       kToonSlopeRange,   kTimeRange,
-    kLensShiftXRange, kLensShiftYRange};
+    kLensShiftXRange, kLensShiftYRange, kLightCutoffRange};
 
 } // namespace froxel::view

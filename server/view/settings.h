@@ -102,6 +102,8 @@ struct Lights {
     uint32_t count = 1000;       // seeded point lights
     float radius_m = 2.0F;       // where a light's contribution reaches exactly 0
     float intensity = 1.0F;      // scales every seeded light
+    float cutoff = 0.0F;         // trades error for speed: a light ends where its irradiance, facing
+                                 // it, would fall to this before its window; 0: at its radius
     uint32_t seed = 1;
     bool animate = true;         // off: time stands still
     float speed = 1.0F;          // scales the animation's clock

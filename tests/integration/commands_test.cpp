@@ -99,6 +99,7 @@ TEST_F(CommandsTest, EveryCommand_Valid_ChangesTheState) {
     lights->set_count(42);
     lights->set_radius_m(3.5);
     lights->set_intensity(2);
+    lights->set_cutoff(0.01);
     lights->set_seed(9);
     lights->set_animate(false);
     lights->set_speed(0.5);
@@ -109,6 +110,7 @@ TEST_F(CommandsTest, EveryCommand_Valid_ChangesTheState) {
     const v1::ViewState lit = change(message);
     EXPECT_EQ(lit.light_count(), 42U);
     EXPECT_DOUBLE_EQ(lit.light_radius_m(), 3.5);
+    EXPECT_NEAR(lit.light_cutoff(), 0.01, 1e-9);
     EXPECT_EQ(lit.light_seed(), 9U);
     EXPECT_FALSE(lit.light_animate());
     EXPECT_FALSE(lit.scene_lights());

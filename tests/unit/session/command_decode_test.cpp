@@ -158,7 +158,7 @@ TEST(DecodeCommand, SetLights_AbsentStaysAbsent_ZeroIsAValue) {
     v1::ClientMessage empty = clientMessage();
     empty.mutable_set_lights();
     const auto none = accepted<SetLights>(decodeBinary(empty));
-    EXPECT_FALSE(none.count || none.radius_m || none.intensity || none.seed || none.animate ||
+    EXPECT_FALSE(none.count || none.radius_m || none.intensity || none.cutoff || none.seed || none.animate ||
                  none.speed || none.ambient || none.scene_lights || none.box || none.clear_box);
 
     v1::ClientMessage zeros = clientMessage();

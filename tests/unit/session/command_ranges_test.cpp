@@ -80,6 +80,8 @@ const std::vector<RangedField>& fields() {
                [](M& m, double v) { m.mutable_set_lights()->set_radius_m(v); }),
         ranged(view::kLightIntensityRange,
                [](M& m, double v) { m.mutable_set_lights()->set_intensity(v); }),
+        ranged(view::kLightCutoffRange,
+               [](M& m, double v) { m.mutable_set_lights()->set_cutoff(v); }),
         ranged(view::kLightSpeedRange,
                [](M& m, double v) { m.mutable_set_lights()->set_speed(v); }),
         ranged(view::kAmbientRange, [](M& m, double v) { m.mutable_set_lights()->set_ambient(v); }),

@@ -56,7 +56,7 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.camera.lens_shift = {0.25, -0.5};
     state.settings.renderer = view::Renderer::kToonCompute;
     state.settings.lighting = view::LightingStage::kFragment;
-    state.settings.lights = {3, 1.5F, 2.5F, 9, false, 0.5F, {}, 0.25F, false};
+    state.settings.lights = {3, 1.5F, 2.5F, 0.125F, 9, false, 0.5F, {}, 0.25F, false};
     state.settings.shading = view::ShadingModel::kLambert;
     state.settings.gbuffer = {view::NormalEncoding::kXy16, view::PositionSource::kFp16};
     state.settings.light_loop = view::LightLoop::kLists;
@@ -81,6 +81,7 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.light_count(), 3U);
     EXPECT_EQ(view.light_radius_m(), 1.5);
     EXPECT_EQ(view.light_intensity(), 2.5);
+    EXPECT_EQ(view.light_cutoff(), 0.125);
     EXPECT_EQ(view.light_seed(), 9U);
     EXPECT_FALSE(view.light_animate());
     EXPECT_EQ(view.light_speed(), 0.5);

@@ -1,0 +1,45 @@
+#include "light/light_cutoff.h"
+
+#include "light/seeded_lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::light {
+
+namespace {
+
+// Nearer than this a light's distance counts as this (shaders/lib/brdf.glsl).
+constexpr double kNearest_m = 0.01;
+
+} // namespace
+
+double cutRadius(const glm::vec3& color, double radius_m, double cutoff) {
+    const double strongest = static_cast<double>(std::max({color.x, color.y, color.z}));
+    if (!(strongest > 0)) {
+        return 0;
+    }
+    // (1 - d^4/r^4)^2 / d^2 = cutoff / strongest, or 1 - d^4/r^4 - d s = 0: falling and concave,
+    // so Newton's method comes down to the root from any start beyond it.
+    const double s = std::sqrt(cutoff / strongest);
+    const double inv_r4 = 1.0 / (radius_m * radius_m * radius_m * radius_m);
+    double d = std::min(radius_m, 1.0 / s);
+    constexpr int kSteps = 8; // 6 leave an error below a float's rounding
+    for (int i = 0; i < kSteps; ++i) {
+        const double d3 = d * d * d;
+        d += (1.0 - d3 * d * inv_r4 - d * s) / (4.0 * d3 * inv_r4 + s);
+    }
+    return d > kNearest_m ? d : 0.0;
+}
+
+void cutLights(FrameLights& lights, double cutoff) {
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        io::Light& light = lights.lights[i];
+        const double radius =
+            cutRadius(light.color, static_cast<double>(lights.radii_m[i]), cutoff);
+        lights.radii_m[i] = static_cast<float>(radius);
+        light.inv_radius2 = inverseRadius2(static_cast<double>(lights.radii_m[i]));
+    }
+}
+
+} // namespace froxel::light

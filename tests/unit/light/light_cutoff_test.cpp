@@ -1,0 +1,65 @@
+#include "light/light_cutoff.h"
+
+#include "light/light_rig.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace froxel::light {
+namespace {
+
+double windowed(double strongest, double radius_m, double distance_m) {
+    const double x = distance_m * distance_m / (radius_m * radius_m);
+    const double window = std::pow(std::max(0.0, 1 - x * x), 2);
+    return strongest * window / (distance_m * distance_m);
+}
+
+TEST(LightCutoff, CutRadius_IsWhereTheIrradianceFallsToIt) {
+    for (const double radius : {0.05, 0.5, 2.0, 50.0}) {
+        for (const float strongest : {0.1F, 1.0F, 300.0F}) {
+            for (const double cutoff : {1e-6, 1e-3, 0.02, 1.0}) {
+                const double cut = cutRadius({0, strongest, 0.5F * strongest}, radius, cutoff);
+                ASSERT_LE(cut, radius);
+                if (cut > 0) {
+                    EXPECT_NEAR(windowed(static_cast<double>(strongest), radius, cut) / cutoff, 1,
+                                1e-6)
+                        << radius << " m, " << strongest << ", cut at " << cutoff;
+                } else {
+                    EXPECT_LE(windowed(static_cast<double>(strongest), radius, 0.01), cutoff);
+                }
+            }
+        }
+    }
+}
+
+TEST(LightCutoff, UnlimitedLight_EndsByTheInverseSquare) {
+    const double cut = cutRadius({4, 1, 1}, std::numeric_limits<double>::infinity(), 0.01);
+    EXPECT_NEAR(cut, 20, 1e-9);
+}
+
+TEST(LightCutoff, BlackLight_ReachesNothing) { EXPECT_EQ(cutRadius({0, 0, 0}, 2, 0.01), 0); }
+
+TEST(LightCutoff, LightRig_CutsWhereItIsAskedTo) {
+    scene::Scene scene;
+    scene.bounds_world = {{-1, -1, -1}, {1, 1, 1}};
+    view::Lights settings;
+    settings.count = 50;
+    FrameLights whole;
+    LightRig(scene).evaluate(settings, {}, 0, whole);
+    settings.cutoff = 0.02F;
+    FrameLights cut;
+    LightRig(scene).evaluate(settings, {}, 0, cut);
+    ASSERT_EQ(cut.lights.size(), whole.lights.size());
+    for (size_t i = 0; i < cut.lights.size(); ++i) {
+        EXPECT_LT(cut.radii_m[i], whole.radii_m[i]);
+        EXPECT_GT(cut.radii_m[i], 1.0F);
+        EXPECT_EQ(cut.lights[i].position_view, whole.lights[i].position_view);
+        EXPECT_EQ(cut.lights[i].color, whole.lights[i].color);
+    }
+}
+
+} // namespace
+} // namespace froxel::light
