@@ -1,38 +1,39 @@
 // R2, the second reference: the picture as the formulas say, in double on the host, from what a
 // device says it sees. Written apart from the shaders, so that it can catch them. Prices the
-// G-buffer, depth reconstruction and fp32 arithmetic, not the light model.
+// G-buffer, depth reconstruction, texture filtering and fp32 arithmetic, not the light model.
 #pragma once
 
 #include "core/error.h"
 #include "core/linear_image.h"
+#include "core/visibility.h"
+#include "reference/texture.h"
 #include "scene/scene.h"
 #include "view/settings.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace froxel::reference {
 
-// One pixel's solid surface: which triangle of which placed mesh covers the pixel's centre.
-struct VisibleTriangle {
-    static constexpr uint32_t kNothing = 0xFFFFFFFF;
-    uint32_t instance = kNothing; // index into scene.instances
-    uint32_t primitive = 0;       // of the instance's mesh
-    uint32_t triangle = 0;        // of the primitive: its indices 3 i, 3 i + 1, 3 i + 2
-};
+using froxel::Visibility;
+using froxel::VisibleTriangle;
 
-struct Visibility {
-    uint32_t width_px = 0;
-    uint32_t height_px = 0;
-    std::vector<VisibleTriangle> pixels; // [height][width], top row first
-};
-
-// Shades every pixel with every light of `settings` at `time_s`. The ray through the pixel's centre
-// meets the triangle in double; textures are filtered trilinearly in double by this room's own code.
-// Runs on every hardware thread. Errors: kUnsupported names what this reference does not model.
+// Shades every pixel with every light of `settings` at `time_s` (the lights' clock), by the
+// renderer and the shading model that `settings` name. Grids, lists, stages and layouts do not
+// matter, and what trades error for speed (a G-buffer layout, a lights' cut-off) is left out, so
+// that it is priced. The ray through the pixel's centre meets the plane of the stated triangle in
+// double; where a rasteriser's snapping let the triangle cover a centre that lies just outside, the
+// nearest barycentric coordinates inside are taken. Blended triangles are found by ray here and
+// sorted pixel by pixel. Runs on every hardware thread. `scene` is only read.
+//
+// Stated model, besides glTF 2.0 with KHR_lights_punctual, KHR_materials_unlit and
+// KHR_texture_transform: visibility is height-correlated Smith (Heitz 2014); roughness is at least
+// kLeastRoughness; attenuation as in brdf.h; missing tangents are the gradients of the texture
+// coordinates over the triangle, seen by the interpolated normal.
+//
+// Errors: kInvalidArgument where the visibility is not of the settings' size or names a triangle
+// that the scene does not have.
 [[nodiscard]] Result<LinearImage> shade(const scene::Scene& scene,
                                         const view::ViewSettings& settings,
                                         double time_s,
-                                        const Visibility& visibility);
+                                        const Visibility& visibility,
+                                        const Filtering& filtering = {});
 
 } // namespace froxel::reference

@@ -1,16 +1,13 @@
 #include "render/frame_uniforms.h"
 
+#include "view/environment.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace froxel::render {
 
 namespace {
-
-// Linear radiance of the ambient term at strength 1: a cool dusk above, warm bounce below.
-constexpr glm::vec3 kSky{0.050F, 0.058F, 0.075F};
-constexpr glm::vec3 kGround{0.030F, 0.026F, 0.022F};
-constexpr glm::vec3 kBackground{0.010F, 0.013F, 0.020F};
 
 // Beyond any argument of the ramp: an unused segment.
 constexpr float kNever = 1e30F;
@@ -102,9 +99,9 @@ io::Frame makeFrameUniforms(const view::ViewSettings& settings,
     frame.directional_count = directional_count;
     frame.up_view = glm::vec3(glm::transpose(camera.world_from_view)[1]);
     frame.exposure = settings.exposure;
-    frame.ambient_sky = kSky * settings.lights.ambient;
-    frame.ambient_ground = kGround * settings.lights.ambient;
-    frame.background = kBackground;
+    frame.ambient_sky = view::kAmbientSky * settings.lights.ambient;
+    frame.ambient_ground = view::kAmbientGround * settings.lights.ambient;
+    frame.background = view::kBackground;
     fillToon(settings.renderer == view::Renderer::kToonCompute ? settings.toon_compute
                                                                : settings.toon_fragment,
              frame);

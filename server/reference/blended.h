@@ -1,0 +1,45 @@
+// Blended triangles that pixels see, found by ray.
+#pragma once
+
+#include "reference/geometry.h"
+#include "scene/scene.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace froxel::reference {
+
+struct BlendedHit {
+    uint32_t instance = 0;
+    uint32_t primitive = 0;
+    uint32_t triangle = 0;
+    PlanePoint point;
+};
+
+class BlendedSurfaces {
+  public:
+    BlendedSurfaces(const scene::Scene& scene,
+                    std::span<const Placement> placements,
+                    const view::Camera& camera,
+                    const view::Size& size);
+
+    // The nearest last.
+    [[nodiscard]] std::span<const BlendedHit> at(uint32_t x, uint32_t y) const {
+        return hits_[size_t{y} * size_.width_px + x];
+    }
+
+  private:
+    void addTriangle(const Placement& placement,
+                     const scene::Primitive& primitive,
+                     bool both_sides,
+                     BlendedHit hit);
+
+    PixelRays rays_;
+    view::Size size_;
+    double near_m_;
+    std::vector<std::vector<BlendedHit>> hits_; // [height][width]
+};
+
+} // namespace froxel::reference

@@ -1,0 +1,45 @@
+// What a surface sends towards the eye: glTF 2.0, appendix B, in double.
+#pragma once
+
+#include "reference/lights.h"
+#include "view/settings.h"
+
+namespace froxel::reference {
+
+inline constexpr double kLeastRoughness = 0.045; // a smaller highlight would slip between pixels
+// A light's irradiance is colour * window / max(d^2, kFloor2), window = max(0, 1 - (d^2/r^2)^2)^2:
+// exactly 0 from its radius on.
+inline constexpr double kFloor2_m2 = 1e-4; // (1 cm)^2
+
+// Everything is in the world's axes; `position` is relative to the eye.
+struct Surface {
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0, 1, 0}; // unit
+    glm::dvec3 to_eye{0, 1, 0}; // unit
+    glm::dvec3 base_color{1};
+    double metallic = 0;
+    double roughness = 1;
+    double occlusion = 1;
+    glm::dvec3 emissive{0};
+    double alpha = 1;
+    bool unlit = false;
+};
+
+struct Model {
+    view::ShadingModel shading = view::ShadingModel::kPbr;
+    const view::ToonRamp* ramp = nullptr; // over n.l of what is scattered; null: n.l itself
+};
+
+// Radiance towards the eye for light of unit irradiance from direction `to_light` (unit), per
+// channel: BRDF times cosine.
+[[nodiscard]] glm::dvec3
+reflected(const Surface& surface, const Model& model, const glm::dvec3& to_light);
+
+// The share of a light's intensity, candela, that is irradiance at a point `to_light` away from it,
+// on a plane that faces it; 0 from its radius on.
+[[nodiscard]] double attenuation(const PointLight& light, const glm::dvec3& to_light);
+
+// All lights, ambient and emission; of an unlit surface its base colour.
+[[nodiscard]] glm::dvec3 radiance(const Surface& surface, const Model& model, const Lights& lights);
+
+} // namespace froxel::reference

@@ -1,0 +1,62 @@
+#include "reference/lights.h"
+
+#include "light/light_rig.h"
+#include "light/seeded_lights.h"
+#include "view/environment.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::reference {
+namespace {
+
+double squared(double x) {
+    return x * x;
+}
+
+// KHR_lights_punctual: the falloff that its text recommends.
+void addCone(const scene::PunctualLight& light, PointLight& out) {
+    out.direction = glm::normalize(light.direction_world);
+    const double cos_outer = std::cos(light.outer_cone_rad);
+    out.cone_scale = 1 / std::max(0.001, std::cos(light.inner_cone_rad) - cos_outer);
+    out.cone_offset = -cos_outer * out.cone_scale;
+}
+
+} // namespace
+
+Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, double time_s) {
+    const light::LightRig rig(scene);
+    const glm::dvec3& eye = settings.camera.eye_world;
+    Lights lights;
+    const double seeded_radius = static_cast<double>(settings.lights.radius_m);
+    for (const auto& seeded :
+         light::seededLights(settings.lights, rig.seededBox(settings.lights), time_s)) {
+        lights.points.push_back({.position = seeded.position_world - eye,
+                                 .radius2 = squared(seeded_radius),
+                                 .color = glm::dvec3(seeded.color)});
+    }
+    const double ambient = static_cast<double>(settings.lights.ambient);
+    lights.sky = glm::dvec3(view::kAmbientSky) * ambient;
+    lights.ground = glm::dvec3(view::kAmbientGround) * ambient;
+    if (!settings.lights.scene_lights) {
+        return lights;
+    }
+    for (const auto& light : rig.sceneLights()) {
+        const glm::dvec3 color = glm::dvec3(light.color) * static_cast<double>(light.intensity);
+        if (light.type == scene::LightType::kDirectional) {
+            lights.directionals.push_back({glm::normalize(light.direction_world), color});
+            continue;
+        }
+        PointLight point{.position = light.position_world - eye, .color = color};
+        if (light.range_m > 0) {
+            point.radius2 = squared(static_cast<double>(light.range_m));
+        }
+        if (light.type == scene::LightType::kSpot) {
+            addCone(light, point);
+        }
+        lights.points.push_back(point);
+    }
+    return lights;
+}
+
+} // namespace froxel::reference

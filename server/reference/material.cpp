@@ -1,0 +1,136 @@
+#include "reference/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::reference {
+namespace {
+
+// KHR_texture_transform, of a coordinate; `offset` is left out for changes.
+glm::dvec2 transformed(const scene::TextureSlot& slot, const glm::dvec2& uv, bool offset) {
+    const double c = std::cos(static_cast<double>(slot.rotation_rad));
+    const double s = std::sin(static_cast<double>(slot.rotation_rad));
+    const glm::dvec2 scaled = uv * glm::dvec2(slot.scale);
+    const glm::dvec2 rotated(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);
+    return offset ? rotated + glm::dvec2(slot.offset) : rotated;
+}
+
+struct TangentFrame {
+    glm::dvec3 tangent{0};   // where u grows
+    glm::dvec3 bitangent{0}; // where v falls: glTF's green channel points up in the image
+    bool known = false;
+};
+
+// Gradients of u and v over the triangle as seen by the interpolated normal (Mikkelsen 2020), the
+// longer one made unit.
+TangentFrame gradientFrame(const SurfacePoint& p, const scene::TextureSlot& slot) {
+    const UvPlane& uv = p.uv[slot.texcoord == 0 ? 0 : 1];
+    const glm::dvec2 change1 = transformed(slot, uv.edge1, false);
+    const glm::dvec2 change2 = transformed(slot, uv.edge2, false);
+    const glm::dvec3 against1 = glm::cross(p.triangle.edge2, p.normal);
+    const glm::dvec3 against2 = glm::cross(p.normal, p.triangle.edge1);
+    const double area = glm::dot(p.normal, glm::cross(p.triangle.edge1, p.triangle.edge2));
+    TangentFrame frame;
+    frame.tangent = against1 * change1.x + against2 * change2.x;
+    frame.bitangent = -(against1 * change1.y + against2 * change2.y);
+    const double longest = std::max(glm::length(frame.tangent), glm::length(frame.bitangent));
+    frame.known = longest > 0;
+    if (frame.known) {
+        const double scale = (area < 0 ? -1 : 1) / longest;
+        frame.tangent *= scale;
+        frame.bitangent *= scale;
+    }
+    return frame;
+}
+
+} // namespace
+
+Materials::Materials(const scene::Scene& scene,
+                     std::span<const uint32_t> used,
+                     const Filtering& filtering)
+    : scene_(scene), filtering_(filtering) {
+    for (const uint32_t index : used) {
+        const scene::Material& m = scene.materials[index];
+        Look look;
+        look.base_color = slot(m.base_color_texture, true);
+        if (!m.unlit) {
+            look.metallic_roughness = slot(m.metallic_roughness_texture, false);
+            look.normal = slot(m.normal_texture, false);
+            look.occlusion = slot(m.occlusion_texture, false);
+            look.emissive = slot(m.emissive_texture, true);
+        }
+        looks_.emplace(index, look);
+    }
+}
+
+Materials::Slot Materials::slot(const scene::TextureSlot& settings, bool srgb) {
+    if (settings.texture == scene::kNone) {
+        return {};
+    }
+    const scene::Texture& texture = scene_.textures[settings.texture];
+    auto& chain = chains_[{texture.image, srgb}];
+    if (!chain) {
+        chain = std::make_unique<MipChain>(scene_.images[texture.image], srgb);
+    }
+    const auto sampler =
+        texture.sampler != scene::kNone ? scene_.samplers[texture.sampler] : scene::Sampler{};
+    return {chain.get(), sampler, settings};
+}
+
+glm::dvec4 Materials::sample(const Slot& slot, const SurfacePoint& point) const {
+    if (slot.chain == nullptr) {
+        return glm::dvec4(1);
+    }
+    const UvPlane& uv = point.uv[slot.settings.texcoord == 0 ? 0 : 1];
+    const Footprint footprint{transformed(slot.settings, uv.at(point.weights), true),
+                              transformed(slot.settings, uv.change(point.weights_dx), false),
+                              transformed(slot.settings, uv.change(point.weights_dy), false)};
+    return slot.chain->sample(slot.sampler, footprint, filtering_.max_anisotropy);
+}
+
+// The back of a double-sided surface has the front's normal, normal map and all, reversed.
+glm::dvec3 Materials::normalAt(const scene::Material& material,
+                               const Look& look,
+                               const SurfacePoint& point) const {
+    const double facing = material.double_sided && !point.front ? -1 : 1;
+    if (look.normal.chain == nullptr) {
+        return point.normal * facing;
+    }
+    glm::dvec3 map = glm::dvec3(sample(look.normal, point)) * 2.0 - 1.0;
+    map *= glm::dvec3(glm::dvec2(static_cast<double>(material.normal_scale)), 1);
+    TangentFrame frame;
+    if (point.tangent.w != 0) {
+        frame.tangent = glm::dvec3(point.tangent);
+        frame.bitangent = glm::cross(point.normal, frame.tangent) * point.tangent.w;
+        frame.known = true;
+    } else {
+        frame = gradientFrame(point, look.normal.settings);
+    }
+    if (!frame.known) {
+        return point.normal * facing;
+    }
+    return glm::normalize(frame.tangent * map.x + frame.bitangent * map.y + point.normal * map.z) *
+           facing;
+}
+
+Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
+    const scene::Material& m = scene_.materials[material];
+    const Look& look = looks_.at(material);
+    const glm::dvec4 base = glm::dvec4(m.base_color) * sample(look.base_color, point) * point.color;
+    const glm::dvec4 roughness = sample(look.metallic_roughness, point);
+    const double occlusion = sample(look.occlusion, point).x;
+    Surface s;
+    s.position = point.position;
+    s.normal = normalAt(m, look, point);
+    s.to_eye = point.to_eye;
+    s.base_color = glm::clamp(glm::dvec3(base), 0.0, 1.0);
+    s.alpha = m.alpha_mode == scene::AlphaMode::kBlend ? std::clamp(base.w, 0.0, 1.0) : 1.0;
+    s.roughness = static_cast<double>(m.roughness) * roughness.y;
+    s.metallic = static_cast<double>(m.metallic) * roughness.z;
+    s.occlusion = 1 + static_cast<double>(m.occlusion_strength) * (occlusion - 1);
+    s.emissive = glm::dvec3(m.emissive) * glm::dvec3(sample(look.emissive, point));
+    s.unlit = m.unlit;
+    return s;
+}
+
+} // namespace froxel::reference

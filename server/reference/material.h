@@ -1,0 +1,51 @@
+// glTF 2.0 materials at a point of a surface.
+#pragma once
+
+#include "reference/brdf.h"
+#include "reference/geometry.h"
+#include "reference/texture.h"
+
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace froxel::reference {
+
+// Materials with the mip chains that they need. Immutable: any number of threads may read.
+class Materials {
+  public:
+    // Makes the chains of `used`, indices into scene.materials; keeps a reference to the scene.
+    Materials(const scene::Scene& scene,
+              std::span<const uint32_t> used,
+              const Filtering& filtering);
+
+    [[nodiscard]] Surface at(uint32_t material, const SurfacePoint& point) const;
+
+  private:
+    struct Slot {
+        const MipChain* chain = nullptr; // null: none
+        scene::Sampler sampler;
+        scene::TextureSlot settings;
+    };
+    struct Look {
+        Slot base_color;
+        Slot metallic_roughness;
+        Slot normal;
+        Slot occlusion;
+        Slot emissive;
+    };
+
+    Slot slot(const scene::TextureSlot& settings, bool srgb);
+    // White where there is no texture.
+    [[nodiscard]] glm::dvec4 sample(const Slot& slot, const SurfacePoint& point) const;
+    [[nodiscard]] glm::dvec3
+    normalAt(const scene::Material& material, const Look& look, const SurfacePoint& point) const;
+
+    const scene::Scene& scene_;
+    Filtering filtering_;
+    std::map<std::pair<uint32_t, bool>, std::unique_ptr<MipChain>> chains_; // by image, encoding
+    std::map<uint32_t, Look> looks_;
+};
+
+} // namespace froxel::reference

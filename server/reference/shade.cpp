@@ -1,0 +1,183 @@
+#include "reference/shade.h"
+
+#include "reference/blended.h"
+#include "reference/brdf.h"
+#include "reference/geometry.h"
+#include "reference/lights.h"
+#include "reference/material.h"
+#include "reference/toon.h"
+#include "view/environment.h"
+
+#include <algorithm>
+#include <atomic>
+#include <set>
+#include <string>
+#include <thread>
+
+namespace froxel::reference {
+namespace {
+
+std::vector<Placement> placementsOf(const scene::Scene& scene, const glm::dvec3& eye_world) {
+    std::vector<Placement> placements;
+    for (const auto& instance : scene.instances) {
+        placements.emplace_back(instance, eye_world);
+    }
+    return placements;
+}
+
+const scene::Primitive&
+primitiveOf(const scene::Scene& scene, uint32_t instance, uint32_t primitive) {
+    return scene.meshes[scene.instances[instance].mesh].primitives[primitive];
+}
+
+std::vector<uint32_t> visibleMaterials(const scene::Scene& scene, const Visibility& visibility) {
+    std::set<uint32_t> materials;
+    std::pair last(VisibleTriangle::kNothing, 0U);
+    for (const auto& pixel : visibility.pixels) {
+        const std::pair now(pixel.instance, pixel.primitive);
+        if (pixel.instance != VisibleTriangle::kNothing && now != last) {
+            materials.insert(primitiveOf(scene, now.first, now.second).material);
+            last = now;
+        }
+    }
+    for (uint32_t i = 0; i < scene.materials.size(); ++i) {
+        if (scene.materials[i].alpha_mode == scene::AlphaMode::kBlend) {
+            materials.insert(i);
+        }
+    }
+    return {materials.begin(), materials.end()};
+}
+
+Model modelOf(const view::ViewSettings& settings) {
+    const bool toon = settings.renderer == view::Renderer::kToonFragment;
+    return {settings.shading, toon ? &settings.toon_fragment : nullptr};
+}
+
+class Shader {
+  public:
+    Shader(const scene::Scene& scene,
+           const view::ViewSettings& settings,
+           double time_s,
+           const Visibility& visibility,
+           const Filtering& filtering)
+        : scene_(scene), settings_(settings), visibility_(visibility), filtering_(filtering),
+          rays_(settings.camera, settings.size), model_(modelOf(settings)),
+          lights_(lightsAt(scene, settings, time_s)),
+          placements_(placementsOf(scene, settings.camera.eye_world)),
+          materials_(scene, visibleMaterials(scene, visibility), filtering),
+          blended_(scene, placements_, settings.camera, settings.size) {}
+
+    [[nodiscard]] glm::dvec3 pixel(uint32_t x, uint32_t y) const {
+        const auto& visible = visibility_.pixels[size_t{y} * visibility_.width_px + x];
+        glm::dvec3 color(view::kBackground);
+        double distance = std::numeric_limits<double>::infinity();
+        if (visible.instance != VisibleTriangle::kNothing) {
+            const PixelHit hit{x, y, meet(visible, x, y)};
+            distance = hit.point.distance;
+            color = shadeHit(hit, visible);
+            if (settings_.renderer == view::Renderer::kToonCompute) {
+                const double norm = glm::length(color);
+                color *= norm > 0 ? toonRamp(settings_.toon_compute, norm) / norm : 0.0;
+            }
+        }
+        for (const auto& layer : blended_.at(x, y)) {
+            if (layer.point.distance <= distance) {
+                double alpha = 1;
+                const glm::dvec3 over = shadeHit(
+                    {x, y, layer.point}, {layer.instance, layer.primitive, layer.triangle}, &alpha);
+                color = glm::mix(color, over, alpha);
+            }
+        }
+        return color;
+    }
+
+  private:
+    [[nodiscard]] PlanePoint meet(const VisibleTriangle& visible, uint32_t x, uint32_t y) const {
+        const auto& primitive = primitiveOf(scene_, visible.instance, visible.primitive);
+        return meetPlane(rays_.through(x, y), placedTriangle(placements_[visible.instance],
+                                                             primitive, visible.triangle));
+    }
+    [[nodiscard]] glm::dvec3
+    shadeHit(const PixelHit& hit, const VisibleTriangle& visible, double* alpha = nullptr) const {
+        const auto& primitive = primitiveOf(scene_, visible.instance, visible.primitive);
+        const auto point = surfaceAt(rays_, hit, placements_[visible.instance], primitive,
+                                     visible.triangle, filtering_.gradients);
+        const Surface surface = materials_.at(primitive.material, point);
+        if (alpha != nullptr) {
+            *alpha = surface.alpha;
+        }
+        return radiance(surface, model_, lights_);
+    }
+
+    const scene::Scene& scene_;
+    const view::ViewSettings& settings_;
+    const Visibility& visibility_;
+    const Filtering filtering_;
+    const PixelRays rays_;
+    const Model model_;
+    const Lights lights_;
+    const std::vector<Placement> placements_;
+    const Materials materials_;
+    const BlendedSurfaces blended_;
+};
+
+// Empty where every triangle exists.
+std::string
+findFault(const scene::Scene& scene, const view::Size& size, const Visibility& visibility) {
+    const auto text = [](uint32_t value) { return std::to_string(value); };
+    if (visibility.width_px != size.width_px || visibility.height_px != size.height_px ||
+        visibility.pixels.size() != size_t{size.width_px} * size.height_px) {
+        return "the visibility is " + text(visibility.width_px) + "x" + text(visibility.height_px) +
+               ", the picture " + text(size.width_px) + "x" + text(size.height_px);
+    }
+    for (const auto& pixel : visibility.pixels) {
+        if (pixel.instance == VisibleTriangle::kNothing) {
+            continue;
+        }
+        const bool placed = pixel.instance < scene.instances.size();
+        const auto* mesh = placed ? &scene.meshes[scene.instances[pixel.instance].mesh] : nullptr;
+        if (mesh == nullptr || pixel.primitive >= mesh->primitives.size() ||
+            3 * size_t{pixel.triangle} >= mesh->primitives[pixel.primitive].indices.size()) {
+            return "the visibility names triangle " + text(pixel.triangle) + " of primitive " +
+                   text(pixel.primitive) + " of instance " + text(pixel.instance) +
+                   ", which the scene does not have";
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+Result<LinearImage> shade(const scene::Scene& scene,
+                          const view::ViewSettings& settings,
+                          double time_s,
+                          const Visibility& visibility,
+                          const Filtering& filtering) {
+    if (const auto fault = findFault(scene, settings.size, visibility); !fault.empty()) {
+        return Error{ErrorCode::kInvalidArgument, fault};
+    }
+    const Shader shader(scene, settings, time_s, visibility, filtering);
+    LinearImage image{settings.size.width_px, settings.size.height_px, {}};
+    image.rgb.resize(visibility.pixels.size() * 3);
+    std::atomic<uint32_t> next_row{0};
+    const auto work = [&] {
+        for (uint32_t y = next_row++; y < image.height_px; y = next_row++) {
+            for (uint32_t x = 0; x < image.width_px; ++x) {
+                const glm::vec3 color(shader.pixel(x, y));
+                float* rgb = &image.rgb[3 * (size_t{y} * image.width_px + x)];
+                rgb[0] = color.x;
+                rgb[1] = color.y;
+                rgb[2] = color.z;
+            }
+        }
+    };
+    std::vector<std::jthread> others;
+    for (uint32_t i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) {
+        others.emplace_back(work);
+    }
+    work();
+    others.clear(); // joins
+    return image;
+}
+
+} // namespace froxel::reference

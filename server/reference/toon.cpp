@@ -1,0 +1,24 @@
+#include "reference/toon.h"
+
+namespace froxel::reference {
+
+double toonRamp(const view::ToonRamp& ramp, double x) {
+    uint32_t after = 0; // points at or before x
+    while (after < ramp.count && x >= static_cast<double>(ramp.points[after].x)) {
+        ++after;
+    }
+    if (after == 0 || after == ramp.count) {
+        return static_cast<double>(ramp.points[after == 0 ? 0 : ramp.count - 1].y);
+    }
+    const auto& p = ramp.points[after - 1];
+    const auto& q = ramp.points[after];
+    const double width = static_cast<double>(q.x) - static_cast<double>(p.x);
+    const double t = (x - static_cast<double>(p.x)) / width;
+    const double s = 1 - t;
+    return (1 + 2 * t) * s * s * static_cast<double>(p.y) +
+           t * s * s * width * static_cast<double>(p.slope) +
+           t * t * (3 - 2 * t) * static_cast<double>(q.y) -
+           t * t * s * width * static_cast<double>(q.slope);
+}
+
+} // namespace froxel::reference

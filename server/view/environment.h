@@ -1,0 +1,14 @@
+// What lights a scene besides its lights: linear radiance at strength 1.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace froxel::view {
+
+// A hemisphere of constant radiance from above and one from below: a cool dusk, a warm bounce. A
+// surface sees (1 + up . normal) / 2 of the first and the rest of the second.
+inline constexpr glm::vec3 kAmbientSky{0.050F, 0.058F, 0.075F};
+inline constexpr glm::vec3 kAmbientGround{0.030F, 0.026F, 0.022F};
+inline constexpr glm::vec3 kBackground{0.010F, 0.013F, 0.020F}; // of empty pixels
+
+} // namespace froxel::view
