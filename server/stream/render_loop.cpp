@@ -21,7 +21,8 @@ struct RenderLoop::Viewer {
     std::unique_ptr<ViewSource> source; // made with the first frame
     SessionState state;
     TimePoint arrived{};
-    std::optional<SessionState> drawn; // what was last submitted with success
+    std::optional<SessionState> submitted; // what the device was last given
+    std::optional<SessionState> drawn;     // what it last made a picture of
     uint64_t last_frame_id = 0;
     uint64_t started = 0; // frames, without those lost on the way
     uint64_t granted = 0;
@@ -157,15 +158,15 @@ bool RenderLoop::startNext() {
     }
     scheduler_.onStarted(*id, now);
 
-    Submitted frame{*id, {}, viewer.state.encoding, now};
+    Submitted frame{*id, {}, viewer.state, now};
     frame.record.frame_id = ++viewer.last_frame_id;
     frame.record.applied = viewer.state.applied;
     frame.record.time_s = viewer.state.light_clock.secondsAt(now);
-    if (!viewer.drawn || viewer.drawn->applied != viewer.state.applied) {
+    if (!viewer.submitted || viewer.submitted->applied != viewer.state.applied) {
         frame.record.queue_us = Microseconds(now - viewer.arrived).count();
     }
     submitted_.push_back(std::move(frame));
-    viewer.drawn = viewer.state;
+    viewer.submitted = viewer.state;
     viewer.changed = false;
     ++viewer.on_device;
     ++viewer.started;
@@ -199,13 +200,15 @@ void RenderLoop::finishOldest() {
     --viewer.on_device;
     auto collected = viewer.source->collect();
     if (!collected) {
-        throw StartupError(collected.error());
+        giveUp(viewer, frame, collected.error());
+        return;
     }
     const TimePoint now = Clock::now();
     // The device works on one frame at a time: what this one took begins where the last one ended.
     const Seconds cost = now - std::max(frame.started, last_finish_);
     last_finish_ = now;
     scheduler_.onFinished(frame.id, cost);
+    viewer.drawn = frame.state;
     if (viewer.leaving) {
         return;
     }
@@ -215,8 +218,23 @@ void RenderLoop::finishOldest() {
     record.height_px = pixels.height_px;
     record.render_us = Microseconds(now - frame.started).count();
     record.stats = std::move(collected->stats);
-    viewer.pipeline->push({std::move(collected->pixels), frame.encoding, std::move(record),
+    viewer.pipeline->push({std::move(collected->pixels), frame.state.encoding, std::move(record),
                            std::max(cost, options_.min_frame_interval), now});
+}
+
+void RenderLoop::giveUp(Viewer& viewer, const Submitted& frame, const Error& error) {
+    if (error.code != ErrorCode::kCapacity) {
+        throw StartupError(error);
+    }
+    --viewer.started;
+    if (viewer.leaving) {
+        return;
+    }
+    if (frame.state.version != viewer.state.version) {
+        viewer.changed = true; // the viewer has asked for something else, which may fit
+    } else if (!viewer.blocked) {
+        refuse(viewer, error);
+    }
 }
 
 void RenderLoop::fail(const Error& error) {

@@ -58,7 +58,7 @@ class RenderLoop final : public session::StreamPort {
     struct Submitted {
         session::SessionId id = 0;
         session::FrameRecord record;
-        view::Encoding encoding;
+        session::SessionState state;
         TimePoint started{};
     };
 
@@ -69,6 +69,8 @@ class RenderLoop final : public session::StreamPort {
     [[nodiscard]] bool startNext();
     [[nodiscard]] Result<void> submit(Viewer& viewer, TimePoint now);
     void finishOldest();
+    // A submitted frame turned out not to fit the device. Throws where the device was lost.
+    void giveUp(Viewer& viewer, const Submitted& frame, const Error& error);
     static void refuse(Viewer& viewer, const Error& error);
     void fail(const Error& error);
     void drain();

@@ -81,6 +81,9 @@ class FakeView final : public stream::ViewSource {
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
+        if (settings.lights.count > device_->max_lights) {
+            return Error{ErrorCode::kCapacity, "the lists do not fit the fake device"};
+        }
         const view::Size size = settings.size;
         auto pixels = std::make_shared<std::vector<std::byte>>(
             size_t{4} * size.width_px * size.height_px, shadeOf(settings));

@@ -18,6 +18,7 @@ class FakeDevice {
   public:
     std::atomic<uint32_t> depth = 1;
     std::atomic<uint64_t> max_area_px = uint64_t{4096} * 4096; // larger pictures do not fit
+    std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
     std::atomic<bool> lost = false;
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage
     std::atomic<uint64_t> submitted_count = 0;

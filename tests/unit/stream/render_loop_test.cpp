@@ -181,6 +181,35 @@ TEST_F(RenderLoopTest, Refuse_DeviceCannot_TellsAndKeepsServing) {
     EXPECT_TRUE(sink->waitForFrames(2));
 }
 
+TEST_F(RenderLoopTest, Refuse_ShownByTheFinishedFrame_TellsOnceAndKeepsServing) {
+    device_->depth = 2;
+    device_->max_lights = 2000;
+    start();
+    const auto sink = makeSink();
+    auto state = moving();
+    state.settings.lights.count = 50;
+    const auto id = join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(2));
+    state.settings.lights.count = 5000;
+    ++state.version;
+    loop_->update(id, state, Clock::now());
+    ASSERT_TRUE(sink->waitFor([](const auto& record) { return !record.refusals.empty(); }));
+    settle();
+    const auto record = sink->record();
+    ASSERT_EQ(record.refusals.size(), 1U);
+    EXPECT_EQ(record.refusals[0].error.code, ErrorCode::kCapacity);
+    EXPECT_EQ(record.refusals[0].refused.version, state.version);
+    ASSERT_TRUE(record.refusals[0].drawn);
+    EXPECT_EQ(record.refusals[0].drawn->settings.lights.count, 50U);
+    EXPECT_FALSE(record.lost);
+
+    const size_t before = sink->frames().size();
+    state.settings.lights.count = 60;
+    ++state.version;
+    loop_->update(id, state, Clock::now());
+    EXPECT_TRUE(sink->waitForFrames(before + 3));
+}
+
 TEST_F(RenderLoopTest, Lost_WhileDrawing_TellsEveryoneAndRefusesNewcomers) {
     start();
     const auto first = makeSink();
