@@ -52,6 +52,7 @@ struct Run {
         app::runRender(options);
         return 0;
     }
+    int operator()(const app::BenchOptions& options) const { return app::runBench(options); }
     int operator()(const app::InfoOptions& options) const {
         app::runInfo(options);
         return 0;

@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include "app/bench_presets.h"
 #include "app/command_builder.h"
 #include "core/error.h"
 #include "encode/image_file.h"
@@ -20,15 +21,21 @@ constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
 constexpr view::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
 constexpr view::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
+constexpr view::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 86'400.0};
+constexpr view::Range<double> kPairsRange{"pairs", 0.0, 1e18};
+
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 1 anything else.";
+    "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 1 anything else; bench: 1 "
+    "where a picture is inexact or a compared run is worse, 130 stopped by a signal.";
 
 // What the subcommands fill. The one that was given copies its own to `result`.
 struct Targets {
     ServeOptions serve;
     RenderOptions render;
+    BenchOptions bench;
     InfoOptions info;
     SceneOptions scene;
+    size_t preset = 0; // of bench, the last given
     std::optional<LogLevel> log_level;
     Options result;
 };
@@ -160,6 +167,10 @@ void addLights(CommandBuilder& command, view::Lights& lights) {
                    "Where a light reaches exactly 0, in metres");
     command.number("--light-intensity", lights.intensity, view::kLightIntensityRange,
                    "Scales every seeded light");
+    command.number(
+        "--light-cutoff", lights.cutoff, view::kLightCutoffRange,
+        "A light ends where its irradiance would fall to this: faster, darker. 0: at its "
+        "radius");
     command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
                   "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
     command.number("--seed", lights.seed, kSeedRange, "Picks the lights");
@@ -207,6 +218,59 @@ void addRender(CLI::App& app, Targets& targets) {
     finish(command, options, LogLevel::kWarn, targets);
 }
 
+void addBenchMethod(CommandBuilder& command, BenchOptions& options) {
+    command.number("--seconds-per-row", options.seconds_per_row, kSecondsPerRowRange,
+                   "Time for the frames of one row; rows that need more are left out, and said");
+    command.value("--error-size", "WxH", options.error_size, parseSize, textOf(options.error_size),
+                  sizeHelp("Picture that errors are taken from"));
+    command.number("--r1-pairs", options.r1_pairs_limit, kPairsRange,
+                   "2e9 on a CPU device, 1e11 on a GPU",
+                   "(Light, pixel) pairs that a row's exactness check may cost");
+    command.number("--r2-pairs", options.r2_pairs_limit, kPairsRange, "1e9 a hardware thread",
+                   "The same of the reference in double on the host");
+}
+
+void addBench(CLI::App& app, Targets& targets) {
+    auto& options = targets.bench;
+    CommandBuilder command(app, "bench", "Measure frame times and errors over sweeps of settings");
+    command.value(
+        "--preset", "NAME", targets.preset,
+        [&options](const std::string& text) {
+            const auto preset = parseName(text, benchPresetNames());
+            if (preset) {
+                options.presets.push_back(text);
+            }
+            return preset;
+        },
+        "all but smoke", "Sweep to measure, repeatable; --list names them");
+    command.cli().add_flag("--list", options.list, "Print the presets");
+    command.cli()
+        .add_option("--compare", options.compare,
+                    "Say which rows of B differ from A's by more than the noise")
+        ->type_name("A.json B.json")
+        ->expected(2);
+    addSceneOption(command, options.scene, options.scene);
+    command.device(options.device.choice, options.device.validation);
+    command.pipelineCache(options.device.pipeline_cache);
+    command
+        .text("--camera", "CAMERA", options.cameras, "the scene's first three",
+              "Stop of the camera path, as in render; repeatable, the first is timed")
+        ->allow_extra_args(false)
+        ->check([](const std::string& text) {
+            const auto camera = parseCamera(text);
+            return camera ? std::string() : camera.error().message;
+        });
+    command.value("--size", "WxH", options.settings.size, parseSize, textOf(options.settings.size),
+                  sizeHelp("Picture"));
+    addLights(command, options.settings.lights);
+    addBenchMethod(command, options);
+    command.text("--out", "FILE", options.out, "", "JSON; see tests/bench/results/README.md");
+    command.text("--report", "FILE", options.report, "", "HTML with plots, in one file");
+    command.text("--web-root", "DIR", options.web_root, "web beside the binary, else the build's",
+                 "Folder of the built page");
+    finish(command, options, LogLevel::kWarn, targets);
+}
+
 void addInfo(CLI::App& app, Targets& targets) {
     auto& options = targets.info;
     CommandBuilder command(app, "info", "Print the device, and what a scene holds and needs");
@@ -238,6 +302,12 @@ void checkRender(const CLI::App& command, const RenderOptions& options) {
     }
 }
 
+void checkBench(const BenchOptions& options) {
+    if (!options.list && options.compare.empty() && options.out.empty()) {
+        throw CLI::RequiredError("--out FILE, --compare A.json B.json or --list");
+    }
+}
+
 std::string usageError(const CLI::App& app, const CLI::ParseError& error) {
     const auto given = app.get_subcommands();
     const std::string command = given.empty() ? "" : " " + given.front()->get_name();
@@ -257,15 +327,19 @@ Options parseOptions(int argc, const char* const* argv) {
     app.require_subcommand(0, 1); // that one is needed is checked below, in better words
     addServe(app, targets);
     addRender(app, targets);
+    addBench(app, targets);
     addInfo(app, targets);
     addScene(app, targets);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) {
-            throw CLI::RequiredError("a subcommand (serve, render, info or scene)");
+            throw CLI::RequiredError("a subcommand (serve, render, bench, info or scene)");
         }
         if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
             checkRender(*app.get_subcommand("render"), *render);
+        }
+        if (const auto* bench = std::get_if<BenchOptions>(&targets.result.command)) {
+            checkBench(*bench);
         }
     } catch (const CLI::CallForVersion& version) {
         return {PrintText{std::string(version.what()) + "\n"}};

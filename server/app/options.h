@@ -1,6 +1,7 @@
 // The command line: every option, its unit, range and default.
 #pragma once
 
+#include "app/bench_command.h"
 #include "app/info_command.h"
 #include "app/render_command.h"
 #include "app/scene_command.h"
@@ -24,7 +25,8 @@ struct PrintText {
 };
 
 struct Options {
-    std::variant<PrintText, ServeOptions, RenderOptions, InfoOptions, SceneOptions> command;
+    std::variant<PrintText, ServeOptions, RenderOptions, BenchOptions, InfoOptions, SceneOptions>
+        command;
     LogLevel log_level = LogLevel::kInfo;
 };
 

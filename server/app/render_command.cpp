@@ -1,5 +1,6 @@
 #include "app/render_command.h"
 
+#include "app/output_file.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
 #include "app/timings_report.h"
@@ -10,10 +11,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <fstream>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -39,27 +37,6 @@ void writePicture(const RenderOptions& options,
         encode::writePfm(options.out, linear.width_px, linear.height_px, linear.rgb).value();
     } else {
         encode::writeImage(options.out, pixels, options.encoding).value();
-    }
-}
-
-// Told before the frames are drawn, not after.
-void requireFolderOf(const std::filesystem::path& file) {
-    const auto folder = std::filesystem::absolute(file).parent_path();
-    if (!std::filesystem::is_directory(folder)) {
-        throw StartupError(
-            {ErrorCode::kIo, fmt::format("cannot write '{}': there is no folder '{}'",
-                                         file.string(), folder.string())});
-    }
-}
-
-void writeReport(const std::filesystem::path& path, const nlohmann::ordered_json& report) {
-    errno = 0;
-    std::ofstream file(path);
-    file << report.dump(2) << '\n';
-    file.close();
-    if (!file) {
-        throw StartupError({ErrorCode::kIo, fmt::format("cannot write '{}': {}", path.string(),
-                                                        std::generic_category().message(errno))});
     }
 }
 
@@ -115,7 +92,7 @@ void runRender(const RenderOptions& options) try {
     }
     const auto report = timingsReport(run);
     if (!options.timings.empty()) {
-        writeReport(options.timings, report);
+        writeText(options.timings, report.dump(2) + "\n");
     }
     const auto& frame = report["frame"];
     fmt::print("{} of {}x{}: median {:.1f} ms; GPU {:.1f} ms, host {:.1f} ms\n",

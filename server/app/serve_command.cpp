@@ -1,5 +1,6 @@
 #include "app/serve_command.h"
 
+#include "app/output_file.h"
 #include "app/scene_source.h"
 #include "app/serve_run.h"
 #include "core/latest_slot.h"
@@ -44,10 +45,10 @@ session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_
 OpenedScene openScene(const ServeOptions& options,
                       const std::function<void(net::LoadingProgress)>& report) {
     report({"opening the device", 0.0});
-    auto device = std::make_unique<gpu::Device>(
-        gpu::DeviceOptions{.choice = options.device,
-                           .pipeline_cache = options.pipeline_cache,
-                           .validation = options.validation});
+    auto device =
+        std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = options.device,
+                                                         .pipeline_cache = options.pipeline_cache,
+                                                         .validation = options.validation});
     const gpu::DeviceTraits& traits = device->traits();
 
     report({"loading the scene", 0.1});
@@ -67,20 +68,12 @@ OpenedScene openScene(const ServeOptions& options,
     return {std::move(source), std::move(context)};
 }
 
-// The page beside the binary, or where this build made it; empty when there is none.
-fs::path findWebRoot(const ServeOptions& options) {
-    if (!options.web_root.empty()) {
-        return options.web_root;
+fs::path webRootOf(const ServeOptions& options) {
+    auto root = findWebRoot(options.web_root);
+    if (root.empty()) {
+        spdlog::warn("no page found; ./deploy/build.sh makes it, --web-root names another");
     }
-    std::error_code failure;
-    const fs::path binary = fs::read_symlink("/proc/self/exe", failure);
-    for (const fs::path& root : {binary.parent_path() / "web", fs::path(FROXEL_WEB_ROOT)}) {
-        if (fs::exists(root / "index.html", failure)) {
-            return root;
-        }
-    }
-    spdlog::warn("no page found; ./deploy/build.sh makes it, --web-root names another");
-    return {};
+    return root;
 }
 
 std::string urlOf(const std::string& address, uint16_t port) {
@@ -95,7 +88,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.port = options.port;
     run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
     run.server.connections_max = 256 + 4 * options.sessions_max;
-    run.server.web_root = findWebRoot(options);
+    run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
     run.sessions_max = options.sessions_max;
     run.encoder_count = std::clamp(cores / 2, 1U, 16U);

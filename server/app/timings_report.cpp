@@ -50,6 +50,7 @@ Json toJson(const view::Lights& lights) {
     return {{"count", lights.count},
             {"radius_m", lights.radius_m},
             {"intensity", lights.intensity},
+            {"cutoff", lights.cutoff},
             {"seed", lights.seed},
             {"animate", lights.animate},
             {"box_m", lights.box
@@ -57,28 +58,6 @@ Json toJson(const view::Lights& lights) {
                           : Json(nullptr)},
             {"ambient", lights.ambient},
             {"scene_lights", lights.scene_lights}};
-}
-
-Json toJson(const view::ViewSettings& settings) {
-    const auto nameOf = [](const auto& names, auto value) {
-        return std::string(names[static_cast<size_t>(value)]);
-    };
-    return {{"renderer", nameOf(view::kRendererNames, settings.renderer)},
-            {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
-            {"shading", nameOf(view::kShadingModelNames, settings.shading)},
-            {"gbuffer",
-             {{"normal", nameOf(view::kNormalEncodingNames, settings.gbuffer.normal)},
-              {"position", nameOf(view::kPositionSourceNames, settings.gbuffer.position)}}},
-            {"width_px", settings.size.width_px},
-            {"height_px", settings.size.height_px},
-            {"grid", settings.grid.automatic ? Json("auto") : sizeOf(settings.grid.size)},
-            {"grid_law", nameOf(view::kGridLawNames, settings.grid.law)},
-            {"light_loop", nameOf(view::kLightLoopNames, settings.light_loop)},
-            {"count_pairs", settings.count_pairs},
-            {"camera", toJson(settings.camera)},
-            {"lights", toJson(settings.lights)},
-            {"exposure", settings.exposure},
-            {"tone_map", nameOf(view::kToneMapNames, settings.tone_map)}};
 }
 
 Json toJson(const LightListStats& lists) {
@@ -155,6 +134,28 @@ Json memoryOf(const FrameDetails& details) {
 
 } // namespace
 
+Json settingsReport(const view::ViewSettings& settings) {
+    const auto nameOf = [](const auto& names, auto value) {
+        return std::string(names[static_cast<size_t>(value)]);
+    };
+    return {{"renderer", nameOf(view::kRendererNames, settings.renderer)},
+            {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
+            {"shading", nameOf(view::kShadingModelNames, settings.shading)},
+            {"gbuffer",
+             {{"normal", nameOf(view::kNormalEncodingNames, settings.gbuffer.normal)},
+              {"position", nameOf(view::kPositionSourceNames, settings.gbuffer.position)}}},
+            {"width_px", settings.size.width_px},
+            {"height_px", settings.size.height_px},
+            {"grid", settings.grid.automatic ? Json("auto") : sizeOf(settings.grid.size)},
+            {"grid_law", nameOf(view::kGridLawNames, settings.grid.law)},
+            {"light_loop", nameOf(view::kLightLoopNames, settings.light_loop)},
+            {"count_pairs", settings.count_pairs},
+            {"camera", toJson(settings.camera)},
+            {"lights", toJson(settings.lights)},
+            {"exposure", settings.exposure},
+            {"tone_map", nameOf(view::kToneMapNames, settings.tone_map)}};
+}
+
 Json frameReport(const FrameStats& stats) {
     const FrameDetails none;
     const FrameDetails& details = stats.details ? *stats.details : none;
@@ -170,7 +171,7 @@ Json timingsReport(const TimedRun& run) {
             {"device", toJson(run.device)},
             {"host", {{"threads", std::thread::hardware_concurrency()}}},
             {"scene", run.scene},
-            {"settings", toJson(run.settings)},
+            {"settings", settingsReport(run.settings)},
             {"frames", run.frames.size()},
             {"warmup_frames", run.warmup_count},
             {"time_s", run.time_s},

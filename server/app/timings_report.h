@@ -43,9 +43,13 @@ struct TimedRun {
 
 [[nodiscard]] nlohmann::ordered_json timingsReport(const TimedRun& run);
 
+// The field `settings` of it.
+[[nodiscard]] nlohmann::ordered_json settingsReport(const view::ViewSettings& settings);
+
 //   triangles, draws
 //   grid          {size, tile_px, near_m, far_m, automatic, why}: the one in use; null: none
-//   light_lists   {lights, clusters, empty, entries, largest, overflowed, redraws, mean, p95, bytes,
+//   light_lists   {lights, clusters, empty, entries, largest, overflowed, redraws, mean, p95,
+//   bytes,
 //                 all_lights, why}
 //   pairs         {evaluated, contributing}: (light, pixel) pairs; null: not counted
 //   plan          a line each: what the frame's variant leaves out, and why

@@ -1,0 +1,84 @@
+#include "app/bench_budget.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::app {
+
+namespace {
+
+// Seconds for a person: "0.0123", "12.3", "4,560" need not be told apart further.
+std::string secondsText(double seconds) {
+    return fmt::format("{:.3g} s", seconds);
+}
+
+} // namespace
+
+BenchBudget budgetFor(bool device_is_cpu, double seconds_per_row) {
+    BenchBudget budget;
+    budget.seconds_per_row = seconds_per_row;
+    if (device_is_cpu) {
+        budget.frames_wanted = 100;
+        budget.warmup_frames = 1;
+        budget.warmup_first = 2;
+    }
+    return budget;
+}
+
+double workOf(const view::ViewSettings& settings) {
+    constexpr double kPixel = 16;
+    const double pixels = static_cast<double>(settings.size.width_px) * settings.size.height_px;
+    return pixels * (kPixel + settings.lights.count);
+}
+
+std::optional<std::string> refusalByPrediction(const std::optional<KnownFrame>& before,
+                                               double work,
+                                               const BenchBudget& budget) {
+    if (!before) {
+        return std::nullopt;
+    }
+    const double frame_s = before->frame_s * std::max(1.0, work / before->work);
+    const double least_s = frame_s * (budget.frames_least + budget.rounds * budget.warmup_frames);
+    if (least_s <= budget.seconds_per_row) {
+        return std::nullopt;
+    }
+    return fmt::format("{} frames and their warm-up may take {} by the last measured row of the "
+                       "series; a row's time is {}",
+                       budget.frames_least, secondsText(least_s),
+                       secondsText(budget.seconds_per_row));
+}
+
+RowFrames framesThatFit(double frame_s, const BenchBudget& budget) {
+    const double warmup = budget.rounds * budget.warmup_frames;
+    const double fit = std::floor(budget.seconds_per_row / frame_s - warmup);
+    if (fit < budget.frames_least) {
+        return {0, fmt::format("a frame takes {}, so fewer than {} fit a row's time of {}",
+                               secondsText(frame_s), budget.frames_least,
+                               secondsText(budget.seconds_per_row))};
+    }
+    if (fit >= budget.frames_wanted) {
+        return {budget.frames_wanted, {}};
+    }
+    return {static_cast<uint32_t>(fit),
+            fmt::format("as many frames as fit {}; {} were wanted",
+                        secondsText(budget.seconds_per_row), budget.frames_wanted)};
+}
+
+std::vector<BenchTurn> interleaved(std::span<const uint32_t> frame_counts, uint32_t rounds) {
+    std::vector<BenchTurn> turns;
+    for (uint32_t round = 0; round < rounds; ++round) {
+        for (size_t row = 0; row < frame_counts.size(); ++row) {
+            const uint64_t count = frame_counts[row];
+            const auto first = static_cast<uint32_t>(count * round / rounds);
+            const auto end = static_cast<uint32_t>(count * (round + 1) / rounds);
+            if (end > first) {
+                turns.push_back({row, first, end - first});
+            }
+        }
+    }
+    return turns;
+}
+
+} // namespace froxel::app

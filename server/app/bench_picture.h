@@ -1,0 +1,63 @@
+// Pictures that errors are taken from, kept for rows that share them.
+#pragma once
+
+#include "core/error.h"
+#include "core/frame_stats.h"
+#include "core/linear_image.h"
+#include "core/pixel_view.h"
+#include "scene/scene.h"
+#include "view/settings.h"
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace froxel::render {
+class Renderer;
+}
+
+namespace froxel::app {
+
+struct BenchPicture {
+    LinearImage linear;
+    std::vector<std::byte> rgba8; // [height][width][4]
+    GridStats grid;
+
+    [[nodiscard]] PixelView shown() const {
+        return {rgba8.data(), linear.width_px, linear.height_px, size_t{linear.width_px} * 4};
+    }
+};
+
+class BenchPictures {
+  public:
+    // Both outlive it.
+    BenchPictures(render::Renderer& renderer, const scene::Scene& scene)
+        : renderer_(renderer), scene_(scene) {}
+
+    using Shared = std::shared_ptr<const BenchPicture>;
+    // By the device, anew. Errors: those of ViewRenderer.
+    [[nodiscard]] Result<Shared> draw(const view::ViewSettings& settings, double time_s);
+    // The same, but one of the last kKept of it and shade() may serve again.
+    [[nodiscard]] Result<Shared> drawOnce(const view::ViewSettings& settings, double time_s);
+    // In double on the host, from the triangles that the device sees. Errors: those of
+    // ViewRenderer and reference::shade.
+    [[nodiscard]] Result<Shared> shadeOnce(const view::ViewSettings& settings, double time_s);
+
+  private:
+    static constexpr size_t kKept = 32;
+    struct Kept {
+        std::string key;
+        Shared picture;
+    };
+    template <class Make>
+    Result<Shared> once(const std::string& key, const Make& make);
+    Result<Shared> shade(const view::ViewSettings& settings, double time_s);
+
+    render::Renderer& renderer_;
+    const scene::Scene& scene_;
+    std::deque<Kept> kept_;
+};
+
+} // namespace froxel::app

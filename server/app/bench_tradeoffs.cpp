@@ -1,0 +1,146 @@
+#include "app/bench_tradeoffs.h"
+
+#include "app/bench_rows.h"
+#include "core/text.h"
+#include "view/ranges.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace froxel::app {
+
+namespace {
+
+// Every normal encoding with positions from depth, every position source with the default normal,
+// and what the seeds store.
+std::vector<view::GbufferLayout> gbufferLayouts() {
+    std::vector<view::GbufferLayout> layouts;
+    for (size_t normal = 0; normal < view::kNormalEncodingNames.size(); ++normal) {
+        layouts.push_back(
+            {static_cast<view::NormalEncoding>(normal), view::PositionSource::kDepth});
+    }
+    for (size_t position = 1; position < view::kPositionSourceNames.size(); ++position) {
+        layouts.push_back(
+            {view::NormalEncoding::kOct16, static_cast<view::PositionSource>(position)});
+    }
+    layouts.push_back({view::NormalEncoding::kXyz16, view::PositionSource::kFp16});
+    return layouts;
+}
+
+view::Size scaledBy(const view::Size& size, double scale) {
+    const auto side = [scale](uint32_t whole) {
+        return static_cast<uint32_t>(static_cast<double>(whole) * scale + 0.5);
+    };
+    return {std::max(side(size.width_px), view::kWidthRange.min),
+            std::max(side(size.height_px), view::kHeightRange.min)};
+}
+
+} // namespace
+
+Sweep gbufferSweep(const BenchBase& base) {
+    Sweep sweep{"gbuffer",
+                "G-buffer layouts",
+                "layout",
+                "",
+                Axis::kCategory,
+                "Normals and positions kept with less precision, or as the seeds had them.",
+                {}};
+    for (const auto& layout : gbufferLayouts()) {
+        const auto label = nameOf(view::kNormalEncodingNames, layout.normal) + ", " +
+                           nameOf(view::kPositionSourceNames, layout.position);
+        sweep.rows.push_back(rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()),
+                                   [&](auto& s) { s.gbuffer = layout; }));
+    }
+    return sweep;
+}
+
+Sweep resolutionScaleSweep(const BenchBase& base) {
+    struct Scale {
+        const char* label;
+        double value;
+    };
+    Sweep sweep{"resolution_scale",
+                "Drawn smaller and scaled up",
+                "scale",
+                "",
+                Axis::kLinear,
+                "Bilinear, as the page's canvas does it.",
+                {}};
+    for (const auto& [label, value] : {Scale{"1/2", 0.5}, Scale{"3/4", 0.75}, Scale{"1", 1.0}}) {
+        auto row = rowOf(base, kDeferred, label, value,
+                         [scale = value](auto& s) { s.size = scaledBy(s.size, scale); });
+        row.scaled_to = base.settings.size;
+        sweep.rows.push_back(std::move(row));
+    }
+    return sweep;
+}
+
+Sweep cutoffSweep(const BenchBase& base) {
+    constexpr std::array kCutoffs = {2.0F, 1.0F, 0.5F, 0.3F, 0.2F, 0.1F, 0.05F, 0.02F, 0.01F, 0.0F};
+    Sweep sweep{"cutoff",   "Lights cut off early",
+                "cutoff",   "",
+                Axis::kLog, "A light ends where its irradiance would fall to this.",
+                {}};
+    for (const auto& way : kListWays) {
+        for (const float value : kCutoffs) {
+            sweep.rows.push_back(rowOf(base, way, "cutoff " + numberText(value),
+                                       static_cast<double>(value),
+                                       [&](auto& s) { s.lights.cutoff = value; }));
+        }
+    }
+    return sweep;
+}
+
+Sweep streamSweep(const BenchBase& base) {
+    Sweep sweep{"stream",
+                "Error of the stream's JPEG",
+                "quality",
+                "",
+                Axis::kLinear,
+                "The decoded picture against the one it encodes.",
+                {}};
+    for (const auto chroma : {view::Chroma::k420, view::Chroma::k444}) {
+        for (const uint32_t quality : {30U, 50U, 70U, 80U, 90U, 95U}) {
+            const auto name = nameOf(view::kChromaNames, chroma);
+            auto row =
+                rowOf(base, kDeferred, fmt::format("quality {}, {}", quality, name), quality);
+            row.series = name;
+            row.stream = view::Encoding{quality, chroma};
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
+Sweep smokeSweep(const BenchBase& base) {
+    auto small = base;
+    small.settings.size = {96, 54};
+    small.settings.lights.count = 30;
+    Sweep sweep{"smoke",         "A try of everything",         "row", "",
+                Axis::kCategory, "Too small to mean anything.", {}};
+    const auto add = [&](BenchRow row) {
+        row.value = static_cast<double>(sweep.rows.size());
+        sweep.rows.push_back(std::move(row));
+    };
+    for (const auto& way : {kNaive, kForwardPlus, kDeferred}) {
+        add(rowOf(small, way, nameOf(way), 0));
+    }
+    for (const auto toon_renderer : {view::Renderer::kToonFragment, view::Renderer::kToonCompute}) {
+        const BenchWay way{toon_renderer, view::LightingStage::kAuto};
+        add(rowOf(small, way, nameOf(way), 0));
+    }
+    add(rowOf(small, kDeferred, "oct8", 0,
+              [](auto& s) { s.gbuffer.normal = view::NormalEncoding::kOct8; }));
+    auto half = rowOf(small, kDeferred, "1/2", 0, [](auto& s) { s.size = scaledBy(s.size, 0.5); });
+    half.scaled_to = small.settings.size;
+    add(std::move(half));
+    auto jpeg = rowOf(small, kDeferred, "JPEG", 0);
+    jpeg.stream = view::Encoding{};
+    add(std::move(jpeg));
+    return sweep;
+}
+
+} // namespace froxel::app
