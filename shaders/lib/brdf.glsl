@@ -10,7 +10,8 @@ struct Surface {
     vec3 position_view;
     vec3 normal_view;
     vec3 to_eye_view;  // unit
-    float n_dot_v;
+    float n_dot_v;     // its absolute value
+    float n_dot_eye;   // negative where a normal map or interpolation turns the normal away
     float alpha2;      // roughness^4
     float visibility_v; // sqrt(n_dot_v^2 (1 - alpha2) + alpha2)
 };
@@ -29,12 +30,13 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     s.normal_view = normal_view;
     if (hasLight(kLightLambert)) {
         s.to_eye_view = vec3(0.0);
-        s.n_dot_v = s.alpha2 = s.visibility_v = 0.0;
+        s.n_dot_v = s.n_dot_eye = s.alpha2 = s.visibility_v = 0.0;
         return s;
     }
     s.to_eye_view =
         frame.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
-    s.n_dot_v = max(abs(dot(normal_view, s.to_eye_view)), 1e-4);
+    s.n_dot_eye = dot(normal_view, s.to_eye_view);
+    s.n_dot_v = max(abs(s.n_dot_eye), 1e-4);
     float alpha = max(roughness, 0.045) * max(roughness, 0.045);
     s.alpha2 = alpha * alpha;
     s.visibility_v = sqrt(s.n_dot_v * s.n_dot_v * (1.0 - s.alpha2) + s.alpha2);
@@ -55,13 +57,14 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, v
     }
     // The half vector only appears by |l + v|^2 and n.(l + v): no need to normalise it.
     precise float h2 = max(fma(2.0, v_dot_l, 2.0), 1e-6);
-    precise float n_dot_sum = facing + s.n_dot_v;
+    precise float n_dot_sum = facing + s.n_dot_eye;
     precise float q = max(fma(-0.5, sqrt(h2), 1.0), 0.0);
     precise float p = (q * q) * (q * q) * q;
     precise float t = fma(min(n_dot_sum * n_dot_sum, h2), s.alpha2 - 1.0, h2);
     precise float visibility_l = sqrt(fma(facing * facing, 1.0 - s.alpha2, s.alpha2));
     precise float v = fma(facing, s.visibility_v, s.n_dot_v * visibility_l);
-    precise float g = e * (s.alpha2 * (h2 * h2) / (t * t * v));
+    // No facet faces between light and eye where their half vector is behind the surface.
+    precise float g = n_dot_sum > 0.0 ? e * (s.alpha2 * (h2 * h2) / (t * t * v)) : 0.0;
     precise float diffuse = fma(-scattered, p, scattered);
     precise float grazing = g * p;
     precise float specular = g - grazing;
