@@ -1,0 +1,127 @@
+// The report of `froxel bench` as a reader opens it: one file, no network.
+
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+import { kSamplePath, sample } from '../test/report_fakes';
+import { launch, until } from './viewer';
+
+const kTemplate = fileURLToPath(new URL('../dist/report.html', import.meta.url));
+const kPlace = '<script type="application/json" id="results">null</script>';
+
+let browser: Browser;
+let folder: string;
+let filled: string;
+
+beforeAll(async () => {
+  browser = await launch();
+  folder = mkdtempSync(join(tmpdir(), 'froxel-report-'));
+  filled = join(folder, 'report.html');
+  const parts = readFileSync(kTemplate, 'utf8').split(kPlace);
+  expect(parts).toHaveLength(2);
+  const results = readFileSync(kSamplePath, 'utf8').replaceAll('<', '\\u003c');
+  writeFileSync(filled, parts.join(kPlace.replace('null', () => results)));
+});
+afterAll(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+});
+
+interface Opened {
+  readonly page: Page;
+  readonly complaints: string[];
+  readonly fetched: string[];
+}
+
+async function open(file: string, width: number, colorScheme: 'light' | 'dark'): Promise<Opened> {
+  const context = await browser.newContext({ viewport: { width, height: 800 }, colorScheme, offline: true });
+  const page = await context.newPage();
+  const complaints: string[] = [];
+  const fetched: string[] = [];
+  page.on('console', (message) => void (message.type() === 'error' && complaints.push(message.text())));
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('request', (request) => void (!request.url().startsWith('data:') && fetched.push(request.url())));
+  await page.goto(pathToFileURL(file).href);
+  return { page, complaints, fetched };
+}
+
+/** Pairs of texts of one plot whose boxes overlap by more than a pixel. */
+const overlaps = (page: Page): Promise<string[]> =>
+  page.evaluate(() =>
+    [...document.querySelectorAll('.plot svg')].flatMap((svg) => {
+      const texts = [...svg.querySelectorAll('text')].filter(({ textContent }) => textContent !== '');
+      const boxes = texts.map((text) => text.getBoundingClientRect());
+      return boxes.flatMap((a, i) =>
+        boxes.slice(i + 1).flatMap((b, j) => {
+          const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+          const along = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+          return across > 1 && along > 4
+            ? [`"${String(texts[i]?.textContent)}" on "${String(texts[i + j + 1]?.textContent)}" in ${String(svg.closest('section')?.id)}`]
+            : [];
+        }),
+      );
+    }),
+  );
+
+describe('report', () => {
+  it.each([
+    [1240, 'light'],
+    [390, 'dark'],
+  ] as const)('FromAFile_%dPixels_%s_ShowsEverySweepWithoutNetwork', async (width, scheme) => {
+    const { page, complaints, fetched } = await open(filled, width, scheme);
+    const { sweeps } = sample();
+    await until('the plots', async () => (await page.locator('.plot svg').count()) > sweeps.length);
+    for (const { name, rows } of sweeps) {
+      const section = page.locator(`#sweep-${name}`);
+      expect(await section.locator('.plot svg').count(), name).toBeGreaterThan(0);
+      expect(await section.locator('.table').first().locator('tbody tr').count(), name).toBe(rows.length);
+    }
+    expect(await page.locator('#speed-against-error .plot svg').count()).toBe(2);
+    expect(await overlaps(page)).toEqual([]);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
+    expect(complaints).toEqual([]);
+    expect(fetched).toEqual([pathToFileURL(filled).href]);
+    await page.context().close();
+  });
+
+  it('ColourScheme_ChangesThePage', async () => {
+    const paper = async (scheme: 'light' | 'dark'): Promise<string> => {
+      const { page } = await open(filled, 800, scheme);
+      const colour = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+      await page.context().close();
+      return colour;
+    };
+    expect(await paper('light')).not.toBe(await paper('dark'));
+  });
+
+  it('Clock_ChangesTimesInPlotAndTable', async () => {
+    const { page } = await open(filled, 1240, 'light');
+    const shown = (): Promise<string> => page.locator('#sweep-light_count').innerText();
+    const before = await until('a table', async () => (await page.locator('#sweep-light_count td').count()) > 0 && shown());
+    await page.locator('.picker select').selectOption('gpu_us');
+    await until('other times', async () => (await shown()) !== before);
+    expect(await page.locator('#sweep-light_count .plot').first().innerText()).toContain('GPU time');
+    await page.context().close();
+  });
+
+  it('CopyButton_CopiesTheRowsCommand', async () => {
+    const { page } = await open(filled, 1240, 'light');
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await page.locator('#sweep-light_count button.copy').first().click();
+    await until('the word', async () => (await page.locator('button.copy', { hasText: 'copied' }).count()) > 0);
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    expect(copied).toBe(sample().sweeps[0]?.rows[0]?.command);
+    await page.context().close();
+  });
+
+  it('EmptyTemplate_SaysWhoFillsIt', async () => {
+    const { page } = await open(kTemplate, 800, 'light');
+    expect(await page.locator('#report').innerText()).toContain('froxel bench --report');
+    await page.context().close();
+  });
+});
