@@ -1,12 +1,19 @@
 // Which placed meshlets may be seen: inside the frustum and not facing away as a whole. Never leaves
 // out anything visible. One invocation a meshlet; its rank among those of its workgroup keeps order.
+// Where ids are rastered in compute, which needs no order, a list is made at once.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
+#ifdef FROXEL_LIST
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#endif
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 #include "lib/frame.glsl"
 #include "lib/visibility_set.glsl"
 #include "lib/visibility_draws.glsl"
+#ifdef FROXEL_LIST
+#include "lib/raster_set.glsl"
+#endif
 
 layout(local_size_x = kCullGroup) in;
 
@@ -50,6 +57,9 @@ bool facesAway(InstanceView view, PlacedMeshlet m, uint flags) {
 }
 
 shared uint scan[kCullGroup];
+#ifdef FROXEL_LIST
+shared uint group_first;
+#endif
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -69,8 +79,18 @@ void main() {
         scan[lane] += before;
         barrier();
     }
+#ifdef FROXEL_LIST
+    if (lane == kCullGroup - 1) {
+        group_first = atomicAdd(raster.meshlets, scan[lane]);
+    }
+    barrier();
+    if (visible) {
+        visible_meshlets[group_first + scan[lane] - 1u] = order[i];
+    }
+#else
     ranks[i] = visible ? scan[lane] - 1u : kCulled;
     if (lane == kCullGroup - 1) {
         counts[group_count + gl_WorkGroupID.x] = scan[lane];
     }
+#endif
 }

@@ -19,6 +19,7 @@ struct Visibility {
     uint32_t width_px = 0;
     uint32_t height_px = 0;
     std::vector<VisibleTriangle> pixels; // [height][width], top row first
+    std::vector<float> depths;           // theirs, as the device has it: reversed, 0 where empty
 };
 
 } // namespace froxel

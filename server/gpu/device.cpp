@@ -177,10 +177,18 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
     }
 
     traits_.float64 = present.get<vk::PhysicalDeviceFeatures2>().features.shaderFloat64 == VK_TRUE;
+    traits_.int64_atomics =
+        options.int64_atomics &&
+        present.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 == VK_TRUE &&
+        present.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics == VK_TRUE;
+    traits_.counts_samples =
+        present.get<vk::PhysicalDeviceFeatures2>().features.occlusionQueryPrecise == VK_TRUE;
 
     Features enabled;
     auto& core = enabled.get<vk::PhysicalDeviceFeatures2>().features;
     core.setShaderFloat64(traits_.float64 ? VK_TRUE : VK_FALSE);
+    core.setShaderInt64(traits_.int64_atomics ? VK_TRUE : VK_FALSE);
+    core.setOcclusionQueryPrecise(traits_.counts_samples ? VK_TRUE : VK_FALSE);
     core.setIndependentBlend(VK_TRUE)
         .setMultiDrawIndirect(VK_TRUE)
         .setDrawIndirectFirstInstance(VK_TRUE)
@@ -188,7 +196,8 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
     enabled.get<vk::PhysicalDeviceVulkan12Features>()
         .setScalarBlockLayout(VK_TRUE)
         .setTimelineSemaphore(VK_TRUE)
-        .setHostQueryReset(VK_TRUE);
+        .setHostQueryReset(VK_TRUE)
+        .setShaderBufferInt64Atomics(traits_.int64_atomics ? VK_TRUE : VK_FALSE);
     if (traits_.visibility_lacks.empty()) {
         core.setGeometryShader(VK_TRUE)
             .setShaderStorageImageExtendedFormats(VK_TRUE)

@@ -26,6 +26,8 @@ struct DeviceTraits {
     bool descriptor_indexing = false; // shaders pick a texture for each invocation
     std::string visibility_lacks;     // features that the visibility passes miss; empty: none
     bool float64 = false;             // doubles in shaders
+    bool int64_atomics = false;       // on 64-bit words of storage buffers
+    bool counts_samples = false;      // precise occlusion queries
     double timestamp_period_ns = 1;
     float max_anisotropy = 1;
 };

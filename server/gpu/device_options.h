@@ -27,6 +27,7 @@ struct DeviceOptions {
     // false: as on a device without what they need.
     bool descriptor_indexing = true;
     bool visibility = true; // visibility passes
+    bool int64_atomics = true;
 };
 
 } // namespace froxel::gpu

@@ -1,6 +1,7 @@
 #include "render/frame_builder.h"
 
 #include "render/gbuffer_layout.h"
+#include "render/prepass_choice.h"
 #include "render/visibility_instances.h"
 
 #include <algorithm>
@@ -26,8 +27,9 @@ double farthestDepth(const view::Camera& camera, const BoundsD3& bounds) {
 }
 
 // Seeded lights, which come first, have one radius.
-bool equalRadii(const light::FrameLights& lights, uint32_t seeded_count) {
+bool equalRadii(const light::FrameLights& lights, const view::Lights& settings) {
     const auto& radii = lights.radii_m;
+    const uint32_t seeded_count = settings.cutoff > 0 ? 0 : settings.count; // equal among themselves
     const size_t first = std::min<size_t>(seeded_count > 0 ? seeded_count - 1 : 0, radii.size());
     return std::all_of(radii.begin() + static_cast<std::ptrdiff_t>(first), radii.end(),
                        [&](float radius) { return radius == radii[first]; });
@@ -46,6 +48,10 @@ bool longLoops(const cluster::LightLists& lists,
 bool storesHalves(const view::ViewSettings& settings) {
     return !isForward(settings.renderer) &&
            settings.gbuffer.position == view::PositionSource::kFp16;
+}
+
+bool byIds(GeometryPath path) {
+    return path == GeometryPath::kVisibility || path == GeometryPath::kComputeRaster;
 }
 
 // A position in halves lies up to 2^-11 of each coordinate off its pixel, and so perhaps in another
@@ -72,9 +78,31 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     const bool second_target = extraFormat(inputs.settings.gbuffer) != vk::Format::eUndefined;
     const bool wanted = isForward(inputs.settings.renderer)
                             ? inputs.settings.lighting == view::LightingStage::kCompute
-                            : !second_target && (inputs.geometry == GeometryPath::kVisibility ||
+                            : !second_target && (byIds(inputs.geometry) ||
                                                  (inputs.geometry == GeometryPath::kAuto && pays));
     return wanted && scene_.visibility_unusable.empty() && !scene_.visibility().groups.empty();
+}
+
+bool FrameBuilder::choosesComputeRaster(const FrameInputs& inputs) {
+    const bool wanted =
+        inputs.geometry == GeometryPath::kComputeRaster ||
+        (inputs.geometry == GeometryPath::kAuto && !scene_.device.traits().is_cpu);
+    return wanted && scene_.visibility().compute_unusable.empty();
+}
+
+bool FrameBuilder::prepass(const FrameInputs& inputs) const {
+    const bool forward = isForward(inputs.settings.renderer);
+    if (inputs.depth_prepass || !scene_.overdraw) {
+        return inputs.depth_prepass.value_or(forward);
+    }
+    const auto& size = inputs.settings.size;
+    const double looped = light_grid_.lists() ? light_grid_.listLength()
+                                              : static_cast<double>(lights_.lights.size());
+    return prepassPays({.triangle_count = draws_.triangle_count,
+                        .pixel_count = uint64_t{size.width_px} * size.height_px,
+                        .overdraw = *scene_.overdraw,
+                        .lights = forward ? looped : 0.0},
+                       scene_.device.traits().is_cpu ? kCpuPrepassCosts : kGpuPrepassCosts);
 }
 
 FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
@@ -85,7 +113,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
-            .equal_radii = equalRadii(lights_, inputs.settings.lights.count),
+            .equal_radii = equalRadii(lights_, inputs.settings.lights),
             .long_loops = traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
             .directional = !lights_.directionals.empty(),
             .keep_radiance = inputs.keep_radiance,
@@ -99,7 +127,10 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
                 traits.subgroup_size > 1 && traits.subgroup_size <= 32 &&
                 !(traits.is_cpu && inputs.settings.shading == view::ShadingModel::kLambert),
             .visibility = visibility_,
-            .cull_meshlets = inputs.cull_meshlets};
+            .compute_raster = compute_raster_,
+            .cull_meshlets = inputs.cull_meshlets,
+            .prepass_pays = prepass(inputs),
+            .overdraw_unknown = traits.counts_samples && !scene_.overdraw};
 }
 
 bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
@@ -157,6 +188,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
         makeProjection(camera, settings.size, farthestDepth(camera, scene_.bounds_world));
     // Culling and light assignment do not need each other: 7 becomes 5 ms on two cores (Sponza).
     visibility_ = choosesVisibility(inputs);
+    compute_raster_ = visibility_ && choosesComputeRaster(inputs);
     auto culling = std::async(std::launch::async, [&] {
         buildDrawList(scene_, camera, settings.size, projection, scene_.device.traits().is_cpu,
                       !visibility_, draws_);

@@ -52,6 +52,8 @@ class FrameBuilder {
     [[nodiscard]] AssignOffsets uploadAssignment(FrameUpload& upload, Blocks& blocks) const;
     void writeAssignment(FrameSlot& slot, const AssignOffsets& offsets) const;
     [[nodiscard]] bool choosesVisibility(const FrameInputs& inputs);
+    [[nodiscard]] bool choosesComputeRaster(const FrameInputs& inputs);
+    [[nodiscard]] bool prepass(const FrameInputs& inputs) const;
     [[nodiscard]] FrameFacts facts(const FrameInputs& inputs) const;
     void writeFrameSet(FrameSlot& slot, const Blocks& blocks) const;
 
@@ -66,6 +68,7 @@ class FrameBuilder {
     DrawList draws_;
     FrameFacts planned_;
     bool visibility_ = false;
+    bool compute_raster_ = false;
     std::vector<io::InstanceView> instances_; // for the visibility passes
     std::vector<uint32_t> meshlet_order_;
     io::Frame uniforms_{};

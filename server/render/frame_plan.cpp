@@ -68,11 +68,14 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     FramePlan plan;
     const Renderer renderer = settings.renderer;
     plan.visibility = facts.visibility;
+    plan.compute_raster = facts.visibility && facts.compute_raster;
     plan.visibility_shade = facts.visibility && isForward(renderer);
     plan.cull_meshlets = facts.cull_meshlets;
     plan.forward = isForward(renderer) && !plan.visibility_shade;
-    plan.depth_prepass = renderer == Renderer::kForwardPlus && plan.forward;
     plan.gbuffer = !isForward(renderer);
+    const bool rastered = plan.forward || (plan.gbuffer && !plan.visibility);
+    plan.depth_prepass = rastered && renderer != Renderer::kNaive && facts.prepass_pays;
+    plan.count_samples = rastered && facts.overdraw_unknown;
     plan.lighting_compute = plan.gbuffer && settings.lighting != view::LightingStage::kFragment;
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.toon_pass = renderer == Renderer::kToonCompute;

@@ -23,7 +23,10 @@ struct FrameFacts {
     bool fragment_batches = false; // and in the fragment stage
     bool culled_batches = false;   // and skip what adds nothing to any of their pixels
     bool visibility = false;       // solid surfaces come from the visibility passes
+    bool compute_raster = false;   // and these raster in compute
     bool cull_meshlets = true;
+    bool prepass_pays = false;     // drawing depth first costs less than it spares
+    bool overdraw_unknown = false; // the scene's was not measured yet
     bool operator==(const FrameFacts&) const = default;
 };
 
@@ -43,9 +46,11 @@ struct GenericParts {
 
 struct FramePlan {
     bool depth_prepass = false;
+    bool count_samples = false;    // that pass the depth test where depth is drawn first
     bool forward = false;          // solid surfaces by the forward shader
     bool gbuffer = false;          // else by geometry pass and lighting pass
     bool visibility = false;       // solid surfaces by ids of triangles, culled on the device
+    bool compute_raster = false;   // rastered in compute
     bool visibility_shade = false; // these are shaded at once, without a G-buffer
     bool cull_meshlets = true;
     bool lighting_compute = false;

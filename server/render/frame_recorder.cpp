@@ -1,6 +1,7 @@
 #include "render/frame_recorder.h"
 
 #include "render/passes.h"
+#include "render/raster_passes.h"
 #include "render/visibility_passes.h"
 
 #include <vector>
@@ -26,18 +27,67 @@ void barrier(const vk::raii::CommandBuffer& cmd,
     cmd.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
 }
 
-void recordForward(const FrameContext& frame) {
+void recordPrepass(const FrameContext& frame) {
     if (frame.plan.depth_prepass) {
         recordDepthPrepass(frame);
-        // prepass depth -> forward's equality test
+        // prepass depth -> the next pass's equality test
         barrier(frame.slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages,
                 Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
     }
+}
+
+void recordForward(const FrameContext& frame) {
+    recordPrepass(frame);
     recordForwardPass(frame);
+}
+
+// Depth and ids, rastered in compute.
+void recordComputeRaster(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    const auto next = [&] {
+        // a pass's lists, counts and words -> the next one's
+        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+                Stage::eComputeShader | Stage::eDrawIndirect,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite |
+                    Access::eIndirectCommandRead);
+    };
+    recordRasterClear(frame);
+    // cleared words and counts -> first use
+    barrier(cmd, Stage::eAllTransfer, Access::eTransferWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderStorageWrite);
+    recordRasterCull(frame);
+    next();
+    recordRasterMeshlets(frame);
+    next();
+    recordRasterBlocks(frame);
+    next();
+    recordRasterUnpack(frame);
+    // depth and ids -> loads of the passes that shade, fill the G-buffer, light
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
+            Access::eShaderSampledRead);
+}
+
+// Solid depth that compute rastered -> the rasteriser's.
+void recordDepthHandover(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    // depth from compute, words no longer read -> copy by way of the words' buffer
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
+            Access::eTransferRead | Access::eTransferWrite);
+    recordDepthOut(frame);
+    // first copy -> second
+    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eCopy, Access::eTransferRead);
+    recordDepthIn(frame);
+    // copied depth -> depth test
+    barrier(cmd, Stage::eCopy, Access::eTransferWrite, kDepthStages,
+            Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
 }
 
 // Depth and ids; what follows reads them in compute.
 void recordVisible(const FrameContext& frame) {
+    if (frame.plan.compute_raster) {
+        recordComputeRaster(frame);
+        return;
+    }
     const auto& cmd = frame.slot.cmd;
     if (!frame.scene.device.traits().draw_indirect_count) {
         recordEmptyDraws(frame);
@@ -66,11 +116,12 @@ void recordDeferred(const FrameContext& frame) {
         barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
                 Access::eShaderSampledRead);
     } else {
+        recordPrepass(frame);
         recordGbuffer(frame);
-    // G-buffer and depth -> lighting's loads
-    barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput,
-            Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite, kShaders,
-            Access::eShaderSampledRead);
+        // G-buffer and depth -> lighting's loads
+        barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput,
+                Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite, kShaders,
+                Access::eShaderSampledRead);
     }
     if (frame.plan.lighting_compute) {
         recordLightingCompute(frame);
@@ -108,6 +159,7 @@ void transitionFresh(const vk::raii::CommandBuffer& cmd, ViewTargets& targets) {
     add(targets.gbuffer, vk::ImageAspectFlagBits::eColor);
     add(targets.gbuffer_extra, vk::ImageAspectFlagBits::eColor);
     add(targets.ids, vk::ImageAspectFlagBits::eColor);
+    add(targets.compute_depth, vk::ImageAspectFlagBits::eColor);
     add(targets.radiance, vk::ImageAspectFlagBits::eColor);
     cmd.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
                           .pImageMemoryBarriers = barriers.data()});
@@ -159,6 +211,9 @@ void recordFrame(const FrameContext& frame) {
         recordCountPairs(frame);
     }
     if (frame.plan.transparent) {
+        if (frame.plan.compute_raster) {
+            recordDepthHandover(frame);
+        }
         // solid surfaces' radiance and depth -> blending and depth test
         barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
                 Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |
@@ -246,7 +301,10 @@ void recordVisibilityCopy(const vk::raii::CommandBuffer& cmd,
     // the frame's last writes of ids and depth -> copies
     barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
     copyImage(cmd, targets.ids, vk::ImageAspectFlagBits::eColor, to, 0);
-    copyImage(cmd, targets.depth, vk::ImageAspectFlagBits::eDepth, to,
+    copyImage(cmd, targets.solidDepth(),
+              targets.rastered_in_compute ? vk::ImageAspectFlagBits::eColor
+                                          : vk::ImageAspectFlagBits::eDepth,
+              to,
               vk::DeviceSize{4} * targets.size.width_px * targets.size.height_px);
     // copies -> host
     barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);

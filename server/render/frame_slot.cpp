@@ -92,7 +92,7 @@ void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
     const auto& t = *slot.targets;
     // lavapipe binds all of a set, also what no shader of the pass reads: an absent target must not
     // leave the freed image of an earlier size behind, so it is described as none.
-    const std::array images = {image(t.gbuffer), image(t.depth), image(t.radiance),
+    const std::array images = {image(t.gbuffer), image(t.solidDepth()), image(t.radiance),
                                image(t.gbuffer_extra)};
     const auto& pixels = t.needs.device_pixels ? t.pixels : slot.readback->buffer;
     const vk::DescriptorBufferInfo buffer{*pixels.handle, 0, VK_WHOLE_SIZE};

@@ -79,9 +79,11 @@ void addSolidWords(Lines& lines,
                    const FrameFacts& facts,
                    const FramePlan& plan) {
     if (plan.visibility) {
-        lines.emplace_back(plan.cull_meshlets
-                               ? "visibility: the device culls meshlets and rasters triangle ids"
-                               : "visibility: the device rasters triangle ids, nothing culled");
+        lines.push_back(std::string("visibility: the device ") +
+                        (plan.cull_meshlets ? "culls meshlets and rasters triangle ids"
+                                            : "rasters triangle ids") +
+                        (plan.compute_raster ? " in compute" : "") +
+                        (plan.cull_meshlets ? "" : ", nothing culled"));
     }
     if (plan.gbuffer) {
         const auto bytes =
@@ -93,9 +95,13 @@ void addSolidWords(Lines& lines,
     } else {
         lines.emplace_back("no G-buffer: surfaces are shaded at once");
     }
-    if (plan.forward) {
-        lines.emplace_back(plan.depth_prepass ? "depth prepass: each pixel is shaded once"
-                                              : "no depth prepass");
+    if (plan.depth_prepass) {
+        lines.emplace_back("depth prepass: each pixel is shaded once");
+    } else if (!plan.visibility) {
+        lines.emplace_back(settings.renderer == view::Renderer::kNaive ? "naive: no depth prepass"
+                           : facts.overdraw_unknown
+                               ? "no depth prepass: how often surfaces overlap is being measured"
+                               : "no depth prepass: it would cost more than it spares");
     }
 }
 

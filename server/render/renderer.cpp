@@ -25,6 +25,7 @@ double microsSince(Clock::time_point start) {
 // Whether there is no other way to draw what is asked for.
 bool needsVisibility(const FrameInputs& inputs) {
     return inputs.geometry == GeometryPath::kVisibility ||
+           inputs.geometry == GeometryPath::kComputeRaster ||
            (isForward(inputs.settings.renderer) &&
             inputs.settings.lighting == view::LightingStage::kCompute);
 }
@@ -80,6 +81,7 @@ void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
                              .gbuffer_flags = plan.gbuffer_output_flags,
                              .radiance = plan.radiance,
                              .visibility = plan.visibility,
+                             .compute_raster = plan.compute_raster,
                              .device_pixels = !scene.device.traits().is_cpu};
     if (!targets || targets->size != size || !targets->needs.covers(wanted)) {
         TargetNeeds grown = wanted;
@@ -90,11 +92,13 @@ void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
             }
             grown.radiance |= targets->needs.radiance;
             grown.visibility |= targets->needs.visibility;
+            grown.compute_raster |= targets->needs.compute_raster;
         }
         // Frames in flight keep the old targets alive through their slots.
         targets.reset();
         targets = std::make_shared<ViewTargets>(scene.device, size, grown);
     }
+    targets->rastered_in_compute = plan.compute_raster;
     slot.targets = targets;
     const vk::DeviceSize bytes = vk::DeviceSize{4} * size.width_px * size.height_px;
     if (!slot.readback || slot.readback->buffer.size_bytes != bytes) {
@@ -115,7 +119,11 @@ void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets
                             .order = {slot.upload.buffer(), offsets.meshlet_order,
                                       scene.visibility().placed.size() * sizeof(uint32_t)},
                             .ids = *t.ids.view,
-                            .words = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view});
+                            .gbuffer = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view,
+                            .raster = t.rastered_in_compute ? &scene.visibility().computeRaster()
+                                                            : nullptr,
+                            .words = *t.words.handle,
+                            .depth = *t.compute_depth.view});
 }
 
 void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
@@ -129,6 +137,9 @@ void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
     }
     if (plan.count_pairs && !slot.pairs) {
         slot.pairs = std::make_unique<PairCounter>(scene.device, scene.pipelines);
+    }
+    if (plan.count_samples && !slot.samples) {
+        slot.samples = std::make_unique<gpu::SampleCounter>(scene.device);
     }
     recordFrame({.scene = scene,
                  .slot = slot,
@@ -148,6 +159,7 @@ void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
                                         *scene.device.memoryLedger());
     slot.stats.grid = builder.gridStats();
     slot.counts_pairs = plan.count_pairs;
+    slot.counts_samples = plan.count_samples;
     slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
     slot.stats.host_us = microsSince(start);
     slot.submitted = start;
@@ -207,6 +219,11 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
                 std::string(view::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]) +
                 ", since " + why + "; use auto or fragment"};
     }
+    if (inputs.geometry == GeometryPath::kComputeRaster &&
+        !impl_->scene.visibility().compute_unusable.empty()) {
+        return Error{ErrorCode::kUnsupported, "ids cannot be rastered in compute, since " +
+                                                  impl_->scene.visibility().compute_unusable};
+    }
     try {
         slot->inputs = inputs;
         impl_->submit(*slot, inputs);
@@ -246,6 +263,11 @@ Result<RenderedFrame> ViewRenderer::collect() {
     }
     if (slot.counts_pairs) {
         slot.stats.pairs = slot.pairs->read();
+    }
+    if (slot.counts_samples) {
+        const auto& drawn = slot.targets->size;
+        impl_->scene.overdraw = static_cast<double>(slot.samples->read()) /
+                                (static_cast<double>(drawn.width_px) * drawn.height_px);
     }
     slot.stats.frame_us = microsSince(slot.submitted);
     slot.readback->leased = true;

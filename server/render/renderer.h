@@ -23,7 +23,7 @@ class SceneResources;
 
 // How a deferred frame's solid surfaces reach the G-buffer. auto: through the visibility passes on
 // a GPU that has what they need, where they are faster. Differs in rounding alone.
-enum class GeometryPath : uint8_t { kAuto, kRaster, kVisibility };
+enum class GeometryPath : uint8_t { kAuto, kRaster, kVisibility, kComputeRaster };
 
 // Where light lists are made. auto: on a GPU that rounds as the host does, else on the host. The
 // lists are the same.
@@ -37,6 +37,7 @@ struct FrameInputs {
     GenericParts generic = {};
     GeometryPath geometry = GeometryPath::kAuto;
     bool cull_meshlets = true; // in the visibility passes
+    std::optional<bool> depth_prepass = {}; // none: where it pays
     AssignmentPlace assignment = AssignmentPlace::kAuto;
 };
 

@@ -15,7 +15,8 @@ ViewTargets::ViewTargets(const gpu::Device& device,
     depth = arena.makeImage({.format = Pipelines::kDepthFormat,
                              .extent = extent,
                              .usage = Usage::eDepthStencilAttachment | Usage::eSampled |
-                                      (needs.visibility ? Usage::eTransferSrc : Usage{}),
+                                      (needs.visibility ? Usage::eTransferSrc : Usage{}) |
+                                      (needs.compute_raster ? Usage::eTransferDst : Usage{}),
                              .aspect = vk::ImageAspectFlagBits::eDepth},
                             "depth");
     if (needs.gbuffer) {
@@ -39,6 +40,18 @@ ViewTargets::ViewTargets(const gpu::Device& device,
              .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eStorage |
                       Usage::eTransferSrc},
             "visible ids");
+    }
+    if (needs.compute_raster) {
+        using BufferUsage = vk::BufferUsageFlagBits;
+        words = arena.makeBuffer(vk::DeviceSize{8} * size.width_px * size.height_px,
+                                 BufferUsage::eStorageBuffer | BufferUsage::eTransferSrc |
+                                     BufferUsage::eTransferDst,
+                                 gpu::MemoryUse::kDevice, "depth and id words");
+        compute_depth = arena.makeImage(
+            {.format = vk::Format::eR32Sfloat,
+             .extent = extent,
+             .usage = Usage::eSampled | Usage::eStorage | Usage::eTransferSrc},
+            "depth from compute");
     }
     if (needs.radiance) {
         radiance = arena.makeImage(

@@ -14,12 +14,13 @@ struct TargetNeeds {
     uint32_t gbuffer_flags = 0; // FramePlan::gbuffer_output_flags: its formats
     bool radiance = false;
     bool visibility = false;
+    bool compute_raster = false; // what compute rasters into
     bool device_pixels = false; // packed pixels are copied to the host rather than written there
 
     [[nodiscard]] bool covers(const TargetNeeds& other) const {
         const bool same_gbuffer = gbuffer && gbuffer_flags == other.gbuffer_flags;
         return (same_gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
-               (visibility || !other.visibility) &&
+               (visibility || !other.visibility) && (compute_raster || !other.compute_raster) &&
                (device_pixels || !other.device_pixels);
     }
 };
@@ -35,9 +36,17 @@ struct ViewTargets {
     gpu::Image gbuffer;  // null handle: not needed
     gpu::Image gbuffer_extra; // null handle: the layout has no second target
     gpu::Image ids;      // of visible triangles; null handle: not needed
+    gpu::Buffer words;   // depth and id, 64 bits a pixel; null handle: not needed
+    gpu::Image compute_depth; // as depth, where compute rasters; null handle: not needed
     gpu::Image radiance; // null handle: not needed
     gpu::Buffer pixels;  // null handle: not needed
     bool fresh = true;   // the images still await their first transition
+    bool rastered_in_compute = false; // solid surfaces of the frame last submitted
+
+    // Of that frame's solid surfaces.
+    [[nodiscard]] const gpu::Image& solidDepth() const {
+        return rastered_in_compute ? compute_depth : depth;
+    }
 };
 
 } // namespace froxel::render

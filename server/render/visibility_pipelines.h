@@ -10,13 +10,15 @@ namespace froxel::render {
 
 class VisibilityPipelines {
   public:
-    static constexpr uint32_t kBufferBindings = 13; // of set 2; then ids and G-buffer
+    // Of set 2: geometry and draws, 13; ids, G-buffer; what compute rasters by, 4; its depth, ids.
+    static constexpr uint32_t kBindings = 21;
     static constexpr vk::Format kIdFormat = vk::Format::eR32Uint;
 
     [[nodiscard]] static constexpr vk::DescriptorType bindingType(uint32_t binding) {
-        return binding < kBufferBindings    ? vk::DescriptorType::eStorageBuffer
-               : binding == kBufferBindings ? vk::DescriptorType::eSampledImage
-                                            : vk::DescriptorType::eStorageImage;
+        return binding == 13 ? vk::DescriptorType::eSampledImage
+               : binding == 14 || binding == 19 || binding == 20
+                   ? vk::DescriptorType::eStorageImage
+                   : vk::DescriptorType::eStorageBuffer;
     }
 
     // texture_count: of the whole scene; 0 where materials are bound one at a time.
@@ -36,8 +38,9 @@ class VisibilityPipelines {
     [[nodiscard]] vk::PipelineLayout rasterLayout() const { return *raster_layout_; }
     [[nodiscard]] vk::PipelineLayout computeLayout() const { return *compute_layout_; }
 
-  private:
     [[nodiscard]] gpu::SpecConstants constants(const VariantKey& key) const;
+
+  private:
     [[nodiscard]] vk::raii::Pipeline makeRaster(uint32_t material_flags) const;
 
     const gpu::Device& device_;

@@ -88,12 +88,12 @@ class IdNames {
 
 } // namespace
 
-Visibility copyVisibility(SceneResources& resources,
-                          const ViewTargets& targets,
-                          const scene::Scene& scene) {
+Visibility
+copyVisibility(SceneResources& resources, const ViewTargets& targets, const scene::Scene& scene) {
     const size_t count = size_t{targets.size.width_px} * targets.size.height_px;
-    Visibility visibility{targets.size.width_px, targets.size.height_px, {}};
+    Visibility visibility{targets.size.width_px, targets.size.height_px, {}, {}};
     visibility.pixels.resize(count);
+    visibility.depths.resize(count);
     if (!targets.needs.visibility) {
         return visibility; // no solid surface in the whole scene
     }
@@ -109,6 +109,7 @@ Visibility copyVisibility(SceneResources& resources,
         float depth = 0;
         std::memcpy(&id, ids + i * sizeof(id), sizeof(id));
         std::memcpy(&depth, depths + i * sizeof(depth), sizeof(depth));
+        visibility.depths[i] = depth;
         if (depth > 0) { // ids of empty pixels say nothing
             visibility.pixels[i] = names.name(id);
         }

@@ -140,7 +140,8 @@ std::string VisibilityScene::unusable(const SceneResources& scene) {
 }
 
 VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
-    : arena(scene.device), pipelines(scene.device, scene.pipelines, textureCount(scene)) {
+    : arena(scene.device), pipelines(scene.device, scene.pipelines, textureCount(scene)),
+      device_(scene.device) {
     Placer placer(scene);
     groups = std::move(placer.groups);
     placed = std::move(placer.meshlets);
@@ -175,6 +176,14 @@ VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
     if (textureCount(scene) > 0) {
         writeTextures(scene);
     }
+    compute_unusable = ComputeRaster::unusable(device_, *this);
+}
+
+ComputeRaster& VisibilityScene::computeRaster() {
+    if (!compute_raster_) {
+        compute_raster_ = std::make_unique<ComputeRaster>(device_, *this);
+    }
+    return *compute_raster_;
 }
 
 void VisibilityScene::writeTextures(const SceneResources& scene) {
@@ -201,9 +210,9 @@ VisibilityFrame::VisibilityFrame(const gpu::Device& device, const VisibilityScen
     : device_(device), pool_(nullptr) {
     using Type = vk::DescriptorType;
     const std::array sizes = {
-        vk::DescriptorPoolSize{Type::eStorageBuffer, VisibilityPipelines::kBufferBindings},
+        vk::DescriptorPoolSize{Type::eStorageBuffer, VisibilityPipelines::kBindings},
         vk::DescriptorPoolSize{Type::eSampledImage, 1},
-        vk::DescriptorPoolSize{Type::eStorageImage, 1}};
+        vk::DescriptorPoolSize{Type::eStorageImage, 3}};
     pool_ = device.handle().createDescriptorPool(
         {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
          .maxSets = 1,
@@ -220,7 +229,10 @@ void VisibilityFrame::write(const Bindings& bindings) {
     };
     const auto& r = bindings.resources;
     const auto& s = bindings.scene;
-    const std::array<vk::DescriptorBufferInfo, VisibilityPipelines::kBufferBindings> buffers = {
+    // What the frame lacks is described as none.
+    constexpr vk::DescriptorBufferInfo kNone{.buffer = {}, .offset = 0, .range = VK_WHOLE_SIZE};
+    const auto* raster = bindings.raster;
+    std::array<vk::DescriptorBufferInfo, VisibilityPipelines::kBindings> buffers = {
         whole(r.position_buffer),
         whole(r.surface_buffer),
         whole(*r.extended_buffer.handle ? r.extended_buffer : r.surface_buffer),
@@ -234,21 +246,27 @@ void VisibilityFrame::write(const Bindings& bindings) {
         whole(s.ranks),
         whole(s.counts),
         bindings.order};
-    const std::array images = {vk::DescriptorImageInfo{.imageView = bindings.ids,
-                                                       .imageLayout = vk::ImageLayout::eGeneral},
-                               vk::DescriptorImageInfo{.imageView = bindings.words,
-                                                       .imageLayout = vk::ImageLayout::eGeneral}};
-    std::array<vk::WriteDescriptorSet, VisibilityPipelines::kBufferBindings + 2> writes;
+    buffers[15] =
+        raster != nullptr ? vk::DescriptorBufferInfo{bindings.words, 0, VK_WHOLE_SIZE} : kNone;
+    buffers[16] = raster != nullptr ? whole(raster->counts) : kNone;
+    buffers[17] = raster != nullptr ? whole(raster->meshlets) : kNone;
+    buffers[18] = raster != nullptr ? whole(raster->large) : kNone;
+    std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
+    const auto image = [&](uint32_t binding, vk::ImageView view) {
+        images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};
+    };
+    image(13, bindings.ids);
+    image(14, bindings.gbuffer);
+    image(19, bindings.depth);
+    image(20, bindings.ids);
+    std::array<vk::WriteDescriptorSet, VisibilityPipelines::kBindings> writes;
     for (uint32_t i = 0; i < writes.size(); ++i) {
         writes[i] = {.dstSet = *set_,
                      .dstBinding = i,
                      .descriptorCount = 1,
-                     .descriptorType = VisibilityPipelines::bindingType(i)};
-        if (i < buffers.size()) {
-            writes[i].pBufferInfo = &buffers[i];
-        } else {
-            writes[i].pImageInfo = &images[i - buffers.size()];
-        }
+                     .descriptorType = VisibilityPipelines::bindingType(i),
+                     .pImageInfo = &images[i],
+                     .pBufferInfo = &buffers[i]};
     }
     device_.handle().updateDescriptorSets(writes, {});
 }

@@ -6,9 +6,11 @@
 #include "gpu/upload.h"
 #include "interface/frame_io.h"
 #include "interface/visibility_io.h"
+#include "render/compute_raster.h"
 #include "render/visibility_pipelines.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +56,11 @@ class VisibilityScene {
 
     VisibilityPipelines pipelines;
 
+    // Why ids cannot be rastered in compute; empty: they can.
+    std::string compute_unusable;
+    // Made at the first call; compute_unusable is empty. Throws vk::SystemError.
+    [[nodiscard]] ComputeRaster& computeRaster();
+
     // Every texture of the scene; null where one material is bound at a time.
     [[nodiscard]] vk::DescriptorSet textureSet() const {
         return *texture_set_ ? *texture_set_ : vk::DescriptorSet{};
@@ -62,6 +69,8 @@ class VisibilityScene {
   private:
     void writeTextures(const SceneResources& scene);
 
+    const gpu::Device& device_;
+    std::unique_ptr<ComputeRaster> compute_raster_;
     vk::raii::DescriptorPool pool_{nullptr};
     vk::raii::DescriptorSet texture_set_{nullptr};
 };
@@ -77,7 +86,11 @@ class VisibilityFrame {
         vk::DescriptorBufferInfo instances; // io::InstanceView
         vk::DescriptorBufferInfo order;     // of the placed meshlets
         vk::ImageView ids;
-        vk::ImageView words; // G-buffer
+        vk::ImageView gbuffer;
+        // Where compute rasters; else none.
+        const ComputeRaster* raster = nullptr;
+        vk::Buffer words;
+        vk::ImageView depth;
     };
     // The slot is not in flight.
     void write(const Bindings& bindings);

@@ -5,6 +5,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -36,10 +37,12 @@ constexpr Way kWays[] = {
     {"deferred, raster", Renderer::kClusteredDeferred, LightingStage::kAuto, GeometryPath::kRaster},
     {"deferred, visibility", Renderer::kClusteredDeferred, LightingStage::kAuto,
      GeometryPath::kVisibility},
-    {"deferred, visibility, not culled", Renderer::kClusteredDeferred, LightingStage::kAuto,
-     GeometryPath::kVisibility, false},
-    {"deferred, visibility, all lights", Renderer::kClusteredDeferred, LightingStage::kAuto,
-     GeometryPath::kVisibility, true, view::LightLoop::kAllLights},
+    {"deferred, compute raster", Renderer::kClusteredDeferred, LightingStage::kAuto,
+     GeometryPath::kComputeRaster},
+    {"deferred, compute raster, not culled", Renderer::kClusteredDeferred, LightingStage::kAuto,
+     GeometryPath::kComputeRaster, false},
+    {"deferred, compute raster, all lights", Renderer::kClusteredDeferred, LightingStage::kAuto,
+     GeometryPath::kComputeRaster, true, view::LightLoop::kAllLights},
     {"forward_plus, fragment", Renderer::kForwardPlus, LightingStage::kFragment,
      GeometryPath::kAuto},
     {"forward_plus, compute", Renderer::kForwardPlus, LightingStage::kCompute, GeometryPath::kAuto},
@@ -119,6 +122,45 @@ void compare(const Picture& a, const Picture& b, const char* what) {
                 100 * static_cast<double>(above[1]) / pixels);
 }
 
+Visibility visibilityOf(render::ViewRenderer& view,
+                        const scene::Scene& scene,
+                        render::FrameInputs inputs,
+                        GeometryPath path) {
+    inputs.settings.renderer = Renderer::kClusteredDeferred;
+    inputs.settings.lighting = LightingStage::kAuto;
+    inputs.geometry = path;
+    view.submit(inputs).value();
+    (void)view.collect().value();
+    return std::move(view.readVisibility(scene)).value();
+}
+
+// The rasteriser's ids and depths against those rastered in compute.
+void compareIds(render::ViewRenderer& view,
+                const scene::Scene& scene,
+                const render::FrameInputs& inputs) {
+    const auto a = visibilityOf(view, scene, inputs, GeometryPath::kVisibility);
+    const auto b = visibilityOf(view, scene, inputs, GeometryPath::kComputeRaster);
+    size_t apart = 0;
+    size_t empty = 0;
+    std::vector<double> ulps;
+    for (size_t i = 0; i < a.pixels.size(); ++i) {
+        if (a.pixels[i] != b.pixels[i]) {
+            ++apart;
+            empty += (a.depths[i] > 0) != (b.depths[i] > 0) ? 1U : 0U;
+        } else if (a.depths[i] > 0) {
+            ulps.push_back(std::abs(std::bit_cast<int32_t>(a.depths[i]) -
+                                    double{std::bit_cast<int32_t>(b.depths[i])}));
+        }
+    }
+    std::sort(ulps.begin(), ulps.end());
+    const auto at = [&](double share) {
+        return ulps.empty() ? 0 : ulps[static_cast<size_t>(share * (ulps.size() - 1.0))];
+    };
+    std::printf("  ids: %zu of %zu pixels show another triangle (%zu are empty in one); depths of "
+                "the others apart by %.0f (median), %.0f (p99), %.0f ulps (most)\n",
+                apart, a.pixels.size(), empty, at(0.5), at(0.99), at(1));
+}
+
 void run(const scene::Scene& scene, const view::Camera& camera, uint32_t lights) {
     gpu::Device device({});
     render::Renderer renderer(device, scene);
@@ -142,10 +184,12 @@ void run(const scene::Scene& scene, const view::Camera& camera, uint32_t lights)
         pictures.push_back(drawTimed(view, inputs, way.name));
     }
     compare(pictures[0], pictures[1], "deferred: raster, visibility");
-    compare(pictures[1], pictures[2], "visibility: culled, not culled");
-    compare(pictures[1], pictures[3], "visibility: lists, all lights");
-    compare(pictures[4], pictures[5], "forward_plus: fragment, compute");
-    compare(pictures[5], pictures[6], "compute: forward_plus, naive");
+    compare(pictures[1], pictures[2], "visibility: rasteriser, compute raster");
+    compare(pictures[2], pictures[3], "compute raster: culled, not culled");
+    compare(pictures[2], pictures[4], "compute raster: lists, all lights");
+    compare(pictures[5], pictures[6], "forward_plus: fragment, compute");
+    compare(pictures[6], pictures[7], "compute: forward_plus, naive");
+    compareIds(view, scene, inputs);
 }
 
 } // namespace

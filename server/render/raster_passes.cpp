@@ -1,0 +1,120 @@
+#include "render/raster_passes.h"
+
+#include "render/compute_raster.h"
+#include "render/visibility_scene.h"
+
+#include <array>
+
+namespace froxel::render {
+
+namespace {
+
+using Point = vk::PipelineBindPoint;
+
+const ComputeRaster& raster(const FrameContext& frame) {
+    return frame.visibility->computeRaster();
+}
+
+void bind(const FrameContext& frame, vk::Pipeline pipeline) {
+    const auto& cmd = frame.slot.cmd;
+    cmd.bindPipeline(Point::eCompute, pipeline);
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
+                             frame.slot.visibility->set()};
+    cmd.bindDescriptorSets(Point::eCompute, frame.visibility->pipelines.computeLayout(), 0, sets,
+                           {});
+}
+
+void push(const FrameContext& frame, const std::array<uint32_t, 2>& words) {
+    frame.slot.cmd.pushConstants<uint32_t>(frame.visibility->pipelines.computeLayout(),
+                                           vk::ShaderStageFlagBits::eCompute, 0, words);
+}
+
+// Everything with all textures at once, or what is opaque and then each masked material by itself.
+template <class Dispatch>
+void drawMaterials(const FrameContext& frame, vk::Pipeline pipeline, Dispatch dispatch) {
+    const auto& cmd = frame.slot.cmd;
+    const auto& scene = *frame.visibility;
+    const auto layout = scene.pipelines.computeLayout();
+    bind(frame, pipeline);
+    if (scene.pipelines.bindless()) {
+        cmd.bindDescriptorSets(Point::eCompute, layout, 3, scene.textureSet(), {});
+        push(frame, {io::kAnyMaterial, 1});
+        dispatch();
+        return;
+    }
+    uint32_t takes_opaque = 1;
+    const auto draw = [&](uint32_t material) {
+        cmd.bindDescriptorSets(Point::eCompute, layout, 3, frame.scene.materialSet(material), {});
+        push(frame, {material, takes_opaque});
+        dispatch();
+        takes_opaque = 0;
+    };
+    const auto& masked = raster(frame).masked_materials;
+    if (masked.empty()) {
+        draw(scene.materials_in_use.front());
+    }
+    for (const uint32_t material : masked) {
+        draw(material);
+    }
+}
+
+vk::BufferImageCopy wholeImage(const FrameContext& frame, vk::ImageAspectFlags aspect) {
+    const auto& size = frame.slot.targets->size;
+    return {.imageSubresource = {aspect, 0, 0, 1},
+            .imageExtent = {size.width_px, size.height_px, 1}};
+}
+
+} // namespace
+
+void recordRasterClear(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_clear");
+    const io::RasterCounts counts{.meshlets = 0, .one_y = 1, .one_z = 1, .padding0 = 0, .large = 0};
+    frame.slot.cmd.fillBuffer(*frame.slot.targets->words.handle, 0, VK_WHOLE_SIZE, 0);
+    frame.slot.cmd.updateBuffer<io::RasterCounts>(*raster(frame).counts.handle, 0, counts);
+}
+
+void recordRasterCull(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
+    bind(frame, raster(frame).cull());
+    push(frame, {frame.plan.cull_meshlets ? 0U : 1U,
+                 static_cast<uint32_t>(frame.visibility->groups.size())});
+    frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
+}
+
+void recordRasterMeshlets(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_meshlets");
+    drawMaterials(frame, raster(frame).rasterMeshlets(),
+                  [&] { frame.slot.cmd.dispatchIndirect(*raster(frame).counts.handle, 0); });
+}
+
+void recordRasterBlocks(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_blocks");
+    drawMaterials(frame, raster(frame).rasterBlocks(),
+                  [&] { frame.slot.cmd.dispatch(io::kRasterBlockGroups, 1, 1); });
+}
+
+void recordRasterUnpack(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_unpack");
+    bind(frame, raster(frame).unpack());
+    const auto& size = frame.slot.targets->size;
+    const auto groups = [](uint32_t size_px) {
+        return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;
+    };
+    frame.slot.cmd.dispatch(groups(size.width_px), groups(size.height_px), 1);
+}
+
+void recordDepthOut(const FrameContext& frame) {
+    const auto& targets = *frame.slot.targets;
+    frame.slot.cmd.copyImageToBuffer(*targets.compute_depth.handle, vk::ImageLayout::eGeneral,
+                                     *targets.words.handle,
+                                     wholeImage(frame, vk::ImageAspectFlagBits::eColor));
+}
+
+void recordDepthIn(const FrameContext& frame) {
+    const auto& targets = *frame.slot.targets;
+    frame.slot.cmd.copyBufferToImage(*targets.words.handle, *targets.depth.handle,
+                                     vk::ImageLayout::eGeneral,
+                                     wholeImage(frame, vk::ImageAspectFlagBits::eDepth));
+}
+
+} // namespace froxel::render

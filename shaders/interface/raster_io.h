@@ -1,0 +1,44 @@
+// Triangle ids rastered in compute: sizes, and what its passes hand on (scalar block layout).
+#ifndef FROXEL_INTERFACE_RASTER_IO_H
+#define FROXEL_INTERFACE_RASTER_IO_H
+
+#include "compat.h"
+
+FROXEL_IO_NAMESPACE_BEGIN
+
+// Screen coordinates are integers of 1/256 of a pixel from the picture's top left corner. Triangles
+// are clipped to a guard band, so that edge functions fit 64 bits and their change over a block 32.
+FROXEL_CONST uint kSubpixelBits = 8U;
+FROXEL_CONST float kGuardPx = 8192.0F; // from the picture's middle
+
+FROXEL_CONST uint kRasterGroup = 128U;        // invocations a meshlet: one a triangle, then one a row
+FROXEL_CONST uint kRasterSmall = 32U;         // pixels a side of what a meshlet's workgroup draws
+FROXEL_CONST uint kRasterBlock = 32U;         // pixels a side of the blocks of larger triangles
+FROXEL_CONST uint kRasterBlockGroup = 64U;    // invocations a block
+FROXEL_CONST uint kRasterBlockGroups = 4096U; // workgroups, which take blocks in turns
+
+// RasterCounts::large: blocks in the low bits, large triangles above.
+FROXEL_CONST uint kRasterBlockBits = 40U;
+FROXEL_CONST uint kRasterMostTriangles = 1U << 24; // of a scene, so that neither part overflows
+
+// Begins as VkDispatchIndirectCommand: a workgroup a visible meshlet.
+struct RasterCounts {
+    uint meshlets;
+    uint one_y;
+    uint one_z;
+    uint padding0;
+    uint64_t large;
+};
+FROXEL_SIZE_ASSERT(RasterCounts, 24);
+
+// A triangle that is drawn in blocks.
+struct LargeTriangle {
+    uint64_t first_block; // of the frame's
+    uint id;
+    uint box; // x | y << 12 of its first pixel, blocks a row << 24
+};
+FROXEL_SIZE_ASSERT(LargeTriangle, 16);
+
+FROXEL_IO_NAMESPACE_END
+
+#endif

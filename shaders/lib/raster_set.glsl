@@ -1,0 +1,9 @@
+// Set 2, continued: what the passes that raster ids in compute share. words: depth's bits above the
+// id, so that of what covers a pixel the nearest has the largest word, and of equal depths the last
+// of the scene.
+#include "interface/raster_io.h"
+
+layout(set = 2, binding = 15, scalar) buffer WordBlock { uint64_t words[]; };
+layout(set = 2, binding = 16, scalar) buffer RasterCountBlock { RasterCounts raster; };
+layout(set = 2, binding = 17, scalar) buffer VisibleBlock { uint visible_meshlets[]; };
+layout(set = 2, binding = 18, scalar) buffer LargeBlock { LargeTriangle large_triangles[]; };

@@ -1,0 +1,94 @@
+// Rasters large triangles and those that need clipping, in blocks of their boxes, which workgroups
+// take in turns.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#extension GL_GOOGLE_include_directive : require
+#ifdef FROXEL_BINDLESS
+#extension GL_EXT_nonuniform_qualifier : require
+#endif
+#include "lib/frame.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/visibility_set.glsl"
+#include "lib/raster_set.glsl"
+#include "lib/material.glsl"
+#include "lib/visibility_surface.glsl"
+#include "lib/raster_triangle.glsl"
+#include "lib/raster_clip.glsl"
+#include "lib/raster_pixel.glsl"
+
+layout(local_size_x = kRasterBlockGroup) in;
+
+const uint kLaneSide = 8u; // a workgroup's pixels at a time
+
+// The last triangle whose blocks begin at or before `block`.
+uint triangleOfBlock(uint64_t block, uint count) {
+    uint first = 0;
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        bool later = large_triangles[first + half_count].first_block <= block;
+        first += later ? half_count : 0u;
+        count = later ? count - half_count : half_count;
+    }
+    return first;
+}
+
+void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, uint id, uvec2 first) {
+    Edges edges;
+    bool both_sides = (item.flags & kMaterialDoubleSided) != 0;
+    if (!setEdges(a, b, c, mirrored, both_sides, ivec2(first), edges)) {
+        return;
+    }
+    bool masked = isMasked(item);
+    uvec2 size = uvec2(frame.width_px, frame.height_px);
+    uvec2 lane = uvec2(gl_LocalInvocationIndex % kLaneSide, gl_LocalInvocationIndex / kLaneSide);
+    for (uint y = 0; y < kRasterBlock; y += kLaneSide) {
+        for (uint x = 0; x < kRasterBlock; x += kLaneSide) {
+            uvec2 at = lane + uvec2(x, y);
+            ivec3 inside =
+                edges.inside + edges.step_x * int(at.x) + edges.step_y * int(at.y);
+            if (isInside(inside) && all(lessThan(first + at, size))) {
+                drawPixel(first + at, depthAt(inside, edges.rest, edges.scale), id, masked);
+            }
+        }
+    }
+}
+
+void drawClipped(ClipTriangle t, bool mirrored, VisibleItem item, uint id, uvec2 first) {
+    vec4 corners[kMostCorners];
+    corners[0] = t.a;
+    corners[1] = t.b;
+    corners[2] = t.c;
+    uint count = clipCorners(corners, 3u);
+    for (uint i = 2; i < count; ++i) {
+        drawBlock(toScreen(corners[0]), toScreen(corners[i - 1u]), toScreen(corners[i]), mirrored,
+                  item, id, first);
+    }
+}
+
+void main() {
+    uint triangle_count = uint(raster.large >> int(kRasterBlockBits));
+    uint64_t block_count = raster.large & ((uint64_t(1) << int(kRasterBlockBits)) - 1);
+    for (uint64_t block = gl_WorkGroupID.x; block < block_count; block += gl_NumWorkGroups.x) {
+        LargeTriangle large = large_triangles[triangleOfBlock(block, triangle_count)];
+        PlacedMeshlet placed = meshlets[large.id >> kTriangleBits];
+        VisibleItem item = items[placed.item];
+        if (!drawsItem(item)) {
+            continue;
+        }
+        uint of_box = uint(block - large.first_block);
+        uint row_blocks = large.box >> 24;
+        uvec2 first = uvec2(large.box & 4095u, (large.box >> 12) & 4095u) +
+                      uvec2(of_box % row_blocks, of_box / row_blocks) * kRasterBlock;
+        InstanceView view = instances[item.instance];
+        ClipTriangle t = clipTriangle(placed, item, view, large.id & ((1u << kTriangleBits) - 1u));
+        if (drawable(t.a) && drawable(t.b) && drawable(t.c)) {
+            drawBlock(toScreen(t.a), toScreen(t.b), toScreen(t.c), view.mirrored != 0u, item,
+                      large.id, first);
+        } else {
+            drawClipped(t, view.mirrored != 0u, item, large.id, first);
+        }
+    }
+}

@@ -1,0 +1,221 @@
+// Ids rastered in compute against the rasteriser's, and exact among themselves.
+#include "hall/hall.h"
+#include "support/draw.h"
+#include "support/gpu_fixture.h"
+#include "support/test_scenes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+
+namespace froxel::test {
+
+namespace {
+
+using render::GeometryPath;
+using view::LightingStage;
+using view::Renderer;
+
+class ComputeRaster : public GpuTest {};
+
+render::FrameInputs inputsFor(const view::Camera& camera, GeometryPath path) {
+    render::FrameInputs inputs;
+    inputs.settings.camera = camera;
+    inputs.settings.size = {240, 136};
+    inputs.settings.lights.count = 100;
+    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.time_s = 3.25;
+    inputs.geometry = path;
+    return inputs;
+}
+
+Visibility visibilityOf(render::ViewRenderer& view,
+                        const scene::Scene& scene,
+                        const render::FrameInputs& inputs) {
+    (void)draw(view, inputs);
+    auto visibility = view.readVisibility(scene);
+    EXPECT_TRUE(visibility);
+    return visibility ? *visibility : Visibility{};
+}
+
+struct Apart {
+    size_t pixels = 0;
+    size_t ids = 0;           // pixels that show another triangle
+    size_t empty = 0;         // of those, pixels that are empty in one of the two
+    double mean_ulps = 0;     // of depth, where the triangle is the same
+    int64_t largest_ulps = 0; // likewise
+};
+
+Apart compare(const Visibility& a, const Visibility& b) {
+    Apart apart{.pixels = a.pixels.size()};
+    EXPECT_EQ(a.pixels.size(), b.pixels.size());
+    size_t same = 0;
+    for (size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i) {
+        if (a.pixels[i] != b.pixels[i]) {
+            ++apart.ids;
+            apart.empty += (a.depths[i] > 0) != (b.depths[i] > 0) ? 1U : 0U;
+            continue;
+        }
+        const auto ulps = std::abs(int64_t{std::bit_cast<int32_t>(a.depths[i])} -
+                                   int64_t{std::bit_cast<int32_t>(b.depths[i])});
+        apart.mean_ulps += static_cast<double>(ulps);
+        apart.largest_ulps = std::max(apart.largest_ulps, ulps);
+        ++same;
+    }
+    apart.mean_ulps /= static_cast<double>(std::max<size_t>(same, 1));
+    return apart;
+}
+
+// Both snap to 1/256 of a pixel, so only rounding at a half of that, and depths within rounding of
+// each other, can show another triangle.
+void expectSameIds(render::Renderer& renderer,
+                   const scene::Scene& scene,
+                   const view::Camera& camera,
+                   view::Size size = {240, 136}) {
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(camera, GeometryPath::kVisibility);
+    inputs.settings.size = size;
+    const auto raster = visibilityOf(view, scene, inputs);
+    inputs.geometry = GeometryPath::kComputeRaster;
+    const auto compute = visibilityOf(view, scene, inputs);
+    const Apart apart = compare(raster, compute);
+    ::testing::Test::RecordProperty("ids_apart", std::to_string(apart.ids));
+    std::printf("%zu pixels: %zu of another triangle (%zu empty in one), depth %.3f ulps apart in "
+                "the mean, %lld at most\n",
+                apart.pixels, apart.ids, apart.empty, apart.mean_ulps,
+                static_cast<long long>(apart.largest_ulps));
+    EXPECT_LE(static_cast<double>(apart.ids), 0.002 * static_cast<double>(apart.pixels) + 1);
+    EXPECT_LE(static_cast<double>(apart.empty), 0.0002 * static_cast<double>(apart.pixels) + 1);
+    EXPECT_LT(apart.mean_ulps, 8);
+}
+
+void expectSameIds(gpu::Device& device, const scene::Scene& scene) {
+    render::Renderer renderer(device, scene);
+    for (const auto& camera : scene.cameras) {
+        SCOPED_TRACE(camera.name);
+        expectSameIds(renderer, scene, camera.camera);
+    }
+}
+
+void expectExact(gpu::Device& device, const scene::Scene& scene) {
+    render::Renderer renderer(device, scene);
+    render::ViewRenderer view(renderer);
+    for (const auto& camera : scene.cameras) {
+        SCOPED_TRACE(camera.name);
+        auto inputs = inputsFor(camera.camera, GeometryPath::kComputeRaster);
+        inputs.settings.renderer = Renderer::kNaive;
+        inputs.settings.lighting = LightingStage::kCompute;
+        const Picture naive = draw(view, inputs);
+        inputs.settings.renderer = Renderer::kForwardPlus;
+        const Picture plus = draw(view, inputs);
+        EXPECT_EQ(differingFloats(naive, plus), 0U);
+        inputs.cull_meshlets = false;
+        EXPECT_EQ(differingFloats(plus, draw(view, inputs)), 0U);
+
+        inputs = inputsFor(camera.camera, GeometryPath::kComputeRaster);
+        inputs.settings.renderer = Renderer::kClusteredDeferred;
+        const Picture clustered = draw(view, inputs);
+        inputs.settings.light_loop = view::LightLoop::kAllLights;
+        EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
+        inputs.settings.lighting = LightingStage::kFragment;
+        inputs.cull_meshlets = false;
+        EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
+    }
+}
+
+} // namespace
+
+TEST_F(ComputeRaster, Room_Ids_AreTheRasterisers) {
+    expectSameIds(device(), makeRoom());
+}
+
+TEST_F(ComputeRaster, Hall_Ids_AreTheRasterisers) {
+    expectSameIds(device(), hall::makeHall());
+}
+
+TEST_F(ComputeRaster, Sponza_Ids_AreTheRasterisers) {
+    const auto scene = loadSponza();
+    if (!scene) {
+        GTEST_SKIP() << "Sponza is not here: set FROXEL_SPONZA to its .gltf file";
+    }
+    render::Renderer renderer(device(), *scene);
+    expectSameIds(renderer, *scene, view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), {480, 270});
+}
+
+TEST_F(ComputeRaster, OddSizes_Ids_AreTheRasterisers) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    for (const view::Size size : {view::Size{1, 1}, {17, 33}, {33, 17}, {65, 31}, {500, 3}}) {
+        SCOPED_TRACE(size.width_px);
+        expectSameIds(renderer, scene, scene.cameras[0].camera, size);
+    }
+}
+
+// Walls and floor reach behind the eye, which stands close to a box.
+TEST_F(ComputeRaster, EyeInsideTheRoom_TrianglesThroughTheNearPlane_AreTheRasterisers) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    for (const glm::dvec3 eye : {glm::dvec3(0, 0.02, 0), {0.45, 1.2, 0.4}, {-5.99, 3, -3.9}}) {
+        auto camera = view::lookAt(eye, eye + glm::dvec3(1, -0.1, 0.2), {0, 1, 0});
+        expectSameIds(renderer, scene, camera);
+        camera.near_m = 0.6;
+        expectSameIds(renderer, scene, camera);
+    }
+}
+
+TEST_F(ComputeRaster, OrthographicAndShifted_Ids_AreTheRasterisers) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    auto camera = scene.cameras[0].camera;
+    camera.lens_shift = {0.4F, -0.3F};
+    expectSameIds(renderer, scene, camera);
+    camera.projection = view::Projection::kOrthographic;
+    expectSameIds(renderer, scene, camera);
+}
+
+TEST_F(ComputeRaster, Room_ListsAndCulling_ChangeNothing) {
+    expectExact(device(), makeRoom());
+}
+
+TEST_F(ComputeRaster, Hall_ListsAndCulling_ChangeNothing) {
+    expectExact(device(), hall::makeHall());
+}
+
+// Paths take turns over one set of targets, which grows and is replaced.
+TEST_F(ComputeRaster, Paths_ChangeInEveryFrame_GiveTheSamePictures) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    constexpr std::array kPaths = {GeometryPath::kComputeRaster, GeometryPath::kRaster,
+                                   GeometryPath::kVisibility};
+    for (uint32_t i = 0; i < 24; ++i) {
+        SCOPED_TRACE(i);
+        auto inputs = inputsFor(scene.cameras[0].camera, kPaths[i % 3]);
+        inputs.settings.renderer = i % 2 == 0 ? Renderer::kForwardPlus : Renderer::kToonCompute;
+        inputs.settings.lighting = i % 4 == 0 ? LightingStage::kCompute : LightingStage::kAuto;
+        inputs.settings.size = {160 + 16 * (i / 5), 90};
+        if (inputs.settings.lighting != LightingStage::kCompute && i % 2 == 0) {
+            inputs.geometry = GeometryPath::kAuto; // a forward renderer in the fragment stage
+        }
+        const Picture picture = draw(view, inputs);
+        EXPECT_EQ(differingFloats(picture, draw(renderer, inputs)), 0U);
+    }
+}
+
+TEST_F(ComputeRaster, Device_WithoutItsFeatures_IsToldInOneLine) {
+    gpu::DeviceOptions options;
+    options.int64_atomics = false;
+    openDevice(options);
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(scene.cameras[0].camera, GeometryPath::kComputeRaster);
+    const auto refused = view.submit(inputs);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kUnsupported);
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr("shaderBufferInt64Atomics"));
+    inputs.geometry = GeometryPath::kVisibility;
+    EXPECT_FALSE(draw(view, inputs).radiance.empty());
+}
+
+} // namespace froxel::test
