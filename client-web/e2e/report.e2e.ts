@@ -39,13 +39,23 @@ interface Opened {
 }
 
 async function open(file: string, width: number, colorScheme: 'light' | 'dark'): Promise<Opened> {
-  const context = await browser.newContext({ viewport: { width, height: 800 }, colorScheme, offline: true });
+  const context = await browser.newContext({
+    viewport: { width, height: 800 },
+    colorScheme,
+    offline: true,
+  });
   const page = await context.newPage();
   const complaints: string[] = [];
   const fetched: string[] = [];
-  page.on('console', (message) => void (message.type() === 'error' && complaints.push(message.text())));
+  page.on(
+    'console',
+    (message) => void (message.type() === 'error' && complaints.push(message.text())),
+  );
   page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('request', (request) => void (!request.url().startsWith('data:') && fetched.push(request.url())));
+  page.on(
+    'request',
+    (request) => void (!request.url().startsWith('data:') && fetched.push(request.url())),
+  );
   await page.goto(pathToFileURL(file).href);
   return { page, complaints, fetched };
 }
@@ -54,14 +64,18 @@ async function open(file: string, width: number, colorScheme: 'light' | 'dark'):
 const overlaps = (page: Page): Promise<string[]> =>
   page.evaluate(() =>
     [...document.querySelectorAll('.plot svg')].flatMap((svg) => {
-      const texts = [...svg.querySelectorAll('text')].filter(({ textContent }) => textContent !== '');
+      const texts = [...svg.querySelectorAll('text')].filter(
+        ({ textContent }) => textContent !== '',
+      );
       const boxes = texts.map((text) => text.getBoundingClientRect());
       return boxes.flatMap((a, i) =>
         boxes.slice(i + 1).flatMap((b, j) => {
           const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
           const along = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
           return across > 1 && along > 4
-            ? [`"${String(texts[i]?.textContent)}" on "${String(texts[i + j + 1]?.textContent)}" in ${String(svg.closest('section')?.id)}`]
+            ? [
+                `"${String(texts[i]?.textContent)}" on "${String(texts[i + j + 1]?.textContent)}" in ${String(svg.closest('section')?.id)}`,
+              ]
             : [];
         }),
       );
@@ -79,7 +93,9 @@ describe('report', () => {
     for (const { name, rows } of sweeps) {
       const section = page.locator(`#sweep-${name}`);
       expect(await section.locator('.plot svg').count(), name).toBeGreaterThan(0);
-      expect(await section.locator('.table').first().locator('tbody tr').count(), name).toBe(rows.length);
+      expect(await section.locator('.table').first().locator('tbody tr').count(), name).toBe(
+        rows.length,
+      );
     }
     expect(await page.locator('#speed-against-error .plot svg').count()).toBe(2);
     expect(await overlaps(page)).toEqual([]);
@@ -92,7 +108,9 @@ describe('report', () => {
   it('ColourScheme_ChangesThePage', async () => {
     const paper = async (scheme: 'light' | 'dark'): Promise<string> => {
       const { page } = await open(filled, 800, scheme);
-      const colour = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+      const colour = await page.evaluate(
+        () => getComputedStyle(document.documentElement).backgroundColor,
+      );
       await page.context().close();
       return colour;
     };
@@ -102,10 +120,15 @@ describe('report', () => {
   it('Clock_ChangesTimesInPlotAndTable', async () => {
     const { page } = await open(filled, 1240, 'light');
     const shown = (): Promise<string> => page.locator('#sweep-light_count').innerText();
-    const before = await until('a table', async () => (await page.locator('#sweep-light_count td').count()) > 0 && shown());
+    const before = await until(
+      'a table',
+      async () => (await page.locator('#sweep-light_count td').count()) > 0 && shown(),
+    );
     await page.locator('.picker select').selectOption('gpu_us');
     await until('other times', async () => (await shown()) !== before);
-    expect(await page.locator('#sweep-light_count .plot').first().innerText()).toContain('GPU time');
+    expect(await page.locator('#sweep-light_count .plot').first().innerText()).toContain(
+      'GPU time',
+    );
     await page.context().close();
   });
 
@@ -113,7 +136,10 @@ describe('report', () => {
     const { page } = await open(filled, 1240, 'light');
     await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
     await page.locator('#sweep-light_count button.copy').first().click();
-    await until('the word', async () => (await page.locator('button.copy', { hasText: 'copied' }).count()) > 0);
+    await until(
+      'the word',
+      async () => (await page.locator('button.copy', { hasText: 'copied' }).count()) > 0,
+    );
     const copied = await page.evaluate(() => navigator.clipboard.readText());
     expect(copied).toBe(sample().sweeps[0]?.rows[0]?.command);
     await page.context().close();

@@ -105,7 +105,9 @@ export function errorSection(results: Results, usual: Clock): Section {
     key.replaceChildren(pointLegend(rows));
     for (const [index, { metric, holder }] of blocks.entries()) {
       const points = all[index] ?? [];
-      place(holder, (width) => (points.length > 0 ? errorPlot(points, metric, { clock, width, colours, shapes }) : null));
+      place(holder, (width) =>
+        points.length > 0 ? errorPlot(points, metric, { clock, width, colours, shapes }) : null,
+      );
     }
     figures.replaceChildren(frontTable(frontRows(all.map((points) => paretoFront(points)))));
   };

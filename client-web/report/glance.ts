@@ -37,7 +37,10 @@ export function figuresOf(results: Results): Figure[] {
     {
       name: 'exact against every light (R1)',
       value: `${exact.length} of ${checked.length}`,
-      about: checked.length < rows.length ? `not compared: ${rows.length - checked.length}` : 'every row compared',
+      about:
+        checked.length < rows.length
+          ? `not compared: ${rows.length - checked.length}`
+          : 'every row compared',
       bad: exact.length < checked.length,
     },
     {
@@ -50,7 +53,11 @@ export function figuresOf(results: Results): Figure[] {
       value: count(rows.length),
       about: skipped > 0 ? `${skipped} left out, with reasons` : 'none left out',
     },
-    { name: 'wall time', value: durationText(results.elapsed_s), about: results.date.replace('T', ' ').replace('Z', ' UTC') },
+    {
+      name: 'wall time',
+      value: durationText(results.elapsed_s),
+      about: results.date.replace('T', ' ').replace('Z', ' UTC'),
+    },
   ];
 }
 
@@ -75,9 +82,18 @@ function clockPicker(results: Results, clock: Clock, choose: (clock: Clock) => v
 }
 
 /** Fills the head. */
-export function showHead(head: HTMLElement, results: Results, clock: Clock, choose: (clock: Clock) => void): void {
+export function showHead(
+  head: HTMLElement,
+  results: Results,
+  clock: Clock,
+  choose: (clock: Clock) => void,
+): void {
   const { device, scene, host } = results;
-  const where = [device.name || kNone, `${scene.name}, ${count(scene.triangles)} triangles`, host.cpu].join(' · ');
+  const where = [
+    device.name || kNone,
+    `${scene.name}, ${count(scene.triangles)} triangles`,
+    host.cpu,
+  ].join(' · ');
   head.append(make('h1', 'Froxel: speed against error'), make('p', where, 'where'));
   if (!results.complete) {
     head.append(make('p', 'The run was stopped: what was measured until then is here.', 'warning'));

@@ -44,5 +44,7 @@ function show(results: Results): void {
 try {
   show(readResults(element('results', HTMLScriptElement).textContent));
 } catch (error) {
-  element('report', HTMLElement).append(make('p', error instanceof Error ? error.message : String(error), 'warning'));
+  element('report', HTMLElement).append(
+    make('p', error instanceof Error ? error.message : String(error), 'warning'),
+  );
 }

@@ -51,14 +51,31 @@ const kShapes: readonly Corners[] = [
   polygon(6, 5.6),
   polygon(3, 6.4, Math.PI / 2),
   spiked(3, 6.8, 2),
-  [[-6, -5], [6, 5], [6, -5], [-6, 5]], // an hourglass on its side
-  [[-6, -2.2], [6, -2.2], [6, 2.2], [-6, 2.2]],
+  [
+    [-6, -5],
+    [6, 5],
+    [6, -5],
+    [-6, 5],
+  ], // an hourglass on its side
+  [
+    [-6, -2.2],
+    [6, -2.2],
+    [6, 2.2],
+    [-6, 2.2],
+  ],
 ];
 
 /** A mark that plots draw and legends show as a path. */
 export interface Shape {
   readonly path: string;
-  readonly draw: (context: { moveTo(x: number, y: number): void; lineTo(x: number, y: number): void; closePath(): void }, size: number) => void;
+  readonly draw: (
+    context: {
+      moveTo(x: number, y: number): void;
+      lineTo(x: number, y: number): void;
+      closePath(): void;
+    },
+    size: number,
+  ) => void;
 }
 
 const shapeOf = (corners: Corners): Shape => ({
@@ -79,5 +96,7 @@ export const kDiamond = shapeOf(polygon(4, 6));
 /** A shape for each name, in their order; beyond a dozen they repeat. */
 export function shapesOf(names: readonly string[]): Map<string, Shape> {
   const shapes = kShapes.map(shapeOf);
-  return new Map([...new Set(names)].map((name, index) => [name, shapes[index % shapes.length] ?? kDot]));
+  return new Map(
+    [...new Set(names)].map((name, index) => [name, shapes[index % shapes.length] ?? kDot]),
+  );
 }

@@ -2,8 +2,8 @@
 
 import * as Plot from '@observablehq/plot';
 
+import { nameAxis, nameMargin, xAxis, xGrid } from './axes';
 import type { Row, Sweep } from './results';
-import { shortNumber } from './scales';
 import { words } from './text';
 
 export interface Part {
@@ -41,7 +41,9 @@ export function shares(parts: readonly Part[]): Part[] {
 }
 
 /** The lines of the plot from the top: a heading before each series' bars, unless they need none. */
-export function linesOf(parts: readonly Part[]): { key: string; heading: string | null; label: string }[] {
+export function linesOf(
+  parts: readonly Part[],
+): { key: string; heading: string | null; label: string }[] {
   const names = [...new Set(parts.map(({ series }) => series))];
   return names.flatMap((series) => {
     const own = parts.filter((part) => part.series === series);
@@ -59,26 +61,35 @@ export interface BarOptions {
   readonly colours: ReadonlyMap<string, string>;
 }
 
-export function partBars(parts: readonly Part[], { width, axis, unit, colours }: BarOptions): SVGElement {
+export function partBars(
+  parts: readonly Part[],
+  { width, axis, unit, colours }: BarOptions,
+): SVGElement {
   const lines = linesOf(parts);
   const labels = new Map(lines.map(({ key, label }) => [key, label]));
-  const longest = Math.max(...lines.map(({ label }) => label.length));
-  const marginLeft = Math.min(longest * 6.6 + 16, width * 0.45);
   return Plot.plot({
     width,
     height: lines.length * 22 + 48,
     marginTop: 4,
-    marginLeft,
+    marginLeft: nameMargin([...labels.values()], width),
     marginRight: 24,
     marginBottom: 40,
     y: { type: 'band', domain: lines.map(({ key }) => key), padding: 0.25, label: null },
     marks: [
-      Plot.gridX({ tickSpacing: 70, className: 'grid' }),
-      Plot.axisX({ tickSpacing: 70, tickFormat: shortNumber, tickSize: 0, label: axis, labelArrow: 'none', labelAnchor: 'center' }),
-      Plot.axisY({ tickSize: 0, label: null, tickFormat: (key: string) => labels.get(key) ?? '' }),
+      xGrid(),
+      ...xAxis(axis),
+      nameAxis((key) => labels.get(key) ?? ''),
       Plot.text(
         lines.filter(({ heading }) => heading !== null),
-        { y: 'key', text: 'heading', frameAnchor: 'left', textAnchor: 'start', dx: 2, dy: 3, fontWeight: 600 },
+        {
+          y: 'key',
+          text: 'heading',
+          frameAnchor: 'left',
+          textAnchor: 'start',
+          dx: 2,
+          dy: 3,
+          fontWeight: 600,
+        },
       ),
       Plot.barX(parts, {
         y: barOf,
@@ -87,7 +98,8 @@ export function partBars(parts: readonly Part[], { width, axis, unit, colours }:
         z: 'name',
         insetRight: 0.5,
         tip: true,
-        title: (d: Part) => `${words(d.series)}, ${d.label}\n${d.name}: ${Number(d.value.toPrecision(3))} ${unit}`,
+        title: (d: Part) =>
+          `${words(d.series)}, ${d.label}\n${d.name}: ${Number(d.value.toPrecision(3))} ${unit}`,
       }),
     ],
   }) as SVGElement;

@@ -142,7 +142,9 @@ export interface Results {
 export function readResults(text: string): Results {
   const results = JSON.parse(text) as Results | null;
   if (results === null) {
-    throw new Error('This is the empty template: `froxel bench --report FILE.html` fills it with results.');
+    throw new Error(
+      'This is the empty template: `froxel bench --report FILE.html` fills it with results.',
+    );
   }
   if (results.schema !== kSchema) {
     throw new Error(`The results are of schema "${results.schema}"; this page reads "${kSchema}".`);
@@ -173,7 +175,8 @@ export function timeMs(row: Row, clock: Clock): Summary | null {
 /** How many times as fast as `naive` drawing the same picture in the same sweep; null without one. */
 export function speedUp(row: Row, sweep: Sweep, clock: Clock): number | null {
   const naive = sweep.rows.find(
-    (other) => other.series === 'naive' && other.value === row.value && other.workload === row.workload,
+    (other) =>
+      other.series === 'naive' && other.value === row.value && other.workload === row.workload,
   );
   const own = row[clock]?.median;
   const others = naive?.[clock]?.median;

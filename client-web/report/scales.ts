@@ -47,7 +47,11 @@ const stepAbove = (value: number): number => {
 export function logTicks(low: number, high: number): number[] {
   const ticks = (factors: readonly number[]): number[] => {
     const found: number[] = [];
-    for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); power += 1) {
+    for (
+      let power = Math.floor(Math.log10(low));
+      power <= Math.ceil(Math.log10(high));
+      power += 1
+    ) {
       for (const factor of factors) {
         const tick = Number(`${factor}e${power}`);
         if (tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9)) found.push(tick);
@@ -98,7 +102,9 @@ export function apart(positions: readonly number[], gap: number): number[] {
 export function clear(points: readonly { x: number; y: number }[], gap: number): boolean[] {
   const kept: { x: number; y: number }[] = [];
   return points.map((point) => {
-    const free = kept.every(({ x, y }) => Math.abs(x - point.x) >= gap || Math.abs(y - point.y) >= gap);
+    const free = kept.every(
+      ({ x, y }) => Math.abs(x - point.x) >= gap || Math.abs(y - point.y) >= gap,
+    );
     if (free) kept.push(point);
     return free;
   });

@@ -49,14 +49,25 @@ export const kErrorColumns: readonly Column<Row>[] = [
   },
   {
     head: 'R2 largest',
-    title: 'Against a double-precision shading on the host: largest absolute error, linear radiance',
+    title:
+      'Against a double-precision shading on the host: largest absolute error, linear radiance',
     text: ({ error_r2: e }) => errorText(e.linear?.max_abs),
     number: true,
     hint: ({ error_r2: e }) => e.skipped ?? (e.view === null ? null : `worst view: ${e.view}`),
   },
   { head: 'RMSE', text: ({ error_r2: e }) => errorText(e.linear?.rmse), number: true },
-  { head: 'FLIP', title: 'Mean LDR-FLIP', text: ({ error_r2: e }) => errorText(e.perceived?.flip), number: true },
-  { head: 'PSNR, dB', title: 'Of the 8-bit picture', text: ({ error_r2: e }) => psnrText(e), number: true },
+  {
+    head: 'FLIP',
+    title: 'Mean LDR-FLIP',
+    text: ({ error_r2: e }) => errorText(e.perceived?.flip),
+    number: true,
+  },
+  {
+    head: 'PSNR, dB',
+    title: 'Of the 8-bit picture',
+    text: ({ error_r2: e }) => psnrText(e),
+    number: true,
+  },
 ];
 
 const kLabel: Column<Row> = {
@@ -95,7 +106,9 @@ export function timeColumns(sweep: Sweep, clock: Clock): Column<Row>[] {
 
 function skippedList(skipped: readonly Skipped[]): HTMLElement {
   const fold = make('details');
-  fold.append(make('summary', `Not measured: ${skipped.length} row${skipped.length === 1 ? '' : 's'}`));
+  fold.append(
+    make('summary', `Not measured: ${skipped.length} row${skipped.length === 1 ? '' : 's'}`),
+  );
   fold.append(
     table(
       skipped,
@@ -122,11 +135,24 @@ interface Bars {
   readonly parts: (sweep: Sweep) => Part[];
 }
 
-const kPassBars: Bars = { title: 'Where the time goes', axis: 'GPU time of the passes, ms', unit: 'ms', parts: passParts };
-const kMemoryBars: Bars = { title: 'Where the memory goes', axis: 'device memory, MB', unit: 'MB', parts: memoryParts };
+const kPassBars: Bars = {
+  title: 'Where the time goes',
+  axis: 'GPU time of the passes, ms',
+  unit: 'ms',
+  parts: passParts,
+};
+const kMemoryBars: Bars = {
+  title: 'Where the memory goes',
+  axis: 'device memory, MB',
+  unit: 'MB',
+  parts: memoryParts,
+};
 
 /** Stacked bars with a switch between amounts and shares. */
-function barBlock(sweep: Sweep, { title, axis, unit, parts }: Bars): { element: HTMLElement; draw: () => void } | null {
+function barBlock(
+  sweep: Sweep,
+  { title, axis, unit, parts }: Bars,
+): { element: HTMLElement; draw: () => void } | null {
   const amounts = parts(sweep);
   if (amounts.length === 0) return null;
   const colours = partColours(amounts.map(({ name }) => name));
@@ -139,7 +165,9 @@ function barBlock(sweep: Sweep, { title, axis, unit, parts }: Bars): { element: 
   head.append(make('h3', title), label);
   const holder = make('div', '', 'plot');
   const draw = (): void => {
-    const [shown, name, symbol] = shared.checked ? [shares(amounts), 'share of the row, %', '%'] : [amounts, axis, unit];
+    const [shown, name, symbol] = shared.checked
+      ? [shares(amounts), 'share of the row, %', '%']
+      : [amounts, axis, unit];
     place(holder, (width) => partBars(shown, { width, axis: name, unit: symbol, colours }));
   };
   shared.addEventListener('change', draw);
@@ -147,8 +175,16 @@ function barBlock(sweep: Sweep, { title, axis, unit, parts }: Bars): { element: 
   return { element: block, draw };
 }
 
-function sweepLegend(sweep: Sweep, colours: ReadonlyMap<string, string>, published: readonly Published[]): HTMLElement {
-  const entries = [...colours].map(([name, colour]) => ({ name: words(name), colour, symbol: kDot.path }));
+function sweepLegend(
+  sweep: Sweep,
+  colours: ReadonlyMap<string, string>,
+  published: readonly Published[],
+): HTMLElement {
+  const entries = [...colours].map(([name, colour]) => ({
+    name: words(name),
+    colour,
+    symbol: kDot.path,
+  }));
   const lines = new Set(referencesOf(sweep, published).map(({ line }) => line));
   const others = [...lines].map((line) => ({
     name: `published: ${line}`,
@@ -173,7 +209,12 @@ export function sweepSection(results: Results, sweep: Sweep): Section {
   if (stream.length > 0) {
     section.append(sweepLegend(sweep, colours, []), holder, streamTable(stream));
   } else if (sweep.rows.length > 0) {
-    section.append(sweepLegend(sweep, colours, results.published), holder, figures, ...notes(sweep.rows));
+    section.append(
+      sweepLegend(sweep, colours, results.published),
+      holder,
+      figures,
+      ...notes(sweep.rows),
+    );
     if (bars) section.append(bars.element);
   } else {
     section.append(make('p', 'Nothing was measured.', 'faint'));
@@ -181,7 +222,9 @@ export function sweepSection(results: Results, sweep: Sweep): Section {
   if (sweep.rows.length > 0) section.append(commandLines(sweep.rows));
   if (sweep.skipped.length > 0) section.append(skippedList(sweep.skipped));
   const several = colours.size > 1;
-  const series: Column<Row>[] = several ? [{ head: 'series', text: (row) => words(row.series) }] : [];
+  const series: Column<Row>[] = several
+    ? [{ head: 'series', text: (row) => words(row.series) }]
+    : [];
   return {
     id: section.id,
     title: sweep.title,
@@ -192,9 +235,15 @@ export function sweepSection(results: Results, sweep: Sweep): Section {
         return;
       }
       if (sweep.rows.length === 0) return;
-      place(holder, (width) => sweepPlot(sweep, { clock, width, colours, published: results.published }));
+      place(holder, (width) =>
+        sweepPlot(sweep, { clock, width, colours, published: results.published }),
+      );
       figures.replaceChildren(
-        table(sweep.rows, [kLabel, ...series, ...timeColumns(sweep, clock), ...kErrorColumns], ({ command }) => command),
+        table(
+          sweep.rows,
+          [kLabel, ...series, ...timeColumns(sweep, clock), ...kErrorColumns],
+          ({ command }) => command,
+        ),
       );
       bars?.draw();
     },
@@ -234,7 +283,11 @@ export function methodSection(results: Results): Section {
     ['camera path', views.map(({ name }) => name).join('; ')],
     ...Object.entries(method).map(([name, value]): [string, string] => [
       words(name),
-      Array.isArray(value) ? value.join(' × ') : typeof value === 'number' ? shortNumber(value) : String(value),
+      Array.isArray(value)
+        ? value.join(' × ')
+        : typeof value === 'number'
+          ? shortNumber(value)
+          : String(value),
     ]),
   ];
   const list = make('dl');

@@ -3,6 +3,7 @@
 import * as Plot from '@observablehq/plot';
 
 import { bytes } from '../src/format';
+import { kMargin, xAxis, yAxis } from './axes';
 import type { Row, StreamError } from './results';
 import { logAxis, shortNumber } from './scales';
 import { table } from './table';
@@ -16,13 +17,25 @@ interface Encoded {
 const encodedOf = (rows: readonly Row[]): Encoded[] =>
   rows.flatMap(({ series, stream }) => (stream ? [{ series, stream }] : []));
 
+const psnrOf = ({ shown }: StreamError): string => shown.psnr_db?.toFixed(1) ?? 'equal';
+
+const tipOf = ({ series, stream }: Encoded): string =>
+  [
+    `quality ${stream.quality}, chroma ${series}`,
+    `${bytes(stream.bytes)}, ${shortNumber(stream.bits_per_pixel)} bits a pixel`,
+    `FLIP ${errorText(stream.perceived.flip)}, PSNR ${psnrOf(stream)}`,
+  ].join('\n');
+
 export interface StreamPlotOptions {
   readonly width: number;
   readonly colours: ReadonlyMap<string, string>;
 }
 
 /** FLIP by bits a pixel, a line a chroma, each point with its quality. */
-export function streamPlot(rows: readonly Row[], { width, colours }: StreamPlotOptions): SVGElement {
+export function streamPlot(
+  rows: readonly Row[],
+  { width, colours }: StreamPlotOptions,
+): SVGElement {
   const encoded = encodedOf(rows);
   const x = logAxis(encoded.map(({ stream }) => stream.bits_per_pixel));
   const flipOf = ({ stream }: Encoded): number => stream.perceived.flip ?? NaN;
@@ -31,16 +44,12 @@ export function streamPlot(rows: readonly Row[], { width, colours }: StreamPlotO
   return Plot.plot({
     width,
     height: Math.min(400, Math.max(260, width * 0.5)),
-    marginLeft: 52,
-    marginRight: 18,
-    marginTop: 32,
-    marginBottom: 42,
+    ...kMargin,
     x: { type: 'log', domain: [...x.domain], inset: 12 },
     y: { domain: [0, Math.max(...encoded.map(flipOf)) * 1.1] },
     marks: [
-      Plot.gridY({ tickSpacing: 40, className: 'grid' }),
-      Plot.axisY({ tickSpacing: 40, tickSize: 0, tickFormat: shortNumber, label: 'mean LDR-FLIP against the picture encoded', labelArrow: 'none' }),
-      Plot.axisX({ ticks: [...x.ticks], text: shortNumber, tickSize: 4, label: 'bits a pixel', labelArrow: 'none', labelAnchor: 'center' }),
+      ...yAxis('mean LDR-FLIP against the picture encoded'),
+      ...xAxis('bits a pixel', x.ticks),
       Plot.line(encoded, { x: bitsOf, y: flipOf, z: 'series', stroke: colour, strokeWidth: 2 }),
       Plot.dot(encoded, { x: bitsOf, y: flipOf, fill: colour, r: 4 }),
       Plot.tip(
@@ -48,8 +57,7 @@ export function streamPlot(rows: readonly Row[], { width, colours }: StreamPlotO
         Plot.pointer({
           x: bitsOf,
           y: flipOf,
-          title: ({ series, stream: s }: Encoded) =>
-            `quality ${s.quality}, chroma ${series}\n${bytes(s.bytes)}, ${shortNumber(s.bits_per_pixel)} bits a pixel\nFLIP ${errorText(s.perceived.flip)}, PSNR ${s.shown.psnr_db?.toFixed(1) ?? 'equal'}`,
+          title: tipOf,
         }),
       ),
     ],
@@ -62,9 +70,21 @@ export const streamTable = (rows: readonly Row[]): HTMLElement =>
     { head: 'quality', text: ({ stream }) => String(stream.quality), number: true },
     { head: 'size', text: ({ stream }) => bytes(stream.bytes), number: true },
     { head: 'bits/pixel', text: ({ stream }) => stream.bits_per_pixel.toFixed(2), number: true },
-    { head: 'encoding, ms', text: ({ stream }) => msText(stream.encode_us.median / 1000), number: true },
+    {
+      head: 'encoding, ms',
+      text: ({ stream }) => msText(stream.encode_us.median / 1000),
+      number: true,
+    },
     { head: 'largest', text: ({ stream }) => errorText(stream.shown.max_abs), number: true },
-    { head: 'PSNR, dB', text: ({ stream }) => stream.shown.psnr_db?.toFixed(1) ?? 'equal', number: true },
-    { head: 'MSSIM', text: ({ stream }) => stream.perceived.mssim?.toFixed(4) ?? '–', number: true },
+    {
+      head: 'PSNR, dB',
+      text: ({ stream }) => psnrOf(stream),
+      number: true,
+    },
+    {
+      head: 'MSSIM',
+      text: ({ stream }) => stream.perceived.mssim?.toFixed(4) ?? '–',
+      number: true,
+    },
     { head: 'FLIP', text: ({ stream }) => errorText(stream.perceived.flip), number: true },
   ]);

@@ -3,8 +3,9 @@
 
 import * as Plot from '@observablehq/plot';
 
+import { kMargin, nameAxis, nameMargin, xAxis, xGrid, yAxis } from './axes';
 import { kDiamond } from './marks';
-import type { Clock, Published, Sweep, Summary } from './results';
+import type { Clock, Published, Summary, Sweep } from './results';
 import { timeMs } from './results';
 import { apart, logAxis, shortNumber, spansDecades } from './scales';
 import { kClockNames, msText, words } from './text';
@@ -52,138 +53,166 @@ export const referencesOf = (sweep: Sweep, published: readonly Published[]): Ref
 const tipOf = ({ label, series, time }: Timed): string =>
   `${words(series)}, ${label}\n${msText(time.median)} ms (${msText(time.p5)} to ${msText(time.p95)})`;
 
-/** The y axis of times in ms: logarithmic where they span decades, else from 0. */
-function timeScale(times: readonly number[]): { scale: Plot.ScaleOptions; ticks: number[] | undefined } {
-  if (!spansDecades(times)) {
-    return { scale: { domain: [0, Math.max(...times, 1e-3) * 1.05] }, ticks: undefined };
-  }
-  const axis = logAxis(times);
-  return { scale: { type: 'log', domain: [...axis.domain] }, ticks: [...axis.ticks] };
+const referenceTipOf = ({ series, value, printed, ms, line }: Reference): string =>
+  `${words(series)}, ${shortNumber(value)}: ${printed} = ${msText(ms)} ms\npublished: ${line}`;
+
+const medianOf = ({ time }: Timed): number => time.median;
+
+/** Where values stand on the x axis, and which of them its ticks name. */
+interface ValueAxis {
+  readonly place: (d: { value: number }) => number;
+  readonly options: Plot.ScaleOptions;
+  readonly ticks: readonly number[];
+  readonly text: (tick: number) => string;
+  /** Zero stands on a logarithmic axis' floor, not to scale: no line leads there. */
+  readonly onScale: (d: { value: number }) => boolean;
 }
 
-/** Values on the x axis whose labels have room. */
-function legibleTicks(values: readonly number[], at: (value: number) => number, width: number): number[] {
+function valueAxis({ axis }: Sweep, values: readonly number[], room: number): ValueAxis {
+  const scale = logAxis(values);
+  const isLog = axis === 'log';
   const distinct = [...new Set(values)].sort((a, b) => a - b);
-  const [low, high] = [at(distinct[0] ?? 0), at(distinct.at(-1) ?? 1)];
-  const positions = distinct.map((value) => ((at(value) - low) / (high - low || 1)) * width);
-  return apart(positions, 46).flatMap((index) => distinct[index] ?? []);
+  const [least, most] = [distinct[0] ?? 0, distinct.at(-1) ?? 1];
+  const share = (value: number): number =>
+    isLog ? scale.share(value) : (value - least) / (most - least || 1);
+  const named = apart(
+    distinct.map((value) => share(value) * room),
+    46,
+  );
+  const at = (value: number): number => (isLog ? scale.place(value) : value);
+  return {
+    place: ({ value }) => at(value),
+    options: { inset: 12, ...(isLog ? { type: 'log', domain: [...scale.domain] } : {}) },
+    ticks: named.map((index) => at(distinct[index] ?? 0)),
+    text: isLog ? scale.label : shortNumber,
+    onScale: ({ value }) => !isLog || value > 0,
+  };
 }
+
+/** The y axis of times in ms: logarithmic where they span decades, else from 0. */
+function timeAxis(times: readonly number[]): {
+  options: Plot.ScaleOptions;
+  ticks?: readonly number[];
+} {
+  if (!spansDecades(times)) return { options: { domain: [0, Math.max(...times, 1e-3) * 1.05] } };
+  const axis = logAxis(times);
+  return { options: { type: 'log', domain: [...axis.domain] }, ticks: axis.ticks };
+}
+
+type Colour = (d: { series: string }) => string;
+
+const referenceMarks = (
+  references: readonly Reference[],
+  x: ValueAxis,
+  stroke: Colour,
+): Plot.Markish[] => [
+  Plot.line(references.filter(x.onScale), {
+    x: x.place,
+    y: 'ms',
+    z: (d: Reference) => `${d.line} ${d.series}`,
+    sort: 'value',
+    stroke,
+    strokeWidth: 1,
+    strokeOpacity: 0.55,
+    strokeDasharray: '3 4',
+  }),
+  Plot.dot(references, {
+    x: x.place,
+    y: 'ms',
+    stroke,
+    strokeOpacity: 0.8,
+    symbol: kDiamond,
+    r: 3.5,
+    fill: 'var(--surface-solid)',
+  }),
+];
+
+const rowMarks = (rows: readonly Timed[], x: ValueAxis, colour: Colour): Plot.Markish[] => [
+  Plot.line(rows.filter(x.onScale), {
+    x: x.place,
+    y: medianOf,
+    z: 'series',
+    sort: 'value',
+    stroke: colour,
+    strokeWidth: 2,
+  }),
+  Plot.ruleX(rows, {
+    x: x.place,
+    y1: (d: Timed) => d.time.p5,
+    y2: (d: Timed) => d.time.p95,
+    stroke: colour,
+    strokeWidth: 1.5,
+    marker: 'tick',
+  }),
+  Plot.dot(rows, { x: x.place, y: medianOf, fill: colour, r: 3.5 }),
+];
 
 function valuePlot(sweep: Sweep, rows: readonly Timed[], options: SweepPlotOptions): SVGElement {
-  const references = referencesOf(sweep, options.published);
+  const { width, clock, colours, published } = options;
+  const references = referencesOf(sweep, published);
   const values = [...rows, ...references].map(({ value }) => value);
-  const times = [
+  const x = valueAxis(sweep, values, width - kMargin.marginLeft - kMargin.marginRight - 24);
+  const y = timeAxis([
     ...rows.flatMap(({ time }) => [time.p5, time.p95]),
     ...references.map(({ ms }) => ms),
+  ]);
+  const colour: Colour = ({ series }) => colours.get(series) ?? 'var(--muted)';
+  const unit = sweep.unit === '' || sweep.unit === sweep.variable ? '' : `, ${sweep.unit}`;
+  const tips = [
+    ...rows.map((row) => ({ x: x.place(row), y: row.time.median, title: tipOf(row) })),
+    ...references.map((d) => ({ x: x.place(d), y: d.ms, title: referenceTipOf(d) })),
   ];
-  const isLog = sweep.axis === 'log';
-  const axis = logAxis(values);
-  const x = isLog ? axis.place : (value: number): number => value;
-  const margin = { marginLeft: 52, marginRight: 18 };
-  const room = options.width - margin.marginLeft - margin.marginRight;
-  const ticks = legibleTicks(values, (value) => (isLog ? axis.share(value) : value), room);
-  // Zero stands on the axis' floor, not to scale: no line leads there.
-  const onScale = ({ value }: { value: number }): boolean => !isLog || value > 0;
-  const y = timeScale(times);
-  const colour = ({ series }: { series: string }): string => options.colours.get(series) ?? 'var(--muted)';
   return Plot.plot({
-    width: options.width,
-    height: Math.min(420, Math.max(260, options.width * 0.5)),
-    ...margin,
-    marginTop: 32,
-    marginBottom: 42,
-    x: {
-      ...(isLog ? { type: 'log' as const, domain: [...axis.domain] } : {}),
-      label: null,
-      inset: 12,
-    },
-    y: y.scale,
+    width,
+    height: Math.min(420, Math.max(260, width * 0.5)),
+    ...kMargin,
+    x: { label: null, ...x.options },
+    y: y.options,
     marks: [
-      Plot.gridY({ ...(y.ticks ? { ticks: y.ticks } : { tickSpacing: 40 }), className: 'grid' }),
-      Plot.axisY({
-        ...(y.ticks ? { ticks: y.ticks } : { tickSpacing: 40 }),
-        ...(y.ticks ? { text: shortNumber } : { tickFormat: shortNumber }),
-        label: `${kClockNames[options.clock]}, ms`,
-        labelArrow: 'none',
-        tickSize: 0,
-      }),
-      Plot.axisX({
-        ticks: ticks.map(x),
-        text: (tick: number) => (isLog ? axis.label(tick) : shortNumber(tick)),
-        label: sweep.unit && sweep.unit !== sweep.variable ? `${words(sweep.variable)}, ${sweep.unit}` : words(sweep.variable),
-        labelArrow: 'none',
-        labelAnchor: 'center',
-        tickSize: 4,
-      }),
-      Plot.line(references.filter(onScale), {
-        sort: 'value',
-        x: (d: Reference) => x(d.value),
-        y: 'ms',
-        z: (d: Reference) => `${d.line} ${d.series}`,
-        stroke: colour,
-        strokeWidth: 1,
-        strokeOpacity: 0.55,
-        strokeDasharray: '3 4',
-      }),
-      Plot.dot(references, {
-        x: (d: Reference) => x(d.value),
-        y: 'ms',
-        stroke: colour,
-        strokeOpacity: 0.8,
-        symbol: kDiamond,
-        r: 3.5,
-        fill: 'var(--surface-solid)',
-      }),
-      Plot.line(rows.filter(onScale), { sort: 'value', x: (d: Timed) => x(d.value), y: (d: Timed) => d.time.median, z: 'series', stroke: colour, strokeWidth: 2 }),
-      Plot.ruleX(rows, {
-        x: (d: Timed) => x(d.value),
-        y1: (d: Timed) => d.time.p5,
-        y2: (d: Timed) => d.time.p95,
-        stroke: colour,
-        strokeWidth: 1.5,
-        marker: 'tick',
-      }),
-      Plot.dot(rows, { x: (d: Timed) => x(d.value), y: (d: Timed) => d.time.median, fill: colour, r: 3.5 }),
-      Plot.tip(
-        [
-          ...rows.map((row) => ({ x: x(row.value), y: row.time.median, title: tipOf(row) })),
-          ...references.map((d) => ({
-            x: x(d.value),
-            y: d.ms,
-            title: `${words(d.series)}, ${shortNumber(d.value)}: ${d.printed} = ${msText(d.ms)} ms\npublished: ${d.line}`,
-          })),
-        ],
-        Plot.pointer({ x: 'x', y: 'y', title: 'title' }),
-      ),
+      ...yAxis(`${kClockNames[clock]}, ms`, y.ticks),
+      ...xAxis(`${words(sweep.variable)}${unit}`, x.ticks, x.text),
+      ...referenceMarks(references, x, colour),
+      ...rowMarks(rows, x, colour),
+      Plot.tip(tips, Plot.pointer({ x: 'x', y: 'y', title: 'title' })),
     ],
   }) as SVGElement;
 }
 
 /** Rows without a number stand one below the other. */
-function categoryPlot(rows: readonly Timed[], options: SweepPlotOptions): SVGElement {
+function categoryPlot(
+  rows: readonly Timed[],
+  { width, clock, colours }: SweepPlotOptions,
+): SVGElement {
   const several = new Set(rows.map(({ series }) => series)).size > 1;
   const name = (row: Timed): string =>
     several && row.label !== row.series ? `${row.label} · ${words(row.series)}` : words(row.label);
-  const longest = Math.max(...rows.map((row) => name(row).length));
-  const marginLeft = Math.min(longest * 6.4 + 14, options.width * 0.45);
-  const colour = ({ series }: Timed): string => options.colours.get(series) ?? 'var(--muted)';
+  const names = rows.map(name);
+  const stroke: Colour = ({ series }) => colours.get(series) ?? 'var(--muted)';
+  const [low, high] = [(d: Timed): number => d.time.p5, (d: Timed): number => d.time.p95];
   return Plot.plot({
-    width: options.width,
+    width,
     height: rows.length * 26 + 48,
     marginTop: 4,
-    marginLeft,
+    marginLeft: nameMargin(names, width),
     marginRight: 24,
     marginBottom: 40,
-    x: { domain: [0, Math.max(...rows.map(({ time }) => time.p95)) * 1.05] },
-    y: { type: 'band', domain: rows.map(name), label: null },
+    x: { domain: [0, Math.max(...rows.map(high)) * 1.05] },
+    y: { type: 'band', domain: names, label: null },
     marks: [
-      Plot.gridX({ tickSpacing: 70, className: 'grid' }),
-      Plot.axisX({ tickSpacing: 70, tickFormat: shortNumber, tickSize: 0, label: `${kClockNames[options.clock]}, ms`, labelArrow: 'none', labelAnchor: 'center' }),
-      Plot.axisY({ tickSize: 0, label: null, lineWidth: marginLeft / 11, textOverflow: 'ellipsis' }),
-      Plot.ruleY(rows, { y: name, x1: 0, x2: (d: Timed) => d.time.median, stroke: colour, strokeOpacity: 0.25, strokeWidth: 2 }),
-      Plot.ruleY(rows, { y: name, x1: (d: Timed) => d.time.p5, x2: (d: Timed) => d.time.p95, stroke: colour, strokeWidth: 1.5, marker: 'tick' }),
-      Plot.dot(rows, { y: name, x: (d: Timed) => d.time.median, fill: colour, r: 4.5 }),
-      Plot.tip(rows, Plot.pointerY({ y: name, x: (d: Timed) => d.time.median, title: tipOf })),
+      xGrid(),
+      ...xAxis(`${kClockNames[clock]}, ms`),
+      nameAxis((key) => key),
+      Plot.ruleY(rows, {
+        y: name,
+        x1: 0,
+        x2: medianOf,
+        stroke,
+        strokeOpacity: 0.25,
+        strokeWidth: 2,
+      }),
+      Plot.ruleY(rows, { y: name, x1: low, x2: high, stroke, strokeWidth: 1.5, marker: 'tick' }),
+      Plot.dot(rows, { y: name, x: medianOf, fill: stroke, r: 4.5 }),
+      Plot.tip(rows, Plot.pointerY({ y: name, x: medianOf, title: tipOf })),
     ],
   }) as SVGElement;
 }

@@ -3,9 +3,17 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
-import { readResults, type PictureError, type Results, type Row, type Sweep } from '../report/results';
+import {
+  readResults,
+  type PictureError,
+  type Results,
+  type Row,
+  type Sweep,
+} from '../report/results';
 
-export const kSamplePath = fileURLToPath(new URL('../../tests/bench/results/sample.json', import.meta.url));
+export const kSamplePath = fileURLToPath(
+  new URL('../../tests/bench/results/sample.json', import.meta.url),
+);
 export const sample = (): Results => readResults(readFileSync(kSamplePath, 'utf8'));
 
 const summary = (median: number): NonNullable<Row['gpu_us']> => ({

@@ -46,7 +46,9 @@ describe('paretoFront', () => {
       expect(front.some(({ x, y }) => x <= point.x && y <= point.y)).toBe(true);
     }
     for (const one of front) {
-      expect(points.some(({ x, y }) => (x < one.x && y <= one.y) || (x <= one.x && y < one.y))).toBe(false);
+      expect(
+        points.some(({ x, y }) => (x < one.x && y <= one.y) || (x <= one.x && y < one.y)),
+      ).toBe(false);
     }
   });
 });

@@ -36,7 +36,9 @@ describe('rows', () => {
   it('Layout_IsOfTheGbuffer', () => {
     expect(layoutOf(rowOf('a', 1))).toBe('oct16, depth');
     const gbuffer = { normal: 'oct16', position: 'depth' };
-    expect(layoutOf(rowOf('a', 1, { settings: { renderer: 'naive', gbuffer } }))).toBe('no G-buffer');
+    expect(layoutOf(rowOf('a', 1, { settings: { renderer: 'naive', gbuffer } }))).toBe(
+      'no G-buffer',
+    );
   });
 
   it('Time_IsInMilliseconds', () => {
@@ -59,7 +61,9 @@ describe('rows', () => {
     const device = { ...sample().device, kind: 'gpu' };
     expect(usualClock(resultsOf(sweeps))).toBe('cpu_us');
     expect(usualClock(resultsOf(sweeps, { device }))).toBe('gpu_us');
-    expect(usualClock(resultsOf([sweepOf([rowOf('a', 1, { cpu_us: null, gpu_us: null })])]))).toBe('frame_us');
+    expect(usualClock(resultsOf([sweepOf([rowOf('a', 1, { cpu_us: null, gpu_us: null })])]))).toBe(
+      'frame_us',
+    );
   });
 });
 
@@ -69,7 +73,10 @@ describe('speed against error', () => {
   const beaten = rowOf('beaten', 25, { error_r2: errorOf(2, 0.1) });
   const unknown = rowOf('unknown', 1, { error_r2: kNoError });
   const elsewhere = rowOf('elsewhere', 1, { workload: 'another picture' });
-  const sweeps = [sweepOf([exact, fast]), sweepOf([beaten, unknown, elsewhere], { name: 'gbuffer' })];
+  const sweeps = [
+    sweepOf([exact, fast]),
+    sweepOf([beaten, unknown, elsewhere], { name: 'gbuffer' }),
+  ];
 
   it('Points_AreOfOnePictureWithTimeAndError', () => {
     const points = errorPoints(sweeps, 'a picture', kLargest, 'gpu_us');
@@ -115,23 +122,36 @@ describe('sweeps', () => {
       ],
     };
     const sweep = sweepOf([]);
-    expect(referencesOf(sweep, [line])).toMatchObject([{ value: 50, ms: 10, line: 'them, theirs' }]);
+    expect(referencesOf(sweep, [line])).toMatchObject([
+      { value: 50, ms: 10, line: 'them, theirs' },
+    ]);
     expect(referencesOf(sweep, [{ ...line, variable: 'radius' }])).toEqual([]);
     expect(referencesOf(sweepOf([], { axis: 'category' }), [line])).toEqual([]);
   });
 
   it('Bars_StandUnderTheirSeries', () => {
-    const sweep = sweepOf([rowOf('1', 1, { series: 'naive' }), rowOf('2', 1), rowOf('3', 1, { series: 'naive' })]);
+    const sweep = sweepOf([
+      rowOf('1', 1, { series: 'naive' }),
+      rowOf('2', 1),
+      rowOf('3', 1, { series: 'naive' }),
+    ]);
     const lines = linesOf(passParts(sweep)).map(({ heading, label }) => heading ?? label);
     expect(lines).toEqual(['naive', '1', '3', 'clustered deferred', '2']);
   });
 
   it('BarsOfOneSeries_NeedNoHeading', () => {
-    expect(linesOf(passParts(sweepOf([rowOf('1', 1), rowOf('2', 1)]))).map(({ heading }) => heading)).toEqual([null, null]);
+    expect(
+      linesOf(passParts(sweepOf([rowOf('1', 1), rowOf('2', 1)]))).map(({ heading }) => heading),
+    ).toEqual([null, null]);
   });
 
   it('Shares_AddUpTo100', () => {
-    const parts = ['a', 'b', 'c'].map((name, index) => ({ series: 's', label: 'l', name, value: index + 1 }));
+    const parts = ['a', 'b', 'c'].map((name, index) => ({
+      series: 's',
+      label: 'l',
+      name,
+      value: index + 1,
+    }));
     const sum = shares(parts).reduce((total, { value }) => total + value, 0);
     expect(sum).toBeCloseTo(100, 9);
     expect(shares([{ series: 's', label: 'l', name: 'a', value: 0 }])[0]?.value).toBe(0);
@@ -140,13 +160,26 @@ describe('sweeps', () => {
 
 describe('head', () => {
   it('InexactRow_IsShownAsBad', () => {
-    const results = resultsOf([sweepOf([rowOf('a', 1), rowOf('b', 1, { error_r1: errorOf(0.1, 0.1) }), rowOf('c', 1, { error_r1: kNoError })])]);
-    expect(figuresOf(results)[0]).toMatchObject({ value: '1 of 2', bad: true, about: 'not compared: 1' });
+    const results = resultsOf([
+      sweepOf([
+        rowOf('a', 1),
+        rowOf('b', 1, { error_r1: errorOf(0.1, 0.1) }),
+        rowOf('c', 1, { error_r1: kNoError }),
+      ]),
+    ]);
+    expect(figuresOf(results)[0]).toMatchObject({
+      value: '1 of 2',
+      bad: true,
+      about: 'not compared: 1',
+    });
   });
 
   it('Flip_IsTheWorstOfDefaultSettings', () => {
     const results = resultsOf([
-      sweepOf([rowOf('a', 1, { error_r2: errorOf(0.1, 0.002) }), rowOf('b', 1, { series: 'naive', error_r2: errorOf(1, 0.5) })]),
+      sweepOf([
+        rowOf('a', 1, { error_r2: errorOf(0.1, 0.002) }),
+        rowOf('b', 1, { series: 'naive', error_r2: errorOf(1, 0.5) }),
+      ]),
       sweepOf([rowOf('c', 1, { error_r2: errorOf(1, 0.9) })], { name: 'gbuffer' }),
     ]);
     expect(figuresOf(results)[1]?.value).toBe('0.002');
@@ -174,7 +207,13 @@ describe('marks', () => {
 
 describe('text', () => {
   it('Errors_HaveThreeDigits', () => {
-    expect([0, 0.0123456, 2.345e-5, 12.3456, null].map(errorText)).toEqual(['0', '0.0123', '2.3e-5', '12.3', '–']);
+    expect([0, 0.0123456, 2.345e-5, 12.3456, null].map(errorText)).toEqual([
+      '0',
+      '0.0123',
+      '2.3e-5',
+      '12.3',
+      '–',
+    ]);
   });
 
   it('Psnr_OfEqualPictures_IsAWord', () => {
@@ -185,6 +224,11 @@ describe('text', () => {
 
   it('Factors_AndDurations_AreShort', () => {
     expect([1.234, 23.45, 123.4, null].map(factorText)).toEqual(['1.23×', '23.4×', '123×', '–']);
-    expect([1.04, 59, 600, 9000].map(durationText)).toEqual(['1 s', '59 s', '10 min', '2 h 30 min']);
+    expect([1.04, 59, 600, 9000].map(durationText)).toEqual([
+      '1 s',
+      '59 s',
+      '10 min',
+      '2 h 30 min',
+    ]);
   });
 });
