@@ -203,11 +203,10 @@ void recordFrame(const FrameContext& frame) {
     if (frame.plan.count_pairs) {
         slot.pairs->recordClear(slot.cmd);
         // cleared counters, depth -> counting
-        barrier(slot.cmd, Stage::eClear | kDepthStages,
-                Access::eTransferWrite | Access::eDepthStencilAttachmentWrite,
-                Stage::eComputeShader,
-                Access::eShaderStorageRead | Access::eShaderStorageWrite |
-                    Access::eShaderSampledRead);
+        barrier(
+            slot.cmd, Stage::eClear | kDepthStages,
+            Access::eTransferWrite | Access::eDepthStencilAttachmentWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eShaderSampledRead);
         recordCountPairs(frame);
     }
     if (frame.plan.transparent) {
@@ -304,8 +303,7 @@ void recordVisibilityCopy(const vk::raii::CommandBuffer& cmd,
     copyImage(cmd, targets.solidDepth(),
               targets.rastered_in_compute ? vk::ImageAspectFlagBits::eColor
                                           : vk::ImageAspectFlagBits::eDepth,
-              to,
-              vk::DeviceSize{4} * targets.size.width_px * targets.size.height_px);
+              to, vk::DeviceSize{4} * targets.size.width_px * targets.size.height_px);
     // copies -> host
     barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }

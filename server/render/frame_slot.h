@@ -4,6 +4,7 @@
 
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
+#include "gpu/sample_counter.h"
 #include "gpu/timestamps.h"
 #include "render/gpu_light_lists.h"
 #include "render/pair_counter.h"
@@ -79,6 +80,8 @@ struct FrameSlot {
     std::unique_ptr<VisibilityFrame> visibility;   // null: no frame asked for it yet
     std::unique_ptr<PairCounter> pairs;            // likewise
     bool counts_pairs = false;                     // in the frame last recorded
+    std::unique_ptr<gpu::SampleCounter> samples;   // likewise
+    bool counts_samples = false;                   // in the frame last recorded
     std::unique_ptr<AssignSlot> assignment;        // likewise
     bool device_lists = false; // the frame last recorded had its lists made on the device
     bool stale = false;        // an older frame was drawn again after this one

@@ -35,21 +35,20 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
                                    .lights = spread,
                                    .costs = cpu_device ? cluster::kCpuCosts : cluster::kGpuCosts};
     cluster::GridShape shape{.size = settings.grid.size, .law = settings.grid.law};
-    double list_length = 0;
     automatic_ = settings.grid.automatic;
     if (automatic_) {
         cluster::GridChoice choice = cluster::chooseGrid(facts, memory_);
         shape = choice.shape;
-        list_length = choice.list_length;
+        list_length_ = choice.list_length;
         grid_why_ = std::move(choice.why);
         memory_ = choice.memory;
     } else {
-        list_length = cluster::expectedListLength(facts, shape);
+        list_length_ = cluster::expectedListLength(facts, shape);
         grid_why_ = "its size was given";
     }
     cluster::LoopChoice loop{false, "lists were asked for"};
     if (settings.light_loop == view::LightLoop::kAuto) {
-        loop = cluster::chooseLoop(facts, list_length, memory_);
+        loop = cluster::chooseLoop(facts, list_length_, memory_);
     }
     memory_.all_lights = loop.all_lights;
     why_ = std::move(loop.why);

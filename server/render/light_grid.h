@@ -26,6 +26,8 @@ class LightGrid {
     [[nodiscard]] bool lists() const { return lists_; }
     [[nodiscard]] const cluster::ClusterGrid& grid() const { return grid_; }
     [[nodiscard]] GridStats stats() const;
+    // Lights that a pixel is expected to loop over where there are lists.
+    [[nodiscard]] double listLength() const { return list_length_; }
     // Why lists, or why not.
     [[nodiscard]] const std::string& why() const { return why_; }
 
@@ -39,6 +41,7 @@ class LightGrid {
     bool automatic_ = false;
     std::string why_;
     std::string grid_why_;
+    double list_length_ = 0;
     cluster::DepthRange range_{};
     cluster::ClusterGrid grid_;
     cluster::GridMemory memory_;

@@ -29,6 +29,29 @@ void bindGeometry(const FrameContext& frame) {
                            {});
 }
 
+// Counts the samples that pass the depth test, in the pass that draws depth first.
+class SampleScope {
+  public:
+    SampleScope(const FrameContext& frame, bool first)
+        : counter_(first && frame.plan.count_samples ? frame.slot.samples.get() : nullptr),
+          cmd_(frame.slot.cmd) {
+        if (counter_ != nullptr) {
+            counter_->begin(cmd_);
+        }
+    }
+    ~SampleScope() {
+        if (counter_ != nullptr) {
+            counter_->end(cmd_);
+        }
+    }
+    SampleScope(const SampleScope&) = delete;
+    SampleScope& operator=(const SampleScope&) = delete;
+
+  private:
+    gpu::SampleCounter* counter_;
+    const vk::raii::CommandBuffer& cmd_;
+};
+
 // The variant of a pass for a group: only the flags that the pass's shader looks at.
 VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
     const auto& plan = frame.plan;
@@ -38,6 +61,7 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
         return {masked ? group.material_flags : 0U, 0, 0};
     }
     case GeometryPass::kGbuffer:
+    case GeometryPass::kGbufferAfterDepth:
         return {group.material_flags & ~plan.gbuffer_unused_material_flags, 0,
                 plan.gbuffer_output_flags};
     default:
@@ -98,6 +122,7 @@ void dispatch(const FrameContext& frame, ScreenPass pass, const VariantKey& key)
 
 void recordDepthPrepass(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "depth_prepass");
+    const SampleScope samples(frame, true);
     const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
     const Rendering rendering(frame, {}, &depth);
     drawGroups(frame, GeometryPass::kDepth, frame.draws.solid);
@@ -106,6 +131,7 @@ void recordDepthPrepass(const FrameContext& frame) {
 void recordForwardPass(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "forward");
     const bool after_depth = frame.plan.depth_prepass;
+    const SampleScope samples(frame, !after_depth);
     const std::array colors = {
         attachment(frame.slot.targets->radiance, LoadOp::eClear, background(frame))};
     const auto depth = attachment(frame.slot.targets->depth,
@@ -117,6 +143,8 @@ void recordForwardPass(const FrameContext& frame) {
 
 void recordGbuffer(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "gbuffer");
+    const bool after_depth = frame.plan.depth_prepass;
+    const SampleScope samples(frame, !after_depth);
     // Words of empty pixels are never read: their depth says so.
     std::vector colors = {attachment(frame.slot.targets->gbuffer, LoadOp::eDontCare)};
     if (*frame.slot.targets->gbuffer_extra.handle) {
@@ -124,9 +152,11 @@ void recordGbuffer(const FrameContext& frame) {
         colors.push_back(attachment(frame.slot.targets->gbuffer_extra, LoadOp::eClear,
                                     vk::ClearColorValue(std::array<uint32_t, 4>{})));
     }
-    const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
+    const auto depth = attachment(frame.slot.targets->depth,
+                                  after_depth ? LoadOp::eLoad : LoadOp::eClear, farDepth());
     const Rendering rendering(frame, colors, &depth);
-    drawGroups(frame, GeometryPass::kGbuffer, frame.draws.solid);
+    drawGroups(frame, after_depth ? GeometryPass::kGbufferAfterDepth : GeometryPass::kGbuffer,
+               frame.draws.solid);
 }
 
 void recordLightingCompute(const FrameContext& frame) {

@@ -14,8 +14,9 @@ namespace {
 using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
-constexpr std::array<std::string_view, 5> kGeometryNames = {
-    "depth prepass", "gbuffer", "forward", "forward after depth", "transparent"};
+constexpr std::array<std::string_view, 6> kGeometryNames = {"depth prepass",       "gbuffer",
+                                                            "gbuffer after depth", "forward",
+                                                            "forward after depth", "transparent"};
 constexpr std::array<std::string_view, 3> kScreenNames = {"lighting", "toon", "tonemap"};
 constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
 
@@ -91,6 +92,7 @@ gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32
     case GeometryPass::kDepth:
         return extended ? depth_masked_extended_frag() : depth_masked_frag();
     case GeometryPass::kGbuffer:
+    case GeometryPass::kGbufferAfterDepth:
         if (extraFormat(output_flags) != vk::Format::eUndefined) {
             return extended ? gbuffer_extra_extended_frag() : gbuffer_extra_frag();
         }
@@ -143,7 +145,9 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     if (surface) {
         info.fragment = fragmentShader(pass, extended, batched, key.output_flags);
     }
-    if (pass == GeometryPass::kGbuffer) {
+    const bool after_depth =
+        pass == GeometryPass::kGbufferAfterDepth || pass == GeometryPass::kForwardAfterDepth;
+    if (pass == GeometryPass::kGbuffer || pass == GeometryPass::kGbufferAfterDepth) {
         info.color_formats = {gbufferFormat(key.output_flags)};
         if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
             info.color_formats.push_back(extraFormat(key.output_flags));
@@ -151,7 +155,7 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     } else if (!depth_only) {
         info.color_formats = {kRadianceFormat};
     }
-    if (pass == GeometryPass::kForwardAfterDepth) {
+    if (after_depth) {
         info.depth_compare = vk::CompareOp::eEqual;
         info.depth_write = false;
     }

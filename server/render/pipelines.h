@@ -17,6 +17,7 @@ namespace froxel::render {
 enum class GeometryPass : uint8_t {
     kDepth,             // prepass
     kGbuffer,           // geometry pass of the deferred renderers
+    kGbufferAfterDepth, // likewise where the prepass left the same depth
     kForward,           // forward, writing depth
     kForwardAfterDepth, // forward where the prepass left the same depth
     kTransparent,       // forward, blended, over finished depth

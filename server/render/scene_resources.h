@@ -53,6 +53,9 @@ class SceneResources {
     std::vector<vk::DescriptorImageInfo> material_textures; // kTexturesOfMaterial of each
     std::string visibility_unusable; // why; empty: visibility passes can draw the scene
     Pipelines pipelines;
+    // Fragments that pass the depth test, per pixel of the picture: of the first frame that the
+    // rasteriser draws. None: not measured yet.
+    std::optional<double> overdraw;
 
     // Made at the first call. Null: the device cannot assign lights as the host does.
     [[nodiscard]] const AssignPipelines* assignment();

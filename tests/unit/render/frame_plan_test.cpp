@@ -34,8 +34,11 @@ TEST(FramePlan, Naive_WithLights_IsForwardWithoutListsOrPrepass) {
     EXPECT_TRUE(p.tonemap);
 }
 
-TEST(FramePlan, ForwardPlus_WithLights_HasPrepassAndLists) {
-    const auto p = plan(Renderer::kForwardPlus, kLit);
+TEST(FramePlan, ForwardPlus_WithLights_HasListsAndAPrepassThatPays) {
+    FrameFacts facts = kLit;
+    EXPECT_FALSE(plan(Renderer::kForwardPlus, facts).depth_prepass);
+    facts.prepass_pays = true;
+    const auto p = plan(Renderer::kForwardPlus, facts);
     EXPECT_TRUE(p.depth_prepass);
     EXPECT_TRUE(p.lists);
     EXPECT_NE(p.forward_light_flags & io::kLightLists, 0U);
@@ -87,8 +90,11 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         {!(p.lighting_compute && p.lighting_fragment), "in one stage"},
         {!p.lighting_fragment || settings.lighting == LightingStage::kFragment,
          "the fragment stage lights a G-buffer only where asked to"},
-        {!p.depth_prepass || (p.forward && settings.renderer == Renderer::kForwardPlus),
-         "only forward_plus has a prepass"},
+        {!p.depth_prepass || (facts.prepass_pays && (p.forward || (p.gbuffer && !p.visibility))),
+         "depth is rastered first only where that pays and the rasteriser shades"},
+        {!p.depth_prepass || settings.renderer != Renderer::kNaive, "naive has no prepass"},
+        {p.count_samples == (facts.overdraw_unknown && !p.visibility),
+         "samples are counted until the overdraw is known"},
         {!p.visibility_shade || (p.visibility && isForward(settings.renderer)),
          "only forward renderers shade from ids"},
         {p.visibility == facts.visibility, "ids are drawn where they can be"},
@@ -168,7 +174,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
 // The key of a frame is a pure function: every combination of settings that it looks at and of
 // facts, by the rules above.
 TEST(FramePlan, EveryCombination_KeepsTheRules) {
-    constexpr uint32_t kFacts = 14;
+    constexpr uint32_t kFacts = 15;
     view::ViewSettings settings;
     for (uint32_t setting = 0; setting < 5 * 3 * 2 * 2 * 3 * 2; ++setting) {
         uint32_t rest = setting;
@@ -198,7 +204,9 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
                                    .fragment_batches = has(10),
                                    .culled_batches = has(11),
                                    .visibility = has(12),
-                                   .cull_meshlets = has(13)};
+                                   .cull_meshlets = has(13),
+                                   .prepass_pays = has(14),
+                                   .overdraw_unknown = has(14) != has(0)};
             const auto p = planFrame(settings, facts);
             ASSERT_EQ(brokenRule(settings, facts, p), "")
                 << "settings " << setting << ", facts " << bits;
