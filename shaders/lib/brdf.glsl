@@ -4,7 +4,8 @@
 // With kLightLambert only base colour / pi is left of it: no eye, no roughness, no metalness.
 
 const float kPi = 3.14159265358979;
-const float kEpsilon2 = 1e-4; // (1 cm)^2: the floor of the squared distance to a light
+const float kMostInverse2 = 1e4; // 1 / (1 cm)^2: the falloff's ceiling
+const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
 
 struct Surface {
     vec3 position_view;
@@ -81,8 +82,8 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
                            fma(to_light.y, to_light.y, to_light.x * to_light.x));
     precise float x = d2 * inv_radius2;
     precise float w = max(fma(-x, x, 1.0), 0.0);
-    precise float inv_d = inversesqrt(max(d2, kEpsilon2));
-    precise float attenuation = (w * w) * (inv_d * inv_d) * share;
+    precise float inv_d = inversesqrt(max(d2, kLeastDistance2));
+    precise float attenuation = (w * w) * min(inv_d * inv_d, kMostInverse2) * share;
     precise float n_dot_l = fma(s.normal_view.z, to_light.z,
                                 fma(s.normal_view.y, to_light.y, s.normal_view.x * to_light.x)) *
                             inv_d;

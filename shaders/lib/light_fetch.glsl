@@ -54,7 +54,7 @@ uint fetchIndex(uint entry) { return texelFetch(index_texels, int(entry)).x; }
 
 // A spot's angular falloff towards a point; 1 for a point light.
 float coneShare(LocalLight light, vec3 to_light) {
-    precise float inv_d = inversesqrt(max(dot(to_light, to_light), kEpsilon2));
+    precise float inv_d = inversesqrt(max(dot(to_light, to_light), kLeastDistance2));
     precise float towards = -dot(light.cone_direction, to_light) * inv_d;
     precise float f = clamp(fma(towards, light.cone_scale, light.cone_offset), 0.0, 1.0);
     return f * f;
