@@ -1,17 +1,16 @@
 // The device's light lists against the host's, entry by entry, and against the oracle.
 //
-// FROXEL_TEST_DEVICE=gpu runs these on a GPU, without the validation layer; FROXEL_TEST_CASES sets
-// how many random configurations there are.
+// FROXEL_TEST_DEVICE=gpu runs these on a GPU (support/gpu_fixture.h); FROXEL_TEST_CASES sets how many
+// random configurations there are.
 #include "cluster/assign_reference.h"
 #include "support/device_assigner.h"
+#include "support/gpu_fixture.h"
 #include "unit/cluster/assign_cases.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <gmock/gmock.h>
 
 namespace froxel::test {
 
@@ -25,35 +24,19 @@ using cluster::testing::orthographic;
 using cluster::testing::perspective;
 using light::FrameLights;
 
-bool onGpu() {
-    const char* name = std::getenv("FROXEL_TEST_DEVICE");
-    return name != nullptr && std::strcmp(name, "gpu") == 0;
-}
-
-class GpuAssignment : public ::testing::Test {
+class GpuAssignment : public SharedGpuTest {
   protected:
-    // One device for all of these: making it costs more than most of them.
     static void SetUpTestSuite() {
-        gpu::DeviceOptions options;
-        options.choice = onGpu() ? gpu::DeviceChoice::kGpu : gpu::DeviceChoice::kCpu;
-        options.validation = !onGpu();
-        device_ = std::make_unique<gpu::Device>(options);
-        assigner_ = std::make_unique<DeviceAssigner>(*device_);
+        SharedGpuTest::SetUpTestSuite();
+        assigner_ = std::make_unique<DeviceAssigner>(device());
     }
     static void TearDownTestSuite() {
         assigner_.reset();
-        device_.reset();
-    }
-    void TearDown() override {
-        EXPECT_THAT(device_->validationLog().messages(), ::testing::IsEmpty());
+        SharedGpuTest::TearDownTestSuite();
     }
 
-    static std::unique_ptr<gpu::Device> device_;
-    static std::unique_ptr<DeviceAssigner> assigner_;
+    inline static std::unique_ptr<DeviceAssigner> assigner_;
 };
-
-std::unique_ptr<gpu::Device> GpuAssignment::device_;
-std::unique_ptr<DeviceAssigner> GpuAssignment::assigner_;
 
 cluster::LightLists onHost(const ClusterGrid& grid, const FrameLights& lights) {
     cluster::LightAssigner assigner(2);
@@ -162,8 +145,8 @@ class RandomCase {
 } // namespace
 
 TEST_F(GpuAssignment, Arithmetic_OfThisDevice_RoundsAsTheHosts) {
-    gpu::Timeline timeline(*device_);
-    EXPECT_EQ(render::AssignPipelines::unusable(*device_, timeline), "");
+    gpu::Timeline timeline(device());
+    EXPECT_EQ(render::AssignPipelines::unusable(device(), timeline), "");
 }
 
 TEST_F(GpuAssignment, RandomAndAdversarialCases_GiveTheHostsLists) {
@@ -229,7 +212,7 @@ TEST_F(GpuAssignment, TooLittleRoom_GrowsToTheHostsLists) {
     const auto host = onHost(random.grid(), random.lights());
     ASSERT_GT(host.stats.entry_count, 200U);
     for (const auto& [entries, tasks] : {std::pair(1U, 100'000U), {100'000U, 1U}, {1U, 1U}}) {
-        DeviceAssigner tight(*device_, {.first_entries = entries, .first_tasks = tasks});
+        DeviceAssigner tight(device(), {.first_entries = entries, .first_tasks = tasks});
         expectSame(tight.assign(random.grid(), random.lights()), host);
         EXPECT_GT(tight.attempts(), 1U);
         expectSame(tight.assign(random.grid(), random.lights()), host);
@@ -245,14 +228,14 @@ TEST_F(GpuAssignment, PastTheLimit_EveryClusterNamesAllLights) {
         cluster::LightLists lists;
         host.assign(random.grid(), random.lights(), lists);
         EXPECT_EQ(lists.stats.overflowed, limit < entries);
-        DeviceAssigner device(*device_, {.max_entries = limit});
+        DeviceAssigner device(device(), {.max_entries = limit});
         expectSame(device.assign(random.grid(), random.lights()), lists);
     }
 }
 
 TEST_F(GpuAssignment, MoreTasksThanMayBe_AreRefused) {
     const RandomCase random(3);
-    DeviceAssigner device(*device_, {.first_tasks = 1, .max_tasks = 2});
+    DeviceAssigner device(device(), {.first_tasks = 1, .max_tasks = 2});
     (void)device.assign(random.grid(), random.lights());
     EXPECT_TRUE(device.refused());
 }

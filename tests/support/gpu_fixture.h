@@ -1,14 +1,28 @@
-// A lavapipe device with the validation layer on; any message of the layer fails the test.
+// Devices for tests: lavapipe with the validation layer on, where any message of the layer fails
+// the test; or, with FROXEL_TEST_DEVICE=gpu, a GPU without that layer.
 #pragma once
 
 #include "gpu/device.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <memory>
+#include <string_view>
 
 namespace froxel::test {
+
+inline bool onGpu() {
+    const char* name = std::getenv("FROXEL_TEST_DEVICE");
+    return name != nullptr && std::string_view(name) == "gpu";
+}
+
+inline std::unique_ptr<gpu::Device> openTestDevice(gpu::DeviceOptions options = {}) {
+    options.choice = onGpu() ? gpu::DeviceChoice::kGpu : gpu::DeviceChoice::kCpu;
+    options.validation = !onGpu();
+    return std::make_unique<gpu::Device>(options);
+}
 
 class GpuTest : public ::testing::Test {
   protected:
@@ -16,11 +30,9 @@ class GpuTest : public ::testing::Test {
     void TearDown() override { closeDevice(); }
 
     // Replaces the device; renderers made on the old one must be gone.
-    void openDevice(gpu::DeviceOptions options) {
+    void openDevice(const gpu::DeviceOptions& options) {
         closeDevice();
-        options.choice = gpu::DeviceChoice::kCpu;
-        options.validation = true;
-        device_ = std::make_unique<gpu::Device>(options);
+        device_ = openTestDevice(options);
     }
     void closeDevice() {
         if (device_) {
@@ -32,6 +44,19 @@ class GpuTest : public ::testing::Test {
 
   private:
     std::unique_ptr<gpu::Device> device_;
+};
+
+// One device for all tests of a suite: making it costs more than most of them.
+class SharedGpuTest : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() { device_ = openTestDevice(); }
+    static void TearDownTestSuite() { device_.reset(); }
+    void TearDown() override {
+        EXPECT_THAT(device_->validationLog().messages(), ::testing::IsEmpty());
+    }
+    [[nodiscard]] static gpu::Device& device() { return *device_; }
+
+    inline static std::unique_ptr<gpu::Device> device_;
 };
 
 } // namespace froxel::test

@@ -1,6 +1,7 @@
 #include "support/test_scenes.h"
 
 #include "gltf/gltf_loader.h"
+#include "support/quad.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,33 +10,7 @@ namespace froxel::test {
 
 namespace {
 
-using glm::vec2;
 using glm::vec3;
-
-// A quad of `cells` x `cells` from corner `o` along `u` and `v`, facing cross(u, v).
-scene::Primitive
-quad(const vec3& o, const vec3& u, const vec3& v, uint32_t cells, uint32_t material) {
-    scene::Primitive p;
-    p.material = material;
-    const vec3 normal = glm::normalize(glm::cross(u, v));
-    for (uint32_t y = 0; y <= cells; ++y) {
-        for (uint32_t x = 0; x <= cells; ++x) {
-            const vec2 t = vec2(x, y) / static_cast<float>(cells);
-            p.positions.push_back(o + u * t.x + v * t.y);
-            p.normals.push_back(normal);
-            p.uv0.push_back(t * 4.0F);
-            p.bounds.add(p.positions.back());
-        }
-    }
-    const uint32_t row = cells + 1;
-    for (uint32_t y = 0; y < cells; ++y) {
-        for (uint32_t x = 0; x < cells; ++x) {
-            const uint32_t a = y * row + x;
-            p.indices.insert(p.indices.end(), {a, a + 1, a + row, a + 1, a + row + 1, a + row});
-        }
-    }
-    return p;
-}
 
 scene::Mesh box(uint32_t material) {
     scene::Mesh mesh{.name = "box", .primitives = {}};
