@@ -82,11 +82,7 @@ constexpr double kAcesD = 0.6 * 0.59;
 constexpr double kAcesE = 0.14;
 
 double aces(double x) {
-    // Beyond 1e6 it is at its limit, and squares of larger values would overflow a float's
-    // exposure.
-    const double bounded = std::min(x, 1e6);
-    const double y = (kAcesA * bounded * bounded + kAcesB * bounded) /
-                     (kAcesC * bounded * bounded + kAcesD * bounded + kAcesE);
+    const double y = (kAcesA * x * x + kAcesB * x) / (kAcesC * x * x + kAcesD * x + kAcesE);
     return std::min(y, 1.0);
 }
 

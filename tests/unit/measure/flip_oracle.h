@@ -1,7 +1,8 @@
-// LDR-FLIP once more, in double, from the paper's formulas as they stand: two-dimensional kernels,
+// FLIP once more, in double, from the paper's formulas as they stand: two-dimensional kernels,
 // no separation, matrices inverted numerically. Slow; for small pictures.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace froxel::measure::oracle {
@@ -132,34 +134,37 @@ inline double feature(const Colours& ycxcz, int x, int y, double ppd, int order)
     return std::hypot(both.x, both.y);
 }
 
-// Mean over the picture of error(x, y); the pictures come as linear RGB in 0..1 and reach it as
-// YCxCz.
-inline double
-meanError(Colours a,
-          Colours b,
-          const std::function<double(const Colours&, const Colours&, int, int)>& error) {
+// Each pixel's error(x, y); the pictures come as linear RGB in 0..1 and reach it as YCxCz.
+inline std::vector<double>
+errorMap(Colours a,
+         Colours b,
+         const std::function<double(const Colours&, const Colours&, int, int)>& error) {
     for (auto* image : {&a, &b}) {
         for (auto& pixel : image->pixels) {
             pixel = opponent(xyzFromLinear() * pixel / white());
         }
     }
-    double sum = 0;
+    std::vector<double> map;
     for (int y = 0; y < a.height; ++y) {
         for (int x = 0; x < a.width; ++x) {
-            sum += error(a, b, x, y);
+            map.push_back(error(a, b, x, y));
         }
     }
-    return sum / (a.width * a.height);
+    return map;
+}
+
+inline double meanOf(const std::vector<double>& map) {
+    return std::accumulate(map.begin(), map.end(), 0.0) / static_cast<double>(map.size());
 }
 
 inline double meanColourError(const Colours& a, const Colours& b, double ppd) {
-    return meanError(a, b, [&](const Colours& ya, const Colours& yb, int x, int y) {
+    return meanOf(errorMap(a, b, [&](const Colours& ya, const Colours& yb, int x, int y) {
         return colourError(hyab(seenLab(ya, x, y, ppd), seenLab(yb, x, y, ppd)));
-    });
+    }));
 }
 
-inline double meanFlip(const Colours& a, const Colours& b, double ppd) {
-    return meanError(a, b, [&](const Colours& ya, const Colours& yb, int x, int y) {
+inline std::vector<double> flipMap(const Colours& a, const Colours& b, double ppd) {
+    return errorMap(a, b, [&](const Colours& ya, const Colours& yb, int x, int y) {
         double difference = 0;
         for (const int order : {1, 2}) {
             difference = std::max(difference, std::abs(feature(ya, x, y, ppd, order) -
@@ -168,6 +173,49 @@ inline double meanFlip(const Colours& a, const Colours& b, double ppd) {
         const double colour = colourError(hyab(seenLab(ya, x, y, ppd), seenLab(yb, x, y, ppd)));
         return std::pow(colour, 1 - std::sqrt(difference / std::numbers::sqrt2));
     });
+}
+
+// Narkowicz's fit as he wrote it, of 0.6 times the radiance.
+inline double aces(double radiance) {
+    const double x = 0.6 * radiance;
+    return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// HDR-FLIP of linear radiance, not negative: the largest of each pixel over exposures a stop or
+// less apart, between those that show the reference's brightest and its median luminance as 0.85.
+inline double meanHdrFlip(const Colours& a, const Colours& b, double ppd) {
+    double low = 0;
+    double high = 100;
+    while (high - low > 1e-12) {
+        const double middle = (low + high) / 2;
+        (aces(middle) < 0.85 ? low : high) = middle;
+    }
+    std::vector<double> luminances;
+    for (const auto& pixel : b.pixels) {
+        luminances.push_back(glm::dot(pixel, glm::dvec3(0.2126, 0.7152, 0.0722)));
+    }
+    std::sort(luminances.begin(), luminances.end());
+    const size_t count = luminances.size();
+    const double median = (luminances[(count - 1) / 2] + luminances[count / 2]) / 2;
+    const double first = std::log2(high / luminances.back());
+    const double last = std::log2(high / median);
+    const int exposures = std::max(2, static_cast<int>(std::ceil(last - first)));
+    std::vector<double> worst(count, 0.0);
+    for (int i = 0; i < exposures; ++i) {
+        const double factor = std::exp2(first + (last - first) * i / (exposures - 1));
+        Colours shown_a = a;
+        Colours shown_b = b;
+        for (auto* image : {&shown_a, &shown_b}) {
+            for (auto& pixel : image->pixels) {
+                pixel = {aces(factor * pixel.x), aces(factor * pixel.y), aces(factor * pixel.z)};
+            }
+        }
+        const auto map = flipMap(shown_a, shown_b, ppd);
+        for (size_t p = 0; p < count; ++p) {
+            worst[p] = std::max(worst[p], map[p]);
+        }
+    }
+    return meanOf(worst);
 }
 
 } // namespace froxel::measure::oracle

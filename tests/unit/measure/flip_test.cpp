@@ -142,8 +142,8 @@ TEST_P(LdrFlipOracle, UnseparatedDoubles_Agree) {
     const auto reference = noise(width, height, 6);
     for (const int amount : {1, 20, 255}) {
         const auto picture = disturbed(reference, amount, 7);
-        const double expected =
-            oracle::meanFlip(linearOf(picture), linearOf(reference), kPixelsPerDegree);
+        const double expected = oracle::meanOf(
+            oracle::flipMap(linearOf(picture), linearOf(reference), kPixelsPerDegree));
         EXPECT_NEAR(flipOf(picture, reference), expected, 2e-5 + 1e-4 * expected) << amount;
     }
 }
@@ -152,6 +152,46 @@ INSTANTIATE_TEST_SUITE_P(
     Sizes,
     LdrFlipOracle,
     testing::Values(std::pair{1U, 1U}, std::pair{1U, 9U}, std::pair{23U, 17U}, std::pair{40U, 3U}));
+
+// Blue blurs further than the rest: across saturated edges the filtered colours leave the RGB cube.
+TEST(LdrFlip, SaturatedEdges_AgreeWithUnseparatedDoubles) {
+    ShownPicture reference(36, 8, {0, 0, 255});
+    ShownPicture picture(36, 8, {255, 255, 0});
+    for (uint32_t y = 0; y < 8; ++y) {
+        for (uint32_t x = 0; x < 36; ++x) {
+            if (x % 18 < 9) {
+                reference.set(x, y, {255, 255, 0});
+                picture.set(x, y, {0, 255, 0});
+            }
+        }
+    }
+    const double expected =
+        oracle::meanOf(oracle::flipMap(linearOf(picture), linearOf(reference), kPixelsPerDegree));
+    EXPECT_NEAR(flipOf(picture, reference), expected, 1e-4 * expected);
+}
+
+oracle::Colours coloursOf(const LinearImage& image) {
+    oracle::Colours colours{
+        static_cast<int>(image.width_px), static_cast<int>(image.height_px), {}};
+    for (size_t i = 0; i < image.rgb.size(); i += 3) {
+        colours.pixels.emplace_back(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);
+    }
+    return colours;
+}
+
+TEST(HdrFlip, UnseparatedDoubles_Agree) {
+    const auto reference = linearNoise(21, 14, 6);
+    for (const float change : {0.01F, 3.0F}) {
+        auto picture = reference;
+        for (size_t i = 0; i < picture.rgb.size(); i += 2) {
+            picture.rgb[i] *= 1 + change;
+        }
+        const double expected =
+            oracle::meanHdrFlip(coloursOf(picture), coloursOf(reference), kPixelsPerDegree);
+        EXPECT_GT(expected, 0);
+        EXPECT_NEAR(hdrFlip(picture, reference), expected, 2e-5 + 1e-4 * expected) << change;
+    }
+}
 
 TEST(HdrFlip, EqualPictures_Are0) {
     EXPECT_EQ(hdrFlip(linearNoise(20, 12, 1), linearNoise(20, 12, 1)), 0);
