@@ -2,7 +2,7 @@
 
 import { make } from '../src/dom';
 import { errorPlot, errorPoints, kMetrics, workloadsOf, type ErrorPoint } from './error_plot';
-import { seriesColours, shapesOf } from './marks';
+import { seriesColours, shapesOf, type Shape } from './marks';
 import { paretoFront } from './pareto';
 import type { Clock, Results, Row } from './results';
 import { layoutOf } from './results';
@@ -58,14 +58,14 @@ const frontTable = (rows: readonly FrontRow[]): HTMLElement =>
     ({ point }) => point.row.command,
   );
 
-function pointLegend(points: readonly ErrorPoint[]): HTMLElement {
-  const colours = seriesColours(points.map(({ row }) => row.settings.renderer));
-  const shapes = shapesOf(points.map(({ row }) => layoutOf(row)));
-  return legend([
+const pointLegend = (
+  colours: ReadonlyMap<string, string>,
+  shapes: ReadonlyMap<string, Shape>,
+): HTMLElement =>
+  legend([
     ...[...colours].map(([name, colour]) => ({ name: words(name), colour })),
     ...[...shapes].map(([name, { path }]) => ({ name, colour: 'var(--muted)', symbol: path })),
   ]);
-}
 
 export function errorSection(results: Results, usual: Clock): Section {
   const section = card(
@@ -102,7 +102,7 @@ export function errorSection(results: Results, usual: Clock): Section {
     const rows = all.flat();
     const colours = seriesColours(rows.map(({ row }) => row.settings.renderer));
     const shapes = shapesOf(rows.map(({ row }) => layoutOf(row)));
-    key.replaceChildren(pointLegend(rows));
+    key.replaceChildren(pointLegend(colours, shapes));
     for (const [index, { metric, holder }] of blocks.entries()) {
       const points = all[index] ?? [];
       place(holder, (width) =>
