@@ -8,6 +8,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -49,6 +51,10 @@ std::vector<double> samplesOf(const Json& row, const std::string& measure) {
     std::vector<double> samples;
     for (const auto& tenths : row.at("samples").at(measure)) {
         samples.push_back(tenths.get<double>() / 10);
+    }
+    if (samples.empty() || std::ranges::min(samples) < 0) {
+        throw StartupError({ErrorCode::kInvalidArgument,
+                            fmt::format("a row's samples of {} are none or negative", measure)});
     }
     return samples;
 }
@@ -135,7 +141,7 @@ bool BenchComparison::worse() const {
 
 Result<BenchComparison> compareReports(const Json& a, const Json& b) {
     for (const auto* report : {&a, &b}) {
-        if (!report->is_object() || report->value("schema", "") != kBenchSchema) {
+        if (!report->is_object() || report->value("schema", Json()) != kBenchSchema) {
             return Error{ErrorCode::kInvalidArgument,
                          fmt::format("the {} file is no {} result",
                                      report == &a ? "first" : "second", kBenchSchema)};
@@ -143,7 +149,7 @@ Result<BenchComparison> compareReports(const Json& a, const Json& b) {
     }
     try {
         return compareValid(a, b);
-    } catch (const nlohmann::json::exception& error) {
+    } catch (const std::exception& error) {
         return Error{
             ErrorCode::kInvalidArgument,
             fmt::format("not a whole {} result: {}", kBenchSchema, printable(error.what(), 200))};

@@ -191,6 +191,52 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(options.log_level, LogLevel::kDebug);
 }
 
+TEST(Options, Bench_FillsEveryField) {
+    const auto options = parse({"bench",
+                                "--preset",
+                                "grid",
+                                "--preset",
+                                "smoke",
+                                "--scene",
+                                "a.glb",
+                                "--camera",
+                                "-7,2,0;0,2,0;45",
+                                "--camera",
+                                "Nave",
+                                "--size",
+                                "320x200",
+                                "--lights",
+                                "70",
+                                "--seconds-per-row",
+                                "2.5",
+                                "--error-size",
+                                "64x36",
+                                "--r1-pairs",
+                                "1e6",
+                                "--r2-pairs",
+                                "0",
+                                "--out",
+                                "a.json",
+                                "--report",
+                                "a.html"});
+    const auto& bench = std::get<BenchOptions>(options.command);
+    EXPECT_THAT(bench.presets, testing::ElementsAre("grid", "smoke"));
+    EXPECT_EQ(bench.scene, "a.glb");
+    EXPECT_THAT(bench.cameras, testing::ElementsAre("-7,2,0;0,2,0;45", "Nave"));
+    EXPECT_EQ(bench.settings.size, (view::Size{320, 200}));
+    EXPECT_EQ(bench.settings.lights.count, 70U);
+    EXPECT_EQ(bench.seconds_per_row, 2.5);
+    EXPECT_EQ(bench.error_size, (view::Size{64, 36}));
+    EXPECT_EQ(bench.r1_pairs_limit, 1e6);
+    EXPECT_EQ(bench.r2_pairs_limit, 0.0);
+    EXPECT_EQ(bench.out, "a.json");
+    EXPECT_EQ(bench.report, "a.html");
+    EXPECT_FALSE(bench.list);
+    const auto compared = parse({"bench", "--compare", "a.json", "b.json"});
+    EXPECT_THAT(std::get<BenchOptions>(compared.command).compare,
+                testing::ElementsAre("a.json", "b.json"));
+}
+
 TEST(Options, InfoAndScene_AreParsed) {
     const auto info = std::get<InfoOptions>(parse({"info", "--json", "--scene", "a.glb"}).command);
     EXPECT_TRUE(info.json);
@@ -239,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(
     Options,
     BadCommandLine,
     testing::Values(
-        Refusal{{}, {"serve, render, info or scene", "froxel --help"}},
+        Refusal{{}, {"serve, render, bench, info or scene", "froxel --help"}},
         Refusal{{"draw"}, {"draw", "froxel --help"}},
         Refusal{{"render"}, {"--out FILE", "--timings FILE"}},
         Refusal{{"render", "--out", "a.png", "--lights", "1000001"},
