@@ -2,28 +2,63 @@
 
 #include "core/assert.h"
 #include "encode/jpeg_encoder.h"
+#include "encode/jpeg_stripes.h"
 
+#include <atomic>
 #include <utility>
 
 namespace froxel::encode {
-namespace {
 
-Result<EncodedFrame> encodeOne(JpegEncoder& encoder, EncodeJob& job, TimePoint queued_at) {
-    const TimePoint start = Clock::now();
-    auto jpeg = encoder.encode(job.pixels.view(), job.encoding);
-    if (!jpeg) {
-        return jpeg.error();
+// One picture in the pool. Stripes are taken under the pool's mutex; whoever finishes the last one
+// joins them.
+struct EncodePool::Work {
+    Work(EncodeJob its_job, TimePoint at) : job(std::move(its_job)), queued_at(at) {}
+
+    void begin(size_t thread_count) {
+        started_at = Clock::now();
+        stripes = cutStripes(job.pixels.view(), job.encoding.chroma, thread_count);
+        parts.resize(stripes.size());
     }
-    EncodedFrame frame;
-    frame.width_px = job.pixels.view().width_px;
-    frame.height_px = job.pixels.view().height_px;
-    frame.bytes = std::make_shared<const std::vector<std::byte>>(std::move(*jpeg));
-    frame.wait_us = Microseconds(start - queued_at).count();
-    frame.encode_us = Microseconds(Clock::now() - start).count();
-    return frame;
-}
+    void encode(JpegEncoder& encoder, size_t stripe) {
+        auto part = encoder.encode(stripes[stripe], job.encoding);
+        if (part) {
+            parts[stripe] = std::move(*part);
+        } else if (!failed.exchange(true)) {
+            error = part.error();
+        }
+        if (finished.fetch_add(1) + 1 == stripes.size()) {
+            finish();
+        }
+    }
+    void finish() {
+        const PixelView pixels = job.pixels.view();
+        auto jpeg = failed              ? Result<std::vector<std::byte>>(error)
+                    : parts.size() == 1 ? std::move(parts.front())
+                                        : joinStripes(parts, pixels.height_px);
+        job.pixels.end();
+        if (!jpeg) {
+            job.done(jpeg.error());
+            return;
+        }
+        EncodedFrame frame;
+        frame.width_px = pixels.width_px;
+        frame.height_px = pixels.height_px;
+        frame.bytes = std::make_shared<const std::vector<std::byte>>(std::move(*jpeg));
+        frame.wait_us = Microseconds(started_at - queued_at).count();
+        frame.encode_us = Microseconds(Clock::now() - started_at).count();
+        job.done(std::move(frame));
+    }
 
-} // namespace
+    EncodeJob job;
+    TimePoint queued_at;
+    TimePoint started_at{};
+    std::vector<PixelView> stripes;
+    std::vector<std::vector<std::byte>> parts; // of each stripe
+    size_t taken = 0;                          // stripes that a thread has; under the mutex
+    std::atomic<size_t> finished = 0;
+    std::atomic<bool> failed = false;
+    Error error; // written once, by whom set `failed`; read after the last stripe
+};
 
 EncodePool::EncodePool(size_t thread_count, size_t queue_limit) : queue_limit_(queue_limit) {
     FROXEL_ASSERT(thread_count > 0 && queue_limit > 0, "an encode pool needs threads and a queue");
@@ -31,7 +66,7 @@ EncodePool::EncodePool(size_t thread_count, size_t queue_limit) : queue_limit_(q
     for (size_t i = 0; i < thread_count; ++i) {
         // Made here, where a failure can still be thrown.
         threads_.emplace_back([this, encoder = JpegEncoder()](const std::stop_token& stop) mutable {
-            work(stop, encoder);
+            run(stop, encoder);
         });
     }
 }
@@ -41,9 +76,9 @@ EncodePool::~EncodePool() {
         thread.request_stop();
     }
     threads_.clear();
-    for (Queued& queued : queue_) {
-        queued.job.pixels.end();
-        queued.job.done(Error{ErrorCode::kCapacity, "the encoder is stopping"});
+    for (const auto& work : queue_) {
+        work->job.pixels.end();
+        work->job.done(Error{ErrorCode::kCapacity, "the encoder is stopping"});
     }
 }
 
@@ -53,25 +88,37 @@ bool EncodePool::submit(EncodeJob&& job) {
         if (queue_.size() >= queue_limit_) {
             return false;
         }
-        queue_.push_back({std::move(job), Clock::now()});
+        queue_.push_back(std::make_shared<Work>(std::move(job), Clock::now()));
     }
     wake_.notify_one();
     return true;
 }
 
-void EncodePool::work(const std::stop_token& stop, JpegEncoder& encoder) {
-    for (;;) {
-        std::unique_lock lock(mutex_);
-        if (!wake_.wait(lock, stop, [this] { return !queue_.empty(); }) || stop.stop_requested()) {
-            return;
-        }
-        Queued queued = std::move(queue_.front());
-        queue_.pop_front();
-        lock.unlock();
-        auto frame = encodeOne(encoder, queued.job, queued.at);
-        queued.job.pixels.end();
-        queued.job.done(std::move(frame));
+void EncodePool::run(const std::stop_token& stop, JpegEncoder& encoder) {
+    while (const auto share = takeShare(stop)) {
+        share->work->encode(encoder, share->stripe);
     }
+}
+
+std::optional<EncodePool::Share> EncodePool::takeShare(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    ++idle_count_;
+    wake_.wait(lock, stop, [this] { return !begun_.empty() || !queue_.empty(); });
+    --idle_count_;
+    if (begun_.empty()) {
+        if (stop.stop_requested() || queue_.empty()) {
+            return std::nullopt;
+        }
+        queue_.front()->begin(1 + idle_count_);
+        begun_.push_back(std::move(queue_.front()));
+        queue_.pop_front();
+        wake_.notify_all();
+    }
+    Share share{begun_.front(), begun_.front()->taken++};
+    if (share.work->taken == share.work->stripes.size()) {
+        begun_.pop_front();
+    }
+    return share;
 }
 
 } // namespace froxel::encode

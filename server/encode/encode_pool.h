@@ -1,4 +1,5 @@
-// Encoder threads with one bounded queue, first in first out. When the queue is full, submit()
+// Encoder threads with one bounded queue, first in first out. A large picture is shared by as many
+// threads as are idle when its turn comes (encode/jpeg_stripes.h). When the queue is full, submit()
 // refuses at once and never waits: the caller decides what to drop.
 #pragma once
 
@@ -12,7 +13,9 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -42,16 +45,22 @@ class EncodePool {
     [[nodiscard]] bool submit(EncodeJob&& job);
 
   private:
-    struct Queued {
-        EncodeJob job;
-        TimePoint at;
+    struct Work;
+    struct Share {
+        std::shared_ptr<Work> work;
+        size_t stripe = 0;
     };
-    void work(const std::stop_token& stop, JpegEncoder& encoder);
+
+    void run(const std::stop_token& stop, JpegEncoder& encoder);
+    // What to encode next; none: the pool stops. Waits.
+    [[nodiscard]] std::optional<Share> takeShare(const std::stop_token& stop);
 
     const size_t queue_limit_;
     std::mutex mutex_;
     std::condition_variable_any wake_;
-    std::deque<Queued> queue_;
+    std::deque<std::shared_ptr<Work>> queue_; // not begun
+    std::deque<std::shared_ptr<Work>> begun_; // have stripes that nobody has taken
+    size_t idle_count_ = 0;
     std::vector<std::jthread> threads_; // last: stops before the queue goes
 };
 
