@@ -35,7 +35,6 @@ struct Targets {
     BenchOptions bench;
     InfoOptions info;
     SceneOptions scene;
-    size_t preset = 0; // of bench, the last given
     std::optional<LogLevel> log_level;
     Options result;
 };
@@ -233,16 +232,14 @@ void addBenchMethod(CommandBuilder& command, BenchOptions& options) {
 void addBench(CLI::App& app, Targets& targets) {
     auto& options = targets.bench;
     CommandBuilder command(app, "bench", "Measure frame times and errors over sweeps of settings");
-    command.value(
-        "--preset", "NAME", targets.preset,
-        [&options](const std::string& text) {
+    command
+        .text("--preset", "NAME", options.presets, "all but smoke",
+              "Sweep to measure, repeatable; --list names them")
+        ->allow_extra_args(false)
+        ->check([](const std::string& text) {
             const auto preset = parseName(text, benchPresetNames());
-            if (preset) {
-                options.presets.push_back(text);
-            }
-            return preset;
-        },
-        "all but smoke", "Sweep to measure, repeatable; --list names them");
+            return preset ? std::string() : preset.error().message;
+        });
     command.cli().add_flag("--list", options.list, "Print the presets");
     command.cli()
         .add_option("--compare", options.compare,

@@ -91,7 +91,6 @@ void addLights(Arguments& arguments, const view::Lights& lights, const view::Lig
     arguments.always("--light-radius", numberText(lights.radius_m));
     arguments.changed("--light-intensity", lights.intensity, usual.intensity);
     arguments.changed("--light-cutoff", lights.cutoff, usual.cutoff);
-    arguments.changed("--light-cutoff", lights.cutoff, usual.cutoff);
     if (lights.box) {
         arguments.always("--light-box", textOf(*lights.box));
     }
