@@ -1,0 +1,169 @@
+// The reference's light sums against closed forms.
+#include "reference/brdf.h"
+#include "reference/toon.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace froxel::reference {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const Model kPbr{};
+const Model kLambert{view::ShadingModel::kLambert, nullptr};
+
+glm::dvec3 direction(double from_up_rad, double turn_rad) {
+    return {std::sin(from_up_rad) * std::cos(turn_rad), std::cos(from_up_rad),
+            std::sin(from_up_rad) * std::sin(turn_rad)};
+}
+
+Surface seenFrom(const glm::dvec3& to_eye) {
+    Surface s;
+    s.to_eye = glm::normalize(to_eye);
+    return s;
+}
+
+// Of light of radiance 1 from everywhere; midpoint rule, dense around the mirror direction.
+double albedo(const Surface& s, const Model& model) {
+    const glm::dvec3 mirror(-s.to_eye.x, s.to_eye.y, -s.to_eye.z);
+    constexpr int kRings = 2000;
+    constexpr int kTurns = 256;
+    const glm::dvec3 side = glm::normalize(glm::cross(mirror, glm::dvec3(0.3, 0.2, 0.9)));
+    const glm::dvec3 other = glm::cross(mirror, side);
+    double sum = 0;
+    for (int i = 0; i < kRings; ++i) {
+        const double share = (i + 0.5) / kRings;
+        const double angle = kPi * share * share * share; // from the mirror direction
+        const double width = 3 * kPi * share * share / kRings;
+        for (int j = 0; j < kTurns; ++j) {
+            const double turn = 2 * kPi * (j + 0.5) / kTurns;
+            const glm::dvec3 l = mirror * std::cos(angle) +
+                                 (side * std::cos(turn) + other * std::sin(turn)) * std::sin(angle);
+            sum += reflected(s, model, l).x * std::sin(angle) * width * 2 * kPi / kTurns;
+        }
+    }
+    return sum;
+}
+
+TEST(ReferenceBrdf, LambertUnderOneLight_IsAlbedoOverPiTimesCosineOverDistanceSquared) {
+    Surface s = seenFrom({1, 1, 0});
+    s.base_color = {0.5, 0.25, 1};
+    Lights lights;
+    lights.points.push_back({.position = {3, 4, 0}, .color = {10, 20, 40}});
+    const glm::dvec3 out = radiance(s, kLambert, lights);
+    const double share = 0.8 / 25 / kPi;
+    EXPECT_NEAR(out.x, 5 * share, 1e-15);
+    EXPECT_NEAR(out.y, 5 * share, 1e-15);
+    EXPECT_NEAR(out.z, 40 * share, 1e-15);
+}
+
+TEST(ReferenceBrdf, Attenuation_AtTheRadiusAndBelowOneCentimetre_FollowsItsFormula) {
+    const PointLight light{.radius2 = 4};
+    EXPECT_EQ(attenuation(light, {0, 2, 0}), 0);
+    EXPECT_EQ(attenuation(light, {0, 2.5, 0}), 0);
+    EXPECT_GT(attenuation(light, {0, std::nextafter(2.0, 0.0), 0}), 0);
+    EXPECT_NEAR(attenuation(light, {0, 1, 0}), std::pow(1 - 1.0 / 16, 2), 1e-15);
+    EXPECT_NEAR(attenuation(light, {0, 1e-3, 0}), 1e4, 1e-8);
+    EXPECT_EQ(attenuation(light, {0, 0, 0}), 0);
+    EXPECT_NEAR(attenuation(PointLight{}, {0, 1e3, 0}), 1e-6, 1e-20);
+}
+
+// Full inside the inner cone, none outside the outer, squared linear in the cosine between.
+TEST(ReferenceBrdf, SpotFalloff_BetweenItsCones_IsSquaredLinearInTheCosine) {
+    const double inner = std::cos(0.3);
+    const double outer = std::cos(0.6);
+    PointLight light;
+    light.direction = {0, -1, 0};
+    light.cone_scale = 1 / (inner - outer);
+    light.cone_offset = -outer * light.cone_scale;
+    EXPECT_NEAR(attenuation(light, direction(0.29, 1)), 1, 1e-12);
+    EXPECT_EQ(attenuation(light, direction(0.61, 1)), 0);
+    const double share = (std::cos(0.4) - outer) / (inner - outer);
+    EXPECT_NEAR(attenuation(light, direction(0.4, 2)), share * share, 1e-12);
+}
+
+// By hand: n = l = v, so h = n, D = 1 / (pi a^2), V = 1 / 4, F = f0.
+TEST(ReferenceBrdf, PbrHeadOn_IsDiffuseAndAQuarterOfTheDistribution) {
+    Surface s = seenFrom({0, 1, 0});
+    s.base_color = {0.8, 0.4, 0.2};
+    s.roughness = 0.5;
+    s.metallic = 0;
+    const glm::dvec3 out = reflected(s, kPbr, {0, 1, 0});
+    const double lobe = 1 / (kPi * std::pow(0.5, 4)) / 4;
+    EXPECT_NEAR(out.x, 0.96 * 0.8 / kPi + 0.04 * lobe, 1e-14);
+    s.metallic = 1;
+    EXPECT_NEAR(reflected(s, kPbr, {0, 1, 0}).y, 0.4 * lobe, 1e-14);
+}
+
+TEST(ReferenceBrdf, PbrLobe_SwappingLightAndEye_GivesTheSame) {
+    Surface s = seenFrom(direction(0.9, 0.2));
+    s.metallic = 1; // the diffuse part's Fresnel term is symmetric too, but say so for the lobe
+    s.roughness = 0.35;
+    const glm::dvec3 light = direction(0.4, 2.5);
+    const double there = reflected(s, kPbr, light).x / light.y;
+    const glm::dvec3 eye = s.to_eye;
+    s.to_eye = light;
+    EXPECT_NEAR(reflected(s, kPbr, eye).x / eye.y, there, 1e-13);
+}
+
+// White furnace: a surface never returns more than it gets, almost all of it where it is smooth; by
+// single scattering 1 - ln 2 head-on at roughness 1, where the integral has a closed form.
+TEST(ReferenceBrdf, WhiteMetalInAFurnace_ReturnsAtMostAll) {
+    for (const double roughness : {0.1, 0.3, 0.6, 1.0}) {
+        for (const double angle : {0.0, 0.7, 1.3}) {
+            Surface s = seenFrom(direction(angle, 0.5));
+            s.metallic = 1;
+            s.roughness = roughness;
+            const double returned = albedo(s, kPbr);
+            EXPECT_LE(returned, 1.001) << roughness << " " << angle;
+            EXPECT_GE(returned, roughness < 0.2 ? 0.97 : 0.3) << roughness << " " << angle;
+        }
+    }
+    Surface s = seenFrom({0, 1, 0});
+    s.metallic = 1;
+    EXPECT_NEAR(albedo(s, kPbr), 1 - std::numbers::ln2, 1e-4);
+    EXPECT_NEAR(albedo(s, kLambert), 1, 1e-4);
+}
+
+// Microfacets between light and eye all face away: only what is scattered is left.
+TEST(ReferenceBrdf, NormalTurnedFromTheEye_HasNoHighlightWhereTheHalfVectorIsBehind) {
+    Surface s = seenFrom(direction(1.9, 0));
+    s.metallic = 1;
+    s.roughness = 0.2;
+    EXPECT_EQ(reflected(s, kPbr, direction(1.4, 0)), glm::dvec3(0));
+    EXPECT_GT(reflected(s, kPbr, direction(1.0, 0)).x, 0);
+}
+
+TEST(ReferenceBrdf, LightBehindOrAtGrazingAngles_IsFiniteAndNeverNegative) {
+    for (const double angle : {kPi / 2 - 1e-4, kPi / 2 - 1e-7, kPi / 2, kPi / 2 + 1e-7, 2.0, kPi}) {
+        for (const double roughness : {0.0, 1.0}) {
+            Surface s = seenFrom(direction(angle, 0));
+            s.roughness = roughness;
+            s.metallic = 0.5;
+            const glm::dvec3 out = reflected(s, kPbr, direction(angle, kPi));
+            EXPECT_TRUE(std::isfinite(out.x) && out.x >= 0) << angle;
+            EXPECT_EQ(reflected(s, kPbr, -s.to_eye).x >= 0, true) << angle;
+            EXPECT_GT(out.x, angle < kPi / 2 ? 0 : -1e-300);
+        }
+    }
+}
+
+TEST(ReferenceBrdf, ToonRamp_AtItsPointsAndBetween_IsHermite) {
+    view::ToonRamp ramp{.count = 2, .points = {}};
+    ramp.points[0] = {0.25F, 0.5F, 1};
+    ramp.points[1] = {0.75F, 1.0F, -1};
+    EXPECT_EQ(toonRamp(ramp, 0), 0.5);
+    EXPECT_EQ(toonRamp(ramp, 0.25), 0.5);
+    EXPECT_EQ(toonRamp(ramp, 0.75), 1);
+    EXPECT_EQ(toonRamp(ramp, 9), 1);
+    EXPECT_NEAR(toonRamp(ramp, 0.5), 0.75 + 0.5 * (1 + 1) / 8, 1e-15);
+    const double h = 1e-6;
+    EXPECT_NEAR((toonRamp(ramp, 0.25 + h) - 0.5) / h, 1, 1e-5);
+    EXPECT_NEAR((1 - toonRamp(ramp, 0.75 - h)) / h, -1, 1e-5);
+}
+
+} // namespace
+} // namespace froxel::reference

@@ -1,0 +1,127 @@
+// The reference's texture filter against closed forms.
+#include "reference/texture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace froxel::reference {
+namespace {
+
+using scene::Filter;
+using scene::Wrap;
+
+// R of texel (x, y) is f(x, y); alpha 255.
+template <class F>
+scene::Image image(uint32_t width, uint32_t height, F f) {
+    scene::Image out{"test", width, height, {}};
+    for (uint32_t y = 0; y < height; ++y) {
+        for (uint32_t x = 0; x < width; ++x) {
+            for (const uint32_t value : {static_cast<uint32_t>(f(x, y)), 0U, 0U, 255U}) {
+                out.rgba8.push_back(static_cast<std::byte>(value));
+            }
+        }
+    }
+    return out;
+}
+
+scene::Sampler wrapping(Wrap wrap) {
+    return {.wrap_u = wrap, .wrap_v = wrap};
+}
+
+double red(const MipChain& chain, const scene::Sampler& s, const Footprint& f, double aniso = 1) {
+    return chain.sample(s, f, aniso).x * 255;
+}
+
+TEST(ReferenceTexture, Srgb_AtKnownValues_IsTheStandards) {
+    EXPECT_EQ(decodeSrgb(0), 0);
+    EXPECT_NEAR(decodeSrgb(1), 1, 1e-15);
+    EXPECT_NEAR(decodeSrgb(0.04045), 0.04045 / 12.92, 1e-15);
+    EXPECT_NEAR(decodeSrgb(0.5), 0.21404114048223255, 1e-12);
+    const auto half = image(1, 1, [](uint32_t, uint32_t) { return 128; });
+    EXPECT_NEAR(MipChain(half, true).texel(0, 0, 0).x, 0.2158605, 1e-7);
+    EXPECT_EQ(MipChain(half, true).texel(0, 0, 0).w, 1);
+    EXPECT_NEAR(MipChain(half, false).texel(0, 0, 0).x, 128.0 / 255, 1e-15);
+}
+
+TEST(ReferenceTexture, Magnified_BetweenTexelCentres_IsBilinear) {
+    const auto ramp = image(4, 4, [](uint32_t x, uint32_t y) { return 10 * x + 40 * y; });
+    const MipChain chain(ramp, false);
+    const auto s = wrapping(Wrap::kClampToEdge);
+    EXPECT_NEAR(red(chain, s, {.uv = {0.5 / 4, 0.5 / 4}}), 0, 1e-12);
+    EXPECT_NEAR(red(chain, s, {.uv = {2.0 / 4, 1.25 / 4}}), 10 * 1.5 + 40 * 0.75, 1e-12);
+    EXPECT_NEAR(red(chain, s, {.uv = {-3, 9}}), 120, 1e-12);
+}
+
+TEST(ReferenceTexture, Wrapping_FarOutside_FollowsEachMode) {
+    const auto ramp = image(4, 1, [](uint32_t x, uint32_t) { return 10 * (x + 1); });
+    const MipChain chain(ramp, false);
+    const auto at = [&](Wrap wrap, double texel) {
+        return red(chain, wrapping(wrap), {.uv = {(texel + 0.5) / 4, 0.5}});
+    };
+    const std::array repeat = {30.0, 40.0, 10.0, 20.0, 30.0, 40.0, 10.0}; // texels -2 to 4
+    const std::array mirrored = {20.0, 10.0, 10.0, 20.0, 30.0, 40.0, 40.0};
+    for (int i = 0; i < 7; ++i) {
+        const auto k = static_cast<size_t>(i);
+        EXPECT_NEAR(at(Wrap::kRepeat, i - 2), repeat[k], 1e-12) << i;
+        EXPECT_NEAR(at(Wrap::kMirroredRepeat, i - 2), mirrored[k], 1e-12) << i;
+        EXPECT_NEAR(at(Wrap::kRepeat, i - 2 - 400), repeat[k], 1e-9) << i;
+        EXPECT_NEAR(at(Wrap::kMirroredRepeat, i - 2 + 800), mirrored[k], 1e-9) << i;
+    }
+    EXPECT_NEAR(at(Wrap::kRepeat, -0.5), 25, 1e-12); // across the border
+    EXPECT_NEAR(at(Wrap::kClampToEdge, -0.5), 10, 1e-12);
+}
+
+TEST(ReferenceTexture, MipLevels_OfEvenSizes_AreMeansOfFourDownToTheMeanOfAll) {
+    const auto noise = image(8, 4, [](uint32_t x, uint32_t y) { return (x * 37 + y * 101) % 256; });
+    const MipChain chain(noise, true);
+    ASSERT_EQ(chain.levelCount(), 4U);
+    EXPECT_EQ(chain.size(1), glm::uvec2(4, 2));
+    EXPECT_EQ(chain.size(3), glm::uvec2(1, 1));
+    double mean = 0;
+    for (uint32_t y = 0; y < 4; ++y) {
+        for (uint32_t x = 0; x < 8; ++x) {
+            mean += chain.texel(0, x, y).x / 32;
+        }
+    }
+    EXPECT_NEAR(chain.texel(3, 0, 0).x, mean, 1e-7); // in linear light
+    EXPECT_NEAR(chain.texel(1, 1, 1).x,
+                (chain.texel(0, 2, 2).x + chain.texel(0, 3, 2).x + chain.texel(0, 2, 3).x +
+                 chain.texel(0, 3, 3).x) /
+                    4,
+                1e-7);
+}
+
+// Level k of a constant-by-level picture: a checkerboard has 127.5 from level 1 on.
+TEST(ReferenceTexture, Minified_BetweenLevels_IsTrilinear) {
+    const auto checks = image(8, 8, [](uint32_t x, uint32_t y) { return (x + y) % 2 * 200; });
+    const MipChain chain(checks, false);
+    scene::Sampler s;
+    const auto at = [&](double texels) { // one footprint of so many texels, at a white texel
+        return Footprint{{1.5 / 8, 0.5 / 8}, {texels / 8, 0}, {0, texels / 8}};
+    };
+    EXPECT_NEAR(red(chain, s, at(0.5)), 200, 1e-12);
+    EXPECT_NEAR(red(chain, s, at(1)), 200, 1e-12);
+    EXPECT_NEAR(red(chain, s, at(2)), 100, 1e-5);
+    EXPECT_NEAR(red(chain, s, at(std::sqrt(2))), 150, 1e-5);
+    EXPECT_NEAR(red(chain, s, at(1e9)), 100, 1e-5);
+    s.mip = Filter::kNearest;
+    EXPECT_NEAR(red(chain, s, at(1.4)), 200, 1e-12);
+    EXPECT_NEAR(red(chain, s, at(1.42)), 100, 1e-5);
+    s.mipmapped = false;
+    s.min = Filter::kNearest;
+    EXPECT_NEAR(red(chain, s, at(4)), 200, 1e-12);
+}
+
+// Stripes along v seen through a footprint that is long along v: only isotropic filtering blurs.
+TEST(ReferenceTexture, LongFootprint_WithAnisotropy_KeepsWhatLiesAcross) {
+    const auto stripes = image(64, 64, [](uint32_t x, uint32_t) { return x % 2 * 200; });
+    const MipChain chain(stripes, false);
+    const scene::Sampler s;
+    const Footprint f{{1.5 / 64, 0.3}, {1.0 / 64, 0}, {0, 8.0 / 64}};
+    EXPECT_NEAR(red(chain, s, f), 100, 1e-5);
+    EXPECT_NEAR(red(chain, s, f, 8), 200, 1e-9);
+}
+
+} // namespace
+} // namespace froxel::reference
