@@ -41,6 +41,9 @@ export interface ErrorPoint {
   readonly row: Row;
 }
 
+/** Rows that draw a picture of their own: those of the stream encode one of others. */
+const isDrawn = (row: Row): boolean => row.stream === null;
+
 /** Rows of one workload that have both a time and an error. */
 export const errorPoints = (
   sweeps: readonly Sweep[],
@@ -52,7 +55,7 @@ export const errorPoints = (
     sweep.rows.flatMap((row) => {
       const time = timeMs(row, clock);
       const y = metric.of(row);
-      return row.workload === workload && time && y !== null && time.median > 0
+      return isDrawn(row) && row.workload === workload && time && y !== null && time.median > 0
         ? [{ x: time.median, y, time, sweep, row }]
         : [];
     }),
@@ -66,7 +69,8 @@ export function workloadsOf(
   const counts = new Map<string, number>();
   for (const { rows } of sweeps) {
     for (const row of rows) {
-      const usable = row[clock] !== null && kMetrics.some((metric) => metric.of(row) !== null);
+      const usable =
+        isDrawn(row) && row[clock] !== null && kMetrics.some((metric) => metric.of(row) !== null);
       if (usable) counts.set(row.workload, (counts.get(row.workload) ?? 0) + 1);
     }
   }

@@ -21,7 +21,7 @@ const largest = (values: readonly (number | null | undefined)[]): number | null 
 /** Rows with default settings but for the number of lights; every row where there are none. */
 function usualRows(results: Results, rows: readonly Row[]): readonly Row[] {
   const counts = results.sweeps.find(({ name }) => name === 'light_count')?.rows ?? [];
-  const usual = counts.filter(({ series }) => series === 'clustered_deferred');
+  const usual = counts.filter(({ settings }) => settings.renderer === 'clustered_deferred');
   return usual.length > 0 ? usual : rows;
 }
 

@@ -4,14 +4,23 @@
 const kRenderers = ['naive', 'forward_plus', 'clustered_deferred', 'toon_fragment', 'toon_compute'];
 const kColourCount = 12;
 
-/** Renderers have their own colours; others take the rest in their order. */
+/**
+ * Renderers have their own colours, and so has the first way of one (`naive, compute`); a second way is
+ * paler. Others take the rest in their order.
+ */
 export function seriesColours(names: readonly string[]): Map<string, string> {
   const colours = new Map<string, string>();
+  const ways = new Map<number, number>(); // seen of each renderer
   let next = kRenderers.length;
-  for (const name of names) {
-    if (colours.has(name)) continue;
-    const renderer = kRenderers.indexOf(name);
-    colours.set(name, `var(--c${renderer >= 0 ? renderer : next++ % kColourCount})`);
+  for (const name of new Set(names)) {
+    const renderer = kRenderers.indexOf(name.split(',')[0] ?? '');
+    if (renderer < 0) {
+      colours.set(name, `var(--c${next++ % kColourCount})`);
+      continue;
+    }
+    const way = name.includes(',') ? (ways.get(renderer) ?? 0) : 0;
+    if (name.includes(',')) ways.set(renderer, way + 1);
+    colours.set(name, `var(--c${renderer}${way === 0 ? '' : 'b'})`);
   }
   return colours;
 }
@@ -91,7 +100,6 @@ const shapeOf = (corners: Corners): Shape => ({
 });
 
 export const kDot = shapeOf(polygon(24, 5));
-export const kDiamond = shapeOf(polygon(4, 6));
 
 /** A shape for each name, in their order; beyond a dozen they repeat. */
 export function shapesOf(names: readonly string[]): Map<string, Shape> {

@@ -1,6 +1,8 @@
 // The JSON of `froxel bench`, schema froxel.bench.v1 (tests/bench/results/README.md), as far as the report
 // reads it. Numbers that JSON cannot hold (NaN, infinity) come as null.
 
+import { words } from './text';
+
 export const kSchema = 'froxel.bench.v1';
 
 export interface Summary {
@@ -155,7 +157,9 @@ export function readResults(text: string): Results {
 /** What a row's points are marked by: how the G-buffer is laid out, where there is one. */
 export function layoutOf({ settings }: Row): string {
   const forward = settings.renderer === 'naive' || settings.renderer === 'forward_plus';
-  return forward ? 'no G-buffer' : `${settings.gbuffer.normal}, ${settings.gbuffer.position}`;
+  return forward
+    ? 'no G-buffer'
+    : words(`${settings.gbuffer.normal}, ${settings.gbuffer.position}`);
 }
 
 /** Times of one row in milliseconds; null where the clock does not apply. */
@@ -172,13 +176,13 @@ export function timeMs(row: Row, clock: Clock): Summary | null {
   };
 }
 
-/** How many times as fast as `naive` drawing the same picture in the same sweep; null without one. */
+/** How many times as fast as the fastest `naive` way to the same picture in the sweep; null without one. */
 export function speedUp(row: Row, sweep: Sweep, clock: Clock): number | null {
-  const naive = sweep.rows.find(
-    (other) =>
-      other.series === 'naive' && other.value === row.value && other.workload === row.workload,
-  );
   const own = row[clock]?.median;
-  const others = naive?.[clock]?.median;
-  return naive && naive !== row && own && others ? others / own : null;
+  const naive = sweep.rows.flatMap((other) => {
+    const same = other.value === row.value && other.workload === row.workload;
+    return same && other.settings.renderer === 'naive' ? (other[clock]?.median ?? []) : [];
+  });
+  const isNaive = row.settings.renderer === 'naive';
+  return isNaive || !own || naive.length === 0 ? null : Math.min(...naive) / own;
 }

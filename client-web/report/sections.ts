@@ -2,12 +2,12 @@
 
 import { make } from '../src/dom';
 import { bytes, count } from '../src/format';
-import { kDiamond, kDot, partColours, seriesColours } from './marks';
+import { kDot, partColours, seriesColours } from './marks';
 import { memoryParts, partBars, passParts, shares, type Part } from './part_bars';
 import type { Clock, Published, PictureError, Results, Row, Skipped, Sweep } from './results';
 import { speedUp, timeMs } from './results';
 import { shortNumber } from './scales';
-import { referencesOf, sweepPlot } from './sweep_plot';
+import { referenceShapes, referencesOf, sweepPlot } from './sweep_plot';
 import { streamPlot, streamTable } from './stream_plot';
 import { commandLines, legend, table, type Column } from './table';
 import { errorText, factorText, kNone, msText, psnrText, spreadText, words } from './text';
@@ -84,7 +84,7 @@ export function timeColumns(sweep: Sweep, clock: Clock): Column<Row>[] {
   if (sweep.rows.some((row) => speedUp(row, sweep, clock) !== null)) {
     columns.push({
       head: 'vs naive',
-      title: 'Times as fast as naive on the same picture',
+      title: 'Times as fast as the fastest naive row with the same picture',
       text: (row) => factorText(speedUp(row, sweep, clock)),
       number: true,
     });
@@ -185,11 +185,11 @@ function sweepLegend(
     colour,
     symbol: kDot.path,
   }));
-  const lines = new Set(referencesOf(sweep, published).map(({ line }) => line));
-  const others = [...lines].map((line) => ({
+  const shapes = referenceShapes(referencesOf(sweep, published));
+  const others = [...shapes].map(([line, { path }]) => ({
     name: `published: ${line}`,
     colour: 'var(--muted)',
-    symbol: kDiamond.path,
+    symbol: path,
     hollow: true,
   }));
   return legend(entries.length + others.length > 1 ? [...entries, ...others] : []);

@@ -4,7 +4,7 @@
 import * as Plot from '@observablehq/plot';
 
 import { kMargin, nameAxis, nameMargin, xAxis, xGrid, yAxis } from './axes';
-import { kDiamond } from './marks';
+import { shapesOf, type Shape } from './marks';
 import type { Clock, Published, Summary, Sweep } from './results';
 import { timeMs } from './results';
 import { apart, logAxis, shortNumber, spansDecades } from './scales';
@@ -49,6 +49,10 @@ export const referencesOf = (sweep: Sweep, published: readonly Published[]): Ref
             ms === null ? [] : [{ series, line: `${source}, ${hardware}`, value, ms, printed }],
           ),
         );
+
+/** A hollow mark for each of those who published. */
+export const referenceShapes = (references: readonly Reference[]): Map<string, Shape> =>
+  shapesOf(references.map(({ line }) => line));
 
 const tipOf = ({ label, series, time }: Timed): string =>
   `${words(series)}, ${label}\n${msText(time.median)} ms (${msText(time.p5)} to ${msText(time.p95)})`;
@@ -116,15 +120,20 @@ const referenceMarks = (
     strokeOpacity: 0.55,
     strokeDasharray: '3 4',
   }),
-  Plot.dot(references, {
-    x: x.place,
-    y: 'ms',
-    stroke,
-    strokeOpacity: 0.8,
-    symbol: kDiamond,
-    r: 3.5,
-    fill: 'var(--surface-solid)',
-  }),
+  ...[...referenceShapes(references)].map(([name, shape]) =>
+    Plot.dot(
+      references.filter(({ line }) => line === name),
+      {
+        x: x.place,
+        y: 'ms',
+        stroke,
+        strokeOpacity: 0.8,
+        symbol: shape,
+        r: 3.5,
+        fill: 'var(--surface-solid)',
+      },
+    ),
+  ),
 ];
 
 const rowMarks = (rows: readonly Timed[], x: ValueAxis, colour: Colour): Plot.Markish[] => [

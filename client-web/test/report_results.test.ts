@@ -14,6 +14,8 @@ import { errorOf, kNoError, resultsOf, rowOf, sample, sweepOf } from './report_f
 const [kLargest, kFlip] = kMetrics;
 if (!kLargest || !kFlip) throw new Error('two metrics');
 
+const kForward = { renderer: 'forward_plus', gbuffer: { normal: 'oct16', position: 'depth' } };
+
 describe('readResults', () => {
   it('CommittedSample_IsRead', () => {
     const results = sample();
@@ -47,10 +49,12 @@ describe('rows', () => {
   });
 
   it('SpeedUp_IsAgainstNaiveOfTheSamePicture', () => {
-    const naive = rowOf('n', 30, { series: 'naive' });
+    const gbuffer = { normal: 'oct16', position: 'depth' };
+    const naive = rowOf('n', 30, { series: 'naive', settings: { renderer: 'naive', gbuffer } });
+    const slower = { ...rowOf('m', 90), series: 'naive, fragment', settings: naive.settings };
     const ours = rowOf('c', 10);
     const other = rowOf('o', 10, { workload: 'another picture' });
-    const sweep = sweepOf([naive, ours, other]);
+    const sweep = sweepOf([slower, naive, ours, other]);
     expect(speedUp(ours, sweep, 'gpu_us')).toBe(3);
     expect(speedUp(naive, sweep, 'gpu_us')).toBeNull();
     expect(speedUp(other, sweep, 'gpu_us')).toBeNull();
@@ -77,6 +81,16 @@ describe('speed against error', () => {
     sweepOf([exact, fast]),
     sweepOf([beaten, unknown, elsewhere], { name: 'gbuffer' }),
   ];
+
+  it('RowsOfTheStream_AreLeftOut', () => {
+    const stream = sample().sweeps.flatMap(({ rows }) =>
+      rows.flatMap((row) => row.stream ?? []),
+    )[0];
+    if (!stream) throw new Error('the sample has a stream');
+    const encoded = [sweepOf([rowOf('quality 80', 1, { stream })])];
+    expect(errorPoints(encoded, 'a picture', kLargest, 'gpu_us')).toEqual([]);
+    expect(workloadsOf(encoded, 'gpu_us')).toEqual([]);
+  });
 
   it('Points_AreOfOnePictureWithTimeAndError', () => {
     const points = errorPoints(sweeps, 'a picture', kLargest, 'gpu_us');
@@ -178,7 +192,7 @@ describe('head', () => {
     const results = resultsOf([
       sweepOf([
         rowOf('a', 1, { error_r2: errorOf(0.1, 0.002) }),
-        rowOf('b', 1, { series: 'naive', error_r2: errorOf(1, 0.5) }),
+        rowOf('b', 1, { settings: kForward, error_r2: errorOf(1, 0.5) }),
       ]),
       sweepOf([rowOf('c', 1, { error_r2: errorOf(1, 0.9) })], { name: 'gbuffer' }),
     ]);
@@ -196,6 +210,15 @@ describe('marks', () => {
   it('Series_HaveDifferentColours', () => {
     const names = ['naive', 'forward_plus', 'a', 'b', 'c', 'd'];
     expect(new Set(seriesColours(names).values()).size).toBe(names.length);
+  });
+
+  it('WaysOfARenderer_HaveShadesOfItsColour', () => {
+    const colours = seriesColours([
+      'forward_plus, compute',
+      'forward_plus, fragment',
+      'forward_plus',
+    ]);
+    expect([...colours.values()]).toEqual(['var(--c1)', 'var(--c1b)', 'var(--c1)']);
   });
 
   it('TwelveNames_HaveDifferentShapes', () => {
