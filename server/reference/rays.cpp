@@ -51,6 +51,9 @@ PlanePoint meetPlane(const Ray& ray, const Triangle& triangle) {
 
 glm::dvec2 clampToTriangle(const glm::dvec2& weights) {
     glm::dvec3 all(1 - weights.x - weights.y, weights.x, weights.y);
+    if (std::min({all.x, all.y, all.z}) > -kPlaneGoesOn) {
+        return weights;
+    }
     all = glm::max(all, glm::dvec3(0));
     const double sum = all.x + all.y + all.z;
     return {all.y / sum, all.z / sum};

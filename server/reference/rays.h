@@ -50,7 +50,10 @@ struct PlanePoint {
 };
 [[nodiscard]] PlanePoint meetPlane(const Ray& ray, const Triangle& triangle);
 
-// The nearest weights of a point of the triangle.
+// A rasteriser snaps corners, so a triangle may cover a pixel whose centre lies just outside: there
+// the plane goes on, by this share of the triangle at most. Farther outside (slivers, triangles
+// seen edge-on) weights are moved into the triangle.
+inline constexpr double kPlaneGoesOn = 0.05;
 [[nodiscard]] glm::dvec2 clampToTriangle(const glm::dvec2& weights);
 
 } // namespace froxel::reference
