@@ -74,11 +74,11 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     GbufferSample g;
     g.base_color = clamp(base.rgb, vec3(0.0), vec3(1.0));
     vec3 n = normalize(v.normal_view);
-    if (hasMaterial(kMaterialDoubleSided)) {
-        n = front ? n : -n;
-    }
     if (hasMaterial(kMaterialNormalTexture)) {
         n = perturbNormal(v, n, position_view);
+    }
+    if (hasMaterial(kMaterialDoubleSided)) {
+        n = front ? n : -n; // bumps and all: seen from behind they are dents
     }
     g.normal_view = n;
     g.roughness = material.roughness;
