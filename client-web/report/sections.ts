@@ -180,11 +180,10 @@ function sweepLegend(
   colours: ReadonlyMap<string, string>,
   published: readonly Published[],
 ): HTMLElement {
-  const entries = [...colours].map(([name, colour]) => ({
-    name: words(name),
-    colour,
-    symbol: kDot.path,
-  }));
+  // A published series may share the colour of one of ours, and needs no entry then.
+  const entries = [...colours]
+    .filter(([, colour], at, all) => all.findIndex(([, other]) => other === colour) === at)
+    .map(([name, colour]) => ({ name: words(name), colour, symbol: kDot.path }));
   const shapes = referenceShapes(referencesOf(sweep, published));
   const others = [...shapes].map(([line, { path }]) => ({
     name: `published: ${line}`,
