@@ -41,7 +41,11 @@ void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, ui
     if (!setEdges(a, b, c, mirrored, both_sides, ivec2(first), edges)) {
         return;
     }
-    bool masked = isMasked(item);
+    // Each edge where it is highest in the block.
+    const int kLast = int(kRasterBlock) - 1;
+    if (!isInside(edges.inside + kLast * (max(edges.step_x, 0) + max(edges.step_y, 0)))) {
+        return;
+    }
     uvec2 size = uvec2(frame.width_px, frame.height_px);
     uvec2 lane = uvec2(gl_LocalInvocationIndex % kLaneSide, gl_LocalInvocationIndex / kLaneSide);
     for (uint y = 0; y < kRasterBlock; y += kLaneSide) {
@@ -50,7 +54,7 @@ void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, ui
             ivec3 inside =
                 edges.inside + edges.step_x * int(at.x) + edges.step_y * int(at.y);
             if (isInside(inside) && all(lessThan(first + at, size))) {
-                drawPixel(first + at, depthAt(inside, edges.rest, edges.scale), id, masked);
+                drawPixel(first + at, depthAt(inside, edges.rest, edges.scale), id);
             }
         }
     }
@@ -68,27 +72,36 @@ void drawClipped(ClipTriangle t, bool mirrored, VisibleItem item, uint id, uvec2
     }
 }
 
+void drawLarge(LargeTriangle large, uint of_box) {
+    PlacedMeshlet placed = meshlets[large.id >> kTriangleBits];
+    VisibleItem item = items[placed.item];
+    if (!drawsItem(item)) {
+        return;
+    }
+    uint row_blocks = large.box >> 24;
+    uvec2 first = uvec2(large.box & 4095u, (large.box >> 12) & 4095u) +
+                  uvec2(of_box % row_blocks, of_box / row_blocks) * kRasterBlock;
+    InstanceView view = instances[item.instance];
+    ClipTriangle t = clipTriangle(placed, item, view, large.id & ((1u << kTriangleBits) - 1u));
+    if (drawable(t.a) && drawable(t.b) && drawable(t.c)) {
+        drawBlock(toScreen(t.a), toScreen(t.b), toScreen(t.c), view.mirrored != 0u, item, large.id,
+                  first);
+    } else {
+        drawClipped(t, view.mirrored != 0u, item, large.id, first);
+    }
+}
+
 void main() {
     uint triangle_count = uint(raster.large >> int(kRasterBlockBits));
     uint64_t block_count = raster.large & ((uint64_t(1) << int(kRasterBlockBits)) - 1);
-    for (uint64_t block = gl_WorkGroupID.x; block < block_count; block += gl_NumWorkGroups.x) {
-        LargeTriangle large = large_triangles[triangleOfBlock(block, triangle_count)];
-        PlacedMeshlet placed = meshlets[large.id >> kTriangleBits];
-        VisibleItem item = items[placed.item];
-        if (!drawsItem(item)) {
-            continue;
-        }
-        uint of_box = uint(block - large.first_block);
-        uint row_blocks = large.box >> 24;
-        uvec2 first = uvec2(large.box & 4095u, (large.box >> 12) & 4095u) +
-                      uvec2(of_box % row_blocks, of_box / row_blocks) * kRasterBlock;
-        InstanceView view = instances[item.instance];
-        ClipTriangle t = clipTriangle(placed, item, view, large.id & ((1u << kTriangleBits) - 1u));
-        if (drawable(t.a) && drawable(t.b) && drawable(t.c)) {
-            drawBlock(toScreen(t.a), toScreen(t.b), toScreen(t.c), view.mirrored != 0u, item,
-                      large.id, first);
-        } else {
-            drawClipped(t, view.mirrored != 0u, item, large.id, first);
+    uint64_t run = uint64_t(gl_WorkGroupID.x) * kRasterRun;
+    for (; run < block_count; run += gl_NumWorkGroups.x * kRasterRun) {
+        uint i = triangleOfBlock(run, triangle_count);
+        for (uint64_t block = run; block < min(run + kRasterRun, block_count); ++block) {
+            if (i + 1u < triangle_count && large_triangles[i + 1u].first_block <= block) {
+                ++i;
+            }
+            drawLarge(large_triangles[i], uint(block - large_triangles[i].first_block));
         }
     }
 }

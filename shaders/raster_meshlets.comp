@@ -106,14 +106,23 @@ uint prepare(PlacedMeshlet placed, VisibleItem item, uint id, uint lane) {
     return uint(size.y);
 }
 
-void drawRow(SmallTriangle t, uint row, uint id, bool masked) {
+// Pixels of a row that an edge leaves out for sure.
+float before(int inside, int step_x) {
+    return inside < 0 && step_x > 0 ? float(-inside) / float(step_x) * 0.999999 : 0.0;
+}
+
+void drawRow(SmallTriangle t, uint row, uint id) {
     ivec3 inside = t.edges.inside + t.edges.step_y * int(row);
+    uint first = uint(min(max(max(before(inside.x, t.edges.step_x.x),
+                                  before(inside.y, t.edges.step_x.y)),
+                              before(inside.z, t.edges.step_x.z)),
+                          float(kRasterSmall)));
+    inside += t.edges.step_x * int(first);
     bool entered = false;
-    for (uint x = 0; x < t.width; ++x) {
+    for (uint x = first; x < t.width; ++x) {
         if (isInside(inside)) {
             entered = true;
-            drawPixel(t.first + uvec2(x, row), depthAt(inside, t.edges.rest, t.edges.scale), id,
-                      masked);
+            drawPixel(t.first + uvec2(x, row), depthAt(inside, t.edges.rest, t.edges.scale), id);
         } else if (entered) {
             break;
         }
@@ -148,10 +157,9 @@ void main() {
         rows_until[lane] += before;
         barrier();
     }
-    bool masked = isMasked(item);
     for (uint row = lane; row < rows_until[kRasterGroup - 1u]; row += kRasterGroup) {
         uint i = triangleOfRow(row);
-        uint before = i > 0 ? rows_until[i - 1u] : 0u;
-        drawRow(small[i], row - before, first_id | i, masked);
+        uint skipped = i > 0 ? rows_until[i - 1u] : 0u;
+        drawRow(small[i], row - skipped, first_id | i);
     }
 }

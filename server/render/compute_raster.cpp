@@ -13,18 +13,32 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-// What alpha tests look at; nothing where nothing is masked.
-uint32_t testedFlags(const VisibilityScene& scene) {
-    return (scene.material_flags & io::kMaterialMask) != 0 ? scene.material_flags : 0U;
-}
-
 vk::raii::Pipeline makePipeline(const gpu::Device& device,
                                 const VisibilityScene& scene,
                                 gpu::Spirv code,
+                                uint32_t material_flags,
                                 const char* name) {
-    return gpu::makeComputePipeline(device, code,
-                                    scene.pipelines.constants({testedFlags(scene), 0, 0}),
+    return gpu::makeComputePipeline(device, code, scene.pipelines.constants({material_flags, 0, 0}),
                                     scene.pipelines.computeLayout(), name);
+}
+
+bool isMasked(const VisibilityGroup& group) {
+    return (group.material_flags & io::kMaterialMask) != 0;
+}
+
+ComputeRaster::Pass makePass(const gpu::Device& device,
+                             const VisibilityScene& scene,
+                             gpu::Spirv code,
+                             const char* name) {
+    const auto& groups = scene.groups;
+    ComputeRaster::Pass pass;
+    if (!std::all_of(groups.begin(), groups.end(), isMasked)) {
+        pass.opaque = makePipeline(device, scene, code, 0, name);
+    }
+    if (std::any_of(groups.begin(), groups.end(), isMasked)) {
+        pass.masked = makePipeline(device, scene, code, scene.material_flags, name);
+    }
+    return pass;
 }
 
 } // namespace
@@ -43,20 +57,20 @@ std::string ComputeRaster::unusable(const gpu::Device& device, const VisibilityS
 }
 
 ComputeRaster::ComputeRaster(const gpu::Device& device, const VisibilityScene& scene)
-    : arena(device), cull_(makePipeline(device, scene, shaders::cull_list_comp(), "cull (list)")),
-      raster_meshlets_(makePipeline(device,
-                                    scene,
-                                    scene.pipelines.bindless()
-                                        ? shaders::raster_meshlets_bindless_comp()
-                                        : shaders::raster_meshlets_comp(),
-                                    "raster meshlets")),
-      raster_blocks_(makePipeline(device,
-                                  scene,
-                                  scene.pipelines.bindless()
-                                      ? shaders::raster_blocks_bindless_comp()
-                                      : shaders::raster_blocks_comp(),
-                                  "raster blocks")),
-      unpack_(makePipeline(device, scene, shaders::raster_unpack_comp(), "unpack ids")) {
+    : arena(device),
+      cull_(makePipeline(device, scene, shaders::cull_list_comp(), 0, "cull (list)")),
+      raster_meshlets_(makePass(device,
+                                scene,
+                                scene.pipelines.bindless()
+                                    ? shaders::raster_meshlets_bindless_comp()
+                                    : shaders::raster_meshlets_comp(),
+                                "raster meshlets")),
+      raster_blocks_(makePass(device,
+                              scene,
+                              scene.pipelines.bindless() ? shaders::raster_blocks_bindless_comp()
+                                                         : shaders::raster_blocks_comp(),
+                              "raster blocks")),
+      unpack_(makePipeline(device, scene, shaders::raster_unpack_comp(), 0, "unpack ids")) {
     const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
         return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
                                 name);
@@ -68,7 +82,7 @@ ComputeRaster::ComputeRaster(const gpu::Device& device, const VisibilityScene& s
         scratch(size_t{scene.triangle_count} * sizeof(io::LargeTriangle), {}, "large triangles");
     if (!scene.pipelines.bindless()) {
         for (const auto& group : scene.groups) {
-            if ((group.material_flags & io::kMaterialMask) != 0) {
+            if (isMasked(group)) {
                 masked_materials.push_back(group.material);
             }
         }

@@ -28,19 +28,23 @@ class ComputeRaster {
     gpu::Buffer meshlets; // visible ones
     gpu::Buffer large;    // io::LargeTriangle, room for every triangle
 
-    // Of the textures that alpha tests read, those bound one at a time: empty where all are at once
-    // or nothing is masked.
+    // Whose textures alpha tests read, where materials are bound one at a time.
     std::vector<uint32_t> masked_materials;
 
     [[nodiscard]] vk::Pipeline cull() const { return *cull_; }
-    [[nodiscard]] vk::Pipeline rasterMeshlets() const { return *raster_meshlets_; }
-    [[nodiscard]] vk::Pipeline rasterBlocks() const { return *raster_blocks_; }
+    // Of opaque materials, and of masked ones: null where there is none.
+    struct Pass {
+        vk::raii::Pipeline opaque{nullptr};
+        vk::raii::Pipeline masked{nullptr};
+    };
+    [[nodiscard]] const Pass& rasterMeshlets() const { return raster_meshlets_; }
+    [[nodiscard]] const Pass& rasterBlocks() const { return raster_blocks_; }
     [[nodiscard]] vk::Pipeline unpack() const { return *unpack_; }
 
   private:
     vk::raii::Pipeline cull_;
-    vk::raii::Pipeline raster_meshlets_;
-    vk::raii::Pipeline raster_blocks_;
+    Pass raster_meshlets_;
+    Pass raster_blocks_;
     vk::raii::Pipeline unpack_;
 };
 

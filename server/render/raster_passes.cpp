@@ -29,32 +29,32 @@ void push(const FrameContext& frame, const std::array<uint32_t, 2>& words) {
                                            vk::ShaderStageFlagBits::eCompute, 0, words);
 }
 
-// Everything with all textures at once, or what is opaque and then each masked material by itself.
+// What is opaque; then what is masked, with all textures or one material's at a time.
 template <class Dispatch>
-void drawMaterials(const FrameContext& frame, vk::Pipeline pipeline, Dispatch dispatch) {
-    const auto& cmd = frame.slot.cmd;
+void drawMaterials(const FrameContext& frame, const ComputeRaster::Pass& pass, Dispatch dispatch) {
     const auto& scene = *frame.visibility;
-    const auto layout = scene.pipelines.computeLayout();
-    bind(frame, pipeline);
-    if (scene.pipelines.bindless()) {
-        cmd.bindDescriptorSets(Point::eCompute, layout, 3, scene.textureSet(), {});
-        push(frame, {io::kAnyMaterial, 1});
+    const auto draw = [&](vk::DescriptorSet textures, uint32_t material) {
+        frame.slot.cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3,
+                                          textures, {});
+        push(frame, {material, 0});
         dispatch();
+    };
+    const bool all_textures = scene.pipelines.bindless();
+    if (*pass.opaque) { // reads none
+        bind(frame, *pass.opaque);
+        draw(all_textures ? scene.textureSet()
+                          : frame.scene.materialSet(scene.materials_in_use.front()),
+             io::kAnyMaterial);
+    }
+    if (!*pass.masked) {
         return;
     }
-    uint32_t takes_opaque = 1;
-    const auto draw = [&](uint32_t material) {
-        cmd.bindDescriptorSets(Point::eCompute, layout, 3, frame.scene.materialSet(material), {});
-        push(frame, {material, takes_opaque});
-        dispatch();
-        takes_opaque = 0;
-    };
-    const auto& masked = raster(frame).masked_materials;
-    if (masked.empty()) {
-        draw(scene.materials_in_use.front());
+    bind(frame, *pass.masked);
+    if (all_textures) {
+        draw(scene.textureSet(), io::kAnyMaterial);
     }
-    for (const uint32_t material : masked) {
-        draw(material);
+    for (const uint32_t material : raster(frame).masked_materials) {
+        draw(frame.scene.materialSet(material), material);
     }
 }
 

@@ -1,27 +1,29 @@
 // Writes a pixel of a triangle, where it is the nearest so far and its material does not mask it.
 layout(push_constant) uniform RasterBlock {
-    uint only_material; // kAnyMaterial, or the masked one whose textures are bound
-    uint takes_opaque;
+    uint only_material; // of masked ones: kAnyMaterial, or that whose textures are bound
 };
 
-bool isMasked(VisibleItem item) {
-    return (MATERIAL_FLAGS & kMaterialMask) != 0 && (item.flags & kMaterialMask) != 0;
-}
+// Masked materials have pipelines of their own: others need a fraction of the registers.
+const bool kMasked = (MATERIAL_FLAGS & kMaterialMask) != 0;
 
 // Whether this dispatch draws an item.
 bool drawsItem(VisibleItem item) {
-    return isMasked(item) ? only_material == kAnyMaterial || only_material == item.material_index
-                          : takes_opaque != 0;
+    bool masked = (item.flags & kMaterialMask) != 0;
+    return masked == kMasked &&
+           (!masked || only_material == kAnyMaterial || only_material == item.material_index);
 }
 
-void drawPixel(uvec2 pixel, float depth, uint id, bool masked) {
+void drawPixel(uvec2 pixel, float depth, uint id) {
     uint at = pixel.y * frame.width_px + pixel.x;
     uint bits = floatBitsToUint(depth);
-    // Depths only grow, so a stale one is no harm. Not the whole word: its halves may be of two.
-    if (!(depth > 0.0) || uint(words[at] >> 32) > bits) {
+    if (!(depth > 0.0)) {
         return;
     }
-    if (masked) {
+    if (kMasked) { // a look spares the textures; without them it costs more than an atomic
+        // Depths only grow, so a stale one is no harm. Not the whole word: its halves may be of two.
+        if (uint(words[at] >> 32) > bits) {
+            return;
+        }
         bool front;
         VertexData v = fetchSurface(id, pixel, front);
         if (maskedOut(baseColor(v))) {

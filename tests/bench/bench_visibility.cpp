@@ -148,13 +148,15 @@ void compareIds(render::ViewRenderer& view,
             ++apart;
             empty += (a.depths[i] > 0) != (b.depths[i] > 0) ? 1U : 0U;
         } else if (a.depths[i] > 0) {
-            ulps.push_back(std::abs(std::bit_cast<int32_t>(a.depths[i]) -
-                                    double{std::bit_cast<int32_t>(b.depths[i])}));
+            ulps.push_back(std::abs(static_cast<double>(std::bit_cast<int32_t>(a.depths[i])) -
+                                    static_cast<double>(std::bit_cast<int32_t>(b.depths[i]))));
         }
     }
     std::sort(ulps.begin(), ulps.end());
     const auto at = [&](double share) {
-        return ulps.empty() ? 0 : ulps[static_cast<size_t>(share * (ulps.size() - 1.0))];
+        return ulps.empty()
+                   ? 0
+                   : ulps[static_cast<size_t>(share * static_cast<double>(ulps.size() - 1))];
     };
     std::printf("  ids: %zu of %zu pixels show another triangle (%zu are empty in one); depths of "
                 "the others apart by %.0f (median), %.0f (p99), %.0f ulps (most)\n",

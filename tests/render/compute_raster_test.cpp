@@ -87,6 +87,7 @@ void expectSameIds(render::Renderer& renderer,
     EXPECT_LE(static_cast<double>(apart.ids), 0.002 * static_cast<double>(apart.pixels) + 1);
     EXPECT_LE(static_cast<double>(apart.empty), 0.0002 * static_cast<double>(apart.pixels) + 1);
     EXPECT_LT(apart.mean_ulps, 8);
+    // Seen: 28 of 32,640 (surfaces of equal depth in the hall), 2.5 ulps.
 }
 
 void expectSameIds(gpu::Device& device, const scene::Scene& scene) {

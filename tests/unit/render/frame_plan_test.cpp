@@ -98,6 +98,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         {!p.visibility_shade || (p.visibility && isForward(settings.renderer)),
          "only forward renderers shade from ids"},
         {p.visibility == facts.visibility, "ids are drawn where they can be"},
+        {p.compute_raster == (facts.visibility && facts.compute_raster),
+         "in compute where that was chosen"},
         {p.toon_pass == (settings.renderer == Renderer::kToonCompute), "toon_compute has its pass"},
         {p.transparent == facts.transparent_visible, "blending only where something is blended"},
         {p.tonemap + lighting_packs + toon_packs == 1, "exactly one pass packs pixels"},
@@ -204,6 +206,7 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
                                    .fragment_batches = has(10),
                                    .culled_batches = has(11),
                                    .visibility = has(12),
+                                   .compute_raster = !has(13),
                                    .cull_meshlets = has(13),
                                    .prepass_pays = has(14),
                                    .overdraw_unknown = has(14) != has(0)};
