@@ -9,7 +9,6 @@ namespace froxel::app {
 
 namespace {
 
-// Seconds for a person: "0.0123", "12.3", "4,560" need not be told apart further.
 std::string secondsText(double seconds) {
     return fmt::format("{:.3g} s", seconds);
 }
@@ -22,7 +21,7 @@ BenchBudget budgetFor(bool device_is_cpu, double seconds_per_row) {
     if (device_is_cpu) {
         budget.frames_wanted = 100;
         budget.warmup_frames = 1;
-        budget.warmup_first = 2;
+        budget.warmup_first = 5;
     }
     return budget;
 }
@@ -36,18 +35,16 @@ double workOf(const view::ViewSettings& settings) {
 std::optional<std::string> refusalByPrediction(const std::optional<KnownFrame>& before,
                                                double work,
                                                const BenchBudget& budget) {
-    if (!before) {
+    if (!before || work <= before->work) {
         return std::nullopt;
     }
-    const double frame_s = before->frame_s * std::max(1.0, work / before->work);
-    const double least_s = frame_s * (budget.frames_least + budget.rounds * budget.warmup_frames);
-    if (least_s <= budget.seconds_per_row) {
+    const double probe_s = kProbeFrames * before->frame_s * work / before->work;
+    if (probe_s <= budget.seconds_per_row) {
         return std::nullopt;
     }
-    return fmt::format("{} frames and their warm-up may take {} by the last measured row of the "
-                       "series; a row's time is {}",
-                       budget.frames_least, secondsText(least_s),
-                       secondsText(budget.seconds_per_row));
+    return fmt::format("{} frames to try it may take {} by the series' row before; a row's time is "
+                       "{}",
+                       kProbeFrames, secondsText(probe_s), secondsText(budget.seconds_per_row));
 }
 
 RowFrames framesThatFit(double frame_s, const BenchBudget& budget) {

@@ -18,8 +18,12 @@ struct BenchBudget {
     uint32_t frames_least = 8; // fewer say nothing about noise: the row is left out
     uint32_t rounds = 4;
     uint32_t warmup_frames = 3; // before each turn
-    uint32_t warmup_first = 30; // before a row's first turn
+    uint32_t warmup_first = 30; // before a row's first turn, as far as a quarter of its time allows
 };
+
+// Of warmup_first, whatever they take: the first frame compiles, and the second may, by what the
+// first has learnt of the scene's overlap.
+inline constexpr uint32_t kProbeFrames = 3;
 
 // A CPU device's frames are slow and it has no clocks to wait for.
 [[nodiscard]] BenchBudget budgetFor(bool device_is_cpu, double seconds_per_row);
@@ -34,8 +38,9 @@ struct KnownFrame {
 // costs about as much as 16.
 [[nodiscard]] double workOf(const view::ViewSettings& settings);
 
-// Why a row is not worth a first frame: by the row before, its frames take too long for the budget.
-// Work is an upper bound, so a row that would just have fitted may be left out.
+// Why a row is not worth a first frame: by the row before, kProbeFrames alone may take longer than
+// its time. Work is an upper bound, so a row that would have fitted may be left out; one of no more
+// work than the row before never is.
 [[nodiscard]] std::optional<std::string> refusalByPrediction(
     const std::optional<KnownFrame>& before, double work, const BenchBudget& budget);
 

@@ -66,7 +66,6 @@ void skip(RowTimes& times, const Error& error) {
 } // namespace
 
 uint32_t BenchRunner::warmUp(const BenchRow& row, double time_s, RowTimes& times, double& frame_s) {
-    // A quarter of the row's time: at least the second frame, since the first compiles.
     const double warmup_s = budget_.seconds_per_row / 4;
     render::ViewRenderer viewer(renderer_);
     const render::FrameInputs inputs{.settings = row.settings, .time_s = time_s};
@@ -80,7 +79,7 @@ uint32_t BenchRunner::warmUp(const BenchRow& row, double time_s, RowTimes& times
         }
         const double elapsed_s = secondsSince(frame_start);
         frame_s = i <= 1 ? elapsed_s : std::min(frame_s, elapsed_s);
-        if (stop_ || (i >= 1 && secondsSince(start) > warmup_s)) {
+        if (stop_ || (i + 1 >= kProbeFrames && secondsSince(start) > warmup_s)) {
             break;
         }
     }

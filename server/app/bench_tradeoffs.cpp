@@ -79,7 +79,8 @@ Sweep resolutionScaleSweep(const BenchBase& base) {
 }
 
 Sweep cutoffSweep(const BenchBase& base) {
-    constexpr std::array kCutoffs = {2.0F, 1.0F, 0.5F, 0.3F, 0.2F, 0.1F, 0.05F, 0.02F, 0.01F, 0.0F};
+    constexpr std::array kCutoffs = {1.0F,  0.5F,  0.2F,   0.1F,   0.05F,
+                                     0.02F, 0.01F, 0.005F, 0.002F, 0.0F};
     Sweep sweep{"cutoff",   "Lights cut off early",
                 "cutoff",   "",
                 Axis::kLog, "A light ends where its irradiance would fall to this.",

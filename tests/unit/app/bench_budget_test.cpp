@@ -47,9 +47,10 @@ TEST(RefusalByPrediction, NoRowBefore_IsNone) {
 
 TEST(RefusalByPrediction, WorkTimesTheFrameBefore_IsHeldAgainstTheBudget) {
     const KnownFrame before{0.1, 1e6};
-    EXPECT_FALSE(refusalByPrediction(before, 8e6, tenSeconds())); // 12 frames of 0.8 s
-    EXPECT_TRUE(refusalByPrediction(before, 9e6, tenSeconds()));
-    EXPECT_FALSE(refusalByPrediction(before, 1, tenSeconds())) << "less work is never refused";
+    EXPECT_FALSE(refusalByPrediction(before, 33e6, tenSeconds())); // 3 frames of 3.3 s
+    EXPECT_TRUE(refusalByPrediction(before, 34e6, tenSeconds()));
+    const KnownFrame slow{100, 1e6};
+    EXPECT_FALSE(refusalByPrediction(slow, 1e6, tenSeconds())) << "as much work is tried";
 }
 
 TEST(Interleaved, Rows_TakeTurnsAndEveryFrameComesOnce) {
@@ -69,7 +70,7 @@ TEST(BudgetFor, BothKinds_AllowTheLeastFramesOfATest) {
     for (const bool cpu : {false, true}) {
         const auto budget = budgetFor(cpu, 1);
         EXPECT_GE(budget.frames_wanted, 100U);
-        EXPECT_GE(budget.warmup_first, 2U) << "the first frame compiles";
+        EXPECT_GE(budget.warmup_first, kProbeFrames);
     }
 }
 
