@@ -1,6 +1,6 @@
 #include "app/timings_report.h"
 
-#include "app/sample_summary.h"
+#include "measure/statistics.h"
 
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ Json toJson(const glm::dvec3& v) {
 }
 
 Json toJson(std::vector<double> samples) {
-    const auto summary = summarize(std::move(samples));
+    const auto summary = measure::summarize(std::move(samples));
     return {{"min", summary.min},
             {"median", summary.median},
             {"p95", summary.p95},

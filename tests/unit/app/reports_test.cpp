@@ -1,37 +1,14 @@
 #include "app/info_report.h"
-#include "app/sample_summary.h"
 #include "app/timings_report.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <gmock/gmock.h>
-#include <numeric>
 #include <vector>
 
 namespace froxel::app {
 namespace {
-
-TEST(Summarize, OneSample_IsEveryStatistic) {
-    const auto summary = summarize({7});
-    EXPECT_EQ(summary.min, 7);
-    EXPECT_EQ(summary.median, 7);
-    EXPECT_EQ(summary.p95, 7);
-    EXPECT_EQ(summary.max, 7);
-}
-
-TEST(Summarize, EvenCount_MedianIsTheMiddleTwosMean) {
-    EXPECT_EQ(summarize({4, 1, 3, 2}).median, 2.5);
-}
-
-TEST(Summarize, HundredSamples_P95IsThe95th) {
-    std::vector<double> samples(100);
-    std::iota(samples.rbegin(), samples.rend(), 1.0);
-    const auto summary = summarize(samples);
-    EXPECT_EQ(summary.min, 1);
-    EXPECT_EQ(summary.p95, 95);
-    EXPECT_EQ(summary.max, 100);
-}
 
 FrameStats frameOf(std::vector<PassTime> passes, double frame_us) {
     FrameStats stats;
