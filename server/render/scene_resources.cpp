@@ -1,6 +1,8 @@
 #include "render/scene_resources.h"
 
+#include "core/error.h"
 #include "interface/frame_io.h"
+#include "scene/scene_check.h"
 
 #include <spdlog/spdlog.h>
 
@@ -81,6 +83,9 @@ SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene
       bounds_world(scene.bounds_world), light_rig(scene),
       light_assigner(std::max(1U, std::thread::hardware_concurrency())), arena(device_in),
       texture_arena(device_in, kTextureChunkBytes, "textures"), pipelines(device_in) {
+    if (const auto fault = scene::findFault(scene)) {
+        throw StartupError({ErrorCode::kScene, *fault});
+    }
     auto geometry = packGeometry(scene);
     for (const auto& instance : scene.instances) {
         instances.push_back(instance.world_from_object);

@@ -1,0 +1,168 @@
+#include "scene/scene_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::scene {
+
+namespace {
+
+using Fault = std::optional<std::string>;
+
+// Metres, and scales: products of two are still far from a float's end.
+constexpr double kLargest = 1e15;
+
+std::string numbered(const char* what, size_t index) {
+    return std::string(what) + " " + std::to_string(index);
+}
+
+template <class T>
+bool finite(const T& value) {
+    for (int i = 0; i < value.length(); ++i) {
+        if (!std::isfinite(value[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool finite(float value) {
+    return std::isfinite(value);
+}
+
+template <class T>
+Fault faultIn(const std::vector<T>& stream, const char* name, size_t count, bool optional) {
+    if (stream.size() != count && !(optional && stream.empty())) {
+        return std::string(name) + " has " + std::to_string(stream.size()) +
+               " elements; right is one for each of " + std::to_string(count) + " positions";
+    }
+    for (size_t i = 0; i < stream.size(); ++i) {
+        if (!finite(stream[i])) {
+            return numbered(name, i) + " is not finite";
+        }
+    }
+    return {};
+}
+
+Fault faultIn(const Primitive& p, size_t material_count) {
+    const size_t count = p.positions.size();
+    for (Fault fault :
+         {faultIn(p.positions, "positions", count, false),
+          faultIn(p.normals, "normals", count, false), faultIn(p.tangents, "tangents", count, true),
+          faultIn(p.uv0, "uv0", count, true), faultIn(p.uv1, "uv1", count, true),
+          faultIn(p.colors, "colors", count, true)}) {
+        if (fault) {
+            return fault;
+        }
+    }
+    if (p.indices.size() % 3 != 0) {
+        return "indices are " + std::to_string(p.indices.size()) + "; right is three a triangle";
+    }
+    for (size_t i = 0; i < p.indices.size(); ++i) {
+        if (p.indices[i] >= count) {
+            return numbered("indices", i) + " is " + std::to_string(p.indices[i]) + "; there are " +
+                   std::to_string(count) + " positions";
+        }
+    }
+    if (p.material >= material_count) {
+        return "material is " + std::to_string(p.material) + "; there are " +
+               std::to_string(material_count);
+    }
+    return {};
+}
+
+Fault faultIn(const TextureSlot& slot, const char* name, const Scene& scene) {
+    if (slot.texture == kNone) {
+        return {};
+    }
+    const std::string of = std::string(name) + " ";
+    if (slot.texture >= scene.textures.size()) {
+        return of + "texture is " + std::to_string(slot.texture) + "; there are " +
+               std::to_string(scene.textures.size());
+    }
+    const Texture& texture = scene.textures[slot.texture];
+    if (texture.image >= scene.images.size() ||
+        (texture.sampler != kNone && texture.sampler >= scene.samplers.size())) {
+        return of + "texture names an image or a sampler that is not there";
+    }
+    if (slot.texcoord > 1) {
+        return of + "texcoord is " + std::to_string(slot.texcoord) + "; right is 0 or 1";
+    }
+    if (!finite(slot.offset)) {
+        return of + "offset is not finite";
+    }
+    if (!finite(slot.rotation_rad)) {
+        return of + "rotation_rad is not finite";
+    }
+    return finite(slot.scale) ? Fault() : of + "scale is not finite";
+}
+
+Fault faultIn(const Material& m, const Scene& scene) {
+    const std::pair<const char*, bool> factors[] = {
+        {"base_color", finite(m.base_color)},
+        {"metallic", finite(m.metallic)},
+        {"roughness", finite(m.roughness)},
+        {"normal_scale", finite(m.normal_scale)},
+        {"occlusion_strength", finite(m.occlusion_strength)},
+        {"emissive", finite(m.emissive)},
+        {"alpha_cutoff", finite(m.alpha_cutoff)}};
+    for (const auto& [name, right] : factors) {
+        if (!right) {
+            return std::string(name) + " is not finite";
+        }
+    }
+    for (Fault fault : {faultIn(m.base_color_texture, "base_color_texture", scene),
+                        faultIn(m.metallic_roughness_texture, "metallic_roughness_texture", scene),
+                        faultIn(m.normal_texture, "normal_texture", scene),
+                        faultIn(m.occlusion_texture, "occlusion_texture", scene),
+                        faultIn(m.emissive_texture, "emissive_texture", scene)}) {
+        if (fault) {
+            return fault;
+        }
+    }
+    return {};
+}
+
+Fault faultIn(const Instance& instance, size_t mesh_count) {
+    if (instance.mesh >= mesh_count) {
+        return "mesh is " + std::to_string(instance.mesh) + "; there are " +
+               std::to_string(mesh_count);
+    }
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!(std::abs(instance.world_from_object[column][row]) <= kLargest)) {
+                return "world_from_object has an element that is not finite or beyond 1e15";
+            }
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+Fault findFault(const Scene& scene) {
+    const auto named = [&](const std::string& where, const std::string& fault) {
+        return "the scene's " + where + ": " + fault;
+    };
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        if (const Fault fault = faultIn(scene.materials[i], scene)) {
+            return named(numbered("material", i), *fault);
+        }
+    }
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        for (size_t p = 0; p < scene.meshes[m].primitives.size(); ++p) {
+            if (const Fault fault =
+                    faultIn(scene.meshes[m].primitives[p], scene.materials.size())) {
+                return named(numbered("mesh", m) + numbered(" primitive", p), *fault);
+            }
+        }
+    }
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        if (const Fault fault = faultIn(scene.instances[i], scene.meshes.size())) {
+            return named(numbered("instance", i), *fault);
+        }
+    }
+    return {};
+}
+
+} // namespace froxel::scene
