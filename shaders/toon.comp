@@ -16,6 +16,7 @@ void main() {
     }
     vec3 color = imageLoad(radiance_image, ivec2(pixel)).rgb;
     if (texelFetch(depth_image, ivec2(pixel), 0).x > 0.0) {
+        color = min(color, vec3(1e18)); // whose squares are finite
         float norm = length(color);
         color = norm > 0.0 ? color * (toonRamp(norm) / norm) : vec3(0.0);
     }

@@ -93,11 +93,16 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
     addIrradiance(s, n_dot_l, v_dot_l, attenuation, color, sum);
 }
 
-// Outgoing radiance of all that was added.
+// Outgoing radiance of all that was added. Sums of lights as bright as floats go may be infinite, and
+// black times that is no number: they end here.
 vec3 shadeSum(LightSum sum, vec3 base_color, float metallic) {
+    const vec3 kMost = vec3(1e30);
+    sum.diffuse = min(sum.diffuse, kMost);
     if (hasLight(kLightLambert)) {
         return base_color * sum.diffuse / kPi;
     }
+    sum.specular = min(sum.specular, kMost);
+    sum.grazing = min(sum.grazing, kMost);
     vec3 f0 = mix(vec3(0.04), base_color, metallic);
     vec3 albedo = base_color * (1.0 - metallic);
     vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);
