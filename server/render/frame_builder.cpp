@@ -110,6 +110,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
     return {.wide_gbuffer = inputs.settings.shading == view::ShadingModel::kLambert
                                 ? scene_.needs.wide_lambert
                                 : scene_.needs.wide_gbuffer,
+            .emission_exponent = scene_.needs.emission_exponent,
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),

@@ -1,6 +1,7 @@
 #include "render/frame_plan.h"
 
 #include "interface/constants.h"
+#include "interface/gbuffer_io.h"
 #include "render/gbuffer_layout.h"
 
 namespace froxel::render {
@@ -92,7 +93,10 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
 
-    const uint32_t wide = facts.wide_gbuffer ? io::kOutputWideGbuffer : 0U;
+    const uint32_t wide = facts.wide_gbuffer
+                              ? io::kOutputWideGbuffer | facts.emission_exponent
+                                                             << io::kOutputEmissionShift
+                              : 0U;
     const uint32_t tone = settings.tone_map == view::ToneMap::kClamp ? io::kOutputClamp : 0U;
     const uint32_t pixels = io::kOutputPixels | tone;
     plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(settings.gbuffer) : 0U;

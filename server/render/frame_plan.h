@@ -11,6 +11,7 @@ namespace froxel::render {
 // What the frame has to work with.
 struct FrameFacts {
     bool wide_gbuffer = false;        // SceneNeeds::wide_gbuffer
+    uint32_t emission_exponent = 0;   // SceneNeeds::emission_exponent
     bool transparent_visible = false; // blended surfaces are in view
     bool local_lights = false;        // any point or spot light
     bool spots = false;

@@ -1,7 +1,11 @@
 #include "render/scene_needs.h"
 
 #include "interface/constants.h"
+#include "interface/gbuffer_io.h"
 #include "render/geometry_pack.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace froxel::render {
 
@@ -42,6 +46,21 @@ bool needsWide(const scene::Material& m, bool metalness) {
             m.occlusion_texture.texture != scene::kNone);
 }
 
+// The least that brings emission to io::kMostStoredEmission.
+uint32_t emissionExponent(const scene::Material& m) {
+    if (m.alpha_mode == scene::AlphaMode::kBlend || m.unlit) {
+        return 0;
+    }
+    const float most = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
+    constexpr uint32_t kMost = 113; // of the largest float; infinity has no end
+    uint32_t exponent = 0;
+    while (exponent < kMost &&
+           std::ldexp(most, -static_cast<int>(exponent)) > io::kMostStoredEmission) {
+        ++exponent;
+    }
+    return exponent;
+}
+
 } // namespace
 
 SceneNeeds findNeeds(const scene::Scene& scene) {
@@ -50,6 +69,7 @@ SceneNeeds findNeeds(const scene::Scene& scene) {
         needs.material_flags.push_back(materialFlags(material));
         needs.wide_gbuffer |= needsWide(material, true);
         needs.wide_lambert |= needsWide(material, false);
+        needs.emission_exponent = std::max(needs.emission_exponent, emissionExponent(material));
         needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;
         needs.blended |= material.alpha_mode == scene::AlphaMode::kBlend;
     }

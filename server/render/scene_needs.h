@@ -12,6 +12,7 @@ struct SceneNeeds {
     std::vector<uint32_t> material_flags; // io::kMaterial* of each material
     bool wide_gbuffer = false;            // metalness, occlusion, emission or unlit somewhere
     bool wide_lambert = false;            // the same without metalness
+    uint32_t emission_exponent = 0;       // emission over 2 to the power of this fits the G-buffer
     bool masked = false;
     bool blended = false;
     uint32_t primitive_count = 0;

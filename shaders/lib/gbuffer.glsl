@@ -6,6 +6,10 @@
 
 const uint kNormalEncoding = (OUTPUT_FLAGS >> kOutputNormalShift) & 7u;
 const uint kPositionSource = (OUTPUT_FLAGS >> kOutputPositionShift) & 3u;
+const int kEmissionExponent = int((OUTPUT_FLAGS >> kOutputEmissionShift) & 127u);
+
+// 2 to the power of exponent, exactly.
+float powerOfTwo(int exponent) { return uintBitsToFloat(uint(127 + exponent) << 23); }
 
 struct GbufferSample {
     vec3 normal_view;
@@ -17,9 +21,9 @@ struct GbufferSample {
     vec3 emissive;
 };
 
-// RGB9E5 as in the Vulkan specification, "Shared Exponent to RGB"; values up to 65408.
+// RGB9E5 as in the Vulkan specification, "Shared Exponent to RGB"; values up to kMostStoredEmission.
 uint packSharedExponent(vec3 color) {
-    vec3 c = clamp(color, vec3(0.0), vec3(65408.0));
+    vec3 c = clamp(color, vec3(0.0), vec3(kMostStoredEmission));
     float top = max(max(c.r, c.g), max(c.b, 1.52587890625e-5));
     int exponent = max(-16, int(floor(log2(top)))) + 16;
     float scale = exp2(float(exponent - 24));
@@ -81,7 +85,7 @@ uvec4 packGbuffer(GbufferSample g) {
     words.x = packNormal(g.normal_view);
     words.y = packUnorm4x8(vec4(sqrt(g.base_color), g.roughness));
     words.z = packUnorm4x8(vec4(g.metallic, g.occlusion, g.unlit ? 1.0 : 0.0, 0.0));
-    words.w = packSharedExponent(g.emissive);
+    words.w = packSharedExponent(g.emissive * powerOfTwo(-kEmissionExponent));
     return words;
 }
 
@@ -147,7 +151,7 @@ GbufferSample unpackGbuffer(uvec4 words, uvec4 extra) {
         g.metallic = rest.x;
         g.occlusion = rest.y;
         g.unlit = rest.z > 0.5;
-        g.emissive = unpackSharedExponent(words.w);
+        g.emissive = unpackSharedExponent(words.w) * powerOfTwo(kEmissionExponent);
     }
     return g;
 }
