@@ -53,6 +53,7 @@ struct Run {
         return 0;
     }
     int operator()(const app::BenchOptions& options) const { return app::runBench(options); }
+    int operator()(const app::LoadOptions& options) const { return app::runLoad(options); }
     int operator()(const app::InfoOptions& options) const {
         app::runInfo(options);
         return 0;

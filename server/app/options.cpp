@@ -2,6 +2,7 @@
 
 #include "app/bench_presets.h"
 #include "app/command_builder.h"
+#include "app/load_arguments.h"
 #include "core/error.h"
 #include "encode/image_file.h"
 #include "session/session_context.h"
@@ -26,13 +27,15 @@ constexpr view::Range<double> kPairsRange{"pairs", 0.0, 1e18};
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 1 anything else; bench: 1 "
-    "where a picture is inexact or a compared run is worse, 130 stopped by a signal.";
+    "where a picture is inexact or a compared run is worse; load: 1 where a viewer failed or a "
+    "bound is broken; both 130 stopped by a signal.";
 
 // What the subcommands fill. The one that was given copies its own to `result`.
 struct Targets {
     ServeOptions serve;
     RenderOptions render;
     BenchOptions bench;
+    LoadOptions load;
     InfoOptions info;
     SceneOptions scene;
     std::optional<LogLevel> log_level;
@@ -268,6 +271,12 @@ void addBench(CLI::App& app, Targets& targets) {
     finish(command, options, LogLevel::kWarn, targets);
 }
 
+void addLoad(CLI::App& app, Targets& targets) {
+    CommandBuilder command(app, "load", "Measure a running server with viewers that decode nothing");
+    addLoadArguments(command, targets.load);
+    finish(command, targets.load, LogLevel::kWarn, targets);
+}
+
 void addInfo(CLI::App& app, Targets& targets) {
     auto& options = targets.info;
     CommandBuilder command(app, "info", "Print the device, and what a scene holds and needs");
@@ -325,12 +334,13 @@ Options parseOptions(int argc, const char* const* argv) {
     addServe(app, targets);
     addRender(app, targets);
     addBench(app, targets);
+    addLoad(app, targets);
     addInfo(app, targets);
     addScene(app, targets);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) {
-            throw CLI::RequiredError("a subcommand (serve, render, bench, info or scene)");
+            throw CLI::RequiredError("a subcommand (serve, render, bench, load, info or scene)");
         }
         if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
             checkRender(*app.get_subcommand("render"), *render);

@@ -3,6 +3,7 @@
 
 #include "app/bench_command.h"
 #include "app/info_command.h"
+#include "app/load_command.h"
 #include "app/render_command.h"
 #include "app/scene_command.h"
 #include "app/serve_command.h"
@@ -25,7 +26,13 @@ struct PrintText {
 };
 
 struct Options {
-    std::variant<PrintText, ServeOptions, RenderOptions, BenchOptions, InfoOptions, SceneOptions>
+    std::variant<PrintText,
+                 ServeOptions,
+                 RenderOptions,
+                 BenchOptions,
+                 LoadOptions,
+                 InfoOptions,
+                 SceneOptions>
         command;
     LogLevel log_level = LogLevel::kInfo;
 };

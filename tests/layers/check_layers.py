@@ -28,6 +28,7 @@ MAY_INCLUDE = {
     "session": {"core", "view", "scene", "protocol"},
     "stream": {"core", "view", "scene", "protocol", "session", "render", "encode", "gpu"},
     "net": {"core", "protocol", "session"},
+    "load": {"core", "protocol", "session"},
 }
 EVERY_LAYER = set(MAY_INCLUDE) | {"interface", "shaders"}
 MAY_INCLUDE["app"] = EVERY_LAYER - {"interface", "shaders"}
@@ -38,8 +39,9 @@ LAYER_OF_FILE = {"embedded.h": "shaders"}
 
 # (pattern, layers that may, reason)
 RESTRICTED = [
-    (re.compile(r"#include <boost/beast"), {"net"}, "HTTP and WebSocket belong to net"),
-    (re.compile(r"#include <boost/asio"), {"net", "app"}, "sockets belong to net, signals to app"),
+    (re.compile(r"#include <boost/beast"), {"net", "load"}, "HTTP and WebSocket belong to net and load"),
+    (re.compile(r"#include <boost/asio"), {"net", "load", "app"},
+     "sockets belong to net and load, signals to app"),
     (re.compile(r'#include (<vulkan/|"gpu/vulkan\.h")'), {"gpu", "render"},
      "Vulkan belongs to gpu and render"),
     (re.compile(r"#include <(tiny_gltf|stb_)"), {"gltf"}, "file formats belong to gltf"),

@@ -1,0 +1,59 @@
+#include "app/load_arguments.h"
+
+#include <limits>
+
+namespace froxel::app {
+namespace {
+
+constexpr view::Range<uint32_t> kViewersRange{"viewers", 1, 10'000};
+constexpr view::Range<double> kSecondsRange{"seconds", 0.1, 86'400.0};
+constexpr view::Range<double> kRampRange{"ramp", 0.0, 3'600.0};
+constexpr view::Range<double> kLatencyRange{"max_latency_ms", 0.001, 1e6};
+constexpr view::Range<double> kRateRange{"min_fps", 0.001, 1e6};
+
+constexpr const char* kFooter =
+    "Latency is from sending a command to having the last byte of the first frame that shows it, "
+    "by the frame's echo of that command, one sample for each frame that shows a new one; "
+    "decoding is not in it. Age is latency without the wait on the server before drawing began. "
+    "Measuring begins when every viewer has its first frame. Frames are acknowledged as the page "
+    "does, at the next refresh of a 60 Hz display. A FILE.jsonl has a ClientMessage in the "
+    "protocol's JSON on each line and, optionally, \"at_ms\" since the start.";
+
+Result<std::string> parseScript(const std::string& text) {
+    const std::filesystem::path path(text);
+    if (text == "orbit" || text == "idle" || text == "storm" || path.extension() == ".jsonl") {
+        return text;
+    }
+    return Error{ErrorCode::kInvalidArgument,
+                 fmt::format("'{}' is not orbit, idle, storm or a .jsonl file", text)};
+}
+
+} // namespace
+
+void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
+    const auto target = [&options](const std::string& text) {
+        options.url = text;
+        return load::parseTarget(text);
+    };
+    command
+        .value("URL", "ws://HOST:PORT/ws", options.target, target, "",
+               "The server, or the http:// URL that serve prints")
+        ->required();
+    command.number("--viewers", options.viewer_count, kViewersRange, "Viewers at once");
+    command.number("--seconds", options.seconds, kSecondsRange, "How long to measure");
+    command.value("--script", "NAME|FILE", options.script, parseScript, options.script,
+                  "orbit: the camera circles, 60 commands a second; idle: nothing; storm: every "
+                  "command there is, 200 a second; or a FILE.jsonl");
+    command.number("--ramp", options.ramp_s, kRampRange, "Seconds over which viewers join");
+    command.value("--size", "WxH", options.size, parseSize, "the server's", "Picture in pixels");
+    command.number("--lights", options.light_count, view::kLightCountRange, "the server's",
+                   "Seeded lights");
+    command.number("--max-latency-ms", options.max_latency_ms, kLatencyRange, "",
+                   "Exit 1 where a viewer's 95th percentile is above");
+    command.number("--min-fps", options.min_fps, kRateRange, "",
+                   "Exit 1 where a viewer has fewer frames a second");
+    command.text("--json", "FILE", options.json, "", "Every figure");
+    command.cli().footer(kFooter);
+}
+
+} // namespace froxel::app

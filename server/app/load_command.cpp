@@ -1,0 +1,121 @@
+#include "app/load_command.h"
+
+#include "app/load_report.h"
+#include "app/output_file.h"
+#include "load/load_run.h"
+#include "load/script_file.h"
+#include "net/stop_signal.h"
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <stop_token>
+#include <thread>
+#include <unistd.h>
+
+namespace froxel::app {
+namespace {
+
+constexpr int kStoppedExitCode = 130; // as a shell has it for SIGINT
+// Viewers share a thread as long as that keeps up; decoding nothing, one takes some 100 at 60
+// frames a second.
+constexpr uint32_t kViewersPerThread = 32;
+
+load::ScriptChoice scriptOf(const std::string& text) {
+    if (text == "orbit") {
+        return load::Orbit{};
+    }
+    if (text == "idle") {
+        return load::Idle{};
+    }
+    if (text == "storm") {
+        return load::Storm{};
+    }
+    return load::readScriptFile(text).value();
+}
+
+load::RunOptions runOptions(const LoadOptions& options) {
+    load::RunOptions run;
+    run.viewer.target = options.target;
+    run.viewer.script = scriptOf(options.script);
+    if (options.size) {
+        run.viewer.size.emplace();
+        run.viewer.size->set_width(options.size->width_px);
+        run.viewer.size->set_height(options.size->height_px);
+    }
+    run.viewer.light_count = options.light_count;
+    run.viewer_count = options.viewer_count;
+    run.ramp = Seconds(options.ramp_s);
+    run.seconds = Seconds(options.seconds);
+    const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
+    run.thread_count = std::clamp(options.viewer_count / kViewersPerThread, 1U, cores);
+    return run;
+}
+
+// One line on stderr, written over each second; nothing where that is no terminal.
+class ProgressLine {
+  public:
+    explicit ProgressLine(const LoadOptions& options)
+        : shown_(isatty(STDERR_FILENO) != 0), options_(options) {}
+    ~ProgressLine() {
+        if (shown_) {
+            std::fputs("\r\x1b[K", stderr);
+        }
+    }
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    void show(const load::RunProgress& progress) {
+        if (shown_) {
+            fmt::print(stderr, "\r\x1b[K{}", loadProgress(options_, progress, before_));
+            std::fflush(stderr);
+        }
+        before_ = progress;
+    }
+
+  private:
+    const bool shown_;
+    const LoadOptions& options_;
+    load::RunProgress before_;
+};
+
+load::RunResult runUntilSignal(const LoadOptions& options, const load::RunOptions& run) {
+    net::StopSignal signal;
+    std::stop_source stop;
+    std::jthread waiter([&] {
+        if (signal.wait() != 0) {
+            stop.request_stop();
+        }
+    });
+    ProgressLine line(options);
+    auto result = load::runLoad(run, stop.get_token(),
+                                [&line](const load::RunProgress& now) { line.show(now); });
+    signal.request();
+    return result;
+}
+
+} // namespace
+
+int runLoad(const LoadOptions& options) {
+    const load::RunOptions run = runOptions(options);
+    if (!options.json.empty()) {
+        requireFolderOf(options.json);
+    }
+    const load::RunResult result = runUntilSignal(options, run);
+    const auto broken = loadVerdict(options, result);
+    const std::string table = loadTable(result);
+    std::fputs(table.c_str(), stdout);
+    std::fflush(stdout);
+    if (!options.json.empty()) {
+        writeText(options.json, loadReport(options, result).dump(2) + "\n");
+    }
+    if (broken) {
+        throw StartupError({ErrorCode::kIo, *broken});
+    }
+    return result.stopped ? kStoppedExitCode : EXIT_SUCCESS;
+}
+
+} // namespace froxel::app

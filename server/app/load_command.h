@@ -1,0 +1,34 @@
+// `froxel load`: viewers that measure a server.
+#pragma once
+
+#include "load/target.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace froxel::app {
+
+struct LoadOptions {
+    std::string url; // as given
+    load::Target target;
+    uint32_t viewer_count = 1;
+    double seconds = 10;
+    std::string script = "orbit"; // or idle, storm, a .jsonl file
+    double ramp_s = 0;
+    std::optional<double> max_latency_ms; // of each viewer's 95th percentile
+    std::optional<double> min_fps;        // of each viewer
+    std::optional<view::Size> size;       // absent: the server's
+    std::optional<uint32_t> light_count;  // likewise
+    std::filesystem::path json;           // empty: none
+};
+
+// Prints a table to stdout, progress to stderr where that is a terminal. SIGINT or SIGTERM ends it
+// early, with what was measured so far; a second one ends the process at once. Returns 0, or 130
+// when stopped. Throws StartupError: kInvalidArgument (script), kIo (a viewer failed or a bound is
+// broken, said in one line after the table; a file).
+[[nodiscard]] int runLoad(const LoadOptions& options);
+
+} // namespace froxel::app

@@ -1,0 +1,302 @@
+#include "app/load_report.h"
+
+#include "measure/statistics.h"
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <iterator>
+#include <thread>
+#include <vector>
+
+namespace froxel::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using load::Measured;
+using load::RunResult;
+using load::ViewerResult;
+
+// More viewers than this are not listed one by one.
+constexpr size_t kListedViewers = 16;
+
+void append(std::vector<double>& to, const std::vector<double>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+// `seconds` becomes the run's.
+ViewerResult pool(const RunResult& result) {
+    ViewerResult all;
+    all.measured.seconds = result.seconds;
+    for (const ViewerResult& viewer : result.viewers) {
+        const Measured& one = viewer.measured;
+        Measured& sum = all.measured;
+        append(sum.samples.latency_ms, one.samples.latency_ms);
+        append(sum.samples.age_ms, one.samples.age_ms);
+        append(sum.samples.interval_ms, one.samples.interval_ms);
+        for (size_t stage = 0; stage < load::kStageNames.size(); ++stage) {
+            append(sum.samples.stage_ms[stage], one.samples.stage_ms[stage]);
+        }
+        append(sum.samples.gpu_ms, one.samples.gpu_ms);
+        append(sum.samples.timer_lag_ms, one.samples.timer_lag_ms);
+        sum.frames += one.frames;
+        sum.frame_bytes += one.frame_bytes;
+        sum.server_dropped += one.server_dropped;
+        sum.client_dropped += one.client_dropped;
+        sum.commands += one.commands;
+        sum.commands_skipped += one.commands_skipped;
+        sum.refusals += one.refusals;
+        sum.refusal = sum.refusal ? sum.refusal : one.refusal;
+        all.received_bytes += viewer.received_bytes;
+        all.sent_bytes += viewer.sent_bytes;
+    }
+    return all;
+}
+
+double perSecond(double amount, double seconds) {
+    return seconds > 0 ? amount / seconds : 0;
+}
+
+double frameRate(const Measured& measured) {
+    return perSecond(static_cast<double>(measured.frames), measured.seconds);
+}
+
+double byteRate(const ViewerResult& viewer) {
+    return perSecond(static_cast<double>(viewer.received_bytes), viewer.measured.seconds);
+}
+
+Json summaryOf(const std::vector<double>& samples) {
+    if (samples.empty()) {
+        return nullptr;
+    }
+    const auto summary = measure::summarize(samples);
+    return {{"count", summary.count}, {"min", summary.min}, {"median", summary.median},
+            {"p95", summary.p95},     {"p99", summary.p99}, {"max", summary.max},
+            {"mean", summary.mean}};
+}
+
+template <class T>
+Json orNull(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json figuresOf(const ViewerResult& viewer) {
+    const Measured& measured = viewer.measured;
+    const load::Samples& samples = measured.samples;
+    Json stages = Json::object();
+    for (size_t stage = 0; stage < load::kStageNames.size(); ++stage) {
+        stages[std::string(load::kStageNames[stage])] = summaryOf(samples.stage_ms[stage]);
+    }
+    const Json intervals = summaryOf(samples.interval_ms);
+    return {{"frames", measured.frames},
+            {"frames_per_s", frameRate(measured)},
+            {"latency_ms", summaryOf(samples.latency_ms)},
+            {"age_ms", summaryOf(samples.age_ms)},
+            {"interval_ms", intervals},
+            {"jitter_ms", intervals.is_null() ? Json(nullptr)
+                                              : Json(intervals["p99"].get<double>() -
+                                                     intervals["median"].get<double>())},
+            {"stages_ms", std::move(stages)},
+            {"gpu_ms", summaryOf(samples.gpu_ms)},
+            {"timer_lag_ms", summaryOf(samples.timer_lag_ms)},
+            {"received_bytes", viewer.received_bytes},
+            {"sent_bytes", viewer.sent_bytes},
+            {"received_bytes_per_s", byteRate(viewer)},
+            {"frame_bytes", measured.frame_bytes},
+            {"server_dropped", measured.server_dropped},
+            {"client_dropped", measured.client_dropped},
+            {"commands", measured.commands},
+            {"commands_skipped", measured.commands_skipped},
+            {"refusals", measured.refusals},
+            {"refusal", orNull(measured.refusal)}};
+}
+
+// "12.3", or "-" without a sample.
+std::string shown(const std::vector<double>& samples, double measure::Summary::*figure) {
+    return samples.empty() ? "-" : fmt::format("{:.1f}", measure::summarize(samples).*figure);
+}
+
+std::string rowOf(const std::string& name, const ViewerResult& viewer) {
+    using measure::Summary;
+    const Measured& measured = viewer.measured;
+    const load::Samples& samples = measured.samples;
+    std::string jitter = "-";
+    if (!samples.interval_ms.empty()) {
+        const auto interval = measure::summarize(samples.interval_ms);
+        jitter = fmt::format("{:.1f}", interval.p99 - interval.median);
+    }
+    return fmt::format("{:>6} {:>9.1f} {:>9} {:>7} {:>7} {:>8} {:>7} {:>8} {:>9.3f} {:>8} {:>8}\n",
+                       name, frameRate(measured), shown(samples.latency_ms, &Summary::median),
+                       shown(samples.latency_ms, &Summary::p95),
+                       shown(samples.latency_ms, &Summary::p99),
+                       shown(samples.age_ms, &Summary::median),
+                       shown(samples.age_ms, &Summary::p99), jitter, byteRate(viewer) * 8 / 1e6,
+                       measured.server_dropped + measured.client_dropped, measured.refusals);
+}
+
+std::string stagesLine(const ViewerResult& all) {
+    const load::Samples& samples = all.measured.samples;
+    std::string line = "median ms:";
+    for (size_t stage = 0; stage < load::kStageNames.size(); ++stage) {
+        line += fmt::format("  {} {}", load::kStageNames[stage],
+                            shown(samples.stage_ms[stage], &measure::Summary::median));
+    }
+    return line + fmt::format("  (gpu {})\n", shown(samples.gpu_ms, &measure::Summary::median));
+}
+
+// How many break one bound, and the worst of them.
+struct Breach {
+    size_t count = 0;
+    size_t number = 0; // of the worst viewer, from 1
+    std::string words;
+};
+
+std::string breachText(const Breach& breach, size_t viewer_count, const std::string& bound) {
+    return fmt::format("{} of {} viewers broke {}: viewer {} {}", breach.count, viewer_count, bound,
+                       breach.number, breach.words);
+}
+
+std::optional<std::string> latencyBreach(const RunResult& result, double limit_ms) {
+    Breach breach;
+    double worst_ms = limit_ms;
+    for (size_t index = 0; index < result.viewers.size(); ++index) {
+        const auto& samples = result.viewers[index].measured.samples.latency_ms;
+        const bool none = samples.empty();
+        const double p95_ms = none ? 0 : measure::summarize(samples).p95;
+        if (!none && p95_ms <= limit_ms) {
+            continue;
+        }
+        ++breach.count;
+        if (none ? breach.number == 0 : p95_ms > worst_ms) {
+            breach.number = index + 1;
+            breach.words = none ? "measured no latency" : fmt::format("has p95 {:.1f} ms", p95_ms);
+            worst_ms = none ? limit_ms : p95_ms;
+        }
+    }
+    if (breach.count == 0) {
+        return std::nullopt;
+    }
+    return breachText(breach, result.viewers.size(), fmt::format("--max-latency-ms {}", limit_ms));
+}
+
+std::optional<std::string> rateBreach(const RunResult& result, double limit) {
+    Breach breach;
+    double worst = limit;
+    for (size_t index = 0; index < result.viewers.size(); ++index) {
+        const double rate = frameRate(result.viewers[index].measured);
+        if (rate >= limit) {
+            continue;
+        }
+        ++breach.count;
+        if (rate < worst) {
+            worst = rate;
+            breach.number = index + 1;
+            breach.words = fmt::format("has {:.1f} frames/s", rate);
+        }
+    }
+    if (breach.count == 0) {
+        return std::nullopt;
+    }
+    return breachText(breach, result.viewers.size(), fmt::format("--min-fps {}", limit));
+}
+
+} // namespace
+
+Json loadReport(const LoadOptions& options, const RunResult& result) {
+    Json each = Json::array();
+    for (const ViewerResult& viewer : result.viewers) {
+        Json figures = {{"failure", orNull(viewer.failure)},
+                        {"first_frame_ms", orNull(viewer.first_frame_ms)}};
+        figures.update(figuresOf(viewer));
+        each.push_back(std::move(figures));
+    }
+    const auto& size = options.size;
+    return {{"schema", "froxel.load.v1"},
+            {"froxel", FROXEL_VERSION},
+            {"url", options.url},
+            {"script", options.script},
+            {"viewers", options.viewer_count},
+            {"seconds", options.seconds},
+            {"ramp_s", options.ramp_s},
+            {"size", size ? Json{{"width_px", size->width_px}, {"height_px", size->height_px}}
+                          : Json(nullptr)},
+            {"lights", orNull(options.light_count)},
+            {"host", {{"threads", std::thread::hardware_concurrency()}}},
+            {"measured_s", result.seconds},
+            {"stopped", result.stopped},
+            {"bounds",
+             {{"max_latency_ms", orNull(options.max_latency_ms)},
+              {"min_fps", orNull(options.min_fps)}}},
+            {"broken", orNull(loadVerdict(options, result))},
+            {"all", figuresOf(pool(result))},
+            {"each", std::move(each)}};
+}
+
+std::string loadTable(const RunResult& result) {
+    const ViewerResult all = pool(result);
+    const bool nobody =
+        std::none_of(result.viewers.begin(), result.viewers.end(),
+                     [](const ViewerResult& viewer) { return viewer.measured.seconds > 0; });
+    if (nobody) {
+        return {};
+    }
+    std::string table = fmt::format("viewers: {}, measured for {:.1f} s{}\n", result.viewers.size(),
+                                    result.seconds, result.stopped ? " (stopped)" : "");
+    table += "                 latency ms                age ms            jitter\n"
+             "viewer  frames/s       p50     p95     p99      p50     p99       ms    Mbit/s"
+             "  dropped  refused\n";
+    table += rowOf("all", all);
+    if (result.viewers.size() <= kListedViewers) {
+        for (size_t index = 0; index < result.viewers.size(); ++index) {
+            table += rowOf(fmt::format("{}", index + 1), result.viewers[index]);
+        }
+    }
+    table += stagesLine(all);
+    if (all.measured.refusal) {
+        table += fmt::format("first refusal: {}\n", *all.measured.refusal);
+    }
+    return table;
+}
+
+std::optional<std::string> loadVerdict(const LoadOptions& options, const RunResult& result) {
+    std::vector<std::string> faults;
+    const auto failed = [](const ViewerResult& viewer) { return viewer.failure.has_value(); };
+    const auto first = std::find_if(result.viewers.begin(), result.viewers.end(), failed);
+    if (first != result.viewers.end()) {
+        faults.push_back(
+            fmt::format("{} of {} viewers failed: viewer {}: {}",
+                        std::count_if(result.viewers.begin(), result.viewers.end(), failed),
+                        result.viewers.size(), std::distance(result.viewers.begin(), first) + 1,
+                        *first->failure));
+    }
+    const auto add = [&faults](std::optional<std::string> fault) {
+        if (fault) {
+            faults.push_back(std::move(*fault));
+        }
+    };
+    add(options.max_latency_ms ? latencyBreach(result, *options.max_latency_ms) : std::nullopt);
+    add(options.min_fps ? rateBreach(result, *options.min_fps) : std::nullopt);
+    return faults.empty() ? std::nullopt
+                          : std::optional(fmt::format("{}", fmt::join(faults, "; ")));
+}
+
+std::string loadProgress(const LoadOptions& options,
+                         const load::RunProgress& now,
+                         const load::RunProgress& before) {
+    if (!now.measuring) {
+        return fmt::format("joining: {} of {} viewers, {} failed", now.joined, options.viewer_count,
+                           now.ended);
+    }
+    // The first line of measuring follows one of joining, with a clock of its own.
+    const double since =
+        before.measuring ? (now.elapsed - before.elapsed).count() : now.elapsed.count();
+    const auto rate = [since](uint64_t from, uint64_t to) {
+        return perSecond(static_cast<double>(to - from), since);
+    };
+    return fmt::format("{:.0f} of {} s, {} viewers, {:.0f} frames/s, {:.1f} Mbit/s",
+                       now.elapsed.count(), options.seconds, options.viewer_count - now.ended,
+                       rate(before.frames, now.frames), rate(before.bytes, now.bytes) * 8 / 1e6);
+}
+
+} // namespace froxel::app

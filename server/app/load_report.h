@@ -1,0 +1,64 @@
+// What `froxel load` tells: pure functions of what its viewers measured. The JSON:
+//
+//   schema            "froxel.load.v1"
+//   froxel            this build's version
+//   url, script, viewers, seconds, ramp_s       as given
+//   size              {width_px, height_px}, lights: as given; null: the server's own
+//   host              threads (hardware threads of this machine, not of the server's)
+//   measured_s        how long all viewers measured
+//   stopped           whether a signal ended it early
+//   bounds            {max_latency_ms, min_fps}: as given, or null
+//   broken            one line: which viewer failed or broke a bound; null: none
+//   all               of all viewers together: samples pooled, counts and rates added up
+//   each              [...]: the same of every viewer, in their order, and
+//     failure         one line, or null
+//     first_frame_ms  from connecting to the first frame's last byte; null: there was none
+//
+// all and each[]:
+//   frames, frames_per_s
+//   latency_ms, age_ms, interval_ms, network_ms   load/viewer_meter.h says what they are
+//   jitter_ms         interval_ms.p99 - interval_ms.median
+//   stages_ms         {queue, render, encode_wait, encode, send_wait, network}: as in FrameHeader,
+//                     of frames in the measured time; queue and network of those that show a new
+//                     command
+//   gpu_ms            the part of render on the device
+//   timer_lag_ms      how late this process sent commands: where it is not small, the machine that
+//                     runs the viewers was too slow to measure
+//   received_bytes, sent_bytes, received_bytes_per_s   of the TCP connection, framing and pings too
+//   frame_bytes       headers and pictures
+//   server_dropped    frames that a newer one replaced before sending
+//   client_dropped    frames that a newer one overtook before they were painted
+//   commands, commands_skipped   skipped: cameras not sent, since others waited for the socket
+//   refusals, refusal            Error messages; the first one's text or null
+//
+// Each *_ms is {count, min, median, p95, p99, max, mean} in milliseconds, nearest ranks
+// (measure/statistics.h), or null without a sample.
+#pragma once
+
+#include "app/load_command.h"
+#include "load/load_run.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+
+namespace froxel::app {
+
+[[nodiscard]] nlohmann::ordered_json loadReport(const LoadOptions& options,
+                                                const load::RunResult& result);
+
+// For a person: all viewers together, then one by one where they are few. Empty where none came
+// to measure.
+[[nodiscard]] std::string loadTable(const load::RunResult& result);
+
+// One line where a viewer failed or a bound is broken. A viewer without a latency breaks any.
+[[nodiscard]] std::optional<std::string> loadVerdict(const LoadOptions& options,
+                                                     const load::RunResult& result);
+
+// "12 of 30 s, 16 viewers, 512 frames/s, 81.2 Mbit/s"; rates since `before`.
+[[nodiscard]] std::string loadProgress(const LoadOptions& options,
+                                       const load::RunProgress& now,
+                                       const load::RunProgress& before);
+
+} // namespace froxel::app

@@ -1,0 +1,49 @@
+// What a viewer says, and when.
+#pragma once
+
+#include "core/clock.h"
+#include "froxel/v1/client.pb.h"
+#include "froxel/v1/server.pb.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace froxel::load {
+
+struct Step {
+    Clock::duration at{};      // since the script's start
+    v1::ClientMessage message; // seq and client_time_us are the viewer's affair
+};
+
+// One viewer's; not for several threads.
+class Script {
+  public:
+    virtual ~Script() = default;
+    // In the order of `at`; none: it is over.
+    [[nodiscard]] virtual std::optional<Step> next() = 0;
+};
+
+// Nothing after the greeting.
+struct Idle {};
+// The camera circles about its target once in kOrbitPeriod, kOrbitRate commands a second.
+struct Orbit {};
+// Every command of the protocol in turn, kStormRate a second, each with random values that the
+// server says it takes; the same ones in every run.
+struct Storm {};
+// From a file; played once.
+using Recording = std::shared_ptr<const std::vector<Step>>;
+using ScriptChoice = std::variant<Orbit, Idle, Storm, Recording>;
+
+inline constexpr Seconds kOrbitPeriod{10};
+inline constexpr uint32_t kOrbitRate = 60;
+inline constexpr uint32_t kStormRate = 200;
+
+// `viewer` counts from 1; viewers of one script start at different points of it.
+[[nodiscard]] std::unique_ptr<Script>
+makeScript(const ScriptChoice& choice, const v1::Welcome& welcome, uint32_t viewer);
+
+} // namespace froxel::load

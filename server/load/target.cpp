@@ -1,0 +1,53 @@
+#include "load/target.h"
+
+#include "core/text.h"
+
+// The library's compiled half is no dependency of ours: this is its header-only form.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wall"
+#include <boost/url/src.hpp>
+#pragma GCC diagnostic pop
+
+#include <string>
+
+namespace froxel::load {
+
+namespace urls = boost::urls;
+
+Result<Target> parseTarget(std::string_view text) {
+    const auto refuse = [text](const std::string& why) {
+        return Error{ErrorCode::kInvalidArgument, "'" + printable(text, 200) + "' " + why +
+                                                      "; it must be like ws://127.0.0.1:8080/ws"};
+    };
+    const auto parsed = urls::parse_uri({text.data(), text.size()});
+    if (!parsed) {
+        return refuse("is no URL");
+    }
+    const urls::url_view& url = *parsed;
+    if (url.scheme() == "wss" || url.scheme() == "https") {
+        return refuse("asks for TLS, which this tool does not speak");
+    }
+    if (url.scheme() != "ws" && url.scheme() != "http") {
+        return refuse("is not of ws://");
+    }
+    if (url.encoded_host().empty() || url.has_userinfo() || url.has_fragment()) {
+        return refuse("has no host, or a user or fragment");
+    }
+    if (url.has_port() && url.port_number() == 0) {
+        return refuse("has no port from 1 to 65535");
+    }
+    Target target;
+    target.host = url.host_type() == urls::host_type::ipv6
+                      ? std::string(url.host_ipv6_address().to_string())
+                      : std::string(url.host());
+    target.port = url.has_port() ? std::string(url.port()) : "80";
+    target.authority = std::string(url.encoded_host_and_port());
+    const std::string path(url.encoded_path());
+    target.resource = path.empty() || path == "/" ? "/ws" : path;
+    if (url.has_query()) {
+        target.resource += "?" + std::string(url.encoded_query());
+    }
+    return target;
+}
+
+} // namespace froxel::load

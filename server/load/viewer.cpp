@@ -1,0 +1,397 @@
+#include "load/viewer.h"
+
+#include "core/text.h"
+#include "load/jpeg_check.h"
+#include "protocol/framing.h"
+#include "protocol/limits.h"
+
+#include <boost/asio/connect.hpp>
+#include <boost/beast/http/field.hpp>
+
+#include <utility>
+
+namespace froxel::load {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kConnectTimeout = 10s;
+// Between the server's pings and ours a silent connection is found broken within this.
+constexpr auto kIdleTimeout = 30s;
+// Of the display that frames are painted on.
+constexpr auto kRefresh = std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / 60));
+// As in the page: a camera on its way out behind this much would be old when it arrives.
+constexpr size_t kMaxBacklogBytes = 16 * 1024;
+// A server that reads nothing must not fill this process's memory.
+constexpr size_t kMaxOutgoingBytes = 4 * 1024 * 1024;
+
+protocol::ByteSpan bytesOf(const beast::flat_buffer& buffer) {
+    const auto data = buffer.data();
+    return {static_cast<const std::byte*>(data.data()), data.size()};
+}
+
+} // namespace
+
+Viewer::Viewer(asio::any_io_executor executor,
+               const ViewerOptions& options,
+               uint32_t number,
+               LiveCounters& counters,
+               std::function<void(Event)> report)
+    : options_(options), number_(number), counters_(counters), report_(std::move(report)),
+      resolver_(executor), stream_(executor), deadline_(executor), refresh_(executor),
+      step_timer_(executor) {}
+
+Viewer::~Viewer() = default;
+
+// A handler that does nothing once the viewer has ended, and fails it on an error.
+template <class Work>
+auto Viewer::guarded(Work work) {
+    return [self = shared_from_this(), work](Code failure, auto&&...) {
+        if (self->ended_ || failure == asio::error::operation_aborted) {
+            return;
+        }
+        if (failure) {
+            self->fail(failure.message());
+        } else {
+            work(*self);
+        }
+    };
+}
+
+void Viewer::connectAt(TimePoint when) {
+    deadline_.expires_at(when);
+    deadline_.async_wait(guarded([](Viewer& self) { self.connect(); }));
+}
+
+void Viewer::connect() {
+    connecting_since_ = Clock::now();
+    deadline_.expires_after(kFirstFrameTimeout);
+    deadline_.async_wait(guarded([](Viewer& self) {
+        if (!self.result_.first_frame_ms) {
+            self.fail("no frame within " + numberText(kFirstFrameTimeout.count()) + " s");
+        }
+    }));
+    const auto where = [this](const std::string& why) {
+        return "cannot connect to " + printable(options_.target.authority) + ": " + why;
+    };
+    resolver_.async_resolve(
+        options_.target.host, options_.target.port,
+        [self = shared_from_this(), where](Code failure, const auto& addresses) {
+            if (self->ended_) {
+                return;
+            }
+            if (failure) {
+                self->fail(where(failure.message()));
+                return;
+            }
+            auto& socket = self->stream_.next_layer();
+            socket.expires_after(kConnectTimeout);
+            socket.async_connect(addresses, [self, where](Code broken, const auto& /*address*/) {
+                if (self->ended_) {
+                    return;
+                }
+                if (broken) {
+                    self->fail(where(broken.message()));
+                } else {
+                    self->onConnected();
+                }
+            });
+        });
+}
+
+void Viewer::onConnected() {
+    auto& layer = stream_.next_layer();
+    layer.expires_never();
+    Code ignored; // a socket that closed meanwhile fails at its first read
+    layer.socket().set_option(asio::ip::tcp::no_delay(true), ignored);
+    stream_.set_option(websocket::stream_base::timeout{kConnectTimeout, kIdleTimeout,
+                                                       /*keep_alive_pings=*/true});
+    stream_.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
+        request.set(
+            beast::http::field::sec_websocket_protocol,
+            beast::string_view(protocol::kSubprotocol.data(), protocol::kSubprotocol.size()));
+    }));
+    stream_.read_message_max(protocol::kMaxFrameBytes);
+    stream_.binary(true);
+    stream_.async_handshake(
+        response_, options_.target.authority, options_.target.resource,
+        [self = shared_from_this()](Code failure) {
+            if (self->ended_) {
+                return;
+            }
+            if (failure == websocket::error::upgrade_declined) {
+                self->fail("no WebSocket at " + printable(self->options_.target.resource) +
+                           ": HTTP " + numberText(self->response_.result_int()));
+            } else if (failure) {
+                self->fail("the WebSocket handshake failed: " + failure.message());
+            } else {
+                self->onUpgraded();
+            }
+        });
+}
+
+void Viewer::onUpgraded() {
+    v1::ClientMessage message;
+    message.mutable_hello()->set_protocol_major(protocol::kMajor);
+    message.mutable_hello()->set_protocol_minor(protocol::kMinor);
+    message.mutable_hello()->set_client_name("froxel load " + numberText(number_));
+    send(std::move(message), Clock::now());
+    read();
+}
+
+void Viewer::read() {
+    stream_.async_read(buffer_, [self = shared_from_this()](Code failure, size_t) {
+        if (!self->ended_) {
+            self->onRead(failure);
+        }
+    });
+}
+
+void Viewer::onRead(Code failure) {
+    const TimePoint now = Clock::now();
+    if (failure) {
+        if (closing_) {
+            finish();
+        } else if (failure == websocket::error::closed) {
+            const auto& reason = stream_.reason();
+            fail("the server closed the connection with " + numberText(reason.code) + " " +
+                 printable({reason.reason.data(), reason.reason.size()}, 123));
+        } else {
+            fail("the connection broke: " + failure.message());
+        }
+        return;
+    }
+    const protocol::ByteSpan message = bytesOf(buffer_);
+    counters_.bytes += message.size();
+    const auto kind = protocol::binaryKind(message);
+    if (stream_.got_text() || !kind) {
+        fail(kind ? "a text message in answer to binary ones" : kind.error().message);
+    } else if (*kind == protocol::Kind::kFrame) {
+        onFrame(message, now);
+    } else {
+        v1::ServerMessage decoded;
+        const auto parsed =
+            protocol::decodeServerMessage(message, protocol::WireFormat::kBinary, decoded);
+        if (parsed) {
+            onMessage(decoded);
+        } else {
+            fail(parsed.error().message);
+        }
+    }
+    if (!ended_) {
+        buffer_.consume(buffer_.size());
+        read();
+    }
+}
+
+void Viewer::onFrame(protocol::ByteSpan message, TimePoint now) {
+    if (!welcome_) {
+        fail("a frame before Welcome");
+        return;
+    }
+    v1::FrameHeader header;
+    const auto payload = protocol::decodeFrame(message, header);
+    if (!payload) {
+        fail(payload.error().message);
+        return;
+    }
+    if (const auto picture = checkPictures(header, *payload); !picture) {
+        fail("frame " + numberText(header.frame_id()) + ": " + picture.error().message);
+        return;
+    }
+    if (const auto noted = meter_.onFrame(header, message.size(), sent_seq_, now); !noted) {
+        fail(noted.error().message);
+        return;
+    }
+    ++counters_.frames;
+    if (!result_.first_frame_ms && header.applied_seq() >= setup_seq_) {
+        result_.first_frame_ms =
+            std::chrono::duration<double, std::milli>(now - connecting_since_).count();
+        deadline_.cancel();
+        report_(Event::kJoined);
+    }
+    paintLater(header.frame_id(), now);
+}
+
+void Viewer::onMessage(const v1::ServerMessage& message) {
+    if (message.has_welcome()) {
+        onWelcome(message.welcome());
+    } else if (message.has_error()) {
+        meter_.onRefusal(message.error());
+        if (!result_.first_frame_ms) { // refused before it saw anything: capacity, or its size
+            fail("refused: " + printable(message.error().message(), 200));
+        }
+    }
+}
+
+void Viewer::onWelcome(const v1::Welcome& welcome) {
+    if (welcome_) {
+        fail("Welcome came twice");
+        return;
+    }
+    welcome_ = welcome;
+    const TimePoint now = Clock::now();
+    if (options_.size) {
+        v1::ClientMessage message;
+        *message.mutable_set_size() = *options_.size;
+        welcome_->mutable_state()->set_width(options_.size->width());
+        welcome_->mutable_state()->set_height(options_.size->height());
+        send(std::move(message), now);
+        setup_seq_ = sent_seq_;
+    }
+    if (options_.light_count) {
+        v1::ClientMessage message;
+        message.mutable_set_lights()->set_count(*options_.light_count);
+        welcome_->mutable_state()->set_light_count(*options_.light_count);
+        send(std::move(message), now);
+        setup_seq_ = sent_seq_;
+    }
+}
+
+void Viewer::paintLater(uint64_t frame_id, TimePoint now) {
+    const uint64_t overtaken = std::exchange(unpainted_id_, frame_id);
+    if (overtaken != 0) {
+        meter_.onFrameDropped();
+        acknowledge(overtaken);
+        return;
+    }
+    // Refreshes come at whole periods of this viewer's own phase.
+    const auto into_period = (now - connecting_since_) % kRefresh;
+    refresh_.expires_at(now + (kRefresh - into_period));
+    refresh_.async_wait(guarded(
+        [](Viewer& self) { self.acknowledge(std::exchange(self.unpainted_id_, uint64_t{0})); }));
+}
+
+void Viewer::acknowledge(uint64_t frame_id) {
+    if (!closing_) {
+        v1::ClientMessage message;
+        message.mutable_ack()->set_frame_id(frame_id);
+        send(std::move(message), Clock::now());
+    }
+}
+
+void Viewer::begin(TimePoint now) {
+    if (ended_ || !result_.first_frame_ms) {
+        return;
+    }
+    meter_.begin(now);
+    received_before_ = traffic().receivedBytes();
+    sent_before_ = traffic().sentBytes();
+    script_ = makeScript(options_.script, *welcome_, number_);
+    script_start_ = now;
+    playNext();
+}
+
+void Viewer::playNext() {
+    step_ = script_->next();
+    if (step_) {
+        step_timer_.expires_at(script_start_ + step_->at);
+        step_timer_.async_wait(guarded([](Viewer& self) { self.onStepDue(); }));
+    }
+}
+
+void Viewer::onStepDue() {
+    if (closing_) {
+        return;
+    }
+    const TimePoint now = Clock::now();
+    if (step_->message.has_set_camera() && outgoing_bytes_ > kMaxBacklogBytes) {
+        meter_.onCommandSkipped();
+    } else {
+        meter_.onCommand(script_start_ + step_->at, now);
+        send(std::move(step_->message), now);
+    }
+    playNext();
+}
+
+void Viewer::send(v1::ClientMessage message, TimePoint now) {
+    message.set_seq(++sent_seq_);
+    message.set_client_time_us(ViewerMeter::stampOf(now));
+    outgoing_.push_back(message.SerializeAsString());
+    outgoing_bytes_ += outgoing_.back().size();
+    if (outgoing_bytes_ > kMaxOutgoingBytes) {
+        fail("the server reads nothing: " + numberText(outgoing_bytes_) + " bytes wait");
+    } else if (outgoing_.size() == 1) {
+        write();
+    }
+}
+
+void Viewer::write() {
+    stream_.async_write(asio::buffer(outgoing_.front()),
+                        [self = shared_from_this()](Code failure, size_t) {
+                            if (self->ended_ || failure) {
+                                return; // the read under way says why
+                            }
+                            self->outgoing_bytes_ -= self->outgoing_.front().size();
+                            self->outgoing_.pop_front();
+                            if (!self->outgoing_.empty()) {
+                                self->write();
+                            }
+                        });
+}
+
+void Viewer::endMeasuring(TimePoint now) {
+    if (meter_.counting()) {
+        meter_.end(now);
+        result_.received_bytes = traffic().receivedBytes() - received_before_;
+        result_.sent_bytes = traffic().sentBytes() - sent_before_;
+    }
+}
+
+void Viewer::end(TimePoint now) {
+    if (ended_) {
+        return;
+    }
+    endMeasuring(now);
+    closing_ = true;
+    step_timer_.cancel();
+    refresh_.cancel();
+    if (!welcome_) {
+        finish();
+        return;
+    }
+    deadline_.expires_after(kCloseTimeout);
+    deadline_.async_wait(guarded([](Viewer& self) { self.finish(); }));
+    stream_.async_close(websocket::close_code::normal, [self = shared_from_this()](Code) {
+        if (!self->ended_) {
+            self->finish();
+        }
+    });
+}
+
+void Viewer::fail(const std::string& why) {
+    if (ended_) {
+        return;
+    }
+    if (!closing_) {
+        result_.failure = why;
+        endMeasuring(Clock::now());
+    }
+    finish();
+}
+
+void Viewer::finish() {
+    ended_ = true;
+    deadline_.cancel();
+    refresh_.cancel();
+    step_timer_.cancel();
+    resolver_.cancel();
+    stream_.next_layer().close();
+    if (!result_.first_frame_ms) {
+        report_(Event::kJoined);
+    }
+    report_(Event::kEnded);
+}
+
+ViewerResult Viewer::result() const {
+    ViewerResult result = result_;
+    result.measured = meter_.measured();
+    return result;
+}
+
+} // namespace froxel::load

@@ -1,0 +1,156 @@
+// One viewer: a real WebSocket connection that speaks the protocol as the page does, and decodes
+// no picture. It "paints" the newest frame at the next refresh of a 60 Hz display and acknowledges
+// it then; a frame that a newer one overtakes before that is dropped and acknowledged at once.
+#pragma once
+
+#include "load/script.h"
+#include "load/target.h"
+#include "load/viewer_meter.h"
+#include "protocol/framing.h"
+
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/basic_stream.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/rate_policy.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <memory>
+
+namespace froxel::load {
+
+// Limits nothing and counts every byte of the connection, pings and framing included.
+class ByteCounter {
+  public:
+    [[nodiscard]] uint64_t receivedBytes() const { return received_; }
+    [[nodiscard]] uint64_t sentBytes() const { return sent_; }
+
+  private:
+    friend class boost::beast::rate_policy_access;
+    static constexpr size_t kAll = std::numeric_limits<size_t>::max();
+    // Names that Beast calls.
+    // NOLINTBEGIN(readability-identifier-naming)
+    [[nodiscard]] size_t available_read_bytes() const { return kAll; }
+    [[nodiscard]] size_t available_write_bytes() const { return kAll; }
+    void transfer_read_bytes(size_t bytes) { received_ += bytes; }
+    void transfer_write_bytes(size_t bytes) { sent_ += bytes; }
+    void on_timer() const {}
+    // NOLINTEND(readability-identifier-naming)
+
+    uint64_t received_ = 0;
+    uint64_t sent_ = 0;
+};
+
+struct ViewerOptions {
+    Target target;
+    ScriptChoice script;
+    std::optional<v1::SetSize> size;
+    std::optional<uint32_t> light_count;
+};
+
+// Shared by all viewers, for whoever watches the run. Any thread.
+struct LiveCounters {
+    std::atomic<uint64_t> frames = 0;
+    std::atomic<uint64_t> bytes = 0;
+};
+
+struct ViewerResult {
+    Measured measured;
+    std::optional<std::string> failure;   // one line; none: all went well
+    std::optional<double> first_frame_ms; // from connecting; with --size and --lights applied
+    uint64_t received_bytes = 0;          // of the connection while measuring, all framing included
+    uint64_t sent_bytes = 0;
+};
+
+// Everything runs on `executor`, which must be serial; so do the calls.
+class Viewer : public std::enable_shared_from_this<Viewer> {
+  public:
+    // No first frame for this long after connecting began: it failed. Loading a scene is in it.
+    static constexpr std::chrono::seconds kFirstFrameTimeout{60};
+    // After the end, for the server's answer to Close.
+    static constexpr std::chrono::seconds kCloseTimeout{2};
+
+    // Each comes once. kJoined: has a first frame, or ended without one.
+    enum class Event : uint8_t { kJoined, kEnded };
+    Viewer(boost::asio::any_io_executor executor,
+           const ViewerOptions& options,
+           uint32_t number,
+           LiveCounters& counters,
+           std::function<void(Event)> report);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+
+    void connectAt(TimePoint when);
+    // Measuring and the script begin.
+    void begin(TimePoint now);
+    // Measuring ends, and the connection is closed. kEnded follows if it did not come yet.
+    void end(TimePoint now);
+
+    // After kEnded.
+    [[nodiscard]] ViewerResult result() const;
+
+  private:
+    using Code = boost::system::error_code;
+    using Stream =
+        boost::beast::websocket::stream<boost::beast::basic_stream<boost::asio::ip::tcp,
+                                                                   boost::asio::any_io_executor,
+                                                                   ByteCounter>>;
+
+    template <class Work>
+    auto guarded(Work work);
+    void connect();
+    void onConnected();
+    void onUpgraded();
+    void read();
+    void onRead(Code failure);
+    void onFrame(protocol::ByteSpan message, TimePoint now);
+    void onMessage(const v1::ServerMessage& message);
+    void onWelcome(const v1::Welcome& welcome);
+    void paintLater(uint64_t frame_id, TimePoint now);
+    void acknowledge(uint64_t frame_id);
+    void playNext();
+    void onStepDue();
+    void send(v1::ClientMessage message, TimePoint now);
+    void write();
+    void endMeasuring(TimePoint now);
+    void fail(const std::string& why);
+    void finish();
+    [[nodiscard]] ByteCounter& traffic() { return stream_.next_layer().rate_policy(); }
+
+    const ViewerOptions& options_;
+    const uint32_t number_;
+    LiveCounters& counters_;
+    const std::function<void(Event)> report_;
+    boost::asio::ip::tcp::resolver resolver_;
+    Stream stream_;
+    boost::beast::websocket::response_type response_;
+    boost::beast::flat_buffer buffer_;
+    boost::asio::steady_timer deadline_; // to connect at, for the first frame, for the close
+    boost::asio::steady_timer refresh_;
+    boost::asio::steady_timer step_timer_;
+
+    TimePoint connecting_since_;
+    std::optional<v1::Welcome> welcome_;
+    std::unique_ptr<Script> script_;
+    TimePoint script_start_;
+    std::optional<Step> step_;
+    uint64_t sent_seq_ = 0;
+    uint64_t setup_seq_ = 0; // the first frame shows this one
+    uint64_t unpainted_id_ = 0;
+    std::deque<std::string> outgoing_;
+    size_t outgoing_bytes_ = 0;
+    bool ended_ = false;
+    bool closing_ = false;
+    ViewerMeter meter_;
+    ViewerResult result_;
+    uint64_t received_before_ = 0;
+    uint64_t sent_before_ = 0;
+};
+
+} // namespace froxel::load
