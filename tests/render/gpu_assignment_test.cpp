@@ -228,14 +228,14 @@ TEST_F(GpuAssignment, PastTheLimit_EveryClusterNamesAllLights) {
         cluster::LightLists lists;
         host.assign(random.grid(), random.lights(), lists);
         EXPECT_EQ(lists.stats.overflowed, limit < entries);
-        DeviceAssigner device(device(), {.max_entries = limit});
+        DeviceAssigner device(SharedGpuTest::device(), {.max_entries = limit});
         expectSame(device.assign(random.grid(), random.lights()), lists);
     }
 }
 
 TEST_F(GpuAssignment, MoreTasksThanMayBe_AreRefused) {
     const RandomCase random(3);
-    DeviceAssigner device(device(), {.first_tasks = 1, .max_tasks = 2});
+    DeviceAssigner device(SharedGpuTest::device(), {.first_tasks = 1, .max_tasks = 2});
     (void)device.assign(random.grid(), random.lights());
     EXPECT_TRUE(device.refused());
 }
