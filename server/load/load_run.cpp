@@ -58,9 +58,7 @@ class Run {
             changed_.wait(lock, [this] { return ended_ == count(); });
         }
         for (Crew& crew : crews_) {
-            crew.work.reset();
-        }
-        for (Crew& crew : crews_) {
+            crew.io.stop(); // what is left are Beast's timers for connections that have ended
             crew.thread.join();
         }
         return {collect(), Seconds(end - begin).count(), stop_.stop_requested()};

@@ -9,8 +9,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <set>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -26,6 +27,29 @@ void shrinkBuffers(tcp::socket& socket) {
     socket.set_option(asio::socket_base::send_buffer_size(Relay::kSocketBufferBytes));
 }
 
+// Bytes that came through, for whoever waits for them.
+class Counter {
+  public:
+    void add(uint64_t bytes) {
+        const std::lock_guard lock(mutex_);
+        total_ += bytes;
+        changed_.notify_all();
+    }
+    uint64_t total() {
+        const std::lock_guard lock(mutex_);
+        return total_;
+    }
+    bool waitFor(uint64_t bytes, std::chrono::milliseconds timeout) {
+        std::unique_lock lock(mutex_);
+        return changed_.wait_for(lock, timeout, [&] { return total_ >= bytes; });
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    uint64_t total_ = 0;
+};
+
 // One direction of a connection: reads as far as the link has room, writes what arrives.
 class Pump : public std::enable_shared_from_this<Pump> {
   public:
@@ -34,7 +58,7 @@ class Pump : public std::enable_shared_from_this<Pump> {
          tcp::socket& from,
          tcp::socket& to,
          const LinkOptions& options,
-         std::atomic<uint64_t>& bytes,
+         Counter& bytes,
          std::function<void()> cut)
         : owner_(std::move(owner)), from_(from), to_(to), link_(options, Clock::now()),
           timer_(from.get_executor()), bytes_(bytes), cut_(std::move(cut)) {}
@@ -97,7 +121,7 @@ class Pump : public std::enable_shared_from_this<Pump> {
         asio::async_write(to_, asio::buffer(outgoing_),
                           [self = shared_from_this()](Code failure, size_t size) {
                               self->writing_ = false;
-                              self->bytes_ += size;
+                              self->bytes_.add(size);
                               if (failure) {
                                   self->cut_();
                                   return;
@@ -112,7 +136,7 @@ class Pump : public std::enable_shared_from_this<Pump> {
     tcp::socket& to_;
     ShapedLink link_;
     asio::steady_timer timer_;
-    std::atomic<uint64_t>& bytes_;
+    Counter& bytes_;
     const std::function<void()> cut_;
     std::array<uint8_t, 16 * 1024> incoming_{};
     std::vector<uint8_t> outgoing_;
@@ -181,8 +205,8 @@ struct Relay::Impl {
     asio::io_context io{1};
     tcp::acceptor acceptor;
     tcp::endpoint target;
-    std::atomic<uint64_t> up_bytes = 0;
-    std::atomic<uint64_t> down_bytes = 0;
+    Counter up_bytes;
+    Counter down_bytes;
     std::vector<std::pair<std::weak_ptr<Pump>, std::weak_ptr<Pump>>> pumps;
     std::thread thread;
 };
@@ -216,11 +240,15 @@ void Relay::setRate(double up_bytes_per_s, double down_bytes_per_s) {
 }
 
 uint64_t Relay::upBytes() const {
-    return impl_->up_bytes;
+    return impl_->up_bytes.total();
 }
 
 uint64_t Relay::downBytes() const {
-    return impl_->down_bytes;
+    return impl_->down_bytes.total();
+}
+
+bool Relay::waitForDown(uint64_t bytes, std::chrono::milliseconds timeout) const {
+    return impl_->down_bytes.waitFor(bytes, timeout);
 }
 
 } // namespace froxel::test

@@ -15,8 +15,8 @@ struct RelayOptions {
     uint16_t listen_port = 0; // of 127.0.0.1; 0: any free one
     std::string host = "127.0.0.1";
     uint16_t port = 0;
-    LinkOptions up;   // from whoever connects to `host`
-    LinkOptions down; // and back
+    LinkOptions up{};   // from whoever connects to `host`
+    LinkOptions down{}; // and back
 };
 
 class Relay {
@@ -37,6 +37,8 @@ class Relay {
     // Bytes that came out of it so far, up and down. Any thread.
     [[nodiscard]] uint64_t upBytes() const;
     [[nodiscard]] uint64_t downBytes() const;
+    // Waits until that many came down; whether they did in time. Any thread.
+    [[nodiscard]] bool waitForDown(uint64_t bytes, std::chrono::milliseconds timeout) const;
 
   private:
     struct Impl;

@@ -1,0 +1,198 @@
+// `froxel load` from outside: what it measures, how it ends, what it says.
+#include "integration/server_process.h"
+#include "integration/test_server.h"
+#include "relay/relay.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+namespace froxel::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Json = nlohmann::json;
+
+std::string urlOf(uint16_t port) {
+    return "ws://127.0.0.1:" + std::to_string(port) + "/ws";
+}
+
+ChildProcess startLoad(uint16_t port, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {FROXEL_BINARY, "load", urlOf(port)});
+    return ChildProcess(std::move(arguments));
+}
+
+ChildProcess::End load(uint16_t port, std::vector<std::string> arguments) {
+    return startLoad(port, std::move(arguments)).wait();
+}
+
+class Load : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = testing::TempDir() + "froxel_load_XXXXXX";
+        ASSERT_NE(mkdtemp(folder_.data()), nullptr);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    // The report of a run that must end well.
+    Json measure(uint16_t port, std::vector<std::string> arguments) {
+        const std::string file = folder_ + "/load.json";
+        arguments.insert(arguments.end(), {"--json", file});
+        const auto end = load(port, std::move(arguments));
+        EXPECT_EQ(end.exit_code, 0) << end.errors;
+        EXPECT_EQ(end.errors, "");
+        EXPECT_NE(end.output.find("viewers: "), std::string::npos) << end.output;
+        std::ifstream stream(file);
+        Json report = Json::parse(stream);
+        EXPECT_EQ(report["schema"], "froxel.load.v1");
+        EXPECT_EQ(report["broken"], nullptr);
+        return report;
+    }
+
+    std::string write(const std::string& text) const {
+        const std::string file = folder_ + "/script.jsonl";
+        std::ofstream(file) << text;
+        return file;
+    }
+
+    std::string folder_;
+};
+
+TEST_F(Load, ThreeViewers_Orbit_GetFramesAndLatencies) {
+    const TestServer server;
+    const Json report =
+        measure(server.port(), {"--viewers", "3", "--seconds", "1", "--ramp", "0.2"});
+    ASSERT_EQ(report["each"].size(), 3U);
+    uint64_t frames = 0;
+    for (const Json& viewer : report["each"]) {
+        EXPECT_EQ(viewer["failure"], nullptr);
+        EXPECT_GT(viewer["first_frame_ms"], 0);
+        EXPECT_GT(viewer["frames"], 0);
+        EXPECT_GT(viewer["commands"], 10);
+        EXPECT_GT(viewer["latency_ms"]["median"], 0);
+        EXPECT_LT(viewer["latency_ms"]["p99"], 1000);
+        EXPECT_LE(viewer["age_ms"]["median"], viewer["latency_ms"]["median"]);
+        EXPECT_GE(viewer["received_bytes"], viewer["frame_bytes"]);
+        EXPECT_EQ(viewer["refusals"], 0);
+        frames += viewer["frames"].get<uint64_t>();
+    }
+    EXPECT_EQ(report["all"]["frames"], frames);
+    EXPECT_GT(report["all"]["stages_ms"]["render"]["count"], 0);
+}
+
+TEST_F(Load, Idle_NothingMoves_NoFrameAndFewBytes) {
+    TestServer server({.still = true});
+    const Json report = measure(server.port(), {"--script", "idle", "--seconds", "2"});
+    EXPECT_EQ(report["all"]["frames"], 0);
+    EXPECT_LT(report["all"]["received_bytes_per_s"], 200);
+    EXPECT_EQ(report["all"]["commands"], 0);
+}
+
+TEST_F(Load, Storm_IsAcceptedWhole) {
+    const TestServer server;
+    const Json report = measure(server.port(), {"--script", "storm", "--seconds", "1", "--size",
+                                                "320x200", "--lights", "50"});
+    EXPECT_GT(report["all"]["commands"], 100);
+    EXPECT_EQ(report["all"]["refusals"], 0) << report["all"]["refusal"];
+    EXPECT_GT(report["all"]["latency_ms"]["count"], 0);
+}
+
+TEST_F(Load, Script_FromAFile_IsPlayed) {
+    const TestServer server({.still = true});
+    const std::string file = write(R"({"setSize": {"width": 100, "height": 50}}
+{"at_ms": 300, "setExposure": {"exposure": 2}}
+)");
+    const Json report = measure(server.port(), {"--script", file, "--seconds", "1"});
+    EXPECT_EQ(report["all"]["commands"], 2);
+    EXPECT_EQ(report["all"]["latency_ms"]["count"], 2);
+    EXPECT_NEAR(report["all"]["interval_ms"]["max"], 300, 150);
+}
+
+TEST_F(Load, Script_Bad_IsRefusedBeforeConnecting) {
+    const std::string file = write("{\"ping\": {}}\n{\"setSise\": {}}\n");
+    const auto end = load(1, {"--script", file});
+    EXPECT_EQ(end.exit_code, 2);
+    EXPECT_EQ(end.output, "");
+    EXPECT_NE(end.errors.find(file + ":2: "), std::string::npos) << end.errors;
+    EXPECT_NE(end.errors.find("setSise"), std::string::npos) << end.errors;
+    EXPECT_EQ(std::count(end.errors.begin(), end.errors.end(), '\n'), 1) << end.errors;
+}
+
+TEST_F(Load, Bound_Broken_ExitsOneAndNamesTheViewer) {
+    const TestServer server;
+    const auto end = load(server.port(), {"--seconds", "0.5", "--viewers", "2", "--max-latency-ms",
+                                          "0.001", "--min-fps", "100000"});
+    EXPECT_EQ(end.exit_code, 1);
+    EXPECT_NE(end.errors.find("2 of 2 viewers broke --max-latency-ms 0.001: viewer "),
+              std::string::npos)
+        << end.errors;
+    EXPECT_NE(end.errors.find("--min-fps 100000"), std::string::npos) << end.errors;
+    EXPECT_EQ(std::count(end.errors.begin(), end.errors.end(), '\n'), 1) << end.errors;
+    EXPECT_NE(end.output, "") << "the table all the same";
+}
+
+TEST_F(Load, Server_Full_IsNamedAndTheOthersAreMeasured) {
+    const TestServer server({.sessions_max = 2});
+    const auto end = load(server.port(), {"--seconds", "0.5", "--viewers", "3"});
+    EXPECT_EQ(end.exit_code, 1);
+    EXPECT_NE(end.errors.find("1 of 3 viewers failed: viewer "), std::string::npos) << end.errors;
+    EXPECT_NE(end.output.find("viewers: 3"), std::string::npos) << end.output;
+}
+
+TEST_F(Load, Server_Absent_ExitsOneInOneLine) {
+    const auto end = load(1, {"--viewers", "3"});
+    EXPECT_EQ(end.exit_code, 1);
+    EXPECT_EQ(end.output, "");
+    EXPECT_NE(end.errors.find("cannot connect to 127.0.0.1:1"), std::string::npos) << end.errors;
+    EXPECT_EQ(std::count(end.errors.begin(), end.errors.end(), '\n'), 1) << end.errors;
+}
+
+TEST_F(Load, Server_Killed_ExitsOneInOneLine) {
+    ServerProcess server({"--size", "160x90", "--lights", "50"});
+    const Relay relay({.port = server.port().value()});
+    auto run = startLoad(relay.port(), {"--seconds", "60", "--viewers", "3"});
+    ASSERT_TRUE(relay.waitForDown(100'000, 60s)) << "pictures flow";
+    server.signal(SIGKILL);
+    const auto end = run.wait(10s);
+    EXPECT_EQ(end.exit_code, 1);
+    EXPECT_NE(end.errors.find("3 of 3 viewers failed: viewer 1: the connection broke"),
+              std::string::npos)
+        << end.errors;
+    EXPECT_EQ(std::count(end.errors.begin(), end.errors.end(), '\n'), 1) << end.errors;
+}
+
+TEST_F(Load, Interrupted_SaysWhatItMeasured) {
+    const TestServer server;
+    const Relay relay({.port = server.port()});
+    auto run = startLoad(relay.port(), {"--seconds", "60"});
+    ASSERT_TRUE(relay.waitForDown(100'000, 20s));
+    run.signal(SIGINT);
+    const auto end = run.wait(10s);
+    EXPECT_EQ(end.exit_code, 130) << end.errors;
+    EXPECT_NE(end.output.find("(stopped)"), std::string::npos) << end.output;
+}
+
+// A server that filled what TCP lets it fill would show pictures many seconds old here.
+TEST_F(Load, SlowLink_FrameAgeStaysBounded) {
+    const TestServer server({.size = {1280, 720}});
+    RelayOptions options{.port = server.port()};
+    options.down = {100'000, 10ms, 32 * 1024};
+    options.up.delay = 10ms;
+    const Relay relay(options);
+    const Json all = measure(relay.port(), {"--seconds", "5"})["all"];
+    const double rate = all["received_bytes_per_s"].get<double>();
+    EXPECT_LT(rate, 110'000);
+    EXPECT_GT(rate, 50'000) << "the link is not made use of";
+    const double frame_s = all["frame_bytes"].get<double>() / all["frames"].get<double>() / 1e5;
+    RecordProperty("frame_ms", static_cast<int>(1000 * frame_s));
+    RecordProperty("age_p99_ms", static_cast<int>(all["age_ms"]["p99"].get<double>()));
+    // The picture itself, and those that the window and the relay's queue let wait before it.
+    EXPECT_LT(all["age_ms"]["p99"].get<double>(), 1000 * (4 * frame_s + 0.1)) << all.dump(1);
+}
+
+} // namespace
+} // namespace froxel::test
