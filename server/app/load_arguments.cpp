@@ -14,7 +14,8 @@ constexpr view::Range<double> kRateRange{"min_fps", 0.001, 1e6};
 constexpr const char* kFooter =
     "Latency is from sending a command to having the last byte of the first frame that shows it, "
     "by the frame's echo of that command, one sample for each frame that shows a new one; "
-    "decoding is not in it. Age is latency without the wait on the server before drawing began. "
+    "decoding is not in it. Reaction is the same of every command, also of those that a newer one "
+    "overtook. Age is latency without the wait on the server before drawing began. "
     "Measuring begins when every viewer has its first frame. Frames are acknowledged as the page "
     "does, at the next refresh of a 60 Hz display. A FILE.jsonl has a ClientMessage in the "
     "protocol's JSON on each line and, optionally, \"at_ms\" since the start.";

@@ -33,6 +33,7 @@ ViewerResult pool(const RunResult& result) {
         const Measured& one = viewer.measured;
         Measured& sum = all.measured;
         append(sum.samples.latency_ms, one.samples.latency_ms);
+        append(sum.samples.reaction_ms, one.samples.reaction_ms);
         append(sum.samples.age_ms, one.samples.age_ms);
         append(sum.samples.interval_ms, one.samples.interval_ms);
         for (size_t stage = 0; stage < load::kStageNames.size(); ++stage) {
@@ -92,6 +93,7 @@ Json figuresOf(const ViewerResult& viewer) {
     return {{"frames", measured.frames},
             {"frames_per_s", frameRate(measured)},
             {"latency_ms", summaryOf(samples.latency_ms)},
+            {"reaction_ms", summaryOf(samples.reaction_ms)},
             {"age_ms", summaryOf(samples.age_ms)},
             {"interval_ms", intervals},
             {"jitter_ms", intervals.is_null() ? Json(nullptr)
@@ -126,13 +128,13 @@ std::string rowOf(const std::string& name, const ViewerResult& viewer) {
         const auto interval = measure::summarize(samples.interval_ms);
         jitter = fmt::format("{:.1f}", interval.p99 - interval.median);
     }
-    return fmt::format("{:>6} {:>9.1f} {:>9} {:>7} {:>7} {:>8} {:>7} {:>8} {:>9.3f} {:>8} {:>8}\n",
-                       name, frameRate(measured), shown(samples.latency_ms, &Summary::median),
-                       shown(samples.latency_ms, &Summary::p95),
-                       shown(samples.latency_ms, &Summary::p99),
-                       shown(samples.age_ms, &Summary::median),
-                       shown(samples.age_ms, &Summary::p99), jitter, byteRate(viewer) * 8 / 1e6,
-                       measured.server_dropped + measured.client_dropped, measured.refusals);
+    return fmt::format(
+        "{:>6} {:>9.1f} {:>9} {:>7} {:>7} {:>9} {:>7} {:>8} {:>8} {:>9.3f} {:>8} {:>8}\n", name,
+        frameRate(measured), shown(samples.latency_ms, &Summary::median),
+        shown(samples.latency_ms, &Summary::p95), shown(samples.latency_ms, &Summary::p99),
+        shown(samples.reaction_ms, &Summary::median), shown(samples.reaction_ms, &Summary::p95),
+        shown(samples.age_ms, &Summary::p99), jitter, byteRate(viewer) * 8 / 1e6,
+        measured.server_dropped + measured.client_dropped, measured.refusals);
 }
 
 std::string stagesLine(const ViewerResult& all) {
@@ -243,9 +245,9 @@ std::string loadTable(const RunResult& result) {
     }
     std::string table = fmt::format("viewers: {}, measured for {:.1f} s{}\n", result.viewers.size(),
                                     result.seconds, result.stopped ? " (stopped)" : "");
-    table += "                 latency ms                age ms            jitter\n"
-             "viewer  frames/s       p50     p95     p99      p50     p99       ms    Mbit/s"
-             "  dropped  refused\n";
+    table += "                 latency ms                reaction ms      age ms   jitter\n"
+             "viewer  frames/s       p50     p95     p99       p50     p95      p99       ms"
+             "    Mbit/s  dropped  refused\n";
     table += rowOf("all", all);
     if (result.viewers.size() <= kListedViewers) {
         for (size_t index = 0; index < result.viewers.size(); ++index) {

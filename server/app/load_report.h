@@ -16,7 +16,7 @@
 //
 // all and each[]:
 //   frames, frames_per_s
-//   latency_ms, age_ms, interval_ms, network_ms   load/viewer_meter.h says what they are
+//   latency_ms, reaction_ms, age_ms, interval_ms   load/viewer_meter.h says what they are
 //   jitter_ms         interval_ms.p99 - interval_ms.median
 //   stages_ms         {queue, render, encode_wait, encode, send_wait, network}: as in FrameHeader,
 //                     of frames in the measured time; queue and network of those that show a new

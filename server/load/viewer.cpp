@@ -303,7 +303,8 @@ void Viewer::onStepDue() {
     if (step_->message.has_set_camera() && outgoing_bytes_ > kMaxBacklogBytes) {
         meter_.onCommandSkipped();
     } else {
-        meter_.onCommand(script_start_ + step_->at, now);
+        const bool shows = !step_->message.has_ping();
+        meter_.onCommand(sent_seq_ + 1, shows, script_start_ + step_->at, now);
         send(std::move(step_->message), now);
     }
     playNext();

@@ -26,6 +26,7 @@ void ViewerMeter::begin(TimePoint now) {
     counting_ = true;
     began_ = now;
     last_frame_.reset();
+    unseen_.clear();
     dropped_before_ = dropped_now_;
     measured_ = {};
 }
@@ -36,8 +37,11 @@ void ViewerMeter::end(TimePoint now) {
     measured_.server_dropped = dropped_now_ - dropped_before_;
 }
 
-void ViewerMeter::onCommand(TimePoint due, TimePoint now) {
+void ViewerMeter::onCommand(uint64_t seq, bool shows, TimePoint due, TimePoint now) {
     if (counting_) {
+        if (shows) {
+            unseen_.emplace_back(seq, now);
+        }
         ++measured_.commands;
         measured_.samples.timer_lag_ms.push_back(msOf(now - due));
     }
@@ -85,6 +89,10 @@ Result<void> ViewerMeter::onFrame(const v1::FrameHeader& header,
         latency_ms = msOfUs(stampOf(now) - stamp_us);
         measured_.samples.latency_ms.push_back(*latency_ms);
         measured_.samples.age_ms.push_back(*latency_ms - msOfUs(header.queue_us()));
+    }
+    while (!unseen_.empty() && unseen_.front().first <= shown_seq_) {
+        measured_.samples.reaction_ms.push_back(msOf(now - unseen_.front().second));
+        unseen_.pop_front();
     }
     addStages(header, latency_ms);
     return {};

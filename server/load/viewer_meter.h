@@ -3,6 +3,9 @@
 //   latency   from sending a command to having the last byte of the first frame that shows it, by
 //             the frame's echo of that command's seq and client time; the newest one that a frame
 //             shows, as the page has it. Decoding is not in it.
+//   reaction  as latency, but of every command: also of those that newer ones overtook on the way.
+//             Where commands come faster than frames, a command's mean wait for the next frame is
+//             in this one only.
 //   age       of a picture when its last byte is there: latency without queue_us, the wait on the
 //             server before drawing began. The command's way up is still in it. Known for frames
 //             that show a new command.
@@ -17,9 +20,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace froxel::load {
@@ -33,6 +38,7 @@ inline constexpr std::array kStageNames = {
 // Samples of one viewer, in the order of its frames.
 struct Samples {
     std::vector<double> latency_ms;
+    std::vector<double> reaction_ms;
     std::vector<double> age_ms;
     std::vector<double> interval_ms;
     std::array<std::vector<double>, kStageNames.size()> stage_ms;
@@ -63,8 +69,9 @@ class ViewerMeter {
 
     // Its client_time_us: the clock's own microseconds.
     [[nodiscard]] static uint64_t stampOf(TimePoint now);
-    // A command other than Ack is handed to the socket; `due` is when it should have been.
-    void onCommand(TimePoint due, TimePoint now);
+    // A command of the script is handed to the socket; `due` is when it should have been, `shows`
+    // whether it has any effect on frames.
+    void onCommand(uint64_t seq, bool shows, TimePoint due, TimePoint now);
     void onCommandSkipped();
     // Its last byte is here; `sent_seq` is the newest command sent. Errors: kInvalidArgument for
     // an echo of what was never sent.
@@ -83,6 +90,7 @@ class ViewerMeter {
     TimePoint began_;
     std::optional<TimePoint> last_frame_;
     uint64_t shown_seq_ = 0;
+    std::deque<std::pair<uint64_t, TimePoint>> unseen_; // seq and time sent, oldest first
     uint64_t last_id_ = 0;
     uint64_t dropped_before_ = 0;
     uint64_t dropped_now_ = 0;

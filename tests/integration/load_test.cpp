@@ -75,6 +75,7 @@ TEST_F(Load, ThreeViewers_Orbit_GetFramesAndLatencies) {
         EXPECT_GT(viewer["commands"], 10);
         EXPECT_GT(viewer["latency_ms"]["median"], 0);
         EXPECT_LT(viewer["latency_ms"]["p99"], 1000);
+        EXPECT_GE(viewer["reaction_ms"]["count"], viewer["latency_ms"]["count"]);
         EXPECT_LE(viewer["age_ms"]["median"], viewer["latency_ms"]["median"]);
         EXPECT_GE(viewer["received_bytes"], viewer["frame_bytes"]);
         EXPECT_EQ(viewer["refusals"], 0);

@@ -12,6 +12,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <netinet/tcp.h>
 #include <thread>
 #include <utility>
 
@@ -22,7 +23,15 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using Code = boost::system::error_code;
 
-void shrinkBuffers(tcp::socket& socket) {
+// Packets as on Ethernet: loopback's are of 64 KiB, and a window smaller than one of them is only
+// probed now and then, so that connections would stall. Before the handshake, as both sides then
+// agree on it and on the window's scale.
+constexpr int kSegmentBytes = 1448;
+
+template <class Socket>
+void shape(Socket& socket) {
+    using MaxSegment = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_MAXSEG>;
+    socket.set_option(MaxSegment(kSegmentBytes));
     socket.set_option(asio::socket_base::receive_buffer_size(Relay::kSocketBufferBytes));
     socket.set_option(asio::socket_base::send_buffer_size(Relay::kSocketBufferBytes));
 }
@@ -160,8 +169,12 @@ struct Sockets {
 } // namespace
 
 struct Relay::Impl {
-    explicit Impl(const RelayOptions& given)
-        : options(given), acceptor(io, {asio::ip::address_v4::loopback(), given.listen_port}) {
+    explicit Impl(const RelayOptions& given) : options(given) {
+        acceptor.open(tcp::v4());
+        acceptor.set_option(asio::socket_base::reuse_address(true));
+        shape(acceptor); // accepted sockets inherit it
+        acceptor.bind({asio::ip::address_v4::loopback(), options.listen_port});
+        acceptor.listen();
         tcp::resolver resolver(io);
         target = *resolver.resolve(options.host, std::to_string(options.port)).begin();
         accept();
@@ -176,12 +189,9 @@ struct Relay::Impl {
         });
     }
 
-    // Buffers are set before the handshake, which fixes the window's scale.
     void connect(const std::shared_ptr<Sockets>& sockets) {
-        Code failure;
-        sockets->server.open(target.protocol(), failure);
-        shrinkBuffers(sockets->server);
-        shrinkBuffers(sockets->client);
+        sockets->server.open(target.protocol());
+        shape(sockets->server);
         sockets->server.async_connect(target, [this, sockets](Code refused) {
             if (refused) {
                 sockets->close();
@@ -203,7 +213,7 @@ struct Relay::Impl {
 
     RelayOptions options;
     asio::io_context io{1};
-    tcp::acceptor acceptor;
+    tcp::acceptor acceptor{io};
     tcp::endpoint target;
     Counter up_bytes;
     Counter down_bytes;

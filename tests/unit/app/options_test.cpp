@@ -285,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(
     Options,
     BadCommandLine,
     testing::Values(
-        Refusal{{}, {"serve, render, bench, info or scene", "froxel --help"}},
+        Refusal{{}, {"serve, render, bench, load, info or scene", "froxel --help"}},
         Refusal{{"draw"}, {"draw", "froxel --help"}},
         Refusal{{"render"}, {"--out FILE", "--timings FILE"}},
         Refusal{{"render", "--out", "a.png", "--lights", "1000001"},
@@ -305,6 +305,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"render", "--out", "a.png", "stray"}, {"stray"}},
         Refusal{{"serve", "--port", "65536"}, {"--port", "'65536'", "0 to 65535"}},
         Refusal{{"serve", "--log-level", "loud"}, {"--log-level", "'loud'", "debug, info"}},
+        Refusal{{"load"}, {"URL", "froxel load --help"}},
+        Refusal{{"load", "localhost:8080"}, {"'localhost:8080'", "ws://127.0.0.1:8080/ws"}},
+        Refusal{{"load", "ws://a", "--viewers", "0"}, {"--viewers", "'0'", "1 to 10000"}},
+        Refusal{{"load", "ws://a", "--script", "dance"}, {"--script", "'dance'", "orbit", ".jsonl"}},
+        Refusal{{"load", "ws://a", "--min-fps", "nan"}, {"--min-fps", "'nan'"}},
         Refusal{{"scene"}, {"--out"}},
         Refusal{{"scene", "--out", "hall.obj"}, {"--out", "'hall.obj'", ".glb"}}));
 

@@ -58,6 +58,21 @@ TEST(ViewerMeter, Frame_ShowingNothingNew_CountsButHasNoLatency) {
     EXPECT_EQ(meter.measured().samples.interval_ms, std::vector{7.0});
 }
 
+TEST(ViewerMeter, Reaction_IsOfEveryCommand_AlsoOvertakenOnes) {
+    ViewerMeter meter;
+    meter.begin(kStart);
+    meter.onCommand(2, true, kStart, kStart);
+    meter.onCommand(3, false, kStart, kStart + 5ms); // a Ping
+    meter.onCommand(4, true, kStart, kStart + 10ms);
+    meter.onCommand(5, true, kStart, kStart + 20ms);
+    ASSERT_TRUE(meter.onFrame(frame(1, 4, kStart + 10ms), 10, 5, kStart + 30ms));
+    EXPECT_EQ(meter.measured().samples.reaction_ms, (std::vector{30.0, 20.0}));
+    EXPECT_EQ(meter.measured().samples.latency_ms, std::vector{20.0});
+    ASSERT_TRUE(meter.onFrame(frame(2, 5, kStart + 20ms), 10, 5, kStart + 50ms));
+    EXPECT_EQ(meter.measured().samples.reaction_ms.back(), 30.0);
+    EXPECT_EQ(meter.measured().samples.reaction_ms.size(), 3U);
+}
+
 TEST(ViewerMeter, Drops_AreThoseSinceItBegan) {
     ViewerMeter meter;
     v1::FrameHeader header = frame(4, 0, kStart);
@@ -88,7 +103,7 @@ TEST(ViewerMeter, Frame_ThatCannotBe_IsRefused) {
 TEST(ViewerMeter, Commands_TellHowLateTheyWere_RefusalsTheirFirstText) {
     ViewerMeter meter;
     meter.begin(kStart);
-    meter.onCommand(kStart, kStart + 3ms);
+    meter.onCommand(1, true, kStart, kStart + 3ms);
     meter.onCommandSkipped();
     v1::Error error;
     error.set_message("first\n");
