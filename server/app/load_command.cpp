@@ -20,8 +20,8 @@ namespace froxel::app {
 namespace {
 
 constexpr int kStoppedExitCode = 130; // as a shell has it for SIGINT
-// Few enough that handlers seldom wait for one another: 200 viewers with 60 commands and some frames
-// a second each take a third of a core.
+// Few enough that handlers seldom wait for one another: 200 viewers with 60 commands and some
+// frames a second each take a third of a core.
 constexpr uint32_t kViewersPerThread = 32;
 
 load::ScriptChoice scriptOf(const std::string& text) {
