@@ -29,7 +29,8 @@ double farthestDepth(const view::Camera& camera, const BoundsD3& bounds) {
 // Seeded lights, which come first, have one radius.
 bool equalRadii(const light::FrameLights& lights, const view::Lights& settings) {
     const auto& radii = lights.radii_m;
-    const uint32_t seeded_count = settings.cutoff > 0 ? 0 : settings.count; // equal among themselves
+    const uint32_t seeded_count =
+        settings.cutoff > 0 ? 0 : settings.count; // equal among themselves
     const size_t first = std::min<size_t>(seeded_count > 0 ? seeded_count - 1 : 0, radii.size());
     return std::all_of(radii.begin() + static_cast<std::ptrdiff_t>(first), radii.end(),
                        [&](float radius) { return radius == radii[first]; });
@@ -84,9 +85,8 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
 }
 
 bool FrameBuilder::choosesComputeRaster(const FrameInputs& inputs) {
-    const bool wanted =
-        inputs.geometry == GeometryPath::kComputeRaster ||
-        (inputs.geometry == GeometryPath::kAuto && !scene_.device.traits().is_cpu);
+    const bool wanted = inputs.geometry == GeometryPath::kComputeRaster ||
+                        (inputs.geometry == GeometryPath::kAuto && !scene_.device.traits().is_cpu);
     return wanted && scene_.visibility().compute_unusable.empty();
 }
 
@@ -96,8 +96,8 @@ bool FrameBuilder::prepass(const FrameInputs& inputs) const {
         return inputs.depth_prepass.value_or(forward);
     }
     const auto& size = inputs.settings.size;
-    const double looped = light_grid_.lists() ? light_grid_.listLength()
-                                              : static_cast<double>(lights_.lights.size());
+    const double looped =
+        light_grid_.lists() ? light_grid_.listLength() : static_cast<double>(lights_.lights.size());
     return prepassPays({.triangle_count = draws_.triangle_count,
                         .pixel_count = uint64_t{size.width_px} * size.height_px,
                         .overdraw = *scene_.overdraw,
@@ -155,6 +155,16 @@ bool FrameBuilder::acceptLists(const io::AssignTotals& totals) {
     return device_lists_.accept(totals);
 }
 
+const cluster::GridCosts& FrameBuilder::gridCosts(const view::ViewSettings& settings) const {
+    if (scene_.device.traits().is_cpu) {
+        return cluster::kCpuCosts;
+    }
+    const bool in_fragments = isForward(settings.renderer)
+                                  ? !visibility_
+                                  : settings.lighting == view::LightingStage::kFragment;
+    return in_fragments ? cluster::kGpuFragmentCosts : cluster::kGpuCosts;
+}
+
 void FrameBuilder::assignLights(const FrameInputs& inputs) {
     const auto& settings = inputs.settings;
     const bool grown = storesHalves(settings);
@@ -162,7 +172,7 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         growForHalves(lights_, grown_);
     }
     const light::FrameLights& reach = grown ? grown_ : lights_;
-    light_grid_.choose(settings, reach, scene_.bounds_world, scene_.device.traits().is_cpu);
+    light_grid_.choose(settings, reach, scene_.bounds_world, gridCosts(settings));
     on_device_ = assignsOnDevice(inputs);
     if (on_device_) {
         refused_ = settings;

@@ -45,6 +45,7 @@ class FrameBuilder {
     };
     using Blocks = std::array<Block, Pipelines::kFrameBindings>;
 
+    [[nodiscard]] const cluster::GridCosts& gridCosts(const view::ViewSettings& settings) const;
     // Chooses the grid and fills the lists, or empties them.
     void assignLights(const FrameInputs& inputs);
     [[nodiscard]] bool assignsOnDevice(const FrameInputs& inputs);

@@ -7,7 +7,7 @@ namespace froxel::render {
 void LightGrid::choose(const view::ViewSettings& settings,
                        const light::FrameLights& lights,
                        const BoundsD3& scene_bounds_world,
-                       bool cpu_device) {
+                       const cluster::GridCosts& costs) {
     lists_ = false;
     if (lights.lights.empty()) {
         why_ = "there is no point or spot light";
@@ -16,14 +16,14 @@ void LightGrid::choose(const view::ViewSettings& settings,
     } else if (settings.light_loop == view::LightLoop::kAllLights) {
         why_ = "looping over all lights was asked for";
     } else {
-        chooseGrid(settings, lights, scene_bounds_world, cpu_device);
+        chooseGrid(settings, lights, scene_bounds_world, costs);
     }
 }
 
 void LightGrid::chooseGrid(const view::ViewSettings& settings,
                            const light::FrameLights& lights,
                            const BoundsD3& scene_bounds_world,
-                           bool cpu_device) {
+                           const cluster::GridCosts& costs) {
     const view::Camera& camera = settings.camera;
     range_ = cluster::litDepthRange(lights, camera, scene_bounds_world);
     const cluster::ClusterGrid frustum = cluster::makeClusterGrid(
@@ -33,7 +33,7 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
                                    .range = range_,
                                    .law = settings.grid.law,
                                    .lights = spread,
-                                   .costs = cpu_device ? cluster::kCpuCosts : cluster::kGpuCosts};
+                                   .costs = costs};
     cluster::GridShape shape{.size = settings.grid.size, .law = settings.grid.law};
     automatic_ = settings.grid.automatic;
     if (automatic_) {

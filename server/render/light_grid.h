@@ -20,7 +20,7 @@ class LightGrid {
     void choose(const view::ViewSettings& settings,
                 const light::FrameLights& lights,
                 const BoundsD3& scene_bounds_world,
-                bool cpu_device);
+                const cluster::GridCosts& costs);
 
     // Whether there are lists, and with them a grid.
     [[nodiscard]] bool lists() const { return lists_; }
@@ -35,7 +35,7 @@ class LightGrid {
     void chooseGrid(const view::ViewSettings& settings,
                     const light::FrameLights& lights,
                     const BoundsD3& scene_bounds_world,
-                    bool cpu_device);
+                    const cluster::GridCosts& costs);
 
     bool lists_ = false;
     bool automatic_ = false;

@@ -42,7 +42,7 @@ std::vector<float> slicePlanes(const scene::Scene& scene, const render::FrameInp
     render::LightGrid grid;
     auto settings = inputs.settings;
     settings.renderer = view::Renderer::kForwardPlus;
-    grid.choose(settings, lights, scene.bounds_world, true);
+    grid.choose(settings, lights, scene.bounds_world, cluster::kCpuCosts);
     return grid.grid().plane_depths_m;
 }
 

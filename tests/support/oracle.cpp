@@ -80,7 +80,7 @@ PairCheck checkPairs(const scene::Scene& scene,
     clustered.renderer = view::Renderer::kForwardPlus;
     clustered.light_loop = view::LightLoop::kLists;
     render::LightGrid chosen;
-    chosen.choose(clustered, lights, scene.bounds_world, true);
+    chosen.choose(clustered, lights, scene.bounds_world, cluster::kCpuCosts);
     const cluster::ClusterGrid& grid = chosen.grid();
     cluster::LightLists lists;
     cluster::LightAssigner(1).assign(grid, lights, lists);
