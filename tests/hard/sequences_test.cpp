@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
+#include <string>
 #include <unistd.h>
 
 namespace froxel::test {
@@ -56,9 +58,10 @@ uint64_t hashOfFrames(gpu::Device& device) {
 
 // What another process of this test says, whose software rasteriser has `threads` threads.
 std::string hashOfProcess(const char* threads) {
-    const std::string command = std::string(kOnlyHash) + "=1 LP_NUM_THREADS=" + threads +
-                                " /proc/" + std::to_string(getpid()) +
-                                "/exe --gtest_filter=HardSequences.ThreeHundredFrames*";
+    std::ostringstream words;
+    words << kOnlyHash << "=1 LP_NUM_THREADS=" << threads << " /proc/" << getpid()
+          << "/exe --gtest_filter=HardSequences.ThreeHundredFrames*";
+    const std::string command = words.str();
     FILE* pipe = popen(command.c_str(), "r"); // NOLINT(cert-env33-c): a fixed command
     std::string found;
     std::array<char, 512> line{};
