@@ -8,6 +8,7 @@ namespace froxel::shaders {
 
 std::span<const uint32_t> depth_vert();
 std::span<const uint32_t> surface_vert();
+std::span<const uint32_t> surface_untextured_vert();
 std::span<const uint32_t> surface_extended_vert();
 std::span<const uint32_t> depth_masked_frag();
 std::span<const uint32_t> depth_masked_extended_frag();

@@ -1,5 +1,5 @@
 // Geometry of every pass that shades: view-space normal and texture coordinates. The extended
-// variant carries a second set, vertex colour and tangent.
+// variant carries a second set, vertex colour and tangent; the untextured one fetches no coordinates.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -8,7 +8,9 @@
 
 layout(location = 0) in vec3 position_object;
 layout(location = 1) in vec3 normal_object;
+#ifndef FROXEL_UNTEXTURED
 layout(location = 2) in vec2 uv0_in;
+#endif
 layout(location = 3) in vec4 view_from_object_0;
 layout(location = 4) in vec4 view_from_object_1;
 layout(location = 5) in vec4 view_from_object_2;
@@ -39,7 +41,11 @@ void main() {
     normal_view = side * vec3(dot(c0, normal_object),
                               dot(cross(r2, r0), normal_object),
                               dot(cross(r0, r1), normal_object));
+#ifdef FROXEL_UNTEXTURED
+    uv0 = vec2(0.0); // nothing looks at it
+#else
     uv0 = uv0_in;
+#endif
 #ifdef FROXEL_EXTENDED
     uv1 = uv1_in;
     color = color_in;

@@ -65,7 +65,10 @@ pipelineLayout(const gpu::Device& device, vk::DescriptorSetLayout a, vk::Descrip
 }
 
 // Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance rows.
-void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool extended) {
+void describeVertices(gpu::GraphicsPipelineInfo& info,
+                      bool surface,
+                      bool textured,
+                      bool extended) {
     using Rate = vk::VertexInputRate;
     using Format = vk::Format;
     info.bindings = {{0, 12, Rate::eVertex}, {3, 48, Rate::eInstance}};
@@ -76,6 +79,8 @@ void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool extend
     if (surface) {
         info.bindings.push_back({1, 20, Rate::eVertex});
         info.attributes.push_back({1, 1, Format::eR32G32B32Sfloat, 0});
+    }
+    if (surface && textured) {
         info.attributes.push_back({2, 1, Format::eR32G32Sfloat, 12});
     }
     if (extended) {
@@ -138,10 +143,12 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     info.constants = constants(key);
     info.layout = *geometry_layout_;
     info.depth_format = kDepthFormat;
-    describeVertices(info, surface, surface && extended);
+    const bool textured = extended || (key.material_flags & io::kMaterialTextures) != 0;
+    describeVertices(info, surface, textured, surface && extended);
     info.vertex = !surface   ? shaders::depth_vert()
                   : extended ? shaders::surface_extended_vert()
-                             : shaders::surface_vert();
+                  : textured ? shaders::surface_vert()
+                             : shaders::surface_untextured_vert();
     if (surface) {
         info.fragment = fragmentShader(pass, extended, batched, key.output_flags);
     }

@@ -18,6 +18,8 @@ FROXEL_CONST uint kMaterialNormalTexture = 1U << 1;
 FROXEL_CONST uint kMaterialRoughnessTexture = 1U << 2; // metallic-roughness
 FROXEL_CONST uint kMaterialOcclusionTexture = 1U << 3;
 FROXEL_CONST uint kMaterialEmissiveTexture = 1U << 4;
+// Any texture: coordinates are fetched.
+FROXEL_CONST uint kMaterialTextures = (1U << 5) - 1U;
 FROXEL_CONST uint kMaterialMask = 1U << 5;
 FROXEL_CONST uint kMaterialUnlit = 1U << 6;
 FROXEL_CONST uint kMaterialDoubleSided = 1U << 7;
