@@ -18,8 +18,11 @@ SMALL = ["--device", "cpu", "--size", "64x36", "--lights", "20", "--warmup", "0"
 
 
 def froxel(*arguments, **environment):
-    return subprocess.run([FROXEL, *map(str, arguments)], env={**os.environ, **environment},
-                          capture_output=True, text=True, timeout=120, check=False)
+    # Without the pipelines that another build may have left in this user's cache.
+    with tempfile.TemporaryDirectory() as cache:
+        return subprocess.run([FROXEL, *map(str, arguments)],
+                              env={**os.environ, "XDG_CACHE_HOME": cache, **environment},
+                              capture_output=True, text=True, timeout=120, check=False)
 
 
 class CommandLine(unittest.TestCase):
