@@ -141,7 +141,8 @@ describe('report', () => {
       async () => (await page.locator('button.copy', { hasText: 'copied' }).count()) > 0,
     );
     const copied = await page.evaluate(() => navigator.clipboard.readText());
-    expect(copied).toBe(sample().sweeps[0]?.rows[0]?.command);
+    const counted = sample().sweeps.find(({ name }) => name === 'light_count');
+    expect(copied).toBe(counted?.rows[0]?.command);
     await page.context().close();
   });
 

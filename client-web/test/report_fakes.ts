@@ -1,4 +1,4 @@
-// Invented results of `froxel bench` for the report's tests.
+// Results of `froxel bench` for the report's tests: a committed run, and invented rows.
 
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
@@ -12,7 +12,7 @@ import {
 } from '../report/results';
 
 export const kSamplePath = fileURLToPath(
-  new URL('../../tests/bench/results/sample.json', import.meta.url),
+  new URL('../../tests/bench/results/lavapipe_hall.json', import.meta.url),
 );
 export const sample = (): Results => readResults(readFileSync(kSamplePath, 'utf8'));
 
