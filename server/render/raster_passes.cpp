@@ -1,7 +1,7 @@
 #include "render/raster_passes.h"
 
 #include "render/compute_raster.h"
-#include "render/visibility_scene.h"
+#include "render/visibility_binding.h"
 
 #include <array>
 
@@ -15,20 +15,6 @@ const ComputeRaster& raster(const FrameContext& frame) {
     return frame.visibility->computeRaster();
 }
 
-void bind(const FrameContext& frame, vk::Pipeline pipeline) {
-    const auto& cmd = frame.slot.cmd;
-    cmd.bindPipeline(Point::eCompute, pipeline);
-    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                             frame.slot.visibility->set()};
-    cmd.bindDescriptorSets(Point::eCompute, frame.visibility->pipelines.computeLayout(), 0, sets,
-                           {});
-}
-
-void push(const FrameContext& frame, const std::array<uint32_t, 2>& words) {
-    frame.slot.cmd.pushConstants<uint32_t>(frame.visibility->pipelines.computeLayout(),
-                                           vk::ShaderStageFlagBits::eCompute, 0, words);
-}
-
 // What is opaque; then what is masked, with all textures or one material's at a time.
 template <class Dispatch>
 void drawMaterials(const FrameContext& frame, const ComputeRaster::Pass& pass, Dispatch dispatch) {
@@ -36,12 +22,12 @@ void drawMaterials(const FrameContext& frame, const ComputeRaster::Pass& pass, D
     const auto draw = [&](vk::DescriptorSet textures, uint32_t material) {
         frame.slot.cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3,
                                           textures, {});
-        push(frame, {material, 0});
+        pushVisibilityWords(frame, {material, 0});
         dispatch();
     };
     const bool all_textures = scene.pipelines.bindless();
     if (*pass.opaque) { // reads none
-        bind(frame, *pass.opaque);
+        bindVisibilityCompute(frame, *pass.opaque);
         draw(all_textures ? scene.textureSet()
                           : frame.scene.materialSet(scene.materials_in_use.front()),
              io::kAnyMaterial);
@@ -49,7 +35,7 @@ void drawMaterials(const FrameContext& frame, const ComputeRaster::Pass& pass, D
     if (!*pass.masked) {
         return;
     }
-    bind(frame, *pass.masked);
+    bindVisibilityCompute(frame, *pass.masked);
     if (all_textures) {
         draw(scene.textureSet(), io::kAnyMaterial);
     }
@@ -75,9 +61,9 @@ void recordRasterClear(const FrameContext& frame) {
 
 void recordRasterCull(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
-    bind(frame, raster(frame).cull());
-    push(frame, {frame.plan.cull_meshlets ? 0U : 1U,
-                 static_cast<uint32_t>(frame.visibility->groups.size())});
+    bindVisibilityCompute(frame, raster(frame).cull());
+    pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
+                                static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
@@ -95,7 +81,7 @@ void recordRasterBlocks(const FrameContext& frame) {
 
 void recordRasterUnpack(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_unpack");
-    bind(frame, raster(frame).unpack());
+    bindVisibilityCompute(frame, raster(frame).unpack());
     const auto& size = frame.slot.targets->size;
     const auto groups = [](uint32_t size_px) {
         return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;

@@ -2,7 +2,7 @@
 
 #include "interface/constants.h"
 #include "render/rendering_scope.h"
-#include "render/visibility_scene.h"
+#include "render/visibility_binding.h"
 
 #include <array>
 
@@ -12,29 +12,15 @@ namespace {
 
 using Point = vk::PipelineBindPoint;
 
-void bindCompute(const FrameContext& frame, vk::Pipeline pipeline) {
-    const auto& cmd = frame.slot.cmd;
-    cmd.bindPipeline(Point::eCompute, pipeline);
-    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
-                             frame.slot.visibility->set()};
-    cmd.bindDescriptorSets(Point::eCompute, frame.visibility->pipelines.computeLayout(), 0, sets,
-                           {});
-}
-
-void push(const FrameContext& frame, const std::array<uint32_t, 2>& words) {
-    frame.slot.cmd.pushConstants<uint32_t>(frame.visibility->pipelines.computeLayout(),
-                                           vk::ShaderStageFlagBits::eCompute, 0, words);
-}
-
 // A pipeline over every pixel: once with all textures, or once for each material.
 void resolve(const FrameContext& frame, vk::Pipeline pipeline) {
     const auto& cmd = frame.slot.cmd;
     const auto& scene = *frame.visibility;
-    bindCompute(frame, pipeline);
+    bindVisibilityCompute(frame, pipeline);
     const auto& size = frame.slot.targets->size;
     const auto shade = [&](vk::DescriptorSet textures, uint32_t material, bool last) {
         cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3, textures, {});
-        push(frame, {material, last ? 1U : 0U});
+        pushVisibilityWords(frame, {material, last ? 1U : 0U});
         const auto groups = [](uint32_t size_px) {
             return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;
         };
@@ -95,16 +81,16 @@ void recordEmptyDraws(const FrameContext& frame) {
 
 void recordCull(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
-    bindCompute(frame, frame.visibility->pipelines.cull());
-    push(frame, {frame.plan.cull_meshlets ? 0U : 1U,
-                 static_cast<uint32_t>(frame.visibility->groups.size())});
+    bindVisibilityCompute(frame, frame.visibility->pipelines.cull());
+    pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
+                                static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
 void recordCompact(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "compact");
-    bindCompute(frame, frame.visibility->pipelines.compact());
-    push(frame, {0, static_cast<uint32_t>(frame.visibility->groups.size())});
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compact());
+    pushVisibilityWords(frame, {0, static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 

@@ -3,6 +3,7 @@
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
+#include "support/visible_exact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,23 +77,9 @@ void expectExact(gpu::Device& device, const scene::Scene& scene) {
     render::ViewRenderer view(renderer);
     for (const auto& camera : scene.cameras) {
         SCOPED_TRACE(camera.name);
-        auto inputs = inputsFor(camera.camera, Renderer::kNaive);
-        inputs.settings.lighting = LightingStage::kCompute;
-        const Picture naive = draw(view, inputs);
-        inputs.settings.renderer = Renderer::kForwardPlus;
-        const Picture plus = draw(view, inputs);
-        EXPECT_EQ(differingFloats(naive, plus), 0U);
-        inputs.cull_meshlets = false;
-        EXPECT_EQ(differingFloats(plus, draw(view, inputs)), 0U);
-
-        inputs = inputsFor(camera.camera, Renderer::kClusteredDeferred);
+        auto inputs = inputsFor(camera.camera, Renderer::kClusteredDeferred);
         inputs.geometry = GeometryPath::kVisibility;
-        const Picture clustered = draw(view, inputs);
-        inputs.settings.light_loop = view::LightLoop::kAllLights;
-        EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
-        inputs.settings.light_loop = view::LightLoop::kLists;
-        inputs.cull_meshlets = false;
-        EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
+        (void)expectVisibleExact(view, inputs);
     }
 }
 
