@@ -39,6 +39,7 @@ add_unless_on_path() { # LIST COMMAND PACKAGE...
 add_unless_on_path build_packages node nodejs
 add_unless_on_path build_packages npm npm
 add_unless_on_path test_packages chromium chromium
+add_unless_on_path test_packages promtool prometheus
 
 is_debian_12() {
     [[ -r /etc/os-release ]] || return 1
@@ -72,6 +73,13 @@ apt_get() {
         -o Dpkg::Use-Pty=0 "$@" </dev/null >/dev/null
 }
 
+# Only promtool is wanted of that package, and its daemon takes the port of our own metrics.
+stop_prometheus() {
+    if [[ -d /run/systemd/system ]]; then
+        as_root systemctl disable --quiet --now prometheus
+    fi
+}
+
 # On Debian 12 installs what is missing; elsewhere says what is needed and goes on if the tools are
 # there (CMake then names any library that is not).
 require_packages() {
@@ -84,6 +92,7 @@ require_packages() {
         say "installing (this takes minutes): ${missing[*]}"
         apt_get update
         apt_get install --no-install-recommends "${missing[@]}"
+        [[ " ${missing[*]} " != *" prometheus "* ]] || stop_prometheus
         return
     fi
     say "not Debian 12, so nothing is installed; needed are, by their names there: $*"

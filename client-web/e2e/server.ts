@@ -17,7 +17,7 @@ export interface Server {
 export async function startServer(port = 0): Promise<Server> {
   const binary = process.env.FROXEL_BINARY;
   if (!binary) throw new Error('FROXEL_BINARY is not set: the path of a froxel binary');
-  const child = spawn(binary, ['serve', '--port', String(port)], {
+  const child = spawn(binary, ['serve', '--port', String(port), '--admin-bind', 'none'], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
   const log: string[] = []; // the last of what it said

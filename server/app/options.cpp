@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/bench_presets.h"
+#include "app/bind_option.h"
 #include "app/command_builder.h"
 #include "app/load_arguments.h"
 #include "core/error.h"
@@ -17,7 +18,6 @@ namespace froxel::app {
 namespace {
 
 constexpr view::Range<uint32_t> kSeedRange{"seed", 0, std::numeric_limits<uint32_t>::max()};
-constexpr view::Range<uint32_t> kPortRange{"port", 0, 65535};
 constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
 constexpr view::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
 constexpr view::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
@@ -149,6 +149,9 @@ void addServe(CLI::App& app, Targets& targets) {
     CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
     command.text("--address", "IP", options.address, options.address, "IPv4 or IPv6 to listen on");
     command.number("--port", options.port, kPortRange, "TCP port, 0 for any free one");
+    command.value("--admin-bind", "IP:PORT|none", options.admin, parseBindAddress,
+                  fmt::format("{}:{}", options.admin.address, options.admin.port),
+                  "Address of /metrics, for operators");
     addSceneOption(command, options.scene, options.scene);
     command.device(options.device, options.validation);
     command.pipelineCache(options.pipeline_cache);

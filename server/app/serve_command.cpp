@@ -1,5 +1,6 @@
 #include "app/serve_command.h"
 
+#include "app/bind_option.h"
 #include "app/output_file.h"
 #include "app/scene_source.h"
 #include "app/serve_run.h"
@@ -76,16 +77,11 @@ fs::path webRootOf(const ServeOptions& options) {
     return root;
 }
 
-std::string urlOf(const std::string& address, uint16_t port) {
-    const bool v6 = address.find(':') != std::string::npos;
-    return "http://" + (v6 ? "[" + address + "]" : address) + ":" + numberText(port) + "/";
-}
-
 ServeRunOptions runOptions(const ServeOptions& options) {
     const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
     ServeRunOptions run;
-    run.server.address = options.address;
-    run.server.port = options.port;
+    run.server.bind = {options.address, options.port};
+    run.server.admin = options.admin;
     run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
     run.server.connections_max = 256 + 4 * options.sessions_max;
     run.server.web_root = webRootOf(options);
@@ -108,6 +104,9 @@ int runServe(const ServeOptions& options) {
     };
     ServeRun run(std::move(run_options));
     std::printf("%s\n", urlOf(options.address, run.port()).c_str());
+    if (const auto admin_port = run.adminPort()) {
+        std::printf("%smetrics\n", urlOf(options.admin.address, *admin_port).c_str());
+    }
     std::fflush(stdout);
 
     const int signal = stop.wait();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/device_options.h"
+#include "net/bind_address.h"
 #include "view/settings.h"
 
 #include <cstdint>
@@ -13,9 +14,10 @@
 namespace froxel::app {
 
 struct ServeOptions {
-    std::string address = "127.0.0.1"; // IPv4 or IPv6, no host names
-    uint16_t port = 8080;              // 0: any free one; the printed URL tells which
-    std::string scene = "builtin";     // as for loadScene()
+    std::string address = "127.0.0.1";         // IPv4 or IPv6, no host names
+    uint16_t port = 8080;                      // 0: any free one; the printed URL tells which
+    net::BindAddress admin{"127.0.0.1", 9090}; // /metrics; an empty address: nowhere
+    std::string scene = "builtin";             // as for loadScene()
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
     gpu::PipelineCacheOptions pipeline_cache;
@@ -34,10 +36,10 @@ struct ServeOptions {
     std::vector<std::string> allowed_origins;
 };
 
-// Prints one line with the URL to stdout once it listens; logs to stderr. Blocks until SIGTERM or
-// SIGINT has drained every session and returns 0; a second signal ends the process at once.
-// Throws StartupError: kAddressInUse, kIo (address, page), kScene, kDevice (also when the device
-// is lost while serving).
+// Prints its URL, and on a second line that of its metrics, to stdout once it listens; logs to
+// stderr. Blocks until SIGTERM or SIGINT has drained every session and returns 0; a second signal
+// ends the process at once. Throws StartupError: kAddressInUse, kIo (address, page), kScene,
+// kDevice (also when the device is lost while serving).
 [[nodiscard]] int runServe(const ServeOptions& options);
 
 } // namespace froxel::app

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace froxel::app {
 
@@ -39,6 +40,8 @@ class ServeRun {
     ServeRun& operator=(const ServeRun&) = delete;
 
     [[nodiscard]] uint16_t port() const { return server_->port(); }
+    // None without an admin address.
+    [[nodiscard]] std::optional<uint16_t> adminPort() const { return server_->adminPort(); }
     // Whether the scene is open; until then the render thread cannot be stopped.
     [[nodiscard]] bool opened() const { return server_->service().status().serving.has_value(); }
     // Tells every viewer, waits for their connections to close; whether all did in time.

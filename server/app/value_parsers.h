@@ -23,6 +23,9 @@ struct DefaultCamera {
 };
 using CameraChoice = std::variant<DefaultCamera, std::string, view::Camera>;
 
+// TCP ports; 0 stands for any free one.
+inline constexpr view::Range<uint32_t> kPortRange{"port", 0, 65535};
+
 // "a whole number from 0 to 1000000": for messages and help.
 [[nodiscard]] std::string describe(const view::Range<uint32_t>& range);
 [[nodiscard]] std::string describe(const view::Range<double>& range);

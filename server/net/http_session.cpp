@@ -2,13 +2,9 @@
 
 #include "core/text.h"
 #include "net/guard.h"
-#include "net/origin.h"
-#include "net/ws_connection.h"
-#include "protocol/limits.h"
 
 #include <boost/asio/dispatch.hpp>
 #include <boost/beast/http/read.hpp>
-#include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
@@ -25,43 +21,10 @@ namespace {
 constexpr std::chrono::seconds kLinger{2};
 constexpr size_t kMaxDiscardedBytes = size_t{256} * 1024;
 
-std::string_view viewOf(beast::string_view text) {
-    return {text.data(), text.size()};
-}
-
-// Why this request may not become a WebSocket; none when it may.
-std::optional<Response> refuseUpgrade(const Request& request, const Site& site) {
-    if (pathOf(request) != kSocketPath) {
-        return refusal(http::status::not_found, "the WebSocket is at /ws");
-    }
-    std::optional<std::string_view> origin;
-    if (const auto found = request.find(http::field::origin); found != request.end()) {
-        origin = viewOf(found->value());
-    }
-    const auto host = viewOf(request[http::field::host]);
-    if (!originAllowed(origin, host, site.allowed_origins)) {
-        spdlog::warn("refused a WebSocket for origin {} at host {}", printable(*origin),
-                     printable(host));
-        return refusal(http::status::forbidden,
-                       "origin " + printable(*origin) + " may not connect to " + printable(host));
-    }
-    const auto named = request.find(http::field::sec_websocket_protocol);
-    if (named != request.end() && !http::token_list(named->value())
-                                       .exists(beast::string_view(protocol::kSubprotocol.data(),
-                                                                  protocol::kSubprotocol.size()))) {
-        return refusal(http::status::bad_request,
-                       "this server speaks the subprotocol " + std::string(protocol::kSubprotocol));
-    }
-    if (site.service->status().draining) {
-        return refusal(http::status::service_unavailable, "the server is going down");
-    }
-    return {};
-}
-
 } // namespace
 
 HttpSession::HttpSession(boost::asio::ip::tcp::socket socket,
-                         std::shared_ptr<const Site> site,
+                         std::shared_ptr<const HttpSite> site,
                          ConnectionTicket ticket)
     : stream_(std::move(socket)), request_deadline_(stream_.get_executor()), site_(std::move(site)),
       ticket_(std::move(ticket)) {}
@@ -69,7 +32,9 @@ HttpSession::HttpSession(boost::asio::ip::tcp::socket socket,
 void HttpSession::start() {
     boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] {
         if (!guarded("http start", [&] {
-                self->site_->service->subscribe(self);
+                if (Service* service = self->site_->drainsWith()) {
+                    service->subscribe(self);
+                }
                 self->read();
             })) {
             self->close();
@@ -80,10 +45,15 @@ void HttpSession::start() {
 void HttpSession::onServiceChanged() {
     boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] {
         const bool waiting = self->reading_ && !self->parser_->got_some();
-        if (waiting && self->site_->service->status().draining) {
+        if (waiting && self->draining()) {
             self->close();
         }
     });
+}
+
+bool HttpSession::draining() const {
+    const Service* service = site_->drainsWith();
+    return service && service->status().draining;
 }
 
 void HttpSession::read() {
@@ -153,14 +123,13 @@ void HttpSession::onRequest() {
 }
 
 void HttpSession::upgrade(Request request) {
-    if (auto refused = refuseUpgrade(request, *site_)) {
+    if (auto refused = site_->refuseUpgrade(request)) {
         write(std::move(*refused));
     } else if (buffer_.size() > 0) {
         write(refusal(http::status::bad_request, "bytes before the answer to the upgrade"));
     } else {
         stream_.expires_never();
-        std::make_shared<WsConnection>(std::move(stream_), site_, std::move(ticket_))
-            ->start(std::move(request));
+        site_->upgrade(std::move(stream_), std::move(request), std::move(ticket_));
     }
 }
 
@@ -178,7 +147,7 @@ void HttpSession::write(Response response) {
 void HttpSession::onWritten(beast::error_code error) {
     if (error) {
         close();
-    } else if (response_.need_eof() || site_->service->status().draining) {
+    } else if (response_.need_eof() || draining()) {
         beast::error_code ignored;
         stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
         stream_.expires_after(kLinger);

@@ -2,8 +2,7 @@
 // WebSocket. One strand.
 #pragma once
 
-#include "net/http_routes.h"
-#include "net/site.h"
+#include "net/http_site.h"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -23,7 +22,7 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     static constexpr std::chrono::seconds kDeadline{10};
 
     HttpSession(boost::asio::ip::tcp::socket socket,
-                std::shared_ptr<const Site> site,
+                std::shared_ptr<const HttpSite> site,
                 ConnectionTicket ticket);
     void start();
     // Ends a connection that is between requests when the server drains.
@@ -32,6 +31,7 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
   private:
     using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
 
+    [[nodiscard]] bool draining() const;
     void read();
     void onRead(boost::beast::error_code error);
     void onReadError(boost::beast::error_code error);
@@ -46,7 +46,7 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     boost::asio::steady_timer request_deadline_;
     bool reading_ = false;
     bool late_ = false;
-    const std::shared_ptr<const Site> site_;
+    const std::shared_ptr<const HttpSite> site_;
     ConnectionTicket ticket_;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;

@@ -28,12 +28,13 @@ constexpr int kNotSentBytes = 128 * 1024;
 // for a quarter of an hour.
 constexpr int kUnacknowledged_ms = 10'000;
 
-[[noreturn]] void refuseStart(const std::string& address, uint16_t port, const Failure& failure) {
+[[noreturn]] void
+refuseStart(const BindAddress& bind, const std::string& option, const Failure& failure) {
     const bool taken = failure == asio::error::address_in_use;
     throw StartupError(
         {taken ? ErrorCode::kAddressInUse : ErrorCode::kIo,
-         "cannot listen on " + address + " port " + numberText(port) + ": " +
-             (taken ? "it is in use; choose another with --port" : failure.message())});
+         "cannot listen on " + bind.address + " port " + numberText(bind.port) + ": " +
+             (taken ? "it is in use; choose another with " + option : failure.message())});
 }
 
 bool outOfResources(const Failure& failure) {
@@ -54,20 +55,20 @@ void tune(tcp::socket& socket) {
 } // namespace
 
 Listener::Listener(asio::io_context& io,
-                   const std::string& address,
-                   uint16_t port,
+                   const BindAddress& bind,
+                   const char* option,
                    uint32_t connections_max,
-                   std::shared_ptr<const Site> site)
+                   std::shared_ptr<const HttpSite> site)
     : io_(io), acceptor_(asio::make_strand(io)), back_off_(acceptor_.get_executor()),
       connections_max_(connections_max), site_(std::move(site)),
       connection_count_(std::make_shared<std::atomic<uint32_t>>(0)) {
     Failure failure;
-    const auto ip = asio::ip::make_address(address, failure);
+    const auto ip = asio::ip::make_address(bind.address, failure);
     if (failure) {
-        throw StartupError(
-            {ErrorCode::kIo, "address \"" + printable(address) + "\" is no IPv4 or IPv6 address"});
+        throw StartupError({ErrorCode::kIo, "address \"" + printable(bind.address) +
+                                                "\" is no IPv4 or IPv6 address"});
     }
-    const tcp::endpoint endpoint(ip, port);
+    const tcp::endpoint endpoint(ip, bind.port);
     acceptor_.open(endpoint.protocol(), failure);
     if (!failure) {
         acceptor_.set_option(asio::socket_base::reuse_address(true), failure);
@@ -79,7 +80,7 @@ Listener::Listener(asio::io_context& io,
         acceptor_.listen(asio::socket_base::max_listen_connections, failure);
     }
     if (failure) {
-        refuseStart(address, port, failure);
+        refuseStart(bind, option, failure);
     }
     port_ = acceptor_.local_endpoint().port();
 }

@@ -1,7 +1,8 @@
 // Accepts connections and gives each a strand of its own.
 #pragma once
 
-#include "net/site.h"
+#include "net/bind_address.h"
+#include "net/http_site.h"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -15,12 +16,13 @@ namespace froxel::net {
 
 class Listener final : public std::enable_shared_from_this<Listener> {
   public:
-    // Listens at once. Throws StartupError: kAddressInUse, kIo (no such address here).
+    // Listens at once. Throws StartupError: kAddressInUse, kIo (no such address here); the message
+    // names `option`, by which another port is chosen.
     Listener(boost::asio::io_context& io,
-             const std::string& address,
-             uint16_t port,
+             const BindAddress& bind,
+             const char* option,
              uint32_t connections_max,
-             std::shared_ptr<const Site> site);
+             std::shared_ptr<const HttpSite> site);
 
     [[nodiscard]] uint16_t port() const { return port_; }
     void start();
@@ -35,7 +37,7 @@ class Listener final : public std::enable_shared_from_this<Listener> {
     boost::asio::ip::tcp::acceptor acceptor_; // on a strand of its own
     boost::asio::steady_timer back_off_;
     const uint32_t connections_max_;
-    const std::shared_ptr<const Site> site_;
+    const std::shared_ptr<const HttpSite> site_;
     const std::shared_ptr<std::atomic<uint32_t>> connection_count_;
     uint16_t port_ = 0;
 };

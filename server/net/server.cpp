@@ -1,8 +1,9 @@
 #include "net/server.h"
 
+#include "net/admin_site.h"
 #include "net/guard.h"
 #include "net/listener.h"
-#include "net/site.h"
+#include "net/public_site.h"
 
 #include <boost/asio/io_context.hpp>
 
@@ -13,7 +14,11 @@
 
 namespace froxel::net {
 
+namespace asio = boost::asio;
+
 namespace {
+
+constexpr uint32_t kAdminConnectionsMax = 32;
 
 std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     auto site = std::make_shared<Site>();
@@ -26,31 +31,56 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     return site;
 }
 
+// Handlers guard themselves; this is for what none foresaw.
+void work(asio::io_context& io) {
+    while (!guarded("network thread", [&io] { io.run(); })) {
+    }
+}
+
+// The admin address, on a thread of its own: whatever viewers do, it answers.
+struct Admin {
+    Admin(const BindAddress& bind, std::shared_ptr<const Metrics> metrics)
+        : listener(std::make_shared<Listener>(io,
+                                              bind,
+                                              "--admin-bind",
+                                              kAdminConnectionsMax,
+                                              std::make_shared<AdminSite>(std::move(metrics)))) {
+        listener->start();
+        thread = std::jthread([this] { work(io); });
+    }
+    ~Admin() { io.stop(); }
+
+    asio::io_context io{1};
+    const std::shared_ptr<Listener> listener;
+    std::jthread thread; // last: it ends before what it uses
+};
+
 } // namespace
 
 struct Server::Impl {
     explicit Impl(const ServerOptions& options)
         : io(static_cast<int>(options.thread_count)), site(makeSite(options)),
-          listener(std::make_shared<Listener>(
-              io, options.address, options.port, options.connections_max, site)) {
+          listener(std::make_shared<Listener>(io,
+                                              options.bind,
+                                              "--port",
+                                              options.connections_max,
+                                              std::make_shared<PublicSite>(site))) {
+        if (!options.admin.address.empty()) {
+            admin.emplace(options.admin, site->metrics);
+        }
         listener->start();
         for (uint32_t i = 0; i < options.thread_count; ++i) {
-            std::packaged_task<void()> task([this] { work(); });
+            std::packaged_task<void()> task([this] { work(io); });
             done.push_back(task.get_future());
             threads.emplace_back(std::move(task));
         }
     }
     ~Impl() { io.stop(); }
 
-    // Handlers guard themselves; this is for what none foresaw.
-    void work() {
-        while (!guarded("network thread", [this] { io.run(); })) {
-        }
-    }
-
-    boost::asio::io_context io;
+    asio::io_context io;
     const std::shared_ptr<const Site> site;
     const std::shared_ptr<Listener> listener;
+    std::optional<Admin> admin;
     std::vector<std::future<void>> done;
     std::vector<std::jthread> threads; // last: they end before what they use
 };
@@ -61,6 +91,10 @@ Server::~Server() = default;
 
 uint16_t Server::port() const {
     return impl_->listener->port();
+}
+
+std::optional<uint16_t> Server::adminPort() const {
+    return impl_->admin ? std::optional(impl_->admin->listener->port()) : std::nullopt;
 }
 
 Service& Server::service() {

@@ -1,19 +1,21 @@
-// The network room's door: a listener, its threads, and what all connections share.
+// The network room's door: the listeners, their threads, and what all connections share.
 #pragma once
 
+#include "net/bind_address.h"
 #include "net/service.h"
 
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace froxel::net {
 
 struct ServerOptions {
-    std::string address = "127.0.0.1";
-    uint16_t port = 0; // 0: any free one
+    BindAddress bind{"127.0.0.1", 0};
+    BindAddress admin; // for operators: metrics; an empty address: none
     uint32_t thread_count = 1;
     uint32_t connections_max = 512; // of any kind; sessions have a limit of their own
     std::filesystem::path web_root; // empty: no page
@@ -30,11 +32,13 @@ class Server {
     Server& operator=(const Server&) = delete;
 
     [[nodiscard]] uint16_t port() const;
+    // None without an admin address.
+    [[nodiscard]] std::optional<uint16_t> adminPort() const;
     // Where progress, readiness and draining are told. Any thread.
     [[nodiscard]] Service& service();
 
     // Accepts no more, tells everyone, and waits until the last connection has closed or the
-    // deadline is over; whether all closed by themselves.
+    // deadline is over; whether all closed by themselves. The admin address answers to the end.
     bool drain(std::chrono::milliseconds deadline);
 
   private:

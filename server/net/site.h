@@ -1,4 +1,4 @@
-// What all connections of one server have in common. Immutable but for the service and the metrics,
+// What all viewers of one server have in common. Immutable but for the service and the metrics,
 // which any thread may use.
 #pragma once
 
@@ -18,8 +18,5 @@ struct Site {
     std::shared_ptr<Service> service;
     std::shared_ptr<Metrics> metrics;
 };
-
-// Counts a connection for as long as it is held.
-using ConnectionTicket = std::shared_ptr<const void>;
 
 } // namespace froxel::net

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "net/conversation.h"
-#include "net/http_routes.h"
+#include "net/http_site.h"
 #include "net/lingering_stream.h"
 #include "net/site.h"
 

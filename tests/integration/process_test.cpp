@@ -128,6 +128,26 @@ TEST(ServeProcess, Port_InUse_ExitsFiveAndNamesIt) {
     EXPECT_NE(end.errors.find(std::to_string(port)), std::string::npos) << end.errors;
 }
 
+TEST(ServeProcess, AdminPort_InUse_ExitsFiveAndNamesTheOption) {
+    ServerProcess first(kSmall);
+    const std::string taken = "127.0.0.1:" + std::to_string(first.port().value());
+    ChildProcess second({FROXEL_BINARY, "serve", "--port", "0", "--admin-bind", taken});
+    const auto end = second.wait(20s);
+    EXPECT_EQ(end.exit_code, 5);
+    EXPECT_EQ(end.output, "") << "nothing is served";
+    EXPECT_NE(end.errors.find("--admin-bind"), std::string::npos) << end.errors;
+}
+
+TEST(ServeProcess, AdminBind_None_PrintsOneAddress) {
+    ChildProcess server(
+        {FROXEL_BINARY, "serve", "--device", "cpu", "--port", "0", "--admin-bind", "none"});
+    EXPECT_NE(server.readLine(), "");
+    server.signal(SIGTERM);
+    const auto end = server.wait(15s);
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    EXPECT_EQ(end.output, "");
+}
+
 TEST(ServeProcess, Scene_Missing_ExitsThreeAndNamesIt) {
     ServerProcess server({"--scene", "/no/such/scene.glb"});
     const auto end = server.wait(20s);

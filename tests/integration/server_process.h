@@ -1,4 +1,4 @@
-// The real binary's server as a child process, on a free port of 127.0.0.1 and the CPU device.
+// The real binary's server as a child process, on free ports of 127.0.0.1 and the CPU device.
 #pragma once
 
 #include "integration/child_process.h"
@@ -14,6 +14,8 @@ class ServerProcess : public ChildProcess {
 
     // From the URL that it prints; none when it ended without printing one.
     [[nodiscard]] std::optional<uint16_t> port();
+    // Of /metrics, after port().
+    [[nodiscard]] std::optional<uint16_t> adminPort() { return port(); }
 };
 
 } // namespace froxel::test

@@ -24,6 +24,7 @@ session::SessionContext contextFor(const TestServerOptions& options) {
 
 TestServer::TestServer(const TestServerOptions& options) : opened_(options.open_at_once) {
     app::ServeRunOptions run;
+    run.server.admin = {"127.0.0.1", 0};
     run.server.connections_max = options.connections_max;
     run.server.allowed_origins = options.allowed_origins;
     run.server.web_root = options.web_root;

@@ -25,6 +25,7 @@ class TestServer {
     ~TestServer();
 
     [[nodiscard]] uint16_t port() const { return run_->port(); }
+    [[nodiscard]] uint16_t adminPort() const { return run_->adminPort().value(); }
     [[nodiscard]] FakeDevice& device() { return *device_; }
     [[nodiscard]] app::ServeRun& run() { return *run_; }
     void open();

@@ -10,7 +10,8 @@ from pathlib import Path
 
 
 def main(froxel):
-    command = [froxel, "serve", "--port", "0", "--device", "cpu", "--size", "160x90"]
+    command = [froxel, "serve", "--port", "0", "--admin-bind", "none"]
+    command += ["--device", "cpu", "--size", "160x90"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         try:
             url = server.stdout.readline().strip().replace("http://", "ws://") + "ws"

@@ -70,7 +70,8 @@ class CommandLine(unittest.TestCase):
             taken.bind(("127.0.0.1", 0))
             taken.listen()
             port = taken.getsockname()[1]
-            run = froxel("serve", "--device", "cpu", "--port", port, "--log-level", "error")
+            run = froxel("serve", "--device", "cpu", "--port", port, "--admin-bind", "none",
+                         "--log-level", "error")
             self.assert_refused(run, 5, str(port))
 
     def test_unwritable_output_is_1_before_anything_is_drawn(self):

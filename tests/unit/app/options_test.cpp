@@ -127,9 +127,15 @@ TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
     const auto& serve = std::get<ServeOptions>(options.command);
     EXPECT_EQ(serve.port, 8080);
     EXPECT_EQ(serve.address, "127.0.0.1");
+    EXPECT_EQ(serve.admin, (net::BindAddress{"127.0.0.1", 9090}));
     EXPECT_FALSE(serve.size || serve.quality || serve.light_count || serve.renderer);
     EXPECT_EQ(serve.other, view::ViewSettings{});
     EXPECT_EQ(options.log_level, LogLevel::kInfo);
+}
+
+TEST(Options, AdminBindNone_IsNoAddress) {
+    const auto options = parse({"serve", "--admin-bind", "none"});
+    EXPECT_EQ(std::get<ServeOptions>(options.command).admin.address, "");
 }
 
 TEST(Options, ServeWithAll_FillsEveryField) {
@@ -138,6 +144,8 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "::1",
                                 "--port",
                                 "0",
+                                "--admin-bind",
+                                "[::1]:0",
                                 "--scene",
                                 "a.glb",
                                 "--size",
@@ -173,6 +181,7 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     const auto& serve = std::get<ServeOptions>(options.command);
     EXPECT_EQ(serve.address, "::1");
     EXPECT_EQ(serve.port, 0);
+    EXPECT_EQ(serve.admin, (net::BindAddress{"::1", 0}));
     EXPECT_EQ(serve.scene, "a.glb");
     EXPECT_EQ(serve.size, (view::Size{320, 200}));
     EXPECT_EQ(serve.quality, 90U);
@@ -304,6 +313,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"render", "--out", "a.png", "--sed", "1"}, {"--sed"}},
         Refusal{{"render", "--out", "a.png", "stray"}, {"stray"}},
         Refusal{{"serve", "--port", "65536"}, {"--port", "'65536'", "0 to 65535"}},
+        Refusal{{"serve", "--admin-bind", "9090"}, {"--admin-bind", "'9090'", "127.0.0.1:9090"}},
+        Refusal{{"serve", "--admin-bind", ":9090"}, {"--admin-bind", "':9090'"}},
+        Refusal{{"serve", "--admin-bind", "::1:9090"}, {"--admin-bind", "'::1:9090'"}},
+        Refusal{{"serve", "--admin-bind", "127.0.0.1:65536"}, {"--admin-bind", ":65536'"}},
         Refusal{{"serve", "--log-level", "loud"}, {"--log-level", "'loud'", "debug, info"}},
         Refusal{{"load"}, {"URL", "froxel load --help"}},
         Refusal{{"load", "localhost:8080"}, {"'localhost:8080'", "ws://127.0.0.1:8080/ws"}},

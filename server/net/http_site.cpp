@@ -1,0 +1,78 @@
+#include "net/http_site.h"
+
+#include <utility>
+
+namespace froxel::net {
+
+namespace http = boost::beast::http;
+
+namespace {
+
+// The page needs its own scripts, its worker, its socket and pictures made in memory; its control
+// panel brings styles of its own. Nobody may frame it.
+constexpr std::string_view kContentPolicy =
+    "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
+    "worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+Response answerTo(const Request& request, const HttpSite& site) {
+    if (request.method() != http::verb::get && request.method() != http::verb::head) {
+        Response response =
+            textResponse(http::status::method_not_allowed, "only GET and HEAD are answered here");
+        response.set(http::field::allow, "GET, HEAD");
+        return response;
+    }
+    return site.answer(request, pathOf(request));
+}
+
+} // namespace
+
+std::string_view pathOf(const Request& request) {
+    const std::string_view target{request.target().data(), request.target().size()};
+    return target.substr(0, target.find('?'));
+}
+
+Response respond(const Request& request, const HttpSite& site) {
+    Response response = answerTo(request, site);
+    response.version(request.version());
+    response.keep_alive(request.keep_alive());
+    const size_t body_bytes = response.body().size();
+    if (request.method() == http::verb::head) {
+        response.body().clear();
+    }
+    if (response.result() != http::status::not_modified) {
+        response.content_length(body_bytes);
+    }
+    return response;
+}
+
+Response makeResponse(http::status status, std::string_view content_type, std::string body) {
+    Response response{status, 11};
+    response.set(http::field::content_type,
+                 boost::beast::string_view(content_type.data(), content_type.size()));
+    response.set("Content-Security-Policy", kContentPolicy);
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("X-Frame-Options", "DENY");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("Cross-Origin-Opener-Policy", "same-origin");
+    response.set("Cross-Origin-Resource-Policy", "same-origin");
+    response.set(http::field::cache_control, "no-store");
+    response.body() = std::move(body);
+    return response;
+}
+
+Response textResponse(http::status status, std::string line) {
+    return makeResponse(status, "text/plain; charset=utf-8", std::move(line) + "\n");
+}
+
+Response refusal(http::status status, std::string line) {
+    Response response = textResponse(status, std::move(line));
+    response.keep_alive(false);
+    if (status == http::status::service_unavailable) {
+        response.set(http::field::retry_after, "5");
+    }
+    response.prepare_payload();
+    return response;
+}
+
+} // namespace froxel::net

@@ -1,0 +1,55 @@
+// What one address answers over HTTP, as a connection sees it: the public one (public_site.h) and
+// the one for operators (admin_site.h). Immutable; any thread.
+#pragma once
+
+#include "net/service.h"
+
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace froxel::net {
+
+using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+using Response = boost::beast::http::response<boost::beast::http::string_body>;
+
+// Counts a connection for as long as it is held.
+using ConnectionTicket = std::shared_ptr<const void>;
+
+class HttpSite {
+  public:
+    virtual ~HttpSite() = default;
+
+    // A GET or HEAD; `path` is without the query.
+    [[nodiscard]] virtual Response answer(const Request& request, std::string_view path) const = 0;
+    // Why this request may not become a WebSocket; none when it may.
+    [[nodiscard]] virtual std::optional<Response> refuseUpgrade(const Request& request) const = 0;
+    // Takes the connection over; only after refuseUpgrade() gave none.
+    virtual void
+    upgrade(boost::beast::tcp_stream stream, Request request, ConnectionTicket ticket) const = 0;
+    // Connections close when this drains; null: they are answered until the process ends.
+    [[nodiscard]] virtual Service* drainsWith() const = 0;
+};
+
+// The path of a request's target, without the query.
+[[nodiscard]] std::string_view pathOf(const Request& request);
+
+// The whole answer to a request that is no upgrade: GET and HEAD go to the site, HEAD gets the
+// headers of GET, and every answer the headers that keep browsers out of trouble.
+[[nodiscard]] Response respond(const Request& request, const HttpSite& site);
+
+// For answer(): a body of this type, and one line of text.
+[[nodiscard]] Response
+makeResponse(boost::beast::http::status status, std::string_view content_type, std::string body);
+[[nodiscard]] Response textResponse(boost::beast::http::status status, std::string line);
+
+// An error with one line of text for a person; closes the connection.
+[[nodiscard]] Response refusal(boost::beast::http::status status, std::string line);
+
+} // namespace froxel::net

@@ -1,0 +1,100 @@
+#include "net/public_site.h"
+
+#include "core/text.h"
+#include "net/origin.h"
+#include "net/ws_connection.h"
+#include "protocol/limits.h"
+
+#include <boost/beast/http/rfc7230.hpp>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+namespace froxel::net {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+namespace {
+
+Response health(const ServiceStatus& status) {
+    if (status.draining) {
+        return makeResponse(http::status::service_unavailable, "application/json",
+                            R"({"status":"draining"})");
+    }
+    return makeResponse(http::status::ok, "application/json",
+                        status.serving ? R"({"status":"serving"})" : R"({"status":"loading"})");
+}
+
+Response file(const Request& request, const StaticFile& found) {
+    const bool unchanged = request[http::field::if_none_match] == found.etag;
+    Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
+                                     found.content_type, unchanged ? std::string() : found.body);
+    response.set(http::field::etag, found.etag);
+    response.set(http::field::cache_control,
+                 found.immutable ? "public, max-age=31536000, immutable" : "no-cache");
+    return response;
+}
+
+std::string_view viewOf(beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
+} // namespace
+
+Response PublicSite::answer(const Request& request, std::string_view path) const {
+    if (path == "/healthz") {
+        return health(site_->service->status());
+    }
+    if (path == "/metrics") {
+        return textResponse(http::status::not_found,
+                            "metrics are at the admin address (froxel serve --admin-bind)");
+    }
+    if (path == kSocketPath) {
+        Response response = textResponse(http::status::upgrade_required,
+                                         "this path speaks WebSocket (version 13) only");
+        response.set(http::field::upgrade, "websocket");
+        return response;
+    }
+    if (const StaticFile* found = site_->files.find(path)) {
+        return file(request, *found);
+    }
+    return textResponse(http::status::not_found,
+                        path == "/" ? "the page is not built; ./deploy/build.sh makes it"
+                                    : "not found");
+}
+
+std::optional<Response> PublicSite::refuseUpgrade(const Request& request) const {
+    if (pathOf(request) != kSocketPath) {
+        return refusal(http::status::not_found, "the WebSocket is at /ws");
+    }
+    std::optional<std::string_view> origin;
+    if (const auto found = request.find(http::field::origin); found != request.end()) {
+        origin = viewOf(found->value());
+    }
+    const auto host = viewOf(request[http::field::host]);
+    if (!originAllowed(origin, host, site_->allowed_origins)) {
+        spdlog::warn("refused a WebSocket for origin {} at host {}", printable(*origin),
+                     printable(host));
+        return refusal(http::status::forbidden,
+                       "origin " + printable(*origin) + " may not connect to " + printable(host));
+    }
+    const auto named = request.find(http::field::sec_websocket_protocol);
+    if (named != request.end() && !http::token_list(named->value())
+                                       .exists(beast::string_view(protocol::kSubprotocol.data(),
+                                                                  protocol::kSubprotocol.size()))) {
+        return refusal(http::status::bad_request,
+                       "this server speaks the subprotocol " + std::string(protocol::kSubprotocol));
+    }
+    if (site_->service->status().draining) {
+        return refusal(http::status::service_unavailable, "the server is going down");
+    }
+    return {};
+}
+
+void PublicSite::upgrade(beast::tcp_stream stream, Request request, ConnectionTicket ticket) const {
+    std::make_shared<WsConnection>(std::move(stream), site_, std::move(ticket))
+        ->start(std::move(request));
+}
+
+} // namespace froxel::net

@@ -1,0 +1,28 @@
+// The address that viewers use: the page, its health, and the WebSocket.
+#pragma once
+
+#include "net/http_site.h"
+#include "net/site.h"
+
+#include <memory>
+
+namespace froxel::net {
+
+inline constexpr std::string_view kSocketPath = "/ws";
+
+class PublicSite final : public HttpSite {
+  public:
+    explicit PublicSite(std::shared_ptr<const Site> site) : site_(std::move(site)) {}
+
+    [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
+    [[nodiscard]] std::optional<Response> refuseUpgrade(const Request& request) const override;
+    void upgrade(boost::beast::tcp_stream stream,
+                 Request request,
+                 ConnectionTicket ticket) const override;
+    [[nodiscard]] Service* drainsWith() const override { return site_->service.get(); }
+
+  private:
+    const std::shared_ptr<const Site> site_;
+};
+
+} // namespace froxel::net
