@@ -20,6 +20,8 @@ inline constexpr size_t kMaxFrameBytes = 64 * 1024 * 1024; // what a client must
 inline constexpr uint32_t kMaxJsonDepth = 16;              // brackets in a text message
 inline constexpr size_t kMaxClientNameBytes = 64;          // Hello.client_name
 inline constexpr size_t kMaxNameBytes = 256;               // any other name in a command
+inline constexpr size_t kMaxRoomNameBytes = 64;            // Hello.room
+inline constexpr size_t kMaxRoomMembersTold = 32;          // in a RoomState
 
 inline constexpr std::chrono::seconds kHelloTimeout{5};
 
@@ -34,6 +36,7 @@ enum class CloseCode : uint16_t {
     kTooBig = 1009,       // a message over the cap; do not retry
     kVersion = 4001,      // protocol_major differs; do not retry
     kSlowConsumer = 4008, // a write was stuck for too long; retry
+    kReplaced = 4009,     // a newer connection took the session up; do not retry
     kDraining = 4010,     // the server is going down; retry elsewhere or later
     kCapacity = 4029,     // no session left; retry with back-off
     kDeviceLost = 4050,   // the rendering device was lost; retry with back-off

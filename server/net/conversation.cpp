@@ -14,10 +14,13 @@ using session::RejectCode;
 using session::Rejection;
 
 Conversation::~Conversation() {
-    if (id_ != 0) {
-        service_.serving->port->leave(id_);
-        metrics_->sessionClosed();
+    if (!seat_) {
+        return;
     }
+    // A client that reads too slowly may find a better way here.
+    const bool lost = !goodbye_ && (!closing_ || closing_->code == CloseCode::kSlowConsumer);
+    lobby_->depart(*seat_, lost ? Departure::kLost : Departure::kLeft, Clock::now());
+    metrics_->sessionClosed();
 }
 
 void Conversation::onMessage(protocol::ByteSpan message,
@@ -40,8 +43,8 @@ void Conversation::handle(const CommandMessage& message, TimePoint now) {
         answer(session::makePong(message.stamp));
     } else if (const auto* ack = std::get_if<session::Ack>(&message.body)) {
         onAck(message.stamp, ack->frame_id, now);
-    } else if (state_) {
-        applyCommand(message, now);
+    } else if (seat_) {
+        onCommand(message, now);
     } else if (early_.size() < kMaxEarlyCommands) {
         early_.push_back(message);
     } else {
@@ -52,7 +55,7 @@ void Conversation::handle(const CommandMessage& message, TimePoint now) {
 }
 
 void Conversation::greet(const session::Hello& hello, TimePoint now) {
-    client_name_ = hello.client_name;
+    hello_ = hello;
     if (service_.serving) {
         begin(now);
     } else {
@@ -61,36 +64,66 @@ void Conversation::greet(const session::Hello& hello, TimePoint now) {
 }
 
 void Conversation::begin(TimePoint now) {
-    const session::SessionContext& context = *service_.serving->context;
-    auto state = session::initialState(context, now);
-    const auto id = service_.serving->port->join(sink_, state, now);
-    if (!id) {
-        const bool full = id.error().code == ErrorCode::kCapacity;
+    auto seat = lobby_->enter(*service_.serving, hello_, viewer_, now);
+    hello_.resume_token.clear();
+    if (!seat) {
+        const bool full = seat.error().code == ErrorCode::kCapacity;
         answer(session::makeError(
-            {full ? RejectCode::kCapacity : RejectCode::kDevice, 0, "", id.error().message}));
+            {full ? RejectCode::kCapacity : RejectCode::kDevice, 0, "", seat.error().message}));
         close(full ? CloseCode::kCapacity : CloseCode::kDeviceLost, "no session");
         return;
     }
-    id_ = *id;
+    seat_ = std::move(*seat);
     metrics_->sessionOpened();
-    state_ = state;
-    welcome_ = state;
-    answer(session::makeWelcome(id_, context, *state_));
+    sayWelcome();
+    if (auto& picture = seat_->picture) {
+        outbox_.putFrame(*std::exchange(picture, std::nullopt));
+    }
     grantCredits();
     for (const CommandMessage& message : std::exchange(early_, {})) {
+        onCommand(message, now);
+    }
+}
+
+void Conversation::sayWelcome() {
+    session::WelcomePlace place;
+    place.resume_token = seat_->resume_token;
+    place.resume_grace = lobby_->resumeGrace();
+    place.resumed = seat_->resumed;
+    answer(seat_->session->welcome(seat_->place.member, std::move(place)));
+}
+
+void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
+    if (const auto* pause = std::get_if<session::Pause>(&message.body)) {
+        setPaused(pause->paused);
+    } else if (session::setsState(message.body)) {
         applyCommand(message, now);
+    } else {
+        changeControl(message, now);
     }
 }
 
 void Conversation::applyCommand(const CommandMessage& message, TimePoint now) {
-    auto next = session::apply(*state_, message, *service_.serving->context, now);
-    if (!next) {
-        reject(next.error(), now);
+    if (auto applied = seat_->session->apply(seat_->place, message, now); !applied) {
+        reject(applied.error(), now);
         return;
     }
-    state_ = *next;
-    service_.serving->port->update(id_, *state_, now);
+    newest_ = message.stamp;
     outbox_.putState();
+}
+
+void Conversation::changeControl(const CommandMessage& message, TimePoint now) {
+    if (auto changed = seat_->session->changeControl(seat_->place, message.body); !changed) {
+        Rejection rejection = changed.error();
+        rejection.ref_seq = message.stamp.seq;
+        reject(rejection, now);
+    }
+}
+
+// Pictures that come while it is paused, in a room, replace one another in the slot.
+void Conversation::setPaused(bool paused) {
+    paused_ = paused;
+    grantCredits();
 }
 
 void Conversation::onAck(const session::CommandStamp& stamp, uint64_t frame_id, TimePoint now) {
@@ -111,7 +144,7 @@ void Conversation::onService(const ServiceStatus& status, TimePoint now) {
     if (status.draining) {
         answer(session::makeDraining(*status.draining));
         close(CloseCode::kDraining, "the server is going down");
-    } else if (!greeted() || state_) {
+    } else if (!greeted() || seat_) {
         return;
     } else if (status.serving) {
         begin(now);
@@ -127,6 +160,22 @@ void Conversation::sayLoading() {
     answer(message);
 }
 
+void Conversation::onNotice(Notice notice) {
+    if (auto* frame = std::get_if<session::ReadyFrame>(&notice)) {
+        onFrame(std::move(*frame));
+    } else if (closing_) {
+        return;
+    } else if (std::holds_alternative<StateNews>(notice)) {
+        outbox_.putState();
+    } else if (std::holds_alternative<RoomNews>(notice)) {
+        outbox_.putRoom();
+    } else if (const auto* rejection = std::get_if<Rejection>(&notice)) {
+        answer(session::makeError(*rejection));
+    } else if (auto* closing = std::get_if<Closing>(&notice)) {
+        close(closing->code, std::move(closing->reason));
+    }
+}
+
 void Conversation::onFrame(session::ReadyFrame frame) {
     ++delivered_;
     if (closing_) {
@@ -140,39 +189,6 @@ void Conversation::onFrame(session::ReadyFrame frame) {
     grantCredits();
 }
 
-void Conversation::onRefused(const Error& error,
-                             const session::SessionState& refused,
-                             const std::optional<session::SessionState>& drawn,
-                             TimePoint now) {
-    // A newer state is on its way to the stream and will be tried in its turn.
-    if (closing_ || !state_ || state_->version != refused.version) {
-        return;
-    }
-    const bool unsupported = error.code == ErrorCode::kUnsupported;
-    answer(session::makeError({unsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
-                               refused.applied.seq, "", error.message}));
-    if (!drawn && refused.settings == welcome_->settings) {
-        close(CloseCode::kCapacity, "the first picture cannot be made");
-        return;
-    }
-    // A client may have changed much before its first picture.
-    const session::SessionState& good = drawn ? *drawn : *welcome_;
-    const view::Lights& lights = good.settings.lights;
-    state_->light_clock = state_->light_clock.withRate(now, lights.speed, lights.animate);
-    state_->settings = good.settings;
-    state_->encoding = good.encoding;
-    ++state_->version;
-    service_.serving->port->update(id_, *state_, now);
-    outbox_.putState();
-}
-
-void Conversation::onDeviceLost(const Error& error) {
-    if (!closing_) {
-        answer(session::makeError({RejectCode::kDevice, 0, "", error.message}));
-        close(CloseCode::kDeviceLost, "the device was lost");
-    }
-}
-
 void Conversation::onHelloTimeout() {
     if (!closing_ && !greeted()) {
         close(CloseCode::kPolicy, "no hello within 5 s");
@@ -183,6 +199,8 @@ void Conversation::reject(const Rejection& rejection, TimePoint now) {
     answer(session::makeError(rejection));
     if (rejection.code == RejectCode::kVersion) {
         close(CloseCode::kVersion, "protocol version");
+    } else if (rejection.code == RejectCode::kControl) {
+        return; // no fault: control may have gone while the command was on its way
     } else if (!rejects_.spend(now)) {
         answer(session::makeError({RejectCode::kRateLimit, rejection.ref_seq, "",
                                    "more than " + numberText(protocol::kMaxRejects) +
@@ -193,8 +211,7 @@ void Conversation::reject(const Rejection& rejection, TimePoint now) {
 }
 
 void Conversation::answer(const v1::ServerMessage& message) {
-    const auto format = reader_.replyFormat();
-    if (!outbox_.putAnswer({protocol::encodeServerMessage(message, format), nullptr, format})) {
+    if (!outbox_.putAnswer(inReply(message))) {
         close(CloseCode::kSlowConsumer, "answers are not read");
     }
 }
@@ -211,27 +228,27 @@ void Conversation::close(CloseCode code, std::string reason) {
 // slot would grow old.
 void Conversation::grantCredits() {
     uint64_t room = 0;
-    if (window_.open() && !outbox_.hasFrame()) {
+    if (window_.open() && !outbox_.hasFrame() && !paused_) {
         room = window_.window() - window_.inFlight() + (window_.window() > 1 ? 1U : 0U);
     }
-    if (id_ != 0 && delivered_ + room != granted_) {
+    if (seat_ && delivered_ + room != granted_) {
         granted_ = delivered_ + room;
-        service_.serving->port->grant(id_, granted_);
+        seat_->session->grant(seat_->place, granted_);
     }
 }
 
 std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
-    switch (outbox_.next(window_.open())) {
+    switch (outbox_.next(window_.open() && !paused_)) {
     case Outbox::Next::kNothing:
         return {};
     case Outbox::Next::kAnswer:
         return outbox_.takeAnswer();
-    case Outbox::Next::kState: {
+    case Outbox::Next::kRoom:
+        outbox_.takeRoom();
+        return inReply(seat_->session->roomState(seat_->place.member));
+    case Outbox::Next::kState:
         outbox_.takeState();
-        const auto format = reader_.replyFormat();
-        const auto message = session::makeStateChanged(*service_.serving->context, *state_);
-        return Outgoing{protocol::encodeServerMessage(message, format), nullptr, format};
-    }
+        return stateMessage();
     case Outbox::Next::kFrame:
         if (auto details = detailsMessage()) {
             return details;
@@ -239,6 +256,18 @@ std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
         return frameMessage(now);
     }
     return {};
+}
+
+Outgoing Conversation::inReply(const v1::ServerMessage& message) const {
+    const auto format = reader_.replyFormat();
+    return {protocol::encodeServerMessage(message, format), nullptr, format};
+}
+
+// Of several viewers each is answered by the number of its own command.
+Outgoing Conversation::stateMessage() const {
+    session::SessionState state = seat_->session->state();
+    state.applied = newest_;
+    return inReply(session::makeStateChanged(seat_->session->context(), state));
 }
 
 // What the next picture's details say, where that is news: decided now, since pictures before it
@@ -249,15 +278,30 @@ std::optional<Outgoing> Conversation::detailsMessage() {
         return {};
     }
     told_details_ = details;
-    const auto format = reader_.replyFormat();
-    return Outgoing{protocol::encodeServerMessage(session::makeFrameDetails(*details), format),
-                    nullptr, format};
+    return inReply(session::makeFrameDetails(*details));
+}
+
+// A picture echoes the newest of this connection's own commands that it shows: the one behind it,
+// or, where that was another viewer's, the last one before control went.
+void Conversation::signRecord(session::FrameRecord& record) {
+    if (record.applied.author == seat_->place.connection) {
+        shown_ = record.applied;
+        return;
+    }
+    if (!seat_->session->controls(seat_->place)) {
+        shown_ = newest_;
+    }
+    if (record.applied.author != 0) {
+        record.queue_us = 0; // waited for by someone else
+    }
+    record.applied = shown_;
 }
 
 Outgoing Conversation::frameMessage(TimePoint now) {
     session::ReadyFrame frame = outbox_.takeFrame();
     frame.record.send_wait_us = Microseconds(now - frame.ready_at).count();
     frame.record.dropped_count = outbox_.droppedCount();
+    signRecord(frame.record);
     window_.onSent(frame.record.frame_id, now);
     grantCredits();
     metrics_->frameSent(frame.record);

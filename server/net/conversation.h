@@ -2,10 +2,10 @@
 // when the connection must close. One strand; never blocks.
 #pragma once
 
+#include "net/lobby.h"
 #include "net/metrics.h"
 #include "net/outbox.h"
 #include "net/service.h"
-#include "protocol/limits.h"
 #include "session/command_reader.h"
 #include "session/pacing.h"
 #include "session/reject_budget.h"
@@ -17,30 +17,26 @@
 
 namespace froxel::net {
 
-struct Closing {
-    protocol::CloseCode code = protocol::CloseCode::kNormal;
-    std::string reason; // at most 123 bytes, RFC 6455 section 5.5
-};
-
 class Conversation {
   public:
     // Commands that wait while the scene is loading.
     static constexpr size_t kMaxEarlyCommands = 64;
 
-    Conversation(std::weak_ptr<session::FrameSink> sink, std::shared_ptr<Metrics> metrics)
-        : sink_(std::move(sink)), metrics_(std::move(metrics)) {}
+    // `viewer` is what the session tells; whatever it is told goes to onNotice().
+    Conversation(std::weak_ptr<SessionViewer> viewer,
+                 std::shared_ptr<Lobby> lobby,
+                 std::shared_ptr<Metrics> metrics)
+        : viewer_(std::move(viewer)), lobby_(std::move(lobby)), metrics_(std::move(metrics)) {}
+    // Its session is kept for the grace time, unless either side has said good-bye.
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
 
     void onMessage(protocol::ByteSpan message, protocol::WireFormat format, TimePoint now);
     void onService(const ServiceStatus& status, TimePoint now);
-    void onFrame(session::ReadyFrame frame);
-    void onRefused(const Error& error,
-                   const session::SessionState& refused,
-                   const std::optional<session::SessionState>& drawn,
-                   TimePoint now);
-    void onDeviceLost(const Error& error);
+    void onNotice(Notice notice);
+    // The client closed the connection on purpose.
+    void onGoodbye() { goodbye_ = true; }
     // No Hello came in time.
     void onHelloTimeout();
 
@@ -51,24 +47,34 @@ class Conversation {
 
     [[nodiscard]] size_t maxMessageBytes() const { return reader_.maxMessageBytes(); }
     [[nodiscard]] bool greeted() const { return reader_.greeted(); }
-    [[nodiscard]] session::SessionId id() const { return id_; }                  // 0 before Welcome
-    [[nodiscard]] const std::string& clientName() const { return client_name_; } // untrusted
+    // 0 before Welcome
+    [[nodiscard]] session::SessionId id() const { return seat_ ? seat_->session->id() : 0; }
+    [[nodiscard]] const std::string& clientName() const { return hello_.client_name; } // untrusted
 
   private:
     void handle(const session::CommandMessage& message, TimePoint now);
     void greet(const session::Hello& hello, TimePoint now);
     void begin(TimePoint now);
+    void sayWelcome();
+    void onCommand(const session::CommandMessage& message, TimePoint now);
     void applyCommand(const session::CommandMessage& message, TimePoint now);
+    void changeControl(const session::CommandMessage& message, TimePoint now);
+    void setPaused(bool paused);
+    void onFrame(session::ReadyFrame frame);
     void onAck(const session::CommandStamp& stamp, uint64_t frame_id, TimePoint now);
     void sayLoading();
     void reject(const session::Rejection& rejection, TimePoint now);
     void answer(const v1::ServerMessage& message);
     void close(protocol::CloseCode code, std::string reason);
     void grantCredits();
+    [[nodiscard]] Outgoing inReply(const v1::ServerMessage& message) const;
+    [[nodiscard]] Outgoing stateMessage() const;
     [[nodiscard]] std::optional<Outgoing> detailsMessage();
+    void signRecord(session::FrameRecord& record);
     [[nodiscard]] Outgoing frameMessage(TimePoint now);
 
-    const std::weak_ptr<session::FrameSink> sink_;
+    const std::weak_ptr<SessionViewer> viewer_;
+    const std::shared_ptr<Lobby> lobby_;
     const std::shared_ptr<Metrics> metrics_;
     session::CommandReader reader_;
     session::RejectBudget rejects_;
@@ -76,13 +82,15 @@ class Conversation {
     Outbox outbox_;
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
-    std::string client_name_;
-    std::optional<session::SessionState> state_;   // from Welcome on
-    std::optional<session::SessionState> welcome_; // as Welcome told it
+    session::Hello hello_;         // its token is forgotten in begin()
+    std::optional<Seat> seat_;     // from Welcome on
+    session::CommandStamp newest_; // of this connection's commands that set state
+    session::CommandStamp shown_;  // the newest of them that a picture has shown
     std::shared_ptr<const FrameDetails> told_details_;
-    session::SessionId id_ = 0;
-    uint64_t delivered_ = 0; // pictures that came from the stream
+    uint64_t delivered_ = 0; // pictures that came from the session
     uint64_t granted_ = 0;
+    bool paused_ = false;
+    bool goodbye_ = false;
     std::optional<Closing> closing_;
 };
 

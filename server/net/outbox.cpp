@@ -20,6 +20,7 @@ void Outbox::putFrame(session::ReadyFrame frame) {
 }
 
 void Outbox::keepAnswersOnly() {
+    room_due_ = false;
     state_due_ = false;
     frame_.reset();
 }
@@ -27,6 +28,9 @@ void Outbox::keepAnswersOnly() {
 Outbox::Next Outbox::next(bool frame_allowed) const {
     if (!answers_.empty()) {
         return Next::kAnswer;
+    }
+    if (room_due_) {
+        return Next::kRoom;
     }
     const bool frame_due = frame_ && frame_allowed;
     if (state_due_ && !(frame_due && state_was_last_)) {

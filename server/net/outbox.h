@@ -1,5 +1,5 @@
-// What waits to be written to one connection, bounded: answers in a short queue, the state in one
-// slot, the picture in one slot; newer states and pictures replace older ones. One strand.
+// What waits to be written to one connection, bounded: answers in a short queue, room, state and
+// picture in a slot each; newer ones replace older ones. One strand.
 #pragma once
 
 #include "core/encoded_frame.h"
@@ -29,16 +29,18 @@ class Outbox {
     // False, and nothing kept, when kMaxAnswers are waiting: the client does not read.
     [[nodiscard]] bool putAnswer(Outgoing answer);
     void putState() { state_due_ = true; }
+    void putRoom() { room_due_ = true; }
     void putFrame(session::ReadyFrame frame);
     // Pictures and states are not wanted any more.
     void keepAnswersOnly();
 
-    enum class Next { kNothing, kAnswer, kState, kFrame };
-    // Answers first; states and pictures take turns, so that neither a flood of commands nor a
-    // flood of pictures starves the other.
+    enum class Next { kNothing, kAnswer, kRoom, kState, kFrame };
+    // Answers first, then who is in the room; states and pictures take turns, so that neither a
+    // flood of commands nor a flood of pictures starves the other.
     [[nodiscard]] Next next(bool frame_allowed) const;
     [[nodiscard]] Outgoing takeAnswer();
     void takeState();
+    void takeRoom() { room_due_ = false; }
     [[nodiscard]] session::ReadyFrame takeFrame();
 
     [[nodiscard]] bool hasFrame() const { return frame_.has_value(); }
@@ -50,6 +52,7 @@ class Outbox {
   private:
     std::deque<Outgoing> answers_;
     std::optional<session::ReadyFrame> frame_;
+    bool room_due_ = false;
     bool state_due_ = false;
     bool state_was_last_ = false;
     uint32_t dropped_count_ = 0;

@@ -6,6 +6,9 @@
 #include "net/public_site.h"
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
 
 #include <algorithm>
 #include <future>
@@ -27,6 +30,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     }
     site->allowed_origins = options.allowed_origins;
     site->service = std::make_shared<Service>();
+    site->lobby = std::make_shared<Lobby>(options.resume_grace);
     site->metrics = std::make_shared<Metrics>();
     return site;
 }
@@ -64,10 +68,14 @@ struct Server::Impl {
                                               options.bind,
                                               "--port",
                                               options.connections_max,
-                                              std::make_shared<PublicSite>(site))) {
+                                              std::make_shared<PublicSite>(site))),
+          grace_timer(asio::make_strand(io)) {
         if (!options.admin.address.empty()) {
             admin.emplace(options.admin, site->metrics);
         }
+        site->lobby->setAlarm([this](TimePoint due) {
+            asio::post(grace_timer.get_executor(), [this, due] { expireAt(due); });
+        });
         listener->start();
         for (uint32_t i = 0; i < options.thread_count; ++i) {
             std::packaged_task<void()> task([this] { work(io); });
@@ -75,11 +83,41 @@ struct Server::Impl {
             threads.emplace_back(std::move(task));
         }
     }
-    ~Impl() { io.stop(); }
+    ~Impl() {
+        io.stop();
+        threads.clear();
+        site->lobby->close(); // connections that end with `io` set off no alarm
+    }
+
+    // All places are kept for the same time, so an earlier expiry is never overtaken by a later
+    // one.
+    void expireAt(TimePoint due) {
+        if (grace_timer_set || site->service->status().draining) {
+            return;
+        }
+        grace_timer_set = true;
+        grace_timer.expires_at(due);
+        grace_timer.async_wait([this](const boost::system::error_code& error) {
+            grace_timer_set = false;
+            if (!error) {
+                if (const auto next = site->lobby->expire(Clock::now())) {
+                    expireAt(*next);
+                }
+            }
+        });
+    }
+
+    // A timer that waits would keep the threads from ending.
+    void stopWaiting() {
+        site->lobby->close();
+        asio::post(grace_timer.get_executor(), [this] { grace_timer.cancel(); });
+    }
 
     asio::io_context io;
     const std::shared_ptr<const Site> site;
     const std::shared_ptr<Listener> listener;
+    asio::steady_timer grace_timer; // on a strand of its own
+    bool grace_timer_set = false;
     std::optional<Admin> admin;
     std::vector<std::future<void>> done;
     std::vector<std::jthread> threads; // last: they end before what they use
@@ -105,6 +143,7 @@ bool Server::drain(std::chrono::milliseconds deadline) {
     const auto end = std::chrono::steady_clock::now() + deadline;
     impl_->listener->stop();
     impl_->site->service->setDraining(deadline);
+    impl_->stopWaiting();
     // The threads end by themselves when no connection is left.
     return std::all_of(impl_->done.begin(), impl_->done.end(), [&](const auto& done) {
         return done.wait_until(end) == std::future_status::ready;

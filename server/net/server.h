@@ -18,6 +18,8 @@ struct ServerOptions {
     BindAddress admin; // for operators: metrics; an empty address: none
     uint32_t thread_count = 1;
     uint32_t connections_max = 512; // of any kind; sessions have a limit of their own
+    // How long the session of a lost connection waits for it; 0: not at all.
+    std::chrono::milliseconds resume_grace{0};
     std::filesystem::path web_root; // empty: no page
     std::vector<std::string> allowed_origins;
 };

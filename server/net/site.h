@@ -1,7 +1,8 @@
-// What all viewers of one server have in common. Immutable but for the service and the metrics,
-// which any thread may use.
+// What all viewers of one server have in common. Immutable but for the service, the lobby and the
+// metrics, which any thread may use.
 #pragma once
 
+#include "net/lobby.h"
 #include "net/metrics.h"
 #include "net/service.h"
 #include "net/static_files.h"
@@ -16,6 +17,7 @@ struct Site {
     StaticFiles files;
     std::vector<std::string> allowed_origins; // besides the server's own
     std::shared_ptr<Service> service;
+    std::shared_ptr<Lobby> lobby;
     std::shared_ptr<Metrics> metrics;
 };
 

@@ -72,7 +72,7 @@ void WsConnection::onStrand(Work work) {
 void WsConnection::start(Request upgrade) {
     upgrade_ = std::move(upgrade);
     setOptions();
-    conversation_.emplace(weak_from_this(), site_->metrics);
+    conversation_.emplace(weak_from_this(), site_->lobby, site_->metrics);
     stream_.async_accept(upgrade_, [self = shared_from_this()](ErrorCode error) {
         if (error) {
             self->abandon("handshake: " + error.message());
@@ -124,7 +124,11 @@ void WsConnection::read() {
 
 void WsConnection::onRead(ErrorCode error) {
     if (error) {
-        abandon(error == websocket::error::closed ? "closed by the client" : error.message());
+        const bool closed = error == websocket::error::closed;
+        if (closed && stream_.reason().code == websocket::close_code::normal && conversation_) {
+            conversation_->onGoodbye();
+        }
+        abandon(closed ? "closed by the client" : error.message());
         return;
     }
     if (!conversation_) {
@@ -235,23 +239,9 @@ void WsConnection::abandon(const std::string& why) {
     stream_.next_layer().close();
 }
 
-void WsConnection::deliver(session::ReadyFrame frame) {
-    onStrand([frame = std::move(frame)](Conversation& conversation) mutable {
-        conversation.onFrame(std::move(frame));
-    });
-}
-
-void WsConnection::refuse(Error error,
-                          session::SessionState refused,
-                          std::optional<session::SessionState> drawn) {
-    onStrand([error = std::move(error), refused, drawn](Conversation& conversation) {
-        conversation.onRefused(error, refused, drawn, Clock::now());
-    });
-}
-
-void WsConnection::deviceLost(Error error) {
-    onStrand([error = std::move(error)](Conversation& conversation) {
-        conversation.onDeviceLost(error);
+void WsConnection::tell(Notice notice) {
+    onStrand([notice = std::move(notice)](Conversation& conversation) mutable {
+        conversation.onNotice(std::move(notice));
     });
 }
 

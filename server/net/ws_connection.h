@@ -18,7 +18,7 @@
 
 namespace froxel::net {
 
-class WsConnection final : public session::FrameSink,
+class WsConnection final : public SessionViewer,
                            public ServiceListener,
                            public std::enable_shared_from_this<WsConnection> {
   public:
@@ -32,11 +32,7 @@ class WsConnection final : public session::FrameSink,
     // `upgrade` is the request that asked for it. On the connection's strand.
     void start(Request upgrade);
 
-    void deliver(session::ReadyFrame frame) override;
-    void refuse(Error error,
-                session::SessionState refused,
-                std::optional<session::SessionState> drawn) override;
-    void deviceLost(Error error) override;
+    void tell(Notice notice) override;
     void onServiceChanged() override;
 
   private:

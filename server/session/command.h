@@ -15,7 +15,9 @@ namespace froxel::session {
 struct Hello {
     uint32_t major = 0;
     uint32_t minor = 0;
-    std::string client_name; // untrusted text: escape it before it is logged
+    std::string client_name;  // untrusted text: escape it before it is logged
+    std::string room;         // of isRoomName(), or empty: a session of one's own
+    std::string resume_token; // untrusted text, a secret if it is right: never logged; or empty
 };
 
 struct SetCamera {
@@ -87,6 +89,18 @@ struct Ack {
 
 struct Ping {};
 
+struct RequestControl {};
+
+struct ReleaseControl {};
+
+struct GiveControl {
+    uint64_t member_id = 0;
+};
+
+struct Pause {
+    bool paused = false;
+};
+
 using Command = std::variant<Hello,
                              SetCamera,
                              SelectSceneCamera,
@@ -98,12 +112,17 @@ using Command = std::variant<Hello,
                              SetSize,
                              SetEncoding,
                              Ack,
-                             Ping>;
+                             Ping,
+                             RequestControl,
+                             ReleaseControl,
+                             GiveControl,
+                             Pause>;
 
 // Where a command came from; frames echo the newest one that they show.
 struct CommandStamp {
     uint64_t seq = 0;            // 0: none yet
     uint64_t client_time_us = 0; // the client's own clock
+    uint64_t author = 0;         // whose seq it is, where viewers share a session
     bool operator==(const CommandStamp&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include "session/field_validator.h"
 #include "session/json_input.h"
 #include "session/proto_enums.h"
+#include "session/room.h"
 
 #include <climits>
 #include <google/protobuf/io/coded_stream.h>
@@ -55,7 +56,13 @@ Command decode(const v1::Hello& hello, FieldValidator& fields) {
                     "has " + numberText(hello.client_name().size()) + " bytes; at most " +
                         numberText(protocol::kMaxClientNameBytes) + " are allowed");
     }
-    return Hello{hello.protocol_major(), hello.protocol_minor(), hello.client_name()};
+    if (!hello.room().empty() && !isRoomName(hello.room())) {
+        fields.fail(RejectCode::kOutOfRange, "room",
+                    "is \"" + printable(hello.room()) + "\"; it must be 1 to " +
+                        numberText(protocol::kMaxRoomNameBytes) + " of A-Z a-z 0-9 . _ -");
+    }
+    return Hello{hello.protocol_major(), hello.protocol_minor(), hello.client_name(), hello.room(),
+                 hello.resume_token()};
 }
 
 Command decode(const v1::SetCamera& camera, FieldValidator& fields) {
@@ -301,6 +308,14 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return Ack{message.ack().frame_id()};
     case v1::ClientMessage::kPing:
         return Ping{};
+    case v1::ClientMessage::kRequestControl:
+        return RequestControl{};
+    case v1::ClientMessage::kReleaseControl:
+        return ReleaseControl{};
+    case v1::ClientMessage::kGiveControl:
+        return GiveControl{message.give_control().member_id()};
+    case v1::ClientMessage::kPause:
+        return Pause{message.pause().paused()};
     case v1::ClientMessage::BODY_NOT_SET:
         break;
     }

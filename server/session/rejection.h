@@ -20,6 +20,7 @@ enum class RejectCode : uint8_t {
     kCapacity,    // no session or memory left
     kRateLimit,   // too many refused messages; close with 1008
     kDevice,      // the device was lost
+    kControl,     // another viewer controls the room
 };
 
 struct Rejection {

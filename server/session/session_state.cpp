@@ -144,6 +144,11 @@ struct Reducer {
     }
 };
 
+template <class... Kinds>
+bool holdsOneOf(const Command& command) {
+    return (std::holds_alternative<Kinds>(command) || ...);
+}
+
 } // namespace
 
 SessionState initialState(const SessionContext& context, TimePoint now) {
@@ -161,8 +166,8 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
 }
 
 bool setsState(const Command& command) {
-    return !std::holds_alternative<Hello>(command) && !std::holds_alternative<Ack>(command) &&
-           !std::holds_alternative<Ping>(command);
+    return !holdsOneOf<Hello, Ack, Ping, RequestControl, ReleaseControl, GiveControl, Pause>(
+        command);
 }
 
 CommandResult<SessionState> apply(SessionState state,

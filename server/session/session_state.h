@@ -25,7 +25,7 @@ struct SessionState {
 // The first scene camera, or the whole scene in view when it has none.
 [[nodiscard]] SessionState initialState(const SessionContext& context, TimePoint now);
 
-// Whether the command sets state; the others (Hello, Ack, Ping) are the connection's affair.
+// Whether the command sets state; the others are the connection's and the room's affair.
 [[nodiscard]] bool setsState(const Command& command);
 
 // The state after the command; `version` tells whether anything differs. Refused: kOutOfRange

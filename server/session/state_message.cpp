@@ -102,6 +102,36 @@ void fill(v1::SceneInfo& out, const SceneSummary& scene) {
     }
 }
 
+void fill(v1::RoomState& out, const Room& room, MemberId you) {
+    out.set_room(room.name());
+    out.set_you(you);
+    out.set_controller(room.controller());
+    out.set_member_count(static_cast<uint32_t>(room.members().size()));
+    const auto asks = [&room](MemberId id) {
+        return std::find(room.asking().begin(), room.asking().end(), id) != room.asking().end();
+    };
+    const auto tell = [&](const Room::Member* member) {
+        if (member == nullptr ||
+            static_cast<size_t>(out.members_size()) >= protocol::kMaxRoomMembersTold) {
+            return;
+        }
+        v1::RoomMember& row = *out.add_members();
+        row.set_id(member->id);
+        row.set_name(member->name);
+        row.set_asking(asks(member->id));
+        row.set_away(member->away);
+    };
+    tell(room.find(room.controller()));
+    for (const MemberId id : room.asking()) {
+        tell(room.find(id));
+    }
+    for (const Room::Member& member : room.members()) {
+        if (member.id != room.controller() && !asks(member.id)) {
+            tell(&member);
+        }
+    }
+}
+
 template <class T>
 void addRange(v1::Welcome& welcome, const view::Range<T>& range) {
     v1::FieldRange& out = *welcome.add_ranges();
@@ -126,6 +156,8 @@ v1::ErrorCode protoCode(RejectCode code) {
         return v1::ERROR_CODE_RATE_LIMIT;
     case RejectCode::kDevice:
         return v1::ERROR_CODE_DEVICE;
+    case RejectCode::kControl:
+        return v1::ERROR_CODE_CONTROL;
     }
     return v1::ERROR_CODE_UNSPECIFIED;
 }
@@ -183,6 +215,29 @@ makeWelcome(uint64_t session_id, const SessionContext& context, const SessionSta
     fill(*welcome.mutable_state(), context, state);
     std::apply([&](const auto&... range) { (addRange(welcome, range), ...); },
                view::kCommandRanges);
+    return message;
+}
+
+void addPlace(v1::ServerMessage& message,
+              const SessionContext& context,
+              const WelcomePlace& place) {
+    v1::Welcome& welcome = *message.mutable_welcome();
+    if (!place.resume_token.empty()) {
+        welcome.set_resume_token(place.resume_token);
+        welcome.set_resume_grace_ms(saturated(place.resume_grace.count()));
+    }
+    welcome.set_resumed(place.resumed);
+    if (place.room != nullptr) {
+        fill(*welcome.mutable_room(), *place.room, place.member);
+    }
+    if (place.defaults != nullptr) {
+        fill(*welcome.mutable_defaults(), context, *place.defaults);
+    }
+}
+
+v1::ServerMessage makeRoomState(const Room& room, MemberId you) {
+    v1::ServerMessage message;
+    fill(*message.mutable_room_state(), room, you);
     return message;
 }
 

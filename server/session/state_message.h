@@ -3,15 +3,29 @@
 
 #include "core/frame_stats.h"
 #include "protocol/framing.h"
+#include "session/room.h"
 #include "session/session_state.h"
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace froxel::session {
 
 [[nodiscard]] v1::ServerMessage
 makeWelcome(uint64_t session_id, const SessionContext& context, const SessionState& state);
+// What Welcome says beyond that of a viewer's place in its session.
+struct WelcomePlace {
+    std::string resume_token; // empty: the session is not kept
+    std::chrono::milliseconds resume_grace{0};
+    bool resumed = false;
+    const Room* room = nullptr;             // absent: a session of one's own
+    MemberId member = 0;                    // in the room
+    const SessionState* defaults = nullptr; // where `state` is not that of a new session
+};
+void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const WelcomePlace& place);
+// As `you` is told it.
+[[nodiscard]] v1::ServerMessage makeRoomState(const Room& room, MemberId you);
 // Answers the command of `state.applied`.
 [[nodiscard]] v1::ServerMessage makeStateChanged(const SessionContext& context,
                                                  const SessionState& state);

@@ -14,6 +14,7 @@ struct TestServerOptions {
     uint32_t connections_max = 256;
     view::Size size{64, 48};
     bool still = false; // lights stand still until a command moves them: pictures only on change
+    std::chrono::milliseconds resume_grace{0};
     bool open_at_once = true; // false: the scene keeps loading until open()
     std::vector<std::string> allowed_origins{};
     std::filesystem::path web_root{};

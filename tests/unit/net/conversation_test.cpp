@@ -1,7 +1,7 @@
 #include "froxel/v1/client.pb.h"
 #include "froxel/v1/server.pb.h"
 #include "net/conversation.h"
-#include "support/recording_sink.h"
+#include "support/fake_port.h"
 
 #include <gtest/gtest.h>
 
@@ -14,30 +14,7 @@ using namespace std::chrono_literals;
 using protocol::CloseCode;
 using protocol::WireFormat;
 
-class FakePort final : public session::StreamPort {
-  public:
-    Result<session::SessionId> join(std::weak_ptr<session::FrameSink> /*sink*/,
-                                    const session::SessionState& state,
-                                    TimePoint /*now*/) override {
-        if (full) {
-            return Error{ErrorCode::kCapacity, "full"};
-        }
-        states.push_back(state);
-        return session::SessionId{7};
-    }
-    void update(session::SessionId /*id*/,
-                const session::SessionState& state,
-                TimePoint /*arrived*/) override {
-        states.push_back(state);
-    }
-    void grant(session::SessionId /*id*/, uint64_t frame_total) override { granted = frame_total; }
-    void leave(session::SessionId id) override { left = id; }
-
-    bool full = false;
-    std::vector<session::SessionState> states;
-    uint64_t granted = 0;
-    session::SessionId left = 0;
-};
+using test::FakePort;
 
 class ConversationTest : public testing::Test {
   protected:
@@ -79,7 +56,7 @@ class ConversationTest : public testing::Test {
         ready.record.height_px = 16;
         ready.bytes = std::make_shared<const std::vector<std::byte>>(10);
         ready.ready_at = now_;
-        talk_.onFrame(std::move(ready));
+        port_.sink()->deliver(std::move(ready));
     }
     std::optional<v1::ServerMessage> nextAnswer() {
         const auto out = talk_.nextMessage(now_);
@@ -103,17 +80,25 @@ class ConversationTest : public testing::Test {
 
     FakePort port_;
     TimePoint now_ = TimePoint() + 1h;
-    std::shared_ptr<test::RecordingSink> sink_ = std::make_shared<test::RecordingSink>();
     std::shared_ptr<Metrics> metrics_ = std::make_shared<Metrics>();
-    Conversation talk_{sink_, metrics_};
+    // What the session tells goes straight to the conversation.
+    struct Viewer final : SessionViewer {
+        void tell(Notice notice) override { talk->onNotice(std::move(notice)); }
+        Conversation* talk = nullptr;
+    };
+    std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
+    std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>(10s);
+    Conversation talk_{viewer_, lobby_, metrics_};
     uint64_t seq_ = 0;
+
+    ConversationTest() { viewer_->talk = &talk_; }
 };
 
 TEST_F(ConversationTest, Hello_Serving_WelcomesAndGrantsCredit) {
     serve();
     hello();
     EXPECT_EQ(nextAnswer()->welcome().session_id(), 7U);
-    EXPECT_GT(port_.granted, 0U);
+    EXPECT_GT(port_.session().granted, 0U);
     EXPECT_EQ(talk_.maxMessageBytes(), protocol::kMaxMessageBytes);
 }
 
@@ -125,11 +110,11 @@ TEST_F(ConversationTest, Hello_Loading_WaitsAndKeepsCommandsInOrder) {
     EXPECT_EQ(nextAnswer()->loading().stage(), "moving in");
     setExposure(2);
     const uint64_t seq = setExposure(3);
-    EXPECT_TRUE(port_.states.empty());
+    EXPECT_TRUE(port_.sessions.empty());
     serve();
     EXPECT_TRUE(nextAnswer()->has_welcome());
     EXPECT_EQ(nextAnswer()->state().ref_seq(), seq);
-    EXPECT_FLOAT_EQ(port_.states.back().settings.exposure, 3);
+    EXPECT_FLOAT_EQ(port_.session().states.back().settings.exposure, 3);
 }
 
 TEST_F(ConversationTest, Command_WhileLoadingBeyondTheCap_IsRefused) {
@@ -163,14 +148,14 @@ TEST_F(ConversationTest, Commands_BeforeTheAnswerIsWritten_AreAnsweredOnce) {
     EXPECT_EQ(answer.ref_seq(), seq);
     EXPECT_DOUBLE_EQ(answer.state().exposure(), 4);
     EXPECT_FALSE(nextAnswer());
-    EXPECT_EQ(port_.states.size(), 4U);
+    EXPECT_EQ(port_.session().states.size(), 4U);
 }
 
 TEST_F(ConversationTest, Command_OutOfRange_KeepsTheState) {
     join();
     setExposure(-1);
     EXPECT_EQ(nextAnswer()->error().field(), "exposure");
-    EXPECT_EQ(port_.states.size(), 1U);
+    EXPECT_EQ(port_.session().states.size(), 1U);
 }
 
 TEST_F(ConversationTest, Frames_WindowIsFull_WaitAndTheNewestIsSent) {
@@ -182,7 +167,7 @@ TEST_F(ConversationTest, Frames_WindowIsFull_WaitAndTheNewestIsSent) {
     frame(3);
     frame(4);
     EXPECT_FALSE(talk_.nextMessage(now_)) << "two are unacknowledged";
-    EXPECT_EQ(port_.granted, 4U) << "no more than those that came";
+    EXPECT_EQ(port_.session().granted, 4U) << "no more than those that came";
     ack(1);
     const auto header = nextFrame();
     EXPECT_EQ(header.frame_id(), 4U);
@@ -272,35 +257,35 @@ TEST_F(ConversationTest, Pings_AnswersAreNotTaken_ClosesAsSlow) {
 
 TEST_F(ConversationTest, Refused_PictureTooLarge_FallsBackToWhatWasDrawn) {
     join();
-    const session::SessionState drawn = port_.states.back();
+    const session::SessionState drawn = port_.session().states.back();
     v1::ClientMessage large;
     large.mutable_set_size()->set_width(4096);
     large.mutable_set_size()->set_height(4096);
     const uint64_t seq = say(large);
-    const session::SessionState refused = port_.states.back();
+    const session::SessionState refused = port_.session().states.back();
     drainAnswers();
-    talk_.onRefused({ErrorCode::kCapacity, "too large"}, refused, drawn, now_);
+    port_.sink()->refuse({ErrorCode::kCapacity, "too large"}, refused, drawn);
     EXPECT_EQ(nextAnswer()->error().ref_seq(), seq);
     EXPECT_EQ(nextAnswer()->state().state().width(), drawn.settings.size.width_px);
-    EXPECT_EQ(port_.states.back().settings.size, drawn.settings.size);
-    EXPECT_GT(port_.states.back().version, refused.version);
+    EXPECT_EQ(port_.session().states.back().settings.size, drawn.settings.size);
+    EXPECT_GT(port_.session().states.back().version, refused.version);
 }
 
 TEST_F(ConversationTest, Refused_StateChangedMeanwhile_LeavesItToTheStream) {
     join();
-    const session::SessionState refused = port_.states.back();
+    const session::SessionState refused = port_.session().states.back();
     setExposure(2);
     drainAnswers();
-    talk_.onRefused({ErrorCode::kCapacity, "too large"}, refused, refused, now_);
+    port_.sink()->refuse({ErrorCode::kCapacity, "too large"}, refused, refused);
     EXPECT_FALSE(nextAnswer());
 }
 
 TEST_F(ConversationTest, Refused_DeviceCannot_SaysUnsupportedAndGoesOn) {
     join();
-    const session::SessionState drawn = port_.states.back();
+    const session::SessionState drawn = port_.session().states.back();
     const uint64_t seq = setExposure(2);
     drainAnswers();
-    talk_.onRefused({ErrorCode::kUnsupported, "no"}, port_.states.back(), drawn, now_);
+    port_.sink()->refuse({ErrorCode::kUnsupported, "no"}, port_.session().states.back(), drawn);
     const auto error = nextAnswer()->error();
     EXPECT_EQ(error.code(), v1::ERROR_CODE_UNSUPPORTED);
     EXPECT_EQ(error.ref_seq(), seq);
@@ -310,18 +295,18 @@ TEST_F(ConversationTest, Refused_DeviceCannot_SaysUnsupportedAndGoesOn) {
 
 TEST_F(ConversationTest, Refused_BeforeTheFirstPicture_FallsBackToWelcome) {
     join();
-    const session::SessionState first = port_.states.back();
+    const session::SessionState first = port_.session().states.back();
     setExposure(2);
     drainAnswers();
-    talk_.onRefused({ErrorCode::kUnsupported, "no"}, port_.states.back(), {}, now_);
+    port_.sink()->refuse({ErrorCode::kUnsupported, "no"}, port_.session().states.back(), {});
     EXPECT_TRUE(nextAnswer()->has_error());
-    EXPECT_EQ(port_.states.back().settings, first.settings);
+    EXPECT_EQ(port_.session().states.back().settings, first.settings);
     EXPECT_FALSE(talk_.closing());
 }
 
 TEST_F(ConversationTest, Refused_FirstPicture_Closes) {
     join();
-    talk_.onRefused({ErrorCode::kCapacity, "too large"}, port_.states.back(), {}, now_);
+    port_.sink()->refuse({ErrorCode::kCapacity, "too large"}, port_.session().states.back(), {});
     EXPECT_EQ(talk_.closing()->code, CloseCode::kCapacity);
 }
 
@@ -350,7 +335,7 @@ TEST_F(ConversationTest, HelloTimeout_Greeted_ChangesNothing) {
 TEST(ConversationEnd, AfterWelcome_LeavesTheStream) {
     FakePort port;
     {
-        Conversation talk{{}, std::make_shared<Metrics>()};
+        Conversation talk{{}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>()};
         ServiceStatus status;
         status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
         talk.onService(status, TimePoint());
@@ -360,7 +345,7 @@ TEST(ConversationEnd, AfterWelcome_LeavesTheStream) {
         talk.onMessage(protocol::bytesOf(hello.SerializeAsString()), WireFormat::kBinary,
                        TimePoint());
     }
-    EXPECT_EQ(port.left, 7U);
+    EXPECT_TRUE(port.session().left);
 }
 
 } // namespace

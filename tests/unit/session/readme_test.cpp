@@ -47,8 +47,8 @@ TEST(ProtocolReadme, CloseCodes_AreListed) {
     using protocol::CloseCode;
     for (const CloseCode code :
          {CloseCode::kNormal, CloseCode::kPolicy, CloseCode::kTooBig, CloseCode::kVersion,
-          CloseCode::kSlowConsumer, CloseCode::kDraining, CloseCode::kCapacity,
-          CloseCode::kDeviceLost}) {
+          CloseCode::kSlowConsumer, CloseCode::kReplaced, CloseCode::kDraining,
+          CloseCode::kCapacity, CloseCode::kDeviceLost}) {
         EXPECT_THAT(text, HasSubstr("\n| " + numberText(static_cast<uint16_t>(code)) + " |"));
     }
 }

@@ -292,6 +292,10 @@ TEST(SetsState, ConnectionCommands_DoNot) {
     EXPECT_FALSE(setsState(Hello{}));
     EXPECT_FALSE(setsState(Ack{}));
     EXPECT_FALSE(setsState(Ping{}));
+    EXPECT_FALSE(setsState(RequestControl{}));
+    EXPECT_FALSE(setsState(ReleaseControl{}));
+    EXPECT_FALSE(setsState(GiveControl{}));
+    EXPECT_FALSE(setsState(Pause{}));
     EXPECT_TRUE(setsState(SetSize{}));
     EXPECT_TRUE(setsState(SetCamera{}));
 }

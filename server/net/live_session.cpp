@@ -1,0 +1,276 @@
+#include "net/live_session.h"
+
+#include "froxel/v1/server.pb.h"
+#include "net/guard.h"
+
+#include <algorithm>
+
+namespace froxel::net {
+
+using session::CommandResult;
+using session::MemberId;
+using session::RejectCode;
+using session::Rejection;
+using session::SessionState;
+
+Mail::~Mail() {
+    for (auto& [viewer, notice] : letters_) {
+        // Only memory can fail; the viewer misses this one.
+        static_cast<void>(guarded("mail", [&] { viewer->tell(std::move(notice)); }));
+    }
+}
+
+void Mail::add(const std::weak_ptr<SessionViewer>& viewer, Notice notice) {
+    if (auto present = viewer.lock()) {
+        letters_.emplace_back(std::move(present), std::move(notice));
+    }
+}
+
+Result<std::shared_ptr<LiveSession>>
+LiveSession::open(const Serving& serving, std::string room, TimePoint now) {
+    // The constructor is private.
+    std::shared_ptr<LiveSession> live(new LiveSession(serving, std::move(room), now));
+    const auto id = serving.port->join(live, live->first_, now);
+    if (!id) {
+        live->ended_ = true;
+        return id.error();
+    }
+    live->id_ = *id;
+    return live;
+}
+
+LiveSession::LiveSession(Serving serving, std::string room, TimePoint now)
+    : serving_(std::move(serving)), first_(session::initialState(*serving_.context, now)),
+      room_(std::move(room)), state_(first_) {}
+
+LiveSession::~LiveSession() {
+    if (!ended_) {
+        serving_.port->leave(id_);
+    }
+}
+
+LiveSession::Member* LiveSession::find(const Place& place) {
+    const auto found = members_.find(place.member);
+    const bool current = found != members_.end() && found->second.connection == place.connection;
+    return current ? &found->second : nullptr;
+}
+
+void LiveSession::tellAll(Mail& mail, const Notice& notice) const {
+    for (const auto& [id, member] : members_) {
+        mail.add(member.viewer, notice);
+    }
+}
+
+void LiveSession::addMember(MemberId member, std::string name, Mail& mail) {
+    const std::lock_guard lock(mutex_);
+    tellAll(mail, RoomNews{});
+    room_.add(member, std::move(name));
+    members_[member];
+}
+
+std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
+                                                       std::weak_ptr<SessionViewer> viewer,
+                                                       TimePoint now,
+                                                       Mail& mail) {
+    const std::lock_guard lock(mutex_);
+    Member& member = members_.at(place.member);
+    mail.add(member.viewer,
+             Closing{protocol::CloseCode::kReplaced, "a newer connection took this session up"});
+    if (room_.find(place.member)->away) {
+        room_.setAway(place.member, false);
+        tellAll(mail, RoomNews{});
+    }
+    member = {place.connection, std::move(viewer), 0, 0};
+    updateGrant();
+    auto picture = picture_;
+    if (picture) {
+        picture->ready_at = now; // it waited for nobody until now
+    }
+    return picture;
+}
+
+void LiveSession::detach(const Place& place, Mail& mail) {
+    const std::lock_guard lock(mutex_);
+    Member* member = find(place);
+    if (member == nullptr) {
+        return;
+    }
+    *member = {};
+    room_.setAway(place.member, true);
+    updateGrant();
+    tellAll(mail, RoomNews{});
+}
+
+bool LiveSession::removeMember(MemberId member, Mail& mail) {
+    const std::lock_guard lock(mutex_);
+    members_.erase(member);
+    room_.remove(member);
+    const bool last = members_.empty();
+    if (!last) {
+        updateGrant();
+    } else if (!std::exchange(ended_, true)) {
+        serving_.port->leave(id_);
+    }
+    tellAll(mail, RoomNews{});
+    return last;
+}
+
+CommandResult<void>
+LiveSession::apply(const Place& place, const session::CommandMessage& message, TimePoint now) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    if (find(place) == nullptr) {
+        return {}; // a newer connection was sent word to close this one
+    }
+    if (auto allowed = room_.mayControl(place.member); !allowed) {
+        Rejection rejection = allowed.error();
+        rejection.ref_seq = message.stamp.seq;
+        return rejection;
+    }
+    session::CommandMessage signed_message = message;
+    signed_message.stamp.author = place.connection;
+    auto next = session::apply(state_, signed_message, context(), now);
+    if (!next) {
+        return next.error();
+    }
+    state_ = *next;
+    serving_.port->update(id_, state_, now);
+    for (const auto& [id, member] : members_) {
+        if (id != place.member) {
+            mail.add(member.viewer, StateNews{});
+        }
+    }
+    return {};
+}
+
+CommandResult<void> LiveSession::changeControl(const Place& place,
+                                               const session::Command& command) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    if (find(place) == nullptr) {
+        return {};
+    }
+    if (!room_.shared()) {
+        return Rejection{RejectCode::kUnsupported, 0, "",
+                         "this session is in no room; its control is yours"};
+    }
+    const uint64_t before = room_.version();
+    if (const auto* give = std::get_if<session::GiveControl>(&command)) {
+        if (auto given = room_.giveControl(place.member, give->member_id); !given) {
+            return given;
+        }
+    } else if (std::holds_alternative<session::RequestControl>(command)) {
+        room_.requestControl(place.member);
+    } else {
+        room_.releaseControl(place.member);
+    }
+    if (room_.version() != before) {
+        tellAll(mail, RoomNews{});
+    }
+    return {};
+}
+
+void LiveSession::grant(const Place& place, uint64_t frame_total) {
+    const std::lock_guard lock(mutex_);
+    if (Member* member = find(place)) {
+        member->granted = frame_total;
+        updateGrant();
+    }
+}
+
+// As many as the viewer with the most room takes; the others' slots keep the newest.
+void LiveSession::updateGrant() {
+    uint64_t room = 0;
+    for (const auto& [id, member] : members_) {
+        room = std::max(room, member.granted - std::min(member.granted, member.delivered));
+    }
+    if (!ended_ && delivered_ + room != granted_) {
+        granted_ = delivered_ + room;
+        serving_.port->grant(id_, granted_);
+    }
+}
+
+SessionState LiveSession::state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+}
+
+bool LiveSession::controls(const Place& place) const {
+    const std::lock_guard lock(mutex_);
+    return room_.controller() == place.member;
+}
+
+v1::ServerMessage LiveSession::roomState(MemberId you) const {
+    const std::lock_guard lock(mutex_);
+    return session::makeRoomState(room_, you);
+}
+
+v1::ServerMessage LiveSession::welcome(MemberId you, session::WelcomePlace place) const {
+    const std::lock_guard lock(mutex_);
+    if (room_.shared()) {
+        place.room = &room_;
+        place.member = you;
+    }
+    if (state_.version != first_.version) {
+        place.defaults = &first_;
+    }
+    v1::ServerMessage message = session::makeWelcome(id_, context(), state_);
+    session::addPlace(message, context(), place);
+    return message;
+}
+
+void LiveSession::deliver(session::ReadyFrame frame) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    ++delivered_;
+    for (auto& [id, member] : members_) {
+        ++member.delivered;
+        mail.add(member.viewer, frame);
+    }
+    picture_ = std::move(frame);
+    updateGrant();
+}
+
+void LiveSession::refuse(Error error, SessionState refused, std::optional<SessionState> drawn) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    // A newer state is on its way to the stream and will be tried in its turn.
+    if (state_.version != refused.version) {
+        return;
+    }
+    const bool unsupported = error.code == ErrorCode::kUnsupported;
+    for (const auto& [id, member] : members_) {
+        const bool asked_for_it = member.connection == refused.applied.author;
+        mail.add(member.viewer,
+                 Rejection{unsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
+                           asked_for_it ? refused.applied.seq : 0, "", error.message});
+    }
+    if (!drawn && refused.settings == first_.settings) {
+        tellAll(mail, Closing{protocol::CloseCode::kCapacity, "the first picture cannot be made"});
+    } else {
+        takeBack(refused, drawn, Clock::now());
+        tellAll(mail, StateNews{});
+    }
+}
+
+// To what was drawn last; a client may have changed much before its first picture.
+void LiveSession::takeBack(const SessionState& refused,
+                           const std::optional<SessionState>& drawn,
+                           TimePoint now) {
+    const SessionState& good = drawn ? *drawn : first_;
+    const view::Lights& lights = good.settings.lights;
+    state_.light_clock = state_.light_clock.withRate(now, lights.speed, lights.animate);
+    state_.settings = good.settings;
+    state_.encoding = good.encoding;
+    state_.version = refused.version + 1;
+    serving_.port->update(id_, state_, now);
+}
+
+void LiveSession::deviceLost(Error error) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    tellAll(mail, Rejection{RejectCode::kDevice, 0, "", error.message});
+    tellAll(mail, Closing{protocol::CloseCode::kDeviceLost, "the device was lost"});
+}
+
+} // namespace froxel::net

@@ -1,0 +1,132 @@
+// One session of the stream, and the viewers that it is shown to: one of its own, or those of a
+// room. It is drawn and encoded once; every viewer gets the same bytes. It draws while any viewer
+// has room, and each has its own window and slot, so that a slow one takes fewer pictures and slows
+// nobody. Any thread; a lock inside is held for moments, never while a viewer is told something.
+#pragma once
+
+#include "net/closing.h"
+#include "net/service.h"
+#include "session/room.h"
+#include "session/state_message.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace froxel::net {
+
+// What a session has to say to one of its viewers.
+struct StateNews {}; // LiveSession::state() is another
+struct RoomNews {};  // so is the room's
+using Notice = std::variant<session::ReadyFrame, StateNews, RoomNews, session::Rejection, Closing>;
+
+// A viewer's connection, as its session sees it.
+class SessionViewer {
+  public:
+    virtual ~SessionViewer() = default;
+    // On any thread; must not block.
+    virtual void tell(Notice notice) = 0;
+};
+
+// Notices on their way. Posted when it ends, which must be after every lock was let go: a viewer
+// may end there, and take its leave.
+class Mail {
+  public:
+    Mail() = default;
+    ~Mail();
+    Mail(const Mail&) = delete;
+    Mail& operator=(const Mail&) = delete;
+
+    void add(const std::weak_ptr<SessionViewer>& viewer, Notice notice);
+
+  private:
+    std::vector<std::pair<std::shared_ptr<SessionViewer>, Notice>> letters_;
+};
+
+// One connection of one member: what a newer connection of the same member has replaced has no
+// effect any more.
+struct Place {
+    session::MemberId member = 0;
+    uint64_t connection = 0; // unique on a server
+};
+
+class LiveSession final : public session::FrameSink,
+                          public std::enable_shared_from_this<LiveSession> {
+  public:
+    // Joins the stream; `room` is empty for a session of one's own. Errors: StreamPort::join's.
+    [[nodiscard]] static Result<std::shared_ptr<LiveSession>>
+    open(const Serving& serving, std::string room, TimePoint now);
+    ~LiveSession() override;
+    LiveSession(const LiveSession&) = delete;
+    LiveSession& operator=(const LiveSession&) = delete;
+
+    // The places' keeper calls these, under its own lock; so it posts their mail.
+    void addMember(session::MemberId member, std::string name, Mail& mail);
+    // The member's connection from now on; an older one is told to close. Gives the newest picture,
+    // if there is one.
+    [[nodiscard]] std::optional<session::ReadyFrame>
+    attach(const Place& place, std::weak_ptr<SessionViewer> viewer, TimePoint now, Mail& mail);
+    // The connection is gone, and the member waited for.
+    void detach(const Place& place, Mail& mail);
+    // For good; whether nobody is left, upon which the stream's session has ended.
+    [[nodiscard]] bool removeMember(session::MemberId member, Mail& mail);
+
+    // A command that sets state. Refused: session::apply's, and kControl.
+    [[nodiscard]] session::CommandResult<void>
+    apply(const Place& place, const session::CommandMessage& message, TimePoint now);
+    // RequestControl, ReleaseControl or GiveControl. Refused: outside a room, and Room's.
+    [[nodiscard]] session::CommandResult<void> changeControl(const Place& place,
+                                                             const session::Command& command);
+    // As StreamPort::grant, in pictures that this connection was told of.
+    void grant(const Place& place, uint64_t frame_total);
+
+    [[nodiscard]] session::SessionId id() const { return id_; }
+    [[nodiscard]] const session::SessionContext& context() const { return *serving_.context; }
+    [[nodiscard]] session::SessionState state() const;
+    [[nodiscard]] bool controls(const Place& place) const;
+    [[nodiscard]] v1::ServerMessage roomState(session::MemberId you) const;
+    // `resumed` and the token are the caller's.
+    [[nodiscard]] v1::ServerMessage welcome(session::MemberId you,
+                                            session::WelcomePlace place) const;
+
+    void deliver(session::ReadyFrame frame) override;
+    void refuse(Error error,
+                session::SessionState refused,
+                std::optional<session::SessionState> drawn) override;
+    void deviceLost(Error error) override;
+
+  private:
+    struct Member {
+        uint64_t connection = 0;
+        std::weak_ptr<SessionViewer> viewer; // empty while away
+        uint64_t delivered = 0;              // pictures told to this connection
+        uint64_t granted = 0;
+    };
+    LiveSession(Serving serving, std::string room, TimePoint now);
+    [[nodiscard]] Member* find(const Place& place);
+    void tellAll(Mail& mail, const Notice& notice) const;
+    void updateGrant();
+    void takeBack(const session::SessionState& refused,
+                  const std::optional<session::SessionState>& drawn,
+                  TimePoint now);
+
+    const Serving serving_;
+    const session::SessionState first_;
+    session::SessionId id_ = 0;
+
+    mutable std::mutex mutex_;
+    session::Room room_;
+    std::map<session::MemberId, Member> members_;
+    session::SessionState state_;
+    std::optional<session::ReadyFrame> picture_; // newest
+    uint64_t delivered_ = 0;                     // pictures that came from the stream
+    uint64_t granted_ = 0;
+    bool ended_ = false;
+};
+
+} // namespace froxel::net

@@ -1,0 +1,16 @@
+// The secret by which a viewer takes up its session again after its connection was lost.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace froxel::session {
+
+// 256 bits from the kernel's generator (getrandom) as 64 hexadecimal digits. Throws
+// std::system_error where the kernel has none. Never to be logged.
+[[nodiscard]] std::string makeResumeToken();
+
+// In a time that depends on the lengths alone, so that a guess cannot be bettered by its timing.
+[[nodiscard]] bool sameToken(std::string_view a, std::string_view b);
+
+} // namespace froxel::session
