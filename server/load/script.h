@@ -31,8 +31,8 @@ class Script {
 struct Idle {};
 // The camera circles about its target once in kOrbitPeriod, kOrbitRate commands a second.
 struct Orbit {};
-// Every command of the protocol in turn, kStormRate a second, each with random values that the
-// server says it takes; the same ones in every run.
+// Every command of the protocol that sets the view, and Ping, in turn, kStormRate a second, each
+// with random values that the server says it takes; the same ones in every run.
 struct Storm {};
 // From a file; played once.
 using Recording = std::shared_ptr<const std::vector<Step>>;
