@@ -2,6 +2,7 @@
 
 #include "app/bench_compare.h"
 #include "app/bench_html.h"
+#include "app/bench_join.h"
 #include "app/bench_json.h"
 #include "app/bench_presets.h"
 #include "app/output_file.h"
@@ -214,6 +215,24 @@ int compareFiles(const BenchOptions& options) {
     return comparison.worse() ? 1 : 0;
 }
 
+void writeReport(const BenchOptions& options,
+                 const std::string& page,
+                 const nlohmann::ordered_json& report) {
+    writeText(options.out, report.dump() + "\n");
+    if (!options.report.empty()) {
+        writeText(options.report, fillReport(page, report).value());
+    }
+}
+
+int joinFiles(const BenchOptions& options, const std::string& page) {
+    std::vector<nlohmann::ordered_json> reports;
+    for (const auto& path : options.join) {
+        reports.push_back(readReport(path));
+    }
+    writeReport(options, page, joinReports(reports).value());
+    return 0;
+}
+
 void printSummary(const BenchResult& result) {
     size_t measured = 0;
     size_t skipped = 0;
@@ -241,6 +260,9 @@ int runBench(const BenchOptions& options) try {
         requireFolderOf(options.report);
         page = readTemplate(options);
     }
+    if (!options.join.empty()) {
+        return joinFiles(options, page);
+    }
     const StopFlag stop;
     BenchRun run(options, stop.stopped());
     const auto& names = options.presets;
@@ -254,11 +276,7 @@ int runBench(const BenchOptions& options) try {
         sweeps.push_back(makeSweep(name, run.result().base));
     }
     run.measure(std::move(sweeps), [&](const BenchResult& result) {
-        const auto report = benchReport(result);
-        writeText(options.out, report.dump() + "\n");
-        if (!options.report.empty()) {
-            writeText(options.report, fillReport(page, report).value());
-        }
+        writeReport(options, page, benchReport(result));
     });
     printSummary(run.result());
     const auto inexact = inexactRows(run.result());

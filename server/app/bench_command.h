@@ -14,6 +14,7 @@ namespace froxel::app {
 struct BenchOptions {
     bool list = false;                          // print the presets, and nothing else
     std::vector<std::filesystem::path> compare; // two results to compare, and nothing else
+    std::vector<std::filesystem::path> join;    // results to write as one, and nothing else
     std::vector<std::string> presets;           // none: all but `smoke`
     std::string scene = "builtin";
     gpu::DeviceOptions device;

@@ -252,6 +252,11 @@ void addBench(CLI::App& app, Targets& targets) {
                     "Say which rows of B differ from A's by more than the noise")
         ->type_name("A.json B.json")
         ->expected(2);
+    command.cli()
+        .add_option("--join", options.join,
+                    "Write results of one device, scene and method as one, with --out and --report")
+        ->type_name("FILE.json...")
+        ->expected(1, 1000);
     addSceneOption(command, options.scene, options.scene);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
@@ -275,7 +280,8 @@ void addBench(CLI::App& app, Targets& targets) {
 }
 
 void addLoad(CLI::App& app, Targets& targets) {
-    CommandBuilder command(app, "load", "Measure a running server with viewers that decode nothing");
+    CommandBuilder command(app, "load",
+                           "Measure a running server with viewers that decode nothing");
     addLoadArguments(command, targets.load);
     finish(command, targets.load, LogLevel::kWarn, targets);
 }

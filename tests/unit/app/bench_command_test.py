@@ -50,6 +50,18 @@ class Bench(unittest.TestCase):
         for row in sweep["skipped"]:
             self.assertNotEqual(row["reason"], "")
 
+    def test_a_run_joined_is_the_run(self):
+        out = self.folder / "joined.json"
+        page = self.folder / "joined.html"
+        run = froxel("bench", "--join", self.out, "--out", out, "--report", page, "--web-root",
+                     self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(json.loads(out.read_text()), self.result)
+        self.assertEqual(page.read_text(), self.page.read_text())
+        twice = froxel("bench", "--join", self.out, self.out, "--out", out)
+        self.assertEqual(twice.returncode, 2)
+        self.assertIn("is there twice", twice.stderr)
+
     def test_rows_are_exact_and_have_times(self):
         for row in self.rows():
             self.assertEqual(row["error_r1"]["exact"], True, row["label"])

@@ -1,5 +1,6 @@
 #include "app/bench_compare.h"
 #include "app/bench_html.h"
+#include "app/bench_join.h"
 #include "app/bench_json.h"
 #include "app/bench_presets.h"
 
@@ -196,6 +197,37 @@ TEST(CompareReports, OtherFiles_AreRefused) {
     broken = report;
     broken["sweeps"][0]["rows"][0]["samples"]["gpu_us"] = Json::array();
     EXPECT_TRUE(compareReports(broken, report).has_error());
+}
+
+TEST(JoinReports, PartsOfOneRun_AreOne) {
+    auto a = benchReport(result(100));
+    auto b = a;
+    b["date"] = "2026-11-02T00:00:00Z";
+    b["sweeps"][0]["name"] = "other";
+    b["complete"] = false;
+    const auto joined = joinReports(std::vector{a, b}).value();
+    ASSERT_EQ(joined["sweeps"].size(), 2U);
+    EXPECT_EQ(joined["sweeps"][0], a["sweeps"][0]);
+    EXPECT_EQ(joined["sweeps"][1], b["sweeps"][0]);
+    EXPECT_EQ(joined["complete"], false);
+    EXPECT_EQ(joined["elapsed_s"], 2 * a["elapsed_s"].get<double>());
+    EXPECT_EQ(joined["date"], a["date"]);
+    EXPECT_EQ(joinReports(std::vector{a}).value()["sweeps"], a["sweeps"]);
+}
+
+TEST(JoinReports, WhatDoesNotBelongTogether_IsRefusedByName) {
+    const auto a = benchReport(result(100));
+    const auto textOf = [&](const Json& b) {
+        return joinReports(std::vector{a, b}).error().message;
+    };
+    EXPECT_THAT(textOf(a), HasSubstr("\"smoke\" is there twice"));
+    auto other = a;
+    other["device"]["name"] = "another";
+    EXPECT_EQ(textOf(other), "file 2: its device is not that of file 1");
+    EXPECT_THAT(textOf(Json::array()), HasSubstr("file 2: not a result"));
+    other = a;
+    other["sweeps"][0].erase("name");
+    EXPECT_THAT(textOf(other), HasSubstr("has no name"));
 }
 
 TEST(FillReport, TextsThatEndScripts_CannotAndReadBackTheSame) {
