@@ -42,6 +42,62 @@ uint leastOfBlock(uint v) {
     return BATCH_SIZE > 4 ? min(v, subgroupShuffleXor(v, 4)) : v;
 }
 
+// How the lights that pass go round: in compute on a GPU through shared memory, where a load is
+// cheaper than the shuffles of a light's parts; elsewhere by shuffles.
+#ifdef FROXEL_SHARED_LIGHTS
+const uint kSharedLights = kSoftwareSubgroup ? 1 : 64; // a workgroup's invocations
+const uint kSharedSpots = (LIGHT_FLAGS & kLightSpots) != 0 ? kSharedLights : 1;
+shared vec4 shared_reach[kSharedLights]; // position, inverse square radius
+shared vec3 shared_color[kSharedLights];
+shared vec4 shared_cone[kSharedSpots]; // direction, scale
+shared float shared_cone_offset[kSharedSpots];
+
+// Of this invocation, to its subgroup.
+void offerLight(LocalLight light) {
+    if (!kSoftwareSubgroup) {
+        uint slot = gl_SubgroupID * BATCH_SIZE + gl_SubgroupInvocationID;
+        shared_reach[slot] = vec4(light.position_view, light.inv_radius2);
+        shared_color[slot] = light.color;
+        if (hasLight(kLightSpots)) {
+            shared_cone[slot] = vec4(light.cone_direction, light.cone_scale);
+            shared_cone_offset[slot] = light.cone_offset;
+        }
+        subgroupMemoryBarrierShared();
+        subgroupBarrier();
+    }
+}
+
+LocalLight takeLight(LocalLight mine, uint invocation) {
+    if (kSoftwareSubgroup) {
+        return shuffleLight(mine, invocation);
+    }
+    uint slot = gl_SubgroupID * BATCH_SIZE + invocation;
+    LocalLight light = darkLight();
+    light.position_view = shared_reach[slot].xyz;
+    light.inv_radius2 = hasLight(kLightEqualRadii) ? frame.light_inv_radius2 : shared_reach[slot].w;
+    light.color = shared_color[slot];
+    if (hasLight(kLightSpots)) {
+        light.cone_direction = shared_cone[slot].xyz;
+        light.cone_scale = shared_cone[slot].w;
+        light.cone_offset = shared_cone_offset[slot];
+    }
+    return light;
+}
+
+// Before the next ones are offered.
+void takenLights() {
+    if (!kSoftwareSubgroup) {
+        subgroupBarrier();
+    }
+}
+#else
+void offerLight(LocalLight light) {}
+LocalLight takeLight(LocalLight mine, uint invocation) {
+    return shuffleLight(mine, invocation);
+}
+void takenLights() {}
+#endif
+
 struct Block {
     vec3 low_view;
     vec3 high_view;

@@ -73,14 +73,16 @@ void addCulledBatches(Surface s, ClusterList list, bool mine, float share, inout
             fetchColor(index, light);
         }
         uint left = gatherBits(passes);
+        offerLight(light);
         // Where none passes, this adds the +0 of one that did not.
         do {
             // The exponent of the lowest bit: findLSB is a dozen instructions in software.
             uint lowest = left & -left;
             uint k = ((floatBitsToUint(float(int(lowest))) >> 23) - 127u) & (BATCH_SIZE - 1u);
             left ^= lowest;
-            addLocalLight(s, shuffleLight(light, k), share, sum);
+            addLocalLight(s, takeLight(light, k), share, sum);
         } while (left != 0u);
+        takenLights();
         first += BATCH_SIZE;
     } while (first < list.count);
 }
