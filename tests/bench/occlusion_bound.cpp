@@ -1,18 +1,23 @@
-// What occlusion culling could save at most: a view's frames without lights, drawn from the whole
-// scene and from the triangles alone that the picture shows, in turns.
-// occlusion_bound [SCENE.gltf|hall]; on a GPU where there is one.
+// What occlusion culling could save at most: a view's frames without lights, drawn in turns from
+// the whole scene, from the triangles alone that the picture shows, from the meshlets that have
+// such a triangle, and from these again behind a depth prepass of their own: what culling in two
+// passes comes to if the last frame showed the same and the tests cost nothing. occlusion_bound
+// [SCENE.gltf|hall]; on a GPU where there is one.
 #include "gltf/gltf_loader.h"
 #include "hall/hall.h"
+#include "render/geometry_pack.h"
 #include "render/renderer.h"
 #include "render/visibility_readback.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <ctime>
 #include <map>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -33,21 +38,57 @@ std::set<Triangle> visibleTriangles(const Visibility& visibility) {
     return found;
 }
 
-// Every instance gets a mesh of its own with what is visible of it.
-scene::Scene onlyVisible(const scene::Scene& whole, const std::set<Triangle>& visible) {
+using Corners = std::array<uint32_t, 3>;
+
+// Packing may begin a triangle with another corner, but keeps its winding.
+Corners cornersAt(const std::vector<uint32_t>& indices, size_t first) {
+    Corners corners{indices[first], indices[first + 1], indices[first + 2]};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return corners;
+}
+
+// The indices of those meshlets of a primitive that have a triangle of `visible`.
+std::vector<uint32_t> visibleMeshlets(const render::PackedGeometry& packed,
+                                      const render::PackedPrimitive& primitive,
+                                      const std::set<Corners>& visible) {
+    std::vector<uint32_t> kept;
+    for (uint32_t m = 0; m < primitive.meshlet_count; ++m) {
+        const auto& meshlet = packed.meshlets[primitive.first_meshlet + m];
+        bool shows = false;
+        for (uint32_t i = 0; i < meshlet.index_count && !shows; i += 3) {
+            shows = visible.contains(cornersAt(packed.indices, meshlet.first_index + i));
+        }
+        if (shows) {
+            const auto first = packed.indices.begin() + meshlet.first_index;
+            kept.insert(kept.end(), first, first + meshlet.index_count);
+        }
+    }
+    return kept;
+}
+
+// Every instance gets a mesh of its own with what is visible of it: its triangles, or with `packed`
+// the meshlets that they are in.
+scene::Scene onlyVisible(const scene::Scene& whole,
+                         const std::set<Triangle>& visible,
+                         const render::PackedGeometry* packed) {
     scene::Scene scene = whole;
     scene.meshes.clear();
     for (uint32_t i = 0; i < whole.instances.size(); ++i) {
-        scene::Mesh mesh = whole.meshes[whole.instances[i].mesh];
-        for (auto& primitive : mesh.primitives) {
-            primitive.indices.clear();
-        }
-        for (auto at = visible.lower_bound({i, 0, 0}); at != visible.end() && std::get<0>(*at) == i;
-             ++at) {
-            const auto [instance, primitive, triangle] = *at;
-            const auto& from = whole.meshes[whole.instances[i].mesh].primitives[primitive].indices;
-            auto& to = mesh.primitives[primitive].indices;
-            to.insert(to.end(), from.begin() + 3 * triangle, from.begin() + 3 * triangle + 3);
+        const uint32_t whole_mesh = whole.instances[i].mesh;
+        scene::Mesh mesh = whole.meshes[whole_mesh];
+        for (uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+            auto& indices = mesh.primitives[p].indices;
+            const auto all = std::exchange(indices, {});
+            std::set<Corners> corners;
+            for (auto at = visible.lower_bound({i, p, 0});
+                 at != visible.end() && std::get<0>(*at) == i && std::get<1>(*at) == p; ++at) {
+                const auto first = all.begin() + 3 * std::get<2>(*at);
+                indices.insert(indices.end(), first, first + 3);
+                corners.insert(cornersAt(all, 3 * size_t{std::get<2>(*at)}));
+            }
+            if (packed != nullptr) {
+                indices = visibleMeshlets(*packed, packed->meshes[whole_mesh][p], corners);
+            }
         }
         std::erase_if(mesh.primitives, [](const auto& p) { return p.indices.empty(); });
         scene.instances[i].mesh = static_cast<uint32_t>(scene.meshes.size());
@@ -102,19 +143,30 @@ void run(const scene::Scene& scene, const view::Camera& camera) {
     render::Renderer renderer(device, scene);
     const auto seen = render::readVisibility(renderer, scene, inputs).value();
     const auto triangles = visibleTriangles(seen);
-    const auto reduced_scene = onlyVisible(scene, triangles);
-    render::Renderer reduced_renderer(device, reduced_scene);
-    render::ViewRenderer whole_view(renderer);
-    render::ViewRenderer reduced_view(reduced_renderer);
-    Timed whole;
-    Timed reduced;
+    const auto packed = render::packGeometry(scene);
+    render::Renderer of_triangles(device, onlyVisible(scene, triangles, nullptr));
+    render::Renderer of_meshlets(device, onlyVisible(scene, triangles, &packed));
+    struct Variant {
+        const char* name;
+        render::ViewRenderer view;
+        bool prepass;
+        Timed timed{};
+    };
+    std::array variants = {
+        Variant{"  whole scene", render::ViewRenderer(renderer), false},
+        Variant{"  visible triangles", render::ViewRenderer(of_triangles), false},
+        Variant{"  visible meshlets", render::ViewRenderer(of_meshlets), false},
+        Variant{"  the same behind a depth prepass", render::ViewRenderer(of_meshlets), true}};
     for (int i = -3; i < kFrames; ++i) {
-        draw(whole_view, inputs, i < 0 ? nullptr : &whole);
-        draw(reduced_view, inputs, i < 0 ? nullptr : &reduced);
+        for (auto& variant : variants) {
+            inputs.depth_prepass = variant.prepass;
+            draw(variant.view, inputs, i < 0 ? nullptr : &variant.timed);
+        }
     }
     std::printf("%s, 1280x720, %zu triangles visible\n", scene.name.c_str(), triangles.size());
-    print("  whole scene", whole);
-    print("  visible triangles alone", reduced);
+    for (const auto& variant : variants) {
+        print(variant.name, variant.timed);
+    }
 }
 
 } // namespace
