@@ -28,9 +28,10 @@ void main() {
     float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
     uint id = texelFetch(id_image, ivec2(pixel), 0).x;
     if (depth > 0.0 && mine(id)) {
+        VisibleTriangle t = fetchTriangle(id);
+        vec3 position = positionFromDistance(pixel, solidDistance(t, pixel, depth));
         bool front;
-        VertexData v = fetchSurface(id, pixel, front);
-        vec3 position = positionFromDistance(pixel, distanceFromDepth(depth));
+        VertexData v = fetchSurface(t, pixel, front);
         GbufferSample g = shadeMaterial(v, baseColor(v), position, front);
         imageStore(words_image, ivec2(pixel), packGbuffer(g));
     }

@@ -34,12 +34,15 @@ void main() {
     bool covered = depth > 0.0;
     uint id = covered ? texelFetch(id_image, ivec2(pixel), 0).x : 0u;
     covered = covered && mine(id);
-    float distance = distanceFromDepth(covered ? depth : 1.0);
+    float distance = distanceFromDepth(1.0);
     vec3 position = positionFromDistance(pixel, distance);
     GbufferSample g = GbufferSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 0.0, 1.0, false, vec3(0.0));
     if (covered) {
+        VisibleTriangle t = fetchTriangle(id);
+        distance = solidDistance(t, pixel, depth);
+        position = positionFromDistance(pixel, distance);
         bool front;
-        VertexData v = fetchSurface(id, pixel, front);
+        VertexData v = fetchSurface(t, pixel, front);
         g = shadeMaterial(v, baseColor(v), position, front);
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);

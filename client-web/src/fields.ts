@@ -111,7 +111,7 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'lighting',
       'Lighting stage',
       LightingStageSchema,
-      'Where lights are added up. auto: compute for the deferred renderers, fragment for the others',
+      'Where lights are added up. auto: compute; fragment for the forward renderers on a CPU device',
     ),
     choice(
       'shading',

@@ -6,7 +6,7 @@ namespace froxel::app {
 
 std::string nameOf(const BenchWay& way) {
     const auto name = nameOf(view::kRendererNames, way.renderer);
-    return way.stage == view::LightingStage::kAuto
+    return way.stage != view::LightingStage::kCompute
                ? name
                : name + ", " + nameOf(view::kLightingStageNames, way.stage);
 }

@@ -15,8 +15,9 @@ struct BenchWay {
     view::Renderer renderer;
     view::LightingStage stage;
 };
-inline constexpr BenchWay kNaive{view::Renderer::kNaive, view::LightingStage::kAuto};
-inline constexpr BenchWay kForwardPlus{view::Renderer::kForwardPlus, view::LightingStage::kAuto};
+inline constexpr BenchWay kNaive{view::Renderer::kNaive, view::LightingStage::kFragment};
+inline constexpr BenchWay kForwardPlus{view::Renderer::kForwardPlus,
+                                       view::LightingStage::kFragment};
 inline constexpr BenchWay kDeferred{view::Renderer::kClusteredDeferred, view::LightingStage::kAuto};
 // Where arithmetic is slow in the fragment stage these are the fair comparison of algorithms.
 inline constexpr BenchWay kNaiveCompute{view::Renderer::kNaive, view::LightingStage::kCompute};
@@ -30,7 +31,7 @@ template <class Names, class Enum>
 [[nodiscard]] std::string nameOf(const Names& names, Enum value) {
     return std::string(names[static_cast<size_t>(value)]);
 }
-// "naive", "naive, compute"
+// "naive", "naive, compute"; the deferred renderers' stage is their own
 [[nodiscard]] std::string nameOf(const BenchWay& way);
 // "1280x720"
 [[nodiscard]] std::string nameOf(const view::Size& size);

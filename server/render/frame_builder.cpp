@@ -73,14 +73,17 @@ void growForHalves(const light::FrameLights& lights, light::FrameLights& grown) 
 } // namespace
 
 bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
+    using view::LightingStage;
     const auto& traits = scene_.device.traits();
-    const bool pays = !traits.is_cpu && traits.descriptor_indexing;
+    const bool pays =
+        inputs.geometry == GeometryPath::kAuto && !traits.is_cpu && traits.descriptor_indexing;
+    const auto stage = inputs.settings.lighting;
     // Only the rasteriser writes one.
     const bool second_target = extraFormat(inputs.settings.gbuffer) != vk::Format::eUndefined;
-    const bool wanted = isForward(inputs.settings.renderer)
-                            ? inputs.settings.lighting == view::LightingStage::kCompute
-                            : !second_target && (byIds(inputs.geometry) ||
-                                                 (inputs.geometry == GeometryPath::kAuto && pays));
+    const bool wanted =
+        isForward(inputs.settings.renderer)
+            ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
+            : !second_target && (byIds(inputs.geometry) || pays);
     return wanted && scene_.visibility_unusable.empty() && !scene_.visibility().groups.empty();
 }
 

@@ -62,9 +62,9 @@ void recordComputeRaster(const FrameContext& frame) {
     recordRasterBlocks(frame);
     next();
     recordRasterUnpack(frame);
-    // depth and ids -> loads of the passes that shade, fill the G-buffer, light
+    // depth and ids -> the pass that shades or fills the G-buffer, which also stores depth anew
     barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
-            Access::eShaderSampledRead);
+            Access::eShaderSampledRead | Access::eShaderStorageWrite);
 }
 
 // Solid depth that compute rastered -> the rasteriser's.
@@ -112,7 +112,7 @@ void recordDeferred(const FrameContext& frame) {
     if (frame.plan.visibility) {
         recordVisible(frame);
         recordVisibilityGbuffer(frame);
-        // G-buffer -> lighting's loads; depth is there already
+        // G-buffer, and depth where compute rastered -> lighting's loads
         barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
                 Access::eShaderSampledRead);
     } else {
@@ -203,10 +203,12 @@ void recordFrame(const FrameContext& frame) {
     if (frame.plan.count_pairs) {
         slot.pairs->recordClear(slot.cmd);
         // cleared counters, depth -> counting
-        barrier(
-            slot.cmd, Stage::eClear | kDepthStages,
-            Access::eTransferWrite | Access::eDepthStencilAttachmentWrite, Stage::eComputeShader,
-            Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eShaderSampledRead);
+        barrier(slot.cmd, Stage::eClear | kDepthStages | Stage::eComputeShader,
+                Access::eTransferWrite | Access::eDepthStencilAttachmentWrite |
+                    Access::eShaderStorageWrite,
+                Stage::eComputeShader,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite |
+                    Access::eShaderSampledRead);
         recordCountPairs(frame);
     }
     if (frame.plan.transparent) {

@@ -12,6 +12,11 @@ namespace {
 
 using Point = vk::PipelineBindPoint;
 
+// Depths from compute are replaced by those of the triangles' planes.
+uint32_t depthFlag(const FrameContext& frame) {
+    return frame.plan.compute_raster ? io::kOutputDepth : 0U;
+}
+
 // A pipeline over every pixel: once with all textures, or once for each material.
 void resolve(const FrameContext& frame, vk::Pipeline pipeline) {
     const auto& cmd = frame.slot.cmd;
@@ -111,14 +116,15 @@ void recordVisibility(const FrameContext& frame) {
 void recordVisibilityGbuffer(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "resolve");
     resolve(frame, frame.visibility->pipelines.gbuffer(
-                       {frame.visibility->material_flags, 0, frame.plan.gbuffer_output_flags}));
+                       {frame.visibility->material_flags, 0,
+                        frame.plan.gbuffer_output_flags | depthFlag(frame)}));
 }
 
 void recordVisibilityShade(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "shade");
-    resolve(frame, frame.visibility->pipelines.shade({frame.visibility->material_flags,
-                                                      frame.plan.lighting_light_flags,
-                                                      frame.plan.lighting_output_flags}));
+    resolve(frame, frame.visibility->pipelines.shade(
+                       {frame.visibility->material_flags, frame.plan.lighting_light_flags,
+                        frame.plan.lighting_output_flags | depthFlag(frame)}));
 }
 
 } // namespace froxel::render

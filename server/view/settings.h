@@ -25,8 +25,8 @@ inline constexpr std::array kRendererNames = {std::string_view("naive"),
                                               std::string_view("toon_fragment"),
                                               std::string_view("toon_compute")};
 
-// Where lights are added up. auto: in compute for the deferred renderers, in the fragment stage for
-// the forward ones. A forward renderer in compute is its twin: a thin prepass leaves which triangle
+// Where lights are added up. auto: in compute, but for the forward renderers on a CPU device and where
+// descriptor indexing is absent: there in the fragment stage. A forward renderer in compute is its twin: a thin prepass leaves which triangle
 // each pixel shows, and a compute pass fetches the material and shades.
 enum class LightingStage : uint8_t { kAuto, kCompute, kFragment };
 inline constexpr std::array kLightingStageNames = {

@@ -25,7 +25,7 @@ void drawPixel(uvec2 pixel, float depth, uint id) {
             return;
         }
         bool front;
-        VertexData v = fetchSurface(id, pixel, front);
+        VertexData v = fetchSurface(fetchTriangle(id), pixel, front);
         if (maskedOut(baseColor(v))) {
             return;
         }

@@ -3,15 +3,18 @@
 struct VisibleTriangle {
     uvec3 vertices;
     uint item;
-    // In view space: a corner and the edges from it.
+    // In view space: its corners, and the edges from the first.
     vec3 corner;
+    vec3 corner1;
+    vec3 corner2;
     vec3 edge1;
     vec3 edge2;
 };
 
 vec3 viewPoint(InstanceView view, vec3 position_object) {
     vec4 p = vec4(position_object, 1.0);
-    return vec3(dot(view.row0, p), dot(view.row1, p), dot(view.row2, p));
+    precise vec3 position_view = vec3(dot(view.row0, p), dot(view.row1, p), dot(view.row2, p));
+    return position_view;
 }
 
 VisibleTriangle fetchTriangle(uint id) {
@@ -23,8 +26,10 @@ VisibleTriangle fetchTriangle(uint id) {
                  items[placed.item].vertex_offset;
     InstanceView view = instances[items[placed.item].instance];
     t.corner = viewPoint(view, positions[t.vertices.x]);
-    t.edge1 = viewPoint(view, positions[t.vertices.y]) - t.corner;
-    t.edge2 = viewPoint(view, positions[t.vertices.z]) - t.corner;
+    t.corner1 = viewPoint(view, positions[t.vertices.y]);
+    t.corner2 = viewPoint(view, positions[t.vertices.z]);
+    t.edge1 = t.corner1 - t.corner;
+    t.edge2 = t.corner2 - t.corner;
     return t;
 }
 
@@ -70,8 +75,7 @@ bool showsFront(VisibleTriangle t, InstanceView view, uvec2 pixel) {
 
 // Fills visible_flags, visible_material and gradients; returns what the vertex stage would have
 // handed on. Gradients are differences inside the pixel's quad, as a rasteriser takes them.
-VertexData fetchSurface(uint id, uvec2 pixel, out bool front) {
-    VisibleTriangle t = fetchTriangle(id);
+VertexData fetchSurface(VisibleTriangle t, uvec2 pixel, out bool front) {
     VisibleItem item = items[t.item];
     InstanceView view = instances[item.instance];
     visible_flags = item.flags;

@@ -38,6 +38,13 @@ render::FrameInputs hardInputs() {
     return inputs;
 }
 
+Picture drawByPlanes(render::Renderer& renderer, render::FrameInputs inputs) {
+    inputs.settings.renderer = Renderer::kNaive;
+    inputs.settings.lighting = view::LightingStage::kCompute;
+    inputs.geometry = render::GeometryPath::kComputeRaster;
+    return draw(renderer, inputs);
+}
+
 ExactPictures expectExact(render::ViewRenderer& view, render::FrameInputs inputs, Toon toon) {
     ExactPictures pictures;
     inputs.settings.renderer = Renderer::kNaive;

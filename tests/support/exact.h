@@ -27,6 +27,10 @@ expectExact(render::ViewRenderer& view, render::FrameInputs inputs, Toon toon = 
 ExactPictures
 expectExact(render::Renderer& renderer, const render::FrameInputs& inputs, Toon toon = Toon::kToo);
 
+// naive by ids that compute rasters: positions from the triangles' planes, as a GPU has them by
+// default.
+[[nodiscard]] Picture drawByPlanes(render::Renderer& renderer, render::FrameInputs inputs);
+
 [[nodiscard]] size_t nonFinite(const Picture& picture);
 // Pixels with a channel above `least`.
 [[nodiscard]] size_t litPixels(const Picture& picture, float least = 0);
