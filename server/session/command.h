@@ -83,8 +83,16 @@ struct SetEncoding {
     std::optional<view::Chroma> chroma;
 };
 
+struct SetDelivery {
+    std::optional<bool> adaptive;
+    std::optional<double> target_fps;
+    std::optional<view::Refine> refine;
+};
+
 struct Ack {
     uint64_t frame_id = 0;
+    uint32_t receive_to_paint_us = 0; // 0: not told
+    uint32_t decode_us = 0;           // of which; 0: not told
 };
 
 struct Ping {};
@@ -111,6 +119,7 @@ using Command = std::variant<Hello,
                              SetToon,
                              SetSize,
                              SetEncoding,
+                             SetDelivery,
                              Ack,
                              Ping,
                              RequestControl,

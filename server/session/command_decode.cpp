@@ -282,6 +282,21 @@ Command decode(const v1::SetEncoding& encoding, FieldValidator& fields) {
     return command;
 }
 
+Command decode(const v1::SetDelivery& set, FieldValidator& fields) {
+    fields.require(set.has_adaptive() || set.has_target_fps() || set.has_refine(), "adaptive");
+    SetDelivery command;
+    if (set.has_adaptive()) {
+        command.adaptive = set.adaptive();
+    }
+    if (set.has_target_fps()) {
+        command.target_fps = fields.number(view::kTargetFpsRange, set.target_fps());
+    }
+    if (set.has_refine()) {
+        command.refine = enumeration(fields, "refine", kRefineTable, set.refine());
+    }
+    return command;
+}
+
 Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
     switch (message.body_case()) {
     case v1::ClientMessage::kHello:
@@ -304,8 +319,11 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_size(), fields);
     case v1::ClientMessage::kSetEncoding:
         return decode(message.set_encoding(), fields);
+    case v1::ClientMessage::kSetDelivery:
+        return decode(message.set_delivery(), fields);
     case v1::ClientMessage::kAck:
-        return Ack{message.ack().frame_id()};
+        return Ack{message.ack().frame_id(), message.ack().receive_to_paint_us(),
+                   message.ack().decode_us()};
     case v1::ClientMessage::kPing:
         return Ping{};
     case v1::ClientMessage::kRequestControl:

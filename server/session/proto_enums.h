@@ -2,6 +2,7 @@
 #pragma once
 
 #include "froxel/v1/common.pb.h"
+#include "session/delivery.h"
 #include "view/settings.h"
 
 #include <array>
@@ -59,7 +60,19 @@ inline constexpr std::array kChromaTable = {
     std::pair{v1::CHROMA_420, view::Chroma::k420},
     std::pair{v1::CHROMA_444, view::Chroma::k444},
 };
+inline constexpr std::array kRefineTable = {
+    std::pair{v1::REFINE_NONE, view::Refine::kNone},
+    std::pair{v1::REFINE_HIGH, view::Refine::kHigh},
+    std::pair{v1::REFINE_LOSSLESS, view::Refine::kLossless},
+};
+inline constexpr std::array kRefinementTable = {
+    std::pair{v1::REFINEMENT_INTERACTIVE, Refinement::kInteractive},
+    std::pair{v1::REFINEMENT_SETTLED, Refinement::kSettled},
+    std::pair{v1::REFINEMENT_HIGH, Refinement::kHigh},
+    std::pair{v1::REFINEMENT_LOSSLESS, Refinement::kLossless},
+};
 
+static_assert(kRefineTable.size() == view::kRefineNames.size());
 static_assert(kRendererTable.size() == view::kRendererNames.size());
 static_assert(kLightingStageTable.size() == view::kLightingStageNames.size());
 static_assert(kShadingModelTable.size() == view::kShadingModelNames.size());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "session/delivery.h"
 #include "view/settings.h"
 
 #include <cstdint>
@@ -32,6 +33,7 @@ enum class DeviceKind : uint8_t { kCpu, kGpu };
 struct SessionDefaults {
     view::Size size;
     view::Encoding encoding;
+    DeliverySettings delivery;
     uint32_t light_count = 1000;
     float light_radius_m = 2.0F;
     view::Renderer renderer = view::Renderer::kClusteredDeferred;

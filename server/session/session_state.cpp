@@ -137,6 +137,13 @@ struct Reducer {
         return {};
     }
 
+    Outcome operator()(const SetDelivery& command) const {
+        assignIfGiven(state.delivery.adaptive, command.adaptive);
+        assignIfGiven(state.delivery.target_fps, command.target_fps);
+        assignIfGiven(state.delivery.refine, command.refine);
+        return {};
+    }
+
     template <class Other>
     Outcome operator()(const Other& /*command*/) const {
         FROXEL_ASSERT(false, "a command that sets no state reached the reducer");
@@ -162,7 +169,7 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
     settings.lights.count = defaults.light_count;
     settings.lights.radius_m = defaults.light_radius_m;
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
-    return {settings, defaults.encoding, clock, {}, 1};
+    return {settings, defaults.encoding, defaults.delivery, clock, {}, 1};
 }
 
 bool setsState(const Command& command) {
@@ -176,6 +183,7 @@ CommandResult<SessionState> apply(SessionState state,
                                   TimePoint now) {
     const view::ViewSettings settings_before = state.settings;
     const view::Encoding encoding_before = state.encoding;
+    const DeliverySettings delivery_before = state.delivery;
     const double time_before_s = state.light_clock.secondsAt(now);
     if (auto rejection = std::visit(Reducer{state, context, now}, message.body)) {
         rejection->ref_seq = message.stamp.seq;
@@ -183,7 +191,7 @@ CommandResult<SessionState> apply(SessionState state,
     }
     state.applied = message.stamp;
     if (state.settings != settings_before || state.encoding != encoding_before ||
-        state.light_clock.secondsAt(now) != time_before_s) {
+        state.delivery != delivery_before || state.light_clock.secondsAt(now) != time_before_s) {
         ++state.version;
     }
     return state;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "session/command.h"
+#include "session/delivery.h"
 #include "session/light_clock.h"
 #include "session/rejection.h"
 #include "session/session_context.h"
@@ -12,9 +13,11 @@ namespace froxel::session {
 struct SessionState {
     view::ViewSettings settings;
     view::Encoding encoding;
+    DeliverySettings delivery;
     LightClock light_clock;
     CommandStamp applied; // newest accepted command that sets state
-    uint64_t version = 1; // grows whenever settings, encoding or the lights' time are set anew
+    uint64_t version =
+        1; // grows whenever settings, encoding, delivery or the lights' time are set anew
 
     // Whether the picture changes without a command.
     [[nodiscard]] bool animating() const {

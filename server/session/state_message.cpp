@@ -85,6 +85,9 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     out.set_height(settings.size.height_px);
     out.set_quality(state.encoding.quality);
     out.set_chroma(toProto(kChromaTable, state.encoding.chroma));
+    out.set_adaptive(state.delivery.adaptive);
+    out.set_target_fps(state.delivery.target_fps);
+    out.set_refine(toProto(kRefineTable, state.delivery.refine));
 }
 
 void fill(v1::SceneInfo& out, const SceneSummary& scene) {
@@ -200,6 +203,20 @@ uint32_t saturated(T value) {
     }
 }
 
+void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
+    const Delivered& delivered = record.delivered;
+    const bool lossless = delivered.refinement == Refinement::kLossless;
+    out.set_scale(delivered.scale);
+    out.set_quality(lossless ? 0 : delivered.encoding.quality);
+    out.set_chroma(toProto(kChromaTable, delivered.encoding.chroma));
+    out.set_refinement(toProto(kRefinementTable, delivered.refinement));
+    out.set_rung(delivered.rung);
+    out.set_queue_delay_us(saturated(record.queue_delay_us));
+    // A link that nothing was measured of yet, or so fast that a double of its bits means nothing.
+    constexpr double kMost = 1e15;
+    out.set_link_bits_per_s(static_cast<uint64_t>(std::clamp(record.link_bits_per_s, 0.0, kMost)));
+}
+
 } // namespace
 
 v1::ServerMessage
@@ -296,7 +313,8 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     part.set_length(saturated(record.encoded_bytes));
     part.set_width(record.width_px);
     part.set_height(record.height_px);
-    part.set_codec(v1::CODEC_JPEG);
+    const bool lossless = record.delivered.refinement == Refinement::kLossless;
+    part.set_codec(lossless ? v1::CODEC_PNG : v1::CODEC_JPEG);
 
     header.set_queue_us(saturated(record.queue_us));
     header.set_render_us(saturated(record.render_us));
@@ -317,6 +335,7 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
         header.mutable_pairs()->set_evaluated(record.stats.pairs.evaluated);
         header.mutable_pairs()->set_contributing(record.stats.pairs.contributing);
     }
+    fillDelivery(header, record);
     header.set_dropped_frames(record.dropped_count);
     header.set_time_s(record.time_s);
     header.set_triangles(record.stats.triangle_count);

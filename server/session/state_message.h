@@ -40,14 +40,17 @@ struct FrameRecord {
     CommandStamp applied;
     uint32_t width_px = 0;
     uint32_t height_px = 0;
-    size_t encoded_bytes = 0; // one JPEG of the whole picture
-    double queue_us = 0;      // from the applied command's arrival to the start of rendering
-    double render_us = 0;     // host and device work up to readable pixels
+    size_t encoded_bytes = 0; // one JPEG, or PNG where it is lossless, of the whole picture
+    Delivered delivered;
+    double queue_us = 0;  // from the applied command's arrival to the start of rendering
+    double render_us = 0; // host and device work up to readable pixels
     double encode_wait_us = 0;
     double encode_us = 0;
     double send_wait_us = 0; // in the slot before the socket
     uint32_t dropped_count = 0;
-    double time_s = 0; // the lights' clock
+    double queue_delay_us = 0;  // on the link, of late
+    double link_bits_per_s = 0; // 0: unknown
+    double time_s = 0;          // the lights' clock
     FrameStats stats;
 };
 

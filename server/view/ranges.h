@@ -37,16 +37,17 @@ inline constexpr Range<double> kPositionRange{"position", -1e7, 1e7};
 inline constexpr Range<double> kFocusRange{"focus", 1e-6, 1e8}; // from eye to target
 inline constexpr Range<double> kUpRange{"up", 1e-6, 1e8};       // length of the up vector
 inline constexpr Range<uint32_t> kQualityRange{"quality", 1, 100};
+inline constexpr Range<double> kTargetFpsRange{"target_fps", 0.0, 240.0}; // 0: none
 inline constexpr Range<double> kToonRange{"toon", 0.0, 1.0};
 inline constexpr Range<double> kToonSlopeRange{"toon.slope", -20.0, 20.0};
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
 
 // Every range that a client can run into; the server tells them all when it greets.
 inline constexpr std::tuple kCommandRanges{
-    kWidthRange,      kHeightRange,  kLightCountRange, kLightRadiusRange, kLightIntensityRange,
-    kLightSpeedRange, kAmbientRange, kGridXRange,      kGridYRange,       kGridZRange,
-    kExposureRange,   kFovRange,     kHalfHeightRange, kPositionRange,    kFocusRange,
-    kUpRange,         kQualityRange, kToonRange,       kToonSlopeRange,   kTimeRange,
-    kLensShiftXRange, kLensShiftYRange, kLightCutoffRange};
+    kWidthRange,      kHeightRange,     kLightCountRange,  kLightRadiusRange, kLightIntensityRange,
+    kLightSpeedRange, kAmbientRange,    kGridXRange,       kGridYRange,       kGridZRange,
+    kExposureRange,   kFovRange,        kHalfHeightRange,  kPositionRange,    kFocusRange,
+    kUpRange,         kQualityRange,    kToonRange,        kToonSlopeRange,   kTimeRange,
+    kLensShiftXRange, kLensShiftYRange, kLightCutoffRange, kTargetFpsRange};
 
 } // namespace froxel::view

@@ -19,11 +19,10 @@ enum class Renderer : uint8_t {
     kToonFragment,
     kToonCompute,
 };
-inline constexpr std::array kRendererNames = {std::string_view("naive"),
-                                              std::string_view("forward_plus"),
-                                              std::string_view("clustered_deferred"),
-                                              std::string_view("toon_fragment"),
-                                              std::string_view("toon_compute")};
+inline constexpr std::array kRendererNames = {
+    std::string_view("naive"), std::string_view("forward_plus"),
+    std::string_view("clustered_deferred"), std::string_view("toon_fragment"),
+    std::string_view("toon_compute")};
 
 // Where lights are added up. auto: in compute, but for the forward renderers on a CPU device and where
 // descriptor indexing is absent: there in the fragment stage. A forward renderer in compute is its twin: a thin prepass leaves which triangle
@@ -32,29 +31,29 @@ enum class LightingStage : uint8_t { kAuto, kCompute, kFragment };
 inline constexpr std::array kLightingStageNames = {
     std::string_view("auto"), std::string_view("compute"), std::string_view("fragment")};
 
-// How a surface answers light. pbr: glTF's metallic-roughness model. lambert: its diffuse part alone.
+// How a surface answers light. pbr: glTF's metallic-roughness model. lambert: its diffuse part
+// alone.
 enum class ShadingModel : uint8_t { kPbr, kLambert };
 inline constexpr std::array kShadingModelNames = {std::string_view("pbr"),
                                                   std::string_view("lambert")};
 
 // How slices divide depth. Never changes the picture.
 enum class GridLaw : uint8_t { kLogarithmic, kLinear, kHyperbolic };
-inline constexpr std::array kGridLawNames = {std::string_view("logarithmic"),
-                                             std::string_view("linear"),
-                                             std::string_view("hyperbolic")};
+inline constexpr std::array kGridLawNames = {
+    std::string_view("logarithmic"), std::string_view("linear"), std::string_view("hyperbolic")};
 
 // Which lights a pixel loops over. auto: all of them where lists cannot pay. Never changes the
 // picture.
 enum class LightLoop : uint8_t { kAuto, kLists, kAllLights };
-inline constexpr std::array kLightLoopNames = {
-    std::string_view("auto"), std::string_view("lists"), std::string_view("all_lights")};
+inline constexpr std::array kLightLoopNames = {std::string_view("auto"), std::string_view("lists"),
+                                               std::string_view("all_lights")};
 
-// How the G-buffer holds the normal: octahedral with bits a component, or as the seeds had it (three
-// halves, two halves and a rebuilt z, a spheremap in two halves).
+// How the G-buffer holds the normal: octahedral with bits a component, or as the seeds had it
+// (three halves, two halves and a rebuilt z, a spheremap in two halves).
 enum class NormalEncoding : uint8_t { kOct16, kOct12, kOct10, kOct8, kXyz16, kXy16, kSpheremap16 };
 inline constexpr std::array kNormalEncodingNames = {
-    std::string_view("oct16"), std::string_view("oct12"), std::string_view("oct10"),
-    std::string_view("oct8"),  std::string_view("xyz16"), std::string_view("xy16"),
+    std::string_view("oct16"),      std::string_view("oct12"), std::string_view("oct10"),
+    std::string_view("oct8"),       std::string_view("xyz16"), std::string_view("xy16"),
     std::string_view("spheremap16")};
 
 // Where the lighting pass takes a pixel's position from: the depth buffer, a stored depth, or a
@@ -70,6 +69,12 @@ inline constexpr std::array kToneMapNames = {std::string_view("pbr_neutral"),
 
 enum class Chroma : uint8_t { k420, k444 };
 inline constexpr std::array kChromaNames = {std::string_view("420"), std::string_view("444")};
+
+// How far a picture is refined that rests: as asked for, at high quality, or in the end without
+// loss.
+enum class Refine : uint8_t { kNone, kHigh, kLossless };
+inline constexpr std::array kRefineNames = {std::string_view("none"), std::string_view("high"),
+                                            std::string_view("lossless")};
 
 struct Size {
     uint32_t width_px = 1280;
@@ -99,11 +104,11 @@ struct GbufferLayout {
 };
 
 struct Lights {
-    uint32_t count = 1000;       // seeded point lights
-    float radius_m = 2.0F;       // where a light's contribution reaches exactly 0
-    float intensity = 1.0F;      // scales every seeded light
-    float cutoff = 0.0F;         // trades error for speed: a light ends where its irradiance, facing
-                                 // it, would fall to this before its window; 0: at its radius
+    uint32_t count = 1000;  // seeded point lights
+    float radius_m = 2.0F;  // where a light's contribution reaches exactly 0
+    float intensity = 1.0F; // scales every seeded light
+    float cutoff = 0.0F;    // trades error for speed: a light ends where its irradiance, facing
+                            // it, would fall to this before its window; 0: at its radius
     uint32_t seed = 1;
     bool animate = true;         // off: time stands still
     float speed = 1.0F;          // scales the animation's clock
@@ -123,10 +128,9 @@ struct ToonRamp {
         bool operator==(const Point&) const = default;
     };
     uint32_t count = 8;
-    std::array<Point, kMaxPoints> points = {Point{0.00F, 0.00F, 0}, {0.10F, 0.00F, 0},
-                                            {0.16F, 0.35F, 0},      {0.45F, 0.35F, 0},
-                                            {0.52F, 0.70F, 0},      {0.80F, 0.70F, 0},
-                                            {0.86F, 1.00F, 0},      {1.00F, 1.00F, 0}};
+    std::array<Point, kMaxPoints> points = {
+        Point{0.00F, 0.00F, 0}, {0.10F, 0.00F, 0}, {0.16F, 0.35F, 0}, {0.45F, 0.35F, 0},
+        {0.52F, 0.70F, 0},      {0.80F, 0.70F, 0}, {0.86F, 1.00F, 0}, {1.00F, 1.00F, 0}};
     bool operator==(const ToonRamp&) const = default;
 };
 

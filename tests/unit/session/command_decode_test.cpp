@@ -158,8 +158,9 @@ TEST(DecodeCommand, SetLights_AbsentStaysAbsent_ZeroIsAValue) {
     v1::ClientMessage empty = clientMessage();
     empty.mutable_set_lights();
     const auto none = accepted<SetLights>(decodeBinary(empty));
-    EXPECT_FALSE(none.count || none.radius_m || none.intensity || none.cutoff || none.seed || none.animate ||
-                 none.speed || none.ambient || none.scene_lights || none.box || none.clear_box);
+    EXPECT_FALSE(none.count || none.radius_m || none.intensity || none.cutoff || none.seed ||
+                 none.animate || none.speed || none.ambient || none.scene_lights || none.box ||
+                 none.clear_box);
 
     v1::ClientMessage zeros = clientMessage();
     v1::SetLights& lights = *zeros.mutable_set_lights();
@@ -301,6 +302,26 @@ TEST(DecodeCommand, SetEncodingAndSizeAndAck_AreTaken) {
     v1::ClientMessage ack = clientMessage();
     ack.mutable_ack()->set_frame_id(std::numeric_limits<uint64_t>::max());
     EXPECT_EQ(accepted<Ack>(decodeBinary(ack)).frame_id, std::numeric_limits<uint64_t>::max());
+    EXPECT_EQ(accepted<Ack>(decodeBinary(ack)).receive_to_paint_us, 0U);
+    ack.mutable_ack()->set_receive_to_paint_us(12'345);
+    ack.mutable_ack()->set_decode_us(678);
+    EXPECT_EQ(accepted<Ack>(decodeBinary(ack)).receive_to_paint_us, 12'345U);
+    EXPECT_EQ(accepted<Ack>(decodeBinary(ack)).decode_us, 678U);
+}
+
+TEST(DecodeCommand, SetDelivery_IsTakenInPartsAndNotEmpty) {
+    v1::ClientMessage message = clientMessage();
+    message.mutable_set_delivery()->set_adaptive(false);
+    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).adaptive, false);
+    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).refine, std::nullopt);
+    message.mutable_set_delivery()->set_refine(v1::REFINE_LOSSLESS);
+    message.mutable_set_delivery()->set_target_fps(24);
+    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).refine, view::Refine::kLossless);
+    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).target_fps, 24);
+    message.mutable_set_delivery()->set_refine(static_cast<v1::Refine>(9));
+    EXPECT_EQ(refused(decodeBinary(message)).code, RejectCode::kUnsupported);
+    message.mutable_set_delivery()->Clear();
+    EXPECT_EQ(refused(decodeBinary(message)).message, "adaptive is missing");
 }
 
 TEST(DecodeCommand, NoSeq_IsMalformed) {

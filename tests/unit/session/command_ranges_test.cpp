@@ -88,6 +88,8 @@ const std::vector<RangedField>& fields() {
         ranged(view::kGridXRange, [](M& m, double v) { grid(m).mutable_grid()->set_x(u32(v)); }),
         ranged(view::kGridYRange, [](M& m, double v) { grid(m).mutable_grid()->set_y(u32(v)); }),
         ranged(view::kGridZRange, [](M& m, double v) { grid(m).mutable_grid()->set_z(u32(v)); }),
+        ranged(view::kTargetFpsRange,
+               [](M& m, double v) { m.mutable_set_delivery()->set_target_fps(v); }),
         ranged(view::kTimeRange, [](M& m, double v) { m.mutable_set_lights()->set_time_s(v); }),
         ranged(view::kExposureRange,
                [](M& m, double v) { m.mutable_set_exposure()->set_exposure(v); }),

@@ -85,6 +85,76 @@ TEST(CreditWindow, Bursts_AreNoReasonToWidenBeyondWhatTheServerMakes) {
     }
 }
 
+TEST(CreditWindow, Bulk_SaysNothingOfTheLink) {
+    CreditWindow window;
+    TimePoint now{1s};
+    for (uint64_t id = 1; id < 20; ++id) {
+        window.onProduced(16ms);
+        window.onSent(id, now, {1000, 0, false});
+        now += 10ms;
+        window.onAck(id, now);
+    }
+    const Seconds base = *window.baseRoundTrip();
+    window.onSent(20, now, {500'000, 0, true});
+    window.onSent(21, now + 1ms, {1000, 3, false});
+    window.onAck(20, now + 900ms);
+    EXPECT_FALSE(window.lastTrip()->measured);
+    window.onAck(21, now + 901ms);
+    EXPECT_FALSE(window.lastTrip()->measured) << "it waited behind the large one";
+    EXPECT_EQ(window.lastTrip()->as.rung, 3U);
+    EXPECT_EQ(window.baseRoundTrip(), base);
+    EXPECT_EQ(window.window(), 2U);
+}
+
+TEST(CreditWindow, ClientsOwnTime_IsNotTheLinks) {
+    CreditWindow window;
+    const TimePoint now{1s};
+    window.onSent(1, now);
+    window.onAck(1, now + 100ms, 70ms);
+    EXPECT_NEAR(window.lastTrip()->round_trip.count(), 0.03, 1e-9);
+    window.onSent(2, now + 200ms);
+    window.onAck(2, now + 240ms, 50ms);
+    EXPECT_NEAR(window.lastTrip()->round_trip.count(), 0.04, 1e-9) << "more than there was";
+    EXPECT_NEAR(window.lastTrip()->queue.count(), 0.01, 1e-9);
+}
+
+TEST(CreditWindow, ShutWindow_IsTold) {
+    CreditWindow window;
+    const TimePoint now{1s};
+    window.onSent(1, now);
+    window.onSent(2, now + 10ms);
+    window.onAck(1, now + 50ms);
+    window.onSent(3, now + 60ms); // shut from 10 to 50 ms, of 50
+    window.onAck(2, now + 70ms);
+    window.onAck(3, now + 120ms);
+    EXPECT_NEAR(window.lastTrip()->held, 0.8, 1e-9);
+    EXPECT_EQ(window.lastTrip()->ahead, 1U);
+    EXPECT_NEAR(window.lastTrip()->interval.count(), 0.05, 1e-9);
+}
+
+TEST(CreditWindow, Floor_KeepsTwoOnASlowLinkAndProbesAlone) {
+    CreditWindow window;
+    window.setFloor(2);
+    TimePoint now{1s};
+    uint64_t acked = 0;
+    uint64_t sent = 0;
+    TimePoint free = now;
+    bool alone = false;
+    for (int i = 0; i < 100; ++i) {
+        window.onProduced(16ms);
+        while (window.open()) {
+            window.onSent(++sent, now);
+        }
+        alone = alone || window.inFlight() == 1;
+        free = std::max(free, now) + 200ms;
+        now = free;
+        window.onAck(++acked, now);
+        ASSERT_GE(window.window(), 1U);
+    }
+    EXPECT_TRUE(alone) << "the base is measured afresh now and then";
+    EXPECT_GE(window.window(), 1U);
+}
+
 // One link and one viewer, in steps of a millisecond: frames cost `cost` to make, take turns on
 // the link for `serial` each, and their acknowledgements arrive `travel` after that.
 struct Link {

@@ -288,6 +288,20 @@ TEST_F(State, SameCommands_GiveTheSameState) {
     EXPECT_EQ(play().light_clock.secondsAt(kStart + 9s), play().light_clock.secondsAt(kStart + 9s));
 }
 
+TEST(Apply, SetDelivery_ChangesThatAlone) {
+    const SessionContext context = makeContext();
+    const SessionState before = initialState(context, kStart);
+    SetDelivery command;
+    command.target_fps = 20.0;
+    command.refine = view::Refine::kLossless;
+    const SessionState after = apply(before, {{1, 0}, command}, context, kStart).value();
+    EXPECT_EQ(after.delivery, (DeliverySettings{true, 20.0, view::Refine::kLossless}));
+    EXPECT_EQ(after.settings, before.settings);
+    EXPECT_EQ(after.encoding, before.encoding);
+    EXPECT_GT(after.version, before.version);
+    EXPECT_EQ(apply(after, {{2, 0}, command}, context, kStart).value().version, after.version);
+}
+
 TEST(SetsState, ConnectionCommands_DoNot) {
     EXPECT_FALSE(setsState(Hello{}));
     EXPECT_FALSE(setsState(Ack{}));

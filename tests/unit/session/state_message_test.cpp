@@ -68,6 +68,7 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.tone_map = view::ToneMap::kClamp;
     state.settings.toon_compute.count = 2;
     state.encoding = {42, view::Chroma::k444};
+    state.delivery = {true, 12.5, view::Refine::kHigh};
     const v1::ServerMessage message = makeStateChanged(context, state);
     EXPECT_EQ(message.state().ref_seq(), 44U);
     const v1::ViewState& view = message.state().state();
@@ -101,6 +102,9 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.toon_fragment().points_size(), 8);
     EXPECT_EQ(view.toon_compute().points_size(), 2);
     EXPECT_EQ(view.quality(), 42U);
+    EXPECT_TRUE(view.adaptive());
+    EXPECT_EQ(view.target_fps(), 12.5);
+    EXPECT_EQ(view.refine(), v1::REFINE_HIGH);
     EXPECT_EQ(view.chroma(), v1::CHROMA_444);
 }
 
@@ -152,6 +156,9 @@ FrameRecord record() {
     record.queue_us = 1.4;
     record.render_us = 2.5;
     record.encode_wait_us = 3;
+    record.delivered = {0.75, {55, view::Chroma::k420}, Refinement::kInteractive, 4};
+    record.queue_delay_us = 1500;
+    record.link_bits_per_s = 1.7e6;
     record.encode_us = 4;
     record.send_wait_us = 5;
     record.dropped_count = 6;
@@ -189,6 +196,13 @@ TEST(FrameHeader, CarriesTheRecord) {
     EXPECT_EQ(header.render_us(), 3U);
     EXPECT_EQ(header.gpu_us(), 30U);
     EXPECT_EQ(header.encode_wait_us(), 3U);
+    EXPECT_EQ(header.scale(), 0.75);
+    EXPECT_EQ(header.quality(), 55U);
+    EXPECT_EQ(header.chroma(), v1::CHROMA_420);
+    EXPECT_EQ(header.refinement(), v1::REFINEMENT_INTERACTIVE);
+    EXPECT_EQ(header.rung(), 4U);
+    EXPECT_EQ(header.queue_delay_us(), 1500U);
+    EXPECT_EQ(header.link_bits_per_s(), 1'700'000U);
     EXPECT_EQ(header.encode_us(), 4U);
     EXPECT_EQ(header.send_wait_us(), 5U);
     ASSERT_EQ(header.passes_size(), 2);

@@ -1,0 +1,91 @@
+// How a session's pictures are delivered: what the viewer allows, and what a frame is made with.
+// The settings that the viewer asked for never change by it.
+#pragma once
+
+#include "core/clock.h"
+#include "view/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace froxel::session {
+
+// What the viewer allows; part of the session's state.
+struct DeliverySettings {
+    bool adaptive = true;  // lower quality, chroma and resolution where they come too late else
+    double target_fps = 0; // that a moving view keeps at the expense of resolution; 0: none
+    view::Refine refine = view::Refine::kNone;
+    bool operator==(const DeliverySettings&) const = default;
+};
+
+// A frame on the way from a moving view to a resting one.
+enum class Refinement : uint8_t {
+    kInteractive, // within the limits of Delivery
+    kSettled,     // the view rests: as asked for
+    kHigh,        // kRefinedEncoding, or as asked for where that is better
+    kLossless,
+};
+
+// The limits on frames of a moving view, from link and rate.
+struct Delivery {
+    double scale = 1; // of each side
+    uint32_t quality_max = 100;
+    view::Chroma chroma_max = view::Chroma::k444;
+    Seconds min_interval{0}; // between frames
+    uint32_t rung = 0;       // steps below what was asked for, by the link
+    // What the link carries, in bits a second; none: unknown, or fast enough not to matter.
+    std::optional<double> link_rate;
+    bool operator==(const Delivery&) const = default;
+
+    // Whether frames come out below what was asked for.
+    [[nodiscard]] bool limits(const view::Encoding& asked) const {
+        return scale < 1 || quality_max < asked.quality || chroma_max < asked.chroma;
+    }
+};
+
+// What a frame was made with.
+struct Delivered {
+    double scale = 1;
+    view::Encoding encoding;
+    Refinement refinement = Refinement::kInteractive;
+    uint32_t rung = 0;
+};
+
+inline constexpr view::Encoding kRefinedEncoding{92, view::Chroma::k444};
+
+[[nodiscard]] inline view::Encoding limited(view::Encoding asked, const Delivery& delivery) {
+    return {std::min(asked.quality, delivery.quality_max),
+            std::min(asked.chroma, delivery.chroma_max)};
+}
+
+[[nodiscard]] inline view::Size scaled(view::Size size, double scale) {
+    const auto side = [scale](uint32_t px) {
+        constexpr uint32_t kSmallestPx = 16; // as view::kWidthRange
+        const auto less = static_cast<uint32_t>(std::lround(px * scale));
+        return std::min(px, std::max(kSmallestPx, less));
+    };
+    return {side(size.width_px), side(size.height_px)};
+}
+
+// What a frame at this stage is made with.
+[[nodiscard]] inline Delivered
+delivered(const view::Encoding& asked, const Delivery& delivery, Refinement stage) {
+    switch (stage) {
+    case Refinement::kInteractive:
+        return {delivery.scale, limited(asked, delivery), stage, delivery.rung};
+    case Refinement::kSettled:
+        return {1, asked, stage, 0};
+    case Refinement::kHigh:
+    case Refinement::kLossless:
+        break;
+    }
+    return {1,
+            {std::max(asked.quality, kRefinedEncoding.quality),
+             std::max(asked.chroma, kRefinedEncoding.chroma)},
+            stage,
+            0};
+}
+
+} // namespace froxel::session

@@ -1,0 +1,227 @@
+#include "simulated_link.h"
+
+#include <set>
+
+namespace froxel::session {
+namespace {
+
+using namespace std::chrono_literals;
+
+// A CPU device's stream: 25 kB every 60 ms, 417 kB/s.
+constexpr SimulatedLink kCpu{};
+// A GPU's: 60 kB sixty times a second, of which the link must carry thirty: 1.8 MB/s.
+SimulatedLink gpu() {
+    SimulatedLink link;
+    link.cost = Seconds(1.0 / 60);
+    link.frame_bytes = 60'000;
+    return link;
+}
+
+SimulatedLink with(SimulatedLink link, double bytes_per_s) {
+    link.bytes_per_s = bytes_per_s;
+    return link;
+}
+
+size_t rungsOf(const std::vector<Simulation::Shown>& shown) {
+    std::set<uint32_t> rungs;
+    for (const auto& frame : shown) {
+        rungs.insert(frame.rung);
+    }
+    return rungs.size();
+}
+
+TEST(RateLadder, FromTheTop_EachRungAsksForLess) {
+    for (const uint32_t quality : {1U, 45U, 60U, 75U, 80U, 100U}) {
+        for (const view::Chroma chroma : {view::Chroma::k420, view::Chroma::k444}) {
+            const view::Encoding asked{quality, chroma};
+            const auto ladder = makeLadder(asked);
+            ASSERT_EQ(limited(asked, ladder[0].delivery), asked);
+            ASSERT_EQ(ladder[0].bits, 1.0);
+            ASSERT_FALSE(ladder[0].delivery.limits(asked));
+            for (size_t i = 1; i < ladder.size(); ++i) {
+                const Rung& rung = ladder[i];
+                ASSERT_EQ(rung.delivery.rung, i);
+                ASSERT_TRUE(rung.bits < ladder[i - 1].bits || rung.alone) << quality << " " << i;
+                ASSERT_TRUE(rung.delivery.limits(asked));
+            }
+        }
+    }
+}
+
+TEST(RateLadder, Order_IsQualityChromaScaleRate) {
+    const auto ladder = makeLadder({75, view::Chroma::k444});
+    ASSERT_EQ(ladder.size(), 10U);
+    EXPECT_EQ(ladder[3].delivery.quality_max, 45U);
+    EXPECT_EQ(ladder[3].delivery.chroma_max, view::Chroma::k444);
+    EXPECT_EQ(ladder[4].delivery.chroma_max, view::Chroma::k420);
+    EXPECT_EQ(ladder[4].delivery.scale, 1);
+    EXPECT_EQ(ladder[5].delivery.scale, 0.75);
+    EXPECT_EQ(ladder[6].delivery.scale, 0.5);
+    EXPECT_TRUE(ladder[7].alone);
+    EXPECT_GT(ladder[9].delivery.min_interval, ladder[8].delivery.min_interval);
+}
+
+TEST(RateController, FastLink_ChangesNothing) {
+    Simulation simulation;
+    simulation.run(kCpu, 60s);
+    simulation.run(gpu(), 60s);
+    EXPECT_TRUE(simulation.steps().empty());
+}
+
+TEST(RateController, HalfTheBandwidth_SettlesAtOnceAndStaysFresh) {
+    for (const uint32_t seed : {1U, 2U, 3U, 4U, 5U}) {
+        Simulation simulation({75, view::Chroma::k420}, seed);
+        simulation.run(kCpu, 10s);
+        simulation.run(with(kCpu, 208e3), 1s);
+        EXPECT_GT(simulation.rate().delivery().rung, 0U) << "down within a second";
+        simulation.run(with(kCpu, 208e3), 9s);
+        simulation.forgetSteps();
+        const auto shown = simulation.run(with(kCpu, 208e3), 60s);
+        EXPECT_LT(ageAt(shown, 0.99), 220ms) << seed; // with 60 ms of making and 60 of the link
+        EXPECT_GT(shown.size(), 60U * 12) << "the rate is the last to give";
+        EXPECT_LE(simulation.count(RateStep::kCongested), 6) << "failed rungs are held";
+        EXPECT_NEAR(*simulation.rate().linkRate(), 208e3 * 8, 208e3 * 8 * 0.2);
+    }
+}
+
+TEST(RateController, HalfOfWhatAGpuNeeds_SettlesFresh) {
+    Simulation simulation;
+    simulation.run(gpu(), 10s);
+    simulation.run(with(gpu(), 0.9e6), 10s);
+    simulation.forgetSteps();
+    const auto shown = simulation.run(with(gpu(), 0.9e6), 60s);
+    EXPECT_LT(ageAt(shown, 0.99), 120ms);
+    EXPECT_GT(shown.size(), 60U * 30);
+    EXPECT_LE(simulation.count(RateStep::kCongested), 6);
+}
+
+TEST(RateController, LinkRecovers_FullQualityWithinThreeSeconds) {
+    SimulatedLink far = kCpu;
+    far.travel = Seconds(0.04);
+    for (const SimulatedLink& good : {kCpu, far, with(kCpu, 500e3)}) {
+        for (const double slow : {40e3, 208e3, 300e3}) {
+            Simulation simulation;
+            simulation.run(good, 10s);
+            simulation.run(with(good, slow), 60s);
+            EXPECT_GT(simulation.rate().delivery().rung, 0U) << slow;
+            simulation.run(good, 3s);
+            EXPECT_EQ(simulation.rate().delivery().rung, 0U) << slow << " " << good.bytes_per_s;
+            simulation.forgetSteps();
+            simulation.run(good, 60s);
+            EXPECT_TRUE(simulation.steps().empty());
+        }
+    }
+}
+
+TEST(RateController, TenthOfTheBandwidth_IsFollowedDownToTheRate) {
+    Simulation simulation;
+    simulation.run(kCpu, 10s);
+    simulation.run(with(kCpu, 40e3), 15s);
+    const auto shown = simulation.run(with(kCpu, 40e3), 60s);
+    EXPECT_LT(ageAt(shown, 0.9), 250ms);
+    EXPECT_GT(shown.size(), 200U);
+}
+
+TEST(RateController, Noise_NeverOscillates) {
+    for (SimulatedLink link : {kCpu, gpu()}) {
+        link.travel = Seconds(0.02);
+        link.jitter = Seconds(0.03);
+        link.noise = 0.3;
+        Simulation simulation;
+        simulation.run(link, 120s);
+        EXPECT_LE(simulation.steps().size(), 2U);
+        EXPECT_EQ(simulation.rate().delivery().rung, 0U);
+    }
+}
+
+TEST(RateController, NoiseOnASlowLink_ChangesLittle) {
+    SimulatedLink link = with(gpu(), 0.9e6);
+    link.travel = Seconds(0.02);
+    link.jitter = Seconds(0.02);
+    Simulation simulation;
+    simulation.run(link, 20s);
+    simulation.forgetSteps();
+    const auto shown = simulation.run(link, 60s);
+    EXPECT_LE(simulation.steps().size(), 30U);
+    EXPECT_LT(ageAt(shown, 0.99), 200ms);
+    EXPECT_LE(rungsOf(shown), 5U);
+}
+
+// Frames take longer on their way, and not because of each other.
+TEST(RateController, LongerRoute_IsNotCongestion) {
+    for (const SimulatedLink& near : {kCpu, gpu()}) {
+        for (const double travel_s : {0.05, 0.08, 0.15, 0.3}) {
+            SimulatedLink longer = near;
+            longer.travel = Seconds(travel_s);
+            Simulation simulation;
+            simulation.run(near, 10s);
+            simulation.run(longer, 5s);
+            EXPECT_EQ(simulation.rate().delivery().rung, 0U) << travel_s;
+            EXPECT_EQ(simulation.count(RateStep::kCongested), simulation.count(RateStep::kUndone));
+            EXPECT_LE(simulation.count(RateStep::kUndone), 2);
+            simulation.forgetSteps();
+            simulation.run(longer, 60s);
+            EXPECT_TRUE(simulation.steps().empty()) << travel_s;
+        }
+    }
+}
+
+TEST(RateController, SlowServer_LowersNothing) {
+    SimulatedLink link = with(kCpu, 600e3);
+    Simulation simulation;
+    for (const double cost_s : {0.06, 0.2, 0.06, 0.5, 0.06}) {
+        link.cost = Seconds(cost_s);
+        simulation.run(link, 20s);
+    }
+    EXPECT_TRUE(simulation.steps().empty());
+}
+
+TEST(RateController, SlowClientThatSaysSo_LowersNothing) {
+    SimulatedLink link = kCpu;
+    Simulation simulation;
+    for (const double client_s : {0.005, 0.12, 0.3}) {
+        link.client = Seconds(client_s);
+        simulation.run(link, 20s);
+        EXPECT_LT(simulation.rate().queueDelay(), 5ms);
+    }
+    EXPECT_TRUE(simulation.steps().empty());
+}
+
+TEST(RateController, NotAdaptive_OnlyMeasures) {
+    Simulation simulation;
+    DeliverySettings fixed;
+    fixed.adaptive = false;
+    simulation.rate().setWanted({75, view::Chroma::k420}, fixed);
+    simulation.run(with(kCpu, 100e3), 20s);
+    EXPECT_TRUE(simulation.steps().empty());
+    EXPECT_EQ(simulation.rate().delivery(), Delivery{});
+    EXPECT_NEAR(*simulation.rate().linkRate(), 800e3, 200e3);
+}
+
+TEST(RateController, QualityAskedAnew_KeepsWhatTheLinkCarries) {
+    Simulation simulation;
+    simulation.run(kCpu, 5s);
+    simulation.run(with(kCpu, 100e3), 10s);
+    RateController& rate = simulation.rate();
+    const Delivery before = rate.delivery();
+    ASSERT_GT(before.rung, 0U);
+    rate.setWanted({95, view::Chroma::k444}, {});
+    EXPECT_EQ(rate.delivery().scale, before.scale);
+    EXPECT_EQ(rate.delivery().quality_max, before.quality_max);
+    EXPECT_EQ(rate.delivery().chroma_max, view::Chroma::k420);
+    rate.setWanted({30, view::Chroma::k420}, {});
+    EXPECT_EQ(rate.delivery().scale, before.scale);
+    DeliverySettings fixed;
+    fixed.adaptive = false;
+    rate.setWanted({30, view::Chroma::k420}, fixed);
+    EXPECT_EQ(rate.delivery().rung, 0U);
+}
+
+TEST(Scaled, Sides_RoundAndKeepTheSmallest) {
+    EXPECT_EQ(scaled({1281, 719}, 1), (view::Size{1281, 719}));
+    EXPECT_EQ(scaled({1281, 719}, 0.5), (view::Size{641, 360}));
+    EXPECT_EQ(scaled({20, 16}, 0.5), (view::Size{16, 16}));
+}
+
+} // namespace
+} // namespace froxel::session
