@@ -10,6 +10,7 @@ import {
   kSubprotocol,
   type Frame,
 } from './framing';
+import type { Codec } from './gen/froxel/v1/common_pb';
 import type { ServerMessage } from './gen/froxel/v1/server_pb';
 import type { ClientBody } from './settings';
 import type { Link } from './app_state';
@@ -33,6 +34,7 @@ export interface Environment {
   nowMs(): number; // monotonic
   random(): number; // [0, 1)
   after(delayMs: number, action: () => void): () => void; // returns how to cancel
+  readonly codecs: readonly Codec[]; // that the page decodes
 }
 
 /** A connection that lived this long was a good one: the next delay starts small again. */
@@ -99,7 +101,8 @@ export class Connection {
     this.openedAtMs = this.heardAtMs = this.env.nowMs();
     this.events.link({ phase: 'greeting' });
     const hello = { protocolMajor: kProtocolMajor, protocolMinor: kProtocolMinor };
-    this.send({ case: 'hello', value: { ...hello, clientName: 'froxel web client' } });
+    const codecs = [...this.env.codecs];
+    this.send({ case: 'hello', value: { ...hello, clientName: 'froxel web client', codecs } });
     this.keepAlive(socket);
   }
 

@@ -5,6 +5,7 @@ import type { DescEnum } from '@bufbuild/protobuf';
 
 import {
   ChromaSchema,
+  CodecSchema,
   GridLawSchema,
   LightingStageSchema,
   LightLoopSchema,
@@ -29,7 +30,8 @@ type ChoiceKey =
   | 'gridLaw'
   | 'lightLoop'
   | 'toneMap'
-  | 'chroma';
+  | 'chroma'
+  | 'codec';
 
 interface Base {
   readonly name: string;
@@ -188,6 +190,21 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
     number('gridZ', 'grid.z', 'Depth slices', 'linear', true, 'Clusters along the depth'),
   ],
   stream: [
+    choice(
+      'codec',
+      'codec',
+      'Codec',
+      CodecSchema,
+      'jpeg: each picture by itself; vp9: video, a few times fewer bits for more work',
+    ),
+    number(
+      'videoKbps',
+      'video_kbps',
+      'Video kbit/s',
+      'log',
+      true,
+      'What the video codec aims at; higher: sharper, more bytes',
+    ),
     number('quality', 'quality', 'JPEG quality', 'linear', true, 'Higher: sharper, more bytes'),
     choice(
       'chroma',

@@ -14,6 +14,8 @@ export function bytes(value: number): string {
   return `${power > 0 && scaled < 99.5 ? scaled.toFixed(1) : scaled.toFixed(0)} ${kUnits[power]}`;
 }
 
+export const bits = (value: number): string => bytes(value).replace('B', 'bit');
+
 /** Digits in groups of three, parted by thin spaces. */
 export function count(value: number | bigint): string {
   return String(value).replace(/\B(?=(\d{3})+$)/g, '\u2009');

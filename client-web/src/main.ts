@@ -1,6 +1,7 @@
 // The composition root: puts the parts together and ties them to the page.
 
 import { Banner } from './banner';
+import { Codec } from './gen/froxel/v1/common_pb';
 import { CanvasInput } from './input';
 import { Commands } from './commands';
 import { Connection } from './connection';
@@ -15,6 +16,8 @@ import { isForControl, runShortcut } from './shortcuts';
 import { Stats } from './stats';
 import { Store } from './store';
 import { LinkKeeper } from './link_keeper';
+import { VideoFallback } from './video_fallback';
+import { decodesVp9, type LostSync } from './video_track';
 import { WindowSize } from './window_size';
 
 const kNarrowPx = 640;
@@ -27,6 +30,8 @@ const nextFrame = (action: (nowMs: number) => void): void => void requestAnimati
 const store = new Store();
 const stats = new Stats();
 const picture = new Picture(canvas);
+const codecs = (await decodesVp9()) ? [Codec.JPEG, Codec.VP9] : [Codec.JPEG];
+const videoFallback = new VideoFallback();
 const worker = new Worker(new URL('./decode_worker.ts', import.meta.url), { type: 'module' });
 
 const presenter = new Presenter({
@@ -41,6 +46,7 @@ const presenter = new Presenter({
     banner.pictureShown();
   },
   problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
+  lostSync,
 });
 
 const connection = new Connection(
@@ -68,12 +74,13 @@ const connection = new Connection(
       const timer = setTimeout(action, delayMs);
       return () => clearTimeout(timer);
     },
+    codecs,
   },
 );
 
 const commands = new Commands(store, connection, picture);
 const overlay = new Overlay(stats, () => presenter.droppedCount, !narrow);
-const panel = new Panel(element('panel', HTMLElement), commands, narrow);
+const panel = new Panel(element('panel', HTMLElement), commands, narrow, codecs);
 const banner = new Banner({
   retry: () => connection.open(),
   dismiss: () => store.dispatch({ type: 'dismiss' }),
@@ -97,6 +104,22 @@ store.listen(({ server }, before) => {
   const about = `${scene} on ${server.device} · froxel ${server.version}`;
   element('about', HTMLElement).textContent = about;
 });
+
+/** JPEG stays until the viewer chooses video again: by itself it would swing to and fro. */
+function lostSync({ message, broken }: LostSync): void {
+  switch (videoFallback.lost(broken, nowMs())) {
+    case 'key frame':
+      connection.send({ case: 'requestKeyFrame', value: {} });
+      break;
+    case 'jpeg': {
+      const text = `${message}, again and again: back to JPEG`;
+      store.dispatch({ type: 'notice', tone: 'error', text });
+      commands.edit({ codec: Codec.JPEG });
+      break;
+    }
+    case 'wait':
+  }
+}
 
 const shortcuts = {
   screenshot: () => void commands.screenshot(),

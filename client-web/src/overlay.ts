@@ -2,14 +2,21 @@
 
 import { Details } from './details';
 import { element, make } from './dom';
-import { bytes, count, gridText, ms } from './format';
+import { bits, bytes, count, gridText, ms } from './format';
 import { Graph } from './graph';
-import type { FrameDetails } from './gen/froxel/v1/server_pb';
+import { CodecSchema } from './gen/froxel/v1/common_pb';
+import type { FrameDetails, FrameHeader } from './gen/froxel/v1/server_pb';
+import { choicesOf } from './schema_names';
 import { kStages, type Figures, type Stats } from './stats';
 
 const kRefreshMs = 250;
 const kGraphWidth = 236;
 const kGraphHeight = 84;
+
+function codecName({ parts }: FrameHeader): string {
+  const codec: number = parts[0]?.codec ?? 0;
+  return choicesOf(CodecSchema).find(({ value }) => value === codec)?.name ?? 'none';
+}
 
 interface Bar {
   readonly name: string;
@@ -70,6 +77,7 @@ export class Overlay {
     this.value('Latency p50 · p95', 'latency', latency);
     this.value('Stream', '', `${bytes(figures.bytesPerSecond)}/s`);
     if (!last) return;
+    this.value('Codec', '', `${codecName(last)} · ${bits(figures.bytesPerSecond * 8)}/s`);
     this.value('Picture', '', `${last.width} × ${last.height}`);
     this.value('GPU · encode', '', `${ms(last.gpuUs / 1000)} · ${ms(last.encodeUs / 1000)}`);
     this.value('Triangles', '', count(last.triangles));

@@ -1,10 +1,12 @@
-// Frames on their way to the canvas: at most two are being decoded, the newest wins everywhere, and
-// each one is acknowledged when it was painted or given up. A hidden page neither decodes nor
+// Frames on their way to the canvas: at most two are being decoded, the newest wins everywhere (of
+// video each is decoded, in order, and the newest painted), and each one is acknowledged when it was
+// painted or given up. A hidden page neither decodes nor
 // acknowledges, so that the server pauses.
 
-import type { Decode } from './decoder';
+import { needsOthers, type Decode } from './decoder';
 import type { Frame } from './framing';
 import type { FrameHeader } from './gen/froxel/v1/server_pb';
+import { LostSync } from './video_track';
 
 const kMaxDecodes = 2;
 
@@ -16,6 +18,8 @@ export interface PresenterEnvironment {
   readonly acknowledge: (frameId: bigint) => void;
   readonly painted: (header: FrameHeader, decodeMs: number) => void;
   readonly problem: (text: string) => void;
+  /** Video cannot go on without a key frame. */
+  readonly lostSync: (error: LostSync) => void;
 }
 
 interface Ready {
@@ -28,7 +32,7 @@ export class Presenter {
   /** Frames that arrived and were never shown, since the page was opened. */
   droppedCount = 0;
 
-  private waiting: Frame | null = null;
+  private waiting: Frame[] = []; // more than one only of video
   private ready: Ready | null = null;
   private decodes = 0;
   private lastId = 0n; // newest frame decoded so far
@@ -40,8 +44,11 @@ export class Presenter {
   constructor(private readonly env: PresenterEnvironment) {}
 
   offer(frame: Frame): void {
-    if (this.waiting) this.drop(this.waiting.header);
-    this.waiting = frame;
+    if (!needsOthers(frame.header)) {
+      for (const { header } of this.waiting) this.drop(header);
+      this.waiting = [];
+    }
+    this.waiting.push(frame);
     this.decodeNext();
   }
 
@@ -55,7 +62,7 @@ export class Presenter {
   /** A new connection counts its frames from 1; the last picture stays. */
   restart(): void {
     this.generation += 1;
-    this.waiting = null;
+    this.waiting = [];
     this.ready?.bitmap.close();
     this.ready = null;
     this.lastId = 0n;
@@ -63,10 +70,10 @@ export class Presenter {
   }
 
   private decodeNext(): void {
-    if (!this.visible || !this.waiting || this.decodes >= kMaxDecodes) return;
-    const { header } = this.waiting;
-    const frame = this.waiting;
-    this.waiting = null;
+    if (!this.visible || this.decodes >= kMaxDecodes) return;
+    const frame = this.waiting.shift();
+    if (!frame) return;
+    const { header } = frame;
     this.decodes += 1;
     const { generation } = this;
     const startMs = this.env.nowMs();
@@ -84,7 +91,8 @@ export class Presenter {
         this.decodes -= 1;
         if (generation === this.generation) {
           this.drop(header);
-          this.env.problem(error instanceof Error ? error.message : String(error));
+          if (error instanceof LostSync) this.env.lostSync(error);
+          else this.env.problem(error instanceof Error ? error.message : String(error));
         }
         this.decodeNext();
       },

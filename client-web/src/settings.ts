@@ -6,6 +6,7 @@ import type { ClientMessageSchema } from './gen/froxel/v1/client_pb';
 import {
   Renderer,
   type Chroma,
+  type Codec,
   type GridLaw,
   type LightingStage,
   type LightLoop,
@@ -72,6 +73,8 @@ export interface Settings {
   readonly height: number;
   readonly quality: number;
   readonly chroma: Chroma;
+  readonly codec: Codec;
+  readonly videoKbps: number; // while the codec is a video one
 }
 
 /** The part of the settings that SetCamera carries. */
@@ -136,6 +139,8 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     height: state.height,
     quality: state.quality,
     chroma: state.chroma,
+    codec: state.codec,
+    videoKbps: state.videoKbps,
   };
 }
 
@@ -214,12 +219,14 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
       },
     });
   }
-  if (changed('quality', 'chroma')) {
+  if (changed('quality', 'chroma', 'codec', 'videoKbps')) {
     commands.push({
       case: 'setEncoding',
       value: {
         ...(changed('quality') && { quality: to.quality }),
         ...(changed('chroma') && { chroma: to.chroma }),
+        ...(changed('codec') && { codec: to.codec }),
+        ...(changed('videoKbps') && { videoKbps: to.videoKbps }),
       },
     });
   }

@@ -1,8 +1,9 @@
 import { describe, expect, it } from 'vitest';
 
-import { workerDecoder, type DecodeReply, type DecodeRequest, type WorkerPort } from '../src/decoder';
+import { needsOthers, workerDecoder, type DecodeReply, type DecodeRequest, type WorkerPort } from '../src/decoder';
 import type { Frame } from '../src/framing';
-import { Codec } from '../src/gen/froxel/v1/server_pb';
+import { Codec } from '../src/gen/froxel/v1/common_pb';
+import { LostSync } from '../src/video_track';
 import { frameHeader } from './fakes';
 
 class FakeWorker implements WorkerPort {
@@ -56,6 +57,31 @@ describe('workerDecoder', () => {
     const decoded = workerDecoder(worker)(frame());
     worker.reply({ id: 0, error: 'not a JPEG' });
     await expect(decoded).rejects.toThrow('not a JPEG');
+  });
+
+  it('Failure_OfVideo_SaysWhetherTheDecoderBroke', async () => {
+    const worker = new FakeWorker();
+    const decode = workerDecoder(worker);
+    const [first, second] = [decode(frame(Codec.VP9)), decode(frame(Codec.VP9))];
+    worker.reply({ id: 0, error: 'video: gone', lost: 'broken' });
+    worker.reply({ id: 1, error: 'video: waits', lost: 'waiting' });
+    await expect(first).rejects.toEqual(new LostSync('video: gone', true));
+    await expect(second).rejects.toMatchObject({ broken: false });
+  });
+
+  it('Video_InSeveralParts_IsRefused', async () => {
+    const { header, payload } = frame(Codec.VP9);
+    header.parts.push(...header.parts);
+    const decoded = workerDecoder(new FakeWorker())({ header, payload });
+    await expect(decoded).rejects.toThrow('2 parts of video');
+  });
+
+  it('NeedsOthers_OnlyVideoThatIsNoKeyFrame', () => {
+    expect(needsOthers(frame(Codec.JPEG).header)).toBe(false);
+    expect(needsOthers(frame(Codec.VP9).header)).toBe(true);
+    const { header } = frame(Codec.VP9);
+    for (const part of header.parts) part.keyFrame = true;
+    expect(needsOthers(header)).toBe(false);
   });
 
   it('WorkerThatDies_RejectsAllThatWait', async () => {

@@ -3,6 +3,7 @@
 import { create, fromBinary, toBinary, type MessageInitShape } from '@bufbuild/protobuf';
 
 import type { Environment, Socket } from '../src/connection';
+import { Codec } from '../src/gen/froxel/v1/common_pb';
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
 import {
   FrameHeaderSchema,
@@ -62,6 +63,7 @@ export class FakeSocket implements Socket {
 
 /** Time that stands still until it is moved. */
 export class FakeEnvironment implements Environment {
+  readonly codecs = [Codec.JPEG, Codec.VP9];
   readonly sockets: FakeSocket[] = [];
   now = 1000;
   randomValue = 0;

@@ -1,13 +1,15 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
 import type { Frame } from '../src/framing';
+import { Codec } from '../src/gen/froxel/v1/common_pb';
 import { Presenter } from '../src/presenter';
+import { LostSync } from '../src/video_track';
 import { FakeFrames, frameHeader, settle } from './fakes';
 
 interface Decode {
   readonly id: bigint;
   readonly finish: () => Promise<void>;
-  readonly fail: () => Promise<void>;
+  readonly fail: (error?: Error) => Promise<void>;
 }
 
 let frames: FakeFrames;
@@ -15,11 +17,17 @@ let decodes: Decode[];
 let painted: bigint[];
 let acks: bigint[];
 let problems: string[];
+let losses: boolean[];
 let openBitmaps: number;
 let presenter: Presenter;
 
 const frame = (id: number): Frame => ({
   header: frameHeader({ frameId: BigInt(id) }),
+  payload: new Uint8Array(),
+});
+
+const video = (id: number, keyFrame = false): Frame => ({
+  header: frameHeader({ frameId: BigInt(id), parts: [{ codec: Codec.VP9, keyFrame }] }),
   payload: new Uint8Array(),
 });
 
@@ -34,6 +42,7 @@ beforeEach(() => {
   painted = [];
   acks = [];
   problems = [];
+  losses = [];
   openBitmaps = 0;
   presenter = new Presenter({
     decode: ({ header }) =>
@@ -41,7 +50,7 @@ beforeEach(() => {
         decodes.push({
           id: header.frameId,
           finish: () => (resolve(bitmap(header.frameId)), settle()),
-          fail: () => (reject(new Error('bad JPEG')), settle()),
+          fail: (error = new Error('bad JPEG')) => (reject(error), settle()),
         });
       }),
     nextFrame: frames.next,
@@ -50,6 +59,7 @@ beforeEach(() => {
     acknowledge: (id) => void acks.push(id),
     painted: () => undefined,
     problem: (text) => void problems.push(text),
+    lostSync: ({ broken }) => void losses.push(broken),
   });
 });
 
@@ -115,6 +125,34 @@ describe('Presenter', () => {
     await decodes[1]?.finish();
     frames.run();
     expect(painted).toEqual([2n]);
+  });
+
+  it('Video_EveryFrameIsDecodedInOrderAndTheNewestPainted', async () => {
+    presenter.offer(video(1, true));
+    for (const id of [2, 3, 4]) presenter.offer(video(id));
+    expect(decodes.map(({ id }) => id)).toEqual([1n, 2n]);
+    expect(presenter.droppedCount).toBe(0);
+    for (const index of [0, 1, 2, 3]) await decodes[index]?.finish();
+    expect(decodes.map(({ id }) => id)).toEqual([1n, 2n, 3n, 4n]);
+    frames.run();
+    expect(painted).toEqual([4n]);
+    expect(acks).toEqual([1n, 2n, 3n, 4n]);
+    expect(openBitmaps).toBe(0);
+  });
+
+  it('Video_KeyFrame_ReplacesWhatWaits', () => {
+    presenter.offer(video(1, true));
+    for (const id of [2, 3, 4]) presenter.offer(video(id));
+    presenter.offer(video(5, true));
+    expect(acks).toEqual([3n, 4n]);
+  });
+
+  it('Video_LostSync_IsToldApartFromABadPicture', async () => {
+    presenter.offer(video(1));
+    await decodes[0]?.fail(new LostSync('video: gone', true));
+    expect(losses).toEqual([true]);
+    expect(problems).toEqual([]);
+    expect(acks).toEqual([1n]);
   });
 
   it('HiddenPage_AcknowledgesNothingUntilItIsSeenAgain', async () => {

@@ -4,6 +4,7 @@ import { create, type MessageInitShape } from '@bufbuild/protobuf';
 
 import {
   Chroma,
+  Codec,
   GridLaw,
   LightingStage,
   LightLoop,
@@ -62,6 +63,8 @@ export function viewState(change: ViewInit = {}): ViewState {
     height: 540,
     quality: 80,
     chroma: Chroma.CHROMA_420,
+    codec: Codec.JPEG,
+    videoKbps: 6000,
     ...change,
   });
 }

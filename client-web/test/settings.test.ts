@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import {
   Chroma,
+  Codec,
   GridLaw,
   LightingStage,
   LightLoop,
@@ -112,6 +113,8 @@ describe('settingCommands', () => {
       { chroma: Chroma.CHROMA_444 },
       { case: 'setEncoding', value: { chroma: Chroma.CHROMA_444 } },
     ],
+    ['codec', { codec: Codec.VP9 }, { case: 'setEncoding', value: { codec: Codec.VP9 } }],
+    ['video rate', { videoKbps: 800 }, { case: 'setEncoding', value: { videoKbps: 800 } }],
     [
       'toon ramp',
       { toonCompute: [{ x: 0, y: 1, slope: 2 }] },

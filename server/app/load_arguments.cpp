@@ -49,6 +49,9 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
     command.value("--size", "WxH", options.size, parseSize, "the server's", "Picture in pixels");
     command.number("--lights", options.light_count, view::kLightCountRange, "the server's",
                    "Seeded lights");
+    command.name("--codec", options.codec, view::kCodecNames, "How pictures are encoded");
+    command.number("--video-kbps", options.video_kbps, view::kVideoKbpsRange, "the server's",
+                   "Of a video codec: 1000 bits a second");
     command.number("--max-latency-ms", options.max_latency_ms, kLatencyRange, "",
                    "Exit 1 where a viewer's 95th percentile is above");
     command.number("--min-fps", options.min_fps, kRateRange, "",

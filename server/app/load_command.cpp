@@ -5,6 +5,7 @@
 #include "load/load_run.h"
 #include "load/script_file.h"
 #include "net/stop_signal.h"
+#include "session/proto_enums.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -47,6 +48,13 @@ load::RunOptions runOptions(const LoadOptions& options) {
         run.viewer.size->set_height(options.size->height_px);
     }
     run.viewer.light_count = options.light_count;
+    if (view::isVideo(options.codec) || options.video_kbps) {
+        v1::SetEncoding& encoding = run.viewer.encoding.emplace();
+        encoding.set_codec(session::toProto(session::kCodecTable, options.codec));
+        if (options.video_kbps) {
+            encoding.set_video_kbps(*options.video_kbps);
+        }
+    }
     run.viewer_count = options.viewer_count;
     run.ramp = Seconds(options.ramp_s);
     run.seconds = Seconds(options.seconds);

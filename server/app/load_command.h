@@ -22,6 +22,8 @@ struct LoadOptions {
     std::optional<double> min_fps;        // of each viewer
     std::optional<view::Size> size;       // absent: the server's
     std::optional<uint32_t> light_count;  // likewise
+    view::Codec codec = view::Codec::kJpeg;
+    std::optional<uint32_t> video_kbps;   // of a video codec; absent: the server's
     std::filesystem::path json;           // empty: none
 };
 

@@ -51,6 +51,7 @@ ViewerResult pool(const RunResult& result) {
         sum.refusal = sum.refusal ? sum.refusal : one.refusal;
         all.received_bytes += viewer.received_bytes;
         all.sent_bytes += viewer.sent_bytes;
+        all.key_frames += viewer.key_frames;
     }
     return all;
 }
@@ -104,6 +105,7 @@ Json figuresOf(const ViewerResult& viewer) {
             {"timer_lag_ms", summaryOf(samples.timer_lag_ms)},
             {"received_bytes", viewer.received_bytes},
             {"sent_bytes", viewer.sent_bytes},
+            {"key_frames", viewer.key_frames},
             {"received_bytes_per_s", byteRate(viewer)},
             {"frame_bytes", measured.frame_bytes},
             {"server_dropped", measured.server_dropped},
@@ -224,6 +226,8 @@ Json loadReport(const LoadOptions& options, const RunResult& result) {
             {"size", size ? Json{{"width_px", size->width_px}, {"height_px", size->height_px}}
                           : Json(nullptr)},
             {"lights", orNull(options.light_count)},
+            {"codec", view::kCodecNames[static_cast<size_t>(options.codec)]},
+            {"video_kbps", orNull(options.video_kbps)},
             {"host", {{"threads", std::thread::hardware_concurrency()}}},
             {"measured_s", result.seconds},
             {"stopped", result.stopped},

@@ -12,7 +12,8 @@ namespace froxel {
 using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
 
 struct EncodedFrame {
-    SharedBytes bytes; // one JPEG
+    SharedBytes bytes; // one JPEG, or one frame of video
+    bool key = true;   // decodes without any frame before it
     uint32_t width_px = 0;
     uint32_t height_px = 0;
     double wait_us = 0;   // in the encoder's queue

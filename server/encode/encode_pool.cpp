@@ -3,6 +3,7 @@
 #include "core/assert.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/jpeg_stripes.h"
+#include "encode/video_encoder.h"
 
 #include <atomic>
 #include <utility>
@@ -16,11 +17,12 @@ struct EncodePool::Work {
 
     void begin(size_t thread_count) {
         started_at = Clock::now();
-        stripes = cutStripes(job.pixels.view(), job.encoding.chroma, thread_count);
+        stripes = job.video ? std::vector<PixelView>{job.pixels.view()}
+                            : cutStripes(job.pixels.view(), job.encoding.chroma, thread_count);
         parts.resize(stripes.size());
     }
     void encode(JpegEncoder& encoder, size_t stripe) {
-        auto part = encoder.encode(stripes[stripe], job.encoding);
+        auto part = job.video ? encodeVideo() : encoder.encode(stripes[stripe], job.encoding);
         if (part) {
             parts[stripe] = std::move(*part);
         } else if (!failed.exchange(true)) {
@@ -30,20 +32,31 @@ struct EncodePool::Work {
             finish();
         }
     }
+    Result<std::vector<std::byte>> encodeVideo() {
+        const VideoJob& video = *job.video;
+        auto frame =
+            video.encoder->encode(job.pixels.view(), job.encoding, video.key, video.drawn_at);
+        if (!frame) {
+            return frame.error();
+        }
+        key = frame->key;
+        return std::move(frame->bytes);
+    }
     void finish() {
         const PixelView pixels = job.pixels.view();
-        auto jpeg = failed              ? Result<std::vector<std::byte>>(error)
-                    : parts.size() == 1 ? std::move(parts.front())
-                                        : joinStripes(parts, pixels.height_px);
+        auto picture = failed              ? Result<std::vector<std::byte>>(error)
+                       : parts.size() == 1 ? std::move(parts.front())
+                                           : joinStripes(parts, pixels.height_px);
         job.pixels.end();
-        if (!jpeg) {
-            job.done(jpeg.error());
+        if (!picture) {
+            job.done(picture.error());
             return;
         }
         EncodedFrame frame;
         frame.width_px = pixels.width_px;
         frame.height_px = pixels.height_px;
-        frame.bytes = std::make_shared<const std::vector<std::byte>>(std::move(*jpeg));
+        frame.bytes = std::make_shared<const std::vector<std::byte>>(std::move(*picture));
+        frame.key = key;
         frame.wait_us = Microseconds(started_at - queued_at).count();
         frame.encode_us = Microseconds(Clock::now() - started_at).count();
         job.done(std::move(frame));
@@ -57,7 +70,8 @@ struct EncodePool::Work {
     size_t taken = 0;                          // stripes that a thread has; under the mutex
     std::atomic<size_t> finished = 0;
     std::atomic<bool> failed = false;
-    Error error; // written once, by whom set `failed`; read after the last stripe
+    bool key = true; // of video; written before the last stripe is counted
+    Error error;     // written once, by whom set `failed`; read after the last stripe
 };
 
 EncodePool::EncodePool(size_t thread_count, size_t queue_limit) : queue_limit_(queue_limit) {

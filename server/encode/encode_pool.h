@@ -23,6 +23,14 @@
 namespace froxel::encode {
 
 class JpegEncoder;
+class VideoEncoder;
+
+// How a picture becomes the next frame of a video.
+struct VideoJob {
+    std::shared_ptr<VideoEncoder> encoder; // in no other job meanwhile
+    bool key = false;                      // a key frame is asked for
+    TimePoint drawn_at{};
+};
 
 struct EncodeJob {
     PixelLease pixels; // ends before `done` is called, so that rendering can go on
@@ -30,6 +38,7 @@ struct EncodeJob {
     // Called once, on an encoder thread; must not throw and should return soon. Jobs of one viewer
     // may finish out of order when several are queued.
     std::function<void(Result<EncodedFrame>)> done;
+    std::optional<VideoJob> video = std::nullopt; // with a video codec
 };
 
 class EncodePool {
@@ -43,6 +52,7 @@ class EncodePool {
     // Takes the job (moved from) and returns true, or leaves it untouched and returns false when
     // queue_limit jobs are waiting. Any thread.
     [[nodiscard]] bool submit(EncodeJob&& job);
+    [[nodiscard]] size_t threadCount() const { return threads_.size(); }
 
   private:
     struct Work;

@@ -66,23 +66,4 @@ Result<JpegSize> checkJpeg(protocol::ByteSpan bytes) {
     return broken("no scan");
 }
 
-Result<void> checkPictures(const v1::FrameHeader& header, protocol::ByteSpan payload) {
-    for (const v1::Part& part : header.parts()) {
-        if (part.codec() != v1::CODEC_JPEG) {
-            continue;
-        }
-        const auto size = checkJpeg(payload.subspan(part.offset(), part.length()));
-        if (!size) {
-            return size.error();
-        }
-        if (*size != JpegSize{part.width(), part.height()}) {
-            return Error{ErrorCode::kInvalidArgument,
-                         "a JPEG of " + numberText(size->width_px) + "x" +
-                             numberText(size->height_px) + " for a part of " +
-                             numberText(part.width()) + "x" + numberText(part.height())};
-        }
-    }
-    return {};
-}
-
 } // namespace froxel::load

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/error.h"
-#include "froxel/v1/server.pb.h"
 #include "protocol/framing.h"
 
 #include <cstdint>
@@ -19,9 +18,5 @@ struct JpegSize {
 // frame and on to a start of scan, end of image in the last two bytes. Pure; reads a few hundred
 // bytes. Errors: kInvalidArgument, saying which is missing.
 [[nodiscard]] Result<JpegSize> checkJpeg(protocol::ByteSpan bytes);
-
-// Whether every JPEG among a frame's parts is one of its part's size; `payload` as decodeFrame()
-// returned it. Errors: kInvalidArgument.
-[[nodiscard]] Result<void> checkPictures(const v1::FrameHeader& header, protocol::ByteSpan payload);
 
 } // namespace froxel::load

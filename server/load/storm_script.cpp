@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kLeastSide = 16;      // pixels
 constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
 constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 11;          // of commands
+constexpr uint32_t kKinds = 13;          // of commands
 
 } // namespace
 
@@ -107,11 +107,22 @@ std::optional<Step> StormScript::next() {
     case 6:
         message.mutable_set_encoding()->set_quality(whole(1, 100));
         message.mutable_set_encoding()->set_chroma(named(v1::CHROMA_444));
+        message.mutable_set_encoding()->set_codec(whole(0, 1) == 0 ? v1::CODEC_JPEG
+                                                                   : v1::CODEC_VP9);
+        message.mutable_set_encoding()->set_video_kbps(whole(200, 20'000));
         break;
     case 7:
         message.mutable_ping();
         break;
     case 8:
+        message.mutable_request_key_frame();
+        break;
+    case 9:
+        message.mutable_set_delivery()->set_adaptive(whole(0, 1) == 0);
+        message.mutable_set_delivery()->set_target_fps(whole(0, 60));
+        message.mutable_set_delivery()->set_refine(named(v1::REFINE_LOSSLESS));
+        break;
+    case 10:
         if (!cameras_.empty()) {
             const uint32_t last = static_cast<uint32_t>(cameras_.size()) - 1;
             message.mutable_select_scene_camera()->set_name(cameras_[whole(0, last)]);

@@ -1,7 +1,6 @@
 #include "load/viewer.h"
 
 #include "core/text.h"
-#include "load/jpeg_check.h"
 #include "protocol/framing.h"
 #include "protocol/limits.h"
 
@@ -29,11 +28,6 @@ constexpr auto kRefresh = std::chrono::duration_cast<Clock::duration>(Seconds(1.
 constexpr size_t kMaxBacklogBytes = 16 * 1024;
 // A server that reads nothing must not fill this process's memory.
 constexpr size_t kMaxOutgoingBytes = 4 * 1024 * 1024;
-
-protocol::ByteSpan bytesOf(const beast::flat_buffer& buffer) {
-    const auto data = buffer.data();
-    return {static_cast<const std::byte*>(data.data()), data.size()};
-}
 
 } // namespace
 
@@ -140,6 +134,7 @@ void Viewer::onUpgraded() {
     message.mutable_hello()->set_protocol_major(protocol::kMajor);
     message.mutable_hello()->set_protocol_minor(protocol::kMinor);
     message.mutable_hello()->set_client_name("froxel load " + numberText(number_));
+    message.mutable_hello()->add_codecs(v1::CODEC_VP9);
     send(std::move(message), Clock::now());
     read();
 }
@@ -166,7 +161,8 @@ void Viewer::onRead(Code failure) {
         }
         return;
     }
-    const protocol::ByteSpan message = bytesOf(buffer_);
+    const auto data = buffer_.data();
+    const protocol::ByteSpan message(static_cast<const std::byte*>(data.data()), data.size());
     counters_.bytes += message.size();
     const auto kind = protocol::binaryKind(message);
     if (stream_.got_text() || !kind) {
@@ -200,7 +196,7 @@ void Viewer::onFrame(protocol::ByteSpan message, TimePoint now) {
         fail(payload.error().message);
         return;
     }
-    if (const auto picture = checkPictures(header, *payload); !picture) {
+    if (const auto picture = pictures_.onFrame(header, *payload); !picture) {
         fail("frame " + numberText(header.frame_id()) + ": " + picture.error().message);
         return;
     }
@@ -235,21 +231,26 @@ void Viewer::onWelcome(const v1::Welcome& welcome) {
         return;
     }
     welcome_ = welcome;
-    const TimePoint now = Clock::now();
-    if (options_.size) {
-        v1::ClientMessage message;
-        *message.mutable_set_size() = *options_.size;
-        welcome_->mutable_state()->set_width(options_.size->width());
-        welcome_->mutable_state()->set_height(options_.size->height());
-        send(std::move(message), now);
+    v1::ClientMessage message;
+    const auto setUp = [&] {
+        send(std::exchange(message, {}), Clock::now());
         setup_seq_ = sent_seq_;
+    };
+    v1::ViewState& state = *welcome_->mutable_state();
+    if (options_.size) {
+        *message.mutable_set_size() = *options_.size;
+        state.set_width(options_.size->width());
+        state.set_height(options_.size->height());
+        setUp();
     }
     if (options_.light_count) {
-        v1::ClientMessage message;
         message.mutable_set_lights()->set_count(*options_.light_count);
-        welcome_->mutable_state()->set_light_count(*options_.light_count);
-        send(std::move(message), now);
-        setup_seq_ = sent_seq_;
+        state.set_light_count(*options_.light_count);
+        setUp();
+    }
+    if (options_.encoding) {
+        *message.mutable_set_encoding() = *options_.encoding;
+        setUp();
     }
 }
 
@@ -392,6 +393,7 @@ void Viewer::finish() {
 ViewerResult Viewer::result() const {
     ViewerResult result = result_;
     result.measured = meter_.measured();
+    result.key_frames = pictures_.keyFrameCount();
     return result;
 }
 

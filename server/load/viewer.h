@@ -3,6 +3,7 @@
 // it then; a frame that a newer one overtakes before that is dropped and acknowledged at once.
 #pragma once
 
+#include "load/picture_check.h"
 #include "load/script.h"
 #include "load/target.h"
 #include "load/viewer_meter.h"
@@ -51,6 +52,7 @@ struct ViewerOptions {
     ScriptChoice script;
     std::optional<v1::SetSize> size;
     std::optional<uint32_t> light_count;
+    std::optional<v1::SetEncoding> encoding;
 };
 
 // Shared by all viewers, for whoever watches the run. Any thread.
@@ -65,6 +67,7 @@ struct ViewerResult {
     std::optional<double> first_frame_ms; // from connecting; with --size and --lights applied
     uint64_t received_bytes = 0;          // of the connection while measuring, all framing included
     uint64_t sent_bytes = 0;
+    uint64_t key_frames = 0; // of video, since connecting
 };
 
 // Everything runs on `executor`, which must be serial; so do the calls.
@@ -147,6 +150,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     size_t outgoing_bytes_ = 0;
     bool ended_ = false;
     bool closing_ = false;
+    PictureCheck pictures_;
     ViewerMeter meter_;
     ViewerResult result_;
     uint64_t received_before_ = 0;

@@ -77,7 +77,7 @@ void Conversation::begin(TimePoint now) {
     metrics_->sessionOpened();
     sayWelcome();
     if (auto& picture = seat_->picture) {
-        outbox_.putFrame(*std::exchange(picture, std::nullopt));
+        static_cast<void>(outbox_.putFrame(*std::exchange(picture, std::nullopt)));
     }
     grantCredits();
     for (const CommandMessage& message : std::exchange(early_, {})) {
@@ -96,6 +96,8 @@ void Conversation::sayWelcome() {
 void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
     if (const auto* pause = std::get_if<session::Pause>(&message.body)) {
         setPaused(pause->paused);
+    } else if (std::holds_alternative<session::RequestKeyFrame>(message.body)) {
+        seat_->session->requestKeyFrame(seat_->place);
     } else if (session::setsState(message.body)) {
         applyCommand(message, now);
     } else {
@@ -124,6 +126,7 @@ void Conversation::changeControl(const CommandMessage& message, TimePoint now) {
 void Conversation::setPaused(bool paused) {
     paused_ = paused;
     grantCredits();
+    mendVideo();
 }
 
 void Conversation::onAck(const session::CommandStamp& stamp, uint64_t frame_id, TimePoint now) {
@@ -134,6 +137,7 @@ void Conversation::onAck(const session::CommandStamp& stamp, uint64_t frame_id, 
         return;
     }
     grantCredits();
+    mendVideo();
 }
 
 void Conversation::onService(const ServiceStatus& status, TimePoint now) {
@@ -182,11 +186,21 @@ void Conversation::onFrame(session::ReadyFrame frame) {
         return;
     }
     window_.onProduced(frame.cost);
-    if (outbox_.hasFrame()) {
+    const uint32_t dropped_before = outbox_.droppedCount();
+    video_lost_ = outbox_.putFrame(std::move(frame)) == Outbox::Put::kLost;
+    for (uint32_t i = dropped_before; i < outbox_.droppedCount(); ++i) {
         metrics_->frameDropped();
     }
-    outbox_.putFrame(std::move(frame));
     grantCredits();
+    mendVideo();
+}
+
+// Not before there is room for a key frame: a slow viewer of a room asks no more often than it
+// can take one.
+void Conversation::mendVideo() {
+    if (video_lost_ && seat_ && window_.open() && !outbox_.hasFrame() && !paused_) {
+        seat_->session->requestKeyFrame(seat_->place);
+    }
 }
 
 void Conversation::onHelloTimeout() {

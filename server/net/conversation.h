@@ -69,6 +69,7 @@ class Conversation {
     void grantCredits();
     [[nodiscard]] Outgoing inReply(const v1::ServerMessage& message) const;
     [[nodiscard]] Outgoing stateMessage() const;
+    void mendVideo();
     [[nodiscard]] std::optional<Outgoing> detailsMessage();
     void signRecord(session::FrameRecord& record);
     [[nodiscard]] Outgoing frameMessage(TimePoint now);
@@ -90,6 +91,7 @@ class Conversation {
     uint64_t delivered_ = 0; // pictures that came from the session
     uint64_t granted_ = 0;
     bool paused_ = false;
+    bool video_lost_ = false; // a frame of video was dropped, and no key frame has come since
     bool goodbye_ = false;
     std::optional<Closing> closing_;
 };

@@ -70,6 +70,7 @@ void LiveSession::addMember(MemberId member, std::string name, Mail& mail) {
 
 std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
                                                        std::weak_ptr<SessionViewer> viewer,
+                                                       view::CodecSet codecs,
                                                        TimePoint now,
                                                        Mail& mail) {
     const std::lock_guard lock(mutex_);
@@ -80,8 +81,13 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         room_.setAway(place.member, false);
         tellAll(mail, RoomNews{});
     }
-    member = {place.connection, std::move(viewer), 0, 0};
+    member = {place.connection, std::move(viewer), 0, 0, codecs};
+    updateCodecs(now, mail);
     updateGrant();
+    if (picture_ && !picture_->record.key) {
+        wantKeyFrame(now);
+        return {};
+    }
     auto picture = picture_;
     if (picture) {
         picture->ready_at = now; // it waited for nobody until now
@@ -97,6 +103,7 @@ void LiveSession::detach(const Place& place, Mail& mail) {
     }
     *member = {};
     room_.setAway(place.member, true);
+    updateCodecs(Clock::now(), mail);
     updateGrant();
     tellAll(mail, RoomNews{});
 }
@@ -107,6 +114,7 @@ bool LiveSession::removeMember(MemberId member, Mail& mail) {
     room_.remove(member);
     const bool last = members_.empty();
     if (!last) {
+        updateCodecs(Clock::now(), mail);
         updateGrant();
     } else if (!std::exchange(ended_, true)) {
         serving_.port->leave(id_);
@@ -190,6 +198,43 @@ void LiveSession::updateGrant() {
     }
 }
 
+// A room has video only while all who are here decode it.
+void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
+    state_.decodable.set();
+    for (const auto& [id, member] : members_) {
+        state_.decodable &= member.codecs;
+    }
+    const view::Codec before = state_.encoding.codec;
+    keepDecodable();
+    if (state_.encoding.codec != before) {
+        ++state_.version;
+        serving_.port->update(id_, state_, now);
+        tellAll(mail, StateNews{});
+    }
+}
+
+void LiveSession::keepDecodable() {
+    if (!state_.decodable.test(static_cast<size_t>(state_.encoding.codec))) {
+        state_.encoding.codec = view::Codec::kJpeg;
+    }
+}
+
+void LiveSession::requestKeyFrame(const Place& place) {
+    const std::lock_guard lock(mutex_);
+    if (find(place) != nullptr) {
+        wantKeyFrame(Clock::now());
+    }
+}
+
+// A new version, so that a picture is drawn where nothing moves.
+void LiveSession::wantKeyFrame(TimePoint now) {
+    if (view::isVideo(state_.encoding.codec) && !std::exchange(key_wanted_, true)) {
+        ++state_.key_requests;
+        ++state_.version;
+        serving_.port->update(id_, state_, now);
+    }
+}
+
 SessionState LiveSession::state() const {
     const std::lock_guard lock(mutex_);
     return state_;
@@ -227,6 +272,7 @@ void LiveSession::deliver(session::ReadyFrame frame) {
         ++member.delivered;
         mail.add(member.viewer, frame);
     }
+    key_wanted_ = key_wanted_ && !frame.record.key;
     picture_ = std::move(frame);
     updateGrant();
 }
@@ -262,6 +308,7 @@ void LiveSession::takeBack(const SessionState& refused,
     state_.light_clock = state_.light_clock.withRate(now, lights.speed, lights.animate);
     state_.settings = good.settings;
     state_.encoding = good.encoding;
+    keepDecodable();
     state_.version = refused.version + 1;
     serving_.port->update(id_, state_, now);
 }

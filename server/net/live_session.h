@@ -67,10 +67,13 @@ class LiveSession final : public session::FrameSink,
 
     // The places' keeper calls these, under its own lock; so it posts their mail.
     void addMember(session::MemberId member, std::string name, Mail& mail);
-    // The member's connection from now on; an older one is told to close. Gives the newest picture,
-    // if there is one.
-    [[nodiscard]] std::optional<session::ReadyFrame>
-    attach(const Place& place, std::weak_ptr<SessionViewer> viewer, TimePoint now, Mail& mail);
+    // The member's connection from now on, which decodes `codecs`; an older one is told to close.
+    // Gives the newest picture, if there is one that decodes by itself.
+    [[nodiscard]] std::optional<session::ReadyFrame> attach(const Place& place,
+                                                            std::weak_ptr<SessionViewer> viewer,
+                                                            view::CodecSet codecs,
+                                                            TimePoint now,
+                                                            Mail& mail);
     // The connection is gone, and the member waited for.
     void detach(const Place& place, Mail& mail);
     // For good; whether nobody is left, upon which the stream's session has ended.
@@ -82,6 +85,9 @@ class LiveSession final : public session::FrameSink,
     // RequestControl, ReleaseControl or GiveControl. Refused: outside a room, and Room's.
     [[nodiscard]] session::CommandResult<void> changeControl(const Place& place,
                                                              const session::Command& command);
+    // The viewer can go on with video only from a key frame; nothing while pictures are JPEG. Those
+    // who ask before it is there share one.
+    void requestKeyFrame(const Place& place);
     // As StreamPort::grant, in pictures that this connection was told of.
     void grant(const Place& place, uint64_t frame_total);
 
@@ -106,11 +112,15 @@ class LiveSession final : public session::FrameSink,
         std::weak_ptr<SessionViewer> viewer; // empty while away
         uint64_t delivered = 0;              // pictures told to this connection
         uint64_t granted = 0;
+        view::CodecSet codecs = view::CodecSet().set(); // all while away
     };
     LiveSession(Serving serving, std::string room, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
     void tellAll(Mail& mail, const Notice& notice) const;
     void updateGrant();
+    void updateCodecs(TimePoint now, Mail& mail);
+    void keepDecodable();
+    void wantKeyFrame(TimePoint now);
     void takeBack(const session::SessionState& refused,
                   const std::optional<session::SessionState>& drawn,
                   TimePoint now);
@@ -126,6 +136,7 @@ class LiveSession final : public session::FrameSink,
     std::optional<session::ReadyFrame> picture_; // newest
     uint64_t delivered_ = 0;                     // pictures that came from the stream
     uint64_t granted_ = 0;
+    bool key_wanted_ = false; // and none has come yet
     bool ended_ = false;
 };
 

@@ -25,7 +25,7 @@ Result<Seat> Lobby::enter(const Serving& serving,
     entry->second.connection = ++last_connection_;
     entry->second.away_until.reset();
     const Place place{entry->first, last_connection_};
-    auto picture = entry->second.session->attach(place, std::move(viewer), now, mail);
+    auto picture = entry->second.session->attach(place, std::move(viewer), hello.codecs, now, mail);
     return Seat{entry->second.session, place, entry->second.token, resumed, std::move(picture)};
 }
 

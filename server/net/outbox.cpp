@@ -2,6 +2,7 @@
 
 #include "core/assert.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace froxel::net {
@@ -14,15 +15,29 @@ bool Outbox::putAnswer(Outgoing answer) {
     return true;
 }
 
-void Outbox::putFrame(session::ReadyFrame frame) {
-    dropped_count_ += frame_ ? 1U : 0U;
-    frame_ = std::move(frame);
+Outbox::Put Outbox::putFrame(session::ReadyFrame frame) {
+    const bool video = view::isVideo(frame.record.delivered.encoding.codec);
+    if (!video || frame.record.key) {
+        const bool breaks =
+            !video && std::any_of(frames_.begin(), frames_.end(), [](const auto& f) {
+                return view::isVideo(f.record.delivered.encoding.codec);
+            });
+        decodable_ = video || (decodable_ && !breaks);
+        drop(frames_.size());
+        frames_.clear();
+    } else if (!decodable_ || frames_.size() >= kMaxFrames) {
+        decodable_ = false;
+        drop(1);
+        return Put::kLost;
+    }
+    frames_.push_back(std::move(frame));
+    return Put::kKept;
 }
 
 void Outbox::keepAnswersOnly() {
     room_due_ = false;
     state_due_ = false;
-    frame_.reset();
+    frames_.clear();
 }
 
 Outbox::Next Outbox::next(bool frame_allowed) const {
@@ -32,7 +47,7 @@ Outbox::Next Outbox::next(bool frame_allowed) const {
     if (room_due_) {
         return Next::kRoom;
     }
-    const bool frame_due = frame_ && frame_allowed;
+    const bool frame_due = !frames_.empty() && frame_allowed;
     if (state_due_ && !(frame_due && state_was_last_)) {
         return Next::kState;
     }
@@ -52,14 +67,16 @@ void Outbox::takeState() {
 }
 
 const session::ReadyFrame& Outbox::frame() const {
-    FROXEL_ASSERT(frame_.has_value(), "no picture waits");
-    return *frame_;
+    FROXEL_ASSERT(!frames_.empty(), "no picture waits");
+    return frames_.front();
 }
 
 session::ReadyFrame Outbox::takeFrame() {
-    FROXEL_ASSERT(frame_.has_value(), "no picture waits");
+    FROXEL_ASSERT(!frames_.empty(), "no picture waits");
     state_was_last_ = false;
-    return *std::exchange(frame_, std::nullopt);
+    session::ReadyFrame frame = std::move(frames_.front());
+    frames_.pop_front();
+    return frame;
 }
 
 } // namespace froxel::net

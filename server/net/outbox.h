@@ -1,5 +1,7 @@
-// What waits to be written to one connection, bounded: answers in a short queue, room, state and
-// picture in a slot each; newer ones replace older ones. One strand.
+// What waits to be written to one connection, bounded: answers in a short queue, room and state in
+// a slot each, pictures in a short queue. Newer ones replace older ones, but for frames of video
+// that need those before them: they wait in their order, and where one is lost, all are that follow
+// it, up to the next key frame. One strand.
 #pragma once
 
 #include "core/encoded_frame.h"
@@ -25,12 +27,16 @@ struct Outgoing {
 class Outbox {
   public:
     static constexpr size_t kMaxAnswers = 64;
+    // Frames of video that wait; credits let no more come, but those of a window and one.
+    static constexpr size_t kMaxFrames = 9;
 
     // False, and nothing kept, when kMaxAnswers are waiting: the client does not read.
     [[nodiscard]] bool putAnswer(Outgoing answer);
     void putState() { state_due_ = true; }
     void putRoom() { room_due_ = true; }
-    void putFrame(session::ReadyFrame frame);
+    enum class Put { kKept, kLost };
+    // kLost: this one cannot be decoded without one that was dropped; a key frame is needed.
+    [[nodiscard]] Put putFrame(session::ReadyFrame frame);
     // Pictures and states are not wanted any more.
     void keepAnswersOnly();
 
@@ -43,15 +49,18 @@ class Outbox {
     void takeRoom() { room_due_ = false; }
     [[nodiscard]] session::ReadyFrame takeFrame();
 
-    [[nodiscard]] bool hasFrame() const { return frame_.has_value(); }
+    [[nodiscard]] bool hasFrame() const { return !frames_.empty(); }
     // The picture that takeFrame() gives next.
     [[nodiscard]] const session::ReadyFrame& frame() const;
-    // Pictures that a newer one replaced.
+    // Pictures that were not taken.
     [[nodiscard]] uint32_t droppedCount() const { return dropped_count_; }
 
   private:
+    void drop(size_t count) { dropped_count_ += static_cast<uint32_t>(count); }
+
     std::deque<Outgoing> answers_;
-    std::optional<session::ReadyFrame> frame_;
+    std::deque<session::ReadyFrame> frames_;
+    bool decodable_ = false; // whether the last frame of video put here was kept, and all before it
     bool room_due_ = false;
     bool state_due_ = false;
     bool state_was_last_ = false;

@@ -18,6 +18,7 @@ struct Hello {
     std::string client_name;  // untrusted text: escape it before it is logged
     std::string room;         // of isRoomName(), or empty: a session of one's own
     std::string resume_token; // untrusted text, a secret if it is right: never logged; or empty
+    view::CodecSet codecs{1}; // what the client decodes; JPEG is in it
 };
 
 struct SetCamera {
@@ -81,6 +82,8 @@ struct SetSize {
 struct SetEncoding {
     std::optional<uint32_t> quality;
     std::optional<view::Chroma> chroma;
+    std::optional<view::Codec> codec = std::nullopt;
+    std::optional<uint32_t> video_kbps = std::nullopt;
 };
 
 struct SetDelivery {
@@ -88,6 +91,9 @@ struct SetDelivery {
     std::optional<double> target_fps;
     std::optional<view::Refine> refine;
 };
+
+// The next frame is to be a key frame.
+struct RequestKeyFrame {};
 
 struct Ack {
     uint64_t frame_id = 0;
@@ -120,6 +126,7 @@ using Command = std::variant<Hello,
                              SetSize,
                              SetEncoding,
                              SetDelivery,
+                             RequestKeyFrame,
                              Ack,
                              Ping,
                              RequestControl,

@@ -61,8 +61,14 @@ Command decode(const v1::Hello& hello, FieldValidator& fields) {
                     "is \"" + printable(hello.room()) + "\"; it must be 1 to " +
                         numberText(protocol::kMaxRoomNameBytes) + " of A-Z a-z 0-9 . _ -");
     }
-    return Hello{hello.protocol_major(), hello.protocol_minor(), hello.client_name(), hello.room(),
-                 hello.resume_token()};
+    Hello command{hello.protocol_major(), hello.protocol_minor(), hello.client_name(), hello.room(),
+                  hello.resume_token()};
+    for (const int codec : hello.codecs()) {
+        if (const auto known = fromProto(kCodecTable, static_cast<v1::Codec>(codec))) {
+            command.codecs.set(static_cast<size_t>(*known));
+        }
+    }
+    return command;
 }
 
 Command decode(const v1::SetCamera& camera, FieldValidator& fields) {
@@ -279,6 +285,12 @@ Command decode(const v1::SetEncoding& encoding, FieldValidator& fields) {
     if (encoding.has_chroma()) {
         command.chroma = enumeration(fields, "chroma", kChromaTable, encoding.chroma());
     }
+    if (encoding.has_codec()) {
+        command.codec = enumeration(fields, "codec", kCodecTable, encoding.codec());
+    }
+    if (encoding.has_video_kbps()) {
+        command.video_kbps = fields.number(view::kVideoKbpsRange, encoding.video_kbps());
+    }
     return command;
 }
 
@@ -334,6 +346,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return GiveControl{message.give_control().member_id()};
     case v1::ClientMessage::kPause:
         return Pause{message.pause().paused()};
+    case v1::ClientMessage::kRequestKeyFrame:
+        return RequestKeyFrame{};
     case v1::ClientMessage::BODY_NOT_SET:
         break;
     }

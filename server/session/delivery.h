@@ -56,8 +56,9 @@ struct Delivered {
 inline constexpr view::Encoding kRefinedEncoding{92, view::Chroma::k444};
 
 [[nodiscard]] inline view::Encoding limited(view::Encoding asked, const Delivery& delivery) {
-    return {std::min(asked.quality, delivery.quality_max),
-            std::min(asked.chroma, delivery.chroma_max)};
+    asked.quality = std::min(asked.quality, delivery.quality_max);
+    asked.chroma = std::min(asked.chroma, delivery.chroma_max);
+    return asked;
 }
 
 [[nodiscard]] inline view::Size scaled(view::Size size, double scale) {

@@ -71,6 +71,10 @@ inline constexpr std::array kRefinementTable = {
     std::pair{v1::REFINEMENT_HIGH, Refinement::kHigh},
     std::pair{v1::REFINEMENT_LOSSLESS, Refinement::kLossless},
 };
+inline constexpr std::array kCodecTable = {
+    std::pair{v1::CODEC_JPEG, view::Codec::kJpeg},
+    std::pair{v1::CODEC_VP9, view::Codec::kVp9},
+};
 
 static_assert(kRefineTable.size() == view::kRefineNames.size());
 static_assert(kRendererTable.size() == view::kRendererNames.size());
@@ -82,6 +86,7 @@ static_assert(kNormalEncodingTable.size() == view::kNormalEncodingNames.size());
 static_assert(kPositionSourceTable.size() == view::kPositionSourceNames.size());
 static_assert(kToneMapTable.size() == view::kToneMapNames.size());
 static_assert(kChromaTable.size() == view::kChromaNames.size());
+static_assert(kCodecTable.size() == view::kCodecNames.size());
 
 // None for a value that this server does not know, UNSPECIFIED among them.
 template <class Proto, class Ours, size_t N>

@@ -20,6 +20,10 @@ Rejection outOfRange(std::string_view field, const std::string& text) {
     return {RejectCode::kOutOfRange, 0, std::string(field), std::string(field) + " " + text};
 }
 
+std::string_view nameOf(view::Codec codec) {
+    return view::kCodecNames[static_cast<size_t>(codec)];
+}
+
 // One overload a command; each changes the state or says why not.
 struct Reducer {
     SessionState& state;
@@ -132,8 +136,15 @@ struct Reducer {
     }
 
     Outcome operator()(const SetEncoding& command) const {
+        if (command.codec && !state.decodable.test(static_cast<size_t>(*command.codec))) {
+            return Rejection{RejectCode::kUnsupported, 0, "codec",
+                             "codec is " + std::string(nameOf(*command.codec)) +
+                                 "; not every viewer's Hello.codecs lists it"};
+        }
         assignIfGiven(state.encoding.quality, command.quality);
         assignIfGiven(state.encoding.chroma, command.chroma);
+        assignIfGiven(state.encoding.codec, command.codec);
+        assignIfGiven(state.encoding.video_kbps, command.video_kbps);
         return {};
     }
 
@@ -169,12 +180,12 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
     settings.lights.count = defaults.light_count;
     settings.lights.radius_m = defaults.light_radius_m;
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
-    return {settings, defaults.encoding, defaults.delivery, clock, {}, 1};
+    return {settings, defaults.encoding, defaults.delivery, clock, {}};
 }
 
 bool setsState(const Command& command) {
-    return !holdsOneOf<Hello, Ack, Ping, RequestControl, ReleaseControl, GiveControl, Pause>(
-        command);
+    return !holdsOneOf<Hello, Ack, Ping, RequestControl, ReleaseControl, GiveControl, Pause,
+                       RequestKeyFrame>(command);
 }
 
 CommandResult<SessionState> apply(SessionState state,

@@ -16,8 +16,9 @@ struct SessionState {
     DeliverySettings delivery;
     LightClock light_clock;
     CommandStamp applied; // newest accepted command that sets state
-    uint64_t version =
-        1; // grows whenever settings, encoding, delivery or the lights' time are set anew
+    uint64_t version = 1; // grows whenever anything above but `applied` is set anew, or below
+    view::CodecSet decodable{1}; // by all who see it; JPEG is in it
+    uint64_t key_requests = 0;   // key frames asked for so far
 
     // Whether the picture changes without a command.
     [[nodiscard]] bool animating() const {
@@ -32,7 +33,8 @@ struct SessionState {
 [[nodiscard]] bool setsState(const Command& command);
 
 // The state after the command; `version` tells whether anything differs. Refused: kOutOfRange
-// (unknown scene camera, picture too large). Only for commands with setsState().
+// (unknown scene camera, picture too large), kUnsupported (a codec that is not decodable). Only for
+// commands with setsState().
 [[nodiscard]] CommandResult<SessionState> apply(SessionState state,
                                                 const CommandMessage& message,
                                                 const SessionContext& context,

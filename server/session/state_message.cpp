@@ -88,6 +88,8 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     out.set_adaptive(state.delivery.adaptive);
     out.set_target_fps(state.delivery.target_fps);
     out.set_refine(toProto(kRefineTable, state.delivery.refine));
+    out.set_codec(toProto(kCodecTable, state.encoding.codec));
+    out.set_video_kbps(state.encoding.video_kbps);
 }
 
 void fill(v1::SceneInfo& out, const SceneSummary& scene) {
@@ -207,7 +209,8 @@ void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
     const Delivered& delivered = record.delivered;
     const bool lossless = delivered.refinement == Refinement::kLossless;
     out.set_scale(delivered.scale);
-    out.set_quality(lossless ? 0 : delivered.encoding.quality);
+    const bool jpeg = !lossless && !view::isVideo(delivered.encoding.codec);
+    out.set_quality(jpeg ? delivered.encoding.quality : 0);
     out.set_chroma(toProto(kChromaTable, delivered.encoding.chroma));
     out.set_refinement(toProto(kRefinementTable, delivered.refinement));
     out.set_rung(delivered.rung);
@@ -314,7 +317,9 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     part.set_width(record.width_px);
     part.set_height(record.height_px);
     const bool lossless = record.delivered.refinement == Refinement::kLossless;
-    part.set_codec(lossless ? v1::CODEC_PNG : v1::CODEC_JPEG);
+    const view::Codec codec = record.delivered.encoding.codec;
+    part.set_codec(lossless ? v1::CODEC_PNG : toProto(kCodecTable, codec));
+    part.set_key_frame(view::isVideo(codec) && record.key);
 
     header.set_queue_us(saturated(record.queue_us));
     header.set_render_us(saturated(record.render_us));

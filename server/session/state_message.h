@@ -40,8 +40,9 @@ struct FrameRecord {
     CommandStamp applied;
     uint32_t width_px = 0;
     uint32_t height_px = 0;
-    size_t encoded_bytes = 0; // one JPEG, or PNG where it is lossless, of the whole picture
+    size_t encoded_bytes = 0; // of the whole picture
     Delivered delivered;
+    bool key = true;      // decodes without any frame before it
     double queue_us = 0;  // from the applied command's arrival to the start of rendering
     double render_us = 0; // host and device work up to readable pixels
     double encode_wait_us = 0;

@@ -1,6 +1,7 @@
 #include "stream/frame_pipeline.h"
 
 #include "core/assert.h"
+#include "encode/video_encoder.h"
 
 #include <spdlog/spdlog.h>
 
@@ -45,12 +46,29 @@ void FramePipeline::startEncoding() {
         encode::EncodeJob job{std::move(encoding_->pixels), encoding_->encoding,
                               [self = shared_from_this()](Result<EncodedFrame> result) {
                                   self->onEncoded(std::move(result));
-                              }};
+                              },
+                              videoJob(*encoding_)};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here
     if (!taken) {
         finish({1, true});
     }
+}
+
+// A request is served when its key frame is there: until then the pool may refuse the job.
+std::optional<encode::VideoJob> FramePipeline::videoJob(const DrawnFrame& frame) {
+    if (!view::isVideo(frame.encoding.codec)) {
+        // After a refined still the video goes on where it was.
+        const session::Refinement refinement = frame.record.delivered.refinement;
+        if (refinement < session::Refinement::kHigh) {
+            video_.reset();
+        }
+        return {};
+    }
+    if (!video_) {
+        video_ = std::make_shared<encode::VideoEncoder>(pool_.threadCount());
+    }
+    return encode::VideoJob{video_, frame.key_requests != key_requests_, frame.drawn_at};
 }
 
 void FramePipeline::onEncoded(Result<EncodedFrame> result) {
@@ -65,6 +83,11 @@ void FramePipeline::onEncoded(Result<EncodedFrame> result) {
     record.encoded_bytes = result->bytes->size();
     record.encode_wait_us += result->wait_us;
     record.encode_us = result->encode_us;
+    record.delivered.encoding = encoding_->encoding;
+    record.key = result->key;
+    if (result->key) {
+        key_requests_ = encoding_->key_requests;
+    }
     const Seconds cost = std::max(encoding_->cost, Seconds(Microseconds(result->encode_us)));
     if (const auto sink = sink_.lock()) {
         sink->deliver({std::move(record), std::move(result->bytes), cost, Clock::now()});

@@ -1,5 +1,8 @@
 // One viewer's way from pixels to its connection: at most one picture in the encoder and one
 // before it, so that pictures leave in order and frame N encodes while N + 1 is drawn.
+//
+// The viewer's video encoder is here, while it wants video. Whatever it encodes is delivered, and
+// what is lost is lost before it, so that no frame refers to one that never left.
 #pragma once
 
 #include "core/pixel_view.h"
@@ -17,6 +20,7 @@ namespace froxel::stream {
 struct DrawnFrame {
     PixelLease pixels;
     view::Encoding encoding;
+    uint64_t key_requests = 0;   // key frames asked for so far
     session::FrameRecord record; // what is known before encoding
     Seconds cost{0};             // of drawing it
     TimePoint drawn_at{};
@@ -44,6 +48,7 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
 
   private:
     void startEncoding();
+    [[nodiscard]] std::optional<encode::VideoJob> videoJob(const DrawnFrame& frame);
     void onEncoded(Result<EncodedFrame> result);
     void finish(Losses losses);
 
@@ -56,6 +61,9 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     // the mutex guards only whether it is filled.
     std::optional<DrawnFrame> encoding_;
     std::optional<DrawnFrame> waiting_;
+    // Like what is inside of `encoding_`.
+    std::shared_ptr<encode::VideoEncoder> video_; // none: the next frame of video is a key frame
+    uint64_t key_requests_ = 0;                   // served so far
     Losses losses_;
 };
 

@@ -218,7 +218,8 @@ void RenderLoop::finishOldest() {
     record.height_px = pixels.height_px;
     record.render_us = Microseconds(now - frame.started).count();
     record.stats = std::move(collected->stats);
-    viewer.pipeline->push({std::move(collected->pixels), frame.state.encoding, std::move(record),
+    viewer.pipeline->push({std::move(collected->pixels), frame.state.encoding,
+                           frame.state.key_requests, std::move(record),
                            std::max(cost, options_.min_frame_interval), now});
 }
 

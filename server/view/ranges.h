@@ -38,6 +38,7 @@ inline constexpr Range<double> kFocusRange{"focus", 1e-6, 1e8}; // from eye to t
 inline constexpr Range<double> kUpRange{"up", 1e-6, 1e8};       // length of the up vector
 inline constexpr Range<uint32_t> kQualityRange{"quality", 1, 100};
 inline constexpr Range<double> kTargetFpsRange{"target_fps", 0.0, 240.0}; // 0: none
+inline constexpr Range<uint32_t> kVideoKbpsRange{"video_kbps", 100, 100'000};
 inline constexpr Range<double> kToonRange{"toon", 0.0, 1.0};
 inline constexpr Range<double> kToonSlopeRange{"toon.slope", -20.0, 20.0};
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
@@ -48,6 +49,7 @@ inline constexpr std::tuple kCommandRanges{
     kLightSpeedRange, kAmbientRange,    kGridXRange,       kGridYRange,       kGridZRange,
     kExposureRange,   kFovRange,        kHalfHeightRange,  kPositionRange,    kFocusRange,
     kUpRange,         kQualityRange,    kToonRange,        kToonSlopeRange,   kTimeRange,
-    kLensShiftXRange, kLensShiftYRange, kLightCutoffRange, kTargetFpsRange};
+    kLensShiftXRange, kLensShiftYRange, kLightCutoffRange, kTargetFpsRange,
+    kVideoKbpsRange};
 
 } // namespace froxel::view

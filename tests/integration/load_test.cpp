@@ -102,6 +102,20 @@ TEST_F(Load, Storm_IsAcceptedWhole) {
     EXPECT_GT(report["all"]["latency_ms"]["count"], 0);
 }
 
+// The viewers check that each frame of video can be decoded.
+TEST_F(Load, Video_OfSeveralViewers_BeginsWithAKeyFrameAndGoesOn) {
+    const TestServer server;
+    const Json report = measure(server.port(), {"--viewers", "2", "--seconds", "1", "--codec",
+                                                "vp9", "--video-kbps", "500"});
+    EXPECT_EQ(report["codec"], "vp9");
+    for (const Json& viewer : report["each"]) {
+        EXPECT_EQ(viewer["failure"], nullptr);
+        EXPECT_EQ(viewer["refusals"], 0);
+        EXPECT_GT(viewer["frames"], 10);
+        EXPECT_EQ(viewer["key_frames"], 1);
+    }
+}
+
 TEST_F(Load, Script_FromAFile_IsPlayed) {
     const TestServer server({.still = true});
     const std::string file = write(R"({"setSize": {"width": 100, "height": 50}}

@@ -1,5 +1,6 @@
 #include "encode/encode_pool.h"
 #include "encode/jpeg_encoder.h"
+#include "encode/video_encoder.h"
 #include "unit/encode/picture.h"
 
 #include <gtest/gtest.h>
@@ -47,6 +48,28 @@ TEST(EncodePool, Job_GivesTheEncodersBytes) {
     EXPECT_GT(frame.encode_us, 0);
     EXPECT_GE(frame.wait_us, 0);
     EXPECT_EQ(*frame.bytes, JpegEncoder().encode(picture.view(), kEncoding).value());
+}
+
+TEST(EncodePool, VideoJobs_ContinueTheirEncodersStream) {
+    const Picture picture = makePicture(640, 400); // enough for stripes, were it a JPEG
+    view::Encoding encoding;
+    encoding.codec = view::Codec::kVp9;
+    const auto encoder = std::make_shared<VideoEncoder>(1);
+    EncodePool pool(2, 4);
+    std::vector<bool> keys;
+    for (int i = 0; i < 3; ++i) {
+        std::promise<Result<EncodedFrame>> promise;
+        EncodeJob video{{picture.view(), [] {}},
+                        encoding,
+                        [&](Result<EncodedFrame> frame) { promise.set_value(std::move(frame)); },
+                        VideoJob{encoder, i == 2, TimePoint() + std::chrono::seconds(i)}};
+        ASSERT_TRUE(pool.submit(std::move(video)));
+        const EncodedFrame frame = promise.get_future().get().value();
+        EXPECT_FALSE(frame.bytes->empty());
+        EXPECT_EQ(frame.width_px, 640U);
+        keys.push_back(frame.key);
+    }
+    EXPECT_EQ(keys, (std::vector<bool>{true, false, true}));
 }
 
 TEST(EncodePool, Lease_EndsBeforeDone) {

@@ -55,24 +55,5 @@ TEST(JpegCheck, Segment_LyingAboutItsLength_IsRefused) {
     }
 }
 
-TEST(JpegCheck, Parts_AreHeldToTheirSizes) {
-    const Bytes jpeg = join({kStart, kFrame, kScan, kEnd});
-    v1::FrameHeader header;
-    for (const uint32_t offset : {0U, static_cast<uint32_t>(jpeg.size())}) {
-        v1::Part& part = *header.add_parts();
-        part.set_offset(offset);
-        part.set_length(static_cast<uint32_t>(jpeg.size()));
-        part.set_codec(v1::CODEC_JPEG);
-        part.set_width(1281);
-        part.set_height(719);
-    }
-    const Bytes both = join({jpeg, jpeg});
-    EXPECT_TRUE(checkPictures(header, std::as_bytes(std::span(both))));
-    header.mutable_parts(1)->set_height(720);
-    const auto wrong = checkPictures(header, std::as_bytes(std::span(both)));
-    ASSERT_FALSE(wrong);
-    EXPECT_NE(wrong.error().message.find("1281x719 for a part of 1281x720"), std::string::npos);
-}
-
 } // namespace
 } // namespace froxel::load

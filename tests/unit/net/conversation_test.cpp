@@ -1,98 +1,9 @@
-#include "froxel/v1/client.pb.h"
-#include "froxel/v1/server.pb.h"
-#include "net/conversation.h"
-#include "support/fake_port.h"
-
-#include <gtest/gtest.h>
-
-#include <vector>
+#include "unit/net/conversation_fixture.h"
 
 namespace froxel::net {
 namespace {
 
-using namespace std::chrono_literals;
 using protocol::CloseCode;
-using protocol::WireFormat;
-
-using test::FakePort;
-
-class ConversationTest : public testing::Test {
-  protected:
-    void serve() {
-        ServiceStatus status;
-        status.serving = Serving{std::make_shared<const session::SessionContext>(), &port_};
-        talk_.onService(status, now_);
-    }
-    uint64_t say(v1::ClientMessage message) {
-        message.set_seq(++seq_);
-        talk_.onMessage(protocol::bytesOf(message.SerializeAsString()), WireFormat::kBinary, now_);
-        return seq_;
-    }
-    void hello() {
-        v1::ClientMessage message;
-        message.mutable_hello()->set_protocol_major(protocol::kMajor);
-        say(message);
-    }
-    void join() {
-        serve();
-        hello();
-        drainAnswers();
-    }
-    uint64_t setExposure(double exposure) {
-        v1::ClientMessage message;
-        message.mutable_set_exposure()->set_exposure(exposure);
-        return say(message);
-    }
-    uint64_t ack(uint64_t frame_id) {
-        v1::ClientMessage message;
-        message.mutable_ack()->set_frame_id(frame_id);
-        return say(message);
-    }
-    void frame(uint64_t id, std::shared_ptr<const FrameDetails> details = nullptr) {
-        session::ReadyFrame ready;
-        ready.record.stats.details = std::move(details);
-        ready.record.frame_id = id;
-        ready.record.width_px = 16;
-        ready.record.height_px = 16;
-        ready.bytes = std::make_shared<const std::vector<std::byte>>(10);
-        ready.ready_at = now_;
-        port_.sink()->deliver(std::move(ready));
-    }
-    std::optional<v1::ServerMessage> nextAnswer() {
-        const auto out = talk_.nextMessage(now_);
-        if (!out) {
-            return {};
-        }
-        v1::ServerMessage message;
-        protocol::decodeServerMessage(protocol::bytesOf(out->head), out->format, message).value();
-        return message;
-    }
-    v1::FrameHeader nextFrame() {
-        const auto out = talk_.nextMessage(now_).value();
-        v1::FrameHeader header;
-        EXPECT_TRUE(header.ParseFromString(out.head.substr(protocol::kPrefixBytes)));
-        return header;
-    }
-    void drainAnswers() {
-        while (talk_.nextMessage(now_)) {
-        }
-    }
-
-    FakePort port_;
-    TimePoint now_ = TimePoint() + 1h;
-    std::shared_ptr<Metrics> metrics_ = std::make_shared<Metrics>();
-    // What the session tells goes straight to the conversation.
-    struct Viewer final : SessionViewer {
-        void tell(Notice notice) override { talk->onNotice(std::move(notice)); }
-        Conversation* talk = nullptr;
-    };
-    std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
-    std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>(10s);
-    Conversation talk_{viewer_, lobby_, metrics_};
-    uint64_t seq_ = 0;
-
-    ConversationTest() { viewer_->talk = &talk_; }
-};
 
 TEST_F(ConversationTest, Hello_Serving_WelcomesAndGrantsCredit) {
     serve();

@@ -152,6 +152,9 @@ TEST(DecodeCommand, OtherEnums_GivenButUnknown_AreUnsupported) {
     v1::ClientMessage chroma = clientMessage();
     chroma.mutable_set_encoding()->set_chroma(static_cast<v1::Chroma>(99));
     EXPECT_EQ(refused(decodeBinary(chroma)).code, RejectCode::kUnsupported);
+    v1::ClientMessage codec = clientMessage();
+    codec.mutable_set_encoding()->set_codec(static_cast<v1::Codec>(9));
+    EXPECT_EQ(refused(decodeBinary(codec)).message, "codec is 9; known are CODEC_JPEG, CODEC_VP9");
 }
 
 TEST(DecodeCommand, SetLights_AbsentStaysAbsent_ZeroIsAValue) {
@@ -293,8 +296,12 @@ TEST(DecodeCommand, SetEncodingAndSizeAndAck_AreTaken) {
     v1::ClientMessage encoding = clientMessage();
     encoding.mutable_set_encoding()->set_quality(1);
     encoding.mutable_set_encoding()->set_chroma(v1::CHROMA_444);
+    encoding.mutable_set_encoding()->set_codec(v1::CODEC_VP9);
+    encoding.mutable_set_encoding()->set_video_kbps(100);
     EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).quality, 1U);
     EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).chroma, view::Chroma::k444);
+    EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).codec, view::Codec::kVp9);
+    EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).video_kbps, 100U);
     v1::ClientMessage size = clientMessage();
     size.mutable_set_size()->set_width(1281);
     size.mutable_set_size()->set_height(17);

@@ -110,6 +110,8 @@ const std::vector<RangedField>& fields() {
             "up.y"),
         ranged(view::kQualityRange,
                [](M& m, double v) { m.mutable_set_encoding()->set_quality(u32(v)); }),
+        ranged(view::kVideoKbpsRange,
+               [](M& m, double v) { m.mutable_set_encoding()->set_video_kbps(u32(v)); }),
         ranged(
             view::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
             "toon_compute.points[0].y"),

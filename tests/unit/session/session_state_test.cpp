@@ -257,6 +257,24 @@ TEST_F(State, TheOtherCommands_SetTheirFields) {
     EXPECT_EQ(state.version, initial.version + 9);
 }
 
+TEST_F(State, Codec_OnlyOneThatTheClientDecodes) {
+    SetEncoding video;
+    video.codec = view::Codec::kVp9;
+    video.video_kbps = 1234;
+    const auto refused = apply(initial, {{3, 0}, video}, context, kStart);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, RejectCode::kUnsupported);
+    EXPECT_EQ(refused.error().ref_seq, 3U);
+    EXPECT_EQ(refused.error().field, "codec");
+    initial.decodable.set();
+    const SessionState state = applied(initial, video);
+    EXPECT_EQ(state.encoding.codec, view::Codec::kVp9);
+    EXPECT_EQ(state.encoding.video_kbps, 1234U);
+    EXPECT_EQ(state.version, initial.version + 1);
+    video.codec = view::Codec::kJpeg;
+    EXPECT_EQ(applied(state, video).encoding.codec, view::Codec::kJpeg);
+}
+
 TEST_F(State, TooLargeAPicture_IsRefused) {
     EXPECT_TRUE(apply(initial, {{1, 0}, SetSize{{4096, 4096}}}, context, kStart));
     context.defaults.max_area_px = 1'000'000;
@@ -306,6 +324,7 @@ TEST(SetsState, ConnectionCommands_DoNot) {
     EXPECT_FALSE(setsState(Hello{}));
     EXPECT_FALSE(setsState(Ack{}));
     EXPECT_FALSE(setsState(Ping{}));
+    EXPECT_FALSE(setsState(RequestKeyFrame{}));
     EXPECT_FALSE(setsState(RequestControl{}));
     EXPECT_FALSE(setsState(ReleaseControl{}));
     EXPECT_FALSE(setsState(GiveControl{}));

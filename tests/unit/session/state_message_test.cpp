@@ -67,8 +67,8 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.exposure = 0.5F;
     state.settings.tone_map = view::ToneMap::kClamp;
     state.settings.toon_compute.count = 2;
-    state.encoding = {42, view::Chroma::k444};
     state.delivery = {true, 12.5, view::Refine::kHigh};
+    state.encoding = {42, view::Chroma::k444, view::Codec::kVp9, 777};
     const v1::ServerMessage message = makeStateChanged(context, state);
     EXPECT_EQ(message.state().ref_seq(), 44U);
     const v1::ViewState& view = message.state().state();
@@ -106,6 +106,8 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.target_fps(), 12.5);
     EXPECT_EQ(view.refine(), v1::REFINE_HIGH);
     EXPECT_EQ(view.chroma(), v1::CHROMA_444);
+    EXPECT_EQ(view.codec(), v1::CODEC_VP9);
+    EXPECT_EQ(view.video_kbps(), 777U);
 }
 
 TEST(StateChanged, LightTime_IsToldOnlyWhereItStands) {

@@ -23,6 +23,28 @@ class FramePipelineTest : public testing::Test {
         drawn.drawn_at = Clock::now();
         return drawn;
     }
+    DrawnFrame video(uint64_t id, uint64_t key_requests = 0) {
+        DrawnFrame drawn = frame(id);
+        drawn.encoding.codec = view::Codec::kVp9;
+        drawn.key_requests = key_requests;
+        return drawn;
+    }
+    // What arrived, in order: 'j' a JPEG, 'K' a key frame, 'd' another frame of video.
+    std::string kinds() {
+        std::string text;
+        for (const auto& ready : sink_->frames()) {
+            const auto& record = ready.record;
+            text += record.delivered.encoding.codec == view::Codec::kJpeg ? 'j'
+                    : record.key                                          ? 'K'
+                                                                          : 'd';
+        }
+        return text;
+    }
+    void waitForProgress(int count) {
+        for (int seen = progress_; seen < count; seen = progress_) {
+            progress_.wait(seen);
+        }
+    }
     // Another viewer's job, which does not end before the latch opens.
     void occupy(encode::EncodePool& pool, std::latch& release) {
         encode::EncodeJob job{
@@ -69,9 +91,7 @@ TEST_F(FramePipelineTest, Size_EncoderIsBusy_CountsBothPictures) {
     EXPECT_EQ(pipeline->size(), FramePipeline::kCapacity);
     release.count_down();
     ASSERT_TRUE(sink_->waitForFrames(2));
-    for (int seen = progress_; seen < 2; seen = progress_) {
-        progress_.wait(seen);
-    }
+    waitForProgress(2);
     EXPECT_EQ(pipeline->size(), 0U);
 }
 
@@ -110,6 +130,61 @@ TEST_F(FramePipelineTest, Push_SinkIsGone_StillEndsTheLease) {
     pipeline->push(frame(1));
     progress_.wait(0);
     EXPECT_EQ(ended_leases_, 1);
+}
+
+TEST_F(FramePipelineTest, Video_KeyFrameFirstOnRequestAndAfterJpeg) {
+    encode::EncodePool pool(2, 4);
+    const auto pipeline = makePipeline(pool);
+    int sent = 0;
+    const auto push = [&](DrawnFrame drawn) {
+        pipeline->push(std::move(drawn));
+        waitForProgress(++sent);
+    };
+    push(video(1));
+    push(video(2));
+    push(video(3, 1)); // asked for
+    push(video(4, 1)); // once
+    push(frame(5));
+    push(video(6, 1));
+    push(video(7, 1));
+    DrawnFrame still = frame(8);
+    still.key_requests = 1;
+    still.record.delivered.refinement = session::Refinement::kHigh;
+    push(std::move(still));
+    push(video(9, 1));
+    EXPECT_EQ(kinds(), "KdKdjKdjd");
+}
+
+TEST_F(FramePipelineTest, Video_EncodersAreFull_LosesAPictureThatNoFrameRefersTo) {
+    encode::EncodePool pool(1, 1);
+    const auto pipeline = makePipeline(pool);
+    pipeline->push(video(1));
+    waitForProgress(1);
+    std::latch release(1);
+    occupy(pool, release); // the thread
+    occupy(pool, release); // the queue
+    pipeline->push(video(2, 1));
+    EXPECT_EQ(pipeline->takeLosses().count, 1U);
+    release.count_down();
+    for (uint64_t id = 3; sink_->frames().size() < 2; ++id) { // until the queue has room
+        pipeline->push(video(id, 1));
+        waitForProgress(static_cast<int>(id));
+    }
+    EXPECT_EQ(kinds(), "KK") << "the request of the lost picture still holds";
+}
+
+TEST_F(FramePipelineTest, Video_PictureCannotBeEncoded_NextIsAKeyFrame) {
+    encode::EncodePool pool(1, 4);
+    const auto pipeline = makePipeline(pool);
+    pipeline->push(video(1));
+    waitForProgress(1);
+    DrawnFrame bad = video(2);
+    bad.encoding.video_kbps = 0;
+    pipeline->push(std::move(bad));
+    waitForProgress(2);
+    pipeline->push(video(3));
+    ASSERT_TRUE(sink_->waitForFrames(2));
+    EXPECT_EQ(kinds(), "KK");
 }
 
 } // namespace

@@ -1,0 +1,47 @@
+// RGBA8 pixels to VP9 by libvpx: one encoder a stream of pictures, since each frame refers to those
+// before it. One pass, constant rate, no look-ahead and no reordering: one picture in, one frame
+// out. Nothing is ever dropped here, and nothing that a client got is lost by TCP, so there is no
+// error resilience to pay for: a client that lost a frame asks for a key frame.
+#pragma once
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/pixel_view.h"
+#include "view/settings.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace froxel::encode {
+
+struct VideoFrame {
+    std::vector<std::byte> bytes;
+    bool key = false; // decodes without any frame before it
+};
+
+// One thread at a time.
+class VideoEncoder {
+  public:
+    // Threads that libvpx may use within a frame; it takes fewer for small pictures.
+    explicit VideoEncoder(size_t thread_count);
+    ~VideoEncoder();
+    VideoEncoder(const VideoEncoder&) = delete;
+    VideoEncoder& operator=(const VideoEncoder&) = delete;
+
+    // The first frame is a key frame, and so is one of another size or chroma than the one before
+    // it, one that `key` asks for, and the one after an error. Rate is bits over the time between
+    // pictures by `drawn_at`; pauses save up no bits. Errors: kInvalidArgument for an empty or
+    // inconsistent view, one too large for VP9, or a rate outside its range; kIo with the library's
+    // text otherwise.
+    [[nodiscard]] Result<VideoFrame>
+    encode(const PixelView& pixels, const view::Encoding& encoding, bool key, TimePoint drawn_at);
+
+  private:
+    struct Stream;
+
+    const size_t thread_count_;
+    std::unique_ptr<Stream> stream_; // none: the next frame begins one
+};
+
+} // namespace froxel::encode

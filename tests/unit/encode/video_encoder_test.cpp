@@ -1,0 +1,230 @@
+#include "encode/video_encoder.h"
+#include "unit/encode/picture.h"
+
+#include <gtest/gtest.h>
+#include <turbojpeg.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vpx/vp8dx.h>
+#include <vpx/vpx_decoder.h>
+
+namespace froxel::encode {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr TimePoint kStart = TimePoint() + 1h;
+constexpr auto kFrameTime = 33ms;
+
+view::Encoding encoding(uint32_t kbps, view::Chroma chroma = view::Chroma::k420) {
+    return {.chroma = chroma, .codec = view::Codec::kVp9, .video_kbps = kbps};
+}
+
+// A pattern that moves by two pixels a frame.
+Picture moving(uint32_t width_px, uint32_t height_px, uint32_t number) {
+    const Picture wide = makePicture(width_px + 2 * number, height_px);
+    Picture picture{width_px, height_px, width_px * size_t{4} + 8, {}};
+    picture.bytes.assign(picture.stride_bytes * height_px, std::byte{0xEE});
+    for (uint32_t y = 0; y < height_px; ++y) {
+        std::copy_n(&wide.bytes[y * wide.stride_bytes + size_t{8} * number], width_px * size_t{4},
+                    &picture.bytes[y * picture.stride_bytes]);
+    }
+    return picture;
+}
+
+// Makes the upper eighth new in every frame, which no prediction helps with.
+void addNoise(Picture& picture, std::mt19937& random) {
+    for (uint32_t y = 0; y < picture.height_px / 8; ++y) {
+        for (uint32_t x = 0; x < picture.width_px; ++x) {
+            const auto grey = static_cast<std::byte>(96 + random() % 64);
+            std::fill_n(&picture.bytes[y * picture.stride_bytes + size_t{4} * x], 3, grey);
+        }
+    }
+}
+
+class Decoder {
+  public:
+    Decoder() { EXPECT_EQ(vpx_codec_dec_init(&codec_, vpx_codec_vp9_dx(), nullptr, 0), 0); }
+    ~Decoder() { vpx_codec_destroy(&codec_); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+
+    // Null where the frame cannot be decoded, or gives no picture at once.
+    const vpx_image_t* decode(const VideoFrame& frame) {
+        const auto* data = reinterpret_cast<const uint8_t*>(frame.bytes.data());
+        if (vpx_codec_decode(&codec_, data, static_cast<unsigned>(frame.bytes.size()), nullptr,
+                             0) != VPX_CODEC_OK) {
+            return nullptr;
+        }
+        vpx_codec_iter_t iterator = nullptr;
+        return vpx_codec_get_frame(&codec_, &iterator);
+    }
+
+  private:
+    vpx_codec_ctx_t codec_{};
+};
+
+// In decibels, over all three channels.
+double psnr(const Picture& picture, const vpx_image_t& image) {
+    const std::unique_ptr<void, int (*)(tjhandle)> handle(tjInitDecompress(), tjDestroy);
+    const auto width = static_cast<int>(image.d_w);
+    const auto height = static_cast<int>(image.d_h);
+    std::vector<unsigned char> rgba(size_t{4} * image.d_w * image.d_h);
+    const int subsampling = image.fmt == VPX_IMG_FMT_I444 ? TJSAMP_444 : TJSAMP_420;
+    const unsigned char* planes[] = {image.planes[0], image.planes[1], image.planes[2]};
+    EXPECT_EQ(tjDecodeYUVPlanes(handle.get(), planes, image.stride, subsampling, rgba.data(), width,
+                                0, height, TJPF_RGBX, 0),
+              0);
+    double squares = 0;
+    for (uint32_t y = 0; y < image.d_h; ++y) {
+        for (uint32_t x = 0; x < image.d_w; ++x) {
+            for (uint32_t c = 0; c < 3; ++c) {
+                const int got = rgba[(size_t{y} * image.d_w + x) * 4 + c];
+                squares += std::pow(got - picture.channel(x, y, c), 2);
+            }
+        }
+    }
+    return 10 * std::log10(255.0 * 255.0 * 3 * image.d_w * image.d_h / (squares + 1e-9));
+}
+
+// Frames of a moving pattern, one every kFrameTime.
+class Film {
+  public:
+    explicit Film(uint32_t width_px = 320, uint32_t height_px = 180)
+        : width_px_(width_px), height_px_(height_px) {}
+    VideoFrame next(const view::Encoding& encoding, bool key = false) {
+        picture = moving(width_px_, height_px_, number_++);
+        if (noisy) {
+            addNoise(picture, random_);
+        }
+        at += kFrameTime;
+        return encoder.encode(picture.view(), encoding, key, at).value();
+    }
+
+    VideoEncoder encoder{2};
+    Picture picture;
+    TimePoint at = kStart;
+    bool noisy = false;
+
+  private:
+    std::mt19937 random_{7};
+    uint32_t width_px_;
+    uint32_t height_px_;
+    uint32_t number_ = 0;
+};
+
+TEST(VideoEncoder, Frames_EachDecodesAtOnceToItsPicture) {
+    for (const view::Chroma chroma : {view::Chroma::k420, view::Chroma::k444}) {
+        Film film(161, 99);
+        Decoder decoder;
+        for (int i = 0; i < 10; ++i) {
+            const VideoFrame frame = film.next(encoding(20'000, chroma));
+            EXPECT_EQ(frame.key, i == 0);
+            const vpx_image_t* image = decoder.decode(frame);
+            ASSERT_NE(image, nullptr) << i;
+            EXPECT_EQ(image->d_w, 161U);
+            EXPECT_EQ(image->d_h, 99U);
+            EXPECT_EQ(image->range, VPX_CR_FULL_RANGE);
+            EXPECT_EQ(image->cs, VPX_CS_BT_601);
+            EXPECT_GT(psnr(film.picture, *image), chroma == view::Chroma::k444 ? 30 : 22) << i;
+        }
+    }
+}
+
+TEST(VideoEncoder, SmallestAndOddSizes_AreEncoded) {
+    for (const view::Size size : {view::Size{16, 16}, {17, 33}, {1, 1}, {4096, 16}}) {
+        Film film(size.width_px, size.height_px);
+        Decoder decoder;
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_NE(decoder.decode(film.next(encoding(1000))), nullptr) << size.width_px;
+        }
+    }
+}
+
+TEST(VideoEncoder, KeyAskedFor_OnlyThatFrameIsOne) {
+    Film film;
+    EXPECT_TRUE(film.next(encoding(2000)).key);
+    EXPECT_FALSE(film.next(encoding(2000)).key);
+    EXPECT_TRUE(film.next(encoding(2000), true).key);
+    const VideoFrame after = film.next(encoding(2000));
+    EXPECT_FALSE(after.key);
+}
+
+TEST(VideoEncoder, KeyFrame_StandsAlone) {
+    Film film;
+    for (int i = 0; i < 5; ++i) {
+        (void)film.next(encoding(4000));
+    }
+    Decoder late;
+    EXPECT_EQ(late.decode(film.next(encoding(4000))), nullptr) << "refers to what it never saw";
+    const vpx_image_t* image = late.decode(film.next(encoding(4000), true));
+    ASSERT_NE(image, nullptr);
+    EXPECT_GT(psnr(film.picture, *image), 15);
+    EXPECT_NE(late.decode(film.next(encoding(4000))), nullptr);
+}
+
+TEST(VideoEncoder, SizeOrChromaChanges_GivesAKeyFrame) {
+    VideoEncoder encoder(1);
+    const Picture small = makePicture(64, 48);
+    const Picture large = makePicture(65, 48);
+    auto encode = [&, at = kStart](const Picture& picture, view::Chroma chroma) mutable {
+        at += kFrameTime;
+        return encoder.encode(picture.view(), encoding(1000, chroma), false, at).value().key;
+    };
+    EXPECT_TRUE(encode(small, view::Chroma::k420));
+    EXPECT_FALSE(encode(small, view::Chroma::k420));
+    EXPECT_TRUE(encode(large, view::Chroma::k420));
+    EXPECT_TRUE(encode(large, view::Chroma::k444));
+    EXPECT_FALSE(encode(large, view::Chroma::k444));
+}
+
+TEST(VideoEncoder, Rate_IsHeldAndFollowsWithoutAKeyFrame) {
+    Film film;
+    film.noisy = true;
+    EXPECT_TRUE(film.next(encoding(500)).key);
+    const auto kbpsOf = [&](uint32_t kbps) {
+        constexpr int kSettling = 30;
+        constexpr int kCounted = 60;
+        size_t bytes = 0;
+        for (int i = 0; i < kSettling + kCounted; ++i) {
+            const VideoFrame frame = film.next(encoding(kbps));
+            EXPECT_FALSE(frame.key);
+            bytes += i < kSettling ? 0 : frame.bytes.size();
+        }
+        return static_cast<double>(bytes) * 8 / (kCounted * Seconds(kFrameTime).count() * 1000);
+    };
+    EXPECT_NEAR(kbpsOf(500), 500, 100);
+    EXPECT_NEAR(kbpsOf(1000), 1000, 200);
+    EXPECT_NEAR(kbpsOf(500), 500, 100);
+}
+
+TEST(VideoEncoder, AfterAPause_AFrameTakesNoMoreThanATenthOfASecondDoes) {
+    Film film;
+    film.noisy = true;
+    for (int i = 0; i < 60; ++i) {
+        (void)film.next(encoding(400));
+    }
+    film.at += 1h;
+    EXPECT_LT(film.next(encoding(400)).bytes.size(), 2 * 400'000 / 8 / 10);
+}
+
+TEST(VideoEncoder, WhatCannotBeEncoded_IsRefusedAndStartsAnew) {
+    VideoEncoder encoder(1);
+    const Picture picture = makePicture(64, 48);
+    EXPECT_TRUE(encoder.encode(picture.view(), encoding(1000), false, kStart).value().key);
+    PixelView narrow = picture.view();
+    narrow.stride_bytes = 64;
+    for (const PixelView& pixels : {PixelView{}, narrow}) {
+        const auto refused = encoder.encode(pixels, encoding(1000), false, kStart + 1s);
+        EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+    }
+    const auto slow = encoder.encode(picture.view(), encoding(99), false, kStart + 2s);
+    EXPECT_EQ(slow.error().message, "video_kbps is 99; it must be from 100 to 100000");
+    EXPECT_TRUE(encoder.encode(picture.view(), encoding(1000), false, kStart + 3s).value().key);
+}
+
+} // namespace
+} // namespace froxel::encode

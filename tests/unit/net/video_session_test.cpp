@@ -1,0 +1,100 @@
+// Video in a session of several viewers.
+#include "net/lobby.h"
+#include "support/fake_port.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace froxel::net {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr TimePoint kNow = TimePoint() + 1h;
+constexpr auto kVp9 = static_cast<size_t>(view::Codec::kVp9);
+
+class VideoSessionTest : public testing::Test {
+  protected:
+    struct Viewer final : SessionViewer {
+        void tell(Notice notice) override {
+            if (const auto* frame = std::get_if<session::ReadyFrame>(&notice)) {
+                frames.push_back(frame->record.frame_id);
+            }
+            state_news += std::holds_alternative<StateNews>(notice) ? 1U : 0U;
+        }
+        std::vector<uint64_t> frames;
+        uint32_t state_news = 0;
+    };
+    Seat enter(const std::shared_ptr<Viewer>& viewer, bool decodes_video) {
+        session::Hello hello;
+        hello.room = "hall";
+        hello.codecs.set(kVp9, decodes_video);
+        return lobby_.enter(serving_, hello, viewer, kNow).value();
+    }
+    static bool setCodec(const Seat& seat, view::Codec codec) {
+        session::SetEncoding set;
+        set.codec = codec;
+        return seat.session->apply(seat.place, {{1, 0}, set}, kNow).has_value();
+    }
+    void deliver(uint64_t id, bool key) {
+        session::ReadyFrame frame;
+        frame.record.frame_id = id;
+        frame.record.delivered.encoding.codec = view::Codec::kVp9;
+        frame.record.key = key;
+        port_.sink()->deliver(std::move(frame));
+    }
+    const session::SessionState& state() { return port_.session().states.back(); }
+
+    test::FakePort port_;
+    Serving serving_{std::make_shared<const session::SessionContext>(), &port_};
+    Lobby lobby_{10s};
+    std::shared_ptr<Viewer> first_ = std::make_shared<Viewer>();
+    std::shared_ptr<Viewer> second_ = std::make_shared<Viewer>();
+};
+
+TEST_F(VideoSessionTest, Codec_OnlyWhileAllViewersDecodeIt) {
+    const Seat first = enter(first_, true);
+    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    const uint32_t news = first_->state_news;
+    const Seat second = enter(second_, false);
+    EXPECT_EQ(state().encoding.codec, view::Codec::kJpeg);
+    EXPECT_GT(first_->state_news, news);
+    EXPECT_FALSE(setCodec(first, view::Codec::kVp9));
+    lobby_.depart(second, Departure::kLost, kNow);
+    EXPECT_TRUE(setCodec(first, view::Codec::kVp9)) << "it may never come back";
+    EXPECT_EQ(state().encoding.codec, view::Codec::kVp9);
+}
+
+TEST_F(VideoSessionTest, LateViewer_BeginsWithAKeyFrame) {
+    const Seat first = enter(first_, true);
+    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    deliver(1, true);
+    const uint64_t before = state().key_requests;
+    EXPECT_EQ(enter(second_, true).picture->record.frame_id, 1U) << "decodes by itself";
+    deliver(2, false);
+    const auto third = std::make_shared<Viewer>();
+    EXPECT_FALSE(enter(third, true).picture);
+    EXPECT_EQ(state().key_requests, before + 1);
+}
+
+TEST_F(VideoSessionTest, KeyFrames_AreSharedByThoseWhoAskMeanwhile) {
+    const Seat first = enter(first_, true);
+    const Seat second = enter(second_, true);
+    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    deliver(1, true);
+    const session::SessionState before = state();
+    first.session->requestKeyFrame(second.place); // watches, and may
+    first.session->requestKeyFrame(first.place);
+    EXPECT_EQ(state().key_requests, before.key_requests + 1);
+    EXPECT_GT(state().version, before.version);
+    deliver(2, false); // was under way
+    first.session->requestKeyFrame(second.place);
+    EXPECT_EQ(state().key_requests, before.key_requests + 1);
+    deliver(3, true);
+    first.session->requestKeyFrame(second.place);
+    EXPECT_EQ(state().key_requests, before.key_requests + 2);
+}
+
+} // namespace
+} // namespace froxel::net
