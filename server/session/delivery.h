@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/clock.h"
+#include "view/ranges.h"
 #include "view/settings.h"
 
 #include <algorithm>
@@ -55,9 +56,20 @@ struct Delivered {
 
 inline constexpr view::Encoding kRefinedEncoding{92, view::Chroma::k444};
 
+// What video may take of a link that is too slow: room is left for what single frames exceed it by.
+[[nodiscard]] inline uint32_t carriedKbps(double link_bits_per_s) {
+    constexpr double kShare = 0.8;
+    constexpr auto kRange = view::kVideoKbpsRange;
+    return static_cast<uint32_t>(
+        std::clamp(kShare * link_bits_per_s / 1000, double{kRange.min}, double{kRange.max}));
+}
+
 [[nodiscard]] inline view::Encoding limited(view::Encoding asked, const Delivery& delivery) {
     asked.quality = std::min(asked.quality, delivery.quality_max);
     asked.chroma = std::min(asked.chroma, delivery.chroma_max);
+    if (delivery.rung > 0 && delivery.link_rate) {
+        asked.video_kbps = std::min(asked.video_kbps, carriedKbps(*delivery.link_rate));
+    }
     return asked;
 }
 
