@@ -1,11 +1,8 @@
 // Parses, runs one subcommand, and turns whatever stopped it into one line and an exit code.
+#include "app/log_setup.h"
 #include "app/options.h"
 #include "core/error.h"
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
-
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <variant>
@@ -31,15 +28,6 @@ int exitCodeOf(ErrorCode code) {
         return 1;
     }
     return 1;
-}
-
-// Standard output is for results only: logs go to stderr.
-void startLog(app::LogLevel level) {
-    constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
-                                    spdlog::level::err};
-    spdlog::set_default_logger(spdlog::stderr_color_mt("froxel"));
-    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %^%l%$ %v");
-    spdlog::set_level(kLevels[static_cast<size_t>(level)]);
 }
 
 struct Run {
@@ -74,7 +62,8 @@ int fail(const char* message, int exit_code) {
 int main(int argc, char** argv) {
     try {
         const auto options = app::parseOptions(argc, argv);
-        startLog(options.log_level);
+        // Standard output is for results only: logs go to stderr.
+        app::startLog(options.log_level, options.log_format);
         return std::visit(Run{}, options.command);
     } catch (const StartupError& error) {
         return fail(error.what(), exitCodeOf(error.code()));

@@ -39,6 +39,7 @@ struct Targets {
     InfoOptions info;
     SceneOptions scene;
     std::optional<LogLevel> log_level;
+    LogFormat log_format = LogFormat::kText;
     Options result;
 };
 
@@ -79,8 +80,10 @@ template <class T>
 void finish(CommandBuilder& command, const T& options, LogLevel default_level, Targets& targets) {
     command.name("--log-level", targets.log_level, kLogLevelNames,
                  textOf(kLogLevelNames, default_level), "Least of what goes to stderr");
+    command.name("--log-format", targets.log_format, kLogFormatNames,
+                 "Its lines: words and key=value, or a JSON object each");
     command.cli().callback([&options, default_level, &targets] {
-        targets.result = {options, targets.log_level.value_or(default_level)};
+        targets.result = {options, targets.log_level.value_or(default_level), targets.log_format};
     });
 }
 

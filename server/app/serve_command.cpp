@@ -55,11 +55,12 @@ OpenedScene openScene(const ServeOptions& options,
     report({"loading the scene", 0.1});
     const scene::Scene scene = loadScene(options.scene).value();
     for (const std::string& warning : scene.warnings) {
-        spdlog::warn("scene: {}", printable(warning, 400));
+        spdlog::warn("event=scene_warning text={}", logValue(warning, 400));
     }
     session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
                                     FROXEL_VERSION, traits.name};
-    spdlog::info("scene={} triangles={} draws={} cameras={}", printable(context.scene.name),
+    spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
+                 logValue(context.scene.name),
                  context.scene.triangle_count, context.scene.draw_count,
                  context.scene.cameras.size());
 
@@ -80,6 +81,7 @@ fs::path webRootOf(const ServeOptions& options) {
 ServeRunOptions runOptions(const ServeOptions& options) {
     const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
     ServeRunOptions run;
+    run.server.version = FROXEL_VERSION;
     run.server.bind = {options.address, options.port};
     run.server.admin = options.admin;
     run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
@@ -110,9 +112,9 @@ int runServe(const ServeOptions& options) {
     std::fflush(stdout);
 
     const int signal = stop.wait();
-    spdlog::info("draining signal={}", signal);
+    spdlog::info("event=draining signal={}", signal);
     const bool all_closed = run.drain(kDrainDeadline);
-    spdlog::info("drained all_closed={}", all_closed);
+    spdlog::info("event=drained all_closed={}", all_closed);
     if (auto error = failure.take()) {
         throw StartupError(std::move(*error));
     }

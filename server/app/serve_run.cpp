@@ -1,5 +1,7 @@
 #include "app/serve_run.h"
 
+#include "net/metrics.h"
+
 #include <utility>
 
 namespace froxel::app {
@@ -18,6 +20,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
     stream::RenderLoopOptions loop;
     loop.sessions_max = options_.sessions_max;
     loop.on_failure = options_.on_failure;
+    server_->metrics().watch(loop.fates);
     loop.make_source = [this] {
         net::Service& service = server_->service();
         OpenedScene opened = options_.open(

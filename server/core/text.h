@@ -44,4 +44,21 @@ template <class T>
     return untrusted.size() > max_bytes ? text + "..." : text;
 }
 
+// A value of a `key=value` log line: outside text made safe as by printable(), in double quotes
+// where it is more than one plain word.
+[[nodiscard]] inline std::string logValue(std::string_view untrusted, size_t max_bytes = 200) {
+    const std::string text = printable(untrusted, max_bytes);
+    if (!text.empty() && text.find_first_of(" \"=\\") == std::string::npos) {
+        return text;
+    }
+    std::string out = "\"";
+    for (const char character : text) {
+        if (character == '"' || character == '\\') {
+            out += '\\';
+        }
+        out += character;
+    }
+    return out + '"';
+}
+
 } // namespace froxel

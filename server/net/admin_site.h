@@ -17,6 +17,7 @@ class AdminSite final : public HttpSite {
     void upgrade(boost::beast::tcp_stream stream,
                  Request request,
                  ConnectionTicket ticket) const override;
+    void onConnectionRefused() const override {}
     // A scrape may come while viewers are being told to go.
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 

@@ -4,6 +4,8 @@
 #include "froxel/v1/server.pb.h"
 #include "session/state_message.h"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 namespace froxel::net {
@@ -210,6 +212,10 @@ void Conversation::onHelloTimeout() {
 }
 
 void Conversation::reject(const Rejection& rejection, TimePoint now) {
+    metrics_->commandRejected(rejection.code);
+    spdlog::info("event=command_refused session={} seq={} code={} field={} reason={}", id(),
+                 rejection.ref_seq, session::nameOf(rejection.code), logValue(rejection.field),
+                 logValue(rejection.message));
     answer(session::makeError(rejection));
     if (rejection.code == RejectCode::kVersion) {
         close(CloseCode::kVersion, "protocol version");
@@ -319,6 +325,10 @@ Outgoing Conversation::frameMessage(TimePoint now) {
     window_.onSent(frame.record.frame_id, now);
     grantCredits();
     metrics_->frameSent(frame.record);
+    spdlog::debug("event=frame_sent session={} frame={} bytes={} render_us={:.0f} encode_us={:.0f} "
+                  "send_wait_us={:.0f}",
+                  id(), frame.record.frame_id, frame.record.encoded_bytes, frame.record.render_us,
+                  frame.record.encode_us, frame.record.send_wait_us);
     return {protocol::encodeFramePrefix(session::makeFrameHeader(frame.record)),
             std::move(frame.bytes), protocol::WireFormat::kBinary};
 }

@@ -1,6 +1,8 @@
 // No exception leaves a handler: it would end the thread that serves every connection.
 #pragma once
 
+#include "core/text.h"
+
 #include <spdlog/spdlog.h>
 
 #include <exception>
@@ -15,7 +17,7 @@ template <class Work>
         work();
         return true;
     } catch (const std::exception& error) {
-        spdlog::error("{}: {}", where, error.what());
+        spdlog::error("event=internal_error where=\"{}\" reason={}", where, logValue(error.what()));
         return false;
     }
 }

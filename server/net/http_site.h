@@ -33,6 +33,8 @@ class HttpSite {
     // Takes the connection over; only after refuseUpgrade() gave none.
     virtual void
     upgrade(boost::beast::tcp_stream stream, Request request, ConnectionTicket ticket) const = 0;
+    // One over the limit was closed unanswered.
+    virtual void onConnectionRefused() const = 0;
     // Connections close when this drains; null: they are answered until the process ends.
     [[nodiscard]] virtual Service* drainsWith() const = 0;
 };

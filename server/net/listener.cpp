@@ -114,18 +114,22 @@ void Listener::onAccepted(Failure failure, tcp::socket socket) {
         return;
     }
     if (outOfResources(failure)) {
-        spdlog::warn("accepting pauses: {}", failure.message());
+        spdlog::warn("event=accepting_pauses port={} reason={}", port_,
+                     logValue(failure.message()));
         back_off_.expires_after(kBackOff);
         back_off_.async_wait([self = shared_from_this()](Failure) { self->accept(); });
         return;
     }
-    if (!failure && connection_count_->load() < connections_max_) {
+    if (!failure && connection_count_->load() >= connections_max_) {
+        // The socket closes here: serving a refusal would take what is short.
+        spdlog::warn("event=connection_refused port={} limit={}", port_, connections_max_);
+        site_->onConnectionRefused();
+    } else if (!failure) {
         ++*connection_count_;
         ConnectionTicket ticket(nullptr, [count = connection_count_](const void*) { --*count; });
         tune(socket);
         std::make_shared<HttpSession>(std::move(socket), site_, std::move(ticket))->start();
     }
-    // Over the cap, the socket closes here: serving a refusal would take what is short.
     accept();
 }
 

@@ -1,6 +1,12 @@
 #include "net/metrics.h"
 
+#include "net/metric_family.h"
+#include "net/process_metrics.h"
+#include "protocol/limits.h"
+
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <prometheus/counter.h>
@@ -62,6 +68,11 @@ constexpr std::array kListGauges = {
               [](const LightListStats& s) { return s.all_lights ? 1.0 : 0.0; }},
 };
 
+// Close codes with rows of their own: RFC 6455's that happen, and the protocol's.
+bool isKnown(uint16_t code) {
+    return (code >= 1000 && code <= 1011) || (code >= 4001 && code <= 4099);
+}
+
 } // namespace
 
 struct Metrics::Impl {
@@ -73,23 +84,32 @@ struct Metrics::Impl {
     Gauge& gauge(const char* name, const char* help) {
         return prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({});
     }
+    prometheus::Family<Counter>& family(const char* name, const char* help) {
+        return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+    }
+    [[nodiscard]] std::vector<prometheus::MetricFamily> frameFamilies() const;
     void setMemory(const std::shared_ptr<const FrameDetails>& details);
 
     Gauge& sessions = gauge("froxel_sessions", "Viewers now.");
     Counter& opened = counter("froxel_sessions_opened_total", "Viewers since the start.");
     Counter& sent = counter("froxel_frames_sent_total", "Pictures sent.");
-    Counter& dropped =
-        counter("froxel_frames_dropped_total", "Pictures that a newer one replaced unsent.");
+    std::atomic<uint64_t> replaced{0};
+    std::shared_ptr<const FrameFates> fates = std::make_shared<const FrameFates>();
     Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of pictures and messages sent.");
     Counter& redraws = counter("froxel_light_list_redraws_total",
                                "Times that a picture was drawn again since its lists had to grow.");
     std::array<Histogram*, kStages.size()> stages{};
     std::array<Gauge*, kListGauges.size()> lists{};
-    prometheus::Family<Counter>& pairs =
-        prometheus::BuildCounter()
-            .Name("froxel_light_pairs_total")
-            .Help("(light, pixel) pairs of the pictures sent that counted them.")
-            .Register(registry);
+    Counter& refused_connections = counter("froxel_connections_refused_total",
+                                           "Connections over the limit, closed unanswered.");
+    prometheus::Family<Counter>& rejects =
+        family("froxel_command_rejects_total", "Messages of viewers answered by an error.");
+    prometheus::Family<Counter>& closes =
+        family("froxel_websocket_closes_total", "WebSockets that ended, by close code.");
+    prometheus::Family<Counter>& upgrades =
+        family("froxel_upgrades_refused_total", "Requests that did not become a WebSocket.");
+    prometheus::Family<Counter>& pairs = family(
+        "froxel_light_pairs_total", "(light, pixel) pairs of the pictures sent that counted them.");
     Counter& evaluated = pairs.Add({{"kind", "evaluated"}});
     Counter& contributing = pairs.Add({{"kind", "contributing"}});
     prometheus::Family<Gauge>& memory = prometheus::BuildGauge()
@@ -102,7 +122,22 @@ struct Metrics::Impl {
     std::map<std::string, Gauge*> purposes;
 };
 
-Metrics::Metrics() : impl_(std::make_unique<Impl>()) {
+Metrics::Metrics(const std::string& version) : impl_(std::make_unique<Impl>()) {
+    prometheus::BuildGauge()
+        .Name("froxel_build_info")
+        .Help("1; the labels say what this server is.")
+        .Register(impl_->registry)
+        .Add({{"version", version},
+              {"protocol",
+               std::to_string(protocol::kMajor) + "." + std::to_string(protocol::kMinor)}})
+        .Set(1);
+    // There from the start, so that their first one shows as a rise.
+    for (const auto code : {protocol::CloseCode::kNormal, protocol::CloseCode::kPolicy,
+                            protocol::CloseCode::kSlowConsumer, protocol::CloseCode::kCapacity}) {
+        impl_->closes.Add({{"code", std::to_string(static_cast<unsigned>(code))}});
+    }
+    impl_->rejects.Add({{"reason", session::nameOf(session::RejectCode::kMalformed)}});
+    impl_->upgrades.Add({{"status", "403"}});
     auto& stages = prometheus::BuildHistogram()
                        .Name("froxel_stage_duration_seconds")
                        .Help("What a picture spends in each stage from command to socket.")
@@ -164,7 +199,43 @@ void Metrics::Impl::setMemory(const std::shared_ptr<const FrameDetails>& details
 }
 
 void Metrics::frameDropped() {
-    impl_->dropped.Increment();
+    ++impl_->replaced;
+}
+
+void Metrics::commandRejected(session::RejectCode code) {
+    impl_->rejects.Add({{"reason", session::nameOf(code)}}).Increment();
+}
+
+void Metrics::socketClosed(uint16_t code) {
+    impl_->closes.Add({{"code", isKnown(code) ? std::to_string(code) : "other"}}).Increment();
+}
+
+void Metrics::upgradeRefused(unsigned http_status) {
+    impl_->upgrades.Add({{"status", std::to_string(http_status)}}).Increment();
+}
+
+void Metrics::connectionRefused() {
+    impl_->refused_connections.Increment();
+}
+
+void Metrics::watch(std::shared_ptr<const FrameFates> fates) {
+    impl_->fates = std::move(fates);
+}
+
+std::vector<prometheus::MetricFamily> Metrics::Impl::frameFamilies() const {
+    const auto count = [](const std::atomic<uint64_t>& value) {
+        return static_cast<double>(value.load());
+    };
+    using prometheus::MetricType;
+    return {metricFamily(MetricType::Counter, "froxel_frames_rendered_total",
+                         "Pictures that left the device.", "", {{"", count(fates->rendered)}}),
+            metricFamily(MetricType::Counter, "froxel_frames_encoded_total",
+                         "Pictures that left an encoder.", "", {{"", count(fates->encoded)}}),
+            metricFamily(MetricType::Counter, "froxel_frames_dropped_total",
+                         "Pictures made and not sent.", "reason",
+                         {{"replaced", count(replaced)},
+                          {"not_encoded", count(fates->not_encoded)},
+                          {"viewer_gone", count(fates->viewer_gone)}})};
 }
 
 void Metrics::bytesSent(size_t count) {
@@ -172,7 +243,11 @@ void Metrics::bytesSent(size_t count) {
 }
 
 std::string Metrics::text() const {
-    return prometheus::TextSerializer().Serialize(impl_->registry.Collect());
+    auto families = impl_->registry.Collect();
+    for (auto more : {impl_->frameFamilies(), processMetrics()}) {
+        std::move(more.begin(), more.end(), std::back_inserter(families));
+    }
+    return prometheus::TextSerializer().Serialize(families);
 }
 
 } // namespace froxel::net

@@ -1,8 +1,12 @@
 // What GET /metrics tells, in Prometheus' text format. Fed by connections as they send, never by
-// the render thread. Any thread; a lock inside is held for a few additions.
+// the render thread, whose counts are read when somebody scrapes. Any thread; a lock inside is held
+// for a few additions. Labels take values from fixed lists only, so rows are bounded whatever
+// viewers send.
 #pragma once
 
+#include "core/frame_fates.h"
 #include "core/frame_stats.h"
+#include "session/rejection.h"
 #include "session/state_message.h"
 
 #include <cstddef>
@@ -15,7 +19,8 @@ class Metrics {
   public:
     static constexpr const char* kContentType = "text/plain; version=0.0.4; charset=utf-8";
 
-    Metrics();
+    // `version` is the server's.
+    explicit Metrics(const std::string& version = "unknown");
     ~Metrics();
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
@@ -27,6 +32,16 @@ class Metrics {
     // A picture that a newer one replaced unsent.
     void frameDropped();
     void bytesSent(size_t count);
+    // A message of a viewer that was answered by an error.
+    void commandRejected(session::RejectCode code);
+    // A WebSocket ended with this close code; 1006: without one.
+    void socketClosed(uint16_t code);
+    void upgradeRefused(unsigned http_status);
+    // A connection over the limit was closed unanswered.
+    void connectionRefused();
+
+    // Where pictures that never reach a connection are counted; once, before the first text().
+    void watch(std::shared_ptr<const FrameFates> fates);
 
     // The README lists the names.
     [[nodiscard]] std::string text() const;

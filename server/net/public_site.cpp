@@ -40,6 +40,33 @@ std::string_view viewOf(beast::string_view text) {
     return {text.data(), text.size()};
 }
 
+// None where it may.
+std::optional<Response> whyNoUpgrade(const Request& request, const Site& site) {
+    if (pathOf(request) != kSocketPath) {
+        return refusal(http::status::not_found, "the WebSocket is at /ws");
+    }
+    std::optional<std::string_view> origin;
+    if (const auto found = request.find(http::field::origin); found != request.end()) {
+        origin = viewOf(found->value());
+    }
+    const auto host = viewOf(request[http::field::host]);
+    if (!originAllowed(origin, host, site.allowed_origins)) {
+        return refusal(http::status::forbidden,
+                       "origin " + printable(*origin) + " may not connect to " + printable(host));
+    }
+    const auto named = request.find(http::field::sec_websocket_protocol);
+    if (named != request.end() && !http::token_list(named->value())
+                                       .exists(beast::string_view(protocol::kSubprotocol.data(),
+                                                                  protocol::kSubprotocol.size()))) {
+        return refusal(http::status::bad_request,
+                       "this server speaks the subprotocol " + std::string(protocol::kSubprotocol));
+    }
+    if (site.service->status().draining) {
+        return refusal(http::status::service_unavailable, "the server is going down");
+    }
+    return {};
+}
+
 } // namespace
 
 Response PublicSite::answer(const Request& request, std::string_view path) const {
@@ -65,31 +92,18 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
 }
 
 std::optional<Response> PublicSite::refuseUpgrade(const Request& request) const {
-    if (pathOf(request) != kSocketPath) {
-        return refusal(http::status::not_found, "the WebSocket is at /ws");
+    auto refused = whyNoUpgrade(request, *site_);
+    if (refused) {
+        site_->metrics->upgradeRefused(refused->result_int());
+        spdlog::warn("event=upgrade_refused status={} origin={} host={}", refused->result_int(),
+                     logValue(viewOf(request[http::field::origin]), 80),
+                     logValue(viewOf(request[http::field::host]), 80));
     }
-    std::optional<std::string_view> origin;
-    if (const auto found = request.find(http::field::origin); found != request.end()) {
-        origin = viewOf(found->value());
-    }
-    const auto host = viewOf(request[http::field::host]);
-    if (!originAllowed(origin, host, site_->allowed_origins)) {
-        spdlog::warn("refused a WebSocket for origin {} at host {}", printable(*origin),
-                     printable(host));
-        return refusal(http::status::forbidden,
-                       "origin " + printable(*origin) + " may not connect to " + printable(host));
-    }
-    const auto named = request.find(http::field::sec_websocket_protocol);
-    if (named != request.end() && !http::token_list(named->value())
-                                       .exists(beast::string_view(protocol::kSubprotocol.data(),
-                                                                  protocol::kSubprotocol.size()))) {
-        return refusal(http::status::bad_request,
-                       "this server speaks the subprotocol " + std::string(protocol::kSubprotocol));
-    }
-    if (site_->service->status().draining) {
-        return refusal(http::status::service_unavailable, "the server is going down");
-    }
-    return {};
+    return refused;
+}
+
+void PublicSite::onConnectionRefused() const {
+    site_->metrics->connectionRefused();
 }
 
 void PublicSite::upgrade(beast::tcp_stream stream, Request request, ConnectionTicket ticket) const {

@@ -19,6 +19,7 @@ class PublicSite final : public HttpSite {
     void upgrade(boost::beast::tcp_stream stream,
                  Request request,
                  ConnectionTicket ticket) const override;
+    void onConnectionRefused() const override;
     [[nodiscard]] Service* drainsWith() const override { return site_->service.get(); }
 
   private:

@@ -31,7 +31,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     site->allowed_origins = options.allowed_origins;
     site->service = std::make_shared<Service>();
     site->lobby = std::make_shared<Lobby>(options.resume_grace);
-    site->metrics = std::make_shared<Metrics>();
+    site->metrics = std::make_shared<Metrics>(options.version);
     return site;
 }
 
@@ -137,6 +137,10 @@ std::optional<uint16_t> Server::adminPort() const {
 
 Service& Server::service() {
     return *impl_->site->service;
+}
+
+Metrics& Server::metrics() {
+    return *impl_->site->metrics;
 }
 
 bool Server::drain(std::chrono::milliseconds deadline) {

@@ -13,7 +13,10 @@
 
 namespace froxel::net {
 
+class Metrics;
+
 struct ServerOptions {
+    std::string version = "unknown"; // of the server, for the metrics
     BindAddress bind{"127.0.0.1", 0};
     BindAddress admin; // for operators: metrics; an empty address: none
     uint32_t thread_count = 1;
@@ -38,6 +41,7 @@ class Server {
     [[nodiscard]] std::optional<uint16_t> adminPort() const;
     // Where progress, readiness and draining are told. Any thread.
     [[nodiscard]] Service& service();
+    [[nodiscard]] Metrics& metrics();
 
     // Accepts no more, tells everyone, and waits until the last connection has closed or the
     // deadline is over; whether all closed by themselves. The admin address answers to the end.

@@ -24,6 +24,7 @@ constexpr std::chrono::seconds kIdleTimeout{20};
 // Beast's idle timer is re-armed by reads alone, so a client that sends but never reads would pin
 // a write for ever. The allowance lets a large picture through a link of 0.5 Mbit/s.
 constexpr std::chrono::seconds kWriteTimeout{5};
+constexpr std::chrono::seconds kCloseTimeout{4};
 constexpr size_t kSlowestBytesPerSecond = size_t{64} * 1024;
 
 std::string peerName(const beast::tcp_stream& stream) {
@@ -35,6 +36,24 @@ std::string peerName(const beast::tcp_stream& stream) {
 protocol::ByteSpan bytesOf(const beast::flat_buffer& buffer) {
     const auto data = buffer.data();
     return {static_cast<const std::byte*>(data.data()), data.size()};
+}
+
+// A client's own code as the metrics may tell it: those of RFC 6455, 0 for any other.
+uint16_t codeOfClient(uint16_t code) {
+    return code >= 1000 && code <= 1011 ? code : uint16_t{0};
+}
+
+// What Beast closes with when it cannot read on.
+uint16_t codeSentFor(const beast::error_code& error) {
+    if (error == websocket::error::message_too_big || error == websocket::error::buffer_overflow) {
+        return websocket::close_code::too_big;
+    }
+    if (error == websocket::error::bad_frame_payload) {
+        return websocket::close_code::bad_payload;
+    }
+    return error == websocket::condition::protocol_violation
+               ? static_cast<uint16_t>(websocket::close_code::protocol_error)
+               : uint16_t{1006};
 }
 
 } // namespace
@@ -122,13 +141,21 @@ void WsConnection::read() {
     });
 }
 
-void WsConnection::onRead(ErrorCode error) {
-    if (error) {
-        const bool closed = error == websocket::error::closed;
-        if (closed && stream_.reason().code == websocket::close_code::normal && conversation_) {
+void WsConnection::onReadError(ErrorCode error) {
+    if (error == websocket::error::closed) {
+        const uint16_t code = stream_.reason().code;
+        if (code == websocket::close_code::normal && conversation_) {
             conversation_->onGoodbye();
         }
-        abandon(closed ? "closed by the client" : error.message());
+        abandon("closed by the client", codeOfClient(code));
+    } else {
+        abandon(error.message(), codeSentFor(error));
+    }
+}
+
+void WsConnection::onRead(ErrorCode error) {
+    if (error) {
+        onReadError(error);
         return;
     }
     if (!conversation_) {
@@ -141,8 +168,8 @@ void WsConnection::onRead(ErrorCode error) {
     buffer_.consume(buffer_.size());
     if (!was_greeted && conversation_->greeted()) {
         hello_deadline_.cancel();
-        spdlog::info("session={} client={} peer={} says hello", conversation_->id(),
-                     printable(conversation_->clientName()), peer_);
+        spdlog::info("event=hello session={} client={} peer={}", conversation_->id(),
+                     logValue(conversation_->clientName(), 80), peer_);
     }
     write();
     if (conversation_) {
@@ -182,7 +209,8 @@ void WsConnection::armWriteDeadline(size_t bytes) {
             ErrorCode ignored;
             self->stream_.next_layer().socket().set_option(asio::socket_base::linger(true, 0),
                                                            ignored);
-            self->abandon("a write was stuck (as close code 4008)");
+            self->abandon("a write was stuck",
+                          static_cast<uint16_t>(protocol::CloseCode::kSlowConsumer));
         }
     });
 }
@@ -216,23 +244,29 @@ void WsConnection::linger() {
 void WsConnection::closeSocket() {
     closing_ = true;
     const Closing& closing = *conversation_->closing();
-    spdlog::info("session={} peer={} closing code={} reason={}", conversation_->id(), peer_,
-                 static_cast<unsigned>(closing.code), closing.reason);
     const websocket::close_reason reason(
         static_cast<websocket::close_code>(closing.code),
         beast::string_view(closing.reason.data(), closing.reason.size()));
-    stream_.async_close(reason,
-                        [self = shared_from_this()](ErrorCode) { self->abandon("closed"); });
+    // A client that does not answer the close is not waited for longer than this.
+    write_deadline_.expires_after(kCloseTimeout);
+    write_deadline_.async_wait([self = shared_from_this(), closing](ErrorCode error) {
+        if (!error) {
+            self->abandon(closing.reason, static_cast<uint16_t>(closing.code));
+        }
+    });
+    stream_.async_close(reason, [self = shared_from_this(), closing](ErrorCode) {
+        self->abandon(closing.reason, static_cast<uint16_t>(closing.code));
+    });
 }
 
 // Ends the conversation and lets the socket go; whatever is under way completes with an error.
-void WsConnection::abandon(const std::string& why) {
+void WsConnection::abandon(const std::string& why, uint16_t code) {
     if (!conversation_) {
         return;
     }
-    if (!closing_) {
-        spdlog::info("session={} peer={} ended: {}", conversation_->id(), peer_, why);
-    }
+    site_->metrics->socketClosed(code);
+    spdlog::info("event=socket_closed session={} peer={} code={} reason={}", conversation_->id(),
+                 peer_, code, logValue(why));
     conversation_.reset();
     hello_deadline_.cancel();
     write_deadline_.cancel();

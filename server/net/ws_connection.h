@@ -38,6 +38,7 @@ class WsConnection final : public SessionViewer,
   private:
     using Stream = boost::beast::websocket::stream<LingeringStream>;
     using ErrorCode = boost::beast::error_code;
+    static constexpr uint16_t kNoCloseCode = 1006; // RFC 6455 section 7.4.1
 
     template <class Work>
     void onStrand(Work work);
@@ -45,6 +46,7 @@ class WsConnection final : public SessionViewer,
     void run(const Work& work);
     void setOptions();
     void onAccepted();
+    void onReadError(ErrorCode error);
     void read();
     void onRead(ErrorCode error);
     void write();
@@ -52,7 +54,8 @@ class WsConnection final : public SessionViewer,
     void armWriteDeadline(size_t bytes);
     void linger();
     void closeSocket();
-    void abandon(const std::string& why);
+    // `code` is the close code that both sides know of, or what stands for it.
+    void abandon(const std::string& why, uint16_t code = kNoCloseCode);
 
     Stream stream_;
     const std::shared_ptr<const Site> site_;

@@ -268,6 +268,13 @@ v1::ServerMessage makeStateChanged(const SessionContext& context, const SessionS
     return message;
 }
 
+std::string nameOf(RejectCode code) {
+    std::string name = v1::ErrorCode_Name(protoCode(code)).substr(sizeof "ERROR_CODE_" - 1);
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char letter) { return static_cast<char>(std::tolower(letter)); });
+    return name;
+}
+
 v1::ServerMessage makeError(const Rejection& rejection) {
     v1::ServerMessage message;
     v1::Error& error = *message.mutable_error();

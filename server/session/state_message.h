@@ -29,6 +29,9 @@ void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const W
 // Answers the command of `state.applied`.
 [[nodiscard]] v1::ServerMessage makeStateChanged(const SessionContext& context,
                                                  const SessionState& state);
+// The protocol's name of it in small letters: "out_of_range".
+[[nodiscard]] std::string nameOf(RejectCode code);
+
 [[nodiscard]] v1::ServerMessage makeError(const Rejection& rejection);
 [[nodiscard]] v1::ServerMessage makePong(const CommandStamp& ping);
 [[nodiscard]] v1::ServerMessage makeDraining(std::chrono::milliseconds deadline);

@@ -1,6 +1,7 @@
 #include "stream/frame_pipeline.h"
 
 #include "core/assert.h"
+#include "core/text.h"
 #include "encode/video_encoder.h"
 
 #include <spdlog/spdlog.h>
@@ -11,9 +12,12 @@
 namespace froxel::stream {
 
 FramePipeline::FramePipeline(encode::EncodePool& pool,
+                             session::SessionId session,
                              std::weak_ptr<session::FrameSink> sink,
+                             std::shared_ptr<FrameFates> fates,
                              std::function<void()> on_progress)
-    : pool_(pool), sink_(std::move(sink)), on_progress_(std::move(on_progress)) {}
+    : pool_(pool), session_(session), sink_(std::move(sink)), fates_(std::move(fates)),
+      on_progress_(std::move(on_progress)) {}
 
 uint32_t FramePipeline::size() const {
     const std::lock_guard lock(mutex_);
@@ -74,7 +78,8 @@ std::optional<encode::VideoJob> FramePipeline::videoJob(const DrawnFrame& frame)
 void FramePipeline::onEncoded(Result<EncodedFrame> result) {
     if (!result) {
         const Error& error = result.error();
-        spdlog::error("frame={} not encoded: {}", encoding_->record.frame_id, error.message);
+        spdlog::error("event=frame_not_encoded session={} frame={} reason={}", session_,
+                      encoding_->record.frame_id, logValue(error.message));
         // A full or closing encoder may take it the next time; anything else would fail again.
         finish({1, error.code == ErrorCode::kCapacity});
         return;
@@ -89,6 +94,7 @@ void FramePipeline::onEncoded(Result<EncodedFrame> result) {
         key_requests_ = encoding_->key_requests;
     }
     const Seconds cost = std::max(encoding_->cost, Seconds(Microseconds(result->encode_us)));
+    ++fates_->encoded;
     if (const auto sink = sink_.lock()) {
         sink->deliver({std::move(record), std::move(result->bytes), cost, Clock::now()});
     }
@@ -96,6 +102,7 @@ void FramePipeline::onEncoded(Result<EncodedFrame> result) {
 }
 
 void FramePipeline::finish(Losses losses) {
+    fates_->not_encoded += losses.count;
     bool more = false;
     {
         const std::lock_guard lock(mutex_);

@@ -5,6 +5,7 @@
 // what is lost is lost before it, so that no frame refers to one that never left.
 #pragma once
 
+#include "core/frame_fates.h"
 #include "core/pixel_view.h"
 #include "encode/encode_pool.h"
 #include "session/stream_port.h"
@@ -31,8 +32,11 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     static constexpr uint32_t kCapacity = 2;
 
     // `on_progress` runs on an encoder thread whenever a picture has left; must not throw.
+    // `session` is for the log; `fates` counts.
     FramePipeline(encode::EncodePool& pool,
+                  session::SessionId session,
                   std::weak_ptr<session::FrameSink> sink,
+                  std::shared_ptr<FrameFates> fates,
                   std::function<void()> on_progress);
 
     // At most kCapacity at a time. Render thread.
@@ -53,7 +57,9 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     void finish(Losses losses);
 
     encode::EncodePool& pool_;
+    const session::SessionId session_;
     const std::weak_ptr<session::FrameSink> sink_;
+    const std::shared_ptr<FrameFates> fates_;
     const std::function<void()> on_progress_;
 
     mutable std::mutex mutex_;

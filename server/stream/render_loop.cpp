@@ -1,5 +1,7 @@
 #include "stream/render_loop.h"
 
+#include "core/text.h"
+
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -107,7 +109,7 @@ void RenderLoop::takeNews() {
         auto& entry = viewers_[news.id];
         if (!entry) {
             auto pipeline = std::make_shared<FramePipeline>(
-                pool_, news.sink, [mailbox = mailbox_] { mailbox->wake(); });
+                pool_, news.id, news.sink, options_.fates, [mailbox = mailbox_] { mailbox->wake(); });
             entry = std::make_unique<Viewer>(news.sink, std::move(pipeline), *news.state);
             scheduler_.add(news.id);
         }
@@ -153,7 +155,7 @@ bool RenderLoop::startNext() {
         if (code != ErrorCode::kCapacity && code != ErrorCode::kUnsupported) {
             throw StartupError(started.error());
         }
-        refuse(viewer, started.error());
+        refuse(*id, viewer, started.error());
         return true;
     }
     scheduler_.onStarted(*id, now);
@@ -184,9 +186,10 @@ Result<void> RenderLoop::submit(Viewer& viewer, TimePoint now) {
     return viewer.source->submit(viewer.state.settings, viewer.state.light_clock.secondsAt(now));
 }
 
-void RenderLoop::refuse(Viewer& viewer, const Error& error) {
-    spdlog::warn("a picture of {}x{} was refused: {}", viewer.state.settings.size.width_px,
-                 viewer.state.settings.size.height_px, error.message);
+void RenderLoop::refuse(SessionId id, Viewer& viewer, const Error& error) {
+    const view::Size& size = viewer.state.settings.size;
+    spdlog::warn("event=picture_refused session={} size={}x{} reason={}", id, size.width_px,
+                 size.height_px, logValue(error.message));
     viewer.blocked = true;
     if (const auto sink = viewer.sink.lock()) {
         sink->refuse(error, viewer.state, viewer.drawn);
@@ -209,7 +212,9 @@ void RenderLoop::finishOldest() {
     last_finish_ = now;
     scheduler_.onFinished(frame.id, cost);
     viewer.drawn = frame.state;
+    ++options_.fates->rendered;
     if (viewer.leaving) {
+        ++options_.fates->viewer_gone;
         return;
     }
     session::FrameRecord& record = frame.record;
@@ -234,7 +239,7 @@ void RenderLoop::giveUp(Viewer& viewer, const Submitted& frame, const Error& err
     if (frame.state.version != viewer.state.version) {
         viewer.changed = true; // the viewer has asked for something else, which may fit
     } else if (!viewer.blocked) {
-        refuse(viewer, error);
+        refuse(frame.id, viewer, error);
     }
 }
 
@@ -258,7 +263,7 @@ void RenderLoop::drain() {
         --viewer.on_device;
         submitted_.pop_front();
         if (const auto collected = viewer.source->collect(); !collected && !failed_) {
-            spdlog::error("a frame under way was lost: {}", collected.error().message);
+            spdlog::error("event=frame_lost reason={}", logValue(collected.error().message));
         }
     }
     const std::stop_token never;

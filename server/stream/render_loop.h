@@ -26,6 +26,7 @@ namespace froxel::stream {
 struct RenderLoopOptions {
     uint32_t sessions_max = 16;
     Seconds min_frame_interval{1.0 / 60};
+    std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
     // Makes device and scene; runs on the render thread, which then owns them. May take long and
     // may throw.
     std::function<std::unique_ptr<FrameSource>()> make_source;
@@ -71,7 +72,7 @@ class RenderLoop final : public session::StreamPort {
     void finishOldest();
     // A submitted frame turned out not to fit the device. Throws where the device was lost.
     void giveUp(Viewer& viewer, const Submitted& frame, const Error& error);
-    static void refuse(Viewer& viewer, const Error& error);
+    static void refuse(session::SessionId id, Viewer& viewer, const Error& error);
     void fail(const Error& error);
     void drain();
 

@@ -21,6 +21,7 @@ class ChildProcess {
     // Of its standard output, without the line's end; blocks. Empty at the output's end.
     [[nodiscard]] std::string readLine();
     void signal(int number) const;
+    [[nodiscard]] pid_t pid() const { return pid_; }
 
     struct End {
         std::optional<int> exit_code; // none: ended by `signal`

@@ -40,5 +40,19 @@ TEST(Printable, LongText_IsCutAndSaysSo) {
     EXPECT_EQ(printable("123456", 5), "12345...");
 }
 
+TEST(LogValue, PlainWord_StaysAsItIs) {
+    EXPECT_EQ(logValue("127.0.0.1:80"), "127.0.0.1:80");
+}
+
+TEST(LogValue, WhatWouldEndAValue_IsQuotedOrEscaped) {
+    EXPECT_EQ(logValue(""), R"("")");
+    EXPECT_EQ(logValue("two words"), R"("two words")");
+    EXPECT_EQ(logValue("a=b"), R"("a=b")");
+    EXPECT_EQ(logValue(R"(say "hi")"), R"("say \"hi\"")");
+    EXPECT_EQ(logValue(R"(x" code=1 y="\)"), R"("x\" code=1 y=\"\\")");
+    EXPECT_EQ(logValue("a\nevent=forged"), R"("a\\x0aevent=forged")");
+    EXPECT_EQ(logValue("123456", 5), "12345...");
+}
+
 } // namespace
 } // namespace froxel

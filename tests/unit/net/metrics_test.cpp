@@ -46,8 +46,52 @@ TEST(Metrics, FrameSent_FillsHistogramsAndGauges) {
     EXPECT_THAT(text, HasSubstr("_bucket{stage=\"render\",le=\"0.033\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("\nfroxel_light_list_p95_entries 33\n"));
     EXPECT_THAT(text, HasSubstr("\nfroxel_frames_sent_total 1\n"));
-    EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total 1\n"));
+    EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total{reason=\"replaced\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("\nfroxel_sent_bytes_total 1000\n"));
+}
+
+TEST(Metrics, Fates_AreReadWhenScraped) {
+    Metrics metrics;
+    const auto fates = std::make_shared<FrameFates>();
+    metrics.watch(fates);
+    fates->rendered = 5;
+    fates->encoded = 3;
+    fates->viewer_gone = 1;
+    const std::string text = metrics.text();
+    EXPECT_THAT(text, HasSubstr("# TYPE froxel_frames_rendered_total counter\n"
+                                "froxel_frames_rendered_total 5\n"));
+    EXPECT_THAT(text, HasSubstr("\nfroxel_frames_encoded_total 3\n"));
+    EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total{reason=\"viewer_gone\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total{reason=\"not_encoded\"} 0\n"));
+}
+
+// Whatever viewers send, rows are bounded.
+TEST(Metrics, EveryCloseCode_RowsAreBounded) {
+    Metrics metrics;
+    for (uint32_t code = 0; code <= 65535; ++code) {
+        metrics.socketClosed(static_cast<uint16_t>(code));
+    }
+    const std::string text = metrics.text();
+    EXPECT_THAT(text, HasSubstr("froxel_websocket_closes_total{code=\"1009\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("froxel_websocket_closes_total{code=\"other\"} "));
+    EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 400);
+}
+
+TEST(Metrics, Rejects_AreCountedByReason) {
+    Metrics metrics;
+    metrics.commandRejected(session::RejectCode::kOutOfRange);
+    metrics.commandRejected(session::RejectCode::kOutOfRange);
+    EXPECT_THAT(metrics.text(),
+                HasSubstr("froxel_command_rejects_total{reason=\"out_of_range\"} 2\n"));
+}
+
+TEST(Metrics, BuildAndProcess_AreThere) {
+    const std::string text = Metrics("1.2.3").text();
+    EXPECT_THAT(text, HasSubstr("version=\"1.2.3\"} 1\n"));
+    for (const char* name : {"process_resident_memory_bytes", "process_open_fds", "process_max_fds",
+                             "process_threads", "process_cpu_seconds_total"}) {
+        EXPECT_THAT(text, HasSubstr(std::string("\n") + name + " "));
+    }
 }
 
 TEST(Metrics, Pairs_OnlyOfFramesThatCountedThem) {

@@ -142,6 +142,11 @@ TEST(Error, EveryCode_HasItsOwn) {
     }
 }
 
+TEST(NameOf, Code_IsTheProtocolsWithoutItsPrefix) {
+    EXPECT_EQ(nameOf(RejectCode::kOutOfRange), "out_of_range");
+    EXPECT_EQ(nameOf(RejectCode::kRateLimit), "rate_limit");
+}
+
 TEST(PongAndDraining, CarryTheirNumbers) {
     EXPECT_EQ(makePong({7, 8}).pong().ref_seq(), 7U);
     EXPECT_EQ(makePong({7, 8}).pong().client_time_us(), 8U);

@@ -56,7 +56,7 @@ class FramePipelineTest : public testing::Test {
         }
     }
     std::shared_ptr<FramePipeline> makePipeline(encode::EncodePool& pool) {
-        return std::make_shared<FramePipeline>(pool, sink_, [this] {
+        return std::make_shared<FramePipeline>(pool, 7, sink_, fates_, [this] {
             ++progress_;
             progress_.notify_all();
         });
@@ -65,6 +65,7 @@ class FramePipelineTest : public testing::Test {
     std::array<std::byte, size_t{4} * kSide * kSide> pixels_{};
     std::atomic<int> ended_leases_ = 0;
     std::atomic<int> progress_ = 0;
+    std::shared_ptr<FrameFates> fates_ = std::make_shared<FrameFates>();
     std::shared_ptr<test::RecordingSink> sink_ = std::make_shared<test::RecordingSink>();
 };
 
@@ -78,6 +79,8 @@ TEST_F(FramePipelineTest, Push_TwoFrames_ArriveInOrderAndEndTheirLeases) {
     EXPECT_EQ(frames[0].record.frame_id, 1U);
     EXPECT_EQ(frames[1].record.frame_id, 2U);
     EXPECT_EQ(frames[0].record.encoded_bytes, frames[0].bytes->size());
+    EXPECT_EQ(fates_->encoded, 2U);
+    EXPECT_EQ(fates_->not_encoded, 0U);
     EXPECT_EQ(ended_leases_, 2);
 }
 
