@@ -1,6 +1,8 @@
 // What a viewer sees and does with the page as it opens.
 
-import { readFileSync } from 'node:fs';
+import { execFile } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { promisify } from 'node:util';
 
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
@@ -165,6 +167,29 @@ it('ScreenshotButton_SavesThePictureAsPng', async () => {
   const png = readFileSync(await download.path());
   expect(png.subarray(1, 4).toString()).toBe('PNG');
   expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([320, 180]);
+});
+
+it('RecordButton_SavesAScriptThatTheLoadToolPlays', async () => {
+  const viewer = await open();
+  const record = viewer.page.locator('#tool-record');
+  await record.click();
+  expect(await record.getAttribute('aria-pressed')).toBe('true');
+  await viewer.type('exposure', 4);
+  await viewer.stateWith('exposure 4', ({ exposure }) => exposure === 4);
+  const [download] = await Promise.all([viewer.page.waitForEvent('download'), record.click()]);
+  expect(await record.getAttribute('aria-pressed')).toBe('false');
+  expect(download.suggestedFilename()).toMatch(/^froxel-.*\.jsonl$/);
+  const path = await download.path();
+  const script = readFileSync(path, 'utf8');
+  const lines = script.trimEnd().split('\n').map((line) => JSON.parse(line) as object);
+  expect(lines[0]).toMatchObject({ at_ms: 0, setSize: { width: 320, height: 180 } });
+  expect(lines.at(-1)).toMatchObject({ setExposure: { exposure: 4 } });
+  const file = `${path}.jsonl`; // the tool tells scripts by their ending
+  writeFileSync(file, script);
+  const played = promisify(execFile)(process.env.FROXEL_BINARY ?? '', [
+    'load', server.url, '--viewers', '1', '--seconds', '2', '--script', file,
+  ]);
+  expect((await played).stderr).not.toContain('refused');
 });
 
 it('HiddenPage_PausesTheServerUntilItIsSeenAgain', async () => {

@@ -7,8 +7,9 @@ import { RendererSchema } from './gen/froxel/v1/common_pb';
 import type { InputTarget, View } from './input';
 import type { PanelActions } from './panel';
 import { download, type Picture } from './picture';
+import type { Recorder } from './recorder';
 import { choicesOf } from './schema_names';
-import type { Settings } from './settings';
+import { cameraCommand, settingCommands, type Settings } from './settings';
 import { isUint32, type SizeMode } from './url_state';
 import type { Store } from './store';
 import { length, sub } from './vec3';
@@ -21,6 +22,7 @@ export class Commands implements PanelActions, InputTarget {
     private readonly store: Store,
     private readonly connection: Connection,
     private readonly picture: Picture,
+    private readonly recorder: Recorder,
   ) {}
 
   edit(patch: Partial<Settings>): void {
@@ -83,8 +85,25 @@ export class Commands implements PanelActions, InputTarget {
       this.refuse('There is no picture to save yet.');
       return;
     }
-    const stamp = new Date().toISOString().slice(0, 19).replaceAll(':', '-');
-    download(png, `froxel-${stamp}.png`);
+    download(png, fileName('png'));
+  }
+
+  /** Starts a recording, or ends it and hands over its file. Whether one is under way now. */
+  toggleRecording(): boolean {
+    if (this.recorder.recording) {
+      if (this.recorder.full) this.refuse(`The recording ended after ${this.recorder.maxLines} commands.`);
+      const script = new Blob([this.recorder.stop()], { type: 'application/jsonl' });
+      download(script, fileName('jsonl'));
+      return false;
+    }
+    const { server, settings } = this.store.state;
+    if (!server || !settings) {
+      this.refuse('There is no session to record yet.');
+      return false;
+    }
+    const camera = cameraCommand(server.initial, settings);
+    this.recorder.start([...settingCommands(server.initial, settings), ...(camera ? [camera] : [])]);
+    return true;
   }
 
   view(): View | null {
@@ -107,4 +126,9 @@ export class Commands implements PanelActions, InputTarget {
   private refuse(text: string): void {
     this.store.dispatch({ type: 'notice', tone: 'error', text });
   }
+}
+
+function fileName(extension: string): string {
+  const stamp = new Date().toISOString().slice(0, 19).replaceAll(':', '-');
+  return `froxel-${stamp}.${extension}`;
 }

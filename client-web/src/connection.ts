@@ -19,6 +19,8 @@ export interface ConnectionEvents {
   link(link: Link): void;
   message(message: ServerMessage): void;
   frame(frame: Frame, bytes: number): void;
+  /** A command that has left, whatever it was. */
+  sent?(body: ClientBody): void;
   /** Something from the server could not be read; the connection goes on. */
   problem(text: string): void;
 }
@@ -92,6 +94,7 @@ export class Connection {
     if (this.socket?.readyState !== kOpen) return null;
     this.seq += 1n;
     this.socket.send(encodeCommand(this.seq, this.env.nowMs(), body));
+    this.events.sent?.(body);
     return this.seq;
   }
 

@@ -11,6 +11,7 @@ import { Overlay } from './overlay';
 import { Panel } from './panel';
 import { Picture } from './picture';
 import { Presenter } from './presenter';
+import { Recorder } from './recorder';
 import { SettingsSync } from './settings_sync';
 import { isForControl, runShortcut } from './shortcuts';
 import { Stats } from './stats';
@@ -32,6 +33,7 @@ const stats = new Stats();
 const picture = new Picture(canvas);
 const codecs = (await decodesVp9()) ? [Codec.JPEG, Codec.VP9] : [Codec.JPEG];
 const videoFallback = new VideoFallback();
+const recorder = new Recorder(nowMs);
 const worker = new Worker(new URL('./decode_worker.ts', import.meta.url), { type: 'module' });
 
 const presenter = new Presenter({
@@ -64,6 +66,7 @@ const connection = new Connection(
       stats.received(bytes, nowMs());
       presenter.offer(frame);
     },
+    sent: (body) => recorder.sent(body),
     problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
   },
   {
@@ -78,7 +81,7 @@ const connection = new Connection(
   },
 );
 
-const commands = new Commands(store, connection, picture);
+const commands = new Commands(store, connection, picture, recorder);
 const overlay = new Overlay(stats, () => presenter.droppedCount, !narrow);
 const panel = new Panel(element('panel', HTMLElement), commands, narrow, codecs);
 const banner = new Banner({
@@ -124,6 +127,10 @@ function lostSync({ message, broken }: LostSync): void {
 const shortcuts = {
   screenshot: () => void commands.screenshot(),
   copyLink: () => void links.copy(),
+  record: () => {
+    const recording = commands.toggleRecording();
+    element('tool-record', HTMLButtonElement).setAttribute('aria-pressed', String(recording));
+  },
   toggleStats: () => overlay.toggle(),
   togglePanel: () => panel.toggle(),
   toggleHelp: () => (help.open ? help.close() : help.showModal()),
@@ -135,6 +142,7 @@ const shortcuts = {
 const tools: readonly (readonly [string, () => void])[] = [
   ['tool-screenshot', shortcuts.screenshot],
   ['tool-link', shortcuts.copyLink],
+  ['tool-record', shortcuts.record],
   ['tool-help', shortcuts.toggleHelp],
   ['tool-fullscreen', () => void toggleFullscreen()],
 ];

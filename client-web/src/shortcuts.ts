@@ -3,6 +3,7 @@
 export interface ShortcutActions {
   screenshot(): void;
   copyLink(): void;
+  record(): void;
   toggleStats(): void;
   togglePanel(): void;
   toggleHelp(): void;
@@ -23,6 +24,9 @@ export function runShortcut(key: string, actions: ShortcutActions): boolean {
       return true;
     case 'l':
       actions.copyLink();
+      return true;
+    case 'x':
+      actions.record();
       return true;
     case 'f':
       actions.toggleStats();

@@ -160,6 +160,7 @@ describe('shortcuts', () => {
   const actions = {
     screenshot: vi.fn(),
     copyLink: vi.fn(),
+    record: vi.fn(),
     toggleStats: vi.fn(),
     togglePanel: vi.fn(),
     toggleHelp: vi.fn(),
@@ -169,7 +170,7 @@ describe('shortcuts', () => {
   } satisfies ShortcutActions;
 
   it('Keys_RunTheirActions', () => {
-    for (const letter of ['p', 'L', 'f', 'c', 'h', 'r', ' ']) {
+    for (const letter of ['p', 'L', 'x', 'f', 'c', 'h', 'r', ' ']) {
       expect(runShortcut(letter, actions)).toBe(true);
     }
     for (const action of Object.values(actions)) {
