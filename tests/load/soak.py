@@ -1,0 +1,203 @@
+"""Viewers join and leave a server for half an hour; says whether it holds on to anything.
+
+Usage: soak.py FROXEL [--minutes 30] [--joins-per-minute 50] [--seed 1] [-- OPTIONS OF froxel serve]
+
+Starts `FROXEL serve` and, again and again, `FROXEL load` with one viewer for some seconds, by the
+scripts orbit, idle and storm in turn. Reads the server's /metrics every two seconds. The first fifth
+of the time (at least 60 s where that is less than half) is warm-up. Passes if after it
+
+  - resident memory rises by less than 8 MB from the first to the last third of the samples, by
+    their medians (a rise of 1 MB in an hour is below what half an hour can tell from noise);
+  - descriptors and sessions are back where they were before the first viewer, once all have left;
+  - device memory after a last viewer is what it was after the first ones, within 1 %;
+  - the server answered every scrape within 5 s, every viewer ended as it should, and the server ends
+    with exit code 0.
+
+Prints a line every half minute and the verdict last. Exit code 0: passed; 1: failed; 2: usage.
+"""
+
+import argparse
+import random
+import re
+import statistics
+import subprocess
+import sys
+import time
+import urllib.request
+
+SCRIPTS = ("orbit", "idle", "storm")
+MEMORY_RISE_BYTES = 8e6
+SAMPLE_EVERY_S = 2.0
+
+
+class Server:
+    def __init__(self, froxel, options):
+        command = [froxel, "serve", "--port", "0", "--admin-bind", "127.0.0.1:0"]
+        command += ["--log-level", "error", *options]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        self.url = self.process.stdout.readline().strip()
+        self.metrics_url = self.process.stdout.readline().strip()
+        if not self.metrics_url:
+            sys.exit("the server did not start")
+
+    def sample(self):
+        start = time.monotonic()
+        with urllib.request.urlopen(self.metrics_url, timeout=5) as answer:
+            text = answer.read().decode()
+        values = {}
+        for name, value in re.findall(r"^([a-z_]+)(?:\{[^}]*\})? (\S+)$", text, re.MULTILINE):
+            values[name] = values.get(name, 0) + float(value)
+        values["at_s"] = start
+        values["scrape_s"] = time.monotonic() - start
+        return values
+
+    def settle(self):
+        """Waits until no viewer is left; None when that never happens."""
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            values = self.sample()
+            if values["froxel_sessions"] == 0:
+                return values
+            time.sleep(1)
+        return None
+
+
+class Viewers:
+    def __init__(self, froxel, url, seed):
+        self.froxel, self.url = froxel, url
+        self.random = random.Random(seed)
+        self.running, self.started, self.failures = [], 0, []
+
+    def start(self):
+        script = SCRIPTS[self.started % len(SCRIPTS)]
+        seconds = self.random.choice((2, 4, 6, 8))
+        self.run(script, seconds)
+
+    def run(self, script, seconds):
+        command = [self.froxel, "load", self.url, "--viewers", "1", "--script", script]
+        command += ["--seconds", str(seconds)]
+        self.started += 1
+        self.running.append(
+            subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        )
+
+    def reap(self, wait=False):
+        for process in list(self.running):
+            if wait:
+                process.wait(60)
+            if process.poll() is not None:
+                self.running.remove(process)
+                said = process.stdout.read()
+                process.stdout.close()
+                if process.returncode != 0:
+                    self.failures.append(said.strip().splitlines()[-1:] or [str(process.returncode)])
+
+
+def thirds(samples, name):
+    """Medians of a value's first and last third."""
+    count = max(1, len(samples) // 3)
+    return (
+        statistics.median(sample[name] for sample in samples[:count]),
+        statistics.median(sample[name] for sample in samples[-count:]),
+    )
+
+
+def soak(server, viewers, minutes, joins_per_minute):
+    """Samples after the warm-up."""
+    begin = time.monotonic()
+    end = begin + minutes * 60
+    warm = begin + max(minutes * 60 / 5, min(60, minutes * 30))
+    next_join, next_sample, next_line = begin, begin, begin + 30
+    samples = []
+    while (now := time.monotonic()) < end:
+        if now >= next_join:
+            viewers.start()
+            next_join += 60 / joins_per_minute
+        if now >= next_sample:
+            sample = server.sample()
+            next_sample = now + SAMPLE_EVERY_S
+            if now >= warm:
+                samples.append(sample)
+            if now >= next_line:
+                next_line += 30
+                print(
+                    f"{now - begin:.0f} s: {viewers.started} joined, "
+                    f"{sample['froxel_sessions']:.0f} there, "
+                    f"{sample['process_resident_memory_bytes'] / 1e6:.1f} MB, "
+                    f"{sample['process_open_fds']:.0f} descriptors, "
+                    f"{sample.get('froxel_device_memory_bytes', 0) / 1e6:.1f} MB on the device",
+                    flush=True,
+                )
+        viewers.reap()
+        time.sleep(0.05)
+    viewers.reap(wait=True)
+    return samples
+
+
+def judge(samples, before, after, device, viewers):
+    """Lines that say what broke the rule."""
+    first, last = thirds(samples, "process_resident_memory_bytes")
+    hours = (samples[-1]["at_s"] - samples[0]["at_s"]) / 3600
+    print(f"resident memory: {first / 1e6:.1f} to {last / 1e6:.1f} MB in {hours * 60:.1f} min")
+    print(f"descriptors: {before['process_open_fds']:.0f} before, {after['process_open_fds']:.0f} after")
+    print(f"device memory: {device[0] / 1e6:.2f} MB at first, {device[1] / 1e6:.2f} MB at last")
+    scrapes = sorted(sample["scrape_s"] for sample in samples)
+    print(
+        f"scrapes: {len(scrapes)}, median {scrapes[len(scrapes) // 2] * 1000:.1f} ms, "
+        f"longest {scrapes[-1] * 1000:.1f} ms"
+    )
+    broken = []
+    if last - first >= MEMORY_RISE_BYTES:
+        broken.append(f"resident memory rose by {(last - first) / 1e6:.1f} MB")
+    if after["process_open_fds"] > before["process_open_fds"]:
+        broken.append("descriptors were left open")
+    if abs(device[1] - device[0]) > 0.01 * device[0]:
+        broken.append("device memory is not what it was")
+    if viewers.failures:
+        broken.append(f"{len(viewers.failures)} viewers failed, the first: {viewers.failures[0]}")
+    return broken
+
+
+def main():
+    arguments, serve_options = sys.argv[1:], []
+    if "--" in arguments:
+        at = arguments.index("--")
+        arguments, serve_options = arguments[:at], arguments[at + 1 :]
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("froxel")
+    parser.add_argument("--minutes", type=float, default=30)
+    parser.add_argument("--joins-per-minute", type=float, default=50)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args(arguments)
+    if not (0.2 <= options.minutes <= 1440 and 1 <= options.joins_per_minute <= 600):
+        parser.error("--minutes must be 0.2 to 1440, --joins-per-minute 1 to 600")
+
+    server = Server(options.froxel, ["--max-sessions", "32", *serve_options])
+    viewers = Viewers(options.froxel, server.url, options.seed)
+    try:
+        # One viewer of each kind first, so that what is opened or made once is there.
+        for script in SCRIPTS:
+            viewers.run(script, 2)
+            viewers.reap(wait=True)
+        before = server.settle()
+        samples = soak(server, viewers, options.minutes, options.joins_per_minute)
+        for script in SCRIPTS:
+            viewers.run(script, 2)
+            viewers.reap(wait=True)
+        after = server.settle()
+    finally:
+        server.process.terminate()
+        code = server.process.wait(60)
+    if before is None or after is None or not samples:
+        print("failed: sessions stay though all viewers left")
+        return 1
+    device = [values["froxel_device_memory_bytes"] for values in (before, after)]
+    broken = judge(samples, before, after, device, viewers)
+    if code != 0:
+        broken.append(f"the server ended with {code}")
+    print(f"{viewers.started} viewers")
+    print("passed" if not broken else "failed: " + "; ".join(broken))
+    return 1 if broken else 0
+
+
+sys.exit(main())
