@@ -127,6 +127,14 @@ TEST_F(Load, Script_FromAFile_IsPlayed) {
     EXPECT_NEAR(report["all"]["interval_ms"]["max"], 300, 150);
 }
 
+// client-web/test/recorder.test.ts holds the page to this very file.
+TEST_F(Load, Script_RecordedByThePage_IsPlayedWhole) {
+    const TestServer server({.still = true});
+    const Json report = measure(server.port(), {"--script", FROXEL_RECORDING, "--seconds", "2"});
+    EXPECT_EQ(report["all"]["commands"], 12);
+    EXPECT_EQ(report["all"]["refusals"], 0) << report["all"]["refusal"];
+}
+
 TEST_F(Load, Script_Bad_IsRefusedBeforeConnecting) {
     const std::string file = write("{\"ping\": {}}\n{\"setSise\": {}}\n");
     const auto end = load(1, {"--script", file});

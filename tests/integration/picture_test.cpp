@@ -1,0 +1,103 @@
+// What is streamed is what `froxel render` draws: the same picture, the right way up, within what
+// the JPEG's quality allows.
+#include "integration/server_process.h"
+#include "integration/ws_client.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <turbojpeg.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <unistd.h>
+
+namespace froxel::test {
+namespace {
+
+constexpr uint32_t kWidth = 320;
+constexpr uint32_t kHeight = 180;
+const std::vector<std::string> kSettings = {
+    "--size", "320x180", "--lights", "100", "--light-radius", "3", "--renderer", "forward_plus"};
+
+using Rgb = std::vector<unsigned char>; // [height][width][3]
+
+Rgb decodeJpeg(const Frame& frame) {
+    const std::unique_ptr<void, int (*)(void*)> decoder(tjInitDecompress(), &tjDestroy);
+    Rgb rgb(size_t{kWidth} * kHeight * 3);
+    const int failed =
+        tjDecompress2(decoder.get(), reinterpret_cast<const unsigned char*>(frame.jpeg.data()),
+                      frame.jpeg.size(), rgb.data(), kWidth, 0, kHeight, TJPF_RGB, 0);
+    EXPECT_EQ(failed, 0) << tjGetErrorStr2(decoder.get());
+    return rgb;
+}
+
+Rgb rendered() {
+    const auto file = std::filesystem::path(testing::TempDir()) /
+                      ("froxel_picture_" + std::to_string(getpid()) + ".png");
+    std::vector<std::string> command = {FROXEL_BINARY,  "render", "--device",
+                                        "cpu",          "--time", "1",
+                                        "--no-animate", "--out",  file.string()};
+    command.insert(command.end(), kSettings.begin(), kSettings.end());
+    const auto end = ChildProcess(command).wait();
+    EXPECT_EQ(end.exit_code, 0) << end.errors;
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_file(&image, file.c_str())) << image.message;
+    image.format = PNG_FORMAT_RGB;
+    Rgb rgb(PNG_IMAGE_SIZE(image));
+    EXPECT_TRUE(png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr)) << image.message;
+    std::filesystem::remove(file);
+    return rgb;
+}
+
+Rgb upsideDown(const Rgb& rgb) {
+    Rgb flipped;
+    for (size_t row = kHeight; row-- > 0;) {
+        const auto line = rgb.begin() + static_cast<ptrdiff_t>(row * kWidth * 3);
+        flipped.insert(flipped.end(), line, line + kWidth * 3);
+    }
+    return flipped;
+}
+
+// Peak signal to noise in dB.
+double psnr(const Rgb& a, const Rgb& b) {
+    double squares = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        squares += (a[i] - b[i]) * (a[i] - b[i]);
+    }
+    return 10 * std::log10(255.0 * 255.0 * static_cast<double>(a.size()) / squares);
+}
+
+TEST(StreamedPicture, AnyQuality_IsTheRenderedOne) {
+    ServerProcess server(kSettings);
+    WsClient client(server.port().value());
+    client.join();
+    v1::ClientMessage still;
+    still.mutable_set_lights()->set_animate(false);
+    still.mutable_set_lights()->set_time_s(1);
+    client.send(still);
+    const Rgb wanted = rendered();
+    ASSERT_EQ(wanted.size(), size_t{kWidth} * kHeight * 3);
+    struct Step {
+        uint32_t quality;
+        v1::Chroma chroma;
+        double least_db;
+    };
+    for (const Step& step : {Step{95, v1::CHROMA_444, 38}, Step{75, v1::CHROMA_420, 30},
+                             Step{30, v1::CHROMA_420, 26}}) {
+        v1::ClientMessage encoding;
+        encoding.mutable_set_encoding()->set_quality(step.quality);
+        encoding.mutable_set_encoding()->set_chroma(step.chroma);
+        const uint64_t seq = client.send(encoding);
+        const Rgb shown = decodeJpeg(
+            client.expectFrame([&](const auto& header) { return header.applied_seq() >= seq; }));
+        const double db = psnr(shown, wanted);
+        EXPECT_GT(db, step.least_db) << "quality " << step.quality;
+        EXPECT_LT(psnr(upsideDown(shown), wanted), 20) << "the test tells pictures apart";
+        RecordProperty("psnr_db_" + std::to_string(step.quality), std::to_string(db));
+    }
+}
+
+} // namespace
+} // namespace froxel::test
