@@ -60,9 +60,8 @@ OpenedScene openScene(const ServeOptions& options,
     session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
                                     FROXEL_VERSION, traits.name};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
-                 logValue(context.scene.name),
-                 context.scene.triangle_count, context.scene.draw_count,
-                 context.scene.cameras.size());
+                 logValue(context.scene.name), context.scene.triangle_count,
+                 context.scene.draw_count, context.scene.cameras.size());
 
     report({"moving the scene to the device", 0.6});
     auto source = stream::makeRendererSource(std::move(device), scene);

@@ -108,8 +108,9 @@ void RenderLoop::takeNews() {
     for (ViewerNews& news : mailbox_->take()) {
         auto& entry = viewers_[news.id];
         if (!entry) {
-            auto pipeline = std::make_shared<FramePipeline>(
-                pool_, news.id, news.sink, options_.fates, [mailbox = mailbox_] { mailbox->wake(); });
+            auto pipeline =
+                std::make_shared<FramePipeline>(pool_, news.id, news.sink, options_.fates,
+                                                [mailbox = mailbox_] { mailbox->wake(); });
             entry = std::make_unique<Viewer>(news.sink, std::move(pipeline), *news.state);
             scheduler_.add(news.id);
         }
