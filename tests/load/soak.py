@@ -1,9 +1,10 @@
 """Viewers join and leave a server for half an hour; says whether it holds on to anything.
 
-Usage: soak.py FROXEL [--minutes 30] [--joins-per-minute 50] [--seed 1] [-- OPTIONS OF froxel serve]
+Usage: soak.py FROXEL [--minutes 30] [--joins-per-minute 50] [--scripts orbit,idle,storm] [--seed 1]
+       [-- OPTIONS OF froxel serve]
 
 Starts `FROXEL serve` and, again and again, `FROXEL load` with one viewer for some seconds, by the
-scripts orbit, idle and storm in turn. Reads the server's /metrics every two seconds. The first fifth
+scripts in turn. Reads the server's /metrics every two seconds. The first fifth
 of the time (at least 60 s where that is less than half) is warm-up. Passes if after it
 
   - resident memory rises by less than 8 MB from the first to the last third of the samples, by
@@ -63,13 +64,13 @@ class Server:
 
 
 class Viewers:
-    def __init__(self, froxel, url, seed):
-        self.froxel, self.url = froxel, url
+    def __init__(self, froxel, url, scripts, seed):
+        self.froxel, self.url, self.scripts = froxel, url, scripts
         self.random = random.Random(seed)
         self.running, self.started, self.failures = [], 0, []
 
     def start(self):
-        script = SCRIPTS[self.started % len(SCRIPTS)]
+        script = self.scripts[self.started % len(self.scripts)]
         seconds = self.random.choice((2, 4, 6, 8))
         self.run(script, seconds)
 
@@ -167,21 +168,25 @@ def main():
     parser.add_argument("froxel")
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--joins-per-minute", type=float, default=50)
+    parser.add_argument("--scripts", default=",".join(SCRIPTS))
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args(arguments)
     if not (0.2 <= options.minutes <= 1440 and 1 <= options.joins_per_minute <= 600):
         parser.error("--minutes must be 0.2 to 1440, --joins-per-minute 1 to 600")
+    scripts = options.scripts.split(",")
+    if not set(scripts) <= set(SCRIPTS):
+        parser.error(f"--scripts '{options.scripts}' must be a list of {', '.join(SCRIPTS)}")
 
     server = Server(options.froxel, ["--max-sessions", "32", *serve_options])
-    viewers = Viewers(options.froxel, server.url, options.seed)
+    viewers = Viewers(options.froxel, server.url, scripts, options.seed)
     try:
         # One viewer of each kind first, so that what is opened or made once is there.
-        for script in SCRIPTS:
+        for script in scripts:
             viewers.run(script, 2)
             viewers.reap(wait=True)
         before = server.settle()
         samples = soak(server, viewers, options.minutes, options.joins_per_minute)
-        for script in SCRIPTS:
+        for script in scripts:
             viewers.run(script, 2)
             viewers.reap(wait=True)
         after = server.settle()
