@@ -11,7 +11,7 @@ namespace froxel::protocol {
 // The WebSocket subprotocol that both sides name in the upgrade.
 inline constexpr std::string_view kSubprotocol = "froxel.v1";
 inline constexpr uint32_t kMajor = 1;
-inline constexpr uint32_t kMinor = 1;
+inline constexpr uint32_t kMinor = 2; // since 2: rooms, resuming, Pause
 
 inline constexpr size_t kMaxHelloBytes = 4 * 1024;         // first message of a connection
 inline constexpr size_t kMaxMessageBytes = 64 * 1024;      // any later message from a client

@@ -6,6 +6,7 @@
 // ago. A refusal takes the settings back to the confirmed ones.
 
 import type { FieldRange, FrameDetails, SceneInfo, ServerMessage } from './gen/froxel/v1/server_pb';
+import { mayControl, roomOf, type Room } from './room';
 import { cameraOf, settingsOf, type Bounds, type Settings } from './settings';
 import type { SizeMode } from './url_state';
 import { vec } from './vec3';
@@ -19,6 +20,7 @@ export type Link =
 
 export interface ServerInfo {
   readonly version: string;
+  readonly protocolMinor: number;
   readonly device: string;
   readonly scene: SceneInfo | null;
   readonly bounds: Bounds | null;
@@ -49,6 +51,7 @@ export interface AppState {
   readonly sizeMode: SizeMode | null; // null: until Welcome tells what the server can do
   readonly notice: Notice | null;
   readonly details: FrameDetails | null; // of the frames from now on
+  readonly room: Room | null; // null: a session of one's own
 }
 
 export type Action =
@@ -73,6 +76,7 @@ export const kInitialState: AppState = {
   sizeMode: null,
   notice: null,
   details: null,
+  room: null,
 };
 
 export function reduce(state: AppState, action: Action): AppState {
@@ -82,6 +86,7 @@ export function reduce(state: AppState, action: Action): AppState {
     case 'received':
       return received(state, action.message);
     case 'edit':
+      if (!mayControl(state.room)) return state; // it follows who controls
       return state.settings
         ? { ...state, settings: { ...state.settings, ...action.patch } }
         : { ...state, wanted: { ...state.wanted, ...action.patch } };
@@ -104,7 +109,14 @@ function linked(state: AppState, link: Link): AppState {
   return { ...state, ...forget, link };
 }
 
+function roomChanged(state: AppState, room: Room): AppState {
+  if (mayControl(room)) return { ...state, room };
+  // What was changed and not answered yet is no more than a wish now.
+  return { ...state, room, settings: state.confirmed, sent: state.confirmed };
+}
+
 function restored(state: AppState, wanted: Partial<Settings>, size: SizeMode | null): AppState {
+  if (!mayControl(state.room)) return { ...state, sizeMode: size ?? state.sizeMode };
   const settings = state.settings && { ...state.settings, ...wanted };
   return { ...state, wanted, settings, sizeMode: size ?? state.sizeMode };
 }
@@ -118,7 +130,9 @@ function received(state: AppState, message: ServerMessage): AppState {
       const answer = body.value;
       if (!answer.state) return state;
       const confirmed = settingsOf(answer.state, state.server?.bounds ?? null);
-      const stale = state.settings !== state.sent || answer.refSeq < state.sentSeq;
+      const stale =
+        mayControl(state.room) &&
+        (state.settings !== state.sent || answer.refSeq < state.sentSeq);
       return stale
         ? { ...state, confirmed }
         : { ...state, confirmed, settings: confirmed, sent: confirmed };
@@ -133,6 +147,8 @@ function received(state: AppState, message: ServerMessage): AppState {
       return { ...state, loading: { stage: body.value.stage, fraction: body.value.fraction } };
     case 'details':
       return { ...state, details: body.value };
+    case 'roomState':
+      return roomChanged(state, roomOf(body.value));
     case 'draining':
       return { ...state, notice: { text: 'The server is going down.', tone: 'info' } };
     default:
@@ -148,16 +164,19 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
   }
   const scene = welcome.scene ?? null;
   const bounds = boundsOf(scene);
-  const initial = settingsOf(welcome.state, bounds);
+  const present = settingsOf(welcome.state, bounds);
+  const initial = welcome.defaults ? settingsOf(welcome.defaults, bounds) : present;
+  const room = welcome.room ? roomOf(welcome.room) : null;
   const server: ServerInfo = {
     version: welcome.serverVersion,
+    protocolMinor: welcome.protocolMinor,
     device: welcome.device,
     scene,
     bounds,
     ranges: new Map(welcome.ranges.map((range) => [range.field, range])),
     initial,
   };
-  const settings = desired(state, server);
+  const settings = mayControl(room) ? desired(state, server, present) : present;
   return {
     ...state,
     link: { phase: 'live' },
@@ -166,20 +185,21 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
     notice: state.notice?.tone === 'info' ? null : state.notice,
     server,
     settings,
-    sent: initial,
+    room,
+    sent: present,
     sentSeq: 0n,
-    confirmed: initial,
+    confirmed: present,
     wanted: {},
   };
 }
 
 /** What to show after Welcome: as before the connection broke, or else as the link says. */
-function desired(state: AppState, server: ServerInfo): Settings {
+function desired(state: AppState, server: ServerInfo, present: Settings): Settings {
   const before = state.settings;
-  if (!before) return { ...server.initial, ...state.wanted };
+  if (!before) return { ...present, ...state.wanted };
   if (state.server?.scene?.name === server.scene?.name) return before;
   // Another scene: places of the old one mean nothing in it.
-  return { ...before, ...cameraOf(server.initial), lightBox: null };
+  return { ...before, ...cameraOf(present), lightBox: null };
 }
 
 function boundsOf(scene: SceneInfo | null): Bounds | null {

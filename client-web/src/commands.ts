@@ -6,6 +6,8 @@ import { patchFor, type Field } from './fields';
 import { RendererSchema } from './gen/froxel/v1/common_pb';
 import type { InputTarget, View } from './input';
 import type { PanelActions } from './panel';
+import { mayControl, roomText } from './room';
+import type { RoomActions } from './room_card';
 import { download, type Picture } from './picture';
 import type { Recorder } from './recorder';
 import { choicesOf } from './schema_names';
@@ -17,7 +19,7 @@ import { length, sub } from './vec3';
 /** Seconds that flying through a scene from end to end takes. */
 const kFlightSeconds = 12;
 
-export class Commands implements PanelActions, InputTarget {
+export class Commands implements PanelActions, InputTarget, RoomActions {
   constructor(
     private readonly store: Store,
     private readonly connection: Connection,
@@ -26,6 +28,7 @@ export class Commands implements PanelActions, InputTarget {
   ) {}
 
   edit(patch: Partial<Settings>): void {
+    if (!this.allowed()) return;
     this.store.dispatch({ type: 'edit', patch });
   }
 
@@ -55,6 +58,7 @@ export class Commands implements PanelActions, InputTarget {
 
   /** The answer's camera is adopted: the page does not know where the scene's cameras stand. */
   selectCamera(name: string): void {
+    if (!this.allowed()) return;
     const seq = this.connection.send({ case: 'selectSceneCamera', value: { name } });
     const { sent } = this.store.state;
     if (seq === null || !sent) return;
@@ -106,8 +110,21 @@ export class Commands implements PanelActions, InputTarget {
     return true;
   }
 
+  requestControl(): void {
+    this.connection.send({ case: 'requestControl', value: {} });
+  }
+
+  releaseControl(): void {
+    this.connection.send({ case: 'releaseControl', value: {} });
+  }
+
+  giveControl(memberId: bigint): void {
+    this.connection.send({ case: 'giveControl', value: { memberId } });
+  }
+
   view(): View | null {
-    return this.store.state.settings;
+    const { room, settings } = this.store.state;
+    return mayControl(room) ? settings : null;
   }
 
   setPose({ eye, target, up }: Pose): void {
@@ -121,6 +138,14 @@ export class Commands implements PanelActions, InputTarget {
   flySpeed(): number {
     const bounds = this.store.state.server?.bounds;
     return bounds ? length(sub(bounds.max, bounds.min)) / kFlightSeconds : 1;
+  }
+
+  /** Who watches a room is told so rather than left to wonder. */
+  private allowed(): boolean {
+    const { room } = this.store.state;
+    if (room === null || mayControl(room)) return true;
+    this.store.dispatch({ type: 'notice', tone: 'info', text: roomText(room) });
+    return false;
   }
 
   private refuse(text: string): void {

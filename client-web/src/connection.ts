@@ -35,6 +35,8 @@ export interface Environment {
   openSocket(url: string, subprotocol: string): Socket;
   nowMs(): number; // monotonic
   random(): number; // [0, 1)
+  /** What Hello says besides the version: which room, and which lost session to take up. */
+  hello(): { readonly room: string; readonly resumeToken: string };
   after(delayMs: number, action: () => void): () => void; // returns how to cancel
   readonly codecs: readonly Codec[]; // that the page decodes
 }
@@ -49,6 +51,7 @@ const kOpen = 1;
 const kNoRetryReasons: Readonly<Record<number, string>> = {
   1008: 'The server closed the connection: too many refused messages.',
   1009: 'The server closed the connection: a message was too big.',
+  4009: 'This view is open in another tab or window now.',
   4001: 'This page speaks another protocol version than the server. Reload it.',
 };
 
@@ -105,7 +108,8 @@ export class Connection {
     this.events.link({ phase: 'greeting' });
     const hello = { protocolMajor: kProtocolMajor, protocolMinor: kProtocolMinor };
     const codecs = [...this.env.codecs];
-    this.send({ case: 'hello', value: { ...hello, clientName: 'froxel web client', codecs } });
+    const wanted = { ...hello, ...this.env.hello(), codecs };
+    this.send({ case: 'hello', value: { ...wanted, clientName: 'froxel web client' } });
     this.keepAlive(socket);
   }
 

@@ -18,7 +18,7 @@ import type { ClientBody } from './settings';
 
 export const kSubprotocol = 'froxel.v1';
 export const kProtocolMajor = 1;
-export const kProtocolMinor = 1;
+export const kProtocolMinor = 2;
 
 const kMagic = 0xf7;
 const kKindFrame = 1;

@@ -12,6 +12,9 @@ import { Panel } from './panel';
 import { Picture } from './picture';
 import { Presenter } from './presenter';
 import { Recorder } from './recorder';
+import { Resume, tabShelf } from './resume';
+import { mayControl, roomFromAddress } from './room';
+import { RoomCard } from './room_card';
 import { SettingsSync } from './settings_sync';
 import { isForControl, runShortcut } from './shortcuts';
 import { Stats } from './stats';
@@ -22,12 +25,16 @@ import { decodesVp9, type LostSync } from './video_track';
 import { WindowSize } from './window_size';
 
 const kNarrowPx = 640;
+const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
 
 const canvas = element('view', HTMLCanvasElement);
 const narrow = window.innerWidth <= kNarrowPx;
 const nowMs = (): number => performance.now();
 const nextFrame = (action: (nowMs: number) => void): void => void requestAnimationFrame(action);
 
+const wantedRoom = roomFromAddress(location.search);
+const roomName = 'name' in wantedRoom ? wantedRoom.name : '';
+const resume = new Resume(tabShelf(), roomName);
 const store = new Store();
 const stats = new Stats();
 const picture = new Picture(canvas);
@@ -61,7 +68,10 @@ const connection = new Connection(
       }
       store.dispatch({ type: 'link', link });
     },
-    message: (message) => store.dispatch({ type: 'received', message }),
+    message: (message) => {
+      if (message.body.case === 'welcome') resume.keep(message.body.value.resumeToken);
+      store.dispatch({ type: 'received', message });
+    },
     frame: (frame, bytes) => {
       stats.received(bytes, nowMs());
       presenter.offer(frame);
@@ -73,6 +83,7 @@ const connection = new Connection(
     openSocket: (url, subprotocol) => new WebSocket(url, subprotocol),
     nowMs,
     random: Math.random,
+    hello: () => ({ room: roomName, resumeToken: resume.token }),
     after: (delayMs, action) => {
       const timer = setTimeout(action, delayMs);
       return () => clearTimeout(timer);
@@ -89,6 +100,7 @@ const banner = new Banner({
   dismiss: () => store.dispatch({ type: 'dismiss' }),
   nowMs,
 });
+const roomCard = new RoomCard(commands);
 const help = element('help', HTMLDialogElement);
 
 new WindowSize(store, canvas);
@@ -97,6 +109,11 @@ const links = new LinkKeeper(store);
 store.listen((state) => {
   panel.show(state);
   banner.show(state);
+  roomCard.show(state.room);
+  element('panel', HTMLElement).inert = !mayControl(state.room);
+});
+store.listen(({ link }, before) => {
+  if (link.phase === 'live' && before.link.phase !== 'live') tellVisibility(true);
 });
 store.listen(({ details }, before) => {
   if (details && details !== before.details) overlay.showDetails(details);
@@ -165,8 +182,23 @@ window.addEventListener('keydown', (event) => {
 });
 window.addEventListener('keyup', (event) => input.keyUp(event));
 window.addEventListener('blur', () => input.releaseAll());
-document.addEventListener('visibilitychange', () => presenter.setVisible(!document.hidden));
+document.addEventListener('visibilitychange', () => tellVisibility(false));
 presenter.setVisible(!document.hidden);
 
+/** A hidden page paints nothing, so the server need not draw. A new connection knows of no pause. */
+function tellVisibility(newConnection: boolean): void {
+  const { hidden } = document;
+  presenter.setVisible(!hidden);
+  const { link, server } = store.state;
+  const understood = link.phase === 'live' && (server?.protocolMinor ?? 0) >= kMinorOfPause;
+  if (understood && (hidden || !newConnection)) {
+    connection.send({ case: 'pause', value: { paused: hidden } });
+  }
+}
+
 links.read();
-connection.open();
+if ('problem' in wantedRoom) {
+  store.dispatch({ type: 'link', link: { phase: 'refused', reason: wantedRoom.problem } });
+} else {
+  connection.open();
+}

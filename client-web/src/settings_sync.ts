@@ -2,6 +2,7 @@
 // camera at most once an animation frame, the latest pose only.
 
 import type { AppState } from './app_state';
+import { mayControl } from './room';
 import { cameraCommand, cameraOf, settingCommands, type ClientBody, type Settings } from './settings';
 import type { Store } from './store';
 
@@ -24,7 +25,8 @@ export class SettingsSync {
     store.listen((state) => this.changed(state));
   }
 
-  private changed({ link, settings, sent }: AppState): void {
+  private changed({ link, settings, sent, room }: AppState): void {
+    if (!mayControl(room)) return;
     if (link.phase !== 'live' || !settings || !sent || settings === sent) return;
     const commands = settingCommands(sent, settings);
     const camera = cameraCommand(sent, settings);
@@ -41,9 +43,9 @@ export class SettingsSync {
     this.framePending = true;
     this.nextFrame(() => {
       this.framePending = false;
-      const { link, settings, sent } = this.store.state;
+      const { link, settings, sent, room } = this.store.state;
       const command = settings && sent && cameraCommand(sent, settings);
-      if (link.phase !== 'live' || !command) return;
+      if (link.phase !== 'live' || !command || !mayControl(room)) return;
       if (this.sender.backlogBytes > kMaxBacklogBytes) this.scheduleCamera();
       else this.tell([command], settings);
     });

@@ -41,6 +41,18 @@ describe('Connection', () => {
     expect(phases()).toEqual(['connecting', 'greeting']);
   });
 
+  it('Hello_NamesTheRoom_AndTheSessionToTakeUpOnceItIsKnown', () => {
+    env.room = 'hall';
+    env.socket.accept();
+    const hello = (): unknown => env.socket.sent[0]?.body;
+    expect(hello()).toMatchObject({ value: { room: 'hall', resumeToken: '' } });
+    env.token = 'secret';
+    env.socket.drop(1006);
+    env.pass(10_000);
+    env.socket.accept();
+    expect(hello()).toMatchObject({ value: { room: 'hall', resumeToken: 'secret' } });
+  });
+
   it('Send_WhileClosed_IsNullAndSendsNothing', () => {
     expect(connection.send({ case: 'ping', value: {} })).toBeNull();
     expect(env.socket.sent).toEqual([]);
@@ -92,7 +104,7 @@ describe('Connection', () => {
     expect(links.at(-1)).toMatchObject({ phase: 'waiting', retryAtMs: env.now + 750 });
   });
 
-  it.each([1008, 1009, 4001])('Close_With%i_IsNotTriedAgain', (code) => {
+  it.each([1008, 1009, 4001, 4009])('Close_With%i_IsNotTriedAgain', (code) => {
     env.socket.accept();
     env.socket.drop(code, 'why');
     expect(links.at(-1)).toMatchObject({ phase: 'refused' });

@@ -67,6 +67,8 @@ export class FakeEnvironment implements Environment {
   readonly sockets: FakeSocket[] = [];
   now = 1000;
   randomValue = 0;
+  room = '';
+  token = '';
   private timers: { at: number; action: () => void }[] = [];
 
   get socket(): FakeSocket {
@@ -87,6 +89,10 @@ export class FakeEnvironment implements Environment {
 
   random(): number {
     return this.randomValue;
+  }
+
+  hello(): { room: string; resumeToken: string } {
+    return { room: this.room, resumeToken: this.token };
   }
 
   after(delayMs: number, action: () => void): () => void {

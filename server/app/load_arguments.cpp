@@ -1,5 +1,8 @@
 #include "app/load_arguments.h"
 
+#include "protocol/limits.h"
+#include "session/room.h"
+
 #include <limits>
 
 namespace froxel::app {
@@ -29,6 +32,15 @@ Result<std::string> parseScript(const std::string& text) {
                  fmt::format("'{}' is not orbit, idle, storm or a .jsonl file", text)};
 }
 
+Result<std::string> parseRoom(const std::string& text) {
+    if (session::isRoomName(text)) {
+        return text;
+    }
+    return Error{ErrorCode::kInvalidArgument,
+                 fmt::format("'{}' is no room's name: 1 to {} of A-Z a-z 0-9 . _ -", text,
+                             protocol::kMaxRoomNameBytes)};
+}
+
 } // namespace
 
 void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
@@ -46,6 +58,9 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
                   "orbit: the camera circles, 60 commands a second; idle: nothing; storm: every "
                   "command there is, 200 a second; or a FILE.jsonl");
     command.number("--ramp", options.ramp_s, kRampRange, "Seconds over which viewers join");
+    command.value("--room", "NAME", options.room, parseRoom, "a session each",
+                  "Room that all viewers share; the first one there controls, the others watch "
+                  "and send nothing of the script");
     command.value("--size", "WxH", options.size, parseSize, "the server's", "Picture in pixels");
     command.number("--lights", options.light_count, view::kLightCountRange, "the server's",
                    "Seeded lights");

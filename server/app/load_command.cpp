@@ -55,6 +55,7 @@ load::RunOptions runOptions(const LoadOptions& options) {
             encoding.set_video_kbps(*options.video_kbps);
         }
     }
+    run.viewer.room = options.room;
     run.viewer_count = options.viewer_count;
     run.ramp = Seconds(options.ramp_s);
     run.seconds = Seconds(options.seconds);

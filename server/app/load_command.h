@@ -24,6 +24,7 @@ struct LoadOptions {
     std::optional<uint32_t> light_count;  // likewise
     view::Codec codec = view::Codec::kJpeg;
     std::optional<uint32_t> video_kbps;   // of a video codec; absent: the server's
+    std::string room;                     // shared by all viewers; empty: none
     std::filesystem::path json;           // empty: none
 };
 

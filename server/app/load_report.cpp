@@ -166,6 +166,9 @@ std::optional<std::string> latencyBreach(const RunResult& result, double limit_m
     double worst_ms = limit_ms;
     for (size_t index = 0; index < result.viewers.size(); ++index) {
         const auto& samples = result.viewers[index].measured.samples.latency_ms;
+        if (!result.viewers[index].controlled) {
+            continue; // it sent no command whose latency could be told
+        }
         const bool none = samples.empty();
         const double p95_ms = none ? 0 : measure::summarize(samples).p95;
         if (!none && p95_ms <= limit_ms) {
@@ -220,6 +223,7 @@ Json loadReport(const LoadOptions& options, const RunResult& result) {
             {"froxel", FROXEL_VERSION},
             {"url", options.url},
             {"script", options.script},
+            {"room", options.room.empty() ? Json(nullptr) : Json(options.room)},
             {"viewers", options.viewer_count},
             {"seconds", options.seconds},
             {"ramp_s", options.ramp_s},

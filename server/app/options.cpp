@@ -19,6 +19,8 @@ namespace {
 
 constexpr view::Range<uint32_t> kSeedRange{"seed", 0, std::numeric_limits<uint32_t>::max()};
 constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
+constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
+constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
 constexpr view::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
 constexpr view::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
@@ -148,6 +150,7 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
 }
 
 void addServe(CLI::App& app, Targets& targets) {
+    using Defaults = session::SessionDefaults;
     auto& options = targets.serve;
     CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
     command.text("--address", "IP", options.address, options.address, "IPv4 or IPv6 to listen on");
@@ -158,7 +161,14 @@ void addServe(CLI::App& app, Targets& targets) {
     addSceneOption(command, options.scene, options.scene);
     command.device(options.device, options.validation);
     command.pipelineCache(options.pipeline_cache);
-    command.number("--max-sessions", options.sessions_max, kSessionsRange, "Viewers at once");
+    command.number("--max-sessions", options.sessions_max, kSessionsRange,
+                   "Sessions at once; all viewers of a room share one");
+    command.number(
+        "--min-fps", options.min_rate_hz, kMinRateRange,
+        byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),
+        "Refuse a session that would take active ones below these frames a second; 0: none");
+    command.number("--resume-grace", options.resume_grace_s, kGraceRange,
+                   "Seconds that a lost connection's session waits for it");
     addFirstView(command, options);
     command.text("--web-root", "DIR", options.web_root, "web beside the binary, else the build's",
                  "Folder of the built page");

@@ -37,6 +37,7 @@ session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_
     defaults.light_radius_m = static_cast<float>(
         options.light_radius_m.value_or(static_cast<double>(defaults.light_radius_m)));
     defaults.renderer = options.renderer.value_or(defaults.renderer);
+    defaults.min_rate_hz = options.min_rate_hz.value_or(defaults.min_rate_hz);
     defaults.other = options.other;
     defaults.lens_shift = options.lens_shift;
     return defaults;
@@ -85,6 +86,8 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.admin = options.admin;
     run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
     run.server.connections_max = 256 + 4 * options.sessions_max;
+    run.server.resume_grace =
+        std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(options.resume_grace_s));
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
     run.sessions_max = options.sessions_max;

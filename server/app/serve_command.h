@@ -21,7 +21,10 @@ struct ServeOptions {
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
     gpu::PipelineCacheOptions pipeline_cache;
-    uint32_t sessions_max = 16; // viewers at once; more are refused
+    uint32_t sessions_max = 16; // at once, a room being one; more are refused
+    // That active sessions must keep when another one joins; absent: by the device's kind.
+    std::optional<double> min_rate_hz;
+    double resume_grace_s = 10; // how long a lost connection's session waits for it; 0: not at all
     // What a viewer gets before asking for anything; absent: session::defaultsFor(the device).
     std::optional<view::Size> size;
     std::optional<uint32_t> quality; // view::kQualityRange

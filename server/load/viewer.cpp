@@ -1,6 +1,7 @@
 #include "load/viewer.h"
 
 #include "core/text.h"
+#include "load/opening.h"
 #include "protocol/framing.h"
 #include "protocol/limits.h"
 
@@ -135,6 +136,7 @@ void Viewer::onUpgraded() {
     message.mutable_hello()->set_protocol_minor(protocol::kMinor);
     message.mutable_hello()->set_client_name("froxel load " + numberText(number_));
     message.mutable_hello()->add_codecs(v1::CODEC_VP9);
+    message.mutable_hello()->set_room(options_.room);
     send(std::move(message), Clock::now());
     read();
 }
@@ -231,27 +233,17 @@ void Viewer::onWelcome(const v1::Welcome& welcome) {
         return;
     }
     welcome_ = welcome;
-    v1::ClientMessage message;
-    const auto setUp = [&] {
-        send(std::exchange(message, {}), Clock::now());
-        setup_seq_ = sent_seq_;
-    };
-    v1::ViewState& state = *welcome_->mutable_state();
-    if (options_.size) {
-        *message.mutable_set_size() = *options_.size;
-        state.set_width(options_.size->width());
-        state.set_height(options_.size->height());
-        setUp();
+    result_.controlled = controls();
+    if (controls()) {
+        for (v1::ClientMessage& message : openingOf(options_, *welcome_->mutable_state())) {
+            send(std::move(message), Clock::now());
+            setup_seq_ = sent_seq_;
+        }
     }
-    if (options_.light_count) {
-        message.mutable_set_lights()->set_count(*options_.light_count);
-        state.set_light_count(*options_.light_count);
-        setUp();
-    }
-    if (options_.encoding) {
-        *message.mutable_set_encoding() = *options_.encoding;
-        setUp();
-    }
+}
+
+bool Viewer::controls() const {
+    return !welcome_->has_room() || welcome_->room().controller() == welcome_->room().you();
 }
 
 void Viewer::paintLater(uint64_t frame_id, TimePoint now) {
@@ -283,7 +275,7 @@ void Viewer::begin(TimePoint now) {
     meter_.begin(now);
     received_before_ = traffic().receivedBytes();
     sent_before_ = traffic().sentBytes();
-    script_ = makeScript(options_.script, *welcome_, number_);
+    script_ = makeScript(controls() ? options_.script : ScriptChoice(Idle{}), *welcome_, number_);
     script_start_ = now;
     playNext();
 }

@@ -53,6 +53,7 @@ struct ViewerOptions {
     std::optional<v1::SetSize> size;
     std::optional<uint32_t> light_count;
     std::optional<v1::SetEncoding> encoding;
+    std::string room; // shared by all; empty: each has a session of its own
 };
 
 // Shared by all viewers, for whoever watches the run. Any thread.
@@ -63,7 +64,8 @@ struct LiveCounters {
 
 struct ViewerResult {
     Measured measured;
-    std::optional<std::string> failure;   // one line; none: all went well
+    bool controlled = true;             // false: watched in a room, and said nothing of the script
+    std::optional<std::string> failure; // one line; none: all went well
     std::optional<double> first_frame_ms; // from connecting; with --size and --lights applied
     uint64_t received_bytes = 0;          // of the connection while measuring, all framing included
     uint64_t sent_bytes = 0;
@@ -125,6 +127,9 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     void fail(const std::string& why);
     void finish();
     [[nodiscard]] ByteCounter& traffic() { return stream_.next_layer().rate_policy(); }
+
+    // Whether this one may say what its script says: in a room only who controls it.
+    [[nodiscard]] bool controls() const;
 
     const ViewerOptions& options_;
     const uint32_t number_;

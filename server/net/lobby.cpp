@@ -71,7 +71,8 @@ void Lobby::depart(const Seat& seat, Departure how, TimePoint now) {
     if (entry == entries_.end() || entry->second.connection != seat.place.connection) {
         return; // a newer connection has the place
     }
-    if (how == Departure::kLeft || entry->second.token.empty() || closed_) {
+    const bool keep = how == Departure::kLost && !entry->second.token.empty() && !closed_;
+    if (!keep || countAway() >= kMaxAway) {
         remove(entry, mail);
         return;
     }
@@ -116,6 +117,10 @@ void Lobby::close() {
 
 size_t Lobby::awayCount() const {
     const std::lock_guard lock(mutex_);
+    return countAway();
+}
+
+size_t Lobby::countAway() const {
     return static_cast<size_t>(
         std::count_if(entries_.begin(), entries_.end(),
                       [](const auto& entry) { return entry.second.away_until.has_value(); }));

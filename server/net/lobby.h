@@ -28,6 +28,9 @@ enum class Departure { kLeft, kLost };
 
 class Lobby {
   public:
+    // Places of lost connections that are kept at most: a flood into a room must not fill memory.
+    static constexpr size_t kMaxAway = 2000;
+
     // No place is kept with a grace of 0.
     explicit Lobby(std::chrono::milliseconds resume_grace) : grace_(resume_grace) {}
 
@@ -64,6 +67,7 @@ class Lobby {
     [[nodiscard]] Entries::iterator findToken(const session::Hello& hello);
     [[nodiscard]] Result<Entries::iterator>
     addMember(const Serving& serving, const session::Hello& hello, TimePoint now, Mail& mail);
+    [[nodiscard]] size_t countAway() const;
     Entries::iterator remove(Entries::iterator entry, Mail& mail);
 
     const std::chrono::milliseconds grace_;

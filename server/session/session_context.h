@@ -39,6 +39,8 @@ struct SessionDefaults {
     view::Renderer renderer = view::Renderer::kClusteredDeferred;
     view::ViewSettings other;             // what the fields above and the camera do not say
     std::optional<glm::dvec2> lens_shift; // of the first camera; absent: its own
+    // Frames a second below which no active session may fall when another one joins; 0: no matter.
+    double min_rate_hz = 0;
     uint64_t max_area_px = uint64_t{4096} * 4096;
 };
 

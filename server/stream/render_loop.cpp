@@ -62,7 +62,20 @@ void RenderLoop::stop() {
 
 Result<SessionId>
 RenderLoop::join(std::weak_ptr<session::FrameSink> sink, const SessionState& state, TimePoint now) {
-    return mailbox_->join(std::move(sink), state, now);
+    const std::lock_guard lock(admission_mutex_);
+    if (auto fits = admission_.check(now); !fits) {
+        return fits.error();
+    }
+    auto id = mailbox_->join(std::move(sink), state, now);
+    if (id) {
+        admission_.add(*id);
+    }
+    return id;
+}
+
+void RenderLoop::setMinRate(double min_rate_hz) {
+    const std::lock_guard lock(admission_mutex_);
+    admission_.setMinRate(min_rate_hz);
 }
 
 void RenderLoop::update(SessionId id, const SessionState& state, TimePoint arrived) {
@@ -74,6 +87,10 @@ void RenderLoop::grant(SessionId id, uint64_t frame_total) {
 }
 
 void RenderLoop::leave(SessionId id) {
+    {
+        const std::lock_guard lock(admission_mutex_);
+        admission_.remove(id);
+    }
     mailbox_->leave(id);
 }
 
@@ -212,6 +229,10 @@ void RenderLoop::finishOldest() {
     const Seconds cost = now - std::max(frame.started, last_finish_);
     last_finish_ = now;
     scheduler_.onFinished(frame.id, cost);
+    {
+        const std::lock_guard lock(admission_mutex_);
+        admission_.onFrame(frame.id, cost, now);
+    }
     viewer.drawn = frame.state;
     ++options_.fates->rendered;
     if (viewer.leaving) {

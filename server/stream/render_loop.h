@@ -10,6 +10,7 @@
 
 #include "encode/encode_pool.h"
 #include "session/stream_port.h"
+#include "stream/admission.h"
 #include "stream/frame_pipeline.h"
 #include "stream/frame_scheduler.h"
 #include "stream/frame_source.h"
@@ -19,6 +20,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 namespace froxel::stream {
@@ -42,6 +44,10 @@ class RenderLoop final : public session::StreamPort {
     ~RenderLoop() override;
     RenderLoop(const RenderLoop&) = delete;
     RenderLoop& operator=(const RenderLoop&) = delete;
+
+    // Frames a second that active sessions must keep when another one joins, see Admission; 0, as
+    // it is first: no matter. Any thread.
+    void setMinRate(double min_rate_hz);
 
     // Waits for the frames under way; no sink is called after it. The port still answers.
     void stop();
@@ -80,6 +86,8 @@ class RenderLoop final : public session::StreamPort {
     encode::EncodePool& pool_;
     // Shared with the encoders, which may still be in a last wake() when the loop is gone.
     const std::shared_ptr<ViewerMailbox> mailbox_;
+    std::mutex admission_mutex_; // before the mailbox's
+    Admission admission_;
     FrameScheduler scheduler_;
     std::unique_ptr<FrameSource> source_;
     std::map<session::SessionId, std::unique_ptr<Viewer>> viewers_;

@@ -85,6 +85,23 @@ TEST_F(Load, ThreeViewers_Orbit_GetFramesAndLatencies) {
     EXPECT_GT(report["all"]["stages_ms"]["render"]["count"], 0);
 }
 
+TEST_F(Load, Room_FirstControls_OthersWatchTheSame) {
+    TestServer server;
+    const Json report =
+        measure(server.port(), {"--viewers", "4", "--seconds", "1", "--room", "hall", "--size",
+                                "100x60", "--max-latency-ms", "5000"});
+    EXPECT_EQ(report["room"], "hall");
+    EXPECT_EQ(server.device().live_views, 1);
+    int talking = 0;
+    for (const Json& viewer : report["each"]) {
+        EXPECT_EQ(viewer["refusals"], 0);
+        EXPECT_GT(viewer["frames"], 0);
+        talking += viewer["commands"] > 0;
+        EXPECT_EQ(viewer["latency_ms"] == nullptr, viewer["commands"] == 0);
+    }
+    EXPECT_EQ(talking, 1);
+}
+
 TEST_F(Load, Idle_NothingMoves_NoFrameAndFewBytes) {
     TestServer server({.still = true});
     const Json report = measure(server.port(), {"--script", "idle", "--seconds", "2"});

@@ -15,6 +15,7 @@ session::SessionContext contextFor(const TestServerOptions& options) {
                              {"side", side}};
     context.defaults.size = options.size;
     context.defaults.light_count = options.still ? 0 : 100;
+    context.defaults.min_rate_hz = options.min_rate_hz;
     context.server_version = "test";
     context.device_name = "fake device";
     return context;

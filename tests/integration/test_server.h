@@ -15,6 +15,7 @@ struct TestServerOptions {
     view::Size size{64, 48};
     bool still = false; // lights stand still until a command moves them: pictures only on change
     std::chrono::milliseconds resume_grace{0};
+    double min_rate_hz = 0;
     bool open_at_once = true; // false: the scene keeps loading until open()
     std::vector<std::string> allowed_origins{};
     std::filesystem::path web_root{};

@@ -43,10 +43,12 @@ uint64_t WsClient::send(v1::ClientMessage message) {
     return last_seq_;
 }
 
-uint64_t WsClient::hello() {
+uint64_t WsClient::hello(const std::string& room, const std::string& resume_token) {
     v1::ClientMessage message;
     message.mutable_hello()->set_protocol_major(protocol::kMajor);
     message.mutable_hello()->set_client_name("integration test");
+    message.mutable_hello()->set_room(room);
+    message.mutable_hello()->set_resume_token(resume_token);
     return send(message);
 }
 
@@ -135,6 +137,16 @@ v1::ServerMessage WsClient::expect(v1::ServerMessage::BodyCase body) {
     }
 }
 
+v1::ServerMessage WsClient::expectAnswer() {
+    for (;;) {
+        const Received received = receiveOrThrow("Welcome or an error");
+        if (received.message &&
+            (received.message->has_welcome() || received.message->has_error())) {
+            return *received.message;
+        }
+    }
+}
+
 v1::ViewState WsClient::expectState(uint64_t seq) {
     for (;;) {
         const v1::ServerMessage message = expect(v1::ServerMessage::kState);
@@ -169,8 +181,8 @@ Closed WsClient::expectClosed() {
     throw std::runtime_error("the connection stayed open");
 }
 
-v1::Welcome WsClient::join() {
-    hello();
+v1::Welcome WsClient::join(const std::string& room, const std::string& resume_token) {
+    hello(room, resume_token);
     return expect(v1::ServerMessage::kWelcome).welcome();
 }
 

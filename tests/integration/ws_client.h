@@ -47,7 +47,7 @@ class WsClient {
 
     // Sends it under the next seq and returns that.
     uint64_t send(v1::ClientMessage message);
-    uint64_t hello();
+    uint64_t hello(const std::string& room = "", const std::string& resume_token = "");
     void sendRaw(std::string_view bytes, protocol::WireFormat format);
     void ack(uint64_t frame_id);
 
@@ -55,6 +55,8 @@ class WsClient {
     // auto_ack). Throws std::runtime_error when the connection ends or after kTimeout.
     v1::ServerMessage expect(v1::ServerMessage::BodyCase body);
     v1::Error expectError() { return expect(v1::ServerMessage::kError).error(); }
+    // The first Welcome or Error.
+    v1::ServerMessage expectAnswer();
     // The state that answers `seq` or a later command.
     v1::ViewState expectState(uint64_t seq);
     Frame expectFrame(const std::function<bool(const v1::FrameHeader&)>& wanted = {});
@@ -64,7 +66,7 @@ class WsClient {
     Closed expectClosed();
 
     // Says Hello and waits for Welcome.
-    v1::Welcome join();
+    v1::Welcome join(const std::string& room = "", const std::string& resume_token = "");
     void close();
     // Resets the connection without a word.
     void abort();

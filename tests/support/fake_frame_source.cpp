@@ -18,6 +18,11 @@ void FakeDevice::passGate() {
     changed_.wait(lock, [this] { return open_; });
 }
 
+void FakeDevice::passTime() {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, frame_time.load(), [] { return false; });
+}
+
 namespace {
 
 constexpr int kReadbackSlots = 3;
@@ -76,6 +81,7 @@ class FakeView final : public stream::ViewSource {
 
     [[nodiscard]] Result<stream::SourceFrame> collect() override {
         device_->passGate();
+        device_->passTime();
         const view::ViewSettings settings = queue_.front();
         queue_.pop_front();
         if (device_->lost) {

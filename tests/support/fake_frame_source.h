@@ -19,6 +19,7 @@ class FakeDevice {
     std::atomic<uint32_t> depth = 1;
     std::atomic<uint64_t> max_area_px = uint64_t{4096} * 4096; // larger pictures do not fit
     std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
+    std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
     std::atomic<bool> lost = false;
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage
     std::atomic<uint64_t> submitted_count = 0;
@@ -28,6 +29,8 @@ class FakeDevice {
     // While closed, collect() waits: the device is busy.
     void setGate(bool open);
     void passGate();
+    // Takes frame_time.
+    void passTime();
 
   private:
     std::mutex mutex_;

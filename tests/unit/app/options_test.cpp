@@ -130,6 +130,8 @@ TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
     EXPECT_EQ(serve.admin, (net::BindAddress{"127.0.0.1", 9090}));
     EXPECT_FALSE(serve.size || serve.quality || serve.light_count || serve.renderer);
     EXPECT_EQ(serve.other, view::ViewSettings{});
+    EXPECT_FALSE(serve.min_rate_hz);
+    EXPECT_EQ(serve.resume_grace_s, 10);
     EXPECT_EQ(options.log_level, LogLevel::kInfo);
 }
 
@@ -166,6 +168,10 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "lists",
                                 "--lens-shift",
                                 "-1,1",
+                                "--min-fps",
+                                "12.5",
+                                "--resume-grace",
+                                "0",
                                 "--max-sessions",
                                 "2",
                                 "--web-root",
@@ -193,6 +199,8 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.other.light_loop, view::LightLoop::kLists);
     EXPECT_EQ(serve.lens_shift, glm::dvec2(-1, 1));
     EXPECT_EQ(serve.sessions_max, 2U);
+    EXPECT_EQ(serve.min_rate_hz, 12.5);
+    EXPECT_EQ(serve.resume_grace_s, 0);
     EXPECT_EQ(serve.web_root, "page");
     EXPECT_THAT(serve.allowed_origins,
                 testing::ElementsAre("https://a.example", "https://b.example"));
@@ -317,11 +325,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"serve", "--admin-bind", ":9090"}, {"--admin-bind", "':9090'"}},
         Refusal{{"serve", "--admin-bind", "::1:9090"}, {"--admin-bind", "'::1:9090'"}},
         Refusal{{"serve", "--admin-bind", "127.0.0.1:65536"}, {"--admin-bind", ":65536'"}},
+        Refusal{{"serve", "--resume-grace", "3601"}, {"--resume-grace", "'3601'", "0 to 3600"}},
+        Refusal{{"serve", "--min-fps", "nan"}, {"--min-fps", "'nan'", "0 to 1000"}},
+        Refusal{{"load", "ws://a/ws", "--room", "a b"}, {"--room", "'a b'", "1 to 64"}},
         Refusal{{"serve", "--log-level", "loud"}, {"--log-level", "'loud'", "debug, info"}},
         Refusal{{"load"}, {"URL", "froxel load --help"}},
         Refusal{{"load", "localhost:8080"}, {"'localhost:8080'", "ws://127.0.0.1:8080/ws"}},
         Refusal{{"load", "ws://a", "--viewers", "0"}, {"--viewers", "'0'", "1 to 10000"}},
-        Refusal{{"load", "ws://a", "--script", "dance"}, {"--script", "'dance'", "orbit", ".jsonl"}},
+        Refusal{{"load", "ws://a", "--script", "dance"},
+                {"--script", "'dance'", "orbit", ".jsonl"}},
         Refusal{{"load", "ws://a", "--min-fps", "nan"}, {"--min-fps", "'nan'"}},
         Refusal{{"scene"}, {"--out"}},
         Refusal{{"scene", "--out", "hall.obj"}, {"--out", "'hall.obj'", ".glb"}}));

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
+#include <vector>
 
 namespace froxel::stream {
 namespace {
@@ -106,6 +108,96 @@ TEST(FrameScheduler, Remove_ReadyViewer_IsNeverNamedAgain) {
     scheduler.setReady(1, true);
     scheduler.onFinished(1, 1s);
     EXPECT_FALSE(scheduler.next(kStart));
+}
+
+// A device that serves one frame after another, for a while: how often each viewer was drawn.
+struct Simulated {
+    Seconds cost; // ready again as soon as its frame is done
+};
+std::map<uint64_t, double> ratesOf(const std::vector<Simulated>& viewers, Seconds interval) {
+    FrameScheduler scheduler(interval);
+    std::map<uint64_t, double> drawn;
+    for (uint64_t id = 0; id < viewers.size(); ++id) {
+        scheduler.add(id);
+        scheduler.setReady(id, true);
+        drawn[id] = 0;
+    }
+    constexpr double kSeconds = 60;
+    const TimePoint end = kStart + 60s;
+    for (TimePoint now = kStart; now < end;) {
+        const auto id = scheduler.next(now);
+        if (!id) {
+            now = std::max(now + 1us, scheduler.nextDue().value());
+            continue;
+        }
+        scheduler.onStarted(*id, now);
+        now += std::chrono::duration_cast<Clock::duration>(viewers[*id].cost);
+        scheduler.onFinished(*id, viewers[*id].cost);
+        drawn[*id] += 1 / kSeconds;
+    }
+    return drawn;
+}
+
+// Sixty times a second at 1 ms is a third of the device for five of them; the two that ask for
+// more than their share divide the rest.
+TEST(FrameScheduler, MixedCosts_CheapViewersKeepTheirRate_DearOnesShareTheRest) {
+    std::vector<Simulated> viewers(5, {1ms});
+    viewers.push_back({50ms});
+    viewers.push_back({20ms});
+    const auto rates = ratesOf(viewers, Seconds(1.0 / 60));
+    const double left = 1 - 5 * 60 * 0.001;
+    for (uint64_t id = 0; id < 5; ++id) {
+        // A frame under way is never cut off: the next one waits for as long as the dearest takes.
+        EXPECT_GT(rates.at(id), 1 / (0.050 + 0.020 + 5 * 0.001)) << id;
+    }
+    EXPECT_GT(rates.at(5) * 0.050, left / 2 * 0.9);
+    EXPECT_GT(rates.at(6) * 0.020, left / 2 * 0.9);
+    EXPECT_NEAR(rates.at(5) * 0.050, rates.at(6) * 0.020, 0.05);
+}
+
+// More asked for than there is: whatever the costs, each has the same part of the device's time.
+TEST(FrameScheduler, MixedCosts_AllWantMore_ShareTimeEqually) {
+    std::mt19937 random(3);
+    for (int run = 0; run < 10; ++run) {
+        std::vector<Simulated> viewers;
+        for (int i = 0; i < 8; ++i) {
+            viewers.push_back({Seconds(std::uniform_real_distribution<double>(0.02, 0.1)(random))});
+        }
+        const auto rates = ratesOf(viewers, 0s);
+        for (uint64_t id = 0; id < viewers.size(); ++id) {
+            EXPECT_NEAR(rates.at(id) * viewers[id].cost.count(), 1.0 / 8, 0.005) << id;
+        }
+    }
+}
+
+// One that comes later neither starves nor is starved.
+TEST(FrameScheduler, MixedCosts_OneComesLate_GetsItsShareAndNoMore) {
+    FrameScheduler scheduler(0s);
+    std::map<uint64_t, Seconds> costs = {{1, 30ms}, {2, 5ms}};
+    std::map<uint64_t, Seconds> used;
+    const auto add = [&](uint64_t id) {
+        scheduler.add(id);
+        scheduler.setReady(id, true);
+    };
+    const auto draw = [&](Seconds time) {
+        used.clear();
+        for (Seconds now{0}; now < time;) {
+            const uint64_t id = scheduler.next(kStart).value();
+            scheduler.onStarted(id, kStart);
+            scheduler.onFinished(id, costs.at(id));
+            used[id] += costs.at(id);
+            now += costs.at(id);
+        }
+    };
+    add(1);
+    add(2);
+    draw(30s);
+    costs[3] = 11ms;
+    add(3);
+    draw(30s);
+    for (const auto& [id, time] : used) {
+        EXPECT_NEAR(time.count(), 10, 0.1) << id;
+    }
 }
 
 } // namespace

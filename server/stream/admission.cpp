@@ -1,0 +1,98 @@
+#include "stream/admission.h"
+
+#include "core/text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::stream {
+namespace {
+
+// Weight of the newest frame in a session's smoothed cost.
+constexpr double kCostWeight = 0.125;
+// What a rate is told from at least; a lone frame then counts as 100 a second.
+constexpr Seconds kShortest{0.01};
+
+std::string rounded(double value) {
+    return numberText(std::round(value * 100) / 100);
+}
+
+} // namespace
+
+void Admission::setMinRate(double min_rate_hz) {
+    min_rate_hz_ = min_rate_hz;
+}
+
+void Admission::add(uint64_t session) {
+    sessions_[session];
+}
+
+void Admission::remove(uint64_t session) {
+    sessions_.erase(session);
+}
+
+void Admission::onFrame(uint64_t session, Seconds cost, TimePoint now) {
+    const auto found = sessions_.find(session);
+    if (found == sessions_.end()) {
+        return;
+    }
+    Entry& entry = found->second;
+    entry.cost = entry.cost ? *entry.cost + (cost - *entry.cost) * kCostWeight : cost;
+    const Seconds age = now - entry.window_begin;
+    if (age >= kWindow) {
+        entry.before_count = age < 2 * kWindow ? entry.window_count : 0;
+        entry.window_begin = now;
+        entry.window_count = 0;
+    }
+    ++entry.window_count;
+}
+
+// Over the window that ends now: all of the present one, and of the one before it the part that
+// reaches into it. One that has just begun to draw is taken at the rate at which it began.
+double Admission::rateOf(const Entry& entry, TimePoint now) {
+    const Seconds age = now - entry.window_begin;
+    if (age >= 2 * kWindow) {
+        return 0;
+    }
+    if (entry.before_count == 0 && age < kWindow) {
+        return entry.window_count / std::max(age, kShortest).count();
+    }
+    const double here = age < kWindow ? entry.window_count : 0;
+    const double before = age < kWindow ? entry.before_count : entry.window_count;
+    const Seconds reach = age < kWindow ? kWindow - age : 2 * kWindow - age;
+    return (here + before * (reach / kWindow)) / kWindow.count();
+}
+
+Result<void> Admission::check(TimePoint now) const {
+    double busy = 0; // of the device's time, 1 being all of it
+    double cost_sum_s = 0;
+    uint32_t active = 0;
+    uint32_t unknown = 0;
+    for (const auto& [id, entry] : sessions_) {
+        if (!entry.cost) {
+            ++unknown;
+            continue;
+        }
+        const double rate_hz = rateOf(entry, now);
+        if (rate_hz > 0) {
+            ++active;
+            cost_sum_s += entry.cost->count();
+            busy += entry.cost->count() * std::min(rate_hz, min_rate_hz_);
+        }
+    }
+    if (active == 0 || min_rate_hz_ <= 0) {
+        return {};
+    }
+    const double mean_s = cost_sum_s / active;
+    busy += unknown * mean_s * min_rate_hz_;
+    if (busy + mean_s * min_rate_hz_ <= 1) {
+        return {};
+    }
+    return Error{ErrorCode::kCapacity,
+                 "the device is busy: " + numberText(active + unknown) + " active sessions need " +
+                     rounded(busy) + " of its time for " + rounded(min_rate_hz_) +
+                     " frames a second each, and one more at " + rounded(mean_s * 1e3) +
+                     " ms a frame would pass 1; try again later"};
+}
+
+} // namespace froxel::stream

@@ -1,0 +1,50 @@
+// Whether one more session fits on the device. Pure: no threads, no clock of its own.
+//
+// What the active sessions need to have the floor rate, each at the cost of its own frames, and one
+// more at their mean cost, must not pass the device's time. A session that draws less than the
+// floor by itself (its lights stand, its link is slow) counts with what it draws, an idle one as
+// nothing, and one that has not drawn yet as another at the mean cost, so that a crowd that comes
+// at once is not let in on the word of the few. Where nobody draws, one is always let in.
+#pragma once
+
+#include "core/clock.h"
+#include "core/error.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+namespace froxel::stream {
+
+class Admission {
+  public:
+    // What rates are measured over; a session that drew nothing for so long is idle.
+    static constexpr Seconds kWindow{2};
+
+    // Frames a second that every active session must keep; 0: everyone is let in.
+    explicit Admission(double min_rate_hz = 0) : min_rate_hz_(min_rate_hz) {}
+    void setMinRate(double min_rate_hz);
+
+    void add(uint64_t session);
+    void remove(uint64_t session);
+    // Device time that one frame of this session took.
+    void onFrame(uint64_t session, Seconds cost, TimePoint now);
+
+    // kCapacity, with the figures in one line, where one more session is too much.
+    [[nodiscard]] Result<void> check(TimePoint now) const;
+
+  private:
+    struct Entry {
+        std::optional<Seconds> cost; // smoothed; none before the first frame
+        // Frames of the present window and of the one before it.
+        TimePoint window_begin{};
+        uint32_t window_count = 0;
+        uint32_t before_count = 0;
+    };
+    [[nodiscard]] static double rateOf(const Entry& entry, TimePoint now);
+
+    double min_rate_hz_;
+    std::map<uint64_t, Entry> sessions_;
+};
+
+} // namespace froxel::stream

@@ -1,0 +1,376 @@
+// Who shares a session, who waits for a place, and what each is told. No sockets, no threads.
+#include "froxel/v1/server.pb.h"
+#include "net/lobby.h"
+#include "support/fake_port.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace froxel::net {
+namespace {
+
+using namespace std::chrono_literals;
+using session::RejectCode;
+
+// A connection that keeps what it is told.
+struct Ear final : SessionViewer {
+    void tell(Notice notice) override { notices.push_back(std::move(notice)); }
+
+    template <class Kind>
+    [[nodiscard]] size_t count() const {
+        return static_cast<size_t>(std::count_if(notices.begin(), notices.end(), [](const auto& n) {
+            return std::holds_alternative<Kind>(n);
+        }));
+    }
+    template <class Kind>
+    [[nodiscard]] const Kind* last() const {
+        for (auto notice = notices.rbegin(); notice != notices.rend(); ++notice) {
+            if (const auto* found = std::get_if<Kind>(&*notice)) {
+                return found;
+            }
+        }
+        return nullptr;
+    }
+
+    std::vector<Notice> notices;
+};
+
+struct Guest {
+    std::shared_ptr<Ear> ear = std::make_shared<Ear>();
+    Seat seat;
+};
+
+session::CommandMessage exposure(float value, uint64_t seq = 2) {
+    return {{seq, 0}, session::SetExposure{value, {}}};
+}
+
+class LobbyTest : public testing::Test {
+  protected:
+    Result<Guest> tryEnter(const std::string& room = "", const std::string& token = "") {
+        Guest guest;
+        auto seat = lobby_.enter(serving_, {1, 0, "guest", room, token}, guest.ear, now_);
+        if (!seat) {
+            return seat.error();
+        }
+        guest.seat = std::move(*seat);
+        return guest;
+    }
+    Guest enter(const std::string& room = "", const std::string& token = "") {
+        return tryEnter(room, token).value();
+    }
+    void lose(const Guest& guest) { lobby_.depart(guest.seat, Departure::kLost, now_); }
+    void leave(const Guest& guest) { lobby_.depart(guest.seat, Departure::kLeft, now_); }
+    static v1::RoomState room(const Guest& guest) {
+        return guest.seat.session->roomState(guest.seat.place.member).room_state();
+    }
+    auto apply(const Guest& guest, const session::CommandMessage& message) {
+        return guest.seat.session->apply(guest.seat.place, message, now_);
+    }
+    static void grant(const Guest& guest, uint64_t total) {
+        guest.seat.session->grant(guest.seat.place, total);
+    }
+    template <class Command>
+    static auto control(const Guest& guest, Command command) {
+        return guest.seat.session->changeControl(guest.seat.place, command);
+    }
+
+    test::FakePort port_;
+    Serving serving_{std::make_shared<const session::SessionContext>(), &port_};
+    TimePoint now_ = TimePoint() + 1h;
+    std::vector<TimePoint> alarms_;
+    Lobby lobby_{10s};
+
+    LobbyTest() {
+        lobby_.setAlarm([this](TimePoint due) { alarms_.push_back(due); });
+    }
+};
+
+TEST_F(LobbyTest, NoRoom_EveryoneHasASessionOfTheirOwn) {
+    const Guest first = enter();
+    const Guest second = enter();
+    EXPECT_NE(first.seat.session->id(), second.seat.session->id());
+    EXPECT_NE(first.seat.resume_token, second.seat.resume_token);
+    EXPECT_TRUE(apply(first, exposure(2)));
+    EXPECT_TRUE(second.ear->notices.empty());
+    EXPECT_EQ(control(first, session::RequestControl{}).error().code, RejectCode::kUnsupported);
+}
+
+TEST_F(LobbyTest, Room_IsOneSession_DrawnForWhoHasMostRoom_AndToldToAllByTheSameBytes) {
+    const Guest quick = enter("hall");
+    const Guest slow = enter("hall");
+    ASSERT_EQ(port_.sessions.size(), 1U);
+    grant(quick, 3);
+    grant(slow, 2);
+    EXPECT_EQ(port_.session().granted, 3U);
+    port_.deliver(1, now_);
+    port_.deliver(2, now_);
+    port_.deliver(3, now_);
+    grant(quick, 6);
+    EXPECT_EQ(port_.session().granted, 6U) << "the slow one is no hindrance";
+    ASSERT_EQ(slow.ear->count<session::ReadyFrame>(), 3U) << "its slot keeps the newest";
+    EXPECT_EQ(quick.ear->last<session::ReadyFrame>()->bytes,
+              slow.ear->last<session::ReadyFrame>()->bytes);
+    grant(quick, 3);
+    EXPECT_EQ(port_.session().granted, 3U) << "nobody has room";
+    grant(slow, 4);
+    EXPECT_EQ(port_.session().granted, 4U);
+}
+
+TEST_F(LobbyTest, LateJoiner_GetsTheNewestPictureAtOnce) {
+    const Guest first = enter("hall");
+    EXPECT_FALSE(first.seat.picture);
+    port_.deliver(1, now_);
+    port_.deliver(2, now_);
+    now_ += 1min;
+    const Guest late = enter("hall");
+    ASSERT_TRUE(late.seat.picture);
+    EXPECT_EQ(late.seat.picture->record.frame_id, 2U);
+    EXPECT_EQ(late.seat.picture->ready_at, now_);
+    EXPECT_EQ(port_.session().states.size(), 1U) << "nothing is drawn for it";
+}
+
+TEST_F(LobbyTest, Watcher_SettingState_IsRefusedAndToldWhoControls) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    const auto refused = apply(second, exposure(3, 17));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, RejectCode::kControl);
+    EXPECT_EQ(refused.error().ref_seq, 17U);
+    EXPECT_EQ(port_.session().states.size(), 1U);
+    EXPECT_TRUE(apply(first, exposure(3)));
+    EXPECT_EQ(second.ear->count<StateNews>(), 1U);
+    EXPECT_EQ(first.ear->count<StateNews>(), 0U) << "its own answer tells it";
+}
+
+TEST_F(LobbyTest, Control_IsAskedForGivenAndReleased_AndEveryoneIsTold) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    EXPECT_EQ(first.ear->count<RoomNews>(), 1U);
+    ASSERT_TRUE(control(second, session::RequestControl{}));
+    EXPECT_EQ(first.ear->count<RoomNews>(), 2U);
+    v1::RoomState told = room(first);
+    EXPECT_EQ(told.controller(), told.you());
+    EXPECT_EQ(told.member_count(), 2U);
+    ASSERT_EQ(told.members_size(), 2);
+    EXPECT_TRUE(told.members(1).asking());
+    EXPECT_EQ(told.members(1).name(), "guest");
+    ASSERT_TRUE(control(first, session::GiveControl{told.members(1).id()}));
+    told = room(second);
+    EXPECT_EQ(told.controller(), told.you());
+    EXPECT_TRUE(apply(second, exposure(3)));
+    EXPECT_FALSE(apply(first, exposure(4)));
+    ASSERT_TRUE(control(second, session::ReleaseControl{}));
+    EXPECT_EQ(room(first).controller(), 0U);
+    ASSERT_TRUE(control(first, session::RequestControl{}));
+    EXPECT_TRUE(apply(first, exposure(4)));
+}
+
+TEST_F(LobbyTest, RoomOfMany_ListsThirtyTwoAndCountsAll) {
+    std::vector<Guest> guests;
+    for (int i = 0; i < 50; ++i) {
+        guests.push_back(enter("hall"));
+    }
+    ASSERT_TRUE(control(guests[40], session::RequestControl{}));
+    const v1::RoomState told = room(guests[49]);
+    EXPECT_EQ(told.member_count(), 50U);
+    ASSERT_EQ(told.members_size(), 32);
+    EXPECT_EQ(told.members(0).id(), told.controller());
+    EXPECT_EQ(told.members(1).id(), guests[40].seat.place.member);
+    EXPECT_EQ(told.members(2).id(), guests[1].seat.place.member);
+}
+
+TEST_F(LobbyTest, Room_LastOneLeaves_EndsAndANewOneStartsAfresh) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    ASSERT_TRUE(apply(first, exposure(3)));
+    leave(first);
+    EXPECT_FALSE(port_.session().left);
+    EXPECT_EQ(room(second).controller(), 0U);
+    leave(second);
+    EXPECT_TRUE(port_.session().left);
+    const Guest third = enter("hall");
+    EXPECT_EQ(third.seat.session->state().settings.exposure, 1);
+    EXPECT_EQ(room(third).controller(), third.seat.place.member);
+}
+
+TEST_F(LobbyTest, Lost_WithinTheGrace_ComesBackWithStateClockAndPicture) {
+    Guest guest = enter();
+    ASSERT_TRUE(apply(guest, exposure(3)));
+    grant(guest, 5);
+    port_.deliver(1, now_);
+    const auto before = guest.seat.session->state();
+    lose(guest);
+    ASSERT_EQ(alarms_, std::vector<TimePoint>{now_ + 10s});
+    EXPECT_EQ(port_.session().granted, 1U) << "nothing is drawn for nobody";
+    now_ += 9s;
+    EXPECT_EQ(lobby_.expire(now_), now_ + 1s);
+    const Guest back = enter("", guest.seat.resume_token);
+    EXPECT_TRUE(back.seat.resumed);
+    EXPECT_EQ(back.seat.resume_token, guest.seat.resume_token);
+    EXPECT_EQ(back.seat.session, guest.seat.session);
+    EXPECT_EQ(back.seat.session->state().settings.exposure, 3);
+    EXPECT_EQ(back.seat.session->state().light_clock.secondsAt(now_),
+              before.light_clock.secondsAt(now_));
+    ASSERT_TRUE(back.seat.picture);
+    grant(back, 2);
+    EXPECT_EQ(port_.session().granted, 3U);
+    EXPECT_FALSE(lobby_.expire(now_ + 1h)) << "nobody is waited for";
+    EXPECT_FALSE(port_.session().left);
+}
+
+TEST_F(LobbyTest, Lost_BeyondTheGrace_IsANewSessionThatSaysSo) {
+    const Guest guest = enter();
+    ASSERT_TRUE(apply(guest, exposure(3)));
+    lose(guest);
+    now_ += 10s;
+    EXPECT_FALSE(lobby_.expire(now_));
+    EXPECT_TRUE(port_.session().left);
+    const Guest back = enter("", guest.seat.resume_token);
+    EXPECT_FALSE(back.seat.resumed);
+    EXPECT_NE(back.seat.resume_token, guest.seat.resume_token);
+    EXPECT_EQ(back.seat.session->state().settings.exposure, 1);
+}
+
+TEST_F(LobbyTest, UnknownTokens_AreNewSessions) {
+    const Guest guest = enter();
+    for (std::string token : {std::string("x"), std::string(64, '0'), guest.seat.resume_token + "0",
+                              guest.seat.resume_token.substr(1), std::string("\0", 1)}) {
+        EXPECT_FALSE(enter("", token).seat.resumed);
+    }
+    EXPECT_EQ(guest.ear->count<Closing>(), 0U);
+}
+
+TEST_F(LobbyTest, Token_OfAnotherRoom_IsNotTaken) {
+    const Guest guest = enter("hall");
+    EXPECT_FALSE(enter("cellar", guest.seat.resume_token).seat.resumed);
+    EXPECT_TRUE(enter("hall", guest.seat.resume_token).seat.resumed);
+    EXPECT_TRUE(enter("", guest.seat.resume_token).seat.resumed) << "the token knows the room";
+}
+
+TEST_F(LobbyTest, NewestConnection_Wins_AndTheOlderHasNoEffectAnyMore) {
+    const Guest older = enter();
+    const Guest newer = enter("", older.seat.resume_token);
+    ASSERT_TRUE(newer.seat.resumed);
+    ASSERT_EQ(older.ear->count<Closing>(), 1U);
+    EXPECT_EQ(older.ear->last<Closing>()->code, protocol::CloseCode::kReplaced);
+    grant(older, 100);
+    EXPECT_EQ(port_.session().granted, 0U);
+    EXPECT_TRUE(apply(older, exposure(3)));
+    EXPECT_EQ(port_.session().states.size(), 1U);
+    port_.deliver(1, now_);
+    EXPECT_EQ(older.ear->count<session::ReadyFrame>(), 0U);
+    leave(older);
+    EXPECT_FALSE(port_.session().left);
+    EXPECT_TRUE(apply(newer, exposure(3)));
+}
+
+TEST_F(LobbyTest, ControllerLost_KeepsControlForTheGrace_ThenItGoesToWhoAsked) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    lose(first);
+    EXPECT_TRUE(room(second).members(0).away());
+    ASSERT_TRUE(control(second, session::RequestControl{}));
+    EXPECT_FALSE(apply(second, exposure(3)));
+    const Guest back = enter("hall", first.seat.resume_token);
+    EXPECT_EQ(room(back).controller(), room(back).you());
+    EXPECT_TRUE(apply(back, exposure(3)));
+    lose(back);
+    now_ += 10s;
+    lobby_.expire(now_);
+    EXPECT_EQ(room(second).member_count(), 1U);
+    EXPECT_TRUE(apply(second, exposure(4)));
+}
+
+TEST_F(LobbyTest, GraceOfZero_KeepsNothingAndGivesNoToken) {
+    Lobby strict(0ms);
+    auto seat = strict.enter(serving_, {1, 0, "", "", ""}, {}, now_).value();
+    EXPECT_EQ(seat.resume_token, "");
+    strict.depart(seat, Departure::kLost, now_);
+    EXPECT_TRUE(port_.session().left);
+    EXPECT_EQ(strict.awayCount(), 0U);
+}
+
+TEST_F(LobbyTest, FloodOfLostConnections_IsKeptUpToACap) {
+    const Guest here = enter("hall");
+    for (size_t i = 0; i < Lobby::kMaxAway + 50; ++i) {
+        lose(enter("hall"));
+    }
+    EXPECT_EQ(lobby_.awayCount(), Lobby::kMaxAway);
+    EXPECT_EQ(room(here).member_count(), Lobby::kMaxAway + 1);
+    now_ += 10s;
+    lobby_.expire(now_);
+    EXPECT_EQ(lobby_.awayCount(), 0U);
+    EXPECT_EQ(room(here).member_count(), 1U);
+}
+
+TEST_F(LobbyTest, Close_EndsWhatIsWaitedFor_AndWaitsForNobodyAfter) {
+    const Guest away = enter();
+    const Guest here = enter();
+    lose(away);
+    lobby_.close();
+    EXPECT_TRUE(port_.session(7).left);
+    EXPECT_FALSE(port_.session(8).left);
+    lose(here);
+    EXPECT_TRUE(port_.session(8).left);
+    EXPECT_FALSE(enter("", here.seat.resume_token).seat.resumed);
+}
+
+TEST_F(LobbyTest, Full_IsRefused_ButRoomsAndReturnsNeedNoPlace) {
+    const Guest first = enter("hall");
+    const Guest own = enter();
+    lose(own);
+    port_.full = true;
+    EXPECT_EQ(tryEnter().error().code, ErrorCode::kCapacity);
+    EXPECT_EQ(tryEnter("cellar").error().code, ErrorCode::kCapacity);
+    EXPECT_TRUE(tryEnter("hall"));
+    EXPECT_TRUE(tryEnter("", own.seat.resume_token));
+    port_.full = false;
+    EXPECT_TRUE(tryEnter("cellar")) << "a refused room leaves nothing behind";
+}
+
+TEST_F(LobbyTest, Refused_InARoom_NamesTheCommandToItsSenderAlone_AndAllGetTheGoodState) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    const session::SessionState good = port_.session().states.back();
+    ASSERT_TRUE(apply(first, exposure(3, 9)));
+    port_.sink()->refuse({ErrorCode::kUnsupported, "no"}, port_.session().states.back(), good);
+    EXPECT_EQ(first.ear->last<session::Rejection>()->ref_seq, 9U);
+    EXPECT_EQ(second.ear->last<session::Rejection>()->ref_seq, 0U);
+    EXPECT_EQ(second.seat.session->state().settings.exposure, 1);
+    EXPECT_EQ(second.ear->count<StateNews>(), 2U);
+    EXPECT_EQ(first.ear->count<StateNews>(), 1U);
+}
+
+TEST_F(LobbyTest, Welcome_TellsPlaceTokenAndDefaults) {
+    const Guest first = enter("hall");
+    ASSERT_TRUE(apply(first, exposure(3)));
+    const Guest second = enter("hall");
+    session::WelcomePlace place{second.seat.resume_token, 10s, true, nullptr, 0, nullptr};
+    const auto told = second.seat.session->welcome(second.seat.place.member, place).welcome();
+    EXPECT_EQ(told.resume_token(), second.seat.resume_token);
+    EXPECT_EQ(told.resume_grace_ms(), 10'000U);
+    EXPECT_TRUE(told.resumed());
+    EXPECT_EQ(told.room().room(), "hall");
+    EXPECT_EQ(told.room().you(), second.seat.place.member);
+    EXPECT_EQ(told.state().exposure(), 3);
+    EXPECT_EQ(told.defaults().exposure(), 1);
+    const Guest own = enter();
+    const auto plain = own.seat.session->welcome(own.seat.place.member, {}).welcome();
+    EXPECT_FALSE(plain.has_room());
+    EXPECT_FALSE(plain.has_defaults());
+    EXPECT_FALSE(plain.resumed());
+}
+
+TEST_F(LobbyTest, DeviceLost_IsToldToAll) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    port_.sink()->deviceLost({ErrorCode::kDevice, "gone"});
+    for (const Guest* guest : {&first, &second}) {
+        EXPECT_EQ(guest->ear->last<session::Rejection>()->code, RejectCode::kDevice);
+        EXPECT_EQ(guest->ear->last<Closing>()->code, protocol::CloseCode::kDeviceLost);
+    }
+}
+
+} // namespace
+} // namespace froxel::net

@@ -1,0 +1,142 @@
+#include "stream/admission.h"
+
+#include <gmock/gmock.h>
+#include <random>
+
+namespace froxel::stream {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+class AdmissionTest : public testing::Test {
+  protected:
+    // Sessions 1 to n that all draw at this rate, at this cost, for some seconds.
+    void draw(const std::vector<uint64_t>& sessions, double rate_hz, Seconds cost, double seconds) {
+        const auto step = std::chrono::duration_cast<Clock::duration>(Seconds(1 / rate_hz));
+        for (const TimePoint end =
+                 now_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
+             now_ < end; now_ += step) {
+            for (const uint64_t session : sessions) {
+                admission_.onFrame(session, cost, now_);
+            }
+        }
+    }
+    void add(const std::vector<uint64_t>& sessions) {
+        for (const uint64_t session : sessions) {
+            admission_.add(session);
+        }
+    }
+    [[nodiscard]] bool admits() const { return admission_.check(now_).has_value(); }
+
+    TimePoint now_ = TimePoint() + 1h;
+    Admission admission_{30};
+};
+
+TEST_F(AdmissionTest, NobodyThere_Admits) {
+    EXPECT_TRUE(admits());
+}
+
+TEST_F(AdmissionTest, RoomForOneMoreAtTheFloor_Admits_UntilThereIsNone) {
+    // 5 ms a frame: six sessions at 30 frames a second take 0.9 of the device, seven 1.05.
+    add({1, 2, 3, 4, 5});
+    draw({1, 2, 3, 4, 5}, 40, 5ms, 5);
+    EXPECT_TRUE(admits());
+    add({6});
+    draw({1, 2, 3, 4, 5, 6}, 33, 5ms, 5);
+    const auto refused = admission_.check(now_);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    EXPECT_THAT(refused.error().message, HasSubstr("6 active sessions need 0.9 "));
+    EXPECT_THAT(refused.error().message, HasSubstr("30 frames a second"));
+    EXPECT_THAT(refused.error().message, HasSubstr("5 ms a frame"));
+    EXPECT_EQ(refused.error().message.find('\n'), std::string::npos);
+}
+
+// Their rates say nothing about the floor then: all of the device's time is taken.
+TEST_F(AdmissionTest, AlreadyBelowTheFloor_Refuses) {
+    add({1, 2});
+    draw({1, 2}, 10, 50ms, 5);
+    EXPECT_FALSE(admits());
+}
+
+TEST_F(AdmissionTest, IdleSessions_CountAsNothing) {
+    add({1, 2, 3});
+    draw({1, 2, 3}, 30, 10ms, 5);
+    EXPECT_FALSE(admits());
+    now_ += 10s;
+    EXPECT_TRUE(admits());
+    draw({1, 2}, 30, 10ms, 5);
+    EXPECT_TRUE(admits()) << "two at 0.3 each";
+}
+
+TEST_F(AdmissionTest, SessionThatDrawsSeldom_CountsWithWhatItDraws) {
+    add({1, 2, 3, 4});
+    draw({1, 2, 3, 4}, 2, 20ms, 8);
+    EXPECT_TRUE(admits()) << "4 x 2 x 20 ms and one of 0.6";
+}
+
+TEST_F(AdmissionTest, CrowdThatHasNotDrawnYet_CountsAtTheMeanCost) {
+    add({1});
+    draw({1}, 30, 10ms, 5);
+    EXPECT_TRUE(admits());
+    add({2});
+    EXPECT_TRUE(admits()) << "0.3 each";
+    add({3});
+    EXPECT_FALSE(admits());
+    admission_.remove(3);
+    EXPECT_TRUE(admits());
+}
+
+TEST_F(AdmissionTest, SessionLeaves_MakesRoom) {
+    add({1, 2, 3});
+    draw({1, 2, 3}, 30, 10ms, 5);
+    EXPECT_FALSE(admits());
+    admission_.remove(2);
+    EXPECT_TRUE(admits());
+}
+
+TEST_F(AdmissionTest, FloorOfZero_AdmitsEveryone) {
+    Admission off(0);
+    off.add(1);
+    for (int frame = 0; frame < 10; ++frame) {
+        off.onFrame(1, 10s, now_ += 1s);
+    }
+    EXPECT_TRUE(off.check(now_).has_value());
+}
+
+TEST_F(AdmissionTest, FramesOfUnknownSessions_AreIgnored) {
+    admission_.onFrame(9, 1s, now_);
+    EXPECT_TRUE(admits());
+}
+
+// Sessions of mixed costs that the scheduler would serve in turn: those who were let in all keep
+// the floor, and one more than that would not have.
+TEST_F(AdmissionTest, MixedCosts_FillTheDeviceAndNotMore) {
+    std::mt19937 random(7);
+    for (int run = 0; run < 20; ++run) {
+        Admission admission(30);
+        TimePoint now = TimePoint() + 1h;
+        std::vector<double> costs_s;
+        while (costs_s.size() < 500 && admission.check(now)) {
+            costs_s.push_back(std::uniform_real_distribution<double>(0.0005, 0.004)(random));
+            admission.add(costs_s.size());
+            for (int frame = 0; frame < 150; ++frame) { // 5 s at 30 a second
+                now += std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / 30));
+                for (size_t i = 0; i < costs_s.size(); ++i) {
+                    admission.onFrame(i + 1, Seconds(costs_s[i]), now);
+                }
+            }
+        }
+        double busy = 0;
+        for (const double cost_s : costs_s) {
+            busy += cost_s * 30;
+        }
+        // The last one may have cost more than the mean by which it was judged.
+        EXPECT_LE(busy, 1 + 0.004 * 30);
+        EXPECT_GE(busy, 1 - 0.004 * 30);
+    }
+}
+
+} // namespace
+} // namespace froxel::stream
