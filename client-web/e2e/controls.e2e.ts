@@ -3,9 +3,8 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { isGridSide, kAllFields, type Field } from '../src/fields';
+import { choicesFor, isGridSide, kAllFields, type Field } from '../src/fields';
 import { Renderer } from '../src/gen/froxel/v1/common_pb';
-import { choicesOf } from '../src/schema_names';
 import { settingsOf, type Settings } from '../src/settings';
 import { startServer, type Server } from './server';
 import { difference, launch, until, Viewer } from './viewer';
@@ -27,6 +26,7 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   'grid.y': [16, false],
   'grid.z': [64, false],
   quality: [95, false],
+  video_kbps: [2500, false],
 };
 
 let server: Server;
@@ -89,7 +89,7 @@ describe('choices', () => {
   for (const field of kAllFields) {
     if (field.kind !== 'choice') continue;
     it(`Control_${field.name}_TakesEveryChoice`, async () => {
-      const choices = choicesOf(field.schema);
+      const choices = choicesFor(field);
       for (const { name, value } of [...choices.slice(1), ...choices.slice(0, 1)]) {
         if (field.name !== 'renderer') await viewer.choose('renderer', 'clustered deferred');
         await viewer.choose(field.name, name.replaceAll('_', ' '));

@@ -5,6 +5,7 @@ import type { DescEnum } from '@bufbuild/protobuf';
 
 import {
   ChromaSchema,
+  Codec,
   CodecSchema,
   GridLawSchema,
   LightingStageSchema,
@@ -15,6 +16,7 @@ import {
   ShadingModelSchema,
   ToneMapSchema,
 } from './gen/froxel/v1/common_pb';
+import { choicesOf, type Choice } from './schema_names';
 import type { Settings } from './settings';
 
 type KeysOf<T> = {
@@ -217,6 +219,12 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
 };
 
 export const kAllFields: readonly Field[] = Object.values(kFields).flat();
+
+const kPng: number = Codec.PNG;
+
+/** The values that a viewer may choose; PNG is the server's own choice, for a resting picture. */
+export const choicesFor = ({ key, schema }: ChoiceField): Choice[] =>
+  choicesOf(schema).filter(({ value }) => key !== 'codec' || value !== kPng);
 
 const kGridSides: readonly string[] = ['gridX', 'gridY', 'gridZ'];
 

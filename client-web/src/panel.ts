@@ -4,12 +4,11 @@ import GUI, { type Controller } from 'lil-gui';
 
 import type { AppState, ServerInfo } from './app_state';
 import { BoxEditor } from './box_editor';
-import { isGridSide, kFields, type Field, type NumberField, type Section } from './fields';
+import { choicesFor, isGridSide, kFields, type Field, type NumberField, type Section } from './fields';
 import { gridText, tidy } from './format';
-import { Codec } from './gen/froxel/v1/common_pb';
+import type { Codec } from './gen/froxel/v1/common_pb';
 import type { FrameGrid } from './gen/froxel/v1/server_pb';
 import { linearScale, logScale } from './range_scale';
-import { choicesOf } from './schema_names';
 import { isDeferred, type Settings } from './settings';
 import { SizeEditor, type SizeActions } from './size_editor';
 import { attachSlider } from './slider';
@@ -112,7 +111,7 @@ export class Panel {
     const options =
       field.kind === 'choice'
         ? Object.fromEntries(
-            choicesOf(field.schema)
+            choicesFor(field)
               .filter(({ value }) => field.key !== 'codec' || this.codecs.includes(value))
               .map(({ name, value }) => [name.replaceAll('_', ' '), value]),
           )
@@ -144,8 +143,6 @@ export class Panel {
     const limits = range ? ` · ${range.min} to ${range.max}` : '';
     this.finish(controller, { ...field, tip: field.tip + limits }, (settings) => {
       if (isGridSide(field)) controller.enable(!settings.gridAutomatic);
-      if (field.key === 'videoKbps') controller.enable(settings.codec !== Codec.JPEG);
-      if (field.key === 'quality') controller.enable(settings.codec === Codec.JPEG);
       const value = tidy(settings[field.key]);
       // Left alone while equal: the viewer may be typing another one.
       if (this.shown && tidy(this.shown[field.key]) === value) return;

@@ -2,8 +2,7 @@
 // ranges are not judged here: the server refuses them and says why.
 
 import type { Settings } from './settings';
-import { isGridSide, kAllFields, patchFor, type Field } from './fields';
-import { choicesOf } from './schema_names';
+import { choicesFor, isGridSide, kAllFields, patchFor, type Field } from './fields';
 import type { Bounds, Ramp } from './settings';
 import { vec, type Vec } from './vec3';
 
@@ -105,7 +104,7 @@ function formatField(field: Field, settings: Settings): string {
   if (field.kind === 'boolean') return settings[field.key] ? '1' : '0';
   if (field.kind === 'number') return short(settings[field.key]);
   const value: number = settings[field.key];
-  return choicesOf(field.schema).find((choice) => choice.value === value)?.name ?? String(value);
+  return choicesFor(field).find((choice) => choice.value === value)?.name ?? String(value);
 }
 
 function parseField(field: Field, text: string): Entry | null {
@@ -113,7 +112,7 @@ function parseField(field: Field, text: string): Entry | null {
     return text === '0' || text === '1' ? { settings: patchFor(field, text === '1') } : null;
   }
   if (field.kind === 'choice') {
-    const choice = choicesOf(field.schema).find(({ name }) => name === text);
+    const choice = choicesFor(field).find(({ name }) => name === text);
     return choice ? { settings: patchFor(field, choice.value) } : null;
   }
   const value = parseNumber(text);
