@@ -14,7 +14,7 @@ import {
 
 import { decodeBinary } from '../src/framing';
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
-import type { ViewState } from '../src/gen/froxel/v1/common_pb';
+import { Refine, Refinement, type ViewState } from '../src/gen/froxel/v1/common_pb';
 import type { FrameHeader, ServerMessage } from '../src/gen/froxel/v1/server_pb';
 
 const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
@@ -132,6 +132,15 @@ export class Viewer {
     });
   }
 
+  /** Whether no better picture of a view that rests is to come. */
+  private get refined(): boolean {
+    const { state, lastFrame } = this;
+    if (!state || !lastFrame) return false;
+    if (state.refine === Refine.NONE || (state.lightAnimate && state.lightCount > 0)) return true;
+    const last = state.refine === Refine.HIGH ? Refinement.HIGH : Refinement.LOSSLESS;
+    return lastFrame.refinement === last;
+  }
+
   /** Waits until all that was asked for is in the picture, and gives that one's thumbnail. */
   async settled(): Promise<number[]> {
     await until('a picture of the newest settings', () => {
@@ -140,6 +149,7 @@ export class Viewer {
       const { lastFrame } = this;
       return (
         lastFrame !== null &&
+        this.refined &&
         lastFrame.appliedSeq >= (asked?.seq ?? 0n) &&
         shown?.case === 'ack' &&
         shown.value.frameId === lastFrame.frameId

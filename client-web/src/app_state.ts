@@ -6,6 +6,7 @@
 // ago. A refusal takes the settings back to the confirmed ones.
 
 import type { FieldRange, FrameDetails, SceneInfo, ServerMessage } from './gen/froxel/v1/server_pb';
+import { Refine } from './gen/froxel/v1/common_pb';
 import { mayControl, roomOf, type Room } from './room';
 import { cameraOf, settingsOf, type Bounds, type Settings } from './settings';
 import type { SizeMode } from './url_state';
@@ -196,7 +197,11 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
 /** What to show after Welcome: as before the connection broke, or else as the link says. */
 function desired(state: AppState, server: ServerInfo, present: Settings): Settings {
   const before = state.settings;
-  if (!before) return { ...present, ...state.wanted };
+  if (!before) {
+    // A server refines without loss only for clients that say that they decode it.
+    const refine = present.refine === Refine.HIGH ? Refine.LOSSLESS : present.refine;
+    return { ...present, refine, ...state.wanted };
+  }
   if (state.server?.scene?.name === server.scene?.name) return before;
   // Another scene: places of the old one mean nothing in it.
   return { ...before, ...cameraOf(present), lightBox: null };

@@ -1,6 +1,6 @@
 // Worker: encoded parts to one bitmap.
 
-import type { DecodeRequest, DecodeReply } from './decoder';
+import { stillType, type DecodeRequest, type DecodeReply } from './decoder';
 import { Codec } from './gen/froxel/v1/common_pb';
 import { LostSync, VideoTrack } from './video_track';
 
@@ -48,7 +48,7 @@ async function decode({ width, height, parts, bytes }: DecodeRequest): Promise<I
   const images = await Promise.all(
     parts.map((part) => {
       const encoded = bytes.subarray(part.offset, part.offset + part.length);
-      return createImageBitmap(new Blob([encoded], { type: 'image/jpeg' }));
+      return createImageBitmap(new Blob([encoded], { type: stillType(part.codec) ?? '' }));
     }),
   );
   const [first] = images;

@@ -42,7 +42,13 @@ export interface WorkerPort {
   onerror: ((event: ErrorEvent) => void) | null;
 }
 
-const kDecodable: readonly Codec[] = [Codec.JPEG, Codec.VP9];
+const kStillTypes: Readonly<Partial<Record<Codec, string>>> = {
+  [Codec.JPEG]: 'image/jpeg',
+  [Codec.PNG]: 'image/png',
+};
+
+/** The media type of a codec whose frames are pictures by themselves. */
+export const stillType = (codec: Codec): string | undefined => kStillTypes[codec];
 
 export const isVideo = ({ parts }: FrameHeader): boolean =>
   parts.some(({ codec }) => codec === Codec.VP9);
@@ -77,9 +83,9 @@ export function workerDecoder(worker: WorkerPort): Decode {
         reject(new Error(`frame ${header.frameId} has no picture in it`));
         return;
       }
-      const odd = header.parts.find(({ codec }) => !kDecodable.includes(codec));
+      const odd = header.parts.find(({ codec }) => codec !== Codec.VP9 && !stillType(codec));
       if (odd) {
-        reject(new Error(`frame of codec ${odd.codec}; this page decodes JPEG and VP9`));
+        reject(new Error(`frame of codec ${odd.codec}; this page decodes JPEG, PNG and VP9`));
         return;
       }
       if (isVideo(header) && header.parts.length > 1) {

@@ -12,6 +12,7 @@ import {
   LightLoopSchema,
   NormalEncodingSchema,
   PositionSourceSchema,
+  RefineSchema,
   RendererSchema,
   ShadingModelSchema,
   ToneMapSchema,
@@ -33,7 +34,8 @@ type ChoiceKey =
   | 'lightLoop'
   | 'toneMap'
   | 'chroma'
-  | 'codec';
+  | 'codec'
+  | 'refine';
 
 interface Base {
   readonly name: string;
@@ -214,6 +216,27 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'Chroma',
       ChromaSchema,
       '444 keeps full colour resolution, 420 sends fewer bytes',
+    ),
+    toggle(
+      'adaptive',
+      'adaptive',
+      'Adaptive',
+      'Quality, then resolution give way to a slow link; off: frames come late instead',
+    ),
+    number(
+      'targetFps',
+      'target_fps',
+      'Target rate',
+      'linear',
+      false,
+      'Frames a second that a moving view keeps at the expense of its resolution. 0: none',
+    ),
+    choice(
+      'refine',
+      'refine',
+      'At rest',
+      RefineSchema,
+      'How far a resting picture is refined: as asked for, at high quality, or without loss',
     ),
   ],
 };

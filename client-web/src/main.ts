@@ -47,8 +47,8 @@ const presenter = new Presenter({
   decode: workerDecoder(worker),
   nextFrame,
   nowMs,
-  paint: (bitmap) => picture.paint(bitmap),
-  acknowledge: (frameId) => void connection.send({ case: 'ack', value: { frameId } }),
+  paint: (bitmap, header) => picture.paint(bitmap, header.scale),
+  acknowledge: (ack) => void connection.send({ case: 'ack', value: ack }),
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
     panel.showGrid(header.grid);

@@ -1,5 +1,6 @@
 // The statistics card.
 
+import { deliveryRows } from './delivery';
 import { Details } from './details';
 import { element, make } from './dom';
 import { bits, bytes, count, gridText, ms } from './format';
@@ -79,6 +80,7 @@ export class Overlay {
     if (!last) return;
     this.value('Codec', '', `${codecName(last)} · ${bits(figures.bytesPerSecond * 8)}/s`);
     this.value('Picture', '', `${last.width} × ${last.height}`);
+    for (const { name, value } of deliveryRows(last)) this.value(name, '', value);
     this.value('GPU · encode', '', `${ms(last.gpuUs / 1000)} · ${ms(last.encodeUs / 1000)}`);
     this.value('Triangles', '', count(last.triangles));
     this.value('Lights', '', count(last.lightCount));

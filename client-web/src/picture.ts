@@ -1,5 +1,18 @@
 // The canvas: paints bitmaps and saves the picture.
 
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The size that was asked for, by a picture of `scale` of it; the canvas has it already, mostly. */
+export function canvasSize(canvas: Size, picture: Size, scale: number): Size {
+  if (!(scale > 0) || scale >= 1) return { width: picture.width, height: picture.height };
+  const fits = (whole: number, part: number): boolean => Math.abs(whole * scale - part) <= 1;
+  if (fits(canvas.width, picture.width) && fits(canvas.height, picture.height)) return canvas;
+  return { width: Math.round(picture.width / scale), height: Math.round(picture.height / scale) };
+}
+
 export class Picture {
   private readonly context: CanvasRenderingContext2D;
   private painted = false;
@@ -10,13 +23,16 @@ export class Picture {
     this.context = context;
   }
 
-  paint(bitmap: ImageBitmap): void {
+  /** `scale` is the picture's, of the size asked for: the canvas keeps that size, and its place. */
+  paint(bitmap: ImageBitmap, scale: number): void {
     const { canvas } = this;
-    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-      canvas.width = bitmap.width;
-      canvas.height = bitmap.height;
+    const size = canvasSize(canvas, bitmap, scale);
+    if (canvas.width !== size.width || canvas.height !== size.height) {
+      canvas.width = size.width;
+      canvas.height = size.height;
     }
-    this.context.drawImage(bitmap, 0, 0);
+    this.context.imageSmoothingQuality = 'high';
+    this.context.drawImage(bitmap, 0, 0, size.width, size.height);
     this.painted = true;
   }
 

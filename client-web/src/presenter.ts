@@ -14,16 +14,29 @@ export interface PresenterEnvironment {
   readonly decode: Decode;
   readonly nextFrame: (action: () => void) => void;
   readonly nowMs: () => number;
-  readonly paint: (bitmap: ImageBitmap) => void;
-  readonly acknowledge: (frameId: bigint) => void;
+  readonly paint: (bitmap: ImageBitmap, header: FrameHeader) => void;
+  readonly acknowledge: (ack: FrameTimes) => void;
   readonly painted: (header: FrameHeader, decodeMs: number) => void;
   readonly problem: (text: string) => void;
   /** Video cannot go on without a key frame. */
   readonly lostSync: (error: LostSync) => void;
 }
 
+/** What an acknowledgement tells of a frame, so that the server does not take our time for the link's. */
+export interface FrameTimes {
+  readonly frameId: bigint;
+  readonly receiveToPaintUs: number;
+  readonly decodeUs: number;
+}
+
+interface Waiting {
+  readonly frame: Frame;
+  readonly receivedMs: number;
+}
+
 interface Ready {
   readonly header: FrameHeader;
+  readonly receivedMs: number;
   readonly bitmap: ImageBitmap;
   readonly decodeMs: number;
 }
@@ -32,7 +45,7 @@ export class Presenter {
   /** Frames that arrived and were never shown, since the page was opened. */
   droppedCount = 0;
 
-  private waiting: Frame[] = []; // more than one only of video
+  private waiting: Waiting[] = []; // more than one only of video
   private ready: Ready | null = null;
   private decodes = 0;
   private lastId = 0n; // newest frame decoded so far
@@ -45,10 +58,10 @@ export class Presenter {
 
   offer(frame: Frame): void {
     if (!needsOthers(frame.header)) {
-      for (const { header } of this.waiting) this.drop(header);
+      for (const old of this.waiting) this.drop(old.frame.header, old.receivedMs);
       this.waiting = [];
     }
-    this.waiting.push(frame);
+    this.waiting.push({ frame, receivedMs: this.env.nowMs() });
     this.decodeNext();
   }
 
@@ -71,8 +84,9 @@ export class Presenter {
 
   private decodeNext(): void {
     if (!this.visible || this.decodes >= kMaxDecodes) return;
-    const frame = this.waiting.shift();
-    if (!frame) return;
+    const next = this.waiting.shift();
+    if (!next) return;
+    const { frame, receivedMs } = next;
     const { header } = frame;
     this.decodes += 1;
     const { generation } = this;
@@ -81,7 +95,7 @@ export class Presenter {
       (bitmap) => {
         this.decodes -= 1;
         if (generation === this.generation) {
-          this.decoded({ header, bitmap, decodeMs: this.env.nowMs() - startMs });
+          this.decoded({ header, receivedMs, bitmap, decodeMs: this.env.nowMs() - startMs });
         } else {
           bitmap.close();
         }
@@ -90,7 +104,7 @@ export class Presenter {
       (error: unknown) => {
         this.decodes -= 1;
         if (generation === this.generation) {
-          this.drop(header);
+          this.drop(header, receivedMs);
           if (error instanceof LostSync) this.env.lostSync(error);
           else this.env.problem(error instanceof Error ? error.message : String(error));
         }
@@ -102,13 +116,13 @@ export class Presenter {
   private decoded(next: Ready): void {
     if (next.header.frameId <= this.lastId) {
       next.bitmap.close();
-      this.drop(next.header);
+      this.drop(next.header, next.receivedMs, next.decodeMs);
       return;
     }
     this.lastId = next.header.frameId;
     if (this.ready) {
       this.ready.bitmap.close();
-      this.drop(this.ready.header);
+      this.drop(this.ready.header, this.ready.receivedMs, this.ready.decodeMs);
     }
     this.ready = next;
     this.schedulePaint();
@@ -127,20 +141,27 @@ export class Presenter {
     const { ready } = this;
     if (!ready || !this.visible) return;
     this.ready = null;
-    this.env.paint(ready.bitmap);
+    this.env.paint(ready.bitmap, ready.header);
     ready.bitmap.close();
-    this.acknowledge(ready.header);
+    this.acknowledge(ready.header, ready.receivedMs, ready.decodeMs);
     this.env.painted(ready.header, ready.decodeMs);
   }
 
-  private drop(header: FrameHeader): void {
+  private drop(header: FrameHeader, receivedMs: number, decodeMs = 0): void {
     this.droppedCount += 1;
-    if (this.visible) this.acknowledge(header);
+    if (this.visible) this.acknowledge(header, receivedMs, decodeMs);
   }
 
-  private acknowledge({ frameId }: FrameHeader): void {
+  private acknowledge({ frameId }: FrameHeader, receivedMs: number, decodeMs: number): void {
     if (frameId <= this.ackedId) return;
     this.ackedId = frameId;
-    this.env.acknowledge(frameId);
+    this.env.acknowledge({
+      frameId,
+      receiveToPaintUs: micros(this.env.nowMs() - receivedMs),
+      decodeUs: micros(decodeMs),
+    });
   }
 }
+
+/** As a uint32: an hour is as good as for ever. */
+const micros = (ms: number): number => Math.min(3_600_000_000, Math.max(0, Math.round(ms * 1000)));

@@ -12,6 +12,7 @@ import {
   type LightLoop,
   type NormalEncoding,
   type PositionSource,
+  type Refine,
   type ShadingModel,
   type ToneMap,
   type ToonRamp,
@@ -75,6 +76,9 @@ export interface Settings {
   readonly chroma: Chroma;
   readonly codec: Codec;
   readonly videoKbps: number; // while the codec is a video one
+  readonly adaptive: boolean;
+  readonly targetFps: number; // 0: none
+  readonly refine: Refine;
 }
 
 /** The part of the settings that SetCamera carries. */
@@ -141,6 +145,9 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     chroma: state.chroma,
     codec: state.codec,
     videoKbps: state.videoKbps,
+    adaptive: state.adaptive,
+    targetFps: state.targetFps,
+    refine: state.refine,
   };
 }
 
@@ -227,6 +234,16 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
         ...(changed('chroma') && { chroma: to.chroma }),
         ...(changed('codec') && { codec: to.codec }),
         ...(changed('videoKbps') && { videoKbps: to.videoKbps }),
+      },
+    });
+  }
+  if (changed('adaptive', 'targetFps', 'refine')) {
+    commands.push({
+      case: 'setDelivery',
+      value: {
+        ...(changed('adaptive') && { adaptive: to.adaptive }),
+        ...(changed('targetFps') && { targetFps: to.targetFps }),
+        ...(changed('refine') && { refine: to.refine }),
       },
     });
   }

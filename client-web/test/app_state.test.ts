@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { kInitialState, reduce, type Action, type AppState } from '../src/app_state';
+import { Refine } from '../src/gen/froxel/v1/common_pb';
 import { ErrorCode } from '../src/gen/froxel/v1/server_pb';
 import { serverMessage } from './fakes';
 import { viewState, welcome } from './sample';
@@ -72,6 +73,15 @@ describe('welcome', () => {
     expect(run(live, draining, welcomed()).notice).toBeNull();
     const error: Action = { type: 'notice', tone: 'error', text: 'bad link' };
     expect(run(kInitialState, error, welcomed()).notice?.text).toBe('bad link');
+  });
+
+  it('ServerThatRefines_IsAskedForTheLosslessPictureUnlessTheLinkSaysElse', () => {
+    const greeted = (refine: Refine): Action =>
+      received({ case: 'welcome', value: { ...welcome(), state: viewState({ refine }) } });
+    expect(run(kInitialState, greeted(Refine.HIGH)).settings?.refine).toBe(Refine.LOSSLESS);
+    expect(run(kInitialState, greeted(Refine.NONE)).settings?.refine).toBe(Refine.NONE);
+    const link: Action = { type: 'restored', wanted: { refine: Refine.NONE }, size: null };
+    expect(run(kInitialState, link, greeted(Refine.HIGH)).settings?.refine).toBe(Refine.NONE);
   });
 
   it('WithoutAState_IsRefused', () => {

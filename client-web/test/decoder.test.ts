@@ -1,6 +1,13 @@
 import { describe, expect, it } from 'vitest';
 
-import { needsOthers, workerDecoder, type DecodeReply, type DecodeRequest, type WorkerPort } from '../src/decoder';
+import {
+  needsOthers,
+  stillType,
+  workerDecoder,
+  type DecodeReply,
+  type DecodeRequest,
+  type WorkerPort,
+} from '../src/decoder';
 import type { Frame } from '../src/framing';
 import { Codec } from '../src/gen/froxel/v1/common_pb';
 import { LostSync } from '../src/video_track';
@@ -36,9 +43,17 @@ describe('workerDecoder', () => {
     const asked = frame();
     void workerDecoder(worker)(asked);
     expect(worker.requests).toMatchObject([
-      { width: 4, height: 2, parts: [{ offset: 0, length: 3, x: 0, y: 0 }] },
+      { width: 4, height: 2, parts: [{ offset: 0, length: 3, x: 0, y: 0, codec: Codec.JPEG }] },
     ]);
     expect(worker.transfers[0]).toEqual([asked.payload.buffer]);
+  });
+
+  it('Lossless_IsAskedForAsPng', () => {
+    const worker = new FakeWorker();
+    void workerDecoder(worker)(frame(Codec.PNG));
+    expect(worker.requests[0]?.parts[0]?.codec).toBe(Codec.PNG);
+    expect(stillType(Codec.PNG)).toBe('image/png');
+    expect(stillType(Codec.VP9)).toBeUndefined();
   });
 
   it('Replies_FindTheirRequestsInAnyOrder', async () => {

@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 
 import type { Frame } from '../src/framing';
 import { Codec } from '../src/gen/froxel/v1/common_pb';
-import { Presenter } from '../src/presenter';
+import { Presenter, type FrameTimes } from '../src/presenter';
 import { LostSync } from '../src/video_track';
 import { FakeFrames, frameHeader, settle } from './fakes';
 
@@ -16,6 +16,8 @@ let frames: FakeFrames;
 let decodes: Decode[];
 let painted: bigint[];
 let acks: bigint[];
+let times: FrameTimes[];
+let clockMs: number;
 let problems: string[];
 let losses: boolean[];
 let openBitmaps: number;
@@ -41,6 +43,8 @@ beforeEach(() => {
   decodes = [];
   painted = [];
   acks = [];
+  times = [];
+  clockMs = 0;
   problems = [];
   losses = [];
   openBitmaps = 0;
@@ -54,9 +58,12 @@ beforeEach(() => {
         });
       }),
     nextFrame: frames.next,
-    nowMs: () => 0,
+    nowMs: () => clockMs,
     paint: (image) => void painted.push((image as ReturnType<typeof bitmap>).id),
-    acknowledge: (id) => void acks.push(id),
+    acknowledge: (ack) => {
+      acks.push(ack.frameId);
+      times.push(ack);
+    },
     painted: () => undefined,
     problem: (text) => void problems.push(text),
     lostSync: ({ broken }) => void losses.push(broken),
@@ -72,6 +79,16 @@ describe('Presenter', () => {
     expect(painted).toEqual([1n]);
     expect(acks).toEqual([1n]);
     expect(openBitmaps).toBe(0);
+  });
+
+  it('Acknowledgement_TellsWhatThePageTook', async () => {
+    clockMs = 100;
+    presenter.offer(frame(1));
+    clockMs = 104.5;
+    await decodes[0]?.finish();
+    clockMs = 116;
+    frames.run();
+    expect(times).toEqual([{ frameId: 1n, receiveToPaintUs: 16_000, decodeUs: 4_500 }]);
   });
 
   it('Decodes_AreTwoAtMostAndTheNewestWaits', async () => {

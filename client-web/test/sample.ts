@@ -10,6 +10,7 @@ import {
   LightLoop,
   NormalEncoding,
   PositionSource,
+  Refine,
   Renderer,
   ShadingModel,
   ToneMap,
@@ -65,6 +66,9 @@ export function viewState(change: ViewInit = {}): ViewState {
     chroma: Chroma.CHROMA_420,
     codec: Codec.JPEG,
     videoKbps: 6000,
+    adaptive: true,
+    targetFps: 0,
+    refine: Refine.NONE,
     ...change,
   });
 }

@@ -8,6 +8,7 @@ import {
   LightLoop,
   NormalEncoding,
   PositionSource,
+  Refine,
   Renderer,
   ShadingModel,
   ToneMap,
@@ -108,6 +109,9 @@ describe('settingCommands', () => {
       { case: 'setExposure', value: { toneMap: ToneMap.CLAMP } },
     ],
     ['quality', { quality: 5 }, { case: 'setEncoding', value: { quality: 5 } }],
+    ['adaptive', { adaptive: false }, { case: 'setDelivery', value: { adaptive: false } }],
+    ['target rate', { targetFps: 24 }, { case: 'setDelivery', value: { targetFps: 24 } }],
+    ['refine', { refine: Refine.HIGH }, { case: 'setDelivery', value: { refine: Refine.HIGH } }],
     [
       'chroma',
       { chroma: Chroma.CHROMA_444 },

@@ -125,6 +125,18 @@ void addLensShift(CommandBuilder& command, std::optional<glm::dvec2>& target) {
                   "The picture's middle off the view axis, right and up, in half pictures");
 }
 
+void addDelivery(CommandBuilder& command, session::DeliverySettings& delivery) {
+    static constexpr std::array kSwitchNames = {std::string_view("off"), std::string_view("on")};
+    command.name("--adaptive", delivery.adaptive, kSwitchNames,
+                 "Whether quality and resolution give way to a slow link");
+    command.number(
+        "--target-fps", delivery.target_fps, view::kTargetFpsRange,
+        "Frames a second that a moving view keeps at the expense of its resolution; 0: none");
+    command.name(
+        "--refine", delivery.refine, view::kRefineNames,
+        "How far a resting picture is refined; lossless: by PNG, which viewers must decode");
+}
+
 // What a viewer starts with; each may change it.
 void addFirstView(CommandBuilder& command, ServeOptions& options) {
     using Defaults = session::SessionDefaults;
@@ -145,6 +157,7 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
         "--renderer", options.renderer, view::kRendererNames,
         byDevice([](const Defaults& d) { return textOf(view::kRendererNames, d.renderer); }),
         "First renderer");
+    addDelivery(command, options.delivery);
     addShading(command, options.other);
     addLensShift(command, options.lens_shift);
 }

@@ -38,6 +38,7 @@ session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_
         options.light_radius_m.value_or(static_cast<double>(defaults.light_radius_m)));
     defaults.renderer = options.renderer.value_or(defaults.renderer);
     defaults.min_rate_hz = options.min_rate_hz.value_or(defaults.min_rate_hz);
+    defaults.delivery = options.delivery;
     defaults.other = options.other;
     defaults.lens_shift = options.lens_shift;
     return defaults;

@@ -3,6 +3,7 @@
 
 #include "gpu/device_options.h"
 #include "net/bind_address.h"
+#include "session/session_context.h"
 #include "view/settings.h"
 
 #include <cstdint>
@@ -31,6 +32,8 @@ struct ServeOptions {
     std::optional<uint32_t> light_count;
     std::optional<double> light_radius_m;
     std::optional<view::Renderer> renderer;
+    session::DeliverySettings delivery =
+        session::defaultsFor(session::DeviceKind::kCpu).delivery; // the same on both
     view::ViewSettings other; // of the first view, what the fields above and the camera do not say
     std::optional<glm::dvec2> lens_shift;
     // The built page. Empty: web/ beside the binary, else where this build made it.

@@ -3,8 +3,10 @@
 #include "core/assert.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/jpeg_stripes.h"
+#include "encode/png_encoder.h"
 #include "encode/video_encoder.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -17,12 +19,15 @@ struct EncodePool::Work {
 
     void begin(size_t thread_count) {
         started_at = Clock::now();
-        stripes = job.video ? std::vector<PixelView>{job.pixels.view()}
-                            : cutStripes(job.pixels.view(), job.encoding.chroma, thread_count);
+        stripes = job.video || job.lossless
+                      ? std::vector<PixelView>{job.pixels.view()}
+                      : cutStripes(job.pixels.view(), job.encoding.chroma, thread_count);
         parts.resize(stripes.size());
     }
     void encode(JpegEncoder& encoder, size_t stripe) {
-        auto part = job.video ? encodeVideo() : encoder.encode(stripes[stripe], job.encoding);
+        auto part = job.video      ? encodeVideo()
+                    : job.lossless ? encodePng(stripes[stripe])
+                                   : encoder.encode(stripes[stripe], job.encoding);
         if (part) {
             parts[stripe] = std::move(*part);
         } else if (!failed.exchange(true)) {
@@ -102,7 +107,10 @@ bool EncodePool::submit(EncodeJob&& job) {
         if (queue_.size() >= queue_limit_) {
             return false;
         }
-        queue_.push_back(std::make_shared<Work>(std::move(job), Clock::now()));
+        const auto first_lossless = std::find_if(
+            queue_.begin(), queue_.end(), [](const auto& work) { return work->job.lossless; });
+        const auto place = job.lossless ? queue_.end() : first_lossless;
+        queue_.insert(place, std::make_shared<Work>(std::move(job), Clock::now()));
     }
     wake_.notify_one();
     return true;

@@ -1,6 +1,6 @@
-// Encoder threads with one bounded queue, first in first out. A large picture is shared by as many
-// threads as are idle when its turn comes (encode/jpeg_stripes.h). When the queue is full, submit()
-// refuses at once and never waits: the caller decides what to drop.
+// Encoder threads with one bounded queue, first in first out but for lossless ones. A large picture
+// is shared by as many threads as are idle when its turn comes (encode/jpeg_stripes.h). When the
+// queue is full, submit() refuses at once and never waits: the caller decides what to drop.
 #pragma once
 
 #include "core/clock.h"
@@ -39,6 +39,7 @@ struct EncodeJob {
     // may finish out of order when several are queued.
     std::function<void(Result<EncodedFrame>)> done;
     std::optional<VideoJob> video = std::nullopt; // with a video codec
+    bool lossless = false; // PNG instead of JPEG; waits behind those, whose viewers move
 };
 
 class EncodePool {

@@ -2,8 +2,7 @@
 
 #include "core/text.h"
 #include "encode/jpeg_encoder.h"
-
-#include <png.h>
+#include "encode/png_encoder.h"
 
 #include <algorithm>
 #include <bit>
@@ -70,63 +69,13 @@ class OutputFile {
     int error_ = 0;
 };
 
-// libpng reports through longjmp; this keeps it among plain C frames. Its text goes to `reason`.
-struct PngSink {
-    OutputFile* file;
-    char reason[96];
-};
-
-void pngFail(png_structp png, png_const_charp text) {
-    auto* sink = static_cast<PngSink*>(png_get_error_ptr(png));
-    std::snprintf(sink->reason, sizeof sink->reason, "%s", text);
-    png_longjmp(png, 1);
-}
-
-void pngIgnore(png_structp /*png*/, png_const_charp /*warning*/) {}
-
-void pngWrite(png_structp png, png_bytep data, size_t bytes) {
-    auto* sink = static_cast<PngSink*>(png_get_io_ptr(png));
-    sink->file->write(data, bytes);
-    if (!sink->file->ok()) {
-        png_error(png, "write failed");
-    }
-}
-
-void pngFlush(png_structp /*png*/) {}
-
-// No object with a destructor may live in this function: libpng's errors jump out of it.
-bool emitPng(png_structp png, png_infop info, PngSink* sink, const PixelView& pixels) {
-    if (setjmp(png_jmpbuf(png)) != 0) {
-        return false;
-    }
-    png_set_write_fn(png, sink, pngWrite, pngFlush);
-    png_set_IHDR(png, info, pixels.width_px, pixels.height_px, 8, PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_write_info(png, info);
-    png_set_filler(png, 0, PNG_FILLER_AFTER); // the view's alpha stays out
-    const auto* row = reinterpret_cast<png_const_bytep>(pixels.data);
-    for (uint32_t y = 0; y < pixels.height_px; ++y) {
-        png_write_row(png, row);
-        row += pixels.stride_bytes;
-    }
-    png_write_end(png, info);
-    return true;
-}
-
 Result<void> writePng(const path& file, const PixelView& pixels) {
+    const auto png = encodePng(pixels);
+    if (!png) {
+        return ioError(file, png.error().message);
+    }
     OutputFile output(file);
-    if (!output.ok()) {
-        return output.close();
-    }
-    PngSink sink{&output, {}};
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, pngFail, pngIgnore);
-    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    const bool written = info != nullptr && emitPng(png, info, &sink, pixels);
-    png_destroy_write_struct(&png, &info);
-    if (!written && output.ok()) {
-        return ioError(file, sink.reason[0] != '\0' ? sink.reason : "libpng cannot start");
-    }
+    output.write(png->data(), png->size());
     return output.close();
 }
 

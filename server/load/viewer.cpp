@@ -247,23 +247,23 @@ bool Viewer::controls() const {
 }
 
 void Viewer::paintLater(uint64_t frame_id, TimePoint now) {
-    const uint64_t overtaken = std::exchange(unpainted_id_, frame_id);
-    if (overtaken != 0) {
+    const Unpainted overtaken = std::exchange(unpainted_, {frame_id, now});
+    if (overtaken.frame_id != 0) {
         meter_.onFrameDropped();
         acknowledge(overtaken);
         return;
     }
     // Refreshes come at whole periods of this viewer's own phase.
-    const auto into_period = (now - connecting_since_) % kRefresh;
-    refresh_.expires_at(now + (kRefresh - into_period));
-    refresh_.async_wait(guarded(
-        [](Viewer& self) { self.acknowledge(std::exchange(self.unpainted_id_, uint64_t{0})); }));
+    refresh_.expires_at(now + (kRefresh - (now - connecting_since_) % kRefresh));
+    refresh_.async_wait(
+        guarded([](Viewer& self) { self.acknowledge(std::exchange(self.unpainted_, {})); }));
 }
 
-void Viewer::acknowledge(uint64_t frame_id) {
+void Viewer::acknowledge(const Unpainted& frame) {
     if (!closing_) {
         v1::ClientMessage message;
-        message.mutable_ack()->set_frame_id(frame_id);
+        message.mutable_ack()->set_frame_id(frame.frame_id);
+        message.mutable_ack()->set_receive_to_paint_us(frame.heldUs());
         send(std::move(message), Clock::now());
     }
 }

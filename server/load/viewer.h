@@ -101,6 +101,13 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     [[nodiscard]] ViewerResult result() const;
 
   private:
+    struct Unpainted {
+        uint64_t frame_id = 0; // 0: none
+        TimePoint received_at;
+        [[nodiscard]] uint32_t heldUs() const {
+            return static_cast<uint32_t>(Microseconds(Clock::now() - received_at).count());
+        }
+    };
     using Code = boost::system::error_code;
     using Stream =
         boost::beast::websocket::stream<boost::beast::basic_stream<boost::asio::ip::tcp,
@@ -118,7 +125,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     void onMessage(const v1::ServerMessage& message);
     void onWelcome(const v1::Welcome& welcome);
     void paintLater(uint64_t frame_id, TimePoint now);
-    void acknowledge(uint64_t frame_id);
+    void acknowledge(const Unpainted& frame);
     void playNext();
     void onStepDue();
     void send(v1::ClientMessage message, TimePoint now);
@@ -150,7 +157,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     std::optional<Step> step_;
     uint64_t sent_seq_ = 0;
     uint64_t setup_seq_ = 0; // the first frame shows this one
-    uint64_t unpainted_id_ = 0;
+    Unpainted unpainted_;
     std::deque<std::string> outgoing_;
     size_t outgoing_bytes_ = 0;
     bool ended_ = false;

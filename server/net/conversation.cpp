@@ -44,7 +44,7 @@ void Conversation::handle(const CommandMessage& message, TimePoint now) {
     } else if (std::holds_alternative<session::Ping>(message.body)) {
         answer(session::makePong(message.stamp));
     } else if (const auto* ack = std::get_if<session::Ack>(&message.body)) {
-        onAck(message.stamp, ack->frame_id, now);
+        onAck(message.stamp, *ack, now);
     } else if (seat_) {
         onCommand(message, now);
     } else if (early_.size() < kMaxEarlyCommands) {
@@ -131,15 +131,50 @@ void Conversation::setPaused(bool paused) {
     mendVideo();
 }
 
-void Conversation::onAck(const session::CommandStamp& stamp, uint64_t frame_id, TimePoint now) {
-    if (window_.onAck(frame_id, now) == session::AckOutcome::kUnknown) {
+void Conversation::onAck(const session::CommandStamp& stamp,
+                         const session::Ack& ack,
+                         TimePoint now) {
+    const Seconds client = Microseconds(ack.receive_to_paint_us);
+    switch (window_.onAck(ack.frame_id, now, client)) {
+    case session::AckOutcome::kUnknown:
         reject({RejectCode::kOutOfRange, stamp.seq, "frame_id",
-                "frame_id is " + numberText(frame_id) + "; no such frame was sent"},
+                "frame_id is " + numberText(ack.frame_id) + "; no such frame was sent"},
                now);
         return;
+    case session::AckOutcome::kFresh:
+        followLink(now);
+        break;
+    case session::AckOutcome::kStale:
+        break;
     }
     grantCredits();
     mendVideo();
+}
+
+// Before a picture was sent nothing is acknowledged, so there is a session.
+void Conversation::followLink(TimePoint now) {
+    const session::SessionState state = seat_->session->state();
+    rate_.setWanted(state.encoding, state.delivery);
+    const session::RateStep step = rate_.onTrip(*window_.lastTrip(), now);
+    metrics_->rateStepped(step);
+    if (rate_.takeProbe()) {
+        window_.probe();
+    }
+    window_.setFloor(state.delivery.adaptive && !rate_.alone() ? 2 : 1);
+
+    session::Delivery delivery = rate_.delivery();
+    delivery.link_rate = told_delivery_.link_rate;
+    // In steps: the last digits of a rate are news to nobody.
+    constexpr double kNews = 1.2;
+    const auto rate = rate_.linkRate();
+    const double told = delivery.link_rate.value_or(0);
+    if (rate && (*rate > kNews * told || *rate * kNews < told)) {
+        delivery.link_rate = rate;
+    }
+    if (delivery != told_delivery_) {
+        told_delivery_ = delivery;
+        seat_->session->setDelivery(seat_->place, delivery);
+    }
 }
 
 void Conversation::onService(const ServiceStatus& status, TimePoint now) {
@@ -187,7 +222,11 @@ void Conversation::onFrame(session::ReadyFrame frame) {
     if (closing_) {
         return;
     }
-    window_.onProduced(frame.cost);
+    if (const session::Delivered& with = frame.record.delivered;
+        with.refinement == session::Refinement::kInteractive) {
+        window_.onProduced(frame.cost);
+        rate_.onProduced(frame.cost, with.scale);
+    }
     const uint32_t dropped_before = outbox_.droppedCount();
     video_lost_ = outbox_.putFrame(std::move(frame)) == Outbox::Put::kLost;
     for (uint32_t i = dropped_before; i < outbox_.droppedCount(); ++i) {
@@ -322,7 +361,12 @@ Outgoing Conversation::frameMessage(TimePoint now) {
     frame.record.send_wait_us = Microseconds(now - frame.ready_at).count();
     frame.record.dropped_count = outbox_.droppedCount();
     signRecord(frame.record);
-    window_.onSent(frame.record.frame_id, now);
+    const session::Delivered& with = frame.record.delivered;
+    window_.onSent(
+        frame.record.frame_id, now,
+        {frame.bytes->size(), with.rung, with.refinement != session::Refinement::kInteractive});
+    frame.record.queue_delay_us = Microseconds(rate_.queueDelay()).count();
+    frame.record.link_bits_per_s = rate_.linkRate().value_or(0);
     grantCredits();
     metrics_->frameSent(frame.record);
     spdlog::debug("event=frame_sent session={} frame={} bytes={} render_us={:.0f} encode_us={:.0f} "

@@ -8,6 +8,7 @@
 #include "net/service.h"
 #include "session/command_reader.h"
 #include "session/pacing.h"
+#include "session/rate_controller.h"
 #include "session/reject_budget.h"
 
 #include <memory>
@@ -61,7 +62,8 @@ class Conversation {
     void changeControl(const session::CommandMessage& message, TimePoint now);
     void setPaused(bool paused);
     void onFrame(session::ReadyFrame frame);
-    void onAck(const session::CommandStamp& stamp, uint64_t frame_id, TimePoint now);
+    void onAck(const session::CommandStamp& stamp, const session::Ack& ack, TimePoint now);
+    void followLink(TimePoint now);
     void sayLoading();
     void reject(const session::Rejection& rejection, TimePoint now);
     void answer(const v1::ServerMessage& message);
@@ -80,6 +82,8 @@ class Conversation {
     session::CommandReader reader_;
     session::RejectBudget rejects_;
     session::CreditWindow window_;
+    session::RateController rate_;
+    session::Delivery told_delivery_;
     Outbox outbox_;
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;

@@ -81,9 +81,10 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         room_.setAway(place.member, false);
         tellAll(mail, RoomNews{});
     }
-    member = {place.connection, std::move(viewer), 0, 0, codecs};
+    member = {place.connection, std::move(viewer), 0, 0, codecs, {}};
     updateCodecs(now, mail);
     updateGrant();
+    updateDelivery();
     if (picture_ && !picture_->record.key) {
         wantKeyFrame(now);
         return {};
@@ -105,6 +106,7 @@ void LiveSession::detach(const Place& place, Mail& mail) {
     room_.setAway(place.member, true);
     updateCodecs(Clock::now(), mail);
     updateGrant();
+    updateDelivery();
     tellAll(mail, RoomNews{});
 }
 
@@ -116,6 +118,7 @@ bool LiveSession::removeMember(MemberId member, Mail& mail) {
     if (!last) {
         updateCodecs(Clock::now(), mail);
         updateGrant();
+        updateDelivery();
     } else if (!std::exchange(ended_, true)) {
         serving_.port->leave(id_);
     }
@@ -235,6 +238,28 @@ void LiveSession::wantKeyFrame(TimePoint now) {
     }
 }
 
+void LiveSession::setDelivery(const Place& place, const session::Delivery& delivery) {
+    const std::lock_guard lock(mutex_);
+    if (Member* member = find(place)) {
+        member->delivery = delivery;
+        updateDelivery();
+    }
+}
+
+void LiveSession::updateDelivery() {
+    const session::Delivery* best = nullptr;
+    for (const auto& [id, member] : members_) {
+        const bool here = member.connection != 0;
+        if (here && (best == nullptr || member.delivery.rung < best->rung)) {
+            best = &member.delivery;
+        }
+    }
+    if (!ended_ && best != nullptr && *best != delivery_) {
+        delivery_ = *best;
+        serving_.port->setDelivery(id_, delivery_);
+    }
+}
+
 SessionState LiveSession::state() const {
     const std::lock_guard lock(mutex_);
     return state_;
@@ -308,6 +333,7 @@ void LiveSession::takeBack(const SessionState& refused,
     state_.light_clock = state_.light_clock.withRate(now, lights.speed, lights.animate);
     state_.settings = good.settings;
     state_.encoding = good.encoding;
+    state_.delivery = good.delivery;
     keepDecodable();
     state_.version = refused.version + 1;
     serving_.port->update(id_, state_, now);

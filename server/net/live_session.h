@@ -90,6 +90,9 @@ class LiveSession final : public session::FrameSink,
     void requestKeyFrame(const Place& place);
     // As StreamPort::grant, in pictures that this connection was told of.
     void grant(const Place& place, uint64_t frame_total);
+    // What this connection's link allows. The session is delivered as to its best one: a slow
+    // viewer takes fewer pictures, and lowers nobody's.
+    void setDelivery(const Place& place, const session::Delivery& delivery);
 
     [[nodiscard]] session::SessionId id() const { return id_; }
     [[nodiscard]] const session::SessionContext& context() const { return *serving_.context; }
@@ -113,6 +116,7 @@ class LiveSession final : public session::FrameSink,
         uint64_t delivered = 0;              // pictures told to this connection
         uint64_t granted = 0;
         view::CodecSet codecs = view::CodecSet().set(); // all while away
+        session::Delivery delivery;
     };
     LiveSession(Serving serving, std::string room, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
@@ -121,6 +125,7 @@ class LiveSession final : public session::FrameSink,
     void updateCodecs(TimePoint now, Mail& mail);
     void keepDecodable();
     void wantKeyFrame(TimePoint now);
+    void updateDelivery();
     void takeBack(const session::SessionState& refused,
                   const std::optional<session::SessionState>& drawn,
                   TimePoint now);
@@ -136,7 +141,8 @@ class LiveSession final : public session::FrameSink,
     std::optional<session::ReadyFrame> picture_; // newest
     uint64_t delivered_ = 0;                     // pictures that came from the stream
     uint64_t granted_ = 0;
-    bool key_wanted_ = false; // and none has come yet
+    bool key_wanted_ = false;    // and none has come yet
+    session::Delivery delivery_; // as the stream knows it
     bool ended_ = false;
 };
 

@@ -28,6 +28,13 @@ using session::FrameRecord;
 const Histogram::BucketBoundaries kSeconds = {0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.033,
                                               0.066,  0.1,   0.2,   0.5,   1.0,   2.0,   5.0};
 
+const Histogram::BucketBoundaries kQualities = {30, 45, 55, 65, 75, 85, 92, 100};
+const Histogram::BucketBoundaries kScales = {0.4, 0.5, 0.6, 0.7, 0.75, 0.85, 1.0};
+
+// In the order of session::RateStep, without kNone, and of session::Refinement.
+constexpr std::array kRateReasons = {"congested", "recovered", "undone"};
+constexpr std::array kRefinements = {"interactive", "settled", "high", "lossless"};
+
 struct Stage {
     const char* name;
     double (*micros)(const FrameRecord&);
@@ -88,6 +95,12 @@ struct Metrics::Impl {
         return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
     }
     [[nodiscard]] std::vector<prometheus::MetricFamily> frameFamilies() const;
+    Histogram&
+    histogram(const char* name, const char* help, const Histogram::BucketBoundaries& bounds) {
+        return prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({},
+                                                                                         bounds);
+    }
+    void noteDelivery(const FrameRecord& record);
     void setMemory(const std::shared_ptr<const FrameDetails>& details);
 
     Gauge& sessions = gauge("froxel_sessions", "Viewers now.");
@@ -98,6 +111,15 @@ struct Metrics::Impl {
     Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of pictures and messages sent.");
     Counter& redraws = counter("froxel_light_list_redraws_total",
                                "Times that a picture was drawn again since its lists had to grow.");
+    Histogram& quality =
+        histogram("froxel_frame_quality", "JPEG quality of pictures sent.", kQualities);
+    Histogram& scale =
+        histogram("froxel_frame_scale", "Sides of pictures sent, of those asked for.", kScales);
+    Histogram& queue_delay = histogram("froxel_queue_delay_seconds",
+                                       "What pictures waited on the link, as each was sent.",
+                                       kSeconds);
+    std::array<Counter*, kRateReasons.size()> rate_steps{};
+    std::array<Counter*, kRefinements.size()> refinements{};
     std::array<Histogram*, kStages.size()> stages{};
     std::array<Gauge*, kListGauges.size()> lists{};
     Counter& refused_connections = counter("froxel_connections_refused_total",
@@ -145,6 +167,20 @@ Metrics::Metrics(const std::string& version) : impl_(std::make_unique<Impl>()) {
     for (size_t i = 0; i < kStages.size(); ++i) {
         impl_->stages[i] = &stages.Add({{"stage", kStages[i].name}}, kSeconds);
     }
+    auto& steps = prometheus::BuildCounter()
+                      .Name("froxel_rate_steps_total")
+                      .Help("Steps down and up with what links carry.")
+                      .Register(impl_->registry);
+    for (size_t i = 0; i < kRateReasons.size(); ++i) {
+        impl_->rate_steps[i] = &steps.Add({{"reason", kRateReasons[i]}});
+    }
+    auto& refinements = prometheus::BuildCounter()
+                            .Name("froxel_refinement_frames_total")
+                            .Help("Pictures sent, by how far they were refined.")
+                            .Register(impl_->registry);
+    for (size_t i = 0; i < kRefinements.size(); ++i) {
+        impl_->refinements[i] = &refinements.Add({{"refinement", kRefinements[i]}});
+    }
     for (size_t i = 0; i < kListGauges.size(); ++i) {
         impl_->lists[i] = &impl_->gauge(kListGauges[i].name, kListGauges[i].help);
     }
@@ -174,7 +210,24 @@ void Metrics::frameSent(const FrameRecord& record) {
         impl_->evaluated.Increment(static_cast<double>(pairs.evaluated));
         impl_->contributing.Increment(static_cast<double>(pairs.contributing));
     }
+    impl_->noteDelivery(record);
     impl_->setMemory(record.stats.details);
+}
+
+void Metrics::Impl::noteDelivery(const FrameRecord& record) {
+    const session::Delivered& with = record.delivered;
+    if (with.refinement != session::Refinement::kLossless) {
+        quality.Observe(with.encoding.quality);
+    }
+    scale.Observe(with.scale);
+    queue_delay.Observe(record.queue_delay_us / 1e6);
+    refinements.at(static_cast<size_t>(with.refinement))->Increment();
+}
+
+void Metrics::rateStepped(session::RateStep step) {
+    if (step != session::RateStep::kNone) {
+        impl_->rate_steps.at(static_cast<size_t>(step) - 1)->Increment();
+    }
 }
 
 // Other than the rest seldom news: a purpose that is gone leaves no row behind.

@@ -6,6 +6,7 @@
 
 #include "core/frame_fates.h"
 #include "core/frame_stats.h"
+#include "session/rate_controller.h"
 #include "session/rejection.h"
 #include "session/state_message.h"
 
@@ -39,6 +40,8 @@ class Metrics {
     void upgradeRefused(unsigned http_status);
     // A connection over the limit was closed unanswered.
     void connectionRefused();
+    // Nothing is counted for kNone.
+    void rateStepped(session::RateStep step);
 
     // Where pictures that never reach a connection are counted; once, before the first text().
     void watch(std::shared_ptr<const FrameFates> fates);

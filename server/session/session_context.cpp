@@ -21,6 +21,7 @@ SceneSummary summarize(const scene::Scene& scene) {
 
 SessionDefaults defaultsFor(DeviceKind kind) {
     SessionDefaults defaults;
+    defaults.delivery.refine = view::Refine::kHigh;
     if (kind == DeviceKind::kCpu) {
         // A software rasteriser's time goes with the pixels: a quarter of 1080p stays interactive.
         defaults.size = {640, 360};

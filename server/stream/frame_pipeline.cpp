@@ -47,11 +47,13 @@ void FramePipeline::startEncoding() {
     encoding_->record.encode_wait_us = Microseconds(Clock::now() - encoding_->drawn_at).count();
     bool taken = false;
     {
-        encode::EncodeJob job{std::move(encoding_->pixels), encoding_->encoding,
+        const session::Delivered& with = encoding_->record.delivered;
+        const bool lossless = with.refinement == session::Refinement::kLossless;
+        encode::EncodeJob job{std::move(encoding_->pixels), with.encoding,
                               [self = shared_from_this()](Result<EncodedFrame> result) {
                                   self->onEncoded(std::move(result));
                               },
-                              videoJob(*encoding_)};
+                              videoJob(*encoding_), lossless};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here
     if (!taken) {
@@ -61,7 +63,7 @@ void FramePipeline::startEncoding() {
 
 // A request is served when its key frame is there: until then the pool may refuse the job.
 std::optional<encode::VideoJob> FramePipeline::videoJob(const DrawnFrame& frame) {
-    if (!view::isVideo(frame.encoding.codec)) {
+    if (!view::isVideo(frame.record.delivered.encoding.codec)) {
         // After a refined still the video goes on where it was.
         const session::Refinement refinement = frame.record.delivered.refinement;
         if (refinement < session::Refinement::kHigh) {
@@ -88,7 +90,6 @@ void FramePipeline::onEncoded(Result<EncodedFrame> result) {
     record.encoded_bytes = result->bytes->size();
     record.encode_wait_us += result->wait_us;
     record.encode_us = result->encode_us;
-    record.delivered.encoding = encoding_->encoding;
     record.key = result->key;
     if (result->key) {
         key_requests_ = encoding_->key_requests;

@@ -20,7 +20,6 @@ namespace froxel::stream {
 
 struct DrawnFrame {
     PixelLease pixels;
-    view::Encoding encoding;
     uint64_t key_requests = 0;   // key frames asked for so far
     session::FrameRecord record; // what is known before encoding
     Seconds cost{0};             // of drawing it

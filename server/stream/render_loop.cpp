@@ -1,6 +1,8 @@
 #include "stream/render_loop.h"
 
 #include "core/text.h"
+#include "session/refinement.h"
+#include "session/render_scale.h"
 
 #include <spdlog/spdlog.h>
 
@@ -29,13 +31,47 @@ struct RenderLoop::Viewer {
     uint64_t started = 0; // frames, without those lost on the way
     uint64_t granted = 0;
     uint32_t on_device = 0;
+    session::Delivery delivery;
+    session::RenderScale render_scale;
+    session::RefinementSchedule refinement;
+    TimePoint paced_until{}; // by the delivery's interval
     bool changed = true;
     bool blocked = false; // this state was refused; waits for another
     bool leaving = false;
 
     [[nodiscard]] bool idle() const { return on_device == 0 && pipeline->size() == 0; }
-    [[nodiscard]] bool wantsFrame() const {
-        return !leaving && !blocked && (changed || state.animating());
+    [[nodiscard]] bool moves() const { return changed || state.animating(); }
+    // When the next frame is due, as far as that is up to this viewer; none: nothing is to be
+    // drawn.
+    [[nodiscard]] std::optional<TimePoint> wantsFrameAt() const {
+        if (leaving || blocked) {
+            return {};
+        }
+        if (moves()) {
+            return paced_until;
+        }
+        const auto due = refineNext();
+        return due ? std::optional(due->at) : std::nullopt;
+    }
+    [[nodiscard]] std::optional<session::RefinementSchedule::Due> refineNext() const {
+        return refinement.next(state.delivery.refine, delivery, state.settings.size);
+    }
+    [[nodiscard]] session::Delivered nextDelivered() const {
+        const auto due = moves() ? std::nullopt : refineNext();
+        session::Delivery limits = delivery;
+        limits.scale = std::min(limits.scale, render_scale.scale());
+        return session::delivered(state.encoding, limits,
+                                  due ? due->stage : session::Refinement::kInteractive);
+    }
+    void noteBegun(const session::Delivered& with, TimePoint now) {
+        const bool limited = with.scale < 1 || with.encoding != state.encoding;
+        refinement.onBegun(with.refinement, limited);
+        if (moves()) {
+            const auto interval =
+                std::chrono::duration_cast<Clock::duration>(delivery.min_interval);
+            paced_until = now + interval;
+        }
+        changed = false;
     }
     [[nodiscard]] bool hasRoom() const {
         return started < granted && on_device + pipeline->size() < FramePipeline::kCapacity &&
@@ -86,6 +122,10 @@ void RenderLoop::grant(SessionId id, uint64_t frame_total) {
     mailbox_->grant(id, frame_total);
 }
 
+void RenderLoop::setDelivery(SessionId id, const session::Delivery& delivery) {
+    mailbox_->setDelivery(id, delivery);
+}
+
 void RenderLoop::leave(SessionId id) {
     {
         const std::lock_guard lock(admission_mutex_);
@@ -117,7 +157,24 @@ void RenderLoop::serve(const std::stop_token& stop) {
             finishOldest();
             continue;
         }
-        mailbox_->wait(stop, scheduler_.nextDue());
+        mailbox_->wait(stop, nextWake());
+    }
+}
+
+std::optional<TimePoint> RenderLoop::nextWake() const {
+    const auto due = scheduler_.nextDue();
+    return due && refine_at_ ? std::min(due, refine_at_) : due ? due : refine_at_;
+}
+
+void RenderLoop::takeState(Viewer& viewer, const ViewerNews& news) {
+    const bool differs = news.state->version != viewer.state.version;
+    viewer.changed = viewer.changed || differs;
+    viewer.blocked = viewer.blocked && !differs;
+    viewer.state = *news.state;
+    viewer.arrived = news.arrived;
+    viewer.render_scale.setTarget(viewer.state.delivery.target_fps);
+    if (differs) {
+        viewer.refinement.onChange(news.arrived);
     }
 }
 
@@ -129,35 +186,39 @@ void RenderLoop::takeNews() {
                 std::make_shared<FramePipeline>(pool_, news.id, news.sink, options_.fates,
                                                 [mailbox = mailbox_] { mailbox->wake(); });
             entry = std::make_unique<Viewer>(news.sink, std::move(pipeline), *news.state);
+            entry->refinement.onChange(news.arrived);
             scheduler_.add(news.id);
         }
         Viewer& viewer = *entry;
         viewer.granted = news.granted;
         viewer.leaving = news.left;
+        viewer.delivery = news.delivery;
         if (news.state) {
-            const bool differs = news.state->version != viewer.state.version;
-            viewer.changed = viewer.changed || differs;
-            viewer.blocked = viewer.blocked && !differs;
-            viewer.state = *news.state;
-            viewer.arrived = news.arrived;
+            takeState(viewer, news);
         }
     }
+    const TimePoint now = Clock::now();
+    refine_at_.reset();
     for (auto viewer = viewers_.begin(); viewer != viewers_.end();) {
         if (viewer->second->leaving && viewer->second->idle()) {
             scheduler_.remove(viewer->first);
             viewer = viewers_.erase(viewer);
         } else {
-            updateReadiness(viewer->first, *viewer->second);
+            updateReadiness(viewer->first, *viewer->second, now);
             ++viewer;
         }
     }
 }
 
-void RenderLoop::updateReadiness(SessionId id, Viewer& viewer) {
+void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
     const FramePipeline::Losses losses = viewer.pipeline->takeLosses();
     viewer.started -= losses.count;
     viewer.changed = viewer.changed || losses.retry;
-    scheduler_.setReady(id, viewer.wantsFrame() && viewer.hasRoom());
+    const auto due = viewer.hasRoom() ? viewer.wantsFrameAt() : std::nullopt;
+    scheduler_.setReady(id, due && *due <= now);
+    if (due && *due > now) {
+        refine_at_ = refine_at_ ? std::min(*refine_at_, *due) : *due;
+    }
 }
 
 bool RenderLoop::startNext() {
@@ -167,7 +228,8 @@ bool RenderLoop::startNext() {
         return false;
     }
     Viewer& viewer = *viewers_.at(*id);
-    const auto started = submit(viewer, now);
+    const session::Delivered with = viewer.nextDelivered();
+    const auto started = submit(viewer, with, now);
     if (!started) {
         const ErrorCode code = started.error().code;
         if (code != ErrorCode::kCapacity && code != ErrorCode::kUnsupported) {
@@ -181,19 +243,20 @@ bool RenderLoop::startNext() {
     Submitted frame{*id, {}, viewer.state, now};
     frame.record.frame_id = ++viewer.last_frame_id;
     frame.record.applied = viewer.state.applied;
+    frame.record.delivered = with;
     frame.record.time_s = viewer.state.light_clock.secondsAt(now);
     if (!viewer.submitted || viewer.submitted->applied != viewer.state.applied) {
         frame.record.queue_us = Microseconds(now - viewer.arrived).count();
     }
     submitted_.push_back(std::move(frame));
     viewer.submitted = viewer.state;
-    viewer.changed = false;
+    viewer.noteBegun(with, now);
     ++viewer.on_device;
     ++viewer.started;
     return true;
 }
 
-Result<void> RenderLoop::submit(Viewer& viewer, TimePoint now) {
+Result<void> RenderLoop::submit(Viewer& viewer, const session::Delivered& with, TimePoint now) {
     if (!viewer.source) {
         auto source = source_->makeView();
         if (!source) {
@@ -201,7 +264,9 @@ Result<void> RenderLoop::submit(Viewer& viewer, TimePoint now) {
         }
         viewer.source = std::move(*source);
     }
-    return viewer.source->submit(viewer.state.settings, viewer.state.light_clock.secondsAt(now));
+    view::ViewSettings settings = viewer.state.settings;
+    settings.size = session::scaled(settings.size, with.scale);
+    return viewer.source->submit(settings, viewer.state.light_clock.secondsAt(now));
 }
 
 void RenderLoop::refuse(SessionId id, Viewer& viewer, const Error& error) {
@@ -235,6 +300,10 @@ void RenderLoop::finishOldest() {
     }
     viewer.drawn = frame.state;
     ++options_.fates->rendered;
+    const session::Delivered& with = frame.record.delivered;
+    if (with.refinement == session::Refinement::kInteractive) {
+        viewer.render_scale.onFrame(cost, with.scale, now);
+    }
     if (viewer.leaving) {
         ++options_.fates->viewer_gone;
         return;
@@ -245,9 +314,8 @@ void RenderLoop::finishOldest() {
     record.height_px = pixels.height_px;
     record.render_us = Microseconds(now - frame.started).count();
     record.stats = std::move(collected->stats);
-    viewer.pipeline->push({std::move(collected->pixels), frame.state.encoding,
-                           frame.state.key_requests, std::move(record),
-                           std::max(cost, options_.min_frame_interval), now});
+    viewer.pipeline->push({std::move(collected->pixels), frame.state.key_requests,
+                           std::move(record), std::max(cost, options_.min_frame_interval), now});
 }
 
 void RenderLoop::giveUp(Viewer& viewer, const Submitted& frame, const Error& error) {

@@ -5,7 +5,10 @@
 // 2. Starts a frame for the session that the scheduler names: something changed or moves, its
 //    connection granted a credit, and its pipeline has room.
 // 3. With enough frames on the device, waits for the oldest and pushes it into its pipeline.
-// 4. With nothing to do, sleeps until there is news or a session becomes due. Idle costs nothing.
+// 4. With nothing to do, sleeps until there is news, a session becomes due, or one that rests is to
+// be
+//    refined. A refined picture is drawn anew: its size may differ, and it costs one frame a rest.
+//    Idle costs nothing.
 #pragma once
 
 #include "encode/encode_pool.h"
@@ -58,6 +61,7 @@ class RenderLoop final : public session::StreamPort {
     void
     update(session::SessionId id, const session::SessionState& state, TimePoint arrived) override;
     void grant(session::SessionId id, uint64_t frame_total) override;
+    void setDelivery(session::SessionId id, const session::Delivery& delivery) override;
     void leave(session::SessionId id) override;
 
   private:
@@ -72,9 +76,12 @@ class RenderLoop final : public session::StreamPort {
     void run(const std::stop_token& stop);
     void serve(const std::stop_token& stop);
     void takeNews();
-    void updateReadiness(session::SessionId id, Viewer& viewer);
+    void takeState(Viewer& viewer, const ViewerNews& news);
+    void updateReadiness(session::SessionId id, Viewer& viewer, TimePoint now);
     [[nodiscard]] bool startNext();
-    [[nodiscard]] Result<void> submit(Viewer& viewer, TimePoint now);
+    [[nodiscard]] Result<void>
+    submit(Viewer& viewer, const session::Delivered& with, TimePoint now);
+    [[nodiscard]] std::optional<TimePoint> nextWake() const;
     void finishOldest();
     // A submitted frame turned out not to fit the device. Throws where the device was lost.
     void giveUp(Viewer& viewer, const Submitted& frame, const Error& error);
@@ -89,6 +96,7 @@ class RenderLoop final : public session::StreamPort {
     std::mutex admission_mutex_; // before the mailbox's
     Admission admission_;
     FrameScheduler scheduler_;
+    std::optional<TimePoint> refine_at_; // the first viewer's that rests
     std::unique_ptr<FrameSource> source_;
     std::map<session::SessionId, std::unique_ptr<Viewer>> viewers_;
     std::deque<Submitted> submitted_; // oldest first

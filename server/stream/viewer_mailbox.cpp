@@ -27,7 +27,7 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
     ++present_;
     const session::SessionId id = ++last_id_;
     Slot& slot = slots_[id];
-    slot.news = {id, std::move(sink), state, now, 0, false};
+    slot.news = {id, std::move(sink), state, now, 0, {}, false};
     publish(slot);
     return id;
 }
@@ -52,6 +52,16 @@ void ViewerMailbox::grant(session::SessionId id, uint64_t frame_total) {
         return;
     }
     found->second.news.granted = frame_total;
+    publish(found->second);
+}
+
+void ViewerMailbox::setDelivery(session::SessionId id, const session::Delivery& delivery) {
+    const std::lock_guard lock(mutex_);
+    const auto found = slots_.find(id);
+    if (found == slots_.end() || found->second.news.left) {
+        return;
+    }
+    found->second.news.delivery = delivery;
     publish(found->second);
 }
 

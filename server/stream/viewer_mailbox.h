@@ -23,6 +23,7 @@ struct ViewerNews {
     std::optional<session::SessionState> state; // none: as before
     TimePoint arrived{};                        // of the command behind `state`
     uint64_t granted = 0;                       // as StreamPort::grant
+    session::Delivery delivery;                 // as StreamPort::setDelivery
     bool left = false;
 };
 
@@ -35,6 +36,7 @@ class ViewerMailbox {
     join(std::weak_ptr<session::FrameSink> sink, const session::SessionState& state, TimePoint now);
     void update(session::SessionId id, const session::SessionState& state, TimePoint arrived);
     void grant(session::SessionId id, uint64_t frame_total);
+    void setDelivery(session::SessionId id, const session::Delivery& delivery);
     void leave(session::SessionId id);
     // Makes wait() return.
     void wake();

@@ -93,6 +93,12 @@ class FakeView final : public stream::ViewSource {
         const view::Size size = settings.size;
         auto pixels = std::make_shared<std::vector<std::byte>>(
             size_t{4} * size.width_px * size.height_px, shadeOf(settings));
+        if (device_->noisy) {
+            for (std::byte& value : *pixels) {
+                noise_ = noise_ * 1664525U + 1013904223U; // Numerical Recipes' generator
+                value = static_cast<std::byte>(96U + (noise_ >> 26U));
+            }
+        }
         const PixelView view{pixels->data(), size.width_px, size.height_px,
                              size_t{4} * size.width_px};
         ++device_->live_leases;
@@ -112,6 +118,7 @@ class FakeView final : public stream::ViewSource {
     std::shared_ptr<FakeDevice> device_;
     std::shared_ptr<std::atomic<int>> own_leases_ = std::make_shared<std::atomic<int>>(0);
     std::deque<view::ViewSettings> queue_;
+    uint32_t noise_ = 1;
 };
 
 class FakeSource final : public stream::FrameSource {

@@ -21,6 +21,7 @@ class FakeDevice {
     std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
     std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
     std::atomic<bool> lost = false;
+    std::atomic<bool> noisy = false; // pictures of noise, whose encoded size goes with all settings
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage
     std::atomic<uint64_t> submitted_count = 0;
     std::atomic<int> live_views = 0;

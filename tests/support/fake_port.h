@@ -18,6 +18,7 @@ class FakePort final : public session::StreamPort {
         std::vector<session::SessionState> states;
         uint64_t granted = 0;
         bool left = false;
+        session::Delivery delivery{};
     };
 
     Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
@@ -27,7 +28,7 @@ class FakePort final : public session::StreamPort {
             return Error{ErrorCode::kCapacity, "full"};
         }
         const session::SessionId id = kFirstId + sessions.size();
-        sessions[id] = {std::move(sink), {state}, 0, false};
+        sessions[id] = {std::move(sink), {state}, 0, false, {}};
         return id;
     }
     void update(session::SessionId id,
@@ -37,6 +38,9 @@ class FakePort final : public session::StreamPort {
     }
     void grant(session::SessionId id, uint64_t frame_total) override {
         sessions.at(id).granted = frame_total;
+    }
+    void setDelivery(session::SessionId id, const session::Delivery& delivery) override {
+        sessions.at(id).delivery = delivery;
     }
     void leave(session::SessionId id) override { sessions.at(id).left = true; }
 

@@ -132,6 +132,7 @@ TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
     EXPECT_EQ(serve.other, view::ViewSettings{});
     EXPECT_FALSE(serve.min_rate_hz);
     EXPECT_EQ(serve.resume_grace_s, 10);
+    EXPECT_EQ(serve.delivery, (session::DeliverySettings{true, 0, view::Refine::kHigh}));
     EXPECT_EQ(options.log_level, LogLevel::kInfo);
 }
 
@@ -158,6 +159,12 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "7",
                                 "--light-radius",
                                 "3",
+                                "--adaptive",
+                                "off",
+                                "--target-fps",
+                                "12.5",
+                                "--refine",
+                                "lossless",
                                 "--renderer",
                                 "naive",
                                 "--lighting",
@@ -194,6 +201,7 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.light_count, 7U);
     EXPECT_EQ(serve.light_radius_m, 3.0);
     EXPECT_EQ(serve.renderer, view::Renderer::kNaive);
+    EXPECT_EQ(serve.delivery, (session::DeliverySettings{false, 12.5, view::Refine::kLossless}));
     EXPECT_EQ(serve.other.lighting, view::LightingStage::kCompute);
     EXPECT_EQ(serve.other.grid, (view::Grid{.automatic = false, .size = {4, 5, 6}}));
     EXPECT_EQ(serve.other.light_loop, view::LightLoop::kLists);
@@ -328,6 +336,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"serve", "--resume-grace", "3601"}, {"--resume-grace", "'3601'", "0 to 3600"}},
         Refusal{{"serve", "--min-fps", "nan"}, {"--min-fps", "'nan'", "0 to 1000"}},
         Refusal{{"load", "ws://a/ws", "--room", "a b"}, {"--room", "'a b'", "1 to 64"}},
+        Refusal{{"serve", "--adaptive", "yes"}, {"--adaptive", "'yes'", "off or on"}},
+        Refusal{{"serve", "--target-fps", "-1"}, {"--target-fps", "0 to 240"}},
+        Refusal{{"serve", "--refine", "best"}, {"--refine", "none, high or lossless"}},
         Refusal{{"serve", "--log-level", "loud"}, {"--log-level", "'loud'", "debug, info"}},
         Refusal{{"load"}, {"URL", "froxel load --help"}},
         Refusal{{"load", "localhost:8080"}, {"'localhost:8080'", "ws://127.0.0.1:8080/ws"}},

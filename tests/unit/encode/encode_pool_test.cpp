@@ -146,5 +146,31 @@ TEST(EncodePool, OneThread_KeepsTheOrder) {
     EXPECT_EQ(order.size(), 10U);
 }
 
+TEST(EncodePool, Lossless_IsAPngBehindWhatMoves) {
+    EncodePool pool(1, 8);
+    const Picture picture = makePicture(40, 30);
+    std::vector<std::string> order;
+    std::promise<void> all;
+    {
+        HeldThread held(pool);
+        for (const bool lossless : {true, false, true, false}) {
+            auto next = job({picture.view(), nullptr}, [&, lossless](Result<EncodedFrame> frame) {
+                const auto& bytes = *frame.value().bytes;
+                const bool png = bytes[1] == std::byte{'P'} && bytes[2] == std::byte{'N'};
+                EXPECT_EQ(png, lossless);
+                order.emplace_back(png ? "png" : "jpeg");
+                if (order.size() == 4) {
+                    all.set_value();
+                }
+            });
+            next.lossless = lossless;
+            ASSERT_TRUE(pool.submit(std::move(next)));
+        }
+        held.release();
+    }
+    all.get_future().wait();
+    EXPECT_EQ(order, (std::vector<std::string>{"jpeg", "jpeg", "png", "png"}));
+}
+
 } // namespace
 } // namespace froxel::encode

@@ -133,6 +133,42 @@ TEST_F(ConversationTest, Ack_OfAFrameNeverSent_IsAnError) {
     EXPECT_EQ(nextAnswer()->error().ref_seq(), seq);
 }
 
+// Frames that credit holds back and that take longer on the link than they should come.
+TEST_F(ConversationTest, SlowLink_StepsDownAndTellsTheStreamAndTheHeaders) {
+    join();
+    uint64_t sent = 0;
+    uint64_t acked = 0;
+    const auto send = [&] {
+        frame(++sent);
+        const v1::FrameHeader header = nextFrame();
+        EXPECT_EQ(header.frame_id(), sent);
+        return header;
+    };
+    for (int i = 0; i < 5; ++i) { // a fast one, for the base
+        send();
+        now_ += 2ms;
+        ack(++acked);
+        now_ += 58ms;
+    }
+    EXPECT_EQ(port_.session().delivery.rung, 0U);
+    send();
+    send();
+    for (int i = 0; i < 8; ++i) {
+        now_ += 200ms;
+        ack(++acked);
+        if (port_.session().delivery.rung > 0) {
+            break; // the next one travels alone
+        }
+        send();
+    }
+    EXPECT_GT(port_.session().delivery.rung, 0U);
+    EXPECT_LT(port_.session().delivery.quality_max, 80U);
+    EXPECT_TRUE(port_.session().delivery.link_rate);
+    EXPECT_EQ(port_.session().states.size(), 1U) << "what was asked for stays";
+    EXPECT_NE(metrics_->text().find("froxel_rate_steps_total{reason=\"congested\"} 1\n"),
+              std::string::npos);
+}
+
 TEST_F(ConversationTest, Ack_Twice_IsNoError) {
     join();
     frame(1);

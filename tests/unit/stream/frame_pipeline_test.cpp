@@ -25,7 +25,7 @@ class FramePipelineTest : public testing::Test {
     }
     DrawnFrame video(uint64_t id, uint64_t key_requests = 0) {
         DrawnFrame drawn = frame(id);
-        drawn.encoding.codec = view::Codec::kVp9;
+        drawn.record.delivered.encoding.codec = view::Codec::kVp9;
         drawn.key_requests = key_requests;
         return drawn;
     }
@@ -118,7 +118,7 @@ TEST_F(FramePipelineTest, Push_PictureCannotBeEncoded_IsLostWithoutRetry) {
     encode::EncodePool pool(1, 4);
     const auto pipeline = makePipeline(pool);
     DrawnFrame bad = frame(1);
-    bad.encoding.quality = 0;
+    bad.record.delivered.encoding.quality = 0;
     pipeline->push(std::move(bad));
     progress_.wait(0);
     const auto losses = pipeline->takeLosses();
@@ -182,7 +182,7 @@ TEST_F(FramePipelineTest, Video_PictureCannotBeEncoded_NextIsAKeyFrame) {
     pipeline->push(video(1));
     waitForProgress(1);
     DrawnFrame bad = video(2);
-    bad.encoding.video_kbps = 0;
+    bad.record.delivered.encoding.video_kbps = 0;
     pipeline->push(std::move(bad));
     waitForProgress(2);
     pipeline->push(video(3));

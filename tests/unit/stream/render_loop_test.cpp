@@ -1,10 +1,13 @@
+#include "session/refinement.h"
 #include "stream/render_loop.h"
 #include "support/fake_frame_source.h"
 #include "support/recording_sink.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
+#include <vector>
 
 namespace froxel::stream {
 namespace {
@@ -283,6 +286,90 @@ TEST_F(RenderLoopTest, Draw_WhileEncoding_DoesNotWaitForTheEncoder) {
     EXPECT_TRUE(sink->frames().empty());
     release.set_value();
     ASSERT_TRUE(sink->waitForFrames(2));
+}
+
+bool isAt(const session::ReadyFrame& frame, session::Refinement stage) {
+    return frame.record.delivered.refinement == stage;
+}
+
+TEST_F(RenderLoopTest, Rest_IsRefinedInStagesAndThenNothing) {
+    start();
+    const auto sink = makeSink();
+    auto state = still();
+    state.delivery.refine = view::Refine::kLossless;
+    join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(3));
+    const auto frames = sink->frames();
+    EXPECT_TRUE(isAt(frames[0], session::Refinement::kInteractive));
+    EXPECT_TRUE(isAt(frames[1], session::Refinement::kHigh));
+    EXPECT_EQ(frames[1].record.delivered.encoding, session::kRefinedEncoding);
+    EXPECT_TRUE(isAt(frames[2], session::Refinement::kLossless));
+    EXPECT_EQ((*frames[2].bytes)[1], std::byte{'P'});
+    const Seconds apart = frames[2].ready_at - frames[0].ready_at;
+    EXPECT_GE(apart, session::RefinementSchedule::kLosslessAfter / 2);
+    settle();
+    EXPECT_EQ(sink->frames().size(), 3U);
+}
+
+TEST_F(RenderLoopTest, Delivery_LimitsMovingFramesAndMakesRestingOnesWhole) {
+    start();
+    const auto sink = makeSink();
+    auto state = moving();
+    state.encoding = {80, view::Chroma::k444};
+    const auto id = join(sink, state, kPlenty);
+    session::Delivery limits;
+    limits.scale = 0.5;
+    limits.quality_max = 45;
+    limits.rung = 5;
+    loop_->setDelivery(id, limits);
+    ASSERT_TRUE(sink->waitFor([](const auto& record) {
+        return record.frames.size() > 2 && record.frames.back().record.width_px == 16;
+    }));
+    EXPECT_EQ(sink->frames().back().record.delivered.encoding.quality, 45U);
+    EXPECT_EQ(sink->frames().back().record.delivered.rung, 5U);
+    // The lights stop: a frame below what was asked for is followed by one as asked for.
+    auto stopped = still();
+    stopped.encoding = state.encoding;
+    stopped.version = state.version + 1;
+    loop_->update(id, stopped, Clock::now());
+    ASSERT_TRUE(sink->waitFor([](const auto& record) {
+        return isAt(record.frames.back(), session::Refinement::kSettled);
+    }));
+    const auto last = sink->frames().back().record;
+    EXPECT_EQ(last.width_px, 32U);
+    EXPECT_EQ(last.delivered.encoding, state.encoding);
+    // Resting, whole: what the link allows is no reason to draw.
+    const size_t count = sink->frames().size();
+    limits.quality_max = 55;
+    limits.scale = 0.75;
+    loop_->setDelivery(id, limits);
+    settle();
+    EXPECT_EQ(sink->frames().size(), count);
+}
+
+TEST_F(RenderLoopTest, Delivery_Interval_PacesMovingFrames) {
+    start();
+    const auto sink = makeSink();
+    const auto id = join(sink, moving(), kPlenty);
+    session::Delivery limits;
+    limits.min_interval = Seconds(0.05);
+    limits.rung = 7;
+    loop_->setDelivery(id, limits);
+    const auto paced = [](const session::ReadyFrame& frame) {
+        return frame.record.delivered.rung == 7;
+    };
+    ASSERT_TRUE(sink->waitFor([&](const auto& record) {
+        return std::count_if(record.frames.begin(), record.frames.end(), paced) >= 4;
+    }));
+    std::vector<double> times_s;
+    for (const auto& frame : sink->frames()) {
+        if (paced(frame)) {
+            times_s.push_back(frame.record.time_s);
+        }
+    }
+    for (size_t i = 1; i < times_s.size(); ++i) {
+        EXPECT_GE(times_s[i] - times_s[i - 1], 0.049);
+    }
 }
 
 } // namespace

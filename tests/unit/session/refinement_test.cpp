@@ -1,0 +1,153 @@
+#include "session/refinement.h"
+#include "session/render_scale.h"
+
+#include <gtest/gtest.h>
+
+namespace froxel::session {
+namespace {
+
+using namespace std::chrono_literals;
+using view::Refine;
+
+constexpr TimePoint kStart{10s};
+constexpr view::Size kSize{640, 360};
+
+Delivery carrying(double bits_per_s) {
+    Delivery delivery;
+    delivery.link_rate = bits_per_s;
+    return delivery;
+}
+
+class RefinementTest : public testing::Test {
+  protected:
+    // The stage that is due at this time; interactive where none is.
+    [[nodiscard]] Refinement
+    dueAt(Seconds time, Refine wanted, const Delivery& delivery = {}) const {
+        const auto due = schedule_.next(wanted, delivery, kSize);
+        const TimePoint now = kStart + std::chrono::duration_cast<Clock::duration>(time);
+        return due && due->at <= now ? due->stage : Refinement::kInteractive;
+    }
+    RefinementSchedule schedule_;
+};
+
+TEST_F(RefinementTest, BeforeTheFirstFrame_NothingIsDue) {
+    EXPECT_FALSE(schedule_.next(Refine::kLossless, {}, kSize));
+}
+
+TEST_F(RefinementTest, Rest_GoesHighThenLosslessThenNothing) {
+    schedule_.onChange(kStart);
+    schedule_.onBegun(Refinement::kInteractive, false);
+    EXPECT_EQ(dueAt(149ms, Refine::kLossless), Refinement::kInteractive);
+    EXPECT_EQ(dueAt(151ms, Refine::kLossless), Refinement::kHigh);
+    schedule_.onBegun(Refinement::kHigh, false);
+    EXPECT_EQ(dueAt(399ms, Refine::kLossless), Refinement::kInteractive);
+    EXPECT_EQ(dueAt(401ms, Refine::kLossless), Refinement::kLossless);
+    EXPECT_FALSE(schedule_.next(Refine::kHigh, {}, kSize));
+    schedule_.onBegun(Refinement::kLossless, false);
+    EXPECT_FALSE(schedule_.next(Refine::kLossless, {}, kSize));
+}
+
+TEST_F(RefinementTest, Input_BeginsAnew) {
+    schedule_.onChange(kStart);
+    schedule_.onBegun(Refinement::kHigh, false);
+    schedule_.onChange(kStart + 390ms);
+    schedule_.onBegun(Refinement::kInteractive, false);
+    EXPECT_EQ(dueAt(500ms, Refine::kLossless), Refinement::kInteractive);
+    EXPECT_EQ(dueAt(541ms, Refine::kLossless), Refinement::kHigh);
+}
+
+TEST_F(RefinementTest, None_OnlyALimitedFrameIsMadeWhole) {
+    schedule_.onChange(kStart);
+    schedule_.onBegun(Refinement::kInteractive, false);
+    EXPECT_FALSE(schedule_.next(Refine::kNone, {}, kSize));
+    schedule_.onBegun(Refinement::kInteractive, true);
+    EXPECT_EQ(dueAt(151ms, Refine::kNone), Refinement::kSettled);
+    schedule_.onBegun(Refinement::kSettled, false);
+    EXPECT_FALSE(schedule_.next(Refine::kNone, {}, kSize));
+}
+
+TEST_F(RefinementTest, SlowLink_GetsWhatItCarriesInASecond) {
+    schedule_.onChange(kStart);
+    schedule_.onBegun(Refinement::kInteractive, true);
+    EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(0.5e6)), Refinement::kSettled);
+    EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(1.5e6)), Refinement::kHigh);
+    schedule_.onBegun(Refinement::kHigh, false);
+    EXPECT_FALSE(schedule_.next(Refine::kLossless, carrying(1.5e6), kSize));
+    EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(4e6)), Refinement::kLossless);
+}
+
+TEST(Delivered, Stages_AreMadeWithWhatTheyPromise) {
+    Delivery limits;
+    limits.scale = 0.5;
+    limits.quality_max = 45;
+    limits.chroma_max = view::Chroma::k420;
+    limits.rung = 6;
+    const view::Encoding asked{75, view::Chroma::k444};
+    const Delivered moving = delivered(asked, limits, Refinement::kInteractive);
+    EXPECT_EQ(moving.encoding, (view::Encoding{45, view::Chroma::k420}));
+    EXPECT_EQ(moving.scale, 0.5);
+    EXPECT_EQ(moving.rung, 6U);
+    const Delivered settled = delivered(asked, limits, Refinement::kSettled);
+    EXPECT_EQ(settled.encoding, asked);
+    EXPECT_EQ(settled.scale, 1);
+    EXPECT_EQ(delivered(asked, limits, Refinement::kHigh).encoding, kRefinedEncoding);
+    EXPECT_EQ(delivered({97, view::Chroma::k420}, limits, Refinement::kHigh).encoding.quality, 97U);
+}
+
+// A renderer whose frames cost a part that stays and one that goes with the area.
+class Renderer {
+  public:
+    void run(RenderScale& scale, Seconds full, Seconds time) {
+        for (const Seconds end = now_ + time; now_ < end;) {
+            const double side = scale.scale();
+            const Seconds cost = 0.2 * full + 0.8 * full * (side * side);
+            now_ += cost;
+            scale.onFrame(cost, side,
+                          TimePoint(10s) + std::chrono::duration_cast<Clock::duration>(now_));
+            moves_ += scale.scale() != side ? 1 : 0;
+            last_cost_ = cost;
+        }
+    }
+    [[nodiscard]] Seconds lastCost() const { return last_cost_; }
+    int takeMoves() { return std::exchange(moves_, 0); }
+
+  private:
+    Seconds now_{0};
+    Seconds last_cost_{0};
+    int moves_ = 0;
+};
+
+TEST(RenderScale, NoTarget_StaysFull) {
+    RenderScale scale;
+    Renderer().run(scale, 500ms, 20s);
+    EXPECT_EQ(scale.scale(), 1);
+}
+
+TEST(RenderScale, CostStep_IsFollowedAndTakenBack) {
+    RenderScale scale;
+    scale.setTarget(15);
+    Renderer renderer;
+    renderer.run(scale, 50ms, 5s);
+    EXPECT_EQ(scale.scale(), 1);
+    renderer.run(scale, 120ms, 1s);
+    EXPECT_LT(renderer.lastCost(), Seconds(1.0 / 15 * 1.05));
+    EXPECT_LT(scale.scale(), 1);
+    renderer.run(scale, 120ms, 30s);
+    renderer.takeMoves();
+    renderer.run(scale, 120ms, 60s);
+    EXPECT_LE(renderer.takeMoves(), 2) << "it settles";
+    renderer.run(scale, 50ms, 10s);
+    EXPECT_EQ(scale.scale(), 1);
+}
+
+TEST(RenderScale, NotToBeReached_StopsAtTheSmallest) {
+    RenderScale scale;
+    scale.setTarget(60);
+    Renderer().run(scale, 800ms, 10s);
+    EXPECT_EQ(scale.scale(), RenderScale::kScales.back());
+    scale.setTarget(0);
+    EXPECT_EQ(scale.scale(), 1);
+}
+
+} // namespace
+} // namespace froxel::session
