@@ -1,6 +1,7 @@
 #include "render/frame_builder.h"
 
 #include "render/gbuffer_layout.h"
+#include "render/light_budget.h"
 #include "render/prepass_choice.h"
 #include "render/visibility_instances.h"
 
@@ -222,6 +223,14 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
     return plan;
+}
+
+Result<void> FrameBuilder::affordable(const FrameInputs& inputs) const {
+    const bool all_lights = inputs.settings.renderer == view::Renderer::kNaive ||
+                            !light_grid_.lists() || lists_.stats.overflowed;
+    // What the device lists is not known yet.
+    const uint64_t each = all_lights ? lights_.lights.size() : on_device_ ? 0 : lists_.stats.p95;
+    return checkLightBudget(inputs.settings.size, each, scene_.device.traits().is_cpu);
 }
 
 UploadOffsets FrameBuilder::upload(FrameSlot& slot) {

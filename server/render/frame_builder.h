@@ -23,6 +23,8 @@ class FrameBuilder {
 
     // Culls, evaluates lights, plans, assigns lights to clusters.
     [[nodiscard]] FramePlan build(const FrameInputs& inputs);
+    // Of what was built: whether the device gets through its lights in time. Errors: kCapacity.
+    [[nodiscard]] Result<void> affordable(const FrameInputs& inputs) const;
     // After a frame with lists from the device: whether they are whole. If not, the frame must be
     // built again, for which there will be room.
     [[nodiscard]] bool acceptLists(const io::AssignTotals& totals);

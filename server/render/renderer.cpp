@@ -62,7 +62,8 @@ struct ViewRenderer::Impl {
     }
     void prepareTargets(FrameSlot& slot, const FramePlan& plan, const view::Size& size);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
-    void submit(FrameSlot& slot, const FrameInputs& inputs);
+    // Errors: kCapacity. Throws vk::SystemError.
+    [[nodiscard]] Result<void> submit(FrameSlot& slot, const FrameInputs& inputs);
     // Draws a completed frame again until its lists are whole. Throws vk::SystemError.
     [[nodiscard]] Result<void> redraw(FrameSlot& slot);
 
@@ -112,23 +113,26 @@ void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets
         slot.visibility = std::make_unique<VisibilityFrame>(scene.device, scene.visibility());
     }
     const auto& t = *slot.targets;
-    slot.visibility->write({.resources = scene,
-                            .scene = scene.visibility(),
-                            .instances = {slot.upload.buffer(), offsets.instances,
-                                          scene.instances.size() * sizeof(io::InstanceView)},
-                            .order = {slot.upload.buffer(), offsets.meshlet_order,
-                                      scene.visibility().placed.size() * sizeof(uint32_t)},
-                            .ids = *t.ids.view,
-                            .gbuffer = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view,
-                            .raster = t.rastered_in_compute ? &scene.visibility().computeRaster()
-                                                            : nullptr,
-                            .words = *t.words.handle,
-                            .depth = *t.compute_depth.view});
+    slot.visibility->write(
+        {.resources = scene,
+         .scene = scene.visibility(),
+         .instances = {slot.upload.buffer(), offsets.instances,
+                       scene.instances.size() * sizeof(io::InstanceView)},
+         .order = {slot.upload.buffer(), offsets.meshlet_order,
+                   scene.visibility().placed.size() * sizeof(uint32_t)},
+         .ids = *t.ids.view,
+         .gbuffer = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view,
+         .raster = t.rastered_in_compute ? &scene.visibility().computeRaster() : nullptr,
+         .words = *t.words.handle,
+         .depth = *t.compute_depth.view});
 }
 
-void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
+Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
     const auto start = Clock::now();
     const FramePlan plan = builder.build(inputs);
+    if (auto affordable = builder.affordable(inputs); !affordable) {
+        return affordable;
+    }
     prepareTargets(slot, plan, inputs.settings.size);
     const UploadOffsets offsets = builder.upload(slot);
     writeScreenSet(scene.device, slot);
@@ -166,6 +170,7 @@ void ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
     slot.done_value = scene.timeline.submit(slot.cmd);
     slot.in_flight = true;
     slot.stale = false;
+    return {};
 }
 
 // The targets are the view's: frames submitted since must be drawn again after this one, so that
@@ -175,7 +180,9 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
     const auto submitted = slot.submitted;
     while (slot.stale || (slot.device_lists && !builder.acceptLists(slot.assignment->totals()))) {
         const FrameInputs inputs = slot.inputs;
-        submit(slot, inputs);
+        if (const auto submitted_again = submit(slot, inputs); !submitted_again) {
+            return submitted_again.error();
+        }
         if (const auto done = scene.timeline.wait(slot.done_value); !done) {
             return done.error();
         }
@@ -226,7 +233,9 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
     }
     try {
         slot->inputs = inputs;
-        impl_->submit(*slot, inputs);
+        if (auto submitted = impl_->submit(*slot, inputs); !submitted) {
+            return submitted;
+        }
         impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
         impl_->targets.reset(); // so that a smaller picture may fit

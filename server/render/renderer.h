@@ -74,8 +74,9 @@ class ViewRenderer {
     // Whether a readback slot is free; submit() must not be called otherwise.
     [[nodiscard]] bool canSubmit() const;
     // Records and submits one frame; returns at once where the device runs on its own.
-    // Errors: kCapacity when targets of this size do not fit; kDevice when the device is lost;
-    // kUnsupported when the settings ask for what the device lacks.
+    // Errors: kCapacity when targets of this size do not fit or lights would take minutes
+    // (light_budget.h); kDevice when the device is lost; kUnsupported when the settings ask for
+    // what the device lacks.
     [[nodiscard]] Result<void> submit(const FrameInputs& inputs);
     // Waits for the oldest submitted frame; draws it again where its light lists did not fit the
     // device's memory for them. Errors: kCapacity, kDevice.

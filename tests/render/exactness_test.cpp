@@ -122,6 +122,26 @@ TEST_F(Exactness, Subgroups_WithAndWithout_GiveTheSamePicture) {
     }
 }
 
+// A million lights through every pixel would take minutes, which nobody could cancel.
+TEST_F(Exactness, LightsThatTakeMinutes_AreRefused_AndTheNextFrameIsDrawn) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kNaive);
+    const Picture before = draw(view, inputs);
+    auto many = inputs;
+    many.settings.size = {1920, 1080};
+    many.settings.lights.count = 1'000'000;
+    for (const auto kind : {Renderer::kNaive, Renderer::kForwardPlus, Renderer::kToonCompute}) {
+        many.settings.renderer = kind;
+        many.settings.light_loop = view::LightLoop::kAllLights;
+        const auto refused = view.submit(many);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    }
+    EXPECT_EQ(differingFloats(before, draw(view, inputs)), 0U);
+}
+
 TEST_F(Exactness, Frames_SameInputTwice_SameBytes) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
