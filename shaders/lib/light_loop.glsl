@@ -50,8 +50,16 @@ void addBatches(Surface s, bool all_lights, ClusterList list, float share, inout
     do {
         [[unroll]] for (uint step = 0; step < kBatchStep; ++step) {
             LocalLight mine = fetchOfBatch(all_lights, list, first);
-            [[unroll]] for (uint k = 0; k < BATCH_SIZE; ++k) {
-                addLocalLight(s, shuffleLight(mine, k), share, sum);
+            // A last batch of 32 is mostly dark where lights are few.
+            uint count = min(list.count - min(first, list.count), BATCH_SIZE);
+            if (kSoftwareSubgroup || count == BATCH_SIZE) {
+                [[unroll]] for (uint k = 0; k < BATCH_SIZE; ++k) {
+                    addLocalLight(s, shuffleLight(mine, k), share, sum);
+                }
+            } else {
+                for (uint k = 0; k < count; ++k) {
+                    addLocalLight(s, shuffleLight(mine, k), share, sum);
+                }
             }
             first += BATCH_SIZE;
         }
