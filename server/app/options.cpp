@@ -99,8 +99,9 @@ std::string byDevice(Text text) {
 
 // What both pictures and first views take: where and how lights are added up.
 void addShading(CommandBuilder& command, view::ViewSettings& settings) {
-    command.name("--lighting", settings.lighting, view::kLightingStageNames,
-                 "Stage that adds lights up; auto: compute if deferred, else fragment");
+    command.name(
+        "--lighting", settings.lighting, view::kLightingStageNames,
+        "Stage that adds lights up; auto: fragment for forward renderers on a CPU, else compute");
     command.name("--shading", settings.shading, view::kShadingModelNames,
                  "Metallic-roughness, or its diffuse part alone");
     const auto grid = [&settings](const std::string& text) {
