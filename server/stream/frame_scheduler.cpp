@@ -4,6 +4,15 @@
 
 namespace froxel::stream {
 
+namespace {
+
+// Commands wait this long for their frame, so that one that comes a little late is still in it.
+constexpr Seconds kInputLead{0.002};
+// In which the grid moves by an interval at most.
+constexpr Seconds kMovePeriod{1.0};
+
+} // namespace
+
 void FrameScheduler::add(uint64_t viewer) {
     viewers_[viewer].virtual_time = virtual_now_;
 }
@@ -22,6 +31,23 @@ void FrameScheduler::setReady(uint64_t viewer, bool ready) {
         entry.virtual_time = std::max(entry.virtual_time, virtual_now_);
     }
     entry.ready = ready;
+}
+
+void FrameScheduler::onInput(uint64_t viewer, TimePoint now) {
+    const auto found = viewers_.find(viewer);
+    if (found == viewers_.end()) {
+        return;
+    }
+    Entry& entry = found->second;
+    const Seconds earned = Seconds(now - entry.counted) * (min_interval_ / kMovePeriod);
+    entry.movable = std::min(min_interval_, entry.movable + earned);
+    entry.counted = now;
+    const Seconds early = Seconds(entry.due - now) - kInputLead;
+    const Seconds move = std::min({early, min_interval_ / 8, entry.movable});
+    if (move > Seconds(0)) {
+        entry.movable -= move;
+        entry.due -= std::chrono::duration_cast<Clock::duration>(move);
+    }
 }
 
 std::optional<uint64_t> FrameScheduler::next(TimePoint now) const {

@@ -16,13 +16,19 @@ namespace froxel::stream {
 
 class FrameScheduler {
   public:
-    // No viewer gets frames closer together than `min_interval` on average.
+    // No viewer gets frames closer together than `min_interval` on average, but for onInput().
     explicit FrameScheduler(Seconds min_interval) : min_interval_(min_interval) {}
 
     void add(uint64_t viewer);
     void remove(uint64_t viewer);
     // Whether the viewer has something new to show and room for it.
     void setReady(uint64_t viewer, bool ready);
+
+    // A command has come in. Where commands come as evenly as frames, each would wait the same
+    // share of an interval for its frame; the viewer's pace is moved so that frames begin just
+    // after them, an eighth of an interval at a time and by a whole one a second at most (61 frames
+    // instead of 60).
+    void onInput(uint64_t viewer, TimePoint now);
 
     // The ready viewer to draw now; none when all are idle or not due.
     [[nodiscard]] std::optional<uint64_t> next(TimePoint now) const;
@@ -37,7 +43,9 @@ class FrameScheduler {
     struct Entry {
         bool ready = false;
         Seconds virtual_time{0};
-        TimePoint due{}; // the grid of an even pace; a viewer that kept up stays on it
+        TimePoint due{};     // the grid of an even pace; a viewer that kept up stays on it
+        Seconds movable{0};  // how much earlier it may yet become,
+        TimePoint counted{}; // as of then
     };
 
     const Seconds min_interval_;

@@ -195,6 +195,7 @@ void RenderLoop::takeNews() {
         viewer.delivery = news.delivery;
         if (news.state) {
             takeState(viewer, news);
+            scheduler_.onInput(news.id, news.arrived);
         }
     }
     const TimePoint now = Clock::now();

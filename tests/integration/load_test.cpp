@@ -91,7 +91,7 @@ TEST_F(Load, Room_FirstControls_OthersWatchTheSame) {
         measure(server.port(), {"--viewers", "4", "--seconds", "1", "--room", "hall", "--size",
                                 "100x60", "--max-latency-ms", "5000"});
     EXPECT_EQ(report["room"], "hall");
-    EXPECT_EQ(server.device().live_views, 1);
+    EXPECT_EQ(server.device().made_views, 1);
     int talking = 0;
     for (const Json& viewer : report["each"]) {
         EXPECT_EQ(viewer["refusals"], 0);

@@ -56,6 +56,7 @@ class FakeView final : public stream::ViewSource {
   public:
     explicit FakeView(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {
         ++device_->live_views;
+        ++device_->made_views;
     }
     ~FakeView() override { --device_->live_views; }
 

@@ -25,6 +25,7 @@ class FakeDevice {
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage
     std::atomic<uint64_t> submitted_count = 0;
     std::atomic<int> live_views = 0;
+    std::atomic<int> made_views = 0;
     std::atomic<int> live_leases = 0;
 
     // While closed, collect() waits: the device is busy.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -98,6 +99,70 @@ TEST(FrameScheduler, OnStarted_AfterALongPause_DoesNotCatchUp) {
     scheduler.onStarted(1, kStart);
     scheduler.onStarted(1, kStart + 1s);
     EXPECT_EQ(scheduler.nextDue(), kStart + 1s + 10ms);
+}
+
+// Frames that start when due, of a viewer whose picture always moves.
+struct Played {
+    uint32_t frames = 0;
+    Seconds last_wait{0}; // of the last command for its frame
+};
+Played play(FrameScheduler& scheduler, const std::vector<TimePoint>& commands, TimePoint end) {
+    Played played;
+    std::optional<TimePoint> waiting;
+    auto command = commands.begin();
+    for (TimePoint now = kStart; now < end; now += 50us) {
+        if (command != commands.end() && *command <= now) {
+            scheduler.onInput(1, *command);
+            waiting = waiting.value_or(*command);
+            ++command;
+        }
+        if (scheduler.next(now)) {
+            scheduler.onStarted(1, now);
+            ++played.frames;
+            if (waiting) {
+                played.last_wait = now - *waiting;
+                waiting.reset();
+            }
+        }
+    }
+    return played;
+}
+
+TEST(FrameScheduler, OnInput_CommandsAsEvenAsFrames_SoonWaitLittle) {
+    const auto interval = std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / 60));
+    for (const auto offset : {1ms, 6ms, 12ms, 16ms}) {
+        FrameScheduler scheduler(interval);
+        scheduler.add(1);
+        scheduler.setReady(1, true);
+        std::vector<TimePoint> commands;
+        for (int i = 0; i < 60; ++i) {
+            commands.push_back(kStart + offset + i * interval);
+        }
+        const auto played = play(scheduler, commands, kStart + 1s);
+        EXPECT_LE(played.last_wait, 2500us) << offset.count();
+        EXPECT_LE(played.frames, 62U);
+    }
+}
+
+TEST(FrameScheduler, OnInput_AFloodOfCommands_AddsAFrameASecondAtMost) {
+    FrameScheduler scheduler(10ms);
+    scheduler.add(1);
+    scheduler.setReady(1, true);
+    std::mt19937 random(7);
+    std::vector<TimePoint> commands{kStart};
+    while (commands.back() < kStart + 10s) {
+        commands.push_back(commands.back() + std::chrono::microseconds(random() % 8000));
+    }
+    EXPECT_LE(play(scheduler, commands, kStart + 10s).frames, 1000U + 12U);
+}
+
+TEST(FrameScheduler, OnInput_AnUnknownViewerOrNothingDue_ChangesNothing) {
+    FrameScheduler scheduler(10ms);
+    scheduler.onInput(7, kStart);
+    scheduler.add(1);
+    scheduler.setReady(1, true);
+    scheduler.onInput(1, kStart);
+    EXPECT_EQ(scheduler.next(kStart), 1U);
 }
 
 TEST(FrameScheduler, Remove_ReadyViewer_IsNeverNamedAgain) {
