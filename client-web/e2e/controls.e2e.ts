@@ -27,6 +27,7 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   'grid.z': [64, false],
   quality: [95, false],
   video_kbps: [2500, false],
+  target_fps: [1, false], // which every picture meets: none is scaled
 };
 
 let server: Server;

@@ -7,7 +7,7 @@ namespace froxel::stream {
 namespace {
 
 // Commands wait this long for their frame, so that one that comes a little late is still in it.
-constexpr Seconds kInputLead{0.002};
+constexpr Seconds kInputLead{0.0015};
 // In which the grid moves by an interval at most.
 constexpr Seconds kMovePeriod{1.0};
 
