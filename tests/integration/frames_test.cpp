@@ -1,5 +1,6 @@
 // WebSocket frames that RFC 6455 forbids, and ones that it allows and nobody sends; handshakes that
 // stop half way.
+#include "integration/eventually.h"
 #include "integration/raw_web_socket.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
@@ -10,25 +11,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 namespace froxel::test {
 namespace {
 
 using namespace std::chrono_literals;
 using Raw = RawWebSocket;
-
-template <class Condition>
-bool eventually(const Condition& condition) {
-    const auto end = Clock::now() + 20s;
-    while (!condition()) {
-        if (Clock::now() > end) {
-            return false;
-        }
-        std::this_thread::yield();
-    }
-    return true;
-}
 
 std::string helloBytes() {
     v1::ClientMessage message;

@@ -1,4 +1,5 @@
 // What a server holds on to, and what it does when there is no more of it: the real binary.
+#include "integration/eventually.h"
 #include "integration/http_exchange.h"
 #include "integration/raw_web_socket.h"
 #include "integration/server_process.h"
@@ -9,10 +10,8 @@
 
 #include <csignal>
 #include <deque>
-#include <functional>
 #include <sstream>
 #include <sys/resource.h>
-#include <thread>
 
 namespace froxel::test {
 namespace {
@@ -23,17 +22,6 @@ const std::vector<std::string> kSmall = {"--size", "160x90", "--lights", "50"};
 
 std::string metricsOf(uint16_t admin_port) {
     return bodyOf(httpGet(admin_port, "/metrics"));
-}
-
-bool eventually(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + 30s;
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) {
-            return false;
-        }
-        std::this_thread::yield();
-    }
-    return true;
 }
 
 // How often an event happened: lines, and those that the log left out.
@@ -80,15 +68,17 @@ TEST(Descriptors, UsedUp_ViewersStreamOnAndLaterOnesGetIn) {
         viewer.expectFrame();
     }
     crowd.clear();
-    EXPECT_TRUE(eventually([&] {
-        try {
-            WsClient late(port);
-            late.join();
-            return true;
-        } catch (const std::exception&) {
-            return false;
-        }
-    }));
+    EXPECT_TRUE(eventually(
+        [&] {
+            try {
+                WsClient late(port);
+                late.join();
+                return true;
+            } catch (const std::exception&) {
+                return false;
+            }
+        },
+        30s));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     viewer.expectFrame();
     server.signal(SIGTERM);

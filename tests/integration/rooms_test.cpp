@@ -1,4 +1,5 @@
 // Several viewers of one session, lost connections that come back, and crowds.
+#include "integration/eventually.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
 
@@ -47,18 +48,6 @@ v1::RoomState roomWith(WsClient& client, const std::function<bool(const v1::Room
             return room;
         }
     }
-}
-
-template <class Condition>
-bool eventually(const Condition& condition) {
-    const auto end = std::chrono::steady_clock::now() + 20s;
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) {
-            return false;
-        }
-        std::this_thread::yield();
-    }
-    return true;
 }
 
 TEST(Rooms, TwoViewers_OneRender_SamePictures) {

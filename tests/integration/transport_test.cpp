@@ -1,4 +1,5 @@
 // Connections that misbehave, and what the others notice of it.
+#include "integration/eventually.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
 
@@ -27,18 +28,6 @@ ClientMessage setExposure(double exposure) {
     ClientMessage message;
     message.mutable_set_exposure()->set_exposure(exposure);
     return message;
-}
-
-template <class Condition>
-bool eventually(const Condition& condition) {
-    const auto end = std::chrono::steady_clock::now() + 20s;
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) {
-            return false;
-        }
-        std::this_thread::yield();
-    }
-    return true;
 }
 
 bool upgradeIsRefused(uint16_t port, const ClientOptions& options) {
