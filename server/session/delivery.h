@@ -74,12 +74,12 @@ inline constexpr view::Encoding kRefinedEncoding{92, view::Chroma::k444};
 }
 
 [[nodiscard]] inline view::Size scaled(view::Size size, double scale) {
-    const auto side = [scale](uint32_t px) {
-        constexpr uint32_t kSmallestPx = 16; // as view::kWidthRange
+    const auto side = [scale](uint32_t px, uint32_t least_px) {
         const auto less = static_cast<uint32_t>(std::lround(px * scale));
-        return std::min(px, std::max(kSmallestPx, less));
+        return std::min(px, std::max(least_px, less));
     };
-    return {side(size.width_px), side(size.height_px)};
+    return {side(size.width_px, view::kWidthRange.min),
+            side(size.height_px, view::kHeightRange.min)};
 }
 
 // What a frame at this stage is made with.

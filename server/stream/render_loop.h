@@ -6,9 +6,8 @@
 //    connection granted a credit, and its pipeline has room.
 // 3. With enough frames on the device, waits for the oldest and pushes it into its pipeline.
 // 4. With nothing to do, sleeps until there is news, a session becomes due, or one that rests is to
-// be
-//    refined. A refined picture is drawn anew: its size may differ, and it costs one frame a rest.
-//    Idle costs nothing.
+//    be refined. A refined picture is drawn anew: its size may differ, and it costs one frame a
+//    rest. Idle costs nothing.
 #pragma once
 
 #include "encode/encode_pool.h"

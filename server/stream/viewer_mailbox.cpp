@@ -32,48 +32,39 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
     return id;
 }
 
+template <class Change>
+void ViewerMailbox::change(session::SessionId id, const Change& apply) {
+    const std::lock_guard lock(mutex_);
+    const auto found = slots_.find(id);
+    if (found == slots_.end() || found->second.news.left) {
+        return;
+    }
+    apply(found->second.news);
+    publish(found->second);
+}
+
 void ViewerMailbox::update(session::SessionId id,
                            const session::SessionState& state,
                            TimePoint arrived) {
-    const std::lock_guard lock(mutex_);
-    const auto found = slots_.find(id);
-    if (found == slots_.end() || found->second.news.left) {
-        return;
-    }
-    found->second.news.state = state;
-    found->second.news.arrived = arrived;
-    publish(found->second);
+    change(id, [&](ViewerNews& news) {
+        news.state = state;
+        news.arrived = arrived;
+    });
 }
 
 void ViewerMailbox::grant(session::SessionId id, uint64_t frame_total) {
-    const std::lock_guard lock(mutex_);
-    const auto found = slots_.find(id);
-    if (found == slots_.end() || found->second.news.left) {
-        return;
-    }
-    found->second.news.granted = frame_total;
-    publish(found->second);
+    change(id, [&](ViewerNews& news) { news.granted = frame_total; });
 }
 
 void ViewerMailbox::setDelivery(session::SessionId id, const session::Delivery& delivery) {
-    const std::lock_guard lock(mutex_);
-    const auto found = slots_.find(id);
-    if (found == slots_.end() || found->second.news.left) {
-        return;
-    }
-    found->second.news.delivery = delivery;
-    publish(found->second);
+    change(id, [&](ViewerNews& news) { news.delivery = delivery; });
 }
 
 void ViewerMailbox::leave(session::SessionId id) {
-    const std::lock_guard lock(mutex_);
-    const auto found = slots_.find(id);
-    if (found == slots_.end() || found->second.news.left) {
-        return;
-    }
-    --present_;
-    found->second.news.left = true;
-    publish(found->second);
+    change(id, [&](ViewerNews& news) {
+        --present_;
+        news.left = true;
+    });
 }
 
 void ViewerMailbox::wake() {

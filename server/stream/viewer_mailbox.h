@@ -53,6 +53,9 @@ class ViewerMailbox {
         ViewerNews news;
         bool fresh = false;
     };
+    // Of a session that is present; under the lock.
+    template <class Change>
+    void change(session::SessionId id, const Change& apply);
     void publish(Slot& slot);
 
     const uint32_t sessions_max_;
