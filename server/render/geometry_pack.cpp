@@ -79,6 +79,11 @@ PackedPrimitive packPrimitive(const scene::Primitive& source, PackedGeometry& ou
 
 } // namespace
 
+Corners fromLowest(Corners corners) {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return corners;
+}
+
 bool isExtended(const scene::Primitive& primitive) {
     return !primitive.uv1.empty() || !primitive.colors.empty() || !primitive.tangents.empty();
 }

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -58,6 +59,11 @@ struct PackedGeometry {
     std::vector<Meshlet> meshlets;
     std::vector<std::vector<PackedPrimitive>> meshes; // as in scene::Scene::meshes
 };
+
+// A triangle's corners from the lowest on: packing may begin a triangle with another corner, but
+// keeps its winding.
+using Corners = std::array<uint32_t, 3>;
+[[nodiscard]] Corners fromLowest(Corners corners);
 
 // Whether the primitive has ExtendedVertex data.
 [[nodiscard]] bool isExtended(const scene::Primitive& primitive);

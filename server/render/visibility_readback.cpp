@@ -7,7 +7,6 @@
 #include "render/scene_resources.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <map>
 #include <unordered_map>
@@ -16,14 +15,6 @@
 namespace froxel::render {
 
 namespace {
-
-using Corners = std::array<uint32_t, 3>;
-
-// Packing may begin a triangle with another corner, but keeps its winding.
-Corners fromLowest(Corners corners) {
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    return corners;
-}
 
 // Triangles by their corners; of equal ones, which look the same, the first.
 using TriangleIndex = std::map<Corners, uint32_t>;

@@ -38,13 +38,10 @@ std::set<Triangle> visibleTriangles(const Visibility& visibility) {
     return found;
 }
 
-using Corners = std::array<uint32_t, 3>;
+using render::Corners;
 
-// Packing may begin a triangle with another corner, but keeps its winding.
 Corners cornersAt(const std::vector<uint32_t>& indices, size_t first) {
-    Corners corners{indices[first], indices[first + 1], indices[first + 2]};
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    return corners;
+    return render::fromLowest({indices[first], indices[first + 1], indices[first + 2]});
 }
 
 // The indices of those meshlets of a primitive that have a triangle of `visible`.
