@@ -48,6 +48,10 @@ Result<void> Timeline::wait(uint64_t value) const {
     return {};
 }
 
+uint64_t Timeline::completed() const {
+    return semaphore_.getCounterValue();
+}
+
 void Timeline::runNow(const std::function<void(const vk::raii::CommandBuffer&)>& record) {
     const auto cmd = makeCommandBuffer();
     cmd.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});

@@ -18,6 +18,9 @@ class Timeline {
     uint64_t submit(const vk::raii::CommandBuffer& cmd);
     // Waits until `value` is reached. Errors: kDevice when the device is lost or does not answer.
     [[nodiscard]] Result<void> wait(uint64_t value) const;
+    // What the next submission will get, and up to where all is finished.
+    [[nodiscard]] uint64_t next() const { return last_ + 1; }
+    [[nodiscard]] uint64_t completed() const;
 
     // Records, submits and waits: for loading, not for frames. Throws vk::SystemError.
     void runNow(const std::function<void(const vk::raii::CommandBuffer&)>& record);

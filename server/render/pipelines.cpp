@@ -65,10 +65,7 @@ pipelineLayout(const gpu::Device& device, vk::DescriptorSetLayout a, vk::Descrip
 }
 
 // Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance rows.
-void describeVertices(gpu::GraphicsPipelineInfo& info,
-                      bool surface,
-                      bool textured,
-                      bool extended) {
+void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool textured, bool extended) {
     using Rate = vk::VertexInputRate;
     using Format = vk::Format;
     info.bindings = {{0, 12, Rate::eVertex}, {3, 48, Rate::eInstance}};
@@ -111,22 +108,15 @@ gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32
     return extended ? forward_extended_frag() : forward_frag();
 }
 
-template <class Map, class Key, class Make>
-vk::Pipeline findOrMake(Map& map, const Key& key, Make make) {
-    auto found = map.find(key);
-    if (found == map.end()) {
-        found = map.emplace(key, make()).first;
-    }
-    return *found->second;
-}
-
 } // namespace
 
-Pipelines::Pipelines(const gpu::Device& device)
+Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline)
     : device_(device), frame_layout_(frameSetLayout(device)),
       material_layout_(materialSetLayout(device)), screen_set_layout_(screenSetLayout(device)),
       geometry_layout_(pipelineLayout(device, *frame_layout_, *material_layout_)),
-      screen_layout_(pipelineLayout(device, *frame_layout_, *screen_set_layout_)) {}
+      screen_layout_(pipelineLayout(device, *frame_layout_, *screen_set_layout_)),
+      geometry_(timeline, kKeptGeometry), screen_(timeline, kKeptScreen),
+      fragment_lighting_(timeline, kKeptScreen) {}
 
 gpu::SpecConstants Pipelines::constants(const VariantKey& key) const {
     return {key.material_flags, key.light_flags, key.output_flags,
@@ -174,11 +164,11 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
 }
 
 vk::Pipeline Pipelines::geometry(GeometryPass pass, const VariantKey& key) {
-    return findOrMake(geometry_, std::tuple(pass, key), [&] { return makeGeometry(pass, key); });
+    return *geometry_.findOrMake(std::tuple(pass, key), [&] { return makeGeometry(pass, key); });
 }
 
 vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
-    return findOrMake(screen_, std::tuple(pass, key), [&] {
+    return *screen_.findOrMake(std::tuple(pass, key), [&] {
         const bool batched = (key.light_flags & io::kLightBatched) != 0;
         switch (pass) {
         case ScreenPass::kLighting:
@@ -197,7 +187,7 @@ vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
 }
 
 vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
-    return findOrMake(fragment_lighting_, key, [&] {
+    return *fragment_lighting_.findOrMake(key, [&] {
         gpu::GraphicsPipelineInfo info;
         info.vertex = shaders::fullscreen_vert();
         info.fragment = (key.light_flags & io::kLightBatched) != 0
@@ -212,15 +202,15 @@ vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
 
 std::vector<Pipelines::Made> Pipelines::made() const {
     std::vector<Made> all;
-    for (const auto& [id, pipeline] : geometry_) {
+    geometry_.forEachKey([&](const auto& id) {
         all.push_back({kGeometryNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
-    }
-    for (const auto& [id, pipeline] : screen_) {
+    });
+    screen_.forEachKey([&](const auto& id) {
         all.push_back({kScreenNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
-    }
-    for (const auto& [key, pipeline] : fragment_lighting_) {
+    });
+    fragment_lighting_.forEachKey([&](const auto& key) {
         all.push_back({kFragmentLightingName, key});
-    }
+    });
     return all;
 }
 

@@ -1,13 +1,13 @@
-// Every pipeline in use, made when first needed: a variant is three words of flags.
+// The pipelines in use, made when first needed: a variant is three words of flags.
 #pragma once
 
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
+#include "render/variant_cache.h"
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -50,14 +50,19 @@ class Pipelines {
         vk::Format::eUndefined, vk::Format::eR32G32B32A32Sfloat, vk::Format::eR32G32Uint,
         vk::Format::eR32Uint,   vk::Format::eR32G32B32A32Sfloat, vk::Format::eUndefined};
 
-    explicit Pipelines(const gpu::Device& device);
+    // Variants kept: of surfaces, where a frame takes one for each kind of material, and of passes
+    // over the picture. llvmpipe takes 4 MB for one.
+    static constexpr size_t kKeptGeometry = 48;
+    static constexpr size_t kKeptScreen = 16;
+
+    Pipelines(const gpu::Device& device, const gpu::Timeline& timeline);
 
     [[nodiscard]] vk::Pipeline geometry(GeometryPass pass, const VariantKey& key);
     [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
     // The lighting pass in the fragment stage.
     [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key);
 
-    // The variants made so far, of every kind.
+    // The variants kept, of every kind.
     struct Made {
         std::string_view pass;
         VariantKey key;
@@ -71,7 +76,8 @@ class Pipelines {
     [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const { return *screen_layout_; }
 
     [[nodiscard]] static vk::Format gbufferFormat(uint32_t output_flags) {
-        return (output_flags & io::kOutputWideGbuffer) != 0 ? vk::Format::eR32G32B32A32Uint : vk::Format::eR32G32Uint;
+        return (output_flags & io::kOutputWideGbuffer) != 0 ? vk::Format::eR32G32B32A32Uint
+                                                            : vk::Format::eR32G32Uint;
     }
 
   private:
@@ -84,9 +90,9 @@ class Pipelines {
     vk::raii::DescriptorSetLayout screen_set_layout_;
     vk::raii::PipelineLayout geometry_layout_;
     vk::raii::PipelineLayout screen_layout_;
-    std::map<std::tuple<GeometryPass, VariantKey>, vk::raii::Pipeline> geometry_;
-    std::map<std::tuple<ScreenPass, VariantKey>, vk::raii::Pipeline> screen_;
-    std::map<VariantKey, vk::raii::Pipeline> fragment_lighting_;
+    VariantCache<std::tuple<GeometryPass, VariantKey>> geometry_;
+    VariantCache<std::tuple<ScreenPass, VariantKey>> screen_;
+    VariantCache<VariantKey> fragment_lighting_;
 };
 
 } // namespace froxel::render

@@ -43,23 +43,17 @@ vk::raii::PipelineLayout pipelineLayout(const gpu::Device& device,
          .pPushConstantRanges = &range});
 }
 
-template <class Key, class Make>
-vk::Pipeline findOrMake(std::map<Key, vk::raii::Pipeline>& map, const Key& key, Make make) {
-    auto found = map.find(key);
-    if (found == map.end()) {
-        found = map.emplace(key, make()).first;
-    }
-    return *found->second;
-}
-
 } // namespace
 
 VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
+                                         const gpu::Timeline& timeline,
                                          const Pipelines& shared,
                                          uint32_t texture_count)
     : device_(device), bindless_(texture_count > 0), set_layout_(geometryLayout(device)),
       texture_layout_(texturesLayout(device, texture_count)), raster_layout_(nullptr),
-      compute_layout_(nullptr), cull_(nullptr), compact_(nullptr) {
+      compute_layout_(nullptr), cull_(nullptr), compact_(nullptr),
+      raster_(timeline, Pipelines::kKeptGeometry), gbuffer_(timeline, Pipelines::kKeptGeometry),
+      shade_(timeline, Pipelines::kKeptGeometry) {
     const std::array raster = {shared.frameLayout(), shared.materialLayout(), *set_layout_};
     raster_layout_ = pipelineLayout(device, raster, 0);
     const std::array compute = {shared.frameLayout(), shared.screenLayout(), *set_layout_,
@@ -108,11 +102,11 @@ vk::raii::Pipeline VisibilityPipelines::makeRaster(uint32_t material_flags) cons
 vk::Pipeline VisibilityPipelines::raster(uint32_t material_flags) {
     const bool masked = (material_flags & io::kMaterialMask) != 0;
     const uint32_t key = masked ? material_flags : 0U;
-    return findOrMake(raster_, key, [&] { return makeRaster(key); });
+    return *raster_.findOrMake(key, [&] { return makeRaster(key); });
 }
 
 vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {
-    return findOrMake(gbuffer_, key, [&] {
+    return *gbuffer_.findOrMake(key, [&] {
         return gpu::makeComputePipeline(device_,
                                         bindless_ ? shaders::visibility_gbuffer_bindless_comp()
                                                   : shaders::visibility_gbuffer_comp(),
@@ -121,7 +115,7 @@ vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {
 }
 
 vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
-    return findOrMake(shade_, key, [&] {
+    return *shade_.findOrMake(key, [&] {
         const bool batched = (key.light_flags & io::kLightBatched) != 0;
         const auto plain = bindless_ ? shaders::visibility_shade_bindless_comp()
                                      : shaders::visibility_shade_comp();

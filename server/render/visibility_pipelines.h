@@ -4,8 +4,6 @@
 
 #include "render/pipelines.h"
 
-#include <map>
-
 namespace froxel::render {
 
 class VisibilityPipelines {
@@ -22,7 +20,10 @@ class VisibilityPipelines {
     }
 
     // texture_count: of the whole scene; 0 where materials are bound one at a time.
-    VisibilityPipelines(const gpu::Device& device, const Pipelines& shared, uint32_t texture_count);
+    VisibilityPipelines(const gpu::Device& device,
+                        const gpu::Timeline& timeline,
+                        const Pipelines& shared,
+                        uint32_t texture_count);
 
     // Depth and ids. material_flags: of a masked material, else of its faces alone.
     [[nodiscard]] vk::Pipeline raster(uint32_t material_flags);
@@ -51,9 +52,9 @@ class VisibilityPipelines {
     vk::raii::PipelineLayout compute_layout_;
     vk::raii::Pipeline cull_;
     vk::raii::Pipeline compact_;
-    std::map<uint32_t, vk::raii::Pipeline> raster_;
-    std::map<VariantKey, vk::raii::Pipeline> gbuffer_;
-    std::map<VariantKey, vk::raii::Pipeline> shade_;
+    VariantCache<uint32_t> raster_;
+    VariantCache<VariantKey> gbuffer_;
+    VariantCache<VariantKey> shade_;
 };
 
 } // namespace froxel::render

@@ -140,7 +140,8 @@ std::string VisibilityScene::unusable(const SceneResources& scene) {
 }
 
 VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
-    : arena(scene.device), pipelines(scene.device, scene.pipelines, textureCount(scene)),
+    : arena(scene.device),
+      pipelines(scene.device, scene.timeline, scene.pipelines, textureCount(scene)),
       device_(scene.device) {
     Placer placer(scene);
     groups = std::move(placer.groups);

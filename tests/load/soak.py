@@ -34,7 +34,8 @@ SAMPLE_EVERY_S = 2.0
 class Server:
     def __init__(self, froxel, options):
         command = [froxel, "serve", "--port", "0", "--admin-bind", "127.0.0.1:0"]
-        command += ["--log-level", "error", *options]
+        # However slow the device: viewers are let in.
+        command += ["--log-level", "error", "--min-fps", "0", *options]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         self.url = self.process.stdout.readline().strip()
         self.metrics_url = self.process.stdout.readline().strip()
