@@ -8,7 +8,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double kWeight = 1.0 / 4;
-constexpr uint32_t kEvidence = 4; // frames at a scale before it is judged
+// Frames at a scale before it is judged, and those of them that do not count: others who share the
+// device may still be about to make the same step.
+constexpr uint32_t kEvidence = 4;
+constexpr uint32_t kSettling = 1;
 constexpr double kOver = 1.05;    // of the time for a frame
 constexpr double kUnder = 0.9;
 constexpr Seconds kFirstHold = 1s;
@@ -34,8 +37,11 @@ void RenderScale::onFrame(Seconds cost, double at_scale, TimePoint now) {
     if (fps_ <= 0 || at_scale != scale()) {
         return; // begun before the last step
     }
+    if (++seen_ <= kSettling) {
+        return;
+    }
     cost_ = cost_ ? *cost_ + (cost - *cost_) * kWeight : cost;
-    if (++seen_ < kEvidence) {
+    if (seen_ < kEvidence) {
         return;
     }
     const Seconds budget(1 / fps_);

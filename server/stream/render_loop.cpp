@@ -203,6 +203,7 @@ void RenderLoop::takeNews() {
     for (auto viewer = viewers_.begin(); viewer != viewers_.end();) {
         if (viewer->second->leaving && viewer->second->idle()) {
             scheduler_.remove(viewer->first);
+            demand_.remove(viewer->first);
             viewer = viewers_.erase(viewer);
         } else {
             updateReadiness(viewer->first, *viewer->second, now);
@@ -303,7 +304,13 @@ void RenderLoop::finishOldest() {
     ++options_.fates->rendered;
     const session::Delivered& with = frame.record.delivered;
     if (with.refinement == session::Refinement::kInteractive) {
-        viewer.render_scale.onFrame(cost, with.scale, now);
+        const double target_hz = viewer.state.delivery.target_fps;
+        demand_.onFrame(frame.id, cost, target_hz, now);
+        if (target_hz > 0) {
+            // As if it had the device to itself, at this much a frame.
+            const Seconds shared(demand_.total(now) / target_hz);
+            viewer.render_scale.onFrame(std::max(cost, shared), with.scale, now);
+        }
     }
     if (viewer.leaving) {
         ++options_.fates->viewer_gone;

@@ -13,6 +13,7 @@
 #include "encode/encode_pool.h"
 #include "session/stream_port.h"
 #include "stream/admission.h"
+#include "stream/device_demand.h"
 #include "stream/frame_pipeline.h"
 #include "stream/frame_scheduler.h"
 #include "stream/frame_source.h"
@@ -95,6 +96,7 @@ class RenderLoop final : public session::StreamPort {
     std::mutex admission_mutex_; // before the mailbox's
     Admission admission_;
     FrameScheduler scheduler_;
+    DeviceDemand demand_;
     std::optional<TimePoint> refine_at_; // the first viewer's that rests
     std::unique_ptr<FrameSource> source_;
     std::map<session::SessionId, std::unique_ptr<Viewer>> viewers_;

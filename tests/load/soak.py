@@ -54,12 +54,16 @@ class Server:
         return values
 
     def settle(self):
-        """Waits until no viewer is left; None when that never happens."""
+        """Waits until no viewer is left and what the last one had is free; None when that never
+        happens."""
         end = time.monotonic() + 60
+        last = {}
         while time.monotonic() < end:
             values = self.sample()
-            if values["froxel_sessions"] == 0:
+            device = values.get("froxel_device_memory_bytes")
+            if values["froxel_sessions"] == 0 and device == last.get("froxel_device_memory_bytes"):
                 return values
+            last = values
             time.sleep(1)
         return None
 
