@@ -43,7 +43,7 @@ it('Page_AsItOpens_ConnectsAndPaintsAndCounts', async () => {
   expect(await viewer.page.title()).toBe('Froxel');
   await until('figures', async () => {
     const rate = await viewer.page.locator('#stat-fps').textContent();
-    return viewer.frameCount > 10 && Number(rate) > 0 && (await viewer.page.locator('#stats-passes li').count()) > 0;
+    return viewer.frameCount > 10 && Number(rate) > 0 && (await viewer.page.locator('#passes-table tr').count()) > 0;
   });
   expect(await viewer.page.locator('#progress').isVisible()).toBe(false);
   expect(await viewer.page.locator('#banner').isVisible()).toBe(false);

@@ -7,6 +7,7 @@ import { bits, bytes, count, gridText, ms } from './format';
 import { Graph } from './graph';
 import { CodecSchema } from './gen/froxel/v1/common_pb';
 import type { FrameDetails, FrameHeader } from './gen/froxel/v1/server_pb';
+import { PassStack } from './pass_stack';
 import { choicesOf } from './schema_names';
 import { kStages, type Figures, type Stats } from './stats';
 
@@ -31,6 +32,7 @@ export class Overlay {
   private readonly latency = element('stat-latency', HTMLElement);
   private readonly values = new Map<string, HTMLElement>();
   private readonly details = new Details();
+  private readonly passes = new PassStack();
   private readonly graph = new Graph(element('graph', HTMLElement), kGraphWidth, kGraphHeight);
 
   /** `droppedHere` counts frames that arrived and were not shown. */
@@ -59,11 +61,7 @@ export class Overlay {
     this.latency.textContent = ms(figures.latencyP50Ms);
     if (document.hidden || this.card.classList.contains('closed')) return;
     this.showList(figures);
-    const passes = figures.last?.passes ?? [];
-    this.showBars(
-      'stats-passes',
-      passes.map((pass) => ({ name: pass.name, ms: pass.gpuUs / 1000 })),
-    );
+    this.passes.show(this.stats.passes.shares());
     this.showBars(
       'stats-stages',
       kStages.map((stage) => ({ name: stage, ms: figures.stagesMs[stage] ?? 0 })),

@@ -2,6 +2,7 @@
 
 import type { FrameHeader } from './gen/froxel/v1/server_pb';
 import { InputLatency, RateMeter, SampleWindow } from './latency';
+import { PassMeter } from './pass_meter';
 
 const kRateSpanMs = 2_000;
 const kStageSamples = 64;
@@ -38,6 +39,7 @@ export interface History {
 
 export class Stats {
   readonly history: History = { timeS: [], intervalMs: [], latencyMs: [] };
+  readonly passes = new PassMeter();
   private readonly frames = new RateMeter(kRateSpanMs);
   private readonly bytes = new RateMeter(kRateSpanMs);
   private readonly latency = new InputLatency();
@@ -54,6 +56,7 @@ export class Stats {
   painted(header: FrameHeader, decodeMs: number, nowMs: number): void {
     this.frames.add(nowMs, 1);
     this.last = header;
+    this.passes.add(header);
     const total = this.latency.painted(header.appliedSeq, header.appliedClientTimeUs, nowMs);
     if (total !== null) this.addStages(header, decodeMs, total);
     const pause = this.lastPaintMs === null ? Infinity : nowMs - this.lastPaintMs;
