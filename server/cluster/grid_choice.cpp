@@ -50,30 +50,68 @@ struct Expected {
     double cost_ns = 0;
 };
 
+// The slice at a depth: how wide a pixel is in its middle, and how deep it is, in metres.
+struct Slice {
+    double pixel;
+    double depth;
+};
+
+// Of one number of slices, where the model looks.
+struct Slices {
+    std::array<Slice, kPixelDepths> pixels;
+    std::vector<Slice> lights; // at LightSpread::seen_depths_m
+};
+
 class CostModel {
   public:
-    explicit CostModel(const GridFacts& facts) : facts_(facts) {}
+    explicit CostModel(const GridFacts& facts)
+        : facts_(facts), extent_(std::cbrt(facts.lights.volume_m3)),
+          ball_(std::cbrt(4.0 / 3.0 * kPi * facts.lights.radius3_m3)) {}
 
-    [[nodiscard]] Expected expect(const GridShape& shape) const;
+    [[nodiscard]] Slices slices(uint32_t count) const;
+    [[nodiscard]] Expected expect(const GridShape& shape, const Slices& slices) const;
+    [[nodiscard]] Expected expect(const GridShape& shape) const {
+        return expect(shape, slices(shape.size.z));
+    }
 
   private:
-    [[nodiscard]] Block blockAt(const GridShape& shape, const SliceLaw& law, double depth_m) const;
+    [[nodiscard]] Slice sliceAt(const SliceLaw& law, uint32_t count, double depth_m) const;
     // The volume of the block grown by a ball, averaged over the lights' radii (Steiner's formula).
     [[nodiscard]] double grown(const Block& block) const;
     [[nodiscard]] double listLength(const Block& block) const;
 
     const GridFacts& facts_;
+    double extent_; // sides of the cubes of the lights' volume and of a mean ball's
+    double ball_;
 };
 
-Block CostModel::blockAt(const GridShape& shape, const SliceLaw& law, double depth_m) const {
+Slice CostModel::sliceAt(const SliceLaw& law, uint32_t count, double depth_m) const {
     const ClusterGrid& frustum = facts_.frustum;
-    const uint32_t slice = std::min(law.sliceOf(static_cast<float>(depth_m)), shape.size.z - 1);
+    const uint32_t slice = std::min(law.sliceOf(static_cast<float>(depth_m)), count - 1);
     const double begin = slice > 0 ? static_cast<double>(planeDepth(law, slice)) : 0.0;
     const double end = static_cast<double>(planeDepth(law, slice + 1));
     const bool flat = frustum.projection == view::Projection::kOrthographic;
     const double scale = flat ? 1.0 : (begin + end) / 2;
-    const double pixel = 2 * frustum.half_y / frustum.image.height_px * scale;
-    return {pixel * shape.tile_width_px, pixel * shape.tile_height_px, end - begin};
+    return {2 * frustum.half_y / frustum.image.height_px * scale, end - begin};
+}
+
+// Pixels are taken to lie at any depth alike.
+Slices CostModel::slices(uint32_t count) const {
+    const DepthRange& range = facts_.range;
+    const SliceLaw law = makeSliceLaw(facts_.law, count, range.near_m, range.far_m);
+    Slices slices;
+    for (size_t i = 0; i < kPixelDepths; ++i) {
+        const double depth = range.far_m * (static_cast<double>(i) + 0.5) / kPixelDepths;
+        slices.pixels[i] = sliceAt(law, count, depth);
+    }
+    for (const double depth : facts_.lights.seen_depths_m) {
+        slices.lights.push_back(sliceAt(law, count, std::min(depth, range.far_m)));
+    }
+    return slices;
+}
+
+Block blockOf(const GridShape& shape, const Slice& slice) {
+    return {slice.pixel * shape.tile_width_px, slice.pixel * shape.tile_height_px, slice.depth};
 }
 
 double CostModel::grown(const Block& b) const {
@@ -94,37 +132,31 @@ double CostModel::listLength(const Block& block) const {
     const LightSpread& lights = facts_.lights;
     double share = 0;
     if (lights.volume_m3 > 0) {
-        const double extent = std::cbrt(lights.volume_m3);
-        const double ball = std::cbrt(4.0 / 3.0 * kPi * lights.radius3_m3);
-        const Block reach{block.width + ball, block.height + ball, block.depth + ball};
+        const Block reach{block.width + ball_, block.height + ball_, block.depth + ball_};
         const double rounded_off = grown(block) / (reach.width * reach.height * reach.depth);
-        share = std::min(1.0, rounded_off * covered(reach.width, extent) *
-                                  covered(reach.height, extent) * covered(reach.depth, extent));
+        share = std::min(1.0, rounded_off * covered(reach.width, extent_) *
+                                  covered(reach.height, extent_) * covered(reach.depth, extent_));
     }
     return lights.light_count * (lights.unlimited_share + (1 - lights.unlimited_share) * share);
 }
 
-Expected CostModel::expect(const GridShape& shape) const {
+Expected CostModel::expect(const GridShape& shape, const Slices& slices) const {
     const ClusterGrid& frustum = facts_.frustum;
     const GridCosts& costs = facts_.costs;
     const LightSpread& lights = facts_.lights;
-    const SliceLaw law =
-        makeSliceLaw(facts_.law, shape.size.z, facts_.range.near_m, facts_.range.far_m);
     const double clusters = static_cast<double>(shape.size.x) * shape.size.y * shape.size.z;
     Expected expected;
     double pixel_ns = 0;
-    // Pixels are taken to lie at any depth alike.
-    for (size_t i = 0; i < kPixelDepths; ++i) {
-        const double depth = facts_.range.far_m * (static_cast<double>(i) + 0.5) / kPixelDepths;
-        const Block block = blockAt(shape, law, depth);
+    for (const Slice& slice : slices.pixels) {
+        const Block block = blockOf(shape, slice);
         const double length = listLength(block);
         const double across = costs.subgroup_width * block.height / shape.tile_height_px;
         const double lists = std::min(1 + kSlant * across / block.depth, costs.subgroup_width);
         expected.list_length += length / kPixelDepths;
         pixel_ns += lists * (costs.walk_ns + costs.pair_ns * length) / kPixelDepths;
     }
-    for (const double depth : lights.seen_depths_m) {
-        const Block block = blockAt(shape, law, std::min(depth, facts_.range.far_m));
+    for (const Slice& slice : slices.lights) {
+        const Block block = blockOf(shape, slice);
         const double filled = grown(block) / (block.width * block.height * block.depth);
         expected.entries += lights.lights_per_depth * std::min(filled, clusters);
     }
@@ -154,17 +186,20 @@ std::string describe(const GridFacts& facts, const GridChoice& choice, const Exp
 
 GridChoice chooseGrid(const GridFacts& facts, const GridMemory& previous) {
     const CostModel model(facts);
+    std::array<Slices, kSliceCounts.size()> slices;
+    std::transform(kSliceCounts.begin(), kSliceCounts.end(), slices.begin(),
+                   [&](uint32_t count) { return model.slices(count); });
     GridChoice best;
     Expected best_expected;
     for (const uint32_t tile_px : kTileEdges_px) {
-        for (const uint32_t slices : kSliceCounts) {
-            const GridShape shape = shapeOf(facts, tile_px, slices);
+        for (size_t i = 0; i < slices.size(); ++i) {
+            const GridShape shape = shapeOf(facts, tile_px, kSliceCounts[i]);
             if (!fits(shape.size)) {
                 continue;
             }
-            const Expected expected = model.expect(shape);
+            const Expected expected = model.expect(shape, slices[i]);
             if (best.memory.tile_px == 0 || expected.cost_ns < best_expected.cost_ns) {
-                best = {.shape = shape, .memory = {tile_px, slices}};
+                best = {.shape = shape, .memory = {tile_px, kSliceCounts[i]}};
                 best_expected = expected;
             }
         }

@@ -24,26 +24,44 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
                            const light::FrameLights& lights,
                            const BoundsD3& scene_bounds_world,
                            const cluster::GridCosts& costs) {
-    const view::Camera& camera = settings.camera;
-    range_ = cluster::litDepthRange(lights, camera, scene_bounds_world);
+    range_ = cluster::litDepthRange(lights, settings.camera, scene_bounds_world);
+    const Asked asked{settings.size,       settings.renderer, settings.grid,
+                      settings.light_loop, settings.lights,   &costs};
+    if (frames_left_ == 0 || asked != asked_) {
+        makeChoice(settings, lights, costs);
+        asked_ = asked;
+        frames_left_ = kFramesAChoice;
+    }
+    --frames_left_;
+    why_ = loop_why_;
+    lists_ = !memory_.all_lights;
+    if (lists_) {
+        grid_ = cluster::makeClusterGrid(shape_, settings.size, settings.camera, range_.near_m,
+                                         range_.far_m);
+    }
+}
+
+void LightGrid::makeChoice(const view::ViewSettings& settings,
+                           const light::FrameLights& lights,
+                           const cluster::GridCosts& costs) {
     const cluster::ClusterGrid frustum = cluster::makeClusterGrid(
-        {.size = {1, 1, 1}}, settings.size, camera, range_.near_m, range_.far_m);
+        {.size = {1, 1, 1}}, settings.size, settings.camera, range_.near_m, range_.far_m);
     const cluster::LightSpread spread = cluster::lightSpread(frustum, lights);
     const cluster::GridFacts facts{.frustum = frustum,
                                    .range = range_,
                                    .law = settings.grid.law,
                                    .lights = spread,
                                    .costs = costs};
-    cluster::GridShape shape{.size = settings.grid.size, .law = settings.grid.law};
     automatic_ = settings.grid.automatic;
     if (automatic_) {
         cluster::GridChoice choice = cluster::chooseGrid(facts, memory_);
-        shape = choice.shape;
+        shape_ = choice.shape;
         list_length_ = choice.list_length;
         grid_why_ = std::move(choice.why);
         memory_ = choice.memory;
     } else {
-        list_length_ = cluster::expectedListLength(facts, shape);
+        shape_ = {.size = settings.grid.size, .law = settings.grid.law};
+        list_length_ = cluster::expectedListLength(facts, shape_);
         grid_why_ = "its size was given";
     }
     cluster::LoopChoice loop{false, "lists were asked for"};
@@ -51,11 +69,7 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
         loop = cluster::chooseLoop(facts, list_length_, memory_);
     }
     memory_.all_lights = loop.all_lights;
-    why_ = std::move(loop.why);
-    lists_ = !loop.all_lights;
-    if (lists_) {
-        grid_ = cluster::makeClusterGrid(shape, settings.size, camera, range_.near_m, range_.far_m);
-    }
+    loop_why_ = std::move(loop.why);
 }
 
 GridStats LightGrid::stats() const {

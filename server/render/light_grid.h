@@ -16,7 +16,7 @@ namespace froxel::render {
 // Nothing that it decides changes the picture.
 class LightGrid {
   public:
-    // Decides for one frame and makes the grid if it needs one.
+    // Decides for one frame and makes the grid if it needs one. `costs` lives as long as this.
     void choose(const view::ViewSettings& settings,
                 const light::FrameLights& lights,
                 const BoundsD3& scene_bounds_world,
@@ -32,14 +32,35 @@ class LightGrid {
     [[nodiscard]] const std::string& why() const { return why_; }
 
   private:
+    // What a choice is made for, besides what moves: the camera and the lights.
+    struct Asked {
+        view::Size size;
+        view::Renderer renderer{};
+        view::Grid grid;
+        view::LightLoop light_loop{};
+        view::Lights lights;
+        const cluster::GridCosts* costs = nullptr;
+        bool operator==(const Asked&) const = default;
+    };
+    // A choice takes 0.3 ms, and what moves changes little in so many frames.
+    static constexpr uint32_t kFramesAChoice = 16;
+
     void chooseGrid(const view::ViewSettings& settings,
                     const light::FrameLights& lights,
                     const BoundsD3& scene_bounds_world,
                     const cluster::GridCosts& costs);
+    // From range_.
+    void makeChoice(const view::ViewSettings& settings,
+                    const light::FrameLights& lights,
+                    const cluster::GridCosts& costs);
 
     bool lists_ = false;
     bool automatic_ = false;
+    Asked asked_;              // by the last choice
+    uint32_t frames_left_ = 0; // that it stands for
+    cluster::GridShape shape_;
     std::string why_;
+    std::string loop_why_;
     std::string grid_why_;
     double list_length_ = 0;
     cluster::DepthRange range_{};
