@@ -125,9 +125,10 @@ TEST(Frames, MessageWithoutEnd_ClosesWithTooBigInBoundedMemory) {
     EXPECT_LT(residentBytes() - before_bytes, 32e6);
 }
 
-// A proxy that drops idle connections sees a sign of life: Beast pings at half of 20 s.
-TEST(Frames, NothingMoves_ThePeerIsPinged) {
-    TestServer server({.still = true});
+// A proxy that drops idle connections sees a sign of life: Beast pings at half of 20 s. A peer that
+// is gone without a word does not answer.
+TEST(Frames, NothingMoves_ThePeerIsPingedAndLetGoUnlessItAnswers) {
+    TestServer server({.still = true, .resume_grace = 300ms});
     Raw socket(server.port());
     socket.send(Raw::frame(Raw::kBinary, helloBytes()));
     const auto begin = Clock::now();
@@ -137,8 +138,10 @@ TEST(Frames, NothingMoves_ThePeerIsPinged) {
     }
     ASSERT_TRUE(got);
     EXPECT_LT(Clock::now() - begin, 20s);
-    socket.send(Raw::frame(Raw::kPong, got->payload));
     EXPECT_EQ(server.device().live_views, 1);
+    EXPECT_TRUE(socket.ends());
+    EXPECT_LT(Clock::now() - begin, 25s);
+    EXPECT_TRUE(eventually([&] { return server.device().live_views == 0; }));
 }
 
 TEST(Handshakes, EndedHalfWay_LeaveNoDescriptorBehind) {

@@ -169,12 +169,16 @@ TEST_F(ConversationTest, SlowLink_StepsDownAndTellsTheStreamAndTheHeaders) {
               std::string::npos);
 }
 
-TEST_F(ConversationTest, Ack_Twice_IsNoError) {
+TEST_F(ConversationTest, Ack_AgainAndAgain_IsNoErrorAndGrantsNoMore) {
     join();
     frame(1);
     nextFrame();
     ack(1);
-    ack(1);
+    const uint64_t granted = port_.session().granted;
+    for (int i = 0; i < 10'000; ++i) {
+        ack(1);
+    }
+    EXPECT_EQ(port_.session().granted, granted);
     EXPECT_FALSE(nextAnswer());
 }
 
