@@ -1,23 +1,18 @@
 // The video codec in a real browser: WebCodecs shows what JPEG shows, and is left where it fails.
 
-import type { Browser } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
+import { expect, it } from 'vitest';
 
 import { Codec } from '../src/gen/froxel/v1/common_pb';
-import { startServer, type Server } from './server';
-import { launch, until, Viewer } from './viewer';
+import { usePages } from './pages';
+import { until, type Viewer } from './viewer';
 
 const kStill = '#size=321x181&light_animate=0&lights=200&quality=100&chroma=444&codec=jpeg&refine=none';
 const kMoving = '#size=320x180&light_animate=1&lights=50&codec=vp9';
 
-let server: Server;
-let browser: Browser;
-let viewers: Viewer[] = [];
+const pages = usePages();
 
 async function open(hash: string): Promise<Viewer> {
-  const viewer = await Viewer.open(browser, server.url + hash);
-  viewers.push(viewer);
-  await viewer.picture();
+  const viewer = await pages.open(hash);
   await viewer.openPanel();
   return viewer;
 }
@@ -71,20 +66,6 @@ const paints = (viewer: Viewer, count: number): Promise<unknown> => {
   const from = viewer.frameCount;
   return until(`${count} more frames`, () => viewer.frameCount >= from + count);
 };
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-afterAll(async () => {
-  await browser.close();
-  expect(await server.stop()).toBe(0);
-});
-afterEach(async () => {
-  const complaints = viewers.flatMap((viewer) => viewer.complaints);
-  await Promise.all(viewers.map((viewer) => viewer.close()));
-  viewers = [];
-  expect(complaints).toEqual([]);
-});
 
 it('Video_OfAnOddSize_ShowsWhatJpegShows', async () => {
   const viewer = await open(kStill);

@@ -4,39 +4,17 @@ import { execFile } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { promisify } from 'node:util';
 
-import type { Browser } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
+import { expect, it } from 'vitest';
 
 import { parseLink } from '../src/url_state';
-import { startServer, type Server } from './server';
-import { difference, launch, until, Viewer } from './viewer';
+import { usePages } from './pages';
+import { difference, until, type Viewer } from './viewer';
 
 const kStill = '#size=320x180&light_animate=0&lights=50';
 
-let server: Server;
-let browser: Browser;
-let viewers: Viewer[] = [];
+const pages = usePages();
 
-async function open(hash = kStill, options = {}): Promise<Viewer> {
-  const viewer = await Viewer.open(browser, server.url + hash, options);
-  viewers.push(viewer);
-  await viewer.picture();
-  return viewer;
-}
-
-beforeAll(async () => {
-  [server, browser] = await Promise.all([startServer(), launch()]);
-});
-afterAll(async () => {
-  await browser.close();
-  expect(await server.stop()).toBe(0);
-});
-afterEach(async () => {
-  const complaints = viewers.flatMap((viewer) => viewer.complaints);
-  await Promise.all(viewers.map((viewer) => viewer.close()));
-  viewers = [];
-  expect(complaints).toEqual([]);
-});
+const open = (hash = kStill, options = {}): Promise<Viewer> => pages.open(hash, options);
 
 it('Page_AsItOpens_ConnectsAndPaintsAndCounts', async () => {
   const viewer = await open('');
@@ -187,7 +165,7 @@ it('RecordButton_SavesAScriptThatTheLoadToolPlays', async () => {
   const file = `${path}.jsonl`; // the tool tells scripts by their ending
   writeFileSync(file, script);
   const played = promisify(execFile)(process.env.FROXEL_BINARY ?? '', [
-    'load', server.url, '--viewers', '1', '--seconds', '2', '--script', file,
+    'load', pages.url, '--viewers', '1', '--seconds', '2', '--script', file,
   ]);
   expect((await played).stderr).not.toContain('refused');
 });

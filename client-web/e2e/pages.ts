@@ -1,0 +1,46 @@
+// A server and a browser for the tests of a file, and the pages that each test opens.
+
+import type { Browser, BrowserContextOptions } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, expect } from 'vitest';
+
+import { startServer, type Server } from './server';
+import { launch, Viewer } from './viewer';
+
+export interface Pages {
+  readonly url: string;
+  /** `at`: what follows the server's address. Resolves once a picture is there. */
+  open(at: string, options?: BrowserContextOptions): Promise<Viewer>;
+}
+
+/** After each test its pages are closed, and none may have complained. */
+export function usePages(): Pages {
+  let server: Server;
+  let browser: Browser;
+  let viewers: Viewer[] = [];
+
+  beforeAll(async () => {
+    [server, browser] = await Promise.all([startServer(), launch()]);
+  });
+  afterAll(async () => {
+    await browser.close();
+    expect(await server.stop()).toBe(0);
+  });
+  afterEach(async () => {
+    const complaints = viewers.flatMap((viewer) => viewer.complaints);
+    await Promise.all(viewers.map((viewer) => viewer.close()));
+    viewers = [];
+    expect(complaints).toEqual([]);
+  });
+
+  return {
+    get url() {
+      return server.url;
+    },
+    async open(at, options = {}) {
+      const viewer = await Viewer.open(browser, server.url + at, options);
+      viewers.push(viewer);
+      await viewer.picture();
+      return viewer;
+    },
+  };
+}
