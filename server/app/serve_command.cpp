@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <malloc.h>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -100,6 +101,10 @@ ServeRunOptions runOptions(const ServeOptions& options) {
 } // namespace
 
 int runServe(const ServeOptions& options) {
+    // Whoever compiles shaders on many threads leaves holes in an arena for each of them, 0.1 MB
+    // for every viewer that asks for other variants; two arenas stay as they are
+    // (tests/load/soak.py).
+    mallopt(M_ARENA_MAX, 2);
     net::StopSignal stop;
     LatestSlot<Error> failure; // of the render thread
     ServeRunOptions run_options = runOptions(options);
