@@ -119,7 +119,7 @@ void BenchRunner::draw(const BenchTurn& turn, const BenchRow& row, double time_s
     render::ViewRenderer viewer(renderer_);
     render::FrameInputs inputs{.settings = row.settings, .time_s = time_s};
     const auto timeOf = [&](uint32_t frame) {
-        return row.settings.lights.animate ? time_s + frame * kFrameStepS : time_s;
+        return time_s + frame * lightStepS(row.settings.lights);
     };
     for (uint32_t i = 0; i < budget_.warmup_frames + turn.frame_count && !stop_; ++i) {
         const bool counts = i >= budget_.warmup_frames;

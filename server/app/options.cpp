@@ -4,12 +4,12 @@
 #include "app/bind_option.h"
 #include "app/command_builder.h"
 #include "app/load_arguments.h"
+#include "app/view_arguments.h"
 #include "core/error.h"
 #include "encode/image_file.h"
 #include "session/session_context.h"
 #include "view/ranges.h"
 
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,7 +17,6 @@ namespace froxel::app {
 
 namespace {
 
-constexpr view::Range<uint32_t> kSeedRange{"seed", 0, std::numeric_limits<uint32_t>::max()};
 constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
 constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
 constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
@@ -97,30 +96,6 @@ std::string byDevice(Text text) {
     return cpu == gpu ? cpu : fmt::format("{} on a CPU device, {} on a GPU", cpu, gpu);
 }
 
-// What both pictures and first views take: where and how lights are added up.
-void addShading(CommandBuilder& command, view::ViewSettings& settings) {
-    command.name(
-        "--lighting", settings.lighting, view::kLightingStageNames,
-        "Stage that adds lights up; auto: fragment for forward renderers on a CPU, else compute");
-    command.name("--shading", settings.shading, view::kShadingModelNames,
-                 "Metallic-roughness, or its diffuse part alone");
-    const auto grid = [&settings](const std::string& text) {
-        return parseGridChoice(text, settings.grid);
-    };
-    command.value("--grid", "auto|XxYxZ", settings.grid, grid, "auto",
-                  fmt::format("Clusters across, down and deep, up to {}x{}x{}",
-                              view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
-    command.name("--grid-law", settings.grid.law, view::kGridLawNames, "How slices divide depth");
-    command.name("--light-loop", settings.light_loop, view::kLightLoopNames,
-                 "Lights that a pixel loops over; auto: all where lists cannot pay");
-    command.name("--gbuffer-normal", settings.gbuffer.normal, view::kNormalEncodingNames,
-                 "How deferred renderers keep normals");
-    command.name("--gbuffer-position", settings.gbuffer.position, view::kPositionSourceNames,
-                 "Where deferred lighting takes positions from");
-    command.cli().add_flag("--count-pairs", settings.count_pairs,
-                           "Count evaluated and contributing (light, pixel) pairs (slower)");
-}
-
 void addLensShift(CommandBuilder& command, std::optional<glm::dvec2>& target) {
     command.value("--lens-shift", "X,Y", target, parseLensShift, "the camera's",
                   "The picture's middle off the view axis, right and up, in half pictures");
@@ -158,6 +133,7 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
         "--renderer", options.renderer, view::kRendererNames,
         byDevice([](const Defaults& d) { return textOf(view::kRendererNames, d.renderer); }),
         "First renderer");
+    addLightDetails(command, options.other.lights, "The lights stand still");
     addDelivery(command, options.delivery);
     addShading(command, options.other);
     addLensShift(command, options.lens_shift);
@@ -191,28 +167,6 @@ void addServe(CLI::App& app, Targets& targets) {
               "Another site whose pages may connect, such as https://example.org; repeatable")
         ->allow_extra_args(false);
     finish(command, options, LogLevel::kInfo, targets);
-}
-
-void addLights(CommandBuilder& command, view::Lights& lights) {
-    command.number("--lights", lights.count, view::kLightCountRange, "Seeded point lights");
-    command.number("--light-radius", lights.radius_m, view::kLightRadiusRange,
-                   "Where a light reaches exactly 0, in metres");
-    command.number("--light-intensity", lights.intensity, view::kLightIntensityRange,
-                   "Scales every seeded light");
-    command.number(
-        "--light-cutoff", lights.cutoff, view::kLightCutoffRange,
-        "A light ends where its irradiance would fall to this: faster, darker. 0: at its "
-        "radius");
-    command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
-                  "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
-    command.number("--seed", lights.seed, kSeedRange, "Picks the lights");
-    command.number("--ambient", lights.ambient, view::kAmbientRange, "Scales the ambient term");
-    command.cli().add_flag_callback(
-        "--no-scene-lights", [&lights] { lights.scene_lights = false; },
-        "Leave out the scene's own lights");
-    command.cli().add_flag_callback(
-        "--no-animate", [&lights] { lights.animate = false; },
-        "Keep the lights at --time in all --frames");
 }
 
 void addOutputs(CommandBuilder& command, RenderOptions& options) {

@@ -86,7 +86,6 @@ void addShading(Arguments& arguments,
 }
 
 void addLights(Arguments& arguments, const view::Lights& lights, const view::Lights& usual) {
-    FROXEL_ASSERT(lights.speed == usual.speed, "the command line has no speed");
     arguments.always("--lights", numberText(lights.count));
     arguments.always("--light-radius", numberText(lights.radius_m));
     arguments.changed("--light-intensity", lights.intensity, usual.intensity);
@@ -94,6 +93,7 @@ void addLights(Arguments& arguments, const view::Lights& lights, const view::Lig
     if (lights.box) {
         arguments.always("--light-box", textOf(*lights.box));
     }
+    arguments.changed("--light-speed", lights.speed, usual.speed);
     arguments.changed("--seed", lights.seed, usual.seed);
     arguments.changed("--ambient", lights.ambient, usual.ambient);
     arguments.flag("--no-scene-lights", !lights.scene_lights);

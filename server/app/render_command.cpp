@@ -45,7 +45,7 @@ TimedRun describeRun(const RenderOptions& options, const gpu::DeviceTraits& devi
             .scene = options.scene,
             .settings = options.settings,
             .time_s = options.time_s,
-            .step_s = options.settings.lights.animate ? kFrameStepS : 0.0,
+            .step_s = lightStepS(options.settings.lights),
             .warmup_count = options.warmup_count,
             .frames = {}};
 }

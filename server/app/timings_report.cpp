@@ -53,6 +53,7 @@ Json toJson(const view::Lights& lights) {
             {"cutoff", lights.cutoff},
             {"seed", lights.seed},
             {"animate", lights.animate},
+            {"speed", lights.speed},
             {"box_m", lights.box
                           ? Json{{"min", toJson(lights.box->min)}, {"max", toJson(lights.box->max)}}
                           : Json(nullptr)},

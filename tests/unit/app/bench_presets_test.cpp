@@ -190,6 +190,7 @@ TEST(RenderArguments, EverySetting_ParsesBack) {
     s.lights.scene_lights = false;
     s.lights.animate = false;
     s.lights.cutoff = 0.1F;
+    s.lights.speed = 2.5F;
     s.exposure = 1.7F;
     s.tone_map = view::ToneMap::kClamp;
     options.lens_shift = glm::dvec2(0.1, -0.25);

@@ -49,6 +49,8 @@ TEST(Options, RenderWithAll_FillsEveryField) {
                                       "-10,0,-5;10,8,5",
                                       "--seed",
                                       "9",
+                                      "--light-speed",
+                                      "2.5",
                                       "--time",
                                       "2.5",
                                       "--size",
@@ -101,6 +103,7 @@ TEST(Options, RenderWithAll_FillsEveryField) {
     EXPECT_EQ(options.settings.gbuffer,
               (view::GbufferLayout{view::NormalEncoding::kOct10, view::PositionSource::kFp16}));
     EXPECT_TRUE(options.settings.count_pairs);
+    EXPECT_EQ(options.settings.lights.speed, 2.5F);
     EXPECT_EQ(options.lens_shift, glm::dvec2(0, 0.5));
     EXPECT_EQ(options.frame_count, 20U);
     EXPECT_EQ(options.timings, "t.json");
@@ -173,6 +176,13 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "4x5x6",
                                 "--light-loop",
                                 "lists",
+                                "--light-intensity",
+                                "3",
+                                "--light-speed",
+                                "0.5",
+                                "--light-box",
+                                "-1,-1,-1;1,1,1",
+                                "--no-animate",
                                 "--lens-shift",
                                 "-1,1",
                                 "--min-fps",
@@ -205,6 +215,10 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.other.lighting, view::LightingStage::kCompute);
     EXPECT_EQ(serve.other.grid, (view::Grid{.automatic = false, .size = {4, 5, 6}}));
     EXPECT_EQ(serve.other.light_loop, view::LightLoop::kLists);
+    EXPECT_EQ(serve.other.lights.intensity, 3.0F);
+    EXPECT_EQ(serve.other.lights.speed, 0.5F);
+    EXPECT_EQ(serve.other.lights.box, (BoundsD3{{-1, -1, -1}, {1, 1, 1}}));
+    EXPECT_FALSE(serve.other.lights.animate);
     EXPECT_EQ(serve.lens_shift, glm::dvec2(-1, 1));
     EXPECT_EQ(serve.sessions_max, 2U);
     EXPECT_EQ(serve.min_rate_hz, 12.5);

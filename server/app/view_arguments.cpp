@@ -1,0 +1,65 @@
+#include "app/view_arguments.h"
+
+#include "view/ranges.h"
+
+#include <limits>
+
+namespace froxel::app {
+
+namespace {
+
+constexpr view::Range<uint32_t> kSeedRange{"seed", 0, std::numeric_limits<uint32_t>::max()};
+
+} // namespace
+
+void addShading(CommandBuilder& command, view::ViewSettings& settings) {
+    command.name(
+        "--lighting", settings.lighting, view::kLightingStageNames,
+        "Stage that adds lights up; auto: fragment for forward renderers on a CPU, else compute");
+    command.name("--shading", settings.shading, view::kShadingModelNames,
+                 "Metallic-roughness, or its diffuse part alone");
+    const auto grid = [&settings](const std::string& text) {
+        return parseGridChoice(text, settings.grid);
+    };
+    command.value("--grid", "auto|XxYxZ", settings.grid, grid, "auto",
+                  fmt::format("Clusters across, down and deep, up to {}x{}x{}",
+                              view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+    command.name("--grid-law", settings.grid.law, view::kGridLawNames, "How slices divide depth");
+    command.name("--light-loop", settings.light_loop, view::kLightLoopNames,
+                 "Lights that a pixel loops over; auto: all where lists cannot pay");
+    command.name("--gbuffer-normal", settings.gbuffer.normal, view::kNormalEncodingNames,
+                 "How deferred renderers keep normals");
+    command.name("--gbuffer-position", settings.gbuffer.position, view::kPositionSourceNames,
+                 "Where deferred lighting takes positions from");
+    command.cli().add_flag("--count-pairs", settings.count_pairs,
+                           "Count evaluated and contributing (light, pixel) pairs (slower)");
+}
+
+void addLightDetails(CommandBuilder& command, view::Lights& lights, const char* no_animate) {
+    command.number("--light-intensity", lights.intensity, view::kLightIntensityRange,
+                   "Scales every seeded light");
+    command.number(
+        "--light-cutoff", lights.cutoff, view::kLightCutoffRange,
+        "A light ends where its irradiance would fall to this: faster, darker. 0: at its "
+        "radius");
+    command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
+                  "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
+    command.number("--light-speed", lights.speed, view::kLightSpeedRange,
+                   "Scales the clock that moves them");
+    command.number("--seed", lights.seed, kSeedRange, "Picks the lights");
+    command.number("--ambient", lights.ambient, view::kAmbientRange, "Scales the ambient term");
+    command.cli().add_flag_callback(
+        "--no-scene-lights", [&lights] { lights.scene_lights = false; },
+        "Leave out the scene's own lights");
+    command.cli().add_flag_callback(
+        "--no-animate", [&lights] { lights.animate = false; }, no_animate);
+}
+
+void addLights(CommandBuilder& command, view::Lights& lights) {
+    command.number("--lights", lights.count, view::kLightCountRange, "Seeded point lights");
+    command.number("--light-radius", lights.radius_m, view::kLightRadiusRange,
+                   "Where a light reaches exactly 0, in metres");
+    addLightDetails(command, lights, "Keep the lights at --time in all --frames");
+}
+
+} // namespace froxel::app
