@@ -8,6 +8,7 @@
 #include "interface/pairs_io.h"
 #include "lib/frame.glsl"
 #include "lib/light_loop.glsl"
+#include "lib/pair_count.glsl"
 
 layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 
@@ -17,34 +18,11 @@ layout(set = 2, binding = 0, scalar) buffer PairBlock { PairCounts counts; };
 shared uint group_evaluated;
 shared uint group_contributing;
 
-// Within radius and cone; facing is not asked for.
-bool reaches(LocalLight light, vec3 position) {
-    vec3 to_light = light.position_view - position;
-    float x = dot(to_light, to_light) * light.inv_radius2;
-    return x < 1.0 && (!hasLight(kLightSpots) || coneShare(light, to_light) > 0.0);
-}
-
 void countPixel(uvec2 pixel, float depth) {
-    bool all_lights = !hasLight(kLightLists);
     float distance = distanceFromDepth(depth);
-    vec3 position = positionFromDistance(pixel, distance);
-    uint cluster = all_lights ? kNoCluster : clusterAt(pixel, distance);
-    ClusterList list = ClusterList(0u, all_lights ? frame.light_count : 0u);
-    if (cluster != kNoCluster) {
-        list = fetchList(cluster);
-    }
-    uint contributing = 0;
-    for (uint first = 0; first < list.count; first += kPlainStep) {
-        [[unroll]] for (uint k = 0; k < kPlainStep; ++k) {
-            uint i = first + k;
-            if (kPlainStep == 1 || i < list.count) {
-                uint index = all_lights ? i : fetchIndex(list.offset + i);
-                contributing += reaches(fetchLight(index), position) ? 1u : 0u;
-            }
-        }
-    }
+    ClusterList list = handedList(pixel, distance);
     atomicAdd(group_evaluated, list.count);
-    atomicAdd(group_contributing, contributing);
+    atomicAdd(group_contributing, countReaching(list, positionFromDistance(pixel, distance)));
 }
 
 void main() {

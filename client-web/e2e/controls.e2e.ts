@@ -27,6 +27,7 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   'grid.z': [64, false],
   quality: [95, false],
   video_kbps: [2500, false],
+  debug_scale_max: [12.5, false],
   target_fps: [1, false], // which every picture meets: none is scaled
 };
 
@@ -93,6 +94,8 @@ describe('choices', () => {
       const choices = choicesFor(field);
       for (const { name, value } of [...choices.slice(1), ...choices.slice(0, 1)]) {
         if (field.name !== 'renderer') await viewer.choose('renderer', 'clustered deferred');
+        // Else there is no second target to show.
+        if (field.name === 'debug_view') await viewer.choose('gbuffer.position', 'fp32');
         await viewer.choose(field.name, name.replaceAll('_', ' '));
         await expectState(field, value);
       }
@@ -138,8 +141,28 @@ describe('choices', () => {
   });
 });
 
+describe('debug views', () => {
+  it('HeatMap_ChangesThePicture_AndHasALegend', async () => {
+    await viewer.choose('debug_view', 'none');
+    const before = await viewer.settled();
+    const legend = viewer.page.locator('#legend');
+    await until('no legend', async () => !(await legend.isVisible()));
+    await viewer.choose('debug_view', 'listed lights');
+    await viewer.type('debug_scale_max', 40);
+    await viewer.changed('listed lights', before);
+    await until('the scale', async () => (await legend.locator('#legend-max').textContent()) === '40 lights');
+    await viewer.screenshot('debug');
+    await viewer.choose('debug_view', 'normal');
+    await until('no scale', async () => !(await legend.locator('#legend-scale').isVisible()));
+    expect(await legend.locator('#legend-words').textContent()).toContain('normal');
+    await viewer.choose('debug_view', 'none');
+    await until('no legend', async () => !(await legend.isVisible()));
+    expect(difference(await viewer.settled(), before)).toBe(0);
+  });
+});
+
 describe('switches', () => {
-  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto'] as const)('Control_%s_GoesOnAndOff', async (name) => {
+  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto', 'debug_frozen'] as const)('Control_%s_GoesOnAndOff', async (name) => {
     const field = kAllFields.find((candidate) => candidate.name === name);
     if (!field) throw new Error(`no field ${name}`);
     const before = told()?.[field.key] === true;

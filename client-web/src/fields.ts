@@ -7,6 +7,7 @@ import {
   ChromaSchema,
   Codec,
   CodecSchema,
+  DebugViewSchema,
   GridLawSchema,
   LightingStageSchema,
   LightLoopSchema,
@@ -35,7 +36,8 @@ type ChoiceKey =
   | 'toneMap'
   | 'chroma'
   | 'codec'
-  | 'refine';
+  | 'refine'
+  | 'debugView';
 
 interface Base {
   readonly name: string;
@@ -64,7 +66,7 @@ export interface ChoiceField extends Base {
 
 export type Field = NumberField | BooleanField | ChoiceField;
 
-export type Section = 'camera' | 'rendering' | 'lights' | 'clusters' | 'stream';
+export type Section = 'camera' | 'rendering' | 'lights' | 'clusters' | 'debug' | 'stream';
 
 const number = (
   key: KeysOf<number>,
@@ -192,6 +194,29 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
     number('gridX', 'grid.x', 'Tiles across', 'linear', true, 'Clusters along the width'),
     number('gridY', 'grid.y', 'Tiles down', 'linear', true, 'Clusters along the height'),
     number('gridZ', 'grid.z', 'Depth slices', 'linear', true, 'Clusters along the depth'),
+  ],
+  debug: [
+    choice(
+      'debugView',
+      'debug_view',
+      'Show',
+      DebugViewSchema,
+      'A value of each pixel instead of the lit picture: saves the lighting, costs one pass; spheres and wires: lines over it, one pass more',
+    ),
+    number(
+      'debugScaleMax',
+      'debug_scale_max',
+      'Scale’s end',
+      'none',
+      false,
+      'Where a heat map ends, in its unit; 0: chosen. Costs nothing',
+    ),
+    toggle(
+      'debugFrozen',
+      'debug_frozen',
+      'Freeze clusters',
+      'Keeps this camera’s cluster grid for the cluster wires while the view moves on; costs the host a second grid',
+    ),
   ],
   stream: [
     choice(

@@ -7,6 +7,7 @@ import { Commands } from './commands';
 import { Connection } from './connection';
 import { workerDecoder } from './decoder';
 import { element } from './dom';
+import { Legend } from './legend';
 import { Overlay } from './overlay';
 import { Panel } from './panel';
 import { Picture } from './picture';
@@ -101,6 +102,7 @@ const banner = new Banner({
   nowMs,
 });
 const roomCard = new RoomCard(commands);
+const legend = new Legend();
 const help = element('help', HTMLDialogElement);
 
 new WindowSize(store, canvas);
@@ -116,7 +118,9 @@ store.listen(({ link }, before) => {
   if (link.phase === 'live' && before.link.phase !== 'live') tellVisibility(true);
 });
 store.listen(({ details }, before) => {
-  if (details && details !== before.details) overlay.showDetails(details);
+  if (!details || details === before.details) return;
+  overlay.showDetails(details);
+  legend.show(details.legend);
 });
 store.listen(({ server }, before) => {
   if (!server || server === before.server) return;

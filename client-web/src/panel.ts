@@ -28,6 +28,7 @@ const kTitles: Readonly<Record<Section, string>> = {
   rendering: 'Rendering',
   lights: 'Lights',
   clusters: 'Clusters',
+  debug: 'Debug view',
   stream: 'Picture',
 };
 
@@ -87,6 +88,7 @@ export class Panel {
     const clusters = this.section('clusters', server);
     this.addGridInUse(clusters);
     clusters.close();
+    this.section('debug', server).close();
     this.addToon();
     const stream = this.section('stream', server);
     this.sizeEditor = new SizeEditor(stream, server, this.actions);

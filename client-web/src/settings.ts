@@ -7,6 +7,7 @@ import {
   Renderer,
   type Chroma,
   type Codec,
+  type DebugView,
   type GridLaw,
   type LightingStage,
   type LightLoop,
@@ -66,6 +67,9 @@ export interface Settings {
   readonly gridX: number; // the size given by hand, used while not automatic
   readonly gridY: number;
   readonly gridZ: number;
+  readonly debugView: DebugView;
+  readonly debugScaleMax: number; // of its heat map; 0: the server chooses
+  readonly debugFrozen: boolean; // the cluster grid shown is that of a camera kept
   readonly exposure: number;
   readonly toneMap: ToneMap;
   readonly toonFragment: Ramp;
@@ -135,6 +139,9 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     gridX: state.grid?.x ?? 0,
     gridY: state.grid?.y ?? 0,
     gridZ: state.grid?.z ?? 0,
+    debugView: state.debugView,
+    debugScaleMax: state.debugScaleMax,
+    debugFrozen: state.debugFrozen,
     exposure: state.exposure,
     toneMap: state.toneMap,
     toonFragment: toRamp(state.toonFragment),
@@ -206,6 +213,16 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   if (Object.keys(lights).length > 0) commands.push({ case: 'setLights', value: lights });
   const grid = gridChanges(from, to);
   if (Object.keys(grid).length > 0) commands.push({ case: 'setGrid', value: grid });
+  if (changed('debugView', 'debugScaleMax', 'debugFrozen')) {
+    commands.push({
+      case: 'setDebugView',
+      value: {
+        ...(changed('debugView') && { view: to.debugView }),
+        ...(changed('debugScaleMax') && { scaleMax: to.debugScaleMax }),
+        ...(changed('debugFrozen') && { freeze: to.debugFrozen }),
+      },
+    });
+  }
   if (changed('exposure', 'toneMap')) {
     commands.push({
       case: 'setExposure',

@@ -5,6 +5,7 @@ import { create, type MessageInitShape } from '@bufbuild/protobuf';
 import {
   Chroma,
   Codec,
+  DebugView,
   GridLaw,
   LightingStage,
   LightLoop,
@@ -56,6 +57,7 @@ export function viewState(change: ViewInit = {}): ViewState {
     ambient: 1,
     sceneLights: true,
     grid: { x: 16, y: 9, z: 24 },
+    debugView: DebugView.NONE,
     exposure: 1,
     toneMap: ToneMap.PBR_NEUTRAL,
     toonFragment: { points: kRamp },

@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import {
   Chroma,
   Codec,
+  DebugView,
   GridLaw,
   LightingStage,
   LightLoop,
@@ -64,6 +65,13 @@ describe('settingCommands', () => {
     ['scene lights', { sceneLights: false }, { case: 'setLights', value: { sceneLights: false } }],
     ['box', { lightBox: kBounds }, { case: 'setLights', value: { box: kBounds } }],
     ['light loop', { lightLoop: LightLoop.LISTS }, { case: 'setLights', value: { lightLoop: 2 } }],
+    [
+      'debug view',
+      { debugView: DebugView.LISTED_LIGHTS },
+      { case: 'setDebugView', value: { view: DebugView.LISTED_LIGHTS } },
+    ],
+    ['scale', { debugScaleMax: 40 }, { case: 'setDebugView', value: { scaleMax: 40 } }],
+    ['frozen clusters', { debugFrozen: true }, { case: 'setDebugView', value: { freeze: true } }],
     ['pair counting', { countPairs: true }, { case: 'setLights', value: { countPairs: true } }],
     ['lights’ clock', { lightTime: 0 }, { case: 'setLights', value: { timeS: 0 } }],
     [

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import {
+  DebugView,
   GridLaw,
   LightingStage,
   LightLoop,
@@ -30,6 +31,9 @@ describe('links', () => {
       gridLaw: GridLaw.HYPERBOLIC,
       lightLoop: LightLoop.ALL_LIGHTS,
       countPairs: true,
+      debugView: DebugView.CLUSTER_WIRES,
+      debugScaleMax: 12.5,
+      debugFrozen: true,
       lightTime: 0.1 + 0.2,
       shading: ShadingModel.LAMBERT,
       gbufferNormal: NormalEncoding.SPHEREMAP16,

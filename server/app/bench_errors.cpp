@@ -127,6 +127,9 @@ std::vector<size_t> ErrorMeter::viewsOf(const BenchRow& row) const {
 }
 
 PictureError ErrorMeter::against(Reference reference, const BenchRow& row, Drawn& drawn) {
+    if (row.settings.debug.view != view::DebugView::kNone) {
+        return skippedFor("a debug view has no error");
+    }
     const bool is_r1 = reference == Reference::kR1;
     const auto sizes = errorSizes(row, options_.size);
     // R1 has the same inputs, so also the same size; R2 is what should be seen.

@@ -206,6 +206,27 @@ Sweep memory(const BenchBase& base) {
     return sweep;
 }
 
+// What each debug view costs, beside the picture itself.
+Sweep debugViews(const BenchBase& base) {
+    Sweep sweep{"debug_view",
+                "Debug views",
+                "view",
+                "",
+                Axis::kCategory,
+                "Most take the place of the lighting.",
+                {}};
+    for (size_t view = 0; view < view::kDebugViewNames.size(); ++view) {
+        sweep.rows.push_back(rowOf(base, kDeferred, std::string(view::kDebugViewNames[view]),
+                                   static_cast<double>(view), [&](auto& s) {
+                                       s.debug.view = static_cast<view::DebugView>(view);
+                                       if (s.debug.view == view::DebugView::kGbufferExtra) {
+                                           s.gbuffer.position = view::PositionSource::kFp32;
+                                       }
+                                   }));
+    }
+    return sweep;
+}
+
 struct Preset {
     std::string_view name;
     Sweep (*make)(const BenchBase&);
@@ -221,6 +242,7 @@ constexpr std::array kPresets = {
     Preset{"renderer", renderer},
     Preset{"view", cameraPath},
     Preset{"memory", memory},
+    Preset{"debug_view", debugViews},
     Preset{"resolution_scale", resolutionScaleSweep},
     Preset{"cutoff", cutoffSweep},
     Preset{"stream", streamSweep},

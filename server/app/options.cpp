@@ -197,6 +197,8 @@ void addRender(CLI::App& app, Targets& targets) {
     command.value("--camera", "CAMERA", options.camera, parseCamera, "the scene's first",
                   "Its name, or \"ex,ey,ez;tx,ty,tz;fov\" in metres and degrees");
     addLensShift(command, options.lens_shift);
+    command.value("--grid-camera", "CAMERA", options.grid_camera, parseCamera, "the view's",
+                  "Whose cluster grid --debug-view cluster_wires shows, as --camera");
     command.number("--exposure", settings.exposure, view::kExposureRange,
                    "Multiplies linear radiance");
     command.name("--tone-map", settings.tone_map, view::kToneMapNames, "After the exposure");
@@ -298,6 +300,13 @@ void checkRender(const CLI::App& command, const RenderOptions& options) {
     }
 }
 
+// The view that needs it is the only one that looks at it.
+void checkGridCamera(const RenderOptions& options) {
+    if (options.grid_camera && options.settings.debug.view != view::DebugView::kClusterWires) {
+        throw CLI::ValidationError("--grid-camera", "applies to --debug-view cluster_wires only");
+    }
+}
+
 void checkBench(const BenchOptions& options) {
     if (!options.list && options.compare.empty() && options.out.empty()) {
         throw CLI::RequiredError("--out FILE, --compare A.json B.json or --list");
@@ -334,6 +343,7 @@ Options parseOptions(int argc, const char* const* argv) {
         }
         if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
             checkRender(*app.get_subcommand("render"), *render);
+            checkGridCamera(*render);
         }
         if (const auto* bench = std::get_if<BenchOptions>(&targets.result.command)) {
             checkBench(*bench);

@@ -83,6 +83,9 @@ void addShading(Arguments& arguments,
     arguments.changedName("--gbuffer-position", view::kPositionSourceNames,
                           settings.gbuffer.position, usual.gbuffer.position);
     arguments.flag("--count-pairs", settings.count_pairs);
+    arguments.changedName("--debug-view", view::kDebugViewNames, settings.debug.view,
+                          usual.debug.view);
+    arguments.changed("--debug-scale-max", settings.debug.scale_max, usual.debug.scale_max);
 }
 
 void addLights(Arguments& arguments, const view::Lights& lights, const view::Lights& usual) {

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
@@ -67,6 +68,16 @@ drawAll(const RenderOptions& options, render::ViewRenderer& viewer, TimedRun& ru
     return last;
 }
 
+// What the colours of a debug view say.
+std::string legendLine(const DebugLegend& legend) {
+    std::string line = fmt::format("{}: {}", legend.view, legend.words);
+    if (!legend.colors.empty()) {
+        line += fmt::format("; from {} to {} {} by #{:06x}", legend.min, legend.max, legend.unit,
+                            fmt::join(legend.colors, ", #"));
+    }
+    return line;
+}
+
 } // namespace
 
 void runRender(const RenderOptions& options) try {
@@ -84,6 +95,9 @@ void runRender(const RenderOptions& options) try {
     run.settings.camera = findCamera(options.camera, scene).value();
     auto& lens_shift = run.settings.camera.lens_shift;
     lens_shift = options.lens_shift.value_or(lens_shift);
+    if (options.grid_camera) {
+        run.settings.debug.grid_camera = findCamera(*options.grid_camera, scene).value();
+    }
     render::Renderer renderer(device, scene);
     render::ViewRenderer viewer(renderer);
     const auto last = drawAll(options, viewer, run);
@@ -101,6 +115,9 @@ void runRender(const RenderOptions& options) try {
                frame["frame_us"]["median"].get<double>() / 1000,
                frame["gpu_us"]["median"].get<double>() / 1000,
                frame["host_us"]["median"].get<double>() / 1000);
+    if (last.stats.details->legend) {
+        fmt::print("{}\n", legendLine(*last.stats.details->legend));
+    }
 } catch (const vk::SystemError& error) {
     throw StartupError({ErrorCode::kDevice, fmt::format("Vulkan: {}", error.what())});
 }

@@ -24,6 +24,7 @@ struct RenderOptions {
     view::ViewSettings settings; // but for the camera, which `camera` chooses
     CameraChoice camera;
     std::optional<glm::dvec2> lens_shift; // of whichever camera it is
+    std::optional<CameraChoice> grid_camera; // of the debug view cluster_wires
     double time_s = 0;                    // the lights' clock of the first frame
     view::Encoding encoding;
     std::filesystem::path out; // empty: no picture; else .png, .jpg or .pfm, of the last frame

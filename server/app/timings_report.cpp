@@ -151,6 +151,7 @@ Json settingsReport(const view::ViewSettings& settings) {
             {"grid_law", nameOf(view::kGridLawNames, settings.grid.law)},
             {"light_loop", nameOf(view::kLightLoopNames, settings.light_loop)},
             {"count_pairs", settings.count_pairs},
+            {"debug_view", view::nameOf(settings.debug.view)},
             {"camera", toJson(settings.camera)},
             {"lights", toJson(settings.lights)},
             {"exposure", settings.exposure},

@@ -33,6 +33,10 @@ void addShading(CommandBuilder& command, view::ViewSettings& settings) {
                  "Where deferred lighting takes positions from");
     command.cli().add_flag("--count-pairs", settings.count_pairs,
                            "Count evaluated and contributing (light, pixel) pairs (slower)");
+    command.name("--debug-view", settings.debug.view, view::kDebugViewNames,
+                 "Shown instead of the lit picture, or over it");
+    command.number("--debug-scale-max", settings.debug.scale_max, view::kDebugScaleRange,
+                   "Where its heat map ends; 0: chosen");
 }
 
 void addLightDetails(CommandBuilder& command, view::Lights& lights, const char* no_animate) {

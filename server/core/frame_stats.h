@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,11 +56,23 @@ struct MemoryUse {
     uint64_t bytes = 0;
 };
 
+// How to read a debug view.
+struct DebugLegend {
+    std::string view;             // view::kDebugViewNames
+    std::string words;            // what its colours say, for a person
+    double min = 0;               // of a heat map's scale; the top stands for more, too
+    double max = 0;
+    std::string unit;
+    std::vector<uint32_t> colors; // of the scale, evenly spaced, 0xRRGGBB; empty: no heat map
+    bool operator==(const DebugLegend&) const = default;
+};
+
 // What seldom changes between frames: in words what the frame's variant leaves out and why, and
 // where the device's memory goes.
 struct FrameDetails {
     std::vector<std::string> plan;
     std::vector<MemoryUse> memory;
+    std::optional<DebugLegend> legend;
 };
 
 struct FrameStats {

@@ -30,15 +30,16 @@ struct SpecInfo {
     vk::SpecializationInfo info;
 };
 
-vk::PipelineColorBlendAttachmentState attachmentState(bool blend) {
+vk::PipelineColorBlendAttachmentState attachmentState(Blend blend) {
     using Factor = vk::BlendFactor;
     using Component = vk::ColorComponentFlagBits;
-    return {.blendEnable = blend,
+    const Factor kept = blend == Blend::kAdd ? Factor::eOne : Factor::eOneMinusSrcAlpha;
+    return {.blendEnable = blend != Blend::kNone,
             .srcColorBlendFactor = Factor::eOne,
-            .dstColorBlendFactor = Factor::eOneMinusSrcAlpha,
+            .dstColorBlendFactor = kept,
             .colorBlendOp = vk::BlendOp::eAdd,
             .srcAlphaBlendFactor = Factor::eOne,
-            .dstAlphaBlendFactor = Factor::eOneMinusSrcAlpha,
+            .dstAlphaBlendFactor = kept,
             .alphaBlendOp = vk::BlendOp::eAdd,
             .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
 }
@@ -69,7 +70,8 @@ vk::raii::Pipeline makeGraphicsPipeline(const Device& device,
         .vertexAttributeDescriptionCount = static_cast<uint32_t>(info.attributes.size()),
         .pVertexAttributeDescriptions = info.attributes.data()};
     const vk::PipelineInputAssemblyStateCreateInfo assembly{
-        .topology = vk::PrimitiveTopology::eTriangleList};
+        .topology =
+            info.lines ? vk::PrimitiveTopology::eLineList : vk::PrimitiveTopology::eTriangleList};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo raster{.polygonMode = vk::PolygonMode::eFill,
                                                           .lineWidth = 1.0F};

@@ -15,6 +15,12 @@ using Spirv = std::span<const uint32_t>;
 // Specialisation constants: id i takes values[i] (32-bit each; booleans as 0 or 1).
 using SpecConstants = std::vector<uint32_t>;
 
+enum class Blend : uint8_t {
+    kNone,
+    kOver, // source over destination, premultiplied
+    kAdd,
+};
+
 struct GraphicsPipelineInfo {
     Spirv vertex;
     Spirv fragment; // empty: depth only
@@ -27,7 +33,8 @@ struct GraphicsPipelineInfo {
     vk::CompareOp depth_compare = vk::CompareOp::eGreaterOrEqual; // reversed-Z; of equal depths
                                                                   // the last drawn stays
     bool depth_write = true;
-    bool blend = false; // source over destination, premultiplied
+    Blend blend = Blend::kNone;
+    bool lines = false; // pairs of vertices instead of triangles
 };
 
 // Cull mode, front face, viewport and scissor are dynamic.

@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kLeastSide = 16;      // pixels
 constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
 constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 13;          // of commands
+constexpr uint32_t kKinds = 14;          // of commands
 
 } // namespace
 
@@ -116,6 +116,14 @@ std::optional<Step> StormScript::next() {
         break;
     case 8:
         message.mutable_request_key_frame();
+        break;
+    case 13:
+        // No raw G-buffer: forward renderers have none.
+        message.mutable_set_debug_view()->set_view(
+            whole(0, 1) == 0 ? v1::DEBUG_VIEW_NONE
+                             : static_cast<v1::DebugView>(whole(v1::DEBUG_VIEW_CLUSTER_SLICES,
+                                                                v1::DEBUG_VIEW_CLUSTER_WIRES)));
+        message.mutable_set_debug_view()->set_freeze(whole(0, 1) == 0);
         break;
     case 9:
         message.mutable_set_delivery()->set_adaptive(whole(0, 1) == 0);

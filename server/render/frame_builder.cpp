@@ -52,6 +52,17 @@ bool storesHalves(const view::ViewSettings& settings) {
            settings.gbuffer.position == view::PositionSource::kFp16;
 }
 
+bool needsLights(view::DebugView debug) {
+    return !view::replacesPicture(debug) || view::countsLights(debug) || view::showsClusters(debug);
+}
+
+// As settings, but pixels look lights up in lists whatever was asked for.
+view::ViewSettings withLists(view::ViewSettings settings) {
+    settings.renderer = view::Renderer::kClusteredDeferred;
+    settings.light_loop = view::LightLoop::kLists;
+    return settings;
+}
+
 bool byIds(GeometryPath path) {
     return path == GeometryPath::kVisibility || path == GeometryPath::kComputeRaster;
 }
@@ -76,6 +87,9 @@ void growForHalves(const light::FrameLights& lights, light::FrameLights& grown) 
 bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     using view::LightingStage;
     const auto& traits = scene_.device.traits();
+    if (inputs.settings.debug.view == view::DebugView::kOverdraw) {
+        return false; // what a rasteriser draws over is what it shows
+    }
     const bool pays =
         inputs.geometry == GeometryPath::kAuto && !traits.is_cpu && traits.descriptor_indexing;
     const auto stage = inputs.settings.lighting;
@@ -176,7 +190,8 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         growForHalves(lights_, grown_);
     }
     const light::FrameLights& reach = grown ? grown_ : lights_;
-    light_grid_.choose(settings, reach, scene_.bounds_world, gridCosts(settings));
+    light_grid_.choose(view::showsClusters(settings.debug.view) ? withLists(settings) : settings,
+                       reach, scene_.bounds_world, gridCosts(settings));
     on_device_ = assignsOnDevice(inputs);
     if (on_device_) {
         refused_ = settings;
@@ -193,14 +208,15 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         lists_.stats.light_count = static_cast<uint32_t>(lights_.lights.size());
         lists_.stats.all_lights = !lights_.lights.empty();
     }
-    lists_.stats.why = light_grid_.why();
+    lists_.stats.why = needsLights(settings.debug.view) ? light_grid_.why()
+                                                        : "the debug view shows no light";
 }
 
 FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     const auto& settings = inputs.settings;
     const auto& camera = settings.camera;
-    const auto projection =
-        makeProjection(camera, settings.size, farthestDepth(camera, scene_.bounds_world));
+    const double farthest_m = farthestDepth(camera, scene_.bounds_world);
+    const auto projection = makeProjection(camera, settings.size, farthest_m);
     // On a CPU device culling and light assignment, which do not need each other, go side by side:
     // 7 becomes 5 ms on two cores (Sponza). Elsewhere the host has too little to do for a thread.
     const bool is_cpu = scene_.device.traits().is_cpu;
@@ -213,7 +229,12 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
             orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
         }
     });
-    scene_.light_rig.evaluate(settings.lights, camera, inputs.time_s, lights_);
+    view::Lights lights = settings.lights;
+    if (!needsLights(settings.debug.view)) {
+        lights.count = 0;
+        lights.scene_lights = false;
+    }
+    scene_.light_rig.evaluate(lights, camera, inputs.time_s, lights_);
     assignLights(inputs);
     culling.get();
     planned_ = generalised(facts(inputs), inputs.generic);
@@ -223,7 +244,47 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
+    debug_.wires.clear();
+    if (plan.debug != view::DebugView::kNone) {
+        buildDebug(inputs, plan, farthest_m);
+    }
     return plan;
+}
+
+std::vector<io::WireVertex> FrameBuilder::buildWires(const FrameInputs& inputs,
+                                                     uint32_t& slice_count) {
+    const auto& settings = inputs.settings;
+    const LightGrid* shown = &light_grid_;
+    view::Camera camera = settings.debug.grid_camera.value_or(settings.camera);
+    if (camera != settings.camera || !light_grid_.lists()) {
+        scene_.light_rig.evaluate(settings.lights, camera, inputs.time_s, wire_lights_);
+        view::ViewSettings frozen = withLists(settings);
+        frozen.camera = camera;
+        wire_grid_.choose(frozen, wire_lights_, scene_.bounds_world, gridCosts(settings));
+        shown = &wire_grid_;
+    }
+    if (!shown->lists()) {
+        slice_count = 0;
+        return {}; // no light, no clusters
+    }
+    slice_count = shown->grid().size.z;
+    return clusterWires(shown->grid(), camera, settings.camera);
+}
+
+void FrameBuilder::buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m) {
+    const auto& settings = inputs.settings;
+    DebugFacts facts{.light_count = static_cast<uint32_t>(lights_.lights.size()),
+                     .lists = plan.lists,
+                     .list_length = light_grid_.lists() ? light_grid_.listLength() : 0.0,
+                     .slice_count = light_grid_.lists() ? light_grid_.grid().size.z : 0,
+                     .farthest_m = farthest_m};
+    if (plan.debug == view::DebugView::kClusterWires) {
+        debug_.wires = buildWires(inputs, facts.slice_count);
+    }
+    debug_.light_count = facts.light_count;
+    debug_.legend = makeLegend(settings.debug, facts);
+    debug_.values = makeDebugValues(settings, scene_.bounds_world, debug_.legend,
+                                    shownBytes(plan.debug, plan.gbuffer_output_flags));
 }
 
 Result<void> FrameBuilder::affordable(const FrameInputs& inputs) const {
@@ -260,6 +321,9 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     if (visibility_) {
         offsets.instances = upload.add(std::span<const io::InstanceView>(instances_));
         offsets.meshlet_order = upload.add(std::span<const uint32_t>(meshlet_order_));
+    }
+    if (!debug_.wires.empty()) {
+        offsets.wires = upload.add(std::span<const io::WireVertex>(debug_.wires));
     }
     offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
     upload.commit();

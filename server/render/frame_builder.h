@@ -34,6 +34,8 @@ class FrameBuilder {
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     // What the last plan was made from.
     [[nodiscard]] const FrameFacts& plannedFacts() const { return planned_; }
+    // Of a frame with a debug view.
+    [[nodiscard]] const DebugFrame& debugFrame() const { return debug_; }
     [[nodiscard]] const LightListStats& listStats() const { return lists_.stats; }
     [[nodiscard]] GridStats gridStats() const { return light_grid_.stats(); }
     [[nodiscard]] glm::vec3 background() const { return uniforms_.background; }
@@ -58,6 +60,10 @@ class FrameBuilder {
     [[nodiscard]] bool choosesComputeRaster(const FrameInputs& inputs);
     [[nodiscard]] bool prepass(const FrameInputs& inputs) const;
     [[nodiscard]] FrameFacts facts(const FrameInputs& inputs) const;
+    // The cluster grid that cluster_wires shows, as lines.
+    [[nodiscard]] std::vector<io::WireVertex> buildWires(const FrameInputs& inputs,
+                                                         uint32_t& slice_count);
+    void buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m);
     void writeFrameSet(FrameSlot& slot, const Blocks& blocks) const;
 
     SceneResources& scene_;
@@ -75,6 +81,9 @@ class FrameBuilder {
     std::vector<io::InstanceView> instances_; // for the visibility passes
     std::vector<uint32_t> meshlet_order_;
     io::Frame uniforms_{};
+    DebugFrame debug_;
+    LightGrid wire_grid_;             // of a frozen camera
+    light::FrameLights wire_lights_; // as it sees them
 };
 
 } // namespace froxel::render

@@ -46,6 +46,22 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
     return flags;
 }
 
+// A debug view in the picture's place: the surfaces that it shows, and no lighting.
+void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const FrameFacts& facts) {
+    const view::DebugView debug = settings.debug.view;
+    const bool overdraw = debug == view::DebugView::kOverdraw;
+    // Depths that compute rasters are exact once the G-buffer is filled.
+    plan.gbuffer = !overdraw && (!isForward(settings.renderer) || view::showsMaterial(debug) ||
+                                 plan.compute_raster);
+    plan.depth_prepass &= plan.gbuffer;
+    plan.depth_prepass |= !overdraw && !plan.gbuffer && !plan.visibility;
+    plan.count_samples = facts.overdraw_unknown && !overdraw && !plan.visibility;
+    plan.forward = plan.visibility_shade = false;
+    plan.lighting_compute = plan.lighting_fragment = false;
+    plan.toon_pass = plan.transparent = false;
+    plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
+}
+
 } // namespace
 
 bool isForward(view::Renderer renderer) {
@@ -81,14 +97,23 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.toon_pass = renderer == Renderer::kToonCompute;
     plan.transparent = facts.transparent_visible;
-    plan.lists = renderer != Renderer::kNaive && facts.local_lights && !facts.all_lights;
+    plan.debug = settings.debug.view;
+    const bool replaced = view::replacesPicture(plan.debug);
+    plan.lists = (renderer != Renderer::kNaive || view::showsClusters(plan.debug)) &&
+                 facts.local_lights && !facts.all_lights;
     plan.count_pairs = settings.count_pairs && facts.local_lights;
+
+    if (replaced) {
+        replacePicture(plan, settings, facts);
+    }
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
-    const bool compute_ends = !plan.transparent && (compute_lights || plan.toon_pass);
-    plan.tonemap = !compute_ends;
-    plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance;
+    const bool compute_ends =
+        !plan.transparent && !view::isOverlay(plan.debug) && (compute_lights || plan.toon_pass);
+    plan.tonemap = !compute_ends && !replaced;
+    plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance ||
+                    plan.debug == view::DebugView::kOverdraw;
 
     plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
@@ -99,7 +124,9 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
                               : 0U;
     const uint32_t tone = settings.tone_map == view::ToneMap::kClamp ? io::kOutputClamp : 0U;
     const uint32_t pixels = io::kOutputPixels | tone;
-    plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(settings.gbuffer) : 0U;
+    const view::GbufferLayout layout = // a forward renderer's, for a debug view: the default
+        isForward(renderer) ? view::GbufferLayout{} : settings.gbuffer;
+    plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(layout) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
     if (settings.shading == view::ShadingModel::kLambert) {
         plan.gbuffer_unused_material_flags = io::kMaterialRoughnessTexture;

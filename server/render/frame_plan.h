@@ -62,6 +62,8 @@ struct FramePlan {
     bool lists = false;    // lights are assigned to clusters
     bool radiance = false; // the radiance target exists
     bool count_pairs = false;
+    view::DebugView debug = view::DebugView::kNone; // its passes; view::replacesPicture(): and no
+                                                    // lighting
 
     uint32_t forward_light_flags = 0;
     uint32_t lighting_light_flags = 0;

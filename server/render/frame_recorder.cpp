@@ -108,7 +108,8 @@ void recordVisible(const FrameContext& frame) {
             Stage::eComputeShader, Access::eShaderSampledRead);
 }
 
-void recordDeferred(const FrameContext& frame) {
+// Fills the G-buffer; what follows reads it.
+void recordGeometry(const FrameContext& frame) {
     if (frame.plan.visibility) {
         recordVisible(frame);
         recordVisibilityGbuffer(frame);
@@ -123,6 +124,10 @@ void recordDeferred(const FrameContext& frame) {
                 Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite, kShaders,
                 Access::eShaderSampledRead);
     }
+}
+
+void recordDeferred(const FrameContext& frame) {
+    recordGeometry(frame);
     if (frame.plan.lighting_compute) {
         recordLightingCompute(frame);
     } else {
@@ -135,6 +140,27 @@ void recordDeferred(const FrameContext& frame) {
                 Access::eShaderStorageRead | Access::eShaderStorageWrite);
         recordToon(frame);
     }
+}
+
+// A debug view in the picture's place, with the surfaces that it shows.
+void recordReplacement(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    if (frame.plan.debug == view::DebugView::kOverdraw) {
+        recordOverdraw(frame);
+        // counted fragments -> load
+        barrier(cmd, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                Stage::eComputeShader, Access::eShaderStorageRead);
+    } else if (frame.plan.gbuffer) {
+        recordGeometry(frame);
+    } else if (frame.plan.visibility) {
+        recordVisible(frame);
+    } else {
+        recordDepthPrepass(frame);
+        // depth -> loads
+        barrier(cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, Stage::eComputeShader,
+                Access::eShaderSampledRead);
+    }
+    recordDebugView(frame);
 }
 
 // Moves fresh images into the GENERAL layout.
@@ -192,7 +218,9 @@ void recordFrame(const FrameContext& frame) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
     }
 
-    if (frame.plan.visibility_shade) {
+    if (view::replacesPicture(frame.plan.debug)) {
+        recordReplacement(frame);
+    } else if (frame.plan.visibility_shade) {
         recordVisible(frame);
         recordVisibilityShade(frame);
     } else if (frame.plan.forward) {
@@ -223,6 +251,16 @@ void recordFrame(const FrameContext& frame) {
                 Access::eDepthStencilAttachmentRead | Access::eColorAttachmentRead |
                     Access::eColorAttachmentWrite);
         recordTransparent(frame);
+    }
+    if (view::isOverlay(frame.plan.debug)) {
+        // the picture's radiance and depth -> blending, loads
+        barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
+                Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |
+                    Access::eShaderStorageWrite,
+                Stage::eColorAttachmentOutput | Stage::eFragmentShader,
+                Access::eColorAttachmentRead | Access::eColorAttachmentWrite |
+                    Access::eShaderSampledRead);
+        recordWires(frame);
     }
     if (frame.plan.tonemap) {
         // radiance -> tone map's load

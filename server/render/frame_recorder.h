@@ -3,6 +3,7 @@
 
 #include "render/assign_passes.h"
 #include "render/draw_list.h"
+#include "render/debug_frame.h"
 #include "render/frame_plan.h"
 #include "render/frame_slot.h"
 #include "render/scene_resources.h"
@@ -16,6 +17,7 @@ struct UploadOffsets {
     // For the visibility passes: io::InstanceView of each, and in which order meshlets are drawn.
     vk::DeviceSize instances = 0;
     vk::DeviceSize meshlet_order = 0;
+    vk::DeviceSize wires = 0; // of the cluster grid
 };
 
 struct FrameContext {
@@ -26,6 +28,7 @@ struct FrameContext {
     UploadOffsets offsets;
     glm::vec3 background{0};
     VisibilityScene* visibility = nullptr; // where the plan has it
+    const DebugFrame* debug = nullptr;     // likewise
 };
 
 // Records slot.cmd from begin to end.

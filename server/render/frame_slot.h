@@ -6,6 +6,7 @@
 #include "gpu/memory.h"
 #include "gpu/sample_counter.h"
 #include "gpu/timestamps.h"
+#include "render/debug_pass.h"
 #include "render/gpu_light_lists.h"
 #include "render/pair_counter.h"
 #include "render/pipelines.h"
@@ -79,6 +80,7 @@ struct FrameSlot {
     std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
     std::unique_ptr<VisibilityFrame> visibility;   // null: no frame asked for it yet
     std::unique_ptr<PairCounter> pairs;            // likewise
+    std::unique_ptr<DebugPass> debug;              // likewise
     bool counts_pairs = false;                     // in the frame last recorded
     std::unique_ptr<gpu::SampleCounter> samples;   // likewise
     bool counts_samples = false;                   // in the frame last recorded

@@ -51,22 +51,23 @@ vk::Format extraFormat(uint32_t output_flags) {
         .position = static_cast<PositionSource>(output_flags >> io::kOutputPositionShift & 3U)});
 }
 
+uint32_t extraBytes(vk::Format format) {
+    switch (format) {
+    case vk::Format::eR16Uint:
+        return 2;
+    case vk::Format::eR32Uint:
+        return 4;
+    case vk::Format::eR32G32Uint:
+        return 8;
+    case vk::Format::eR32G32B32A32Uint:
+        return 16;
+    default:
+        return 0;
+    }
+}
+
 uint32_t gbufferBytesPerPixel(const view::GbufferLayout& layout, bool wide) {
-    const auto extra = [&]() -> uint32_t {
-        switch (extraFormat(layout)) {
-        case vk::Format::eR16Uint:
-            return 2;
-        case vk::Format::eR32Uint:
-            return 4;
-        case vk::Format::eR32G32Uint:
-            return 8;
-        case vk::Format::eR32G32B32A32Uint:
-            return 16;
-        default:
-            return 0;
-        }
-    }();
-    return (wide ? 16U : 8U) + extra;
+    return (wide ? 16U : 8U) + extraBytes(extraFormat(layout));
 }
 
 } // namespace froxel::render

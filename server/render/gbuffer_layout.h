@@ -15,6 +15,9 @@ namespace froxel::render {
 [[nodiscard]] vk::Format extraFormat(const view::GbufferLayout& layout);
 [[nodiscard]] vk::Format extraFormat(uint32_t output_flags);
 
+// Of one of its texels.
+[[nodiscard]] uint32_t extraBytes(vk::Format format);
+
 // Of both targets, without the depth buffer's 4; wide: SceneNeeds::wide_gbuffer.
 [[nodiscard]] uint32_t gbufferBytesPerPixel(const view::GbufferLayout& layout, bool wide);
 

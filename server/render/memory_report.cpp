@@ -41,8 +41,14 @@ std::shared_ptr<const FrameDetails> FrameDetailsKeeper::update(const view::ViewS
                                                                const FrameFacts& facts,
                                                                const FramePlan& plan,
                                                                const SceneNeeds& needs,
-                                                               const gpu::MemoryLedger& ledger) {
-    const Key key{settings.renderer, settings.shading, settings.gbuffer, facts, plan};
+                                                               const gpu::MemoryLedger& ledger,
+                                                               const DebugLegend* legend) {
+    const Key key{settings.renderer,
+                  settings.shading,
+                  settings.gbuffer,
+                  facts,
+                  plan,
+                  legend != nullptr ? std::optional(*legend) : std::nullopt};
     const uint64_t version = ledger.version();
     const bool same_plan = key_ == key;
     if (details_ && same_plan && ledger_version_ == version) {
@@ -58,6 +64,7 @@ std::shared_ptr<const FrameDetails> FrameDetailsKeeper::update(const view::ViewS
         made.plan.insert(made.plan.end(), scene_words.begin(), scene_words.end());
     }
     made.memory = memoryReport(ledger);
+    made.legend = key.legend;
     key_ = key;
     ledger_version_ = version;
     if (details_ && same_plan && sameUses(made.memory, details_->memory)) {

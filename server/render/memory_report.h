@@ -18,12 +18,13 @@ namespace froxel::render {
 // One a viewer.
 class FrameDetailsKeeper {
   public:
-    // The frame's details; logs the plan's lines when they are new.
+    // The frame's details (legend: null without a debug view); logs the plan's lines when they are new.
     [[nodiscard]] std::shared_ptr<const FrameDetails> update(const view::ViewSettings& settings,
                                                              const FrameFacts& facts,
                                                              const FramePlan& plan,
                                                              const SceneNeeds& needs,
-                                                             const gpu::MemoryLedger& ledger);
+                                                             const gpu::MemoryLedger& ledger,
+                                                             const DebugLegend* legend);
 
   private:
     // Everything that the lines are made of.
@@ -33,6 +34,7 @@ class FrameDetailsKeeper {
         view::GbufferLayout gbuffer;
         FrameFacts facts;
         FramePlan plan;
+        std::optional<DebugLegend> legend;
         bool operator==(const Key&) const = default;
     };
     void logOnce(const Key& key, const std::vector<std::string>& words);

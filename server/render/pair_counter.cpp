@@ -35,11 +35,6 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
          .pPoolSizes = &size});
 }
 
-// Only what decides which lights a pixel is handed.
-constexpr uint32_t kUsedFlags = io::kLightLocal | io::kLightLists | io::kLightSpots |
-                                io::kLightEqualRadii | io::kLightLong | io::kLightSlicesLinear |
-                                io::kLightSlicesHyperbolic;
-
 uint64_t join(uint32_t low, uint32_t high) {
     return uint64_t{high} << 32U | low;
 }
@@ -78,7 +73,7 @@ void PairCounter::recordCount(const vk::raii::CommandBuffer& cmd,
                               vk::DescriptorSet screen_set,
                               uint32_t light_flags,
                               const vk::Extent2D& size_px) {
-    const uint32_t flags = light_flags & kUsedFlags;
+    const uint32_t flags = light_flags & kListFlags;
     if (light_flags_ != flags) {
         // The slot's last frame has finished: nothing uses the old one.
         pipeline_ = gpu::makeComputePipeline(

@@ -4,11 +4,17 @@
 
 #include "core/frame_stats.h"
 #include "gpu/memory.h"
+#include "interface/constants.h"
 #include "render/pipelines.h"
 
 #include <optional>
 
 namespace froxel::render {
+
+// Only what decides which lights a pixel is handed.
+inline constexpr uint32_t kListFlags = io::kLightLocal | io::kLightLists | io::kLightSpots |
+                                       io::kLightEqualRadii | io::kLightLong |
+                                       io::kLightSlicesLinear | io::kLightSlicesHyperbolic;
 
 // One a frame slot.
 class PairCounter {

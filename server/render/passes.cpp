@@ -56,7 +56,8 @@ class SampleScope {
 VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
     const auto& plan = frame.plan;
     switch (pass) {
-    case GeometryPass::kDepth: {
+    case GeometryPass::kDepth:
+    case GeometryPass::kOverdraw: {
         const bool masked = (group.material_flags & io::kMaterialMask) != 0;
         return {masked ? group.material_flags : 0U, 0, 0};
     }
@@ -84,7 +85,8 @@ void drawGroups(const FrameContext& frame, GeometryPass pass, std::span<const Dr
         cmd.setCullMode(both_sides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise
                                         : vk::FrontFace::eCounterClockwise);
-        if (pass != GeometryPass::kDepth || (group.material_flags & io::kMaterialMask) != 0) {
+        const bool depth_only = pass == GeometryPass::kDepth || pass == GeometryPass::kOverdraw;
+        if (!depth_only || (group.material_flags & io::kMaterialMask) != 0) {
             cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
                                    pipelines.geometryPipelineLayout(), 1,
                                    frame.scene.materialSet(group.material), {});
@@ -193,6 +195,40 @@ void recordTransparent(const FrameContext& frame) {
 void recordTonemap(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "tonemap");
     dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags});
+}
+
+void recordOverdraw(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "overdraw");
+    const vk::ClearValue none = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 0.0F});
+    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eClear, none)};
+    const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
+    const Rendering rendering(frame, colors, &depth);
+    drawGroups(frame, GeometryPass::kOverdraw, frame.draws.solid);
+}
+
+void recordDebugView(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "debug_view");
+    const auto& size = frame.slot.targets->size;
+    frame.slot.debug->recordValues(
+        frame.slot.cmd, {*frame.slot.frame_set, *frame.slot.screen_set},
+        {0, frame.plan.lighting_light_flags, frame.plan.gbuffer_output_flags}, frame.debug->values,
+        {size.width_px, size.height_px});
+}
+
+void recordWires(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "wires");
+    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+    const Rendering rendering(frame, colors, nullptr);
+    const DebugSets sets = {*frame.slot.frame_set, *frame.slot.screen_set};
+    frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
+    frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
+    if (frame.plan.debug == view::DebugView::kLightSpheres) {
+        frame.slot.debug->recordLights(frame.slot.cmd, sets, frame.debug->light_count);
+    } else if (!frame.debug->wires.empty()) {
+        frame.slot.debug->recordClusters(frame.slot.cmd, sets, frame.slot.upload.buffer(),
+                                         frame.offsets.wires,
+                                         static_cast<uint32_t>(frame.debug->wires.size()));
+    }
 }
 
 void recordCountPairs(const FrameContext& frame) {

@@ -14,6 +14,9 @@ void recordLightingFragment(const FrameContext& frame); // reads both; writes ra
 void recordToon(const FrameContext& frame);        // reads radiance; writes radiance and/or pixels
 void recordTransparent(const FrameContext& frame); // blends over radiance, tests depth
 void recordTonemap(const FrameContext& frame);     // reads radiance, writes pixels
+void recordOverdraw(const FrameContext& frame);    // writes depth; adds fragments up in radiance
+void recordDebugView(const FrameContext& frame);   // reads what the view shows, writes pixels
+void recordWires(const FrameContext& frame);       // blends lines over radiance, reads depth
 void recordCountPairs(const FrameContext& frame);  // reads depth
 void recordReadback(const FrameContext& frame);    // copies pixels to the host
 

@@ -14,9 +14,9 @@ namespace {
 using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
-constexpr std::array<std::string_view, 6> kGeometryNames = {"depth prepass",       "gbuffer",
-                                                            "gbuffer after depth", "forward",
-                                                            "forward after depth", "transparent"};
+constexpr std::array<std::string_view, 7> kGeometryNames = {
+    "depth prepass", "gbuffer", "gbuffer after depth", "forward", "forward after depth",
+    "transparent",   "overdraw"};
 constexpr std::array<std::string_view, 3> kScreenNames = {"lighting", "toon", "tonemap"};
 constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
 
@@ -93,6 +93,8 @@ gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32
     switch (pass) {
     case GeometryPass::kDepth:
         return extended ? depth_masked_extended_frag() : depth_masked_frag();
+    case GeometryPass::kOverdraw: // of masked surfaces
+        return extended ? overdraw_masked_extended_frag() : overdraw_masked_frag();
     case GeometryPass::kGbuffer:
     case GeometryPass::kGbufferAfterDepth:
         if (extraFormat(output_flags) != vk::Format::eUndefined) {
@@ -127,7 +129,8 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     const bool masked = (key.material_flags & io::kMaterialMask) != 0;
     const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
     const bool batched = (key.light_flags & io::kLightBatched) != 0;
-    const bool depth_only = pass == GeometryPass::kDepth;
+    const bool overdraw = pass == GeometryPass::kOverdraw;
+    const bool depth_only = pass == GeometryPass::kDepth || overdraw;
     const bool surface = !depth_only || masked;
     gpu::GraphicsPipelineInfo info;
     info.constants = constants(key);
@@ -139,7 +142,9 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
                   : extended ? shaders::surface_extended_vert()
                   : textured ? shaders::surface_vert()
                              : shaders::surface_untextured_vert();
-    if (surface) {
+    if (overdraw && !masked) {
+        info.fragment = shaders::overdraw_frag();
+    } else if (surface) {
         info.fragment = fragmentShader(pass, extended, batched, key.output_flags);
     }
     const bool after_depth =
@@ -149,7 +154,7 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
         if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
             info.color_formats.push_back(extraFormat(key.output_flags));
         }
-    } else if (!depth_only) {
+    } else if (pass != GeometryPass::kDepth) {
         info.color_formats = {kRadianceFormat};
     }
     if (after_depth) {
@@ -158,7 +163,10 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     }
     if (pass == GeometryPass::kTransparent) {
         info.depth_write = false;
-        info.blend = true;
+        info.blend = gpu::Blend::kOver;
+    }
+    if (overdraw) {
+        info.blend = gpu::Blend::kAdd;
     }
     return gpu::makeGraphicsPipeline(device_, info, kGeometryNames[static_cast<size_t>(pass)]);
 }

@@ -21,6 +21,7 @@ enum class GeometryPass : uint8_t {
     kForward,           // forward, writing depth
     kForwardAfterDepth, // forward where the prepass left the same depth
     kTransparent,       // forward, blended, over finished depth
+    kOverdraw,          // counts fragments, writing depth
 };
 
 enum class ScreenPass : uint8_t { kLighting, kToon, kTonemap };

@@ -93,7 +93,9 @@ void addSolidWords(Lines& lines,
                              : "no metalness, occlusion, emission or unlit: G-buffer of ") +
                         bytes + " bytes a pixel");
     } else {
-        lines.emplace_back("no G-buffer: surfaces are shaded at once");
+        lines.emplace_back(view::replacesPicture(plan.debug)
+                               ? "no G-buffer: depth alone"
+                               : "no G-buffer: surfaces are shaded at once");
     }
     if (plan.depth_prepass) {
         lines.emplace_back("depth prepass: each pixel is shaded once");
@@ -112,6 +114,9 @@ std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     }
     if (facts.transparent_visible) {
         return "tone map in a pass of its own, after blending";
+    }
+    if (view::isOverlay(plan.debug)) {
+        return "tone map in a pass of its own, after the debug view's lines";
     }
     return "tone map in a pass of its own, after a fragment stage";
 }
@@ -153,6 +158,14 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
 
 std::vector<std::string>
 frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan) {
+    if (view::replacesPicture(plan.debug)) {
+        Lines lines = {"debug view " + std::string(view::nameOf(plan.debug)) +
+                       " in the picture's place: solid surfaces only, no lighting"};
+        if (plan.debug != view::DebugView::kOverdraw) {
+            addSolidWords(lines, settings, facts, plan);
+        }
+        return lines;
+    }
     const bool compute = plan.lighting_compute || plan.visibility_shade;
     Lines lines = {nameOf(view::kRendererNames, settings.renderer) + ", " +
                    nameOf(view::kShadingModelNames, settings.shading) + ", lighting in " +
@@ -164,6 +177,10 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     lines.push_back(toneMapWords(facts, plan));
     if (plan.count_pairs) {
         lines.emplace_back("light-pixel pairs are counted, in a pass of its own");
+    }
+    if (view::isOverlay(plan.debug)) {
+        lines.push_back("debug view " + std::string(view::nameOf(plan.debug)) +
+                        ": lines over the picture, in a pass of their own");
     }
     if (!plan.radiance) {
         lines.emplace_back("nobody reads linear radiance: no target for it");

@@ -4,6 +4,7 @@
 #include "render/frame_builder.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
+#include "render/gbuffer_layout.h"
 #include "render/memory_report.h"
 #include "render/scene_resources.h"
 #include "render/visibility_readback.h"
@@ -28,6 +29,31 @@ bool needsVisibility(const FrameInputs& inputs) {
            inputs.geometry == GeometryPath::kComputeRaster ||
            (isForward(inputs.settings.renderer) &&
             inputs.settings.lighting == view::LightingStage::kCompute);
+}
+
+// Whether the debug view can show what was asked for. Errors: kUnsupported.
+Result<void> showable(const FrameInputs& inputs) {
+    const auto& settings = inputs.settings;
+    const view::DebugView debug = settings.debug.view;
+    const std::string name = "debug_view: " + std::string(view::nameOf(debug));
+    if (inputs.keep_radiance && view::replacesPicture(debug)) {
+        return Error{ErrorCode::kUnsupported,
+                     name + " has no linear picture; ask for .png or .jpg"};
+    }
+    if (view::showsGbuffer(debug) && isForward(settings.renderer)) {
+        return Error{ErrorCode::kUnsupported,
+                     name + " is not available for renderer " +
+                         std::string(view::kRendererNames[static_cast<size_t>(settings.renderer)]) +
+                         ", which has no G-buffer; use clustered_deferred, toon_fragment or "
+                         "toon_compute"};
+    }
+    if (debug == view::DebugView::kGbufferExtra &&
+        extraFormat(settings.gbuffer) == vk::Format::eUndefined) {
+        return Error{ErrorCode::kUnsupported,
+                     name + " is not available for this G-buffer layout, which has one target; use "
+                            "normal xyz16 or a position other than depth"};
+    }
+    return {};
 }
 
 } // namespace
@@ -142,6 +168,10 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inpu
     if (plan.count_pairs && !slot.pairs) {
         slot.pairs = std::make_unique<PairCounter>(scene.device, scene.pipelines);
     }
+    const bool debug = plan.debug != view::DebugView::kNone;
+    if (debug && !slot.debug) {
+        slot.debug = std::make_unique<DebugPass>(scene.device, scene.pipelines);
+    }
     if (plan.count_samples && !slot.samples) {
         slot.samples = std::make_unique<gpu::SampleCounter>(scene.device);
     }
@@ -151,7 +181,8 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inpu
                  .draws = builder.draws(),
                  .offsets = offsets,
                  .background = builder.background(),
-                 .visibility = plan.visibility ? &scene.visibility() : nullptr});
+                 .visibility = plan.visibility ? &scene.visibility() : nullptr,
+                 .debug = debug ? &builder.debugFrame() : nullptr});
     slot.stats = {};
     slot.stats.triangle_count = builder.draws().triangle_count;
     if (plan.visibility) { // the host does not know what the device culls
@@ -160,7 +191,8 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inpu
     slot.stats.draw_count = static_cast<uint32_t>(builder.draws().commands.size());
     slot.stats.lists = builder.listStats();
     slot.stats.details = details.update(inputs.settings, builder.plannedFacts(), plan, scene.needs,
-                                        *scene.device.memoryLedger());
+                                        *scene.device.memoryLedger(),
+                                        debug ? &builder.debugFrame().legend : nullptr);
     slot.stats.grid = builder.gridStats();
     slot.counts_pairs = plan.count_pairs;
     slot.counts_samples = plan.count_samples;
@@ -225,6 +257,9 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
             "lighting: compute is not available for renderer " +
                 std::string(view::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]) +
                 ", since " + why + "; use auto or fragment"};
+    }
+    if (auto shown = showable(inputs); !shown) {
+        return shown;
     }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
         !impl_->scene.visibility().compute_unusable.empty()) {

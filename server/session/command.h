@@ -75,6 +75,12 @@ struct SetToon {
     std::optional<view::ToonRamp> compute;
 };
 
+struct SetDebugView {
+    std::optional<view::DebugView> view;
+    std::optional<double> scale_max;
+    std::optional<bool> freeze;
+};
+
 struct SetSize {
     view::Size size;
 };
@@ -123,6 +129,7 @@ using Command = std::variant<Hello,
                              SetGrid,
                              SetExposure,
                              SetToon,
+                             SetDebugView,
                              SetSize,
                              SetEncoding,
                              SetDelivery,

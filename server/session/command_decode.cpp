@@ -272,6 +272,21 @@ Command decode(const v1::SetToon& toon, FieldValidator& fields) {
     return command;
 }
 
+Command decode(const v1::SetDebugView& set, FieldValidator& fields) {
+    fields.require(set.has_view() || set.has_scale_max() || set.has_freeze(), "debug_view");
+    SetDebugView command;
+    if (set.has_view()) {
+        command.view = enumeration(fields, "debug_view", kDebugViewTable, set.view());
+    }
+    if (set.has_scale_max()) {
+        command.scale_max = fields.number(view::kDebugScaleRange, set.scale_max());
+    }
+    if (set.has_freeze()) {
+        command.freeze = set.freeze();
+    }
+    return command;
+}
+
 Command decode(const v1::SetSize& size, FieldValidator& fields) {
     return SetSize{{fields.number(view::kWidthRange, size.width()),
                     fields.number(view::kHeightRange, size.height())}};
@@ -327,6 +342,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_exposure(), fields);
     case v1::ClientMessage::kSetToon:
         return decode(message.set_toon(), fields);
+    case v1::ClientMessage::kSetDebugView:
+        return decode(message.set_debug_view(), fields);
     case v1::ClientMessage::kSetSize:
         return decode(message.set_size(), fields);
     case v1::ClientMessage::kSetEncoding:

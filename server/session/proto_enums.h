@@ -52,6 +52,25 @@ inline constexpr std::array kPositionSourceTable = {
     std::pair{v1::POSITION_SOURCE_FP32, view::PositionSource::kFp32},
     std::pair{v1::POSITION_SOURCE_FP16, view::PositionSource::kFp16},
 };
+inline constexpr std::array kDebugViewTable = {
+    std::pair{v1::DEBUG_VIEW_NONE, view::DebugView::kNone},
+    std::pair{v1::DEBUG_VIEW_POSITION, view::DebugView::kPosition},
+    std::pair{v1::DEBUG_VIEW_DEPTH, view::DebugView::kDepth},
+    std::pair{v1::DEBUG_VIEW_NORMAL, view::DebugView::kNormal},
+    std::pair{v1::DEBUG_VIEW_BASE_COLOR, view::DebugView::kBaseColor},
+    std::pair{v1::DEBUG_VIEW_ROUGHNESS, view::DebugView::kRoughness},
+    std::pair{v1::DEBUG_VIEW_GBUFFER, view::DebugView::kGbuffer},
+    std::pair{v1::DEBUG_VIEW_GBUFFER_EXTRA, view::DebugView::kGbufferExtra},
+    std::pair{v1::DEBUG_VIEW_CLUSTER_SLICES, view::DebugView::kClusterSlices},
+    std::pair{v1::DEBUG_VIEW_CLUSTER_TILES, view::DebugView::kClusterTiles},
+    std::pair{v1::DEBUG_VIEW_LISTED_LIGHTS, view::DebugView::kListedLights},
+    std::pair{v1::DEBUG_VIEW_EVALUATED_LIGHTS, view::DebugView::kEvaluatedLights},
+    std::pair{v1::DEBUG_VIEW_CONTRIBUTING_LIGHTS, view::DebugView::kContributingLights},
+    std::pair{v1::DEBUG_VIEW_FALSE_POSITIVES, view::DebugView::kFalsePositives},
+    std::pair{v1::DEBUG_VIEW_OVERDRAW, view::DebugView::kOverdraw},
+    std::pair{v1::DEBUG_VIEW_LIGHT_SPHERES, view::DebugView::kLightSpheres},
+    std::pair{v1::DEBUG_VIEW_CLUSTER_WIRES, view::DebugView::kClusterWires},
+};
 inline constexpr std::array kToneMapTable = {
     std::pair{v1::TONE_MAP_PBR_NEUTRAL, view::ToneMap::kPbrNeutral},
     std::pair{v1::TONE_MAP_CLAMP, view::ToneMap::kClamp},
@@ -86,6 +105,7 @@ static_assert(kNormalEncodingTable.size() == view::kNormalEncodingNames.size());
 static_assert(kPositionSourceTable.size() == view::kPositionSourceNames.size());
 static_assert(kToneMapTable.size() == view::kToneMapNames.size());
 static_assert(kChromaTable.size() == view::kChromaNames.size());
+static_assert(kDebugViewTable.size() == view::kDebugViewNames.size());
 static_assert(kCodecTable.size() == view::kCodecNames.size());
 
 // None for a value that this server does not know, UNSPECIFIED among them.

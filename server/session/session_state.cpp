@@ -123,6 +123,18 @@ struct Reducer {
         return {};
     }
 
+    Outcome operator()(const SetDebugView& command) const {
+        view::Debug& debug = state.settings.debug;
+        assignIfGiven(debug.view, command.view);
+        assignIfGiven(debug.scale_max, command.scale_max);
+        if (command.freeze && !*command.freeze) {
+            debug.grid_camera.reset();
+        } else if (command.freeze && !debug.grid_camera) {
+            debug.grid_camera = state.settings.camera;
+        }
+        return {};
+    }
+
     Outcome operator()(const SetSize& command) const {
         const uint64_t area_px = uint64_t{command.size.width_px} * command.size.height_px;
         if (area_px > context.defaults.max_area_px) {

@@ -77,6 +77,9 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     if (const auto stopped_s = state.light_clock.stoppedAt()) {
         out.set_light_time_s(*stopped_s);
     }
+    out.set_debug_view(toProto(kDebugViewTable, settings.debug.view));
+    out.set_debug_scale_max(settings.debug.scale_max);
+    out.set_debug_frozen(settings.debug.grid_camera.has_value());
     out.set_exposure(settings.exposure);
     out.set_tone_map(toProto(kToneMapTable, settings.tone_map));
     fill(*out.mutable_toon_fragment(), settings.toon_fragment);
@@ -165,6 +168,18 @@ v1::ErrorCode protoCode(RejectCode code) {
         return v1::ERROR_CODE_CONTROL;
     }
     return v1::ERROR_CODE_UNSPECIFIED;
+}
+
+void fill(v1::DebugLegend& out, const DebugLegend& legend) {
+    const auto named =
+        std::find(view::kDebugViewNames.begin(), view::kDebugViewNames.end(), legend.view) -
+        view::kDebugViewNames.begin();
+    out.set_view(toProto(kDebugViewTable, static_cast<view::DebugView>(named)));
+    out.set_words(legend.words);
+    out.set_min(legend.min);
+    out.set_max(legend.max);
+    out.set_unit(legend.unit);
+    out.mutable_colors()->Add(legend.colors.begin(), legend.colors.end());
 }
 
 void fillLists(v1::FrameHeader& out, const LightListStats& lists) {
@@ -308,6 +323,9 @@ v1::ServerMessage makeFrameDetails(const FrameDetails& details) {
         v1::MemoryUse& row = *out.add_memory();
         row.set_purpose(use.purpose);
         row.set_bytes(use.bytes);
+    }
+    if (details.legend) {
+        fill(*out.mutable_legend(), *details.legend);
     }
     return message;
 }

@@ -41,6 +41,7 @@ inline constexpr Range<double> kTargetFpsRange{"target_fps", 0.0, 240.0}; // 0: 
 inline constexpr Range<uint32_t> kVideoKbpsRange{"video_kbps", 100, 100'000};
 inline constexpr Range<double> kToonRange{"toon", 0.0, 1.0};
 inline constexpr Range<double> kToonSlopeRange{"toon.slope", -20.0, 20.0};
+inline constexpr Range<double> kDebugScaleRange{"debug_scale_max", 0.0, 1e6}; // 0: chosen
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
 
 // Every range that a client can run into; the server tells them all when it greets.
@@ -50,6 +51,6 @@ inline constexpr std::tuple kCommandRanges{
     kExposureRange,   kFovRange,        kHalfHeightRange,  kPositionRange,    kFocusRange,
     kUpRange,         kQualityRange,    kToonRange,        kToonSlopeRange,   kTimeRange,
     kLensShiftXRange, kLensShiftYRange, kLightCutoffRange, kTargetFpsRange,
-    kVideoKbpsRange};
+    kVideoKbpsRange,  kDebugScaleRange};
 
 } // namespace froxel::view

@@ -4,6 +4,7 @@
 
 #include "core/math.h"
 #include "view/camera.h"
+#include "view/debug_view.h"
 
 #include <array>
 #include <bitset>
@@ -154,6 +155,7 @@ struct ViewSettings {
     Grid grid;
     LightLoop light_loop = LightLoop::kAuto;
     bool count_pairs = false; // count evaluated and contributing light-pixel pairs; costs time
+    Debug debug;
     Lights lights;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;

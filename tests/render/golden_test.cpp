@@ -18,34 +18,64 @@ constexpr double kMaxShareAbove8 = 0.002;
 
 class Golden : public GpuTest {};
 
+render::FrameInputs inputsFor(const scene::Scene& scene) {
+    render::FrameInputs inputs;
+    inputs.settings.camera = scene.cameras.front().camera;
+    inputs.settings.size = {320, 180};
+    inputs.settings.lights.count = 300;
+    inputs.time_s = 5;
+    return inputs;
+}
+
+void expectAsCommitted(const Picture& picture, const std::string& name) {
+    SCOPED_TRACE(name);
+    const auto path = std::filesystem::path(FROXEL_GOLDEN_DIR) / ("hall_" + name + ".png");
+    if (std::getenv("FROXEL_UPDATE_GOLDEN") != nullptr) {
+        const PixelView pixels{picture.rgba8.data(), 320, 180, size_t{4} * 320};
+        ASSERT_TRUE(encode::writeImage(path, pixels, {}));
+        return;
+    }
+    const auto golden = readPng(path);
+    ASSERT_TRUE(golden) << path << " is missing";
+    ASSERT_EQ(golden->width_px, 320U);
+    ASSERT_EQ(golden->height_px, 180U);
+    const auto difference = compare(*golden, picture.rgba8);
+    EXPECT_LT(difference.rmse, kMaxRmse);
+    EXPECT_LT(difference.share_above_8, kMaxShareAbove8);
+}
+
 } // namespace
 
 TEST_F(Golden, EveryRenderer_BuiltinScene_LooksAsCommitted) {
     const auto scene = hall::makeHall();
     render::Renderer renderer(device(), scene);
     for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
-        const std::string name(view::kRendererNames[kind]);
-        SCOPED_TRACE(name);
-        render::FrameInputs inputs;
-        inputs.settings.camera = scene.cameras.front().camera;
-        inputs.settings.size = {320, 180};
+        auto inputs = inputsFor(scene);
         inputs.settings.renderer = static_cast<view::Renderer>(kind);
-        inputs.settings.lights.count = 300;
-        inputs.time_s = 5;
-        const Picture picture = draw(renderer, inputs);
-        const auto path = std::filesystem::path(FROXEL_GOLDEN_DIR) / ("hall_" + name + ".png");
-        if (std::getenv("FROXEL_UPDATE_GOLDEN") != nullptr) {
-            const PixelView pixels{picture.rgba8.data(), 320, 180, size_t{4} * 320};
-            ASSERT_TRUE(encode::writeImage(path, pixels, {}));
-            continue;
+        expectAsCommitted(draw(renderer, inputs), std::string(view::kRendererNames[kind]));
+    }
+}
+
+TEST_F(Golden, DebugViews_BuiltinScene_LookAsCommitted) {
+    const auto scene = hall::makeHall();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (const auto debug :
+         {view::DebugView::kPosition, view::DebugView::kNormal, view::DebugView::kBaseColor,
+          view::DebugView::kGbuffer, view::DebugView::kListedLights, view::DebugView::kOverdraw,
+          view::DebugView::kLightSpheres, view::DebugView::kClusterWires}) {
+        auto inputs = inputsFor(scene);
+        inputs.settings.debug.view = debug;
+        inputs.settings.grid = {.automatic = false, .size = {8, 5, 10}};
+        inputs.settings.light_loop = view::LightLoop::kLists;
+        if (debug == view::DebugView::kLightSpheres) {
+            inputs.settings.lights.count = 12;
         }
-        const auto golden = readPng(path);
-        ASSERT_TRUE(golden) << path << " is missing";
-        ASSERT_EQ(golden->width_px, 320U);
-        ASSERT_EQ(golden->height_px, 180U);
-        const auto difference = compare(*golden, picture.rgba8);
-        EXPECT_LT(difference.rmse, kMaxRmse);
-        EXPECT_LT(difference.share_above_8, kMaxShareAbove8);
+        if (debug == view::DebugView::kClusterWires) { // frozen, seen from beside and above
+            inputs.settings.debug.grid_camera = inputs.settings.camera;
+            inputs.settings.camera = scene.cameras[1].camera;
+        }
+        expectAsCommitted(drawPixels(view, inputs), "debug_" + std::string(view::nameOf(debug)));
     }
 }
 

@@ -4,8 +4,7 @@
 
 namespace froxel::test {
 
-Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {
-    inputs.keep_radiance = true;
+Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs) {
     Picture picture;
     const auto submitted = view.submit(inputs);
     if (!submitted) {
@@ -17,17 +16,26 @@ Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {
         ADD_FAILURE() << frame.error().message;
         return picture;
     }
-    auto linear = view.readLinear();
-    if (!linear) {
-        ADD_FAILURE() << linear.error().message;
-        return picture;
-    }
     const PixelView& pixels = frame->pixels.view();
     picture.width_px = pixels.width_px;
     picture.height_px = pixels.height_px;
     picture.rgba8.assign(pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px);
-    picture.radiance = std::move(linear->rgb);
     picture.stats = frame->stats;
+    return picture;
+}
+
+Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {
+    inputs.keep_radiance = true;
+    Picture picture = drawPixels(view, inputs);
+    if (picture.rgba8.empty()) {
+        return picture;
+    }
+    auto linear = view.readLinear();
+    if (!linear) {
+        ADD_FAILURE() << linear.error().message;
+        return {};
+    }
+    picture.radiance = std::move(linear->rgb);
     return picture;
 }
 

@@ -20,6 +20,9 @@ struct Picture {
 [[nodiscard]] Picture draw(render::ViewRenderer& view, render::FrameInputs inputs);
 [[nodiscard]] Picture draw(render::Renderer& renderer, const render::FrameInputs& inputs);
 
+// Without its radiance, as debug views have none.
+[[nodiscard]] Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs);
+
 // Floats whose bits differ; every float where the sizes do.
 [[nodiscard]] size_t differingFloats(const Picture& a, const Picture& b);
 

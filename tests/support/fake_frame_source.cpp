@@ -36,8 +36,8 @@ std::byte shadeOf(const view::ViewSettings& settings) {
 
 // As a real renderer's would be, in round numbers.
 void fillStats(FrameStats& stats, const view::ViewSettings& settings) {
-    static const auto kDetails = std::make_shared<const FrameDetails>(
-        FrameDetails{{"nothing is drawn: no passes"}, {{"pixels", 4096}, {"light lists", 512}}});
+    static const auto kDetails = std::make_shared<const FrameDetails>(FrameDetails{
+        {"nothing is drawn: no passes"}, {{"pixels", 4096}, {"light lists", 512}}, {}});
     stats.details = kDetails;
     stats.lists.light_count = settings.lights.count;
     stats.lists.cluster_count = 8;

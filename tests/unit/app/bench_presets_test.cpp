@@ -191,6 +191,7 @@ TEST(RenderArguments, EverySetting_ParsesBack) {
     s.lights.animate = false;
     s.lights.cutoff = 0.1F;
     s.lights.speed = 2.5F;
+    s.debug = {.view = view::DebugView::kDepth, .scale_max = 12.5, .grid_camera = {}};
     s.exposure = 1.7F;
     s.tone_map = view::ToneMap::kClamp;
     options.lens_shift = glm::dvec2(0.1, -0.25);

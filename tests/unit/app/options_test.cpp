@@ -70,6 +70,12 @@ TEST(Options, RenderWithAll_FillsEveryField) {
                                       "--gbuffer-position",
                                       "fp16",
                                       "--count-pairs",
+                                      "--debug-view",
+                                      "cluster_wires",
+                                      "--debug-scale-max",
+                                      "12.5",
+                                      "--grid-camera",
+                                      "nave",
                                       "--lens-shift",
                                       "0,0.5",
                                       "--frames",
@@ -103,7 +109,10 @@ TEST(Options, RenderWithAll_FillsEveryField) {
     EXPECT_EQ(options.settings.gbuffer,
               (view::GbufferLayout{view::NormalEncoding::kOct10, view::PositionSource::kFp16}));
     EXPECT_TRUE(options.settings.count_pairs);
+    EXPECT_EQ(options.settings.debug.view, view::DebugView::kClusterWires);
+    EXPECT_EQ(options.settings.debug.scale_max, 12.5);
     EXPECT_EQ(options.settings.lights.speed, 2.5F);
+    EXPECT_EQ(options.grid_camera, CameraChoice(std::string("nave")));
     EXPECT_EQ(options.lens_shift, glm::dvec2(0, 0.5));
     EXPECT_EQ(options.frame_count, 20U);
     EXPECT_EQ(options.timings, "t.json");
@@ -176,6 +185,8 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "4x5x6",
                                 "--light-loop",
                                 "lists",
+                                "--debug-view",
+                                "overdraw",
                                 "--light-intensity",
                                 "3",
                                 "--light-speed",
@@ -215,6 +226,7 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.other.lighting, view::LightingStage::kCompute);
     EXPECT_EQ(serve.other.grid, (view::Grid{.automatic = false, .size = {4, 5, 6}}));
     EXPECT_EQ(serve.other.light_loop, view::LightLoop::kLists);
+    EXPECT_EQ(serve.other.debug.view, view::DebugView::kOverdraw);
     EXPECT_EQ(serve.other.lights.intensity, 3.0F);
     EXPECT_EQ(serve.other.lights.speed, 0.5F);
     EXPECT_EQ(serve.other.lights.box, (BoundsD3{{-1, -1, -1}, {1, 1, 1}}));

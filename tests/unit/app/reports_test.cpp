@@ -66,7 +66,7 @@ TEST(FrameReport, GridListsPairsPlanAndMemory_AreThere) {
     stats.lists.why = "lists pay";
     stats.pairs = {true, 100, 25};
     stats.details =
-        std::make_shared<const FrameDetails>(FrameDetails{{"no masks"}, {{"textures", 7}}});
+        std::make_shared<const FrameDetails>(FrameDetails{{"no masks"}, {{"textures", 7}}, {}});
     const auto report = frameReport(stats);
     EXPECT_EQ(report["grid"]["size"], nlohmann::json({30, 17, 32}));
     EXPECT_EQ(report["grid"]["why"], "cheapest");

@@ -93,7 +93,7 @@ TEST_F(ConversationTest, Frame_WaitedInTheSlot_TellsHowLong) {
 }
 
 std::shared_ptr<const FrameDetails> detailsOf(const char* line) {
-    return std::make_shared<const FrameDetails>(FrameDetails{{line}, {{"textures", 7}}});
+    return std::make_shared<const FrameDetails>(FrameDetails{{line}, {{"textures", 7}}, {}});
 }
 
 TEST_F(ConversationTest, Details_News_GoBeforeTheFirstFrameThatTheyAreTrueOf) {

@@ -15,7 +15,7 @@ session::FrameRecord recordWith(std::vector<MemoryUse> memory) {
     record.render_us = 20'000;
     record.stats.lists.p95 = 33;
     record.stats.details =
-        std::make_shared<const FrameDetails>(FrameDetails{{}, std::move(memory)});
+        std::make_shared<const FrameDetails>(FrameDetails{{}, std::move(memory), {}});
     return record;
 }
 

@@ -231,4 +231,39 @@ TEST(FramePlan, GenericParts_OnlyWiden) {
     EXPECT_FALSE(generalised({}, {.spots = true}).spots); // no light to have a cone
 }
 
+TEST(FramePlan, DebugViews_InThePicturesPlace_DrawSurfacesAndNoLight) {
+    view::ViewSettings settings;
+    FrameFacts facts = kLit;
+    facts.transparent_visible = true;
+    settings.renderer = Renderer::kForwardPlus;
+    settings.debug.view = view::DebugView::kListedLights;
+    const auto lists = planFrame(settings, facts);
+    EXPECT_TRUE(lists.depth_prepass);
+    EXPECT_TRUE(lists.lists);
+    EXPECT_FALSE(lists.forward || lists.gbuffer || lists.transparent || lists.tonemap ||
+                 lists.radiance);
+    settings.debug.view = view::DebugView::kNormal;
+    const auto normal = planFrame(settings, facts);
+    EXPECT_TRUE(normal.gbuffer);
+    EXPECT_FALSE(normal.lighting_compute || normal.lighting_fragment || normal.lists);
+    settings.renderer = Renderer::kToonCompute;
+    settings.debug.view = view::DebugView::kOverdraw;
+    const auto overdraw = planFrame(settings, facts);
+    EXPECT_TRUE(overdraw.radiance);
+    EXPECT_FALSE(overdraw.gbuffer || overdraw.depth_prepass || overdraw.toon_pass);
+    settings.renderer = Renderer::kNaive;
+    settings.debug.view = view::DebugView::kEvaluatedLights;
+    EXPECT_FALSE(planFrame(settings, facts).lists); // it loops over all
+}
+
+TEST(FramePlan, DebugViews_OverThePicture_AddRadianceAndAToneMap) {
+    view::ViewSettings settings;
+    settings.lighting = LightingStage::kCompute;
+    settings.debug.view = view::DebugView::kLightSpheres;
+    const auto p = planFrame(settings, kLit);
+    EXPECT_TRUE(p.lighting_compute && p.radiance && p.tonemap);
+    settings.debug.view = view::DebugView::kNone;
+    EXPECT_FALSE(planFrame(settings, kLit).tonemap);
+}
+
 } // namespace froxel::render

@@ -69,7 +69,7 @@ TEST(FrameDetails, OnlyAChange_MakesAnotherObject) {
     const SceneNeeds needs;
     FrameFacts facts;
     const auto update = [&] {
-        return keeper.update({}, facts, planFrame({}, facts), needs, ledger);
+        return keeper.update({}, facts, planFrame({}, facts), needs, ledger, nullptr);
     };
     const auto first = update();
     EXPECT_EQ(first, update());

@@ -30,6 +30,10 @@ struct PromiseKept {
                !(c.size && c.automatic.value_or(false)) &&
                (!c.law || static_cast<size_t>(*c.law) < view::kGridLawNames.size());
     }
+    bool operator()(const SetDebugView& c) const {
+        return (!c.view || static_cast<size_t>(*c.view) < view::kDebugViewNames.size()) &&
+               (!c.scale_max || view::kDebugScaleRange.contains(*c.scale_max));
+    }
     bool operator()(const SetSize& c) const {
         return view::kWidthRange.contains(c.size.width_px) &&
                view::kHeightRange.contains(c.size.height_px);
@@ -58,8 +62,10 @@ void expectSane(const CommandResult<CommandMessage>& result) {
 }
 
 std::vector<v1::ClientMessage> seeds() {
-    std::vector<v1::ClientMessage> all(6, clientMessage());
+    std::vector<v1::ClientMessage> all(7, clientMessage());
     all[0].mutable_hello()->set_client_name("fuzz");
+    all[6].mutable_set_debug_view()->set_view(v1::DEBUG_VIEW_DEPTH);
+    all[6].mutable_set_debug_view()->set_scale_max(10);
     all[1].mutable_set_camera()->mutable_eye()->set_x(1);
     all[1].mutable_set_camera()->mutable_target()->set_y(1);
     all[1].mutable_set_camera()->set_fov_deg(45);

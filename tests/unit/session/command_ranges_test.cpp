@@ -91,6 +91,8 @@ const std::vector<RangedField>& fields() {
         ranged(view::kTargetFpsRange,
                [](M& m, double v) { m.mutable_set_delivery()->set_target_fps(v); }),
         ranged(view::kTimeRange, [](M& m, double v) { m.mutable_set_lights()->set_time_s(v); }),
+        ranged(view::kDebugScaleRange,
+               [](M& m, double v) { m.mutable_set_debug_view()->set_scale_max(v); }),
         ranged(view::kExposureRange,
                [](M& m, double v) { m.mutable_set_exposure()->set_exposure(v); }),
         ranged(view::kFovRange, [](M& m, double v) { camera(m).set_fov_deg(v); }),

@@ -257,6 +257,29 @@ TEST_F(State, TheOtherCommands_SetTheirFields) {
     EXPECT_EQ(state.version, initial.version + 9);
 }
 
+TEST_F(State, DebugView_Freeze_KeepsTheCameraOfThen) {
+    SetDebugView set;
+    set.view = view::DebugView::kClusterWires;
+    set.scale_max = 12;
+    SessionState state = applied(initial, set);
+    EXPECT_EQ(state.settings.debug.view, view::DebugView::kClusterWires);
+    EXPECT_EQ(state.settings.debug.scale_max, 12);
+    EXPECT_FALSE(state.settings.debug.grid_camera);
+    SetDebugView freeze;
+    freeze.freeze = true;
+    state = applied(state, freeze);
+    const view::Camera kept = state.settings.camera;
+    SetCamera camera;
+    camera.target_world = {1, 2, 3};
+    state = applied(state, camera);
+    EXPECT_NE(state.settings.camera, kept);
+    state = applied(state, freeze); // it is frozen already
+    EXPECT_EQ(state.settings.debug.grid_camera, kept);
+    EXPECT_EQ(state.settings.debug.view, view::DebugView::kClusterWires);
+    freeze.freeze = false;
+    EXPECT_FALSE(applied(state, freeze).settings.debug.grid_camera);
+}
+
 TEST_F(State, Codec_OnlyOneThatTheClientDecodes) {
     SetEncoding video;
     video.codec = view::Codec::kVp9;

@@ -64,6 +64,7 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.grid = {.automatic = false, .size = {1, 2, 3}, .law = view::GridLaw::kLinear};
     state.light_clock =
         state.light_clock.withTime(TimePoint(2s), 6.5).withRate(TimePoint(2s), 1, false);
+    state.settings.debug = {view::DebugView::kOverdraw, 6, state.settings.camera};
     state.settings.exposure = 0.5F;
     state.settings.tone_map = view::ToneMap::kClamp;
     state.settings.toon_compute.count = 2;
@@ -97,6 +98,9 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.light_loop(), v1::LIGHT_LOOP_LISTS);
     EXPECT_TRUE(view.count_pairs());
     EXPECT_EQ(view.light_time_s(), 6.5);
+    EXPECT_EQ(view.debug_view(), v1::DEBUG_VIEW_OVERDRAW);
+    EXPECT_EQ(view.debug_scale_max(), 6);
+    EXPECT_TRUE(view.debug_frozen());
     EXPECT_EQ(view.exposure(), 0.5);
     EXPECT_EQ(view.tone_map(), v1::TONE_MAP_CLAMP);
     EXPECT_EQ(view.toon_fragment().points_size(), 8);
@@ -250,9 +254,24 @@ TEST(FrameHeader, GridAndPairs_AreThereOnlyWhereTheFrameHasThem) {
     EXPECT_EQ(header.pairs().contributing(), 3U);
 }
 
+TEST(FrameDetails, Legend_IsThereWithADebugView) {
+    FrameDetails details;
+    EXPECT_FALSE(makeFrameDetails(details).details().has_legend());
+    details.legend = DebugLegend{"overdraw", "Fragments", 0, 8, "fragments", {0x440154, 0xfde725}};
+    const v1::ServerMessage message = makeFrameDetails(details);
+    const v1::DebugLegend& legend = message.details().legend();
+    EXPECT_EQ(legend.view(), v1::DEBUG_VIEW_OVERDRAW);
+    EXPECT_EQ(legend.words(), "Fragments");
+    EXPECT_EQ(legend.max(), 8);
+    EXPECT_EQ(legend.unit(), "fragments");
+    ASSERT_EQ(legend.colors_size(), 2);
+    EXPECT_EQ(legend.colors(1), 0xfde725U);
+}
+
 TEST(FrameDetails, CarryTheirLinesAndRowsInOrder) {
     const FrameDetails details{{"no masks: no discard", "no spots"},
-                               {{"textures", 5'000'000'000}, {"lists", 7}}};
+                               {{"textures", 5'000'000'000}, {"lists", 7}},
+                               {}};
     const v1::ServerMessage message = makeFrameDetails(details);
     ASSERT_EQ(message.details().plan_size(), 2);
     EXPECT_EQ(message.details().plan(1), "no spots");
