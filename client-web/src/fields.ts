@@ -126,7 +126,7 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'shading',
       'Shading',
       ShadingModelSchema,
-      'pbr: metallic-roughness; lambert: its diffuse part alone',
+      'pbr: metallic-roughness; lambert: its diffuse part alone, a third of a light’s cost; blinn_phong: another highlight, as dear as pbr',
     ),
     choice(
       'gbufferNormal',

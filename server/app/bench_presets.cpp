@@ -109,11 +109,16 @@ Sweep grid(const BenchBase& base) {
 }
 
 Sweep shading(const BenchBase& base) {
-    Sweep sweep{"shading", "Shading models", "model",
-                "",        Axis::kCategory,  "Metallic-roughness against its diffuse part alone.",
+    Sweep sweep{"shading",
+                "Shading models",
+                "model",
+                "",
+                Axis::kCategory,
+                "Metallic-roughness, its diffuse part alone, and Blinn's highlight.",
                 {}};
     for (const auto& way : kWays) {
-        for (const auto model : {view::ShadingModel::kLambert, view::ShadingModel::kPbr}) {
+        for (const auto model : {view::ShadingModel::kLambert, view::ShadingModel::kBlinnPhong,
+                                 view::ShadingModel::kPbr}) {
             sweep.rows.push_back(rowOf(base, way, nameOf(view::kShadingModelNames, model),
                                        static_cast<double>(model),
                                        [&](auto& s) { s.shading = model; }));

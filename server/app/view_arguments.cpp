@@ -17,7 +17,7 @@ void addShading(CommandBuilder& command, view::ViewSettings& settings) {
         "--lighting", settings.lighting, view::kLightingStageNames,
         "Stage that adds lights up; auto: fragment for forward renderers on a CPU, else compute");
     command.name("--shading", settings.shading, view::kShadingModelNames,
-                 "Metallic-roughness, or its diffuse part alone");
+                 "Metallic-roughness, its diffuse part alone, or with Blinn's highlight");
     const auto grid = [&settings](const std::string& text) {
         return parseGridChoice(text, settings.grid);
     };

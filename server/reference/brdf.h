@@ -1,4 +1,5 @@
-// What a surface sends towards the eye: glTF 2.0, appendix B, in double.
+// What a surface sends towards the eye: glTF 2.0, appendix B, or one of the other shading models, in
+// double.
 #pragma once
 
 #include "reference/lights.h"

@@ -20,6 +20,18 @@ uint32_t sliceFlags(view::GridLaw law) {
     return 0;
 }
 
+uint32_t shadingFlag(view::ShadingModel model) {
+    switch (model) {
+    case view::ShadingModel::kPbr:
+        return 0;
+    case view::ShadingModel::kLambert:
+        return io::kLightLambert;
+    case view::ShadingModel::kBlinnPhong:
+        return io::kLightBlinnPhong;
+    }
+    return 0;
+}
+
 uint32_t
 lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lists, bool compute) {
     uint32_t flags = 0;
@@ -42,7 +54,7 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
     if (flags != 0 && settings.renderer == view::Renderer::kToonFragment) {
         flags |= io::kLightToon;
     }
-    flags |= settings.shading == view::ShadingModel::kLambert ? io::kLightLambert : 0U;
+    flags |= shadingFlag(settings.shading);
     return flags;
 }
 

@@ -71,6 +71,8 @@ void addLightWords(Lines& lines,
     }
     if (settings.shading == view::ShadingModel::kLambert) {
         lines.emplace_back("lambert: no specular part, no roughness textures");
+    } else if (settings.shading == view::ShadingModel::kBlinnPhong) {
+        lines.emplace_back("blinn_phong: highlights by a power of the half vector's cosine");
     }
 }
 

@@ -26,6 +26,7 @@ inline constexpr std::array kLightingStageTable = {
 inline constexpr std::array kShadingModelTable = {
     std::pair{v1::SHADING_MODEL_PBR, view::ShadingModel::kPbr},
     std::pair{v1::SHADING_MODEL_LAMBERT, view::ShadingModel::kLambert},
+    std::pair{v1::SHADING_MODEL_BLINN_PHONG, view::ShadingModel::kBlinnPhong},
 };
 inline constexpr std::array kGridLawTable = {
     std::pair{v1::GRID_LAW_LOGARITHMIC, view::GridLaw::kLogarithmic},

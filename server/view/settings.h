@@ -34,10 +34,10 @@ inline constexpr std::array kLightingStageNames = {
     std::string_view("auto"), std::string_view("compute"), std::string_view("fragment")};
 
 // How a surface answers light. pbr: glTF's metallic-roughness model. lambert: its diffuse part
-// alone.
-enum class ShadingModel : uint8_t { kPbr, kLambert };
-inline constexpr std::array kShadingModelNames = {std::string_view("pbr"),
-                                                  std::string_view("lambert")};
+// alone. blinn_phong: pbr's colours with Blinn's highlight, whose shininess comes from roughness.
+enum class ShadingModel : uint8_t { kPbr, kLambert, kBlinnPhong };
+inline constexpr std::array kShadingModelNames = {
+    std::string_view("pbr"), std::string_view("lambert"), std::string_view("blinn_phong")};
 
 // How slices divide depth. Never changes the picture.
 enum class GridLaw : uint8_t { kLogarithmic, kLinear, kHyperbolic };

@@ -40,6 +40,7 @@ FROXEL_CONST uint kLightLambert = 1U << 7;     // view::ShadingModel::kLambert
 FROXEL_CONST uint kLightEqualRadii = 1U << 8;  // Frame::light_inv_radius2 is every light's
 FROXEL_CONST uint kLightCulled = 1U << 9;      // batched, and what a subgroup can skip is skipped
 FROXEL_CONST uint kLightLong = 1U << 10;       // loops take several lights an iteration
+FROXEL_CONST uint kLightBlinnPhong = 1U << 11; // view::ShadingModel::kBlinnPhong
 FROXEL_CONST uint kLightSlicesLinear = 1U << 12; // cluster::SliceLaw; neither: logarithmic
 FROXEL_CONST uint kLightSlicesHyperbolic = 1U << 13;
 

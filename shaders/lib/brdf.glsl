@@ -2,6 +2,10 @@
 // Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A light only adds
 // weights that do not depend on the surface's colours; those are applied once, at the end.
 // With kLightLambert only base colour / pi is left of it: no eye, no roughness, no metalness.
+// With kLightBlinnPhong D V is Blinn's lobe instead, (n.h)^s (Blinn 1977) over its reflectance head-on,
+// 8 pi (s + 2^(-s/2)) / ((s + 2)(s + 4)) (Giesen 2009, "Phong Normalization Factor derivations"), so that
+// a white metal returns exactly all of what comes head-on. s = 2 / alpha^2 - 2, the exponent whose
+// slopes vary as much as those of a Beckmann surface of that alpha (Walter et al. 2007, section 5.2).
 
 const float kPi = 3.14159265358979;
 const float kMostInverse2 = 1e4; // 1 / (1 cm)^2: the falloff's ceiling
@@ -15,6 +19,8 @@ struct Surface {
     float n_dot_eye;   // negative where a normal map or interpolation turns the normal away
     float alpha2;      // roughness^4
     float visibility_v; // sqrt(n_dot_v^2 (1 - alpha2) + alpha2)
+    float shininess;    // blinn_phong: half of s
+    float lobe;         // blinn_phong: 2 pi times the lobe's height
 };
 
 struct LightSum {
@@ -32,6 +38,7 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     if (hasLight(kLightLambert)) {
         s.to_eye_view = vec3(0.0);
         s.n_dot_v = s.n_dot_eye = s.alpha2 = s.visibility_v = 0.0;
+        s.shininess = s.lobe = 0.0;
         return s;
     }
     s.to_eye_view =
@@ -41,7 +48,28 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     float alpha = max(roughness, 0.045) * max(roughness, 0.045);
     s.alpha2 = alpha * alpha;
     s.visibility_v = sqrt(s.n_dot_v * s.n_dot_v * (1.0 - s.alpha2) + s.alpha2);
+    s.shininess = s.lobe = 0.0;
+    if (hasLight(kLightBlinnPhong)) {
+        precise float half_s = 1.0 / s.alpha2 - 1.0;
+        s.shininess = half_s;
+        precise float below = exp2(-half_s) + 2.0 * half_s;
+        precise float lobe = (half_s + 1.0) * (half_s + 2.0) / below;
+        s.lobe = lobe;
+    }
     return s;
+}
+
+// (cosine^2)^power for cosine^2 = c2 / h2. Near 1 by a series in the sine: a software rasteriser's
+// logarithm is off by 1e-5 there, and powers go up to 2e5.
+float lobePower(float c2, float h2, float power) {
+    precise float u = max(h2 - c2, 0.0) / (h2 + c2); // log(c2 / h2) = -2 atanh(u)
+    precise float u2 = u * u;
+    precise float series = u * fma(u2, fma(u2, fma(u2, 1.0 / 7.0, 1.0 / 5.0), 1.0 / 3.0), 1.0);
+    precise float log2_cosine2 =
+        u < 0.05 ? series * (-2.0 * 1.44269504) : log2(max(c2 / h2, 1e-30));
+    precise float exponent = power * log2_cosine2;
+    // Powers too small to matter end before they are denormal, which stages of llvmpipe flush or keep.
+    return exponent > -64.0 ? exp2(exponent) : 0.0;
 }
 
 // Adds light of irradiance colour * attenuation from direction l; both dot products signed.
@@ -61,11 +89,18 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, v
     precise float n_dot_sum = facing + s.n_dot_eye;
     precise float q = max(fma(-0.5, sqrt(h2), 1.0), 0.0);
     precise float p = (q * q) * (q * q) * q;
-    precise float t = fma(min(n_dot_sum * n_dot_sum, h2), s.alpha2 - 1.0, h2);
-    precise float visibility_l = sqrt(fma(facing * facing, 1.0 - s.alpha2, s.alpha2));
-    precise float v = fma(facing, s.visibility_v, s.n_dot_v * visibility_l);
+    precise float lobe;
+    if (hasLight(kLightBlinnPhong)) {
+        precise float c2 = min(n_dot_sum * n_dot_sum, h2);
+        lobe = s.lobe * lobePower(c2, h2, s.shininess);
+    } else {
+        precise float t = fma(min(n_dot_sum * n_dot_sum, h2), s.alpha2 - 1.0, h2);
+        precise float visibility_l = sqrt(fma(facing * facing, 1.0 - s.alpha2, s.alpha2));
+        precise float v = fma(facing, s.visibility_v, s.n_dot_v * visibility_l);
+        lobe = s.alpha2 * (h2 * h2) / (t * t * v);
+    }
     // No facet faces between light and eye where their half vector is behind the surface.
-    precise float g = n_dot_sum > 0.0 ? e * (s.alpha2 * (h2 * h2) / (t * t * v)) : 0.0;
+    precise float g = n_dot_sum > 0.0 ? e * lobe : 0.0;
     precise float diffuse = fma(-scattered, p, scattered);
     precise float grazing = g * p;
     precise float specular = g - grazing;

@@ -139,7 +139,8 @@ TEST_F(Reference, PlainRoom_Forward_IsWithinArithmetic) {
     const auto room = makePlainRoom();
     Compared compared(device(), room);
     for (const auto& camera : room.cameras) {
-        for (const auto model : {ShadingModel::kLambert, ShadingModel::kPbr}) {
+        for (const auto model :
+             {ShadingModel::kLambert, ShadingModel::kBlinnPhong, ShadingModel::kPbr}) {
             auto inputs = inputsFor(camera.camera, Renderer::kNaive);
             inputs.settings.shading = model;
             const Errors errors = compared.against(inputs);

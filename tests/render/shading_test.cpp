@@ -121,40 +121,61 @@ TEST_F(Shading, LambertOnAFloor_AnyRenderer_IsAlbedoOverPiTimesIrradiance) {
     }
 }
 
+namespace {
+
+void expectSameByAnyWay(render::Renderer& renderer, render::FrameInputs inputs) {
+    inputs.settings.renderer = Renderer::kNaive;
+    const Picture naive = draw(renderer, inputs);
+    inputs.settings.renderer = Renderer::kForwardPlus;
+    EXPECT_EQ(differingFloats(naive, draw(renderer, inputs)), 0U);
+    for (const auto kind :
+         {Renderer::kClusteredDeferred, Renderer::kToonFragment, Renderer::kToonCompute}) {
+        SCOPED_TRACE(nameOf(kind));
+        inputs.settings.renderer = kind;
+        const Picture lists = draw(renderer, inputs);
+        auto other = inputs;
+        other.settings.light_loop = LightLoop::kAllLights;
+        EXPECT_EQ(differingFloats(lists, draw(renderer, other)), 0U);
+        other = inputs;
+        other.settings.lighting = LightingStage::kFragment;
+        EXPECT_EQ(differingFloats(lists, draw(renderer, other)), 0U);
+    }
+}
+
+} // namespace
+
 TEST_F(Shading, Lambert_ListsStagesAndRenderers_GiveTheSamePicture) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     for (const auto& camera : scene.cameras) {
         for (const uint32_t count : {1U, 40U, 700U}) {
+            SCOPED_TRACE(count);
             auto inputs = inputsFor(camera.camera, Renderer::kNaive);
             inputs.settings.shading = ShadingModel::kLambert;
             inputs.settings.lights.count = count;
-            const Picture naive = draw(renderer, inputs);
-            inputs.settings.renderer = Renderer::kForwardPlus;
-            EXPECT_EQ(differingFloats(naive, draw(renderer, inputs)), 0U) << count;
-            for (const auto kind :
-                 {Renderer::kClusteredDeferred, Renderer::kToonFragment, Renderer::kToonCompute}) {
-                SCOPED_TRACE(nameOf(kind) + ", " + std::to_string(count) + " lights");
-                inputs.settings.renderer = kind;
-                const Picture lists = draw(renderer, inputs);
-                auto other = inputs;
-                other.settings.light_loop = LightLoop::kAllLights;
-                EXPECT_EQ(differingFloats(lists, draw(renderer, other)), 0U);
-                other = inputs;
-                other.settings.lighting = LightingStage::kFragment;
-                EXPECT_EQ(differingFloats(lists, draw(renderer, other)), 0U);
-            }
+            expectSameByAnyWay(renderer, inputs);
         }
     }
 }
 
-TEST_F(Shading, Lambert_AgainstPbr_IsAnotherPicture) {
+TEST_F(Shading, BlinnPhong_ListsStagesAndRenderers_GiveTheSamePicture) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kNaive);
+    inputs.settings.shading = ShadingModel::kBlinnPhong;
+    inputs.settings.lights.count = 40;
+    expectSameByAnyWay(renderer, inputs);
+}
+
+TEST_F(Shading, OtherModels_AgainstPbr_AreOtherPictures) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kClusteredDeferred);
     const Picture pbr = draw(renderer, inputs);
-    inputs.settings.shading = ShadingModel::kLambert;
-    EXPECT_GT(differingFloats(pbr, draw(renderer, inputs)), pbr.radiance.size() / 2);
+    for (const auto shading : {ShadingModel::kLambert, ShadingModel::kBlinnPhong}) {
+        inputs.settings.shading = shading;
+        EXPECT_GT(differingFloats(pbr, draw(renderer, inputs)), pbr.radiance.size() / 2);
+    }
 }
 
 // A light of another radius, too far away to add anything, makes the radius no constant any more;

@@ -14,6 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const Model kPbr{};
 const Model kLambert{view::ShadingModel::kLambert, nullptr};
+const Model kBlinnPhong{view::ShadingModel::kBlinnPhong, nullptr};
 
 glm::dvec3 direction(double from_up_rad, double turn_rad) {
     return {std::sin(from_up_rad) * std::cos(turn_rad), std::cos(from_up_rad),
@@ -126,6 +127,35 @@ TEST(ReferenceBrdf, WhiteMetalInAFurnace_ReturnsAtMostAll) {
     s.metallic = 1;
     EXPECT_NEAR(albedo(s, kPbr), 1 - std::numbers::ln2, 1e-4);
     EXPECT_NEAR(albedo(s, kLambert), 1, 1e-4);
+}
+
+// The lobe is scaled to return all of what comes head-on, whatever the roughness, and returns less
+// from the side, where half of it lies below the surface: no masking makes up for that.
+TEST(ReferenceBrdf, WhiteBlinnPhongMetalInAFurnace_ReturnsAllHeadOnAndNeverMore) {
+    for (const double roughness : {0.1, 0.3, 0.6, 1.0}) {
+        Surface s = seenFrom({0, 1, 0});
+        s.metallic = 1;
+        s.roughness = roughness;
+        EXPECT_NEAR(albedo(s, kBlinnPhong), 1, 1e-3) << roughness;
+        for (const double angle : {0.7, 1.3}) {
+            s.to_eye = direction(angle, 0.5);
+            const double returned = albedo(s, kBlinnPhong);
+            EXPECT_LE(returned, 1.001) << roughness << " " << angle;
+            EXPECT_GE(returned, 0.05) << roughness << " " << angle;
+        }
+    }
+}
+
+// By hand: roughness 1 gives the exponent 0, a lobe of 1 / pi everywhere; roughness 0.5 gives 30.
+TEST(ReferenceBrdf, BlinnPhong_OfKnownExponents_IsItsFormula) {
+    Surface s = seenFrom(direction(0.4, 0));
+    s.metallic = 1;
+    EXPECT_NEAR(reflected(s, kBlinnPhong, direction(0.4, kPi)).x, std::cos(0.4) / kPi, 1e-12);
+    s.roughness = 0.5;
+    const double peak = 32.0 * 34.0 / (8 * kPi * (30 + std::pow(2.0, -15)));
+    EXPECT_NEAR(reflected(s, kBlinnPhong, direction(0.4, kPi)).x, std::cos(0.4) * peak, 1e-12);
+    EXPECT_NEAR(reflected(s, kBlinnPhong, direction(0.2, 0)).x,
+                std::cos(0.2) * peak * std::pow(std::cos(0.3), 30), 1e-12);
 }
 
 // Microfacets between light and eye all face away: only what is scattered is left.

@@ -156,7 +156,10 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
             {has(flags, io::kLightToon) == (any && settings.renderer == Renderer::kToonFragment),
              "the ramp if there is light to bend"},
             {has(flags, io::kLightLambert) == (settings.shading == view::ShadingModel::kLambert),
-             "the shading model asked for"},
+             "lambert where it is asked for"},
+            {has(flags, io::kLightBlinnPhong) ==
+                 (settings.shading == view::ShadingModel::kBlinnPhong),
+             "blinn_phong where it is asked for"},
         };
         for (const auto& [holds, rule] : light_rules) {
             if (!holds) {
@@ -178,7 +181,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
 TEST(FramePlan, EveryCombination_KeepsTheRules) {
     constexpr uint32_t kFacts = 15;
     view::ViewSettings settings;
-    for (uint32_t setting = 0; setting < 5 * 3 * 2 * 2 * 3 * 2; ++setting) {
+    for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 3 * 2; ++setting) {
         uint32_t rest = setting;
         const auto next = [&rest](uint32_t count) {
             const uint32_t value = rest % count;
@@ -187,7 +190,7 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
         };
         settings.renderer = static_cast<Renderer>(next(5));
         settings.lighting = static_cast<LightingStage>(next(3));
-        settings.shading = static_cast<view::ShadingModel>(next(2));
+        settings.shading = static_cast<view::ShadingModel>(next(view::kShadingModelNames.size()));
         settings.tone_map = static_cast<view::ToneMap>(next(2));
         settings.grid.law = static_cast<view::GridLaw>(next(3));
         settings.count_pairs = next(2) != 0;
