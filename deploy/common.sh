@@ -15,13 +15,13 @@ build_packages=(
     libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev
     libglm-dev libboost1.81-dev libspdlog-dev libcli11-dev
     libturbojpeg0-dev libpng-dev libvpx-dev
-    libprotobuf-dev protobuf-compiler prometheus-cpp-dev
+    libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev
     ca-certificates
 )
 run_packages=(mesa-vulkan-drivers)
 test_packages=(
     vulkan-validationlayers libgtest-dev libgmock-dev libbenchmark-dev
-    python3 python3-websockets git ccache
+    python3 python3-websockets python3-yaml openssl git ccache
 )
 build_tools=(c++ cmake ninja pkg-config glslangValidator spirv-val protoc node npm)
 
@@ -40,6 +40,9 @@ add_unless_on_path build_packages node nodejs
 add_unless_on_path build_packages npm npm
 add_unless_on_path test_packages chromium chromium
 add_unless_on_path test_packages promtool prometheus
+add_unless_on_path test_packages kubectl kubernetes-client
+add_unless_on_path test_packages /usr/sbin/nginx nginx-light
+add_unless_on_path test_packages /usr/sbin/haproxy haproxy
 
 is_debian_12() {
     [[ -r /etc/os-release ]] || return 1
@@ -73,11 +76,14 @@ apt_get() {
         -o Dpkg::Use-Pty=0 "$@" </dev/null >/dev/null
 }
 
-# Only promtool is wanted of that package, and its daemon takes the port of our own metrics.
-stop_prometheus() {
-    if [[ -d /run/systemd/system ]]; then
-        as_root systemctl disable --quiet --now prometheus
-    fi
+# Tests want these packages' programs, not their daemons: Prometheus' takes the port of our own metrics.
+stop_daemons_among() { # PACKAGE...
+    [[ -d /run/systemd/system ]] || return 0
+    local -A daemons=([prometheus]=prometheus [nginx-light]=nginx [haproxy]=haproxy)
+    local package
+    for package in "$@"; do
+        [[ -z ${daemons[$package]:-} ]] || as_root systemctl disable --quiet --now "${daemons[$package]}"
+    done
 }
 
 # On Debian 12 installs what is missing; elsewhere says what is needed and goes on if the tools are
@@ -92,7 +98,7 @@ require_packages() {
         say "installing (this takes minutes): ${missing[*]}"
         apt_get update
         apt_get install --no-install-recommends "${missing[@]}"
-        [[ " ${missing[*]} " != *" prometheus "* ]] || stop_prometheus
+        stop_daemons_among "${missing[@]}"
         return
     fi
     say "not Debian 12, so nothing is installed; needed are, by their names there: $*"

@@ -21,6 +21,7 @@ inline constexpr uint32_t kMaxJsonDepth = 16;              // brackets in a text
 inline constexpr size_t kMaxClientNameBytes = 64;          // Hello.client_name
 inline constexpr size_t kMaxNameBytes = 256;               // any other name in a command
 inline constexpr size_t kMaxRoomNameBytes = 64;            // Hello.room
+inline constexpr size_t kMaxTokenBytes = 512;              // Hello.token
 inline constexpr size_t kMaxRoomMembersTold = 32;          // in a RoomState
 
 inline constexpr std::chrono::seconds kHelloTimeout{5};
@@ -35,6 +36,7 @@ enum class CloseCode : uint16_t {
     kPolicy = 1008,       // no Hello in time, or too many refused messages; do not retry
     kTooBig = 1009,       // a message over the cap; do not retry
     kVersion = 4001,      // protocol_major differs; do not retry
+    kToken = 4003,        // no valid token; retry with another
     kSlowConsumer = 4008, // a write was stuck for too long; retry
     kReplaced = 4009,     // a newer connection took the session up; do not retry
     kDraining = 4010,     // the server is going down; retry elsewhere or later

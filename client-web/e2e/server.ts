@@ -19,6 +19,7 @@ export async function startServer(port = 0): Promise<Server> {
   if (!binary) throw new Error('FROXEL_BINARY is not set: the path of a froxel binary');
   // However slow the machine, several pages are let in.
   const options = ['--port', String(port), '--admin-bind', 'none', '--min-fps', '0'];
+  options.push('--drain-seconds', '1');
   const child = spawn(binary, ['serve', ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });

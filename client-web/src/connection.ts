@@ -21,6 +21,8 @@ export interface ConnectionEvents {
   frame(frame: Frame, bytes: number): void;
   /** A command that has left, whatever it was. */
   sent?(body: ClientBody): void;
+  /** The server lets nobody in who knows none of its tokens. */
+  tokenWanted(): void;
   /** Something from the server could not be read; the connection goes on. */
   problem(text: string): void;
 }
@@ -35,8 +37,8 @@ export interface Environment {
   openSocket(url: string, subprotocol: string): Socket;
   nowMs(): number; // monotonic
   random(): number; // [0, 1)
-  /** What Hello says besides the version: which room, and which lost session to take up. */
-  hello(): { readonly room: string; readonly resumeToken: string };
+  /** What Hello says besides the version: which room, which lost session to take up, who asks. */
+  hello(): { readonly room: string; readonly resumeToken: string; readonly token: string };
   after(delayMs: number, action: () => void): () => void; // returns how to cancel
   readonly codecs: readonly Codec[]; // that the page decodes
 }
@@ -47,10 +49,12 @@ const kPingEveryMs = 5_000;
 /** Nothing from the server for so long, in spite of pings: the way is broken. */
 const kSilenceMs = 15_000;
 const kOpen = 1;
+const kTokenRefused = 4003;
 
 const kNoRetryReasons: Readonly<Record<number, string>> = {
   1008: 'The server closed the connection: too many refused messages.',
   1009: 'The server closed the connection: a message was too big.',
+  4003: 'The server asks for a token.',
   4009: 'This view is open in another tab or window now.',
   4001: 'This page speaks another protocol version than the server. Reload it.',
 };
@@ -69,6 +73,7 @@ export class Connection {
   private openedAtMs = 0;
   private heardAtMs = 0;
   private cancelTimer: () => void = () => undefined;
+  private cancelLeave: () => void = () => undefined;
 
   constructor(
     private readonly url: string,
@@ -76,15 +81,29 @@ export class Connection {
     private readonly env: Environment,
   ) {}
 
-  open(): void {
+  open(url = this.url): void {
     this.cancelTimer();
+    this.cancelLeave();
     this.events.link({ phase: 'connecting' });
-    const socket = this.env.openSocket(this.url, kSubprotocol);
+    const socket = this.env.openSocket(url, kSubprotocol);
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => this.opened(socket);
     socket.onmessage = (event: MessageEvent) => this.received(event.data);
     socket.onclose = (event) => this.closed(socket, event.code, event.reason);
     this.socket = socket;
+  }
+
+  /**
+   * The server goes down: goes to `url` (empty: the same address, where a proxy knows another
+   * server) at a random time in the first half of the deadline, so that not all go at once.
+   */
+  leave(deadlineMs: number, url: string): void {
+    this.cancelLeave();
+    this.cancelLeave = this.env.after((this.env.random() * deadlineMs) / 2, () => {
+      const before = this.socket;
+      this.open(url === '' ? this.url : url);
+      before?.close();
+    });
   }
 
   /** Bytes that wait to leave this machine. */
@@ -143,11 +162,13 @@ export class Connection {
   private closed(socket: Socket, code: number, reason: string): void {
     if (socket !== this.socket) return; // an older one that the browser closes late
     this.cancelTimer();
+    this.cancelLeave();
     this.socket = null;
     const now = this.env.nowMs();
     const final = kNoRetryReasons[code];
     if (final !== undefined) {
       this.events.link({ phase: 'refused', reason: reason ? `${final} (${reason})` : final });
+      if (code === kTokenRefused) this.events.tokenWanted();
       return;
     }
     if (this.openedAtMs > 0 && now - this.openedAtMs >= kStableMs) this.attempt = 0;

@@ -21,6 +21,7 @@ import { isForControl, runShortcut } from './shortcuts';
 import { Stats } from './stats';
 import { Store } from './store';
 import { LinkKeeper } from './link_keeper';
+import { TokenPrompt } from './token_prompt';
 import { VideoFallback } from './video_fallback';
 import { decodesVp9, type LostSync } from './video_track';
 import { WindowSize } from './window_size';
@@ -36,6 +37,7 @@ const nextFrame = (action: (nowMs: number) => void): void => void requestAnimati
 const wantedRoom = roomFromAddress(location.search);
 const roomName = 'name' in wantedRoom ? wantedRoom.name : '';
 const resume = new Resume(tabShelf(), roomName);
+const token = new TokenPrompt(tabShelf(), () => connection.open());
 const store = new Store();
 const stats = new Stats();
 const picture = new Picture(canvas);
@@ -70,7 +72,11 @@ const connection = new Connection(
       store.dispatch({ type: 'link', link });
     },
     message: (message) => {
-      if (message.body.case === 'welcome') resume.keep(message.body.value.resumeToken);
+      const { body } = message;
+      if (body.case === 'welcome') resume.keep(body.value.resumeToken);
+      if (body.case === 'draining') {
+        connection.leave(body.value.deadlineMs, body.value.reconnectUrl);
+      }
       store.dispatch({ type: 'received', message });
     },
     frame: (frame, bytes) => {
@@ -78,13 +84,14 @@ const connection = new Connection(
       presenter.offer(frame);
     },
     sent: (body) => recorder.sent(body),
+    tokenWanted: () => token.ask(),
     problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
   },
   {
     openSocket: (url, subprotocol) => new WebSocket(url, subprotocol),
     nowMs,
     random: Math.random,
-    hello: () => ({ room: roomName, resumeToken: resume.token }),
+    hello: () => ({ room: roomName, resumeToken: resume.token, token: token.value }),
     after: (delayMs, action) => {
       const timer = setTimeout(action, delayMs);
       return () => clearTimeout(timer);

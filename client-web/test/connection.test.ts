@@ -9,6 +9,7 @@ let connection: Connection;
 let links: Link[];
 let problems: string[];
 let messages: (string | undefined)[];
+let tokensWanted: number;
 const phases = (): string[] => links.map((link) => link.phase);
 
 beforeEach(() => {
@@ -16,12 +17,14 @@ beforeEach(() => {
   links = [];
   problems = [];
   messages = [];
+  tokensWanted = 0;
   connection = new Connection(
     'ws://host/ws',
     {
       link: (link) => void links.push(link),
       message: (message) => void messages.push(message.body.case),
       frame: () => undefined,
+      tokenWanted: () => void (tokensWanted += 1),
       problem: (text) => void problems.push(text),
     },
     env,
@@ -149,5 +152,45 @@ describe('Connection', () => {
     expect(problems.length).toBe(2);
     env.socket.say({ case: 'pong', value: {} });
     expect(messages).toEqual(['pong']);
+  });
+
+  it('Leave_GoesElsewhereWithinHalfTheDeadline_AndLaterComesBackHere', () => {
+    env.socket.accept();
+    const first = env.socket;
+    env.randomValue = 0.5;
+    connection.leave(4_000, 'wss://other/ws');
+    env.pass(999);
+    expect(env.sockets.length).toBe(1);
+    env.pass(1);
+    expect(env.socket.url).toBe('wss://other/ws');
+    expect(first.closedByPage).toBe(true);
+    env.socket.accept();
+    env.socket.drop(1006);
+    env.pass(10_000);
+    expect(env.socket.url).toBe('ws://host/ws');
+  });
+
+  it('Leave_WithoutAnAddress_OpensThisOneAgain_UnlessItClosedBefore', () => {
+    env.socket.accept();
+    connection.leave(4_000, '');
+    env.pass(0);
+    expect(env.sockets.map(({ url }) => url)).toEqual(['ws://host/ws', 'ws://host/ws']);
+    env.randomValue = 0.9;
+    connection.leave(60_000, '');
+    env.socket.drop(4010);
+    env.pass(60_000);
+    expect(env.sockets.length).toBe(3); // by the reconnect alone
+  });
+
+  it('Close_With4003_AsksForAToken_AndTheNextHelloHasIt', () => {
+    env.socket.accept();
+    env.socket.drop(4003, 'no valid token');
+    expect(tokensWanted).toBe(1);
+    env.pass(60_000);
+    expect(env.sockets.length).toBe(1);
+    env.accessToken = 'correct-horse-battery';
+    connection.open();
+    env.socket.accept();
+    expect(env.socket.sent[0]?.body).toMatchObject({ value: { token: 'correct-horse-battery' } });
   });
 });

@@ -69,6 +69,7 @@ export class FakeEnvironment implements Environment {
   randomValue = 0;
   room = '';
   token = '';
+  accessToken = '';
   private timers: { at: number; action: () => void }[] = [];
 
   get socket(): FakeSocket {
@@ -91,8 +92,8 @@ export class FakeEnvironment implements Environment {
     return this.randomValue;
   }
 
-  hello(): { room: string; resumeToken: string } {
-    return { room: this.room, resumeToken: this.token };
+  hello(): { room: string; resumeToken: string; token: string } {
+    return { room: this.room, resumeToken: this.token, token: this.accessToken };
   }
 
   after(delayMs: number, action: () => void): () => void {

@@ -28,9 +28,9 @@ Result<net::BindAddress> parseBindAddress(const std::string& text) {
     return net::BindAddress{address, static_cast<uint16_t>(*port)};
 }
 
-std::string urlOf(const std::string& address, uint16_t port) {
+std::string urlOf(const std::string& address, uint16_t port, const std::string& scheme) {
     const bool v6 = address.find(':') != std::string::npos;
-    return "http://" + (v6 ? "[" + address + "]" : address) + ":" + numberText(port) + "/";
+    return scheme + "://" + (v6 ? "[" + address + "]" : address) + ":" + numberText(port) + "/";
 }
 
 } // namespace froxel::app

@@ -13,6 +13,7 @@ namespace froxel::app {
 [[nodiscard]] Result<net::BindAddress> parseBindAddress(const std::string& text);
 
 // "http://127.0.0.1:9090/", with an IPv6 address in brackets.
-[[nodiscard]] std::string urlOf(const std::string& address, uint16_t port);
+[[nodiscard]] std::string
+urlOf(const std::string& address, uint16_t port, const std::string& scheme = "http");
 
 } // namespace froxel::app

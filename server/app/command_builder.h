@@ -2,13 +2,14 @@
 // reads the same; CLI11 does the rest.
 #pragma once
 
-#include "app/value_parsers.h"
 #include "app/pipeline_cache_option.h"
+#include "app/value_parsers.h"
 #include "gpu/device_options.h"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,7 +34,13 @@ class CommandBuilder {
         cli_.set_help_all_flag(); // none: the program's own shows all
     }
 
-    [[nodiscard]] CLI::App& cli() { return cli_; }
+    [[nodiscard]] CLI::App& cli() const { return cli_; }
+    // What --help shows for an option that is not given.
+    [[nodiscard]] std::string shownDefault(const CLI::Option& option) const {
+        const auto found = defaults_.find(&option);
+        const bool flag = option.get_items_expected_max() == 0;
+        return found != defaults_.end() ? found->second : flag ? "false" : "";
+    }
 
     // `parse` is Result<...>(const std::string&) and converts to the target's type.
     template <class T, class Parse>
@@ -50,9 +57,9 @@ class CommandBuilder {
             }
             target = static_cast<typename Unwrapped<T>::Type>(*parsed);
         };
-        return cli_
-            .add_option_function<std::string>(option, store, withDefault(help, shown_default))
-            ->type_name(type);
+        return declared(
+            cli_.add_option_function<std::string>(option, store, withDefault(help, shown_default)),
+            type, shown_default);
     }
 
     // A number whose default is shown in words.
@@ -103,7 +110,8 @@ class CommandBuilder {
                       T& target,
                       const std::string& shown_default,
                       const std::string& help) {
-        return cli_.add_option(option, target, withDefault(help, shown_default))->type_name(type);
+        return declared(cli_.add_option(option, target, withDefault(help, shown_default)), type,
+                        shown_default);
     }
 
     void device(gpu::DeviceChoice& choice, bool& validation) {
@@ -119,11 +127,17 @@ class CommandBuilder {
     }
 
   private:
+    CLI::Option*
+    declared(CLI::Option* option, const std::string& type, const std::string& shown_default) {
+        defaults_.emplace(option, shown_default);
+        return option->type_name(type);
+    }
     static std::string withDefault(const std::string& help, const std::string& shown_default) {
         return shown_default.empty() ? help : fmt::format("{} [{}]", help, shown_default);
     }
 
     CLI::App& cli_;
+    std::map<const CLI::Option*, std::string> defaults_;
 };
 
 } // namespace froxel::app

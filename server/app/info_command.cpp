@@ -1,11 +1,14 @@
 #include "app/info_command.h"
 
 #include "app/device_summary.h"
+#include "app/exit_codes.h"
 #include "app/info_report.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
+#include "app/serve_command.h"
 #include "app/timings_report.h"
 #include "gpu/device.h"
+#include "net/facts.h"
 #include "render/renderer.h"
 
 #include <nlohmann/json.hpp>
@@ -35,6 +38,22 @@ Json limitsOf(const gpu::Device& device) {
             {"timestamp_period_ns", limits.timestampPeriod}};
 }
 
+// What proxies and manifests must agree with.
+Json serviceReport() {
+    const ServeOptions defaults;
+    return {{"port", defaults.port},
+            {"admin_port", defaults.admin.port},
+            {"socket_path", net::kSocketPath},
+            {"metrics_path", net::kMetricsPath},
+            {"live_path", net::kLivePath},
+            {"ready_path", net::kReadyPath},
+            {"started_path", net::kStartedPath},
+            {"drain_path", net::kDrainPath},
+            {"drain_seconds", defaults.drain_s},
+            {"idle_timeout_seconds", net::kIdleTimeout.count()},
+            {"exit_code_device_lost", kExitDeviceLost}};
+}
+
 // One frame with default settings from the scene's first camera: what the automatic choices are
 // there, what is left out and where memory goes is best told by doing it.
 Json drawOnce(gpu::Device& device, const scene::Scene& scene) {
@@ -61,6 +80,7 @@ void runInfo(const InfoOptions& options) try {
     }
     report["device"] = toJson(summarize(device.traits()));
     report["limits"] = limitsOf(device);
+    report["service"] = serviceReport();
     const std::string text = options.json ? report.dump(2) + "\n" : toText(report);
     std::fputs(text.c_str(), stdout);
 } catch (const vk::SystemError& error) {

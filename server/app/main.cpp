@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <unistd.h>
 #include <variant>
 
 namespace {
@@ -46,6 +47,7 @@ struct Run {
         app::runInfo(options);
         return 0;
     }
+    int operator()(const app::ProbeOptions& options) const { return app::runProbe(options); }
     int operator()(const app::SceneOptions& options) const {
         app::runScene(options);
         return 0;
@@ -61,9 +63,10 @@ int fail(const char* message, int exit_code) {
 
 int main(int argc, char** argv) {
     try {
-        const auto options = app::parseOptions(argc, argv);
+        const auto options = app::parseOptions(argc, argv, app::readEnvironment(environ));
         // Standard output is for results only: logs go to stderr.
         app::startLog(options.log_level, options.log_format);
+        app::logConfiguration(options.configuration);
         return std::visit(Run{}, options.command);
     } catch (const StartupError& error) {
         return fail(error.what(), exitCodeOf(error.code()));

@@ -1,9 +1,11 @@
 #include "app/options.h"
 
 #include "app/bench_presets.h"
-#include "app/bind_option.h"
 #include "app/command_builder.h"
 #include "app/load_arguments.h"
+#include "app/option_sources.h"
+#include "app/probe_arguments.h"
+#include "app/serve_arguments.h"
 #include "app/view_arguments.h"
 #include "core/error.h"
 #include "encode/image_file.h"
@@ -17,9 +19,6 @@ namespace froxel::app {
 
 namespace {
 
-constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
-constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
-constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
 constexpr view::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
 constexpr view::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
@@ -27,9 +26,9 @@ constexpr view::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 86'40
 constexpr view::Range<double> kPairsRange{"pairs", 0.0, 1e18};
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 1 anything else; bench: 1 "
-    "where a picture is inexact or a compared run is worse; load: 1 where a viewer failed or a "
-    "bound is broken; both 130 stopped by a signal.";
+    "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 6 device lost while "
+    "serving, 1 anything else; bench: 1 where a picture is inexact or a compared run is worse; "
+    "load: 1 where a viewer failed or a bound is broken; both 130 stopped by a signal.";
 
 // What the subcommands fill. The one that was given copies its own to `result`.
 struct Targets {
@@ -39,8 +38,10 @@ struct Targets {
     LoadOptions load;
     InfoOptions info;
     SceneOptions scene;
+    ProbeOptions probe;
     std::optional<LogLevel> log_level;
     LogFormat log_format = LogFormat::kText;
+    const Environment* environment = nullptr; // for what may be configured by it
     Options result;
 };
 
@@ -76,24 +77,34 @@ void addSceneOption(CommandBuilder& command, std::string& target, const std::str
     command.text("--scene", "PATH|builtin", target, shown, "glTF 2.0 or GLB file, or the hall");
 }
 
+void checkServe(const ServeOptions& options) {
+    if (options.tls_certificate.empty() != options.tls_key.empty()) {
+        throw CLI::RequiredError("--tls-cert FILE and --tls-key FILE, or neither");
+    }
+}
+
+enum class Configured { kByCommandLine, kBySources };
+
 // The last step of every subcommand.
 template <class T>
-void finish(CommandBuilder& command, const T& options, LogLevel default_level, Targets& targets) {
+void finish(CommandBuilder& command,
+            const T& options,
+            LogLevel default_level,
+            Targets& targets,
+            Configured configured = Configured::kByCommandLine) {
     command.name("--log-level", targets.log_level, kLogLevelNames,
                  textOf(kLogLevelNames, default_level), "Least of what goes to stderr");
     command.name("--log-format", targets.log_format, kLogFormatNames,
                  "Its lines: words and key=value, or a JSON object each");
-    command.cli().callback([&options, default_level, &targets] {
-        targets.result = {options, targets.log_level.value_or(default_level), targets.log_format};
+    command.cli().callback([command, &options, default_level, &targets, configured] {
+        Configuration configuration;
+        if (configured == Configured::kBySources) {
+            configuration = applySources(command, *targets.environment);
+            checkServe(targets.serve);
+        }
+        targets.result = {options, targets.log_level.value_or(default_level), targets.log_format,
+                          std::move(configuration)};
     });
-}
-
-// A default that may depend on the device's kind, in words.
-template <class Text>
-std::string byDevice(Text text) {
-    const std::string cpu = text(session::defaultsFor(session::DeviceKind::kCpu));
-    const std::string gpu = text(session::defaultsFor(session::DeviceKind::kGpu));
-    return cpu == gpu ? cpu : fmt::format("{} on a CPU device, {} on a GPU", cpu, gpu);
 }
 
 void addLensShift(CommandBuilder& command, std::optional<glm::dvec2>& target) {
@@ -140,33 +151,15 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
 }
 
 void addServe(CLI::App& app, Targets& targets) {
-    using Defaults = session::SessionDefaults;
     auto& options = targets.serve;
     CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
-    command.text("--address", "IP", options.address, options.address, "IPv4 or IPv6 to listen on");
-    command.number("--port", options.port, kPortRange, "TCP port, 0 for any free one");
-    command.value("--admin-bind", "IP:PORT|none", options.admin, parseBindAddress,
-                  fmt::format("{}:{}", options.admin.address, options.admin.port),
-                  "Address of /metrics, for operators");
+    addServeAddresses(command, options);
     addSceneOption(command, options.scene, options.scene);
     command.device(options.device, options.validation);
     command.pipelineCache(options.pipeline_cache);
-    command.number("--max-sessions", options.sessions_max, kSessionsRange,
-                   "Sessions at once; all viewers of a room share one");
-    command.number(
-        "--min-fps", options.min_rate_hz, kMinRateRange,
-        byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),
-        "Refuse a session that would take active ones below these frames a second; 0: none");
-    command.number("--resume-grace", options.resume_grace_s, kGraceRange,
-                   "Seconds that a lost connection's session waits for it");
+    addServeLimits(command, options);
     addFirstView(command, options);
-    command.text("--web-root", "DIR", options.web_root, "web beside the binary, else the build's",
-                 "Folder of the built page");
-    command
-        .text("--allow-origin", "ORIGIN", options.allowed_origins, "",
-              "Another site whose pages may connect, such as https://example.org; repeatable")
-        ->allow_extra_args(false);
-    finish(command, options, LogLevel::kInfo, targets);
+    finish(command, options, LogLevel::kInfo, targets, Configured::kBySources);
 }
 
 void addOutputs(CommandBuilder& command, RenderOptions& options) {
@@ -321,8 +314,9 @@ std::string usageError(const CLI::App& app, const CLI::ParseError& error) {
 
 } // namespace
 
-Options parseOptions(int argc, const char* const* argv) {
+Options parseOptions(int argc, const char* const* argv, const Environment& environment) {
     Targets targets;
+    targets.environment = &environment;
     CLI::App app("Draws glTF scenes lit by thousands of lights and streams them to browsers.",
                  "froxel");
     app.set_version_flag("--version", "froxel " FROXEL_VERSION);
@@ -336,10 +330,14 @@ Options parseOptions(int argc, const char* const* argv) {
     addLoad(app, targets);
     addInfo(app, targets);
     addScene(app, targets);
+    CommandBuilder probe(app, "probe", "Ask a running server's health: exit code 0 or 1");
+    addProbeArguments(probe, targets.probe);
+    finish(probe, targets.probe, LogLevel::kWarn, targets);
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty()) {
-            throw CLI::RequiredError("a subcommand (serve, render, bench, load, info or scene)");
+            throw CLI::RequiredError(
+                "a subcommand (serve, render, bench, load, info, scene or probe)");
         }
         if (const auto* render = std::get_if<RenderOptions>(&targets.result.command)) {
             checkRender(*app.get_subcommand("render"), *render);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "app/bench_command.h"
+#include "app/configuration.h"
 #include "app/info_command.h"
 #include "app/load_command.h"
 #include "app/log_setup.h"
+#include "app/probe_command.h"
 #include "app/render_command.h"
 #include "app/scene_command.h"
 #include "app/serve_command.h"
@@ -26,14 +28,18 @@ struct Options {
                  BenchOptions,
                  LoadOptions,
                  InfoOptions,
-                 SceneOptions>
+                 SceneOptions,
+                 ProbeOptions>
         command;
     LogLevel log_level = LogLevel::kInfo;
     LogFormat log_format = LogFormat::kText;
+    Configuration configuration{}; // of serve
 };
 
-// Pure. Throws StartupError(kInvalidArgument): one line that names the option, the value and what
-// would be right.
-[[nodiscard]] Options parseOptions(int argc, const char* const* argv);
+// Of serve also from `environment` and the file of --config, which alone is read. Throws
+// StartupError(kInvalidArgument): one line that names the option, the value and what would be
+// right.
+[[nodiscard]] Options
+parseOptions(int argc, const char* const* argv, const Environment& environment = {});
 
 } // namespace froxel::app

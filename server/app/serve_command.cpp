@@ -1,6 +1,8 @@
 #include "app/serve_command.h"
 
 #include "app/bind_option.h"
+#include "app/exit_codes.h"
+#include "app/last_resort.h"
 #include "app/output_file.h"
 #include "app/scene_source.h"
 #include "app/serve_run.h"
@@ -8,6 +10,8 @@
 #include "core/text.h"
 #include "gpu/device.h"
 #include "net/stop_signal.h"
+#include "net/tls.h"
+#include "net/token_gate.h"
 #include "stream/renderer_source.h"
 
 #include <spdlog/spdlog.h>
@@ -16,6 +20,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <malloc.h>
+#include <optional>
+#include <sys/resource.h>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -26,8 +32,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// After this long, viewers that have not closed are dropped.
-constexpr std::chrono::seconds kDrainDeadline{5};
+// How often the render thread is looked at.
+constexpr std::chrono::milliseconds kWatchPeriod{500};
+// For the frames under way when everybody has gone.
+constexpr std::chrono::seconds kLastFrame{3};
+
+std::chrono::milliseconds milliseconds(double seconds) {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(seconds));
+}
 
 session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_cpu) {
     auto defaults =
@@ -66,10 +78,12 @@ OpenedScene openScene(const ServeOptions& options,
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());
 
+    const bool on_cpu = traits.is_cpu;
     report({"moving the scene to the device", 0.6});
     auto source = stream::makeRendererSource(std::move(device), scene);
     report({"ready", 1.0});
-    return {std::move(source), std::move(context)};
+    const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
+    return {std::move(source), std::move(context), Seconds(limit_s)};
 }
 
 fs::path webRootOf(const ServeOptions& options) {
@@ -87,15 +101,79 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.bind = {options.address, options.port};
     run.server.admin = options.admin;
     run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
-    run.server.connections_max = 256 + 4 * options.sessions_max;
-    run.server.resume_grace =
-        std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(options.resume_grace_s));
+    run.server.connections_max = options.connections_max;
+    run.server.resume_grace = milliseconds(options.resume_grace_s);
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
     run.sessions_max = options.sessions_max;
     run.encoder_count = std::clamp(cores / 2, 1U, 16U);
     run.open = [options](const auto& report) { return openScene(options, report); };
     return run;
+}
+
+// One a connection, and some for the rest.
+void raiseDescriptorLimit(uint32_t connections) {
+    constexpr rlim_t kOthers = 128;
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0) {
+        return;
+    }
+    limit.rlim_cur = limit.rlim_max;
+    if (setrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < connections + kOthers) {
+        spdlog::warn("event=few_descriptors limit={} connections={}", limit.rlim_cur, connections);
+    }
+}
+
+// What is read again on SIGHUP.
+struct Secrets {
+    explicit Secrets(const ServeOptions& options) : token_file(options.token_file) {
+        if (!token_file.empty()) {
+            gate = std::make_shared<net::TokenGate>();
+            gate->load(token_file).value();
+        }
+        if (!options.tls_key.empty()) {
+            tls = std::make_shared<net::Tls>(options.tls_certificate, options.tls_key);
+        }
+    }
+    void reload() const {
+        const auto told = [](const char* what, const Result<void>& done) {
+            if (done) {
+                spdlog::info("event=reloaded what={}", what);
+            } else {
+                spdlog::error("event=not_reloaded what={} reason={}", what,
+                              logValue(done.error().message, 400));
+            }
+        };
+        if (gate) {
+            told("tokens", gate->load(token_file));
+        }
+        if (tls) {
+            told("certificate", tls->reload());
+        }
+        if (!gate && !tls) {
+            spdlog::info("event=nothing_to_reload");
+        }
+    }
+
+    const std::filesystem::path token_file;
+    std::shared_ptr<net::TokenGate> gate;
+    std::shared_ptr<net::Tls> tls;
+};
+
+[[noreturn]] void giveUp(ServeRun& run, const std::string& why) {
+    spdlog::error("event=device_stuck reason={}", logValue(why));
+    run.giveUp(why);
+    spdlog::shutdown();
+    std::quick_exit(kExitDeviceLost);
+}
+
+void printAddresses(const ServeOptions& options, const ServeRun& run) {
+    const std::string scheme = options.tls_key.empty() ? "http" : "https";
+    std::printf("%s\n", urlOf(options.address, run.port(), scheme).c_str());
+    if (const auto admin_port = run.adminPort()) {
+        std::printf("%smetrics\n", urlOf(options.admin.address, *admin_port).c_str());
+    }
+    std::fflush(stdout);
 }
 
 } // namespace
@@ -105,33 +183,47 @@ int runServe(const ServeOptions& options) {
     // for every viewer that asks for other variants; two arenas stay as they are
     // (tests/load/soak.py).
     mallopt(M_ARENA_MAX, 2);
+    raiseDescriptorLimit(options.connections_max);
+    const Secrets secrets(options);
     net::StopSignal stop;
+    stop.onHangup([&secrets] { secrets.reload(); });
     LatestSlot<Error> failure; // of the render thread
     ServeRunOptions run_options = runOptions(options);
+    run_options.server.gate = secrets.gate;
+    run_options.server.tls = secrets.tls;
+    run_options.server.reconnect_url = options.advertise;
     run_options.on_failure = [&](const Error& error) {
         failure.put(error);
         stop.request();
     };
-    ServeRun run(std::move(run_options));
-    std::printf("%s\n", urlOf(options.address, run.port()).c_str());
-    if (const auto admin_port = run.adminPort()) {
-        std::printf("%smetrics\n", urlOf(options.admin.address, *admin_port).c_str());
-    }
-    std::fflush(stdout);
+    run_options.server.on_drain_request = [&stop] { stop.request(); };
+    std::optional<ServeRun> run(std::in_place, std::move(run_options));
+    printAddresses(options, *run);
 
-    const int signal = stop.wait();
-    spdlog::info("event=draining signal={}", signal);
-    const bool all_closed = run.drain(kDrainDeadline);
-    spdlog::info("event=drained all_closed={}", all_closed);
-    if (auto error = failure.take()) {
+    Result<void> moves;
+    const int signal = stop.wait(kWatchPeriod, [&] {
+        moves = run->rendersOn();
+        return moves.has_value();
+    });
+    if (!moves) {
+        giveUp(*run, moves.error().message);
+    }
+    auto error = failure.take();
+    const bool opened = run->opened();
+    if (error && !opened) {
         throw StartupError(std::move(*error));
     }
-    if (!run.opened()) {
-        // Still loading, which cannot be interrupted, and nobody has anything to lose.
-        spdlog::shutdown();
-        std::quick_exit(EXIT_SUCCESS);
+    if (error) {
+        spdlog::error("event=device_lost reason={}", logValue(error->message));
     }
-    return EXIT_SUCCESS;
+    spdlog::info("event=draining signal={} seconds={}", signal, options.drain_s);
+    const bool all_closed = run->drain(milliseconds(options.drain_s));
+    spdlog::info("event=drained all_closed={}", all_closed);
+    const int exit_code = error ? kExitDeviceLost : EXIT_SUCCESS;
+    // A scene that is still being loaded cannot be interrupted, and nobody has anything to lose.
+    const LastResort last_resort(opened ? kLastFrame : std::chrono::seconds(0), exit_code);
+    run.reset();
+    return exit_code;
 }
 
 } // namespace froxel::app

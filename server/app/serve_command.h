@@ -15,17 +15,24 @@
 namespace froxel::app {
 
 struct ServeOptions {
+    std::filesystem::path config;              // where others came from; read when options are
     std::string address = "127.0.0.1";         // IPv4 or IPv6, no host names
     uint16_t port = 8080;                      // 0: any free one; the printed URL tells which
-    net::BindAddress admin{"127.0.0.1", 9090}; // /metrics; an empty address: nowhere
+    net::BindAddress admin{"127.0.0.1", 9090}; // for operators; an empty address: nowhere
     std::string scene = "builtin";             // as for loadScene()
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
     gpu::PipelineCacheOptions pipeline_cache;
-    uint32_t sessions_max = 16; // at once, a room being one; more are refused
+    uint32_t sessions_max = 16;      // at once, a room being one; more are refused
+    uint32_t connections_max = 4096; // of any kind; more are told to come back
     // That active sessions must keep when another one joins; absent: by the device's kind.
     std::optional<double> min_rate_hz;
     double resume_grace_s = 10; // how long a lost connection's session waits for it; 0: not at all
+    double drain_s = 5;         // from SIGTERM to the end, for viewers to go elsewhere
+    std::string advertise;      // URL of the WebSocket where they go; empty: the same address
+    // The process ends when the render thread has been at one step for so long; 0: never; absent:
+    // by the device's kind.
+    std::optional<double> watchdog_s;
     // What a viewer gets before asking for anything; absent: session::defaultsFor(the device).
     std::optional<view::Size> size;
     std::optional<uint32_t> quality; // view::kQualityRange
@@ -40,12 +47,21 @@ struct ServeOptions {
     std::filesystem::path web_root;
     // Origins ("https://example.org") that may connect besides the server's own.
     std::vector<std::string> allowed_origins;
+    std::filesystem::path token_file;      // one of its tokens is asked for; empty: none
+    std::filesystem::path tls_certificate; // PEM, with its chain; with a key: TLS
+    std::filesystem::path tls_key;
 };
 
+// By the device's kind. A CPU device may take minutes for a picture that a viewer may ask for, and
+// gives up by itself after two.
+inline constexpr double kCpuWatchdog_s = 180;
+inline constexpr double kGpuWatchdog_s = 30;
+
 // Prints its URL, and on a second line that of its metrics, to stdout once it listens; logs to
-// stderr. Blocks until SIGTERM or SIGINT has drained every session and returns 0; a second signal
-// ends the process at once. Throws StartupError: kAddressInUse, kIo (address, page), kScene,
-// kDevice (also when the device is lost while serving).
+// stderr. Blocks until SIGTERM, SIGINT or POST /drain has drained every session and returns 0; a
+// second signal ends the process at once. Returns kExitDeviceLost when the device was lost while
+// serving, and ends the process with it when the render thread never came back. Throws
+// StartupError: kAddressInUse, kIo (address, page), kScene, kDevice.
 [[nodiscard]] int runServe(const ServeOptions& options);
 
 } // namespace froxel::app

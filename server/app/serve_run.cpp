@@ -1,5 +1,6 @@
 #include "app/serve_run.h"
 
+#include "net/health.h"
 #include "net/metrics.h"
 
 #include <utility>
@@ -16,18 +17,23 @@ ServeRun::~ServeRun() {
     server_.reset(); // connections take their leave of the loop
 }
 
+Result<void> ServeRun::rendersOn() const {
+    return net::rendersOn(server_->service().status(), Clock::now());
+}
+
 stream::RenderLoopOptions ServeRun::loopOptions() {
     stream::RenderLoopOptions loop;
     loop.sessions_max = options_.sessions_max;
     loop.on_failure = options_.on_failure;
     server_->metrics().watch(loop.fates);
-    loop.make_source = [this] {
+    server_->metrics().setSessionCapacity(options_.sessions_max);
+    loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
         OpenedScene opened = options_.open(
             [&service](net::LoadingProgress progress) { service.setLoading(std::move(progress)); });
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
         loop_.setMinRate(context->defaults.min_rate_hz);
-        service.setServing({std::move(context), &loop_});
+        service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit});
         return std::move(opened.source);
     };
     return loop;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace froxel::app {
 
@@ -18,6 +19,7 @@ namespace froxel::app {
 struct OpenedScene {
     std::unique_ptr<stream::FrameSource> source;
     session::SessionContext context;
+    Seconds step_limit{0}; // of the render thread, see net::Serving; 0: none
 };
 
 struct ServeRunOptions {
@@ -44,8 +46,11 @@ class ServeRun {
     [[nodiscard]] std::optional<uint16_t> adminPort() const { return server_->adminPort(); }
     // Whether the scene is open; until then the render thread cannot be stopped.
     [[nodiscard]] bool opened() const { return server_->service().status().serving.has_value(); }
-    // Tells every viewer, waits for their connections to close; whether all did in time.
+    // As net::Server.
     bool drain(std::chrono::milliseconds deadline) { return server_->drain(deadline); }
+    void giveUp(const std::string& why) { server_->giveUp(why); }
+    // Whether the render thread moves; an error says for how long it has not.
+    [[nodiscard]] Result<void> rendersOn() const;
 
   private:
     [[nodiscard]] stream::RenderLoopOptions loopOptions();

@@ -1,28 +1,46 @@
-// The address that operators use: the metrics. No WebSocket, and no page.
+// The address that operators use: metrics, health, and draining. No WebSocket, and no page.
 #pragma once
 
+#include "net/facts.h"
 #include "net/http_site.h"
 #include "net/metrics.h"
 
+#include <functional>
 #include <memory>
 
 namespace froxel::net {
 
+struct AdminHooks {
+    // Whether the network threads take work; may wait for a second.
+    std::function<bool()> network_moves = [] { return true; };
+    // As SIGTERM does; must not block.
+    std::function<void()> drain = [] {};
+};
+
 class AdminSite final : public HttpSite {
   public:
-    explicit AdminSite(std::shared_ptr<const Metrics> metrics) : metrics_(std::move(metrics)) {}
+    AdminSite(std::shared_ptr<const Metrics> metrics,
+              std::shared_ptr<const Service> service,
+              AdminHooks hooks)
+        : metrics_(std::move(metrics)), service_(std::move(service)), hooks_(std::move(hooks)) {}
 
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
+    [[nodiscard]] bool takesPost(std::string_view path) const override {
+        return path == kDrainPath;
+    }
     [[nodiscard]] std::optional<Response> refuseUpgrade(const Request& request) const override;
-    void upgrade(boost::beast::tcp_stream stream,
-                 Request request,
-                 ConnectionTicket ticket) const override;
+    void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const override;
     void onConnectionRefused() const override {}
     // A scrape may come while viewers are being told to go.
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 
   private:
+    [[nodiscard]] Result<void> isLive() const;
+    [[nodiscard]] Response drain(const Request& request) const;
+
     const std::shared_ptr<const Metrics> metrics_;
+    const std::shared_ptr<const Service> service_;
+    const AdminHooks hooks_;
 };
 
 } // namespace froxel::net

@@ -39,8 +39,8 @@ void Conversation::onMessage(protocol::ByteSpan message,
 }
 
 void Conversation::handle(const CommandMessage& message, TimePoint now) {
-    if (const auto* hello = std::get_if<session::Hello>(&message.body)) {
-        greet(*hello, now);
+    if (std::holds_alternative<session::Hello>(message.body)) {
+        greet(message, now);
     } else if (std::holds_alternative<session::Ping>(message.body)) {
         answer(session::makePong(message.stamp));
     } else if (const auto* ack = std::get_if<session::Ack>(&message.body)) {
@@ -56,8 +56,15 @@ void Conversation::handle(const CommandMessage& message, TimePoint now) {
     }
 }
 
-void Conversation::greet(const session::Hello& hello, TimePoint now) {
+void Conversation::greet(const CommandMessage& message, TimePoint now) {
+    const auto& hello = std::get<session::Hello>(message.body);
+    if (gate_ && !gate_->lets(hello.token)) {
+        const std::string why = hello.token.empty() ? "token is missing" : "token is unknown";
+        reject({RejectCode::kToken, message.stamp.seq, "token", why}, now);
+        return;
+    }
     hello_ = hello;
+    hello_.token.clear();
     if (service_.serving) {
         begin(now);
     } else {
@@ -182,15 +189,26 @@ void Conversation::onService(const ServiceStatus& status, TimePoint now) {
         return;
     }
     service_ = status;
-    if (status.draining) {
-        answer(session::makeDraining(*status.draining));
-        close(CloseCode::kDraining, "the server is going down");
+    if (status.lost) {
+        answer(session::makeError({RejectCode::kDevice, 0, "", *status.lost}));
+        close(CloseCode::kDeviceLost, "the device was lost");
+    } else if (status.draining) {
+        drain(*status.draining);
     } else if (!greeted() || seat_) {
         return;
     } else if (status.serving) {
         begin(now);
     } else {
         sayLoading();
+    }
+}
+
+void Conversation::drain(const Draining& draining) {
+    if (!std::exchange(told_draining_, true)) {
+        answer(session::makeDraining(draining.deadline, draining.reconnect_url));
+    }
+    if (draining.over || !seat_) {
+        close(CloseCode::kDraining, "the server is going down");
     }
 }
 
@@ -258,6 +276,8 @@ void Conversation::reject(const Rejection& rejection, TimePoint now) {
     answer(session::makeError(rejection));
     if (rejection.code == RejectCode::kVersion) {
         close(CloseCode::kVersion, "protocol version");
+    } else if (rejection.code == RejectCode::kToken) {
+        close(CloseCode::kToken, "no valid token");
     } else if (rejection.code == RejectCode::kControl) {
         return; // no fault: control may have gone while the command was on its way
     } else if (!rejects_.spend(now)) {

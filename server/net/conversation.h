@@ -6,6 +6,7 @@
 #include "net/metrics.h"
 #include "net/outbox.h"
 #include "net/service.h"
+#include "net/token_gate.h"
 #include "session/command_reader.h"
 #include "session/pacing.h"
 #include "session/rate_controller.h"
@@ -24,10 +25,13 @@ class Conversation {
     static constexpr size_t kMaxEarlyCommands = 64;
 
     // `viewer` is what the session tells; whatever it is told goes to onNotice().
+    // Without a `gate` everybody is let in.
     Conversation(std::weak_ptr<SessionViewer> viewer,
                  std::shared_ptr<Lobby> lobby,
-                 std::shared_ptr<Metrics> metrics)
-        : viewer_(std::move(viewer)), lobby_(std::move(lobby)), metrics_(std::move(metrics)) {}
+                 std::shared_ptr<Metrics> metrics,
+                 std::shared_ptr<const TokenGate> gate = nullptr)
+        : viewer_(std::move(viewer)), lobby_(std::move(lobby)), metrics_(std::move(metrics)),
+          gate_(std::move(gate)) {}
     // Its session is kept for the grace time, unless either side has said good-bye.
     ~Conversation();
     Conversation(const Conversation&) = delete;
@@ -54,7 +58,7 @@ class Conversation {
 
   private:
     void handle(const session::CommandMessage& message, TimePoint now);
-    void greet(const session::Hello& hello, TimePoint now);
+    void greet(const session::CommandMessage& message, TimePoint now);
     void begin(TimePoint now);
     void sayWelcome();
     void onCommand(const session::CommandMessage& message, TimePoint now);
@@ -65,6 +69,7 @@ class Conversation {
     void onAck(const session::CommandStamp& stamp, const session::Ack& ack, TimePoint now);
     void followLink(TimePoint now);
     void sayLoading();
+    void drain(const Draining& draining);
     void reject(const session::Rejection& rejection, TimePoint now);
     void answer(const v1::ServerMessage& message);
     void close(protocol::CloseCode code, std::string reason);
@@ -79,6 +84,7 @@ class Conversation {
     const std::weak_ptr<SessionViewer> viewer_;
     const std::shared_ptr<Lobby> lobby_;
     const std::shared_ptr<Metrics> metrics_;
+    const std::shared_ptr<const TokenGate> gate_;
     session::CommandReader reader_;
     session::RejectBudget rejects_;
     session::CreditWindow window_;
@@ -87,7 +93,7 @@ class Conversation {
     Outbox outbox_;
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
-    session::Hello hello_;         // its token is forgotten in begin()
+    session::Hello hello_;         // its secrets are forgotten when they have served
     std::optional<Seat> seat_;     // from Welcome on
     session::CommandStamp newest_; // of this connection's commands that set state
     session::CommandStamp shown_;  // the newest of them that a picture has shown
@@ -97,6 +103,7 @@ class Conversation {
     bool paused_ = false;
     bool video_lost_ = false; // a frame of video was dropped, and no key frame has come since
     bool goodbye_ = false;
+    bool told_draining_ = false;
     std::optional<Closing> closing_;
 };
 

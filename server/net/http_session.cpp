@@ -24,10 +24,11 @@ constexpr size_t kMaxDiscardedBytes = size_t{256} * 1024;
 } // namespace
 
 HttpSession::HttpSession(boost::asio::ip::tcp::socket socket,
+                         boost::asio::ssl::context* tls,
                          std::shared_ptr<const HttpSite> site,
                          ConnectionTicket ticket)
-    : stream_(std::move(socket)), request_deadline_(stream_.get_executor()), site_(std::move(site)),
-      ticket_(std::move(ticket)) {}
+    : stream_(std::move(socket), tls), request_deadline_(stream_.get_executor()),
+      site_(std::move(site)), ticket_(std::move(ticket)) {}
 
 void HttpSession::start() {
     boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] {
@@ -35,8 +36,24 @@ void HttpSession::start() {
                 if (Service* service = self->site_->drainsWith()) {
                     service->subscribe(self);
                 }
-                self->read();
+                if (self->stream_.encrypted()) {
+                    self->shakeHands();
+                } else {
+                    self->read();
+                }
             })) {
+            self->close();
+        }
+    });
+}
+
+void HttpSession::shakeHands() {
+    stream_.next_layer().expires_after(kDeadline);
+    stream_.async_handshake([self = shared_from_this()](beast::error_code error) {
+        if (error) {
+            spdlog::info("event=tls_handshake_failed reason={}", logValue(error.message()));
+        }
+        if (error || !guarded("http start", [&] { self->read(); })) {
             self->close();
         }
     });
@@ -53,7 +70,7 @@ void HttpSession::onServiceChanged() {
 
 bool HttpSession::draining() const {
     const Service* service = site_->drainsWith();
-    return service && service->status().draining;
+    return service && service->status().draining.has_value();
 }
 
 void HttpSession::read() {
@@ -64,13 +81,13 @@ void HttpSession::read() {
     late_ = false;
     // One deadline for the whole request, however slowly its bytes trickle in. Not the stream's
     // own timeout: that closes the socket, and 408 could not be said.
-    stream_.expires_never();
+    stream_.next_layer().expires_never();
     request_deadline_.expires_after(kDeadline);
     request_deadline_.async_wait([self = shared_from_this()](beast::error_code error) {
         const bool due = self->request_deadline_.expiry() <= std::chrono::steady_clock::now();
         if (!error && due && self->reading_) {
             self->late_ = true;
-            self->stream_.cancel();
+            self->stream_.next_layer().cancel();
         }
     });
     http::async_read_header(stream_, buffer_, *parser_,
@@ -128,14 +145,14 @@ void HttpSession::upgrade(Request request) {
     } else if (buffer_.size() > 0) {
         write(refusal(http::status::bad_request, "bytes before the answer to the upgrade"));
     } else {
-        stream_.expires_never();
+        stream_.next_layer().expires_never();
         site_->upgrade(std::move(stream_), std::move(request), std::move(ticket_));
     }
 }
 
 void HttpSession::write(Response response) {
     response_ = std::move(response);
-    stream_.expires_after(kDeadline);
+    stream_.next_layer().expires_after(kDeadline);
     http::async_write(stream_, response_,
                       [self = shared_from_this()](beast::error_code error, size_t) {
                           if (!guarded("http write", [&] { self->onWritten(error); })) {
@@ -149,8 +166,9 @@ void HttpSession::onWritten(beast::error_code error) {
         close();
     } else if (response_.need_eof() || draining()) {
         beast::error_code ignored;
-        stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
-        stream_.expires_after(kLinger);
+        stream_.next_layer().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send,
+                                               ignored);
+        stream_.next_layer().expires_after(kLinger);
         linger();
     } else {
         read();
@@ -173,7 +191,7 @@ void HttpSession::linger() {
 void HttpSession::close() {
     reading_ = false;
     request_deadline_.cancel();
-    stream_.close();
+    stream_.next_layer().close();
 }
 
 } // namespace froxel::net

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "net/http_site.h"
+#include "net/peer_stream.h"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
 
 #include <array>
@@ -21,7 +21,9 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     // For one whole request, and for one whole response.
     static constexpr std::chrono::seconds kDeadline{10};
 
+    // `tls` may be null: without encryption.
     HttpSession(boost::asio::ip::tcp::socket socket,
+                boost::asio::ssl::context* tls,
                 std::shared_ptr<const HttpSite> site,
                 ConnectionTicket ticket);
     void start();
@@ -32,6 +34,7 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
 
     [[nodiscard]] bool draining() const;
+    void shakeHands();
     void read();
     void onRead(boost::beast::error_code error);
     void onReadError(boost::beast::error_code error);
@@ -42,7 +45,7 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     void linger();
     void close();
 
-    boost::beast::tcp_stream stream_;
+    PeerStream stream_;
     boost::asio::steady_timer request_deadline_;
     bool reading_ = false;
     bool late_ = false;

@@ -8,24 +8,28 @@ namespace http = boost::beast::http;
 
 namespace {
 
-// The page needs its own scripts, its worker, its socket and pictures made in memory; its control
-// panel brings styles of its own. Nobody may frame it.
-constexpr std::string_view kContentPolicy =
-    "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
-    "worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'";
-
 Response answerTo(const Request& request, const HttpSite& site) {
-    if (request.method() != http::verb::get && request.method() != http::verb::head) {
+    const bool posts = site.takesPost(pathOf(request));
+    const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
+    if (posts ? request.method() != http::verb::post : !reads) {
+        const std::string allowed = posts ? "POST" : "GET, HEAD";
         Response response =
-            textResponse(http::status::method_not_allowed, "only GET and HEAD are answered here");
-        response.set(http::field::allow, "GET, HEAD");
+            textResponse(http::status::method_not_allowed, "only " + allowed + " is answered here");
+        response.set(http::field::allow, allowed);
         return response;
     }
     return site.answer(request, pathOf(request));
 }
 
 } // namespace
+
+// The page's control panel brings styles of its own. Nobody may frame it.
+std::string contentPolicy(std::string_view reconnect_url) {
+    return "default-src 'self'; connect-src 'self' " + std::string(reconnect_url) +
+           "; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
+           "worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; "
+           "frame-ancestors 'none'";
+}
 
 std::string_view pathOf(const Request& request) {
     const std::string_view target{request.target().data(), request.target().size()};
@@ -34,8 +38,9 @@ std::string_view pathOf(const Request& request) {
 
 Response respond(const Request& request, const HttpSite& site) {
     Response response = answerTo(request, site);
+    const bool keep_alive = request.keep_alive() && response.keep_alive();
     response.version(request.version());
-    response.keep_alive(request.keep_alive());
+    response.keep_alive(keep_alive);
     const size_t body_bytes = response.body().size();
     if (request.method() == http::verb::head) {
         response.body().clear();
@@ -50,7 +55,7 @@ Response makeResponse(http::status status, std::string_view content_type, std::s
     Response response{status, 11};
     response.set(http::field::content_type,
                  boost::beast::string_view(content_type.data(), content_type.size()));
-    response.set("Content-Security-Policy", kContentPolicy);
+    response.set("Content-Security-Policy", contentPolicy({}));
     response.set("X-Content-Type-Options", "nosniff");
     response.set("X-Frame-Options", "DENY");
     response.set("Referrer-Policy", "no-referrer");

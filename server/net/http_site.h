@@ -2,9 +2,9 @@
 // the one for operators (admin_site.h). Immutable; any thread.
 #pragma once
 
+#include "net/peer_stream.h"
 #include "net/service.h"
 
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
@@ -26,13 +26,13 @@ class HttpSite {
   public:
     virtual ~HttpSite() = default;
 
-    // A GET or HEAD; `path` is without the query.
+    // A GET or HEAD, or a POST where takesPost(); `path` is without the query.
     [[nodiscard]] virtual Response answer(const Request& request, std::string_view path) const = 0;
+    [[nodiscard]] virtual bool takesPost(std::string_view /*path*/) const { return false; }
     // Why this request may not become a WebSocket; none when it may.
     [[nodiscard]] virtual std::optional<Response> refuseUpgrade(const Request& request) const = 0;
     // Takes the connection over; only after refuseUpgrade() gave none.
-    virtual void
-    upgrade(boost::beast::tcp_stream stream, Request request, ConnectionTicket ticket) const = 0;
+    virtual void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const = 0;
     // One over the limit was closed unanswered.
     virtual void onConnectionRefused() const = 0;
     // Connections close when this drains; null: they are answered until the process ends.
@@ -50,6 +50,10 @@ class HttpSite {
 [[nodiscard]] Response
 makeResponse(boost::beast::http::status status, std::string_view content_type, std::string body);
 [[nodiscard]] Response textResponse(boost::beast::http::status status, std::string line);
+
+// What a browser may do with the page: its own scripts and worker, its own socket, pictures made in
+// memory, and the WebSocket of `reconnect_url` unless that is empty.
+[[nodiscard]] std::string contentPolicy(std::string_view reconnect_url);
 
 // An error with one line of text for a person; closes the connection.
 [[nodiscard]] Response refusal(boost::beast::http::status status, std::string line);

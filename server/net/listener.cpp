@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "net/busy_site.h"
 #include "net/guard.h"
 #include "net/http_session.h"
 
@@ -22,6 +23,8 @@ namespace {
 
 // How long to leave the queue alone when the process has no descriptor or memory left.
 constexpr std::chrono::milliseconds kBackOff{100};
+// Connections over the limit that are told so at a time; more are closed unanswered.
+constexpr uint32_t kRefusedMax = 64;
 // Unsent bytes that the kernel may hold for one connection: what waits there grows old.
 constexpr int kNotSentBytes = 128 * 1024;
 // A peer that is gone without a word (its cable was pulled) is given up after this: Linux would try
@@ -58,10 +61,11 @@ Listener::Listener(asio::io_context& io,
                    const BindAddress& bind,
                    const char* option,
                    uint32_t connections_max,
-                   std::shared_ptr<const HttpSite> site)
+                   std::shared_ptr<const HttpSite> site,
+                   std::shared_ptr<const Tls> tls)
     : io_(io), acceptor_(asio::make_strand(io)), back_off_(acceptor_.get_executor()),
       connections_max_(connections_max), site_(std::move(site)),
-      connection_count_(std::make_shared<std::atomic<uint32_t>>(0)) {
+      busy_site_(std::make_shared<BusySite>()), tls_(std::move(tls)) {
     Failure failure;
     const auto ip = asio::ip::make_address(bind.address, failure);
     if (failure) {
@@ -120,17 +124,27 @@ void Listener::onAccepted(Failure failure, tcp::socket socket) {
         back_off_.async_wait([self = shared_from_this()](Failure) { self->accept(); });
         return;
     }
-    if (!failure && connection_count_->load() >= connections_max_) {
-        // The socket closes here: serving a refusal would take what is short.
+    if (!failure && connection_count_->load() < connections_max_) {
+        serve(std::move(socket), site_, connection_count_);
+    } else if (!failure) {
         spdlog::warn("event=connection_refused port={} limit={}", port_, connections_max_);
         site_->onConnectionRefused();
-    } else if (!failure) {
-        ++*connection_count_;
-        ConnectionTicket ticket(nullptr, [count = connection_count_](const void*) { --*count; });
-        tune(socket);
-        std::make_shared<HttpSession>(std::move(socket), site_, std::move(ticket))->start();
+        if (refused_count_->load() < kRefusedMax) {
+            serve(std::move(socket), busy_site_, refused_count_);
+        } // else the socket closes here: a refusal would take what is short
     }
     accept();
+}
+
+void Listener::serve(tcp::socket socket,
+                     std::shared_ptr<const HttpSite> site,
+                     const std::shared_ptr<Count>& count) {
+    ++*count;
+    ConnectionTicket ticket(nullptr, [count](const void*) { --*count; });
+    tune(socket);
+    const auto tls = tls_ ? tls_->context() : nullptr; // OpenSSL keeps what a connection needs
+    std::make_shared<HttpSession>(std::move(socket), tls.get(), std::move(site), std::move(ticket))
+        ->start();
 }
 
 } // namespace froxel::net

@@ -3,6 +3,7 @@
 
 #include "net/bind_address.h"
 #include "net/http_site.h"
+#include "net/tls.h"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -22,7 +23,8 @@ class Listener final : public std::enable_shared_from_this<Listener> {
              const BindAddress& bind,
              const char* option,
              uint32_t connections_max,
-             std::shared_ptr<const HttpSite> site);
+             std::shared_ptr<const HttpSite> site,
+             std::shared_ptr<const Tls> tls = nullptr);
 
     [[nodiscard]] uint16_t port() const { return port_; }
     void start();
@@ -30,15 +32,23 @@ class Listener final : public std::enable_shared_from_this<Listener> {
     void stop();
 
   private:
+    using Count = std::atomic<uint32_t>;
+
     void accept();
     void onAccepted(boost::system::error_code error, boost::asio::ip::tcp::socket socket);
+    void serve(boost::asio::ip::tcp::socket socket,
+               std::shared_ptr<const HttpSite> site,
+               const std::shared_ptr<Count>& count);
 
     boost::asio::io_context& io_;
     boost::asio::ip::tcp::acceptor acceptor_; // on a strand of its own
     boost::asio::steady_timer back_off_;
     const uint32_t connections_max_;
     const std::shared_ptr<const HttpSite> site_;
-    const std::shared_ptr<std::atomic<uint32_t>> connection_count_;
+    const std::shared_ptr<const HttpSite> busy_site_;
+    const std::shared_ptr<const Tls> tls_; // null: without encryption
+    const std::shared_ptr<Count> connection_count_ = std::make_shared<Count>(0);
+    const std::shared_ptr<Count> refused_count_ = std::make_shared<Count>(0);
     uint16_t port_ = 0;
 };
 

@@ -85,7 +85,11 @@ Lobby::Entries::iterator Lobby::remove(Entries::iterator entry, Mail& mail) {
     if (entry->second.session->removeMember(entry->first, mail)) {
         rooms_.erase(entry->second.room);
     }
-    return entries_.erase(entry);
+    const auto next = entries_.erase(entry);
+    if (entries_.empty()) {
+        emptied_.notify_all();
+    }
+    return next;
 }
 
 std::optional<TimePoint> Lobby::expire(TimePoint now) {
@@ -113,6 +117,11 @@ void Lobby::close() {
     for (auto entry = entries_.begin(); entry != entries_.end();) {
         entry = entry->second.away_until ? remove(entry, mail) : std::next(entry);
     }
+}
+
+bool Lobby::waitUntilEmpty(TimePoint deadline) const {
+    std::unique_lock lock(mutex_);
+    return emptied_.wait_until(lock, deadline, [this] { return entries_.empty(); });
 }
 
 size_t Lobby::awayCount() const {

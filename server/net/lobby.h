@@ -6,6 +6,7 @@
 #include "net/live_session.h"
 
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
@@ -49,6 +50,8 @@ class Lobby {
     std::optional<TimePoint> expire(TimePoint now);
     // Waits for nobody from now on.
     void close();
+    // After close(): blocks until nobody is here any more; whether that was so before the deadline.
+    [[nodiscard]] bool waitUntilEmpty(TimePoint deadline) const;
 
     [[nodiscard]] std::chrono::milliseconds resumeGrace() const { return grace_; }
     // Places of lost connections.
@@ -74,6 +77,7 @@ class Lobby {
     std::function<void(TimePoint)> alarm_ = [](TimePoint) {};
 
     mutable std::mutex mutex_;
+    mutable std::condition_variable emptied_;
     bool closed_ = false;
     session::MemberId last_member_ = 0;
     uint64_t last_connection_ = 0;

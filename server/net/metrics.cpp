@@ -104,6 +104,7 @@ struct Metrics::Impl {
     void setMemory(const std::shared_ptr<const FrameDetails>& details);
 
     Gauge& sessions = gauge("froxel_sessions", "Viewers now.");
+    Gauge& capacity = gauge("froxel_session_capacity", "Sessions that the server takes at once.");
     Counter& opened = counter("froxel_sessions_opened_total", "Viewers since the start.");
     Counter& sent = counter("froxel_frames_sent_total", "Pictures sent.");
     std::atomic<uint64_t> replaced{0};
@@ -122,8 +123,8 @@ struct Metrics::Impl {
     std::array<Counter*, kRefinements.size()> refinements{};
     std::array<Histogram*, kStages.size()> stages{};
     std::array<Gauge*, kListGauges.size()> lists{};
-    Counter& refused_connections = counter("froxel_connections_refused_total",
-                                           "Connections over the limit, closed unanswered.");
+    Counter& refused_connections =
+        counter("froxel_connections_refused_total", "Connections over the limit.");
     prometheus::Family<Counter>& rejects =
         family("froxel_command_rejects_total", "Messages of viewers answered by an error.");
     prometheus::Family<Counter>& closes =
@@ -187,6 +188,10 @@ Metrics::Metrics(const std::string& version) : impl_(std::make_unique<Impl>()) {
 }
 
 Metrics::~Metrics() = default;
+
+void Metrics::setSessionCapacity(uint32_t sessions_max) {
+    impl_->capacity.Set(sessions_max);
+}
 
 void Metrics::sessionOpened() {
     impl_->sessions.Increment();

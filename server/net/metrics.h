@@ -11,6 +11,7 @@
 #include "session/state_message.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -26,6 +27,8 @@ class Metrics {
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
+    // Sessions that the server takes at once; once.
+    void setSessionCapacity(uint32_t sessions_max);
     void sessionOpened();
     void sessionClosed();
     // A picture on its way to the socket, all stages known.

@@ -26,10 +26,11 @@ Response health(const ServiceStatus& status) {
                         status.serving ? R"({"status":"serving"})" : R"({"status":"loading"})");
 }
 
-Response file(const Request& request, const StaticFile& found) {
+Response file(const Request& request, const StaticFile& found, const std::string& policy) {
     const bool unchanged = request[http::field::if_none_match] == found.etag;
     Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
                                      found.content_type, unchanged ? std::string() : found.body);
+    response.set("Content-Security-Policy", policy);
     response.set(http::field::etag, found.etag);
     response.set(http::field::cache_control,
                  found.immutable ? "public, max-age=31536000, immutable" : "no-cache");
@@ -84,7 +85,7 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
         return response;
     }
     if (const StaticFile* found = site_->files.find(path)) {
-        return file(request, *found);
+        return file(request, *found, site_->content_policy);
     }
     return textResponse(http::status::not_found,
                         path == "/" ? "the page is not built; ./deploy/build.sh makes it"
@@ -106,7 +107,7 @@ void PublicSite::onConnectionRefused() const {
     site_->metrics->connectionRefused();
 }
 
-void PublicSite::upgrade(beast::tcp_stream stream, Request request, ConnectionTicket ticket) const {
+void PublicSite::upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const {
     std::make_shared<WsConnection>(std::move(stream), site_, std::move(ticket))
         ->start(std::move(request));
 }

@@ -1,6 +1,7 @@
 // The address that viewers use: the page, its health, and the WebSocket.
 #pragma once
 
+#include "net/facts.h"
 #include "net/http_site.h"
 #include "net/site.h"
 
@@ -8,17 +9,13 @@
 
 namespace froxel::net {
 
-inline constexpr std::string_view kSocketPath = "/ws";
-
 class PublicSite final : public HttpSite {
   public:
     explicit PublicSite(std::shared_ptr<const Site> site) : site_(std::move(site)) {}
 
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
     [[nodiscard]] std::optional<Response> refuseUpgrade(const Request& request) const override;
-    void upgrade(boost::beast::tcp_stream stream,
-                 Request request,
-                 ConnectionTicket ticket) const override;
+    void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const override;
     void onConnectionRefused() const override;
     [[nodiscard]] Service* drainsWith() const override { return site_->service.get(); }
 

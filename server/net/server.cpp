@@ -22,6 +22,10 @@ namespace asio = boost::asio;
 namespace {
 
 constexpr uint32_t kAdminConnectionsMax = 32;
+constexpr std::chrono::seconds kNetworkAnswer{1};
+// Of a deadline, for closing who is still there: a fifth of it, and at most this.
+constexpr std::chrono::milliseconds kClosingTime{1000};
+constexpr std::chrono::seconds kLastWords{1};
 
 std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     auto site = std::make_shared<Site>();
@@ -29,6 +33,8 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
         site->files = StaticFiles::load(options.web_root).value();
     }
     site->allowed_origins = options.allowed_origins;
+    site->gate = options.gate;
+    site->content_policy = contentPolicy(options.reconnect_url);
     site->service = std::make_shared<Service>();
     site->lobby = std::make_shared<Lobby>(options.resume_grace);
     site->metrics = std::make_shared<Metrics>(options.version);
@@ -43,12 +49,9 @@ void work(asio::io_context& io) {
 
 // The admin address, on a thread of its own: whatever viewers do, it answers.
 struct Admin {
-    Admin(const BindAddress& bind, std::shared_ptr<const Metrics> metrics)
-        : listener(std::make_shared<Listener>(io,
-                                              bind,
-                                              "--admin-bind",
-                                              kAdminConnectionsMax,
-                                              std::make_shared<AdminSite>(std::move(metrics)))) {
+    Admin(const BindAddress& bind, std::shared_ptr<const AdminSite> site)
+        : listener(std::make_shared<Listener>(
+              io, bind, "--admin-bind", kAdminConnectionsMax, std::move(site))) {
         listener->start();
         thread = std::jthread([this] { work(io); });
     }
@@ -63,15 +66,20 @@ struct Admin {
 
 struct Server::Impl {
     explicit Impl(const ServerOptions& options)
-        : io(static_cast<int>(options.thread_count)), site(makeSite(options)),
+        : reconnect_url(options.reconnect_url), io(static_cast<int>(options.thread_count)),
+          site(makeSite(options)),
           listener(std::make_shared<Listener>(io,
                                               options.bind,
                                               "--port",
                                               options.connections_max,
-                                              std::make_shared<PublicSite>(site))),
+                                              std::make_shared<PublicSite>(site),
+                                              options.tls)),
           grace_timer(asio::make_strand(io)) {
         if (!options.admin.address.empty()) {
-            admin.emplace(options.admin, site->metrics);
+            admin.emplace(options.admin,
+                          std::make_shared<AdminSite>(
+                              site->metrics, site->service,
+                              AdminHooks{[this] { return moves(); }, options.on_drain_request}));
         }
         site->lobby->setAlarm([this](TimePoint due) {
             asio::post(grace_timer.get_executor(), [this, due] { expireAt(due); });
@@ -87,6 +95,14 @@ struct Server::Impl {
         io.stop();
         threads.clear();
         site->lobby->close(); // connections that end with `io` set off no alarm
+    }
+
+    // Whether a network thread takes work that it is given now.
+    bool moves() {
+        auto moved = std::make_shared<std::promise<void>>();
+        const auto answer = moved->get_future();
+        asio::post(io, [moved] { moved->set_value(); });
+        return answer.wait_for(kNetworkAnswer) == std::future_status::ready;
     }
 
     // All places are kept for the same time, so an earlier expiry is never overtaken by a later
@@ -113,6 +129,7 @@ struct Server::Impl {
         asio::post(grace_timer.get_executor(), [this] { grace_timer.cancel(); });
     }
 
+    const std::string reconnect_url;
     asio::io_context io;
     const std::shared_ptr<const Site> site;
     const std::shared_ptr<Listener> listener;
@@ -144,14 +161,26 @@ Metrics& Server::metrics() {
 }
 
 bool Server::drain(std::chrono::milliseconds deadline) {
-    const auto end = std::chrono::steady_clock::now() + deadline;
-    impl_->listener->stop();
-    impl_->site->service->setDraining(deadline);
+    const TimePoint end = Clock::now() + deadline;
+    Draining draining{deadline - std::min(kClosingTime, deadline / 5), impl_->reconnect_url, false};
+    const TimePoint over = Clock::now() + draining.deadline;
+    impl_->site->service->setDraining(draining);
     impl_->stopWaiting();
+    static_cast<void>(impl_->site->lobby->waitUntilEmpty(over));
+
+    impl_->listener->stop();
+    draining.over = true;
+    impl_->site->service->setDraining(std::move(draining));
     // The threads end by themselves when no connection is left.
     return std::all_of(impl_->done.begin(), impl_->done.end(), [&](const auto& done) {
         return done.wait_until(end) == std::future_status::ready;
     });
+}
+
+void Server::giveUp(const std::string& why) {
+    impl_->site->service->setLost(why);
+    impl_->stopWaiting();
+    static_cast<void>(impl_->site->lobby->waitUntilEmpty(Clock::now() + kLastWords));
 }
 
 } // namespace froxel::net

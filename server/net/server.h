@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,17 +15,23 @@
 namespace froxel::net {
 
 class Metrics;
+class Tls;
+class TokenGate;
 
 struct ServerOptions {
     std::string version = "unknown"; // of the server, for the metrics
     BindAddress bind{"127.0.0.1", 0};
-    BindAddress admin; // for operators: metrics; an empty address: none
+    BindAddress admin; // for operators: metrics and health; an empty address: none
+    std::function<void()> on_drain_request = [] {}; // by an operator; any thread, must not block
     uint32_t thread_count = 1;
     uint32_t connections_max = 512; // of any kind; sessions have a limit of their own
     // How long the session of a lost connection waits for it; 0: not at all.
     std::chrono::milliseconds resume_grace{0};
     std::filesystem::path web_root; // empty: no page
     std::vector<std::string> allowed_origins;
+    std::shared_ptr<const TokenGate> gate; // null: everybody is let in
+    std::shared_ptr<const Tls> tls;        // of the viewers' address; null: without encryption
+    std::string reconnect_url;             // where pages are sent when this server drains, or empty
 };
 
 class Server {
@@ -43,9 +50,14 @@ class Server {
     [[nodiscard]] Service& service();
     [[nodiscard]] Metrics& metrics();
 
-    // Accepts no more, tells everyone, and waits until the last connection has closed or the
-    // deadline is over; whether all closed by themselves. The admin address answers to the end.
+    // From now on no session begins: who asks for one is told to come back. Viewers are told when
+    // it ends and where to go meanwhile; a part of the deadline is left to close those that stay.
+    // Returns when the last one has closed, at the deadline at the latest; whether all had. The
+    // admin address answers to the end.
     bool drain(std::chrono::milliseconds deadline);
+    // Tells every viewer that no picture comes any more, and waits for at most a second until they
+    // have heard it.
+    void giveUp(const std::string& why);
 
   private:
     struct Impl;

@@ -33,8 +33,12 @@ void Service::setServing(Serving serving) {
     change([&](ServiceStatus& status) { status.serving = std::move(serving); });
 }
 
-void Service::setDraining(std::chrono::milliseconds deadline) {
-    change([&](ServiceStatus& status) { status.draining = deadline; });
+void Service::setDraining(Draining draining) {
+    change([&](ServiceStatus& status) { status.draining = std::move(draining); });
+}
+
+void Service::setLost(std::string why) {
+    change([&](ServiceStatus& status) { status.lost = std::move(why); });
 }
 
 void Service::subscribe(std::weak_ptr<ServiceListener> listener) {

@@ -2,6 +2,7 @@
 // that changes. Any thread.
 #pragma once
 
+#include "core/heartbeat.h"
 #include "session/session_context.h"
 #include "session/stream_port.h"
 
@@ -23,12 +24,23 @@ struct LoadingProgress {
 struct Serving {
     std::shared_ptr<const session::SessionContext> context;
     session::StreamPort* port = nullptr; // outlives every connection
+    // Of the thread that draws; null: not watched.
+    std::shared_ptr<const Heartbeat> heartbeat{};
+    Seconds step_limit{0}; // one step of it that takes longer never ends
+};
+
+// No session begins any more; those that are there go on until it is over.
+struct Draining {
+    std::chrono::milliseconds deadline{0}; // from the start of it to its end
+    std::string reconnect_url;             // of another server; empty: the same address
+    bool over = false;
 };
 
 struct ServiceStatus {
     LoadingProgress loading; // while `serving` is none
     std::optional<Serving> serving;
-    std::optional<std::chrono::milliseconds> draining; // what is left until the end
+    std::optional<Draining> draining;
+    std::optional<std::string> lost; // why no picture comes any more, though the process lives
 };
 
 class ServiceListener {
@@ -43,7 +55,8 @@ class Service {
     [[nodiscard]] ServiceStatus status() const;
     void setLoading(LoadingProgress progress);
     void setServing(Serving serving);
-    void setDraining(std::chrono::milliseconds deadline);
+    void setDraining(Draining draining);
+    void setLost(std::string why);
 
     void subscribe(std::weak_ptr<ServiceListener> listener);
 

@@ -6,6 +6,7 @@
 #include "net/metrics.h"
 #include "net/service.h"
 #include "net/static_files.h"
+#include "net/token_gate.h"
 
 #include <memory>
 #include <string>
@@ -16,6 +17,8 @@ namespace froxel::net {
 struct Site {
     StaticFiles files;
     std::vector<std::string> allowed_origins; // besides the server's own
+    std::shared_ptr<const TokenGate> gate;    // null: everybody is let in
+    std::string content_policy;               // of the page
     std::shared_ptr<Service> service;
     std::shared_ptr<Lobby> lobby;
     std::shared_ptr<Metrics> metrics;

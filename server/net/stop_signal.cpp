@@ -5,25 +5,46 @@
 #include <boost/asio/signal_set.hpp>
 
 #include <csignal>
+#include <utility>
 
 namespace froxel::net {
 
 struct StopSignal::Impl {
     boost::asio::io_context io;
     boost::asio::signal_set signals{io, SIGTERM, SIGINT};
+    boost::asio::signal_set hangups{io};
+    std::function<void()> on_hangup;
     int caught = 0;
+
+    void awaitHangup() {
+        hangups.async_wait([this](boost::system::error_code failure, int) {
+            if (!failure) {
+                on_hangup();
+                awaitHangup();
+            }
+        });
+    }
 };
 
 StopSignal::StopSignal() : impl_(std::make_unique<Impl>()) {
     impl_->signals.async_wait([impl = impl_.get()](boost::system::error_code failure, int signal) {
         impl->caught = failure ? 0 : signal;
+        impl->io.stop();
     });
 }
 
 StopSignal::~StopSignal() = default;
 
-int StopSignal::wait() {
-    impl_->io.run();
+void StopSignal::onHangup(std::function<void()> action) {
+    impl_->on_hangup = std::move(action);
+    impl_->hangups.add(SIGHUP);
+    impl_->awaitHangup();
+}
+
+int StopSignal::wait(std::chrono::milliseconds period, const std::function<bool()>& goes_on) {
+    do {
+        impl_->io.run_for(period);
+    } while (!impl_->io.stopped() && goes_on());
     impl_->signals.clear();
     return impl_->caught;
 }

@@ -1,6 +1,8 @@
 // SIGTERM and SIGINT as something that the main thread waits for.
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <memory>
 
 namespace froxel::net {
@@ -13,9 +15,15 @@ class StopSignal {
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
 
-    // Blocks until a signal or a request; the signal's number, 0 for a request. From its return
-    // on, a signal ends the process at once, as by default.
-    [[nodiscard]] int wait();
+    // SIGHUP calls this while wait() blocks, instead of ending the process.
+    void onHangup(std::function<void()> action);
+    // Blocks until a signal or a request, or until `goes_on`, which is asked every period, says no.
+    // The signal's number, 0 for anything else. From its return on, a signal ends the process at
+    // once, as by default.
+    [[nodiscard]] int wait(std::chrono::milliseconds period, const std::function<bool()>& goes_on);
+    [[nodiscard]] int wait() {
+        return wait(std::chrono::hours(1), [] { return true; });
+    }
     // Makes wait() return. Any thread.
     void request();
 

@@ -1,6 +1,7 @@
 #include "net/ws_connection.h"
 
 #include "core/text.h"
+#include "net/facts.h"
 #include "net/guard.h"
 #include "protocol/limits.h"
 
@@ -19,17 +20,15 @@ namespace websocket = beast::websocket;
 namespace {
 
 constexpr std::chrono::seconds kHandshakeTimeout{10};
-// Silence of this length ends the connection; a ping goes out at half of it.
-constexpr std::chrono::seconds kIdleTimeout{20};
 // Beast's idle timer is re-armed by reads alone, so a client that sends but never reads would pin
 // a write for ever. The allowance lets a large picture through a link of 0.5 Mbit/s.
 constexpr std::chrono::seconds kWriteTimeout{5};
 constexpr std::chrono::seconds kCloseTimeout{4};
 constexpr size_t kSlowestBytesPerSecond = size_t{64} * 1024;
 
-std::string peerName(const beast::tcp_stream& stream) {
+std::string peerName(const PeerStream& stream) {
     beast::error_code error;
-    const auto endpoint = stream.socket().remote_endpoint(error);
+    const auto endpoint = stream.next_layer().socket().remote_endpoint(error);
     return error ? "unknown" : endpoint.address().to_string() + ":" + numberText(endpoint.port());
 }
 
@@ -58,12 +57,12 @@ uint16_t codeSentFor(const beast::error_code& error) {
 
 } // namespace
 
-WsConnection::WsConnection(beast::tcp_stream stream,
+WsConnection::WsConnection(PeerStream stream,
                            std::shared_ptr<const Site> site,
                            ConnectionTicket ticket)
-    : stream_(LingeringStream(std::move(stream))), site_(std::move(site)),
-      ticket_(std::move(ticket)), peer_(peerName(stream_.next_layer())),
-      hello_deadline_(stream_.get_executor()), write_deadline_(stream_.get_executor()) {}
+    : stream_(std::move(stream)), site_(std::move(site)), ticket_(std::move(ticket)),
+      peer_(peerName(stream_.next_layer())), hello_deadline_(stream_.get_executor()),
+      write_deadline_(stream_.get_executor()) {}
 
 WsConnection::~WsConnection() = default;
 
@@ -91,7 +90,7 @@ void WsConnection::onStrand(Work work) {
 void WsConnection::start(Request upgrade) {
     upgrade_ = std::move(upgrade);
     setOptions();
-    conversation_.emplace(weak_from_this(), site_->lobby, site_->metrics);
+    conversation_.emplace(weak_from_this(), site_->lobby, site_->metrics, site_->gate);
     stream_.async_accept(upgrade_, [self = shared_from_this()](ErrorCode error) {
         if (error) {
             self->abandon("handshake: " + error.message());
@@ -207,8 +206,9 @@ void WsConnection::armWriteDeadline(size_t bytes) {
             // No close frame gets past the stuck write: the client sees a reset, and the kernel
             // drops what it holds.
             ErrorCode ignored;
-            self->stream_.next_layer().socket().set_option(asio::socket_base::linger(true, 0),
-                                                           ignored);
+            beast::get_lowest_layer(self->stream_)
+                .socket()
+                .set_option(asio::socket_base::linger(true, 0), ignored);
             self->abandon("a write was stuck",
                           static_cast<uint16_t>(protocol::CloseCode::kSlowConsumer));
         }
@@ -233,7 +233,7 @@ void WsConnection::onWritten(ErrorCode error) {
 // and lose that.
 void WsConnection::linger() {
     lingering_ = true;
-    write_deadline_.expires_after(2 * LingeringStream::kLinger);
+    write_deadline_.expires_after(2 * PeerStream::kLinger);
     write_deadline_.async_wait([self = shared_from_this()](ErrorCode error) {
         if (!error) {
             self->abandon("nothing can be written");
@@ -270,7 +270,7 @@ void WsConnection::abandon(const std::string& why, uint16_t code) {
     conversation_.reset();
     hello_deadline_.cancel();
     write_deadline_.cancel();
-    stream_.next_layer().close();
+    beast::get_lowest_layer(stream_).close();
 }
 
 void WsConnection::tell(Notice notice) {

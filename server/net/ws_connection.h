@@ -4,12 +4,11 @@
 
 #include "net/conversation.h"
 #include "net/http_site.h"
-#include "net/lingering_stream.h"
+#include "net/peer_stream.h"
 #include "net/site.h"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
 #include <memory>
@@ -22,9 +21,7 @@ class WsConnection final : public SessionViewer,
                            public ServiceListener,
                            public std::enable_shared_from_this<WsConnection> {
   public:
-    WsConnection(boost::beast::tcp_stream stream,
-                 std::shared_ptr<const Site> site,
-                 ConnectionTicket ticket);
+    WsConnection(PeerStream stream, std::shared_ptr<const Site> site, ConnectionTicket ticket);
     ~WsConnection() override;
     WsConnection(const WsConnection&) = delete;
     WsConnection& operator=(const WsConnection&) = delete;
@@ -36,7 +33,7 @@ class WsConnection final : public SessionViewer,
     void onServiceChanged() override;
 
   private:
-    using Stream = boost::beast::websocket::stream<LingeringStream>;
+    using Stream = boost::beast::websocket::stream<PeerStream>;
     using ErrorCode = boost::beast::error_code;
     static constexpr uint16_t kNoCloseCode = 1006; // RFC 6455 section 7.4.1
 

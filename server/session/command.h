@@ -19,6 +19,7 @@ struct Hello {
     std::string room;         // of isRoomName(), or empty: a session of one's own
     std::string resume_token; // untrusted text, a secret if it is right: never logged; or empty
     view::CodecSet codecs{1}; // what the client decodes; JPEG is in it
+    std::string token{};      // untrusted text, a secret if it is right: never logged; or empty
 };
 
 struct SetCamera {

@@ -51,18 +51,19 @@ Ours enumeration(FieldValidator& fields,
 }
 
 Command decode(const v1::Hello& hello, FieldValidator& fields) {
-    if (hello.client_name().size() > protocol::kMaxClientNameBytes) {
-        fields.fail(RejectCode::kOutOfRange, "client_name",
-                    "has " + numberText(hello.client_name().size()) + " bytes; at most " +
-                        numberText(protocol::kMaxClientNameBytes) + " are allowed");
-    }
     if (!hello.room().empty() && !isRoomName(hello.room())) {
         fields.fail(RejectCode::kOutOfRange, "room",
                     "is \"" + printable(hello.room()) + "\"; it must be 1 to " +
                         numberText(protocol::kMaxRoomNameBytes) + " of A-Z a-z 0-9 . _ -");
     }
-    Hello command{hello.protocol_major(), hello.protocol_minor(), hello.client_name(), hello.room(),
-                  hello.resume_token()};
+    Hello command;
+    command.major = hello.protocol_major();
+    command.minor = hello.protocol_minor();
+    command.client_name =
+        fields.text("client_name", hello.client_name(), protocol::kMaxClientNameBytes);
+    command.room = hello.room();
+    command.resume_token = hello.resume_token();
+    command.token = fields.text("token", hello.token(), protocol::kMaxTokenBytes);
     for (const int codec : hello.codecs()) {
         if (const auto known = fromProto(kCodecTable, static_cast<v1::Codec>(codec))) {
             command.codecs.set(static_cast<size_t>(*known));

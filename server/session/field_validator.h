@@ -35,6 +35,14 @@ class FieldValidator {
         number(field + ".z", view::kPositionRange, value.z);
         return value;
     }
+    const std::string& text(std::string_view field, const std::string& value, size_t max_bytes) {
+        if (value.size() > max_bytes) {
+            fail(RejectCode::kOutOfRange, field,
+                 "has " + numberText(value.size()) + " bytes; at most " + numberText(max_bytes) +
+                     " are allowed");
+        }
+        return value;
+    }
     void require(bool present, std::string_view field) {
         if (!present) {
             fail(RejectCode::kOutOfRange, field, "is missing");

@@ -21,6 +21,7 @@ enum class RejectCode : uint8_t {
     kRateLimit,   // too many refused messages; close with 1008
     kDevice,      // the device was lost
     kControl,     // another viewer controls the room
+    kToken,       // no valid token; close with 4003
 };
 
 struct Rejection {

@@ -166,6 +166,8 @@ v1::ErrorCode protoCode(RejectCode code) {
         return v1::ERROR_CODE_DEVICE;
     case RejectCode::kControl:
         return v1::ERROR_CODE_CONTROL;
+    case RejectCode::kToken:
+        return v1::ERROR_CODE_TOKEN;
     }
     return v1::ERROR_CODE_UNSPECIFIED;
 }
@@ -307,9 +309,11 @@ v1::ServerMessage makePong(const CommandStamp& ping) {
     return message;
 }
 
-v1::ServerMessage makeDraining(std::chrono::milliseconds deadline) {
+v1::ServerMessage makeDraining(std::chrono::milliseconds deadline,
+                               const std::string& reconnect_url) {
     v1::ServerMessage message;
     message.mutable_draining()->set_deadline_ms(saturated(deadline.count()));
+    message.mutable_draining()->set_reconnect_url(reconnect_url);
     return message;
 }
 

@@ -34,7 +34,9 @@ void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const W
 
 [[nodiscard]] v1::ServerMessage makeError(const Rejection& rejection);
 [[nodiscard]] v1::ServerMessage makePong(const CommandStamp& ping);
-[[nodiscard]] v1::ServerMessage makeDraining(std::chrono::milliseconds deadline);
+// `reconnect_url` is empty where viewers come back to the same address.
+[[nodiscard]] v1::ServerMessage makeDraining(std::chrono::milliseconds deadline,
+                                             const std::string& reconnect_url);
 [[nodiscard]] v1::ServerMessage makeFrameDetails(const FrameDetails& details);
 
 // One frame's way through the server, in microseconds where not said otherwise.

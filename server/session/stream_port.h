@@ -45,6 +45,8 @@ class StreamPort {
     // Errors: kCapacity when as many sessions as allowed are there; kDevice when it was lost.
     [[nodiscard]] virtual Result<SessionId>
     join(std::weak_ptr<FrameSink> sink, const SessionState& state, TimePoint now) = 0;
+    // Whether join() would take one more session now; its errors.
+    [[nodiscard]] virtual Result<void> admits(TimePoint now) const = 0;
     // Replaces the state to draw; `arrived` is when the command behind it came in.
     virtual void update(SessionId id, const SessionState& state, TimePoint arrived) = 0;
     // How many frames the connection takes in all since it joined: those delivered to it so far

@@ -109,6 +109,14 @@ RenderLoop::join(std::weak_ptr<session::FrameSink> sink, const SessionState& sta
     return id;
 }
 
+Result<void> RenderLoop::admits(TimePoint now) const {
+    const std::lock_guard lock(admission_mutex_);
+    if (auto fits = admission_.check(now); !fits) {
+        return fits;
+    }
+    return mailbox_->check();
+}
+
 void RenderLoop::setMinRate(double min_rate_hz) {
     const std::lock_guard lock(admission_mutex_);
     admission_.setMinRate(min_rate_hz);
@@ -149,6 +157,7 @@ void RenderLoop::run(const std::stop_token& stop) {
 
 void RenderLoop::serve(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
+        options_.heartbeat->beat(Clock::now());
         takeNews();
         if (submitted_.size() < source_->depth() && startNext()) {
             continue;
@@ -157,8 +166,10 @@ void RenderLoop::serve(const std::stop_token& stop) {
             finishOldest();
             continue;
         }
+        options_.heartbeat->rest();
         mailbox_->wait(stop, nextWake());
     }
+    options_.heartbeat->rest();
 }
 
 std::optional<TimePoint> RenderLoop::nextWake() const {
@@ -343,6 +354,7 @@ void RenderLoop::giveUp(Viewer& viewer, const Submitted& frame, const Error& err
 
 void RenderLoop::fail(const Error& error) {
     failed_ = true;
+    options_.heartbeat->rest();
     mailbox_->close(error);
     takeNews();
     for (auto& [id, viewer] : viewers_) {

@@ -10,6 +10,7 @@
 //    rest. Idle costs nothing.
 #pragma once
 
+#include "core/heartbeat.h"
 #include "encode/encode_pool.h"
 #include "session/stream_port.h"
 #include "stream/admission.h"
@@ -32,6 +33,8 @@ struct RenderLoopOptions {
     uint32_t sessions_max = 16;
     Seconds min_frame_interval{1.0 / 60};
     std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
+    // Of the render thread, from the first frame on.
+    std::shared_ptr<Heartbeat> heartbeat = std::make_shared<Heartbeat>();
     // Makes device and scene; runs on the render thread, which then owns them. May take long and
     // may throw.
     std::function<std::unique_ptr<FrameSource>()> make_source;
@@ -58,6 +61,7 @@ class RenderLoop final : public session::StreamPort {
     [[nodiscard]] Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
                                                   const session::SessionState& state,
                                                   TimePoint now) override;
+    [[nodiscard]] Result<void> admits(TimePoint now) const override;
     void
     update(session::SessionId id, const session::SessionState& state, TimePoint arrived) override;
     void grant(session::SessionId id, uint64_t frame_total) override;
@@ -93,7 +97,7 @@ class RenderLoop final : public session::StreamPort {
     encode::EncodePool& pool_;
     // Shared with the encoders, which may still be in a last wake() when the loop is gone.
     const std::shared_ptr<ViewerMailbox> mailbox_;
-    std::mutex admission_mutex_; // before the mailbox's
+    mutable std::mutex admission_mutex_; // before the mailbox's
     Admission admission_;
     FrameScheduler scheduler_;
     DeviceDemand demand_;

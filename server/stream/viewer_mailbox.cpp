@@ -16,6 +16,23 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
                                                const session::SessionState& state,
                                                TimePoint now) {
     const std::lock_guard lock(mutex_);
+    if (auto room = hasRoom(); !room) {
+        return room.error();
+    }
+    ++present_;
+    const session::SessionId id = ++last_id_;
+    Slot& slot = slots_[id];
+    slot.news = {id, std::move(sink), state, now, 0, {}, false};
+    publish(slot);
+    return id;
+}
+
+Result<void> ViewerMailbox::check() const {
+    const std::lock_guard lock(mutex_);
+    return hasRoom();
+}
+
+Result<void> ViewerMailbox::hasRoom() const {
     if (closed_) {
         return *closed_;
     }
@@ -24,12 +41,7 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
                                                " sessions of this server are taken; try again "
                                                "later"};
     }
-    ++present_;
-    const session::SessionId id = ++last_id_;
-    Slot& slot = slots_[id];
-    slot.news = {id, std::move(sink), state, now, 0, {}, false};
-    publish(slot);
-    return id;
+    return {};
 }
 
 template <class Change>

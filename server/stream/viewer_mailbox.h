@@ -34,6 +34,8 @@ class ViewerMailbox {
     // Any thread; as StreamPort.
     [[nodiscard]] Result<session::SessionId>
     join(std::weak_ptr<session::FrameSink> sink, const session::SessionState& state, TimePoint now);
+    // Whether join() would succeed now; its errors.
+    [[nodiscard]] Result<void> check() const;
     void update(session::SessionId id, const session::SessionState& state, TimePoint arrived);
     void grant(session::SessionId id, uint64_t frame_total);
     void setDelivery(session::SessionId id, const session::Delivery& delivery);
@@ -53,13 +55,15 @@ class ViewerMailbox {
         ViewerNews news;
         bool fresh = false;
     };
+    // Under the lock.
+    [[nodiscard]] Result<void> hasRoom() const;
     // Of a session that is present; under the lock.
     template <class Change>
     void change(session::SessionId id, const Change& apply);
     void publish(Slot& slot);
 
     const uint32_t sessions_max_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable_any wake_;
     bool awake_ = false;
     std::optional<Error> closed_;

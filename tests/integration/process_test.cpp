@@ -1,4 +1,5 @@
 // The real binary, renderer and all, as a user starts and stops it.
+#include "integration/http_exchange.h"
 #include "integration/server_process.h"
 #include "integration/ws_client.h"
 
@@ -117,6 +118,30 @@ TEST(ServeProcess, Sigterm_Twice_EndsAtOnce) {
     client.expect(v1::ServerMessage::kDraining); // it drains, and this viewer will not answer
     server.signal(SIGTERM);
     EXPECT_EQ(server.wait(3s).signal, SIGTERM);
+}
+
+// A step of the render thread that takes longer than the watchdog's time stands for a device that
+// does not come back.
+TEST(ServeProcess, RenderThreadStandsStill_ViewersAreToldAndItExitsSix) {
+    ServerProcess server({"--size", "1280x720", "--watchdog-seconds", "0.02"});
+    WsClient client(server.port().value());
+    client.hello();
+    EXPECT_EQ(client.expectError().code(), v1::ERROR_CODE_DEVICE);
+    EXPECT_EQ(client.expectClosed().code, 4050);
+    const auto end = server.wait(10s);
+    EXPECT_EQ(end.exit_code, 6) << end.errors;
+    EXPECT_NE(end.errors.find("event=device_stuck"), std::string::npos) << end.errors;
+}
+
+TEST(ServeProcess, PostDrain_AtTheAdminAddress_EndsAsSigtermDoes) {
+    ServerProcess server(kSmall);
+    ASSERT_TRUE(server.port());
+    const uint16_t admin = server.adminPort().value();
+    EXPECT_EQ(statusOf(httpGet(admin, "/drain")), 405);
+    const std::string post = "POST /drain HTTP/1.1\r\nHost: a\r\nConnection: close\r\n";
+    EXPECT_EQ(statusOf(httpExchange(admin, post + "Origin: http://evil.example\r\n\r\n")), 403);
+    EXPECT_EQ(statusOf(httpExchange(admin, post + "\r\n")), 202);
+    EXPECT_EQ(server.wait(15s).exit_code, 0);
 }
 
 TEST(ServeProcess, Port_InUse_ExitsFiveAndNamesIt) {

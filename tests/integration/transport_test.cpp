@@ -1,13 +1,18 @@
 // Connections that misbehave, and what the others notice of it.
 #include "integration/eventually.h"
+#include "integration/http_exchange.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
 
 #include <boost/system/system_error.hpp>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <future>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
+#include <vector>
 
 namespace froxel::test {
 namespace {
@@ -115,15 +120,49 @@ TEST(SessionLimit, Reached_RefusesClearlyUntilOneLeaves) {
     fourth.join();
 }
 
-TEST(ConnectionLimit, Reached_ClosesNewOnesAndKeepsTheOld) {
+TEST(ConnectionLimit, Reached_TellsNewOnesToComeBackAndKeepsTheOld) {
     TestServer server({.connections_max = 2});
     WsClient first(server.port());
     first.join();
     WsClient second(server.port());
     EXPECT_TRUE(upgradeIsRefused(server.port(), {}));
+    const std::string refused = httpExchange(server.port(), "GET / HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_EQ(statusOf(refused), 503);
+    EXPECT_NE(refused.find("Retry-After: "), std::string::npos) << refused;
     first.expectFrame();
     second.close();
     EXPECT_TRUE(eventually([&] { return !upgradeIsRefused(server.port(), {}); }));
+}
+
+double residentMb() {
+    std::ifstream statm("/proc/self/statm");
+    double total = 0;
+    double resident = 0;
+    statm >> total >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+TEST(ConnectionLimit, TwoThousandSayNothing_AViewerIsServedAndMemoryBounded) {
+    constexpr rlim_t kNeeded = 4500; // both ends of each are in this process
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+    if (limit.rlim_max < kNeeded) {
+        GTEST_SKIP() << "no more than " << limit.rlim_max << " descriptors are allowed";
+    }
+    limit.rlim_cur = limit.rlim_max;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
+
+    TestServer server({.connections_max = 4096});
+    const double before_mb = residentMb();
+    boost::asio::io_context io;
+    std::vector<boost::asio::ip::tcp::socket> silent;
+    for (int i = 0; i < 2000; ++i) {
+        silent.emplace_back(io).connect({boost::asio::ip::address_v4::loopback(), server.port()});
+    }
+    WsClient viewer(server.port());
+    viewer.join();
+    viewer.expectFrame();
+    EXPECT_LT(residentMb() - before_mb, 60);
 }
 
 TEST(Credit, ClientNeverAcks_Pauses) {
@@ -259,16 +298,35 @@ TEST(DeviceLost, WhileStreaming_IsToldAndClosesWithItsCode) {
     EXPECT_EQ(client.expectClosed().code, 4050);
 }
 
-TEST(Drain, ViewersConnected_AreToldAndClosed) {
+TEST(Drain, ViewersConnected_AreToldAndGoOnUntilTheDeadline) {
     TestServer server;
     WsClient client(server.port());
     client.join();
     client.expectFrame();
-    auto drained = std::async(std::launch::async, [&] { return server.run().drain(5s); });
-    EXPECT_GT(client.expect(ServerMessage::kDraining).draining().deadline_ms(), 0U);
+    auto drained = std::async(std::launch::async, [&] { return server.run().drain(1s); });
+    EXPECT_EQ(client.expect(ServerMessage::kDraining).draining().deadline_ms(), 800U);
+    client.expectFrame();
+    const std::string refused =
+        httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: test\r\nUpgrade: websocket\r\n"
+                                    "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    EXPECT_EQ(statusOf(refused), 503);
+    EXPECT_NE(refused.find("Retry-After: "), std::string::npos) << refused;
+    EXPECT_EQ(statusOf(httpGet(server.adminPort(), "/readyz")), 503);
     EXPECT_EQ(client.expectClosed().code, 4010);
     EXPECT_TRUE(drained.get());
     EXPECT_TRUE(upgradeIsRefused(server.port(), {}));
+}
+
+TEST(Drain, LastViewerLeaves_EndsAtOnce) {
+    TestServer server;
+    WsClient client(server.port());
+    client.join();
+    auto drained = std::async(std::launch::async, [&] { return server.run().drain(60s); });
+    client.expect(ServerMessage::kDraining);
+    client.close();
+    ASSERT_EQ(drained.wait_for(10s), std::future_status::ready);
+    EXPECT_TRUE(drained.get());
 }
 
 TEST(Drain, ViewerNeverAnswers_EndsAtTheDeadline) {

@@ -31,6 +31,9 @@ class FakePort final : public session::StreamPort {
         sessions[id] = {std::move(sink), {state}, 0, false, {}};
         return id;
     }
+    Result<void> admits(TimePoint /*now*/) const override {
+        return full ? Result<void>(Error{ErrorCode::kCapacity, "full"}) : Result<void>();
+    }
     void update(session::SessionId id,
                 const session::SessionState& state,
                 TimePoint /*arrived*/) override {

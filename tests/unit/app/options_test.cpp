@@ -336,7 +336,7 @@ INSTANTIATE_TEST_SUITE_P(
     Options,
     BadCommandLine,
     testing::Values(
-        Refusal{{}, {"serve, render, bench, load, info or scene", "froxel --help"}},
+        Refusal{{}, {"serve, render, bench, load, info, scene or probe", "froxel --help"}},
         Refusal{{"draw"}, {"draw", "froxel --help"}},
         Refusal{{"render"}, {"--out FILE", "--timings FILE"}},
         Refusal{{"render", "--out", "a.png", "--lights", "1000001"},

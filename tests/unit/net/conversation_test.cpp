@@ -261,15 +261,38 @@ TEST_F(ConversationTest, Refused_FirstPicture_Closes) {
     EXPECT_EQ(talk_.closing()->code, CloseCode::kCapacity);
 }
 
-TEST_F(ConversationTest, Draining_Connected_SaysSoAndCloses) {
+TEST_F(ConversationTest, Draining_WithASession_SaysSoOnceAndGoesOnUntilItIsOver) {
     join();
-    frame(1);
     ServiceStatus status;
-    status.draining = 5000ms;
+    status.draining = Draining{5000ms, "wss://b.example/ws"};
     talk_.onService(status, now_);
-    EXPECT_EQ(nextAnswer()->draining().deadline_ms(), 5000U);
+    const auto told = nextAnswer()->draining();
+    EXPECT_EQ(told.deadline_ms(), 5000U);
+    EXPECT_EQ(told.reconnect_url(), "wss://b.example/ws");
+    frame(1);
+    EXPECT_EQ(nextFrame().frame_id(), 1U);
+    EXPECT_FALSE(talk_.closing());
+    status.draining->over = true;
+    talk_.onService(status, now_);
     EXPECT_FALSE(talk_.nextMessage(now_));
     EXPECT_EQ(talk_.closing()->code, CloseCode::kDraining);
+}
+
+TEST_F(ConversationTest, Draining_WithoutASession_ClosesAtOnce) {
+    ServiceStatus status;
+    status.draining = Draining{};
+    talk_.onService(status, now_);
+    EXPECT_TRUE(nextAnswer()->has_draining());
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kDraining);
+}
+
+TEST_F(ConversationTest, Lost_SaysWhyAndCloses) {
+    join();
+    ServiceStatus status;
+    status.lost = "the render thread stands still";
+    talk_.onService(status, now_);
+    EXPECT_EQ(nextAnswer()->error().message(), "the render thread stands still");
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kDeviceLost);
 }
 
 TEST_F(ConversationTest, HelloTimeout_NoHello_Closes) {

@@ -40,7 +40,7 @@ TEST_F(PublicSiteTest, Health_FollowsTheService) {
     EXPECT_EQ(health().body(), R"({"status":"loading"})");
     service->setServing({});
     EXPECT_EQ(health().body(), R"({"status":"serving"})");
-    service->setDraining(std::chrono::milliseconds(1));
+    service->setDraining({});
     EXPECT_EQ(health().result(), http::status::service_unavailable);
 }
 
@@ -54,25 +54,24 @@ TEST_F(PublicSiteTest, Metrics_AreElsewhereAndItSaysWhere) {
 TEST(AdminSite, Metrics_AreTheMetrics_AnythingElseIsNotFound) {
     auto metrics = std::make_shared<Metrics>();
     metrics->sessionOpened();
-    const AdminSite site(metrics);
+    const AdminSite site(metrics, std::make_shared<Service>(), {});
     const auto response = respond(request(http::verb::get, "/metrics?x=1"), site);
     EXPECT_EQ(response.result(), http::status::ok);
     EXPECT_EQ(response[http::field::content_type], Metrics::kContentType);
     EXPECT_NE(response.body().find("\nfroxel_sessions 1\n"), std::string::npos);
     for (const char* target : {"/", "/healthz", "/ws", "/metrics/", "//metrics", "/index.html"}) {
-        EXPECT_EQ(respond(request(http::verb::get, target), site).result(),
-                  http::status::not_found)
+        EXPECT_EQ(respond(request(http::verb::get, target), site).result(), http::status::not_found)
             << target;
     }
 }
 
 TEST(AdminSite, Upgrade_Any_IsRefused) {
-    const AdminSite site(std::make_shared<Metrics>());
+    const AdminSite site(std::make_shared<Metrics>(), std::make_shared<Service>(), {});
     EXPECT_TRUE(site.refuseUpgrade(request(http::verb::get, "/ws")));
 }
 
 TEST_F(PublicSiteTest, EveryAnswer_HasTheSecurityHeaders) {
-    const AdminSite admin(std::make_shared<Metrics>());
+    const AdminSite admin(std::make_shared<Metrics>(), std::make_shared<Service>(), {});
     const auto expectHeaders = [](const Response& response, const char* target) {
         EXPECT_EQ(response["X-Content-Type-Options"], "nosniff") << target;
         EXPECT_NE(response["Content-Security-Policy"].find("frame-ancestors 'none'"),

@@ -47,7 +47,7 @@ TEST(ProtocolReadme, CloseCodes_AreListed) {
     using protocol::CloseCode;
     for (const CloseCode code :
          {CloseCode::kNormal, CloseCode::kPolicy, CloseCode::kTooBig, CloseCode::kVersion,
-          CloseCode::kSlowConsumer, CloseCode::kReplaced, CloseCode::kDraining,
+          CloseCode::kToken, CloseCode::kSlowConsumer, CloseCode::kReplaced, CloseCode::kDraining,
           CloseCode::kCapacity, CloseCode::kDeviceLost}) {
         EXPECT_THAT(text, HasSubstr("\n| " + numberText(static_cast<uint16_t>(code)) + " |"));
     }

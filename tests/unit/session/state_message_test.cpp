@@ -154,7 +154,7 @@ TEST(NameOf, Code_IsTheProtocolsWithoutItsPrefix) {
 TEST(PongAndDraining, CarryTheirNumbers) {
     EXPECT_EQ(makePong({7, 8}).pong().ref_seq(), 7U);
     EXPECT_EQ(makePong({7, 8}).pong().client_time_us(), 8U);
-    EXPECT_EQ(makeDraining(1500ms).draining().deadline_ms(), 1500U);
+    EXPECT_EQ(makeDraining(1500ms, "").draining().deadline_ms(), 1500U);
 }
 
 FrameRecord record() {

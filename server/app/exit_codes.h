@@ -1,0 +1,9 @@
+// Exit codes beyond those of an ErrorCode; all are in the help of `froxel` and in the README.
+#pragma once
+
+namespace froxel::app {
+
+// The device was lost, or the render thread never came back, while serving: start the process anew.
+inline constexpr int kExitDeviceLost = 6;
+
+} // namespace froxel::app

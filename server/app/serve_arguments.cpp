@@ -1,0 +1,77 @@
+#include "app/serve_arguments.h"
+
+#include "app/bind_option.h"
+
+namespace froxel::app {
+namespace {
+
+constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
+constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
+constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
+constexpr view::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
+constexpr view::Range<double> kDrainRange{"drain_seconds", 0.0, 86'400.0};
+constexpr view::Range<double> kWatchdogRange{"watchdog_seconds", 0.0, 86'400.0};
+
+// Whatever follows the scheme is the viewers' matter.
+Result<std::string> parseAdvertise(const std::string& text) {
+    if (text == "none") {
+        return std::string();
+    }
+    for (const std::string_view scheme : {"ws://", "wss://"}) {
+        if (text.compare(0, scheme.size(), scheme) == 0 && text.size() > scheme.size() &&
+            text.find_first_of(" ;,\"'\\") == std::string::npos) {
+            return text;
+        }
+    }
+    return Error{ErrorCode::kInvalidArgument,
+                 fmt::format("'{}' is not none or a WebSocket's URL, such as wss://host/ws", text)};
+}
+
+} // namespace
+
+void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
+    command.text(
+        "--config", "FILE", options.config, "",
+        "TOML file of options by their long names, such as max-sessions = 8. Each is also a "
+        "variable, FROXEL_MAX_SESSIONS. The command line wins over the environment, that "
+        "over the file");
+    command.text("--address", "IP", options.address, options.address, "IPv4 or IPv6 to listen on");
+    command.number("--port", options.port, kPortRange, "TCP port, 0 for any free one");
+    command.value("--admin-bind", "IP:PORT|none", options.admin, parseBindAddress,
+                  fmt::format("{}:{}", options.admin.address, options.admin.port),
+                  "Address of /metrics, /livez, /readyz, /startupz and /drain, for operators");
+    command.text("--web-root", "DIR", options.web_root, "web beside the binary, else the build's",
+                 "Folder of the built page");
+    command
+        .text("--allow-origin", "ORIGIN", options.allowed_origins, "",
+              "Another site whose pages may connect, such as https://example.org; repeatable")
+        ->allow_extra_args(false);
+    command.text("--token-file", "FILE", options.token_file, "",
+                 "Lets in who sends one of its tokens, one a line; read again on SIGHUP");
+    command.text("--tls-cert", "FILE", options.tls_certificate, "",
+                 "Certificate with its chain, PEM, for https and wss; read again on SIGHUP");
+    command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM");
+}
+
+void addServeLimits(CommandBuilder& command, ServeOptions& options) {
+    using Defaults = session::SessionDefaults;
+    command.number("--max-sessions", options.sessions_max, kSessionsRange,
+                   "Sessions at once; all viewers of a room share one");
+    command.number(
+        "--min-fps", options.min_rate_hz, kMinRateRange,
+        byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),
+        "Refuse a session that would take active ones below these frames a second; 0: none");
+    command.number("--resume-grace", options.resume_grace_s, kGraceRange,
+                   "Seconds that a lost connection's session waits for it");
+    command.number("--max-connections", options.connections_max, kConnectionsRange,
+                   "Connections of any kind at once");
+    command.number("--drain-seconds", options.drain_s, kDrainRange,
+                   "From SIGTERM or POST /drain to the end, for viewers to go elsewhere");
+    command.value("--advertise", "URL|none", options.advertise, parseAdvertise, "none",
+                  "WebSocket that viewers are sent to meanwhile; none: this address again");
+    command.number("--watchdog-seconds", options.watchdog_s, kWatchdogRange,
+                   fmt::format("{} on a CPU device, {} on a GPU", kCpuWatchdog_s, kGpuWatchdog_s),
+                   "End the process when drawing has stood still for so long; 0: never");
+}
+
+} // namespace froxel::app

@@ -1,0 +1,21 @@
+// What proxies, manifests and probes must know of a server; `froxel info --json` says it, too.
+#pragma once
+
+#include <chrono>
+#include <string_view>
+
+namespace froxel::net {
+
+// Of the viewers' address.
+inline constexpr std::string_view kSocketPath = "/ws";
+// Of the admin address.
+inline constexpr std::string_view kMetricsPath = "/metrics";
+inline constexpr std::string_view kLivePath = "/livez";
+inline constexpr std::string_view kReadyPath = "/readyz";
+inline constexpr std::string_view kStartedPath = "/startupz";
+inline constexpr std::string_view kDrainPath = "/drain";
+
+// Silence of this length ends a WebSocket; a ping goes out at half of it.
+inline constexpr std::chrono::seconds kIdleTimeout{20};
+
+} // namespace froxel::net

@@ -1,0 +1,54 @@
+#include "net/health.h"
+
+#include "core/text.h"
+
+#include <cmath>
+
+namespace froxel::net {
+namespace {
+
+Result<void> stepsWithin(const ServiceStatus& status, Seconds limit, TimePoint now) {
+    if (!status.serving || !status.serving->heartbeat || limit.count() <= 0) {
+        return {};
+    }
+    const Seconds step = status.serving->heartbeat->stepTime(now);
+    if (step <= limit) {
+        return {};
+    }
+    return Error{ErrorCode::kDevice, "the render thread has been at one step for " +
+                                         numberText(std::round(step.count() * 10) / 10) +
+                                         " s; it may take " + numberText(limit.count()) + " s"};
+}
+
+} // namespace
+
+Result<void> hasStarted(const ServiceStatus& status) {
+    if (status.serving) {
+        return {};
+    }
+    return Error{ErrorCode::kUnsupported,
+                 status.loading.stage + ", " +
+                     numberText(std::round(100 * status.loading.fraction)) + " %"};
+}
+
+Result<void> isReady(const ServiceStatus& status, TimePoint now) {
+    if (status.draining) {
+        return Error{ErrorCode::kCapacity, "draining"};
+    }
+    if (status.lost) {
+        return Error{ErrorCode::kDevice, *status.lost};
+    }
+    if (auto started = hasStarted(status); !started) {
+        return started;
+    }
+    if (auto steps = stepsWithin(status, kUnreadyStep, now); !steps) {
+        return steps;
+    }
+    return status.serving->port != nullptr ? status.serving->port->admits(now) : Result<void>();
+}
+
+Result<void> rendersOn(const ServiceStatus& status, TimePoint now) {
+    return status.serving ? stepsWithin(status, status.serving->step_limit, now) : Result<void>();
+}
+
+} // namespace froxel::net

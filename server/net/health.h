@@ -1,0 +1,18 @@
+// What probes are told of a server: each an answer of yes, or no with why in one line. Any thread.
+#pragma once
+
+#include "net/service.h"
+
+namespace froxel::net {
+
+// A step of the render thread that takes longer than this makes a server unready: frames do not.
+inline constexpr Seconds kUnreadyStep{10};
+
+// Whether the scene is there: from then on for good.
+[[nodiscard]] Result<void> hasStarted(const ServiceStatus& status);
+// Whether a new viewer would get a session and pictures.
+[[nodiscard]] Result<void> isReady(const ServiceStatus& status, TimePoint now);
+// Whether the render thread still moves, as far as its limit tells.
+[[nodiscard]] Result<void> rendersOn(const ServiceStatus& status, TimePoint now);
+
+} // namespace froxel::net

@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+"""Tokens, TLS, reloading and configuration, from outside: access_test.py PATH_OF_FROXEL.
+
+One server with a file, variables and a command line; the certificates are made by openssl.
+"""
+
+import asyncio
+import json
+import os
+import signal
+import ssl
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import websockets
+
+FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
+OLD, NEW = "old-token-0123456789", "new-token-0123456789"
+
+
+def make_certificate(folder, name):
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256",
+                    "-nodes", "-days", "2", "-subj", f"/CN={name}", "-addext",
+                    "subjectAltName=IP:127.0.0.1", "-keyout", folder / "key.pem",
+                    "-out", folder / "cert.pem"], check=True, capture_output=True)
+
+
+class Access(unittest.IsolatedAsyncioTestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        make_certificate(cls.folder, "first")
+        cls.tokens = cls.folder / "tokens"
+        cls.tokens.write_text(f"# viewers\n{OLD}\n")
+        config = cls.folder / "froxel.toml"
+        config.write_text('size = "640x480"\nlights = 20\ndrain-seconds = 1\nmax-sessions = 9\n')
+        cls.log = open(cls.folder / "log", "w+", encoding="utf-8")
+        cls.addClassCleanup(cls.log.close)
+        cls.server = subprocess.Popen(
+            [FROXEL, "serve", "--config", config, "--device", "cpu", "--port", "0", "--min-fps", "0",
+             "--tls-cert", cls.folder / "cert.pem", "--tls-key", cls.folder / "key.pem"],
+            env={**os.environ, "FROXEL_TOKEN_FILE": str(cls.tokens), "FROXEL_MAX_SESSIONS": "3",
+                 "FROXEL_ADMIN_BIND": "127.0.0.1:0", "FROXEL_SERVICE_HOST": "10.0.0.1"},
+            stdout=subprocess.PIPE, stderr=cls.log, text=True)
+        cls.addClassCleanup(cls.server.wait)
+        cls.addClassCleanup(cls.server.kill)
+        cls.addClassCleanup(cls.server.stdout.close)
+        cls.url = cls.server.stdout.readline().strip()
+        cls.admin = cls.server.stdout.readline().strip().removesuffix("metrics")
+
+    def context(self, version=None):
+        context = ssl.create_default_context(cafile=self.folder / "cert.pem")
+        if version:
+            context.minimum_version = context.maximum_version = version
+        return context
+
+    async def greet(self, **hello):
+        """The connection, and the first Welcome or Error."""
+        socket = await websockets.connect(self.url.replace("https", "wss") + "ws", ssl=self.context(),
+                                          subprotocols=["froxel.v1"], max_size=2**26)
+        await socket.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1, **hello}}))
+        while True:
+            answer = json.loads(await asyncio.wait_for(socket.recv(), 60))
+            if "loading" not in answer:
+                return socket, answer
+
+    async def assert_refused(self, **hello):
+        socket, answer = await self.greet(**hello)
+        self.assertEqual(answer["error"]["code"], "ERROR_CODE_TOKEN")
+        await asyncio.wait_for(socket.wait_closed(), 10)
+        self.assertEqual(socket.close_code, 4003)
+
+    async def assert_welcome(self, token):
+        """Also that a picture comes."""
+        socket, answer = await self.greet(token=token)
+        self.assertIn("welcome", answer)
+        while not isinstance(message := await asyncio.wait_for(socket.recv(), 60), bytes):
+            pass
+        header = int.from_bytes(message[2:4], "little")
+        self.assertEqual(message[4 + header:][:2], b"\xff\xd8")
+        await socket.close()
+
+    async def hang_up(self, what):
+        """Sends SIGHUP and waits for the log to say `what`."""
+        self.log.seek(0, os.SEEK_END)
+        begin = self.log.tell()
+        self.server.send_signal(signal.SIGHUP)
+        for _ in range(200):
+            await asyncio.sleep(0.05)
+            self.log.seek(begin)
+            if what in self.log.read():
+                return
+        self.fail(f"no {what} in the log")
+
+    async def test_1_token_is_asked_for(self):
+        await self.assert_refused()
+        await self.assert_refused(token=OLD + "x")
+        await self.assert_refused(token=NEW)
+        await self.assert_refused(resumeToken="00" * 32)
+        await self.assert_welcome(OLD)
+
+    async def test_2_page_has_its_policy_and_asks_nobody(self):
+        page = await asyncio.to_thread(urllib.request.urlopen, self.url + "healthz",
+                                       context=self.context(), timeout=10)
+        self.assertEqual(page.status, 200)
+        self.assertIn("default-src 'self'", page.headers["Content-Security-Policy"])
+
+    async def test_3_old_tls_and_no_tls_are_refused(self):
+        port = int(self.url.rsplit(":", 1)[1].strip("/"))
+        with self.assertRaises((websockets.exceptions.InvalidMessage, OSError)):
+            await websockets.connect(f"ws://127.0.0.1:{port}/ws")
+        run = subprocess.run(["openssl", "s_client", "-connect", f"127.0.0.1:{port}", "-tls1_1",
+                              "-cipher", "ALL@SECLEVEL=0"], input="", capture_output=True, text=True,
+                             timeout=30, check=False)
+        self.assertNotEqual(run.returncode, 0)
+        for version in (ssl.TLSVersion.TLSv1_2, ssl.TLSVersion.TLSv1_3):
+            url = self.url + "healthz"
+            answer = urllib.request.urlopen(url, context=self.context(version), timeout=10)
+            self.assertEqual(answer.status, 200)
+
+    async def test_4_hangup_reads_tokens_and_certificate_again(self):
+        self.tokens.write_text(f"{NEW}\n")
+        make_certificate(self.folder, "second")
+        await self.hang_up("event=reloaded what=certificate")
+        await self.assert_welcome(NEW)
+        await self.assert_refused(token=OLD)
+
+    async def test_5_broken_files_change_nothing(self):
+        self.tokens.write_text("short\n")
+        await self.hang_up("event=not_reloaded what=tokens")
+        await self.assert_welcome(NEW)
+
+    async def test_6_probe_tells_the_verdict_by_its_exit_code(self):
+        for path, code in (("readyz", 0), ("livez", 0), ("startupz", 0), ("nothing", 1)):
+            run = subprocess.run([FROXEL, "probe", self.admin + path], capture_output=True, text=True,
+                                 timeout=20, check=False)
+            self.assertEqual((run.returncode, len(run.stdout.splitlines())), (code, 1), run)
+        run = subprocess.run([FROXEL, "probe", "http://127.0.0.1:1/livez"], capture_output=True,
+                             text=True, timeout=20, check=False)
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(len(run.stderr.splitlines()), 1)
+
+    async def test_7_drains_and_the_log_has_the_configuration_and_no_token(self):
+        socket, _ = await self.greet(token=NEW)
+        self.server.send_signal(signal.SIGTERM)
+        with self.assertRaises(websockets.exceptions.ConnectionClosed):
+            while True:
+                await asyncio.wait_for(socket.recv(), 10)
+        self.assertEqual(socket.close_code, 4010)
+        self.assertEqual(await asyncio.to_thread(self.server.wait, 10), 0)
+        self.log.seek(0)
+        log = self.log.read()
+        self.assertRegex(log, "event=configuration from=file .*drain-seconds=1")
+        self.assertRegex(log, "event=configuration from=environment .*max-sessions=3")
+        self.assertRegex(log, "event=configuration from=command_line .*device=cpu")
+        self.assertRegex(log, "event=configuration from=default .*watchdog-seconds=")
+        self.assertIn("event=unknown_variable name=FROXEL_SERVICE_HOST", log)
+        self.assertNotIn(OLD, log)
+        self.assertNotIn(NEW, log)
+
+
+if __name__ == "__main__":
+    unittest.main()

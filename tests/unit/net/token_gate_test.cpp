@@ -1,0 +1,84 @@
+#include "net/token_gate.h"
+#include "unit/net/conversation_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <memory>
+#include <string>
+
+namespace froxel::net {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string kToken = "correct-horse-battery";
+
+class TokenGateTest : public testing::Test {
+  protected:
+    ~TokenGateTest() override { std::filesystem::remove(path_); }
+    Result<void> load(const std::string& text) {
+        std::ofstream(path_) << text;
+        return gate_->load(path_);
+    }
+    const std::string path_ = testing::TempDir() + "froxel_token_gate_test";
+    std::shared_ptr<TokenGate> gate_ = std::make_shared<TokenGate>();
+};
+
+TEST_F(TokenGateTest, NothingLoaded_LetsEverybodyIn) {
+    EXPECT_TRUE(gate_->lets(""));
+}
+
+TEST_F(TokenGateTest, Loaded_LetsInWhoKnowsOneOfThem) {
+    ASSERT_TRUE(load("# viewers\n\n" + kToken + "\r\nanother-token-0123\n"));
+    EXPECT_TRUE(gate_->lets(kToken));
+    EXPECT_TRUE(gate_->lets("another-token-0123"));
+    for (const std::string& wrong :
+         {std::string(), kToken + "x", kToken.substr(1), std::string("# viewers"), kToken + "\r"}) {
+        EXPECT_FALSE(gate_->lets(wrong)) << wrong;
+    }
+}
+
+TEST_F(TokenGateTest, BrokenFile_NamesTheLineAndNoToken_AndChangesNothing) {
+    ASSERT_TRUE(load(kToken + "\n"));
+    for (const std::string& broken :
+         {std::string("secret-short\n"), std::string("secret with some spaces\n"),
+          "secret" + std::string(600, 'x') + "\n", std::string("secret-\x01-0123456789\n")}) {
+        const auto loaded = load("# a\n" + broken);
+        ASSERT_FALSE(loaded);
+        EXPECT_THAT(loaded.error().message, HasSubstr(path_ + " line 2"));
+        EXPECT_THAT(loaded.error().message, Not(HasSubstr("secret")));
+    }
+    EXPECT_THAT(load("# nobody\n").error().message, HasSubstr("has no token"));
+    EXPECT_THAT(gate_->load("/no/such/file").error().message, HasSubstr("/no/such/file"));
+    EXPECT_TRUE(gate_->lets(kToken));
+    EXPECT_FALSE(gate_->lets(""));
+}
+
+TEST_F(TokenGateTest, Conversation_WithoutTheToken_GetsNoSession) {
+    ASSERT_TRUE(load(kToken + "\n"));
+    for (const std::string& token : {std::string(), std::string("wrong-horse-battery"), kToken}) {
+        FakePort port;
+        Conversation talk{{}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>(), gate_};
+        ServiceStatus status;
+        status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
+        talk.onService(status, TimePoint());
+        v1::ClientMessage hello;
+        hello.set_seq(1);
+        hello.mutable_hello()->set_protocol_major(protocol::kMajor);
+        hello.mutable_hello()->set_token(token);
+        talk.onMessage(protocol::bytesOf(hello.SerializeAsString()), WireFormat::kBinary,
+                       TimePoint());
+        EXPECT_EQ(port.sessions.size(), token == kToken ? 1U : 0U) << token;
+        EXPECT_EQ(talk.closing().has_value(), token != kToken);
+        if (talk.closing()) {
+            EXPECT_EQ(talk.closing()->code, protocol::CloseCode::kToken);
+        }
+    }
+}
+
+} // namespace
+} // namespace froxel::net
