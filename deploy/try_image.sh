@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Builds deploy/Dockerfile where no registry can be reached and no daemon runs: by buildah, on a base that
+# debootstrap makes under the same name. Then opens a device with it, as the image's user. As root, on Debian:
+#   ./deploy/try_image.sh [FOLDER]
+# With FOLDER, which has /usr/local/bin/froxel and its web/, the build stage is left out.
+# shellcheck source=deploy/common.sh
+source "$(dirname "$0")/common.sh"
+
+base=docker.io/library/debian:12-slim
+work=$(mktemp -d /var/tmp/froxel-image.XXXXXX)
+containers=()
+cleanup() {
+    ((${#containers[@]} == 0)) || builder rm "${containers[@]}" >/dev/null || true
+    rm -rf "$work"
+}
+trap cleanup EXIT
+
+builder() {
+    buildah --root "$work/storage" --runroot "$work/run" --storage-driver vfs "$@"
+}
+
+# Chroot isolation gives a container this host's /proc and /sys as they are, which is enough here.
+build() {
+    builder bud --isolation chroot --pull=never --format docker --file "$root/deploy/Dockerfile" --tag froxel "$@" "$root"
+}
+
+require_packages buildah debootstrap
+say "making $base"
+debootstrap --variant=minbase bookworm "$work/base" >"$work/debootstrap.log" ||
+    die "debootstrap failed: $(tail -1 "$work/debootstrap.log")"
+# What the slim image leaves out, too.
+rm -rf "$work/base"/{var/cache/apt/*,var/lib/apt/lists/*,usr/share/{doc,man,info,locale}/*}
+scratch=$(builder from scratch)
+containers+=("$scratch")
+builder copy --quiet "$scratch" "$work/base" / >/dev/null
+builder commit --quiet "$scratch" "$base" >/dev/null
+rm -rf "$work/base"
+
+say "building"
+if (($# > 0)); then
+    prebuilt=$(builder from scratch)
+    containers+=("$prebuilt")
+    builder copy --quiet "$prebuilt" "$1" /out >/dev/null
+    build --build-context "build=container-image://$(builder commit --quiet "$prebuilt" localhost/build)"
+else
+    build
+fi
+
+trial=$(builder from --pull=never froxel)
+containers+=("$trial")
+size=$(du -sm --apparent-size "$(builder mount "$trial")" | cut -f 1)
+base_container=$(builder from --pull=never "$base")
+containers+=("$base_container")
+base_size=$(du -sm --apparent-size "$(builder mount "$base_container")" | cut -f 1)
+say "opening the device with it"
+builder run --isolation chroot "$trial" -- froxel info --device cpu
+say "the image has $size MB, of which the base $base_size MB"

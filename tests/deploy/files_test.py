@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""What deploy/ says against what the binary says: files_test.py PATH_OF_FROXEL.
+
+Manifests are those that `kubectl kustomize` renders, where there is a kubectl; what only a cluster
+knows (whether its API takes them) is not tested.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import unittest
+from pathlib import Path
+
+import yaml
+
+FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
+ROOT = Path(__file__).resolve().parents[2]
+DEPLOY = ROOT / "deploy"
+
+
+def run(*command):
+    return subprocess.run([*map(str, command)], check=True, capture_output=True, text=True).stdout
+
+
+def seconds(text):
+    """Of "30s", "1h" or a number, as proxies, systemd and compose write it."""
+    number, unit = re.fullmatch(r"(\d+)(s|m|h|)", str(text)).groups()
+    return int(number) * {"": 1, "s": 1, "m": 60, "h": 3600}[unit]
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.service = json.loads(run(FROXEL, "info", "--json", "--device", "cpu"))["service"]
+        cls.options = set(re.findall(r"--([a-z][a-z-]+)", run(FROXEL, "serve", "--help")))
+        cls.variables = {"FROXEL_" + name.upper().replace("-", "_") for name in cls.options}
+
+    def assert_variables(self, names):
+        self.assertLessEqual({name for name in names if name.startswith("FROXEL_")}, self.variables)
+
+    def manifests(self, overlay):
+        if not shutil.which("kubectl"):
+            self.skipTest("kubectl is not here (Debian: kubernetes-client)")
+        text = run("kubectl", "kustomize", DEPLOY / "kubernetes/overlays" / overlay)
+        documents = {}
+        for document in yaml.safe_load_all(text):
+            documents.setdefault(document["kind"], []).append(document)
+        return documents
+
+    def test_overlays_agree_with_the_binary_and_with_themselves(self):
+        for overlay in ("cpu", "nvidia"):
+            with self.subTest(overlay):
+                self.check_manifests(self.manifests(overlay))
+
+    def check_manifests(self, kinds):
+        service = self.service
+        deployment, = kinds["Deployment"]
+        pod = deployment["spec"]["template"]["spec"]
+        container, = pod["containers"]
+        ports = {port["name"]: port["containerPort"] for port in container["ports"]}
+        self.assertEqual(ports, {"http": service["port"], "admin": service["admin_port"]})
+        for probe, path in (("startupProbe", "started_path"), ("readinessProbe", "ready_path"),
+                            ("livenessProbe", "live_path")):
+            self.assertEqual(container[probe]["httpGet"], {"path": service[path], "port": "admin"})
+
+        config_map, = kinds["ConfigMap"]
+        config = tomllib.loads(config_map["data"]["froxel.toml"])
+        self.assertLessEqual(set(config), self.options)
+        env = {entry["name"]: entry["value"] for entry in container["env"]}
+        self.assert_variables(env)
+        wait = int(container["lifecycle"]["preStop"]["exec"]["command"][1])
+        self.assertGreater(pod["terminationGracePeriodSeconds"], wait + config["drain-seconds"])
+        # Unready after one failure, and heard of before SIGTERM.
+        self.assertGreater(wait, container["readinessProbe"]["periodSeconds"])
+
+        self.assertTrue(pod["securityContext"]["runAsNonRoot"])
+        self.assertEqual(pod["securityContext"]["seccompProfile"]["type"], "RuntimeDefault")
+        self.assertEqual(container["securityContext"],
+                         {"allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True,
+                          "capabilities": {"drop": ["ALL"]}})
+        self.assertFalse(pod["enableServiceLinks"], "FROXEL_PORT would be a URL")
+        self.assertEqual(deployment["spec"]["strategy"]["rollingUpdate"],
+                         {"maxUnavailable": 0, "maxSurge": 1})
+        mounts = {mount["name"] for mount in container["volumeMounts"]}
+        self.assertEqual(mounts, {volume["name"] for volume in pod["volumes"]})
+        volumes = {volume["name"]: volume for volume in pod["volumes"]}
+        self.assertEqual(volumes["config"]["configMap"]["name"], config_map["metadata"]["name"])
+
+        labels = deployment["spec"]["template"]["metadata"]["labels"]
+        selectors = [deployment["spec"]["selector"]["matchLabels"],
+                     kinds["PodDisruptionBudget"][0]["spec"]["selector"]["matchLabels"],
+                     kinds["NetworkPolicy"][0]["spec"]["podSelector"]["matchLabels"],
+                     pod["topologySpreadConstraints"][0]["labelSelector"]["matchLabels"],
+                     *(entry["spec"]["selector"] for entry in kinds["Service"])]
+        for selector in selectors:
+            self.assertLessEqual(selector.items(), labels.items())
+        for entry in kinds["Service"]:
+            for port in entry["spec"]["ports"]:
+                self.assertIn(port["targetPort"], ports)
+        for rule in kinds["NetworkPolicy"][0]["spec"]["ingress"]:
+            self.assertIn(rule["ports"][0]["port"], ports)
+        self.assertEqual(kinds["ServiceMonitor"][0]["spec"]["endpoints"][0]["path"],
+                         service["metrics_path"])
+        monitored = kinds["ServiceMonitor"][0]["spec"]["selector"]["matchLabels"].items()
+        admin, = [entry for entry in kinds["Service"]
+                  if monitored <= entry["metadata"].get("labels", {}).items()]
+        self.assertEqual(admin["spec"]["ports"][0]["port"], service["admin_port"])
+        self.assertEqual(kinds["HorizontalPodAutoscaler"][0]["spec"]["scaleTargetRef"]["name"],
+                         deployment["metadata"]["name"])
+        ingress, = kinds["Ingress"]
+        timeout = ingress["metadata"]["annotations"]["nginx.ingress.kubernetes.io/proxy-read-timeout"]
+        self.assertGreater(int(timeout), service["idle_timeout_seconds"])
+        backend = ingress["spec"]["rules"][0]["http"]["paths"][0]["backend"]["service"]
+        public, = [entry for entry in kinds["Service"]
+                   if entry["metadata"]["name"] == backend["name"]]
+        self.assertEqual(public["spec"]["ports"][0]["name"], backend["port"]["name"])
+
+    def test_image_agrees_with_the_binary(self):
+        text = (DEPLOY / "Dockerfile").read_text()
+        self.assert_variables(re.findall(r"FROXEL_[A-Z_]+", text))
+        self.assertIn(f"EXPOSE {self.service['port']} {self.service['admin_port']}\n", text)
+        self.assertIn(f"http://127.0.0.1:{self.service['admin_port']}{self.service['live_path']}",
+                      text)
+        self.assertIn("\nUSER 10001:10001\n", text)
+        self.assertIn("\nSTOPSIGNAL SIGTERM\n", text)
+        # Whatever the binary links is installed there.
+        packages = set((DEPLOY / "runtime_packages.txt").read_text().split())
+        if not shutil.which("dpkg"):
+            return
+        libraries = re.findall(r"=> (\S+)", run("ldd", FROXEL))
+        for library in libraries:
+            names = [library, os.path.realpath(library), library.removeprefix("/usr"),
+                     "/usr" + library]
+            found = subprocess.run(["dpkg", "-S", *names], capture_output=True, text=True,
+                                   check=False).stdout
+            owners = {line.split(":")[0] for line in found.splitlines()}
+            basic = {"libc6", "libgcc-s1", "libstdc++6", "zlib1g"}
+            # What another package brings with it.
+            brought = {"libstb0": "libtinygltf2d"}
+            self.assertTrue(owners & (packages | basic) or
+                            any(brought.get(owner) in packages for owner in owners),
+                            f"{library} of {owners} is in no package of the image")
+
+    def test_compose_agrees_with_the_binary(self):
+        compose = yaml.safe_load((DEPLOY / "compose.yaml").read_text())
+        froxel = compose["services"]["froxel"]
+        self.assert_variables(froxel["environment"])
+        self.assertTrue(froxel["ports"][0].endswith(f":{self.service['port']}"))
+        self.assertEqual(froxel["expose"], [str(self.service["admin_port"])])
+        self.assertGreater(seconds(froxel["stop_grace_period"]),
+                           int(froxel["environment"]["FROXEL_DRAIN_SECONDS"]))
+        overlay = yaml.safe_load((DEPLOY / "compose.nvidia.yaml").read_text())
+        self.assert_variables(overlay["services"]["froxel"]["environment"])
+        scrape, = yaml.safe_load((DEPLOY / "compose/prometheus.yml").read_text())["scrape_configs"]
+        self.assertEqual(scrape["static_configs"][0]["targets"],
+                         [f"froxel:{self.service['admin_port']}"])
+
+    def test_alerts_and_dashboard_use_metrics_that_there_are(self):
+        sources = "".join(path.read_text() for path in (ROOT / "server/net").glob("*metrics.cpp"))
+        metrics = set(re.findall(r'"((?:froxel|process)_[a-z0-9_]+)"', sources))
+        texts = [(DEPLOY / "compose/alerts.yml").read_text()]
+        dashboard = json.loads((DEPLOY / "compose/grafana/dashboards/froxel.json").read_text())
+        for panel in dashboard["panels"]:
+            texts += [target["expr"] for target in panel["targets"]]
+        used = set(re.findall(r"\b((?:froxel|process)_[a-z0-9_]+)", " ".join(texts)))
+        self.assertGreater(len(used), 10)
+        self.assertEqual({re.sub("_bucket$", "", name) for name in used} - metrics, set())
+
+    def test_alerts_hold(self):
+        if not shutil.which("promtool"):
+            self.skipTest("promtool is not here (Debian: prometheus)")
+        folder = DEPLOY / "compose"
+        run("promtool", "check", "config", folder / "prometheus.yml")
+        run("promtool", "test", "rules", folder / "alerts_test.yml")
+        readme = (DEPLOY / "README.md").read_text()
+        for name in re.findall(r"alert: (\w+)", (folder / "alerts.yml").read_text()):
+            self.assertIn(f"`{name}`", readme)
+
+    def test_unit_leaves_time_to_drain(self):
+        unit = (DEPLOY / "systemd/froxel.service").read_text()
+        drain = float(re.search(r"--drain-seconds (\d+)", unit)[1])
+        self.assertGreater(seconds(re.search("TimeoutStopSec=(.*)", unit)[1]), drain)
+        self.assert_variables(re.findall(r"FROXEL_[A-Z_]+", unit))
+        self.assertIn(f"\n# {self.service['exit_code_device_lost']}: the device was lost.", unit)
+
+    def test_proxies_outlast_pings_and_ask_for_readiness(self):
+        nginx = (DEPLOY / "nginx.conf").read_text()
+        for name in ("proxy_read_timeout", "proxy_send_timeout"):
+            self.assertGreater(seconds(re.search(name + " (.*);", nginx)[1]),
+                               self.service["idle_timeout_seconds"])
+        haproxy = (DEPLOY / "haproxy.cfg").read_text()
+        for name in ("client", "server", "tunnel"):
+            self.assertGreater(seconds(re.search(f"timeout {name} (.*)", haproxy)[1]),
+                               self.service["idle_timeout_seconds"])
+        self.assertIn(f"option httpchk GET {self.service['ready_path']}\n", haproxy)
+        self.assertIn(f"check port {self.service['admin_port']} ", haproxy)
+        for text in (nginx, haproxy):
+            self.assertIn(f"froxel-a:{self.service['port']}", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

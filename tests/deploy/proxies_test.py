@@ -1,0 +1,244 @@
+#!/usr/bin/env python3
+"""Two servers behind the proxies of deploy/: proxies_test.py PATH_OF_FROXEL [--idle SECONDS].
+
+nginx and HAProxy are processes of this user, on free ports, with the files of deploy/ but for names,
+ports and certificates. Viewers are lavapipe's smallest.
+"""
+
+import asyncio
+import contextlib
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import ssl
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import websockets
+
+FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
+IDLE_S = 0.0
+if "--idle" in sys.argv:
+    at = sys.argv.index("--idle")
+    IDLE_S = float(sys.argv[at + 1])
+    del sys.argv[at:at + 2]
+DEPLOY = Path(__file__).resolve().parents[2] / "deploy"
+os.environ["PATH"] += ":/usr/sbin"
+
+
+def free_port():
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        return taken.getsockname()[1]
+
+
+def listens(port):
+    with socket.socket() as caller:
+        return caller.connect_ex(("127.0.0.1", port)) == 0
+
+
+def frame_id(message):
+    """The first field of the FrameHeader, a varint."""
+    value, shift, at = 0, 0, 5
+    while True:
+        value |= (message[at] & 0x7F) << shift
+        if message[at] < 0x80:
+            return value
+        shift, at = shift + 7, at + 1
+
+
+class Server:
+    """One `froxel serve`, on ports that stay the same when it is started anew."""
+
+    def __init__(self):
+        self.port, self.admin = free_port(), free_port()
+        self.start()
+
+    def start(self):
+        self.process = subprocess.Popen(
+            [FROXEL, "serve", "--device", "cpu", "--size", "32x32", "--lights", "1", "--min-fps", "0",
+             "--port", str(self.port), "--admin-bind", f"127.0.0.1:{self.admin}",
+             "--drain-seconds", "3", "--log-level", "error"], stdout=subprocess.DEVNULL)
+
+    def wait_ready(self):
+        for _ in range(600):
+            probe = subprocess.run([FROXEL, "probe", f"http://127.0.0.1:{self.admin}/readyz"],
+                                   capture_output=True, check=False)
+            if probe.returncode == 0:
+                return
+            time.sleep(0.1)
+        raise AssertionError("a server is not ready after a minute")
+
+    def metric(self, name):
+        with socket.create_connection(("127.0.0.1", self.admin)) as connection:
+            connection.sendall(b"GET /metrics HTTP/1.0\r\n\r\n")
+            text = b"".join(iter(lambda: connection.recv(65536), b"")).decode()
+        return float(re.search(rf"^{name} (\S+)", text, re.M)[1])
+
+    def end(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class Viewer:
+    """Keeps a session as the page does: comes back when its connection is lost or sent away."""
+
+    def __init__(self, url):
+        self.url = url
+        self.refused = 0        # connections that became no session
+        self.frames = 0
+        self.outages_s = []     # from a loss to the next picture
+        self.cookie = ""
+        self.task = asyncio.create_task(self.run())
+
+    async def run(self):
+        trust = ssl.create_default_context()
+        trust.check_hostname, trust.verify_mode = False, ssl.CERT_NONE
+        lost = None
+        while True:
+            try:
+                headers = {"Cookie": self.cookie} if self.cookie else {}
+                async with websockets.connect(self.url, ssl=trust, subprotocols=["froxel.v1"],
+                                              extra_headers=headers, max_size=2**26) as connection:
+                    given = connection.response_headers.get("Set-Cookie")
+                    self.cookie = given.split(";")[0] if given else self.cookie
+                    lost = await self.watch(connection, lost)
+            except (OSError, asyncio.TimeoutError, websockets.exceptions.WebSocketException) as error:
+                if not isinstance(error, websockets.exceptions.ConnectionClosed):
+                    self.refused += 1
+                lost = lost or time.monotonic()
+            await asyncio.sleep(0.1)
+
+    async def watch(self, connection, lost):
+        await connection.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1}}))
+        seq = 1
+        with contextlib.suppress(websockets.exceptions.ConnectionClosed):
+            async for message in connection:
+                if isinstance(message, str):
+                    if "draining" in json.loads(message):
+                        break
+                    continue
+                self.frames += 1
+                if lost:
+                    self.outages_s.append(time.monotonic() - lost)
+                    lost = None
+                seq += 1
+                await connection.send(json.dumps({"seq": seq, "ack": {"frameId": frame_id(message)}}))
+        return lost or time.monotonic()
+
+
+async def eventually(condition, seconds=20):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it never came"
+        await asyncio.sleep(0.05)
+
+
+class Proxies(unittest.IsolatedAsyncioTestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
+                        "ec_paramgen_curve:P-256", "-nodes", "-days", "2", "-subj", "/CN=localhost",
+                        "-keyout", cls.folder / "tls.key", "-out", cls.folder / "tls.crt"],
+                       check=True, capture_output=True)
+        key, certificate = ((cls.folder / name).read_text() for name in ("tls.key", "tls.crt"))
+        (cls.folder / "tls.pem").write_text(certificate + key)
+        cls.servers = [Server(), Server()]
+        for server in cls.servers:
+            cls.addClassCleanup(server.end)
+        for server in cls.servers:
+            server.wait_ready()
+
+    def start_proxy(self, name, command):
+        """The file of deploy/ with our addresses; the proxy's URL."""
+        port = free_port()
+        text = (DEPLOY / name).read_text().replace("/etc/froxel", str(self.folder))
+        text = text.replace("/run/nginx.pid", str(self.folder / "nginx.pid")).replace("8443", str(port))
+        first, second = self.servers
+        for label, server in (("a", first), ("b", second)):
+            text = text.replace(f"froxel-{label}:8080", f"127.0.0.1:{server.port}")
+        # Two servers on one address: each has an admin port of its own.
+        text = text.replace("check port 9090 ", "check ")
+        for label, server in (("a", first), ("b", second)):
+            text = text.replace(f"cookie {label}\n", f"cookie {label} port {server.admin}\n")
+        path = self.folder / name
+        path.write_text(text)
+        proxy = subprocess.Popen([*command, str(path)], stderr=subprocess.DEVNULL)
+        self.addCleanup(proxy.wait)
+        self.addCleanup(proxy.terminate)
+        return f"wss://127.0.0.1:{port}/ws", port
+
+    async def check(self, url, port):
+        await eventually(lambda: listens(port))
+        viewers = [Viewer(url) for _ in range(6)]
+        try:
+            first, second = self.servers
+            # nginx spreads by a hash, so even many may come to one server.
+            while not await self.are_spread(viewers) and len(viewers) < 30:
+                viewers.append(Viewer(url))
+            self.assertTrue(await self.are_spread(viewers), "one server has everybody")
+            await asyncio.sleep(IDLE_S)
+            self.assertEqual([viewer.outages_s for viewer in viewers if viewer.outages_s], [])
+
+            await self.roll(first, viewers)
+            self.assertEqual(sum(viewer.refused for viewer in viewers), 0)
+            await self.kill(second, viewers)
+        finally:
+            for viewer in viewers:
+                viewer.task.cancel()
+            await asyncio.gather(*(viewer.task for viewer in viewers), return_exceptions=True)
+
+    async def are_spread(self, viewers):
+        await eventually(lambda: all(viewer.frames > 1 for viewer in viewers), 60)
+        shares = [server.metric("froxel_sessions") for server in self.servers]
+        self.assertEqual(sum(shares), len(viewers))
+        return min(shares) > 0
+
+    async def roll(self, server, viewers):
+        """Ends one in order: its viewers are sent to the other, and nobody is refused."""
+        before = sum(len(viewer.outages_s) for viewer in viewers)
+        moved = server.metric("froxel_sessions")
+        server.process.send_signal(signal.SIGTERM)
+        self.assertEqual(await asyncio.to_thread(server.process.wait, 20), 0)
+        await eventually(lambda: sum(len(v.outages_s) for v in viewers) >= before + moved)
+        server.start()
+        await asyncio.to_thread(server.wait_ready)
+        await asyncio.sleep(2.5)  # both proxies look again within 2 s
+
+    async def kill(self, server, viewers):
+        before = [len(viewer.outages_s) for viewer in viewers]
+        moved = server.metric("froxel_sessions")
+        self.assertGreater(moved, 0)
+        server.process.kill()
+        server.process.wait()
+        await eventually(
+            lambda: sum(len(v.outages_s) for v in viewers) >= sum(before) + moved)
+        outages = [gap for viewer, count in zip(viewers, before) for gap in viewer.outages_s[count:]]
+        print(f"longest outage after SIGKILL: {max(outages):.2f} s")
+        self.assertLess(max(outages), 3)
+        server.start()
+        await asyncio.to_thread(server.wait_ready)
+
+    async def test_nginx(self):
+        if not shutil.which("nginx"):
+            self.skipTest("nginx is not here (Debian: nginx-light)")
+        await self.check(*self.start_proxy("nginx.conf", ["nginx", "-g", "daemon off;", "-c"]))
+
+    async def test_haproxy(self):
+        if not shutil.which("haproxy"):
+            self.skipTest("haproxy is not here (Debian: haproxy)")
+        await self.check(*self.start_proxy("haproxy.cfg", ["haproxy", "-db", "-f"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
