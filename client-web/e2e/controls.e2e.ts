@@ -19,6 +19,12 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   light_radius: [4, true],
   light_intensity: [3, true],
   light_cutoff: [0.01, true],
+  bloom_threshold: [0.25, false],
+  bloom_knee: [1, false],
+  bloom_strength: [1, true],
+  bloom_radius: [0.05, true],
+  outline_strength: [1, true],
+  outline_width: [0.01, true],
   light_speed: [2, false],
   light_seed: [12_345_678, true],
   ambient: [5, true],
@@ -30,6 +36,12 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   debug_scale_max: [12.5, false],
   target_fps: [1, false], // which every picture meets: none is scaled
 };
+
+/** What must be chosen so that fields of a prefix can be set. */
+const kNeeded = {
+  bloom_: { name: 'bloom', label: 'mip chain', usual: 'none' },
+  outline_: { name: 'renderer', label: 'toon fragment', usual: 'clustered deferred' },
+} as const;
 
 let server: Server;
 let browser: Browser;
@@ -71,10 +83,13 @@ describe('numbers', () => {
       if (!entry) throw new Error(`no test value for ${field.name}`);
       const [value, visible] = entry;
       if (isGridSide(field)) await setSwitch('grid.auto', false);
+      const needed = Object.entries(kNeeded).find(([prefix]) => field.name.startsWith(prefix))?.[1];
+      if (needed) await viewer.choose(needed.name, needed.label);
       const before = await viewer.settled();
       await viewer.type(field.name, value);
       await expectState(field, value);
       if (visible) await viewer.changed(field.name, before);
+      if (needed) await viewer.choose(needed.name, needed.usual);
     });
   }
 
@@ -107,6 +122,16 @@ describe('choices', () => {
     const before = await viewer.settled();
     await viewer.choose('renderer', 'toon fragment');
     await viewer.changed('toon fragment', before);
+  });
+
+  it('FieldsOfWhatIsOff_CannotBeSet', async () => {
+    await viewer.choose('renderer', 'clustered deferred');
+    await viewer.choose('bloom', 'none');
+    for (const name of ['bloom_radius', 'outline_strength']) {
+      await until(`${name} is disabled`, async () =>
+        ((await viewer.control(name).getAttribute('class')) ?? '').includes('lil-disabled'),
+      );
+    }
   });
 
   it('GbufferOfAForwardRenderer_CannotBeChosen', async () => {

@@ -4,6 +4,9 @@
 import type { DescEnum } from '@bufbuild/protobuf';
 
 import {
+  AntialiasingSchema,
+  BloomKind,
+  BloomKindSchema,
   ChromaSchema,
   Codec,
   CodecSchema,
@@ -19,7 +22,7 @@ import {
   ToneMapSchema,
 } from './gen/froxel/v1/common_pb';
 import { choicesOf, type Choice } from './schema_names';
-import type { Settings } from './settings';
+import { isDeferred, isToon, type Settings } from './settings';
 
 type KeysOf<T> = {
   [Key in keyof Settings]: Settings[Key] extends T ? Key : never;
@@ -34,6 +37,8 @@ type ChoiceKey =
   | 'gridLaw'
   | 'lightLoop'
   | 'toneMap'
+  | 'bloom'
+  | 'antialiasing'
   | 'chroma'
   | 'codec'
   | 'refine'
@@ -66,7 +71,14 @@ export interface ChoiceField extends Base {
 
 export type Field = NumberField | BooleanField | ChoiceField;
 
-export type Section = 'camera' | 'rendering' | 'lights' | 'clusters' | 'debug' | 'stream';
+export type Section =
+  | 'camera'
+  | 'rendering'
+  | 'effects'
+  | 'lights'
+  | 'clusters'
+  | 'debug'
+  | 'stream';
 
 const number = (
   key: KeysOf<number>,
@@ -144,6 +156,70 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
     ),
     number('exposure', 'exposure', 'Exposure', 'log', false, 'Multiplies light before the tone map'),
     choice('toneMap', 'tone_map', 'Tone map', ToneMapSchema, 'From scene light to display colours'),
+  ],
+  effects: [
+    choice(
+      'antialiasing',
+      'antialiasing',
+      'Antialiasing',
+      AntialiasingSchema,
+      'fxaa: filters edges, cheap; ssaa4: four samples a pixel, four times the work',
+    ),
+    choice(
+      'bloom',
+      'bloom',
+      'Bloom',
+      BloomKindSchema,
+      'mip chain costs least; separable more with the radius, single pass with its square',
+    ),
+    number(
+      'bloomThreshold',
+      'bloom_threshold',
+      'Threshold',
+      'log',
+      false,
+      'Exposed brightness from which light is spread; costs nothing',
+    ),
+    number(
+      'bloomKnee',
+      'bloom_knee',
+      'Knee',
+      'linear',
+      false,
+      'Share of the threshold over which spreading sets in; costs nothing',
+    ),
+    number(
+      'bloomStrength',
+      'bloom_strength',
+      'Strength',
+      'linear',
+      false,
+      'Share of bright light that is spread; 0 saves all of bloom’s time',
+    ),
+    number(
+      'bloomRadius',
+      'bloom_radius',
+      'Radius',
+      'linear',
+      false,
+      'How far, as a share of the smaller side; larger costs more, but little by mip chain',
+    ),
+    number(
+      'outlineStrength',
+      'outline_strength',
+      'Outline',
+      'linear',
+      false,
+      'How dark the toon renderers draw edges; more than 0 costs a pass over the picture',
+    ),
+    number(
+      'outlineWidth',
+      'outline_width',
+      'Outline width',
+      'linear',
+      false,
+      'Of these lines, as a share of the smaller side; costs nothing',
+    ),
   ],
   lights: [
     number('lights', 'lights', 'Count', 'log', true, 'Moving point lights'),
@@ -269,6 +345,7 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
 export const kAllFields: readonly Field[] = Object.values(kFields).flat();
 
 const kPng: number = Codec.PNG;
+const kNoBloom = BloomKind.NONE;
 
 /** The values that a viewer may choose; PNG is the server's own choice, for a resting picture. */
 export const choicesFor = ({ key, schema }: ChoiceField): Choice[] =>
@@ -278,6 +355,15 @@ const kGridSides: readonly string[] = ['gridX', 'gridY', 'gridZ'];
 
 /** Whether a field is one of the grid's sides, which count only while it is not automatic. */
 export const isGridSide = ({ key }: Field): boolean => kGridSides.includes(key);
+
+/** Whether a field changes anything as the other settings are. */
+export function isInUse(field: Field, settings: Settings): boolean {
+  if (isGridSide(field)) return !settings.gridAutomatic;
+  if (field.name.startsWith('gbuffer.')) return isDeferred(settings);
+  if (field.name.startsWith('outline_')) return isToon(settings);
+  if (field.name.startsWith('bloom_')) return settings.bloom !== kNoBloom;
+  return true;
+}
 
 /**
  * The edit that sets a field; an angle of view makes the projection perspective, and a side of the

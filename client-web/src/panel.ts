@@ -4,12 +4,12 @@ import GUI, { type Controller } from 'lil-gui';
 
 import type { AppState, ServerInfo } from './app_state';
 import { BoxEditor } from './box_editor';
-import { choicesFor, isGridSide, kFields, type Field, type NumberField, type Section } from './fields';
+import { choicesFor, isInUse, kFields, type Field, type NumberField, type Section } from './fields';
 import { gridText, tidy } from './format';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { FrameGrid } from './gen/froxel/v1/server_pb';
 import { linearScale, logScale } from './range_scale';
-import { isDeferred, type Settings } from './settings';
+import type { Settings } from './settings';
 import { SizeEditor, type SizeActions } from './size_editor';
 import { attachSlider } from './slider';
 import { ToonEditor } from './toon_editor';
@@ -26,6 +26,7 @@ type Show = (settings: Settings) => void;
 const kTitles: Readonly<Record<Section, string>> = {
   camera: 'Camera',
   rendering: 'Rendering',
+  effects: 'Effects',
   lights: 'Lights',
   clusters: 'Clusters',
   debug: 'Debug view',
@@ -83,6 +84,7 @@ export class Panel {
     const camera = this.section('camera', server);
     this.addSceneCameras(camera, server);
     this.section('rendering', server);
+    this.section('effects', server).close();
     const lights = this.section('lights', server);
     this.addBox(lights, server);
     const clusters = this.section('clusters', server);
@@ -125,7 +127,7 @@ export class Panel {
     this.finish(controller, field, (settings) => {
       model[field.key] = settings[field.key];
       controller.updateDisplay();
-      if (field.name.startsWith('gbuffer.')) controller.enable(isDeferred(settings));
+      controller.enable(isInUse(field, settings));
     });
   }
 
@@ -144,7 +146,7 @@ export class Panel {
     }
     const limits = range ? ` · ${range.min} to ${range.max}` : '';
     this.finish(controller, { ...field, tip: field.tip + limits }, (settings) => {
-      if (isGridSide(field)) controller.enable(!settings.gridAutomatic);
+      controller.enable(isInUse(field, settings));
       const value = tidy(settings[field.key]);
       // Left alone while equal: the viewer may be typing another one.
       if (this.shown && tidy(this.shown[field.key]) === value) return;

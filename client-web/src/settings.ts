@@ -5,6 +5,8 @@ import type { MessageInitShape } from '@bufbuild/protobuf';
 import type { ClientMessageSchema } from './gen/froxel/v1/client_pb';
 import {
   Renderer,
+  type Antialiasing,
+  type BloomKind,
   type Chroma,
   type Codec,
   type DebugView,
@@ -74,6 +76,14 @@ export interface Settings {
   readonly toneMap: ToneMap;
   readonly toonFragment: Ramp;
   readonly toonCompute: Ramp;
+  readonly outlineStrength: number; // 0: none
+  readonly outlineWidth: number; // share of the picture's smaller side
+  readonly bloom: BloomKind;
+  readonly bloomThreshold: number; // exposed radiance
+  readonly bloomKnee: number; // share of the threshold
+  readonly bloomStrength: number;
+  readonly bloomRadius: number; // share of the picture's smaller side
+  readonly antialiasing: Antialiasing;
   readonly width: number;
   readonly height: number;
   readonly quality: number;
@@ -146,6 +156,14 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     toneMap: state.toneMap,
     toonFragment: toRamp(state.toonFragment),
     toonCompute: toRamp(state.toonCompute),
+    outlineStrength: state.outlineStrength,
+    outlineWidth: state.outlineWidth,
+    bloom: state.bloom,
+    bloomThreshold: state.bloomThreshold,
+    bloomKnee: state.bloomKnee,
+    bloomStrength: state.bloomStrength,
+    bloomRadius: state.bloomRadius,
+    antialiasing: state.antialiasing,
     width: state.width,
     height: state.height,
     quality: state.quality,
@@ -161,6 +179,10 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
 /** Whether there is a G-buffer. */
 export function isDeferred({ renderer }: Settings): boolean {
   return renderer !== Renderer.NAIVE && renderer !== Renderer.FORWARD_PLUS;
+}
+
+export function isToon({ renderer }: Settings): boolean {
+  return renderer === Renderer.TOON_FRAGMENT || renderer === Renderer.TOON_COMPUTE;
 }
 
 export function sameBounds(a: Bounds | null, b: Bounds | null): boolean {
@@ -232,17 +254,10 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
       },
     });
   }
-  const fragment = !sameRamp(from.toonFragment, to.toonFragment);
-  const compute = !sameRamp(from.toonCompute, to.toonCompute);
-  if (fragment || compute) {
-    commands.push({
-      case: 'setToon',
-      value: {
-        ...(fragment && { fragment: { points: [...to.toonFragment] } }),
-        ...(compute && { compute: { points: [...to.toonCompute] } }),
-      },
-    });
-  }
+  const toon = toonChanges(from, to);
+  if (Object.keys(toon).length > 0) commands.push({ case: 'setToon', value: toon });
+  const post = postChanges(from, to);
+  if (Object.keys(post).length > 0) commands.push({ case: 'setPost', value: post });
   if (changed('quality', 'chroma', 'codec', 'videoKbps')) {
     commands.push({
       case: 'setEncoding',
@@ -279,6 +294,32 @@ function rendererChanges(from: Settings, to: Settings): RendererValue {
     ...(from.lighting !== to.lighting && { lighting: to.lighting }),
     ...(from.shading !== to.shading && { shading: to.shading }),
     ...(Object.keys(gbuffer).length > 0 && { gbuffer }),
+  };
+}
+
+type ToonValue = Extract<ClientBody, { case: 'setToon' }>['value'];
+
+function toonChanges(from: Settings, to: Settings): ToonValue {
+  const fragment = !sameRamp(from.toonFragment, to.toonFragment);
+  const compute = !sameRamp(from.toonCompute, to.toonCompute);
+  return {
+    ...(fragment && { fragment: { points: [...to.toonFragment] } }),
+    ...(compute && { compute: { points: [...to.toonCompute] } }),
+    ...(from.outlineStrength !== to.outlineStrength && { outlineStrength: to.outlineStrength }),
+    ...(from.outlineWidth !== to.outlineWidth && { outlineWidth: to.outlineWidth }),
+  };
+}
+
+type PostValue = Extract<ClientBody, { case: 'setPost' }>['value'];
+
+function postChanges(from: Settings, to: Settings): PostValue {
+  return {
+    ...(from.bloom !== to.bloom && { bloom: to.bloom }),
+    ...(from.bloomThreshold !== to.bloomThreshold && { bloomThreshold: to.bloomThreshold }),
+    ...(from.bloomKnee !== to.bloomKnee && { bloomKnee: to.bloomKnee }),
+    ...(from.bloomStrength !== to.bloomStrength && { bloomStrength: to.bloomStrength }),
+    ...(from.bloomRadius !== to.bloomRadius && { bloomRadius: to.bloomRadius }),
+    ...(from.antialiasing !== to.antialiasing && { antialiasing: to.antialiasing }),
   };
 }
 

@@ -3,6 +3,8 @@
 import { create, type MessageInitShape } from '@bufbuild/protobuf';
 
 import {
+  Antialiasing,
+  BloomKind,
   Chroma,
   Codec,
   DebugView,
@@ -62,6 +64,14 @@ export function viewState(change: ViewInit = {}): ViewState {
     toneMap: ToneMap.PBR_NEUTRAL,
     toonFragment: { points: kRamp },
     toonCompute: { points: kRamp },
+    outlineStrength: 0,
+    outlineWidth: 0.003,
+    bloom: BloomKind.NONE,
+    bloomThreshold: 1,
+    bloomKnee: 0.5,
+    bloomStrength: 0.25,
+    bloomRadius: 0.015,
+    antialiasing: Antialiasing.NONE,
     width: 960,
     height: 540,
     quality: 80,

@@ -1,6 +1,8 @@
 import { describe, expect, it } from 'vitest';
 
 import {
+  Antialiasing,
+  BloomKind,
   Chroma,
   Codec,
   DebugView,
@@ -115,6 +117,22 @@ describe('settingCommands', () => {
       'tone map',
       { toneMap: ToneMap.CLAMP },
       { case: 'setExposure', value: { toneMap: ToneMap.CLAMP } },
+    ],
+    ['outline', { outlineStrength: 1 }, { case: 'setToon', value: { outlineStrength: 1 } }],
+    ['outline width', { outlineWidth: 0.01 }, { case: 'setToon', value: { outlineWidth: 0.01 } }],
+    [
+      'bloom',
+      { bloom: BloomKind.MIP_CHAIN },
+      { case: 'setPost', value: { bloom: BloomKind.MIP_CHAIN } },
+    ],
+    ['threshold', { bloomThreshold: 0 }, { case: 'setPost', value: { bloomThreshold: 0 } }],
+    ['knee', { bloomKnee: 0 }, { case: 'setPost', value: { bloomKnee: 0 } }],
+    ['strength', { bloomStrength: 1 }, { case: 'setPost', value: { bloomStrength: 1 } }],
+    ['spread', { bloomRadius: 0.05 }, { case: 'setPost', value: { bloomRadius: 0.05 } }],
+    [
+      'antialiasing',
+      { antialiasing: Antialiasing.SSAA4 },
+      { case: 'setPost', value: { antialiasing: Antialiasing.SSAA4 } },
     ],
     ['quality', { quality: 5 }, { case: 'setEncoding', value: { quality: 5 } }],
     ['adaptive', { adaptive: false }, { case: 'setDelivery', value: { adaptive: false } }],

@@ -1,6 +1,8 @@
 import { describe, expect, it } from 'vitest';
 
 import {
+  Antialiasing,
+  BloomKind,
   DebugView,
   GridLaw,
   LightingStage,
@@ -35,7 +37,11 @@ describe('links', () => {
       debugScaleMax: 12.5,
       debugFrozen: true,
       lightTime: 0.1 + 0.2,
-      shading: ShadingModel.LAMBERT,
+      shading: ShadingModel.BLINN_PHONG,
+      bloom: BloomKind.A_TROUS,
+      bloomRadius: 0.02,
+      antialiasing: Antialiasing.FXAA,
+      outlineStrength: 0.75,
       gbufferNormal: NormalEncoding.SPHEREMAP16,
       gbufferPosition: PositionSource.STORED_DEPTH,
       lensShiftX: -0.5,

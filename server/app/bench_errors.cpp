@@ -110,6 +110,7 @@ view::ViewSettings r2Settings(view::ViewSettings settings) {
     }
     settings.lighting = view::LightingStage::kAuto;
     settings.gbuffer = {};
+    settings.antialiasing = view::Antialiasing::kNone;
     settings.lights.cutoff = 0;
     settings.grid = {};
     settings.light_loop = view::LightLoop::kAuto;
@@ -161,8 +162,9 @@ PictureError ErrorMeter::against(Reference reference, const BenchRow& row, Drawn
         }
         auto meant = is_r1 ? r1Settings(settings) : r2Settings(settings);
         meant.size = reference_size;
-        const auto right =
-            is_r1 ? pictures_.drawOnce(meant, time_s) : pictures_.shadeOnce(meant, time_s);
+        const auto right = is_r1                 ? pictures_.drawOnce(meant, time_s)
+                           : row.against_samples ? pictures_.sampleOnce(meant, time_s)
+                                                 : pictures_.shadeOnce(meant, time_s);
         if (!right) {
             return skippedFor(right.error());
         }

@@ -125,6 +125,8 @@ std::string workloadOf(const BenchRow& row, const BenchBase& base) {
         settings.renderer == view::Renderer::kToonCompute) {
         text += fmt::format(", {}", view::kRendererNames[static_cast<size_t>(settings.renderer)]);
     }
+    text += settings.bloom.kind != view::BloomKind::kNone ? ", bloom" : "";
+    text += row.against_samples ? ", against 64 samples a pixel" : "";
     return text;
 }
 

@@ -2,6 +2,8 @@
 
 #include "app/shown_picture.h"
 #include "app/timings_report.h"
+#include "measure/flip.h"
+#include "reference/bloom.h"
 #include "reference/shade.h"
 #include "render/renderer.h"
 #include "render/visibility_readback.h"
@@ -88,9 +90,51 @@ Result<BenchPictures::Shared> BenchPictures::shade(const view::ViewSettings& set
     if (!linear) {
         return linear.error();
     }
+    if (settings.bloom.kind != view::BloomKind::kNone) {
+        *linear =
+            reference::spread(*linear, settings.bloom, static_cast<double>(settings.exposure));
+    }
     auto rgba8 = shownPicture(*linear, static_cast<double>(settings.exposure), settings.tone_map);
     return std::make_shared<const BenchPicture>(
         BenchPicture{std::move(*linear), std::move(rgba8), {}});
+}
+
+Result<BenchPictures::Shared> BenchPictures::sample(const view::ViewSettings& settings,
+                                                    double time_s) {
+    const size_t value_count = size_t{settings.size.width_px} * settings.size.height_px * 3;
+    std::vector<double> linear(value_count);
+    std::vector<double> emitted(value_count);
+    for (uint32_t i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
+        const glm::dvec2 in_pixel(i % kSamplesAcross, i / kSamplesAcross);
+        const glm::dvec2 shift_px = (in_pixel + 0.5) / double{kSamplesAcross} - 0.5;
+        auto shifted = settings;
+        shifted.camera.lens_shift +=
+            2.0 * shift_px / glm::dvec2(settings.size.width_px, settings.size.height_px);
+        const auto picture = draw(shifted, time_s);
+        if (!picture) {
+            return picture;
+        }
+        for (size_t k = 0; k < value_count; ++k) {
+            linear[k] += static_cast<double>((*picture)->linear.rgb[k]);
+            const auto byte = std::to_integer<uint8_t>((*picture)->rgba8[k / 3 * 4 + k % 3]);
+            emitted[k] +=
+                static_cast<double>(measure::flip::linearFromSrgb(static_cast<float>(byte) / 255));
+        }
+    }
+    const auto mean = [&](const std::vector<double>& sums) {
+        LinearImage image{settings.size.width_px, settings.size.height_px, {}};
+        for (const double sum : sums) {
+            image.rgb.push_back(static_cast<float>(sum / (kSamplesAcross * kSamplesAcross)));
+        }
+        return image;
+    };
+    return std::make_shared<const BenchPicture>(
+        BenchPicture{mean(linear), shownPicture(mean(emitted), 1, view::ToneMap::kClamp), {}});
+}
+
+Result<BenchPictures::Shared> BenchPictures::sampleOnce(const view::ViewSettings& settings,
+                                                        double time_s) {
+    return once(keyOf("sampled", settings, time_s), [&] { return sample(settings, time_s); });
 }
 
 Result<BenchPictures::Shared> BenchPictures::shadeOnce(const view::ViewSettings& settings,

@@ -44,9 +44,14 @@ class BenchPictures {
     // In double on the host, from the triangles that the device sees. Errors: those of
     // ViewRenderer and reference::shade.
     [[nodiscard]] Result<Shared> shadeOnce(const view::ViewSettings& settings, double time_s);
+    // The mean of 64 pictures by the device, each seen through a lens that is shifted by another
+    // part of a pixel, so that every pixel is sampled on a regular grid; of what the display emits,
+    // in `rgba8`. Errors: those of ViewRenderer.
+    [[nodiscard]] Result<Shared> sampleOnce(const view::ViewSettings& settings, double time_s);
 
   private:
     static constexpr size_t kKept = 32;
+    static constexpr uint32_t kSamplesAcross = 8; // 64 a pixel
     struct Kept {
         std::string key;
         Shared picture;
@@ -54,6 +59,7 @@ class BenchPictures {
     template <class Make>
     Result<Shared> once(const std::string& key, const Make& make);
     Result<Shared> shade(const view::ViewSettings& settings, double time_s);
+    Result<Shared> sample(const view::ViewSettings& settings, double time_s);
 
     render::Renderer& renderer_;
     const scene::Scene& scene_;

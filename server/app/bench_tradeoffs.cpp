@@ -95,6 +95,38 @@ Sweep cutoffSweep(const BenchBase& base) {
     return sweep;
 }
 
+Sweep bloomSweep(const BenchBase& base) {
+    Sweep sweep{
+        "bloom", "Ways of bloom", "kind",
+        "",      Axis::kCategory, "R2 is the Gaussian that each of them comes to, in double.",
+        {}};
+    for (size_t kind = 0; kind < view::kBloomKindNames.size(); ++kind) {
+        const auto value = static_cast<view::BloomKind>(kind);
+        sweep.rows.push_back(rowOf(base, kDeferred, nameOf(view::kBloomKindNames, value),
+                                   static_cast<double>(kind),
+                                   [&](auto& s) { s.bloom.kind = value; }));
+    }
+    return sweep;
+}
+
+Sweep antialiasingSweep(const BenchBase& base) {
+    Sweep sweep{"antialiasing",
+                "Antialiasing",
+                "kind",
+                "",
+                Axis::kCategory,
+                "R2 is here the mean of 64 samples a pixel; fxaa shows in what is shown alone.",
+                {}};
+    for (size_t kind = 0; kind < view::kAntialiasingNames.size(); ++kind) {
+        const auto value = static_cast<view::Antialiasing>(kind);
+        auto row = rowOf(base, kDeferred, nameOf(view::kAntialiasingNames, value),
+                         static_cast<double>(kind), [&](auto& s) { s.antialiasing = value; });
+        row.against_samples = true;
+        sweep.rows.push_back(std::move(row));
+    }
+    return sweep;
+}
+
 Sweep streamSweep(const BenchBase& base) {
     Sweep sweep{"stream",
                 "Error of the stream's JPEG",
@@ -135,6 +167,12 @@ Sweep smokeSweep(const BenchBase& base) {
     }
     add(rowOf(small, kDeferred, "oct8", 0,
               [](auto& s) { s.gbuffer.normal = view::NormalEncoding::kOct8; }));
+    add(rowOf(small, kDeferred, "bloom", 0,
+              [](auto& s) { s.bloom.kind = view::BloomKind::kMipChain; }));
+    auto smooth = rowOf(small, kDeferred, "ssaa4", 0,
+                        [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; });
+    smooth.against_samples = true;
+    add(std::move(smooth));
     auto half = rowOf(small, kDeferred, "1/2", 0, [](auto& s) { s.size = scaledBy(s.size, 0.5); });
     half.scaled_to = small.settings.size;
     add(std::move(half));

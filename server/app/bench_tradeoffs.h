@@ -8,6 +8,8 @@ namespace froxel::app {
 [[nodiscard]] Sweep gbufferSweep(const BenchBase& base);
 [[nodiscard]] Sweep resolutionScaleSweep(const BenchBase& base);
 [[nodiscard]] Sweep cutoffSweep(const BenchBase& base);
+[[nodiscard]] Sweep bloomSweep(const BenchBase& base);
+[[nodiscard]] Sweep antialiasingSweep(const BenchBase& base);
 [[nodiscard]] Sweep streamSweep(const BenchBase& base);
 // One row of every kind, small.
 [[nodiscard]] Sweep smokeSweep(const BenchBase& base);

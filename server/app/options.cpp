@@ -4,6 +4,7 @@
 #include "app/command_builder.h"
 #include "app/load_arguments.h"
 #include "app/option_sources.h"
+#include "app/post_options.h"
 #include "app/probe_arguments.h"
 #include "app/serve_arguments.h"
 #include "app/view_arguments.h"
@@ -147,6 +148,7 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
     addLightDetails(command, options.other.lights, "The lights stand still");
     addDelivery(command, options.delivery);
     addShading(command, options.other);
+    addPost(command, options.other);
     addLensShift(command, options.lens_shift);
 }
 
@@ -192,9 +194,8 @@ void addRender(CLI::App& app, Targets& targets) {
     addLensShift(command, options.lens_shift);
     command.value("--grid-camera", "CAMERA", options.grid_camera, parseCamera, "the view's",
                   "Whose cluster grid --debug-view cluster_wires shows, as --camera");
-    command.number("--exposure", settings.exposure, view::kExposureRange,
-                   "Multiplies linear radiance");
-    command.name("--tone-map", settings.tone_map, view::kToneMapNames, "After the exposure");
+    addToneMap(command, settings);
+    addPost(command, settings);
     addOutputs(command, options);
     finish(command, options, LogLevel::kWarn, targets);
 }

@@ -103,6 +103,22 @@ void addLights(Arguments& arguments, const view::Lights& lights, const view::Lig
     arguments.flag("--no-animate", !lights.animate);
 }
 
+void addPost(Arguments& arguments,
+             const view::ViewSettings& settings,
+             const view::ViewSettings& usual) {
+    const auto& bloom = settings.bloom;
+    arguments.changedName("--bloom", view::kBloomKindNames, bloom.kind, usual.bloom.kind);
+    arguments.changed("--bloom-threshold", bloom.threshold, usual.bloom.threshold);
+    arguments.changed("--bloom-knee", bloom.knee, usual.bloom.knee);
+    arguments.changed("--bloom-strength", bloom.strength, usual.bloom.strength);
+    arguments.changed("--bloom-radius", bloom.radius, usual.bloom.radius);
+    arguments.changedName("--antialiasing", view::kAntialiasingNames, settings.antialiasing,
+                          usual.antialiasing);
+    const auto& outline = settings.toon_outline;
+    arguments.changed("--outline-strength", outline.strength, usual.toon_outline.strength);
+    arguments.changed("--outline-width", outline.width, usual.toon_outline.width);
+}
+
 bool plainInShell(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
            std::string_view("_-./:,+@=").find(c) != std::string_view::npos;
@@ -137,6 +153,7 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
     arguments.changed("--exposure", settings.exposure, usual.settings.exposure);
     arguments.changedName("--tone-map", view::kToneMapNames, settings.tone_map,
                           usual.settings.tone_map);
+    addPost(arguments, settings, usual.settings);
     arguments.changed("--time", options.time_s, usual.time_s);
     arguments.always("--frames", numberText(options.frame_count));
     arguments.changed("--warmup", options.warmup_count, usual.warmup_count);

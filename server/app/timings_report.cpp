@@ -139,23 +139,38 @@ Json settingsReport(const view::ViewSettings& settings) {
     const auto nameOf = [](const auto& names, auto value) {
         return std::string(names[static_cast<size_t>(value)]);
     };
-    return {{"renderer", nameOf(view::kRendererNames, settings.renderer)},
-            {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
-            {"shading", nameOf(view::kShadingModelNames, settings.shading)},
-            {"gbuffer",
-             {{"normal", nameOf(view::kNormalEncodingNames, settings.gbuffer.normal)},
-              {"position", nameOf(view::kPositionSourceNames, settings.gbuffer.position)}}},
-            {"width_px", settings.size.width_px},
-            {"height_px", settings.size.height_px},
-            {"grid", settings.grid.automatic ? Json("auto") : sizeOf(settings.grid.size)},
-            {"grid_law", nameOf(view::kGridLawNames, settings.grid.law)},
-            {"light_loop", nameOf(view::kLightLoopNames, settings.light_loop)},
-            {"count_pairs", settings.count_pairs},
-            {"debug_view", view::nameOf(settings.debug.view)},
-            {"camera", toJson(settings.camera)},
-            {"lights", toJson(settings.lights)},
-            {"exposure", settings.exposure},
-            {"tone_map", nameOf(view::kToneMapNames, settings.tone_map)}};
+    Json json = {{"renderer", nameOf(view::kRendererNames, settings.renderer)},
+                 {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
+                 {"shading", nameOf(view::kShadingModelNames, settings.shading)},
+                 {"gbuffer",
+                  {{"normal", nameOf(view::kNormalEncodingNames, settings.gbuffer.normal)},
+                   {"position", nameOf(view::kPositionSourceNames, settings.gbuffer.position)}}},
+                 {"width_px", settings.size.width_px},
+                 {"height_px", settings.size.height_px},
+                 {"grid", settings.grid.automatic ? Json("auto") : sizeOf(settings.grid.size)},
+                 {"grid_law", nameOf(view::kGridLawNames, settings.grid.law)},
+                 {"light_loop", nameOf(view::kLightLoopNames, settings.light_loop)},
+                 {"count_pairs", settings.count_pairs},
+                 {"debug_view", view::nameOf(settings.debug.view)},
+                 {"camera", toJson(settings.camera)},
+                 {"lights", toJson(settings.lights)},
+                 {"exposure", settings.exposure},
+                 {"tone_map", nameOf(view::kToneMapNames, settings.tone_map)}};
+    // Only what is on, so that runs without it compare with those of before it was there.
+    if (const auto& bloom = settings.bloom; bloom.kind != view::BloomKind::kNone) {
+        json["bloom"] = {{"kind", nameOf(view::kBloomKindNames, bloom.kind)},
+                         {"threshold", bloom.threshold},
+                         {"knee", bloom.knee},
+                         {"strength", bloom.strength},
+                         {"radius", bloom.radius}};
+    }
+    if (settings.antialiasing != view::Antialiasing::kNone) {
+        json["antialiasing"] = nameOf(view::kAntialiasingNames, settings.antialiasing);
+    }
+    if (const auto& outline = settings.toon_outline; outline.strength > 0) {
+        json["toon_outline"] = {{"strength", outline.strength}, {"width", outline.width}};
+    }
+    return json;
 }
 
 Json frameReport(const FrameStats& stats) {

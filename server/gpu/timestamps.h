@@ -11,7 +11,7 @@ namespace froxel::gpu {
 
 class Timestamps {
   public:
-    static constexpr uint32_t kMaxPasses = 24;
+    static constexpr uint32_t kMaxPasses = 32;
 
     explicit Timestamps(const Device& device);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kLeastSide = 16;      // pixels
 constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
 constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 14;          // of commands
+constexpr uint32_t kKinds = 15;          // of commands
 
 } // namespace
 
@@ -74,6 +74,13 @@ void StormScript::fillToon(v1::SetToon& command) {
     }
 }
 
+void StormScript::fillPost(v1::SetPost& command) {
+    command.set_bloom(named(v1::BLOOM_KIND_MIP_CHAIN));
+    command.set_bloom_threshold(real(0, 4));
+    command.set_bloom_radius(real(0.001, 0.02));
+    command.set_antialiasing(named(v1::ANTIALIASING_SSAA4));
+}
+
 void StormScript::fillSize(v1::SetSize& command) {
     command.set_width(whole(kLeastSide, start_.width()));
     command.set_height(whole(kLeastSide, start_.height()));
@@ -124,6 +131,9 @@ std::optional<Step> StormScript::next() {
                              : static_cast<v1::DebugView>(whole(v1::DEBUG_VIEW_CLUSTER_SLICES,
                                                                 v1::DEBUG_VIEW_CLUSTER_WIRES)));
         message.mutable_set_debug_view()->set_freeze(whole(0, 1) == 0);
+        break;
+    case 14:
+        fillPost(*message.mutable_set_post());
         break;
     case 9:
         message.mutable_set_delivery()->set_adaptive(whole(0, 1) == 0);

@@ -23,6 +23,7 @@ class StormScript final : public Script {
     void fillLights(v1::SetLights& command);
     void fillGrid(v1::SetGrid& command);
     void fillToon(v1::SetToon& command);
+    void fillPost(v1::SetPost& command);
     void fillSize(v1::SetSize& command);
 
     const v1::ViewState start_;

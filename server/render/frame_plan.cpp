@@ -71,6 +71,8 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.forward = plan.visibility_shade = false;
     plan.lighting_compute = plan.lighting_fragment = false;
     plan.toon_pass = plan.transparent = false;
+    plan.outline = plan.samples = plan.fxaa = false; // nothing is done to what it shows
+    plan.bloom = view::BloomKind::kNone;
     plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
 }
 
@@ -92,6 +94,12 @@ FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
     return facts;
 }
 
+view::Size drawnSize(const view::ViewSettings& settings) {
+    const uint32_t across =
+        view::replacesPicture(settings.debug.view) ? 1 : view::samplesAcross(settings.antialiasing);
+    return {settings.size.width_px * across, settings.size.height_px * across};
+}
+
 FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts) {
     using view::Renderer;
     FramePlan plan;
@@ -108,6 +116,11 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.lighting_compute = plan.gbuffer && settings.lighting != view::LightingStage::kFragment;
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.toon_pass = renderer == Renderer::kToonCompute;
+    plan.outline = (renderer == Renderer::kToonFragment || renderer == Renderer::kToonCompute) &&
+                   settings.toon_outline.strength > 0;
+    plan.bloom = settings.bloom.strength > 0 ? settings.bloom.kind : view::BloomKind::kNone;
+    plan.samples = view::samplesAcross(settings.antialiasing) > 1;
+    plan.fxaa = settings.antialiasing == view::Antialiasing::kFxaa;
     plan.transparent = facts.transparent_visible;
     plan.debug = settings.debug.view;
     const bool replaced = view::replacesPicture(plan.debug);
@@ -121,8 +134,9 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
-    const bool compute_ends =
-        !plan.transparent && !view::isOverlay(plan.debug) && (compute_lights || plan.toon_pass);
+    const bool follows = plan.transparent || plan.outline || plan.samples ||
+                         plan.bloom != view::BloomKind::kNone || view::isOverlay(plan.debug);
+    const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
     plan.tonemap = !compute_ends && !replaced;
     plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance ||
                     plan.debug == view::DebugView::kOverdraw;
@@ -151,7 +165,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
         plan.toon_output_flags |= compute_ends ? pixels : 0U;
         plan.toon_output_flags |= plan.tonemap || facts.keep_radiance ? io::kOutputRadiance : 0U;
     }
-    plan.tonemap_output_flags = tone;
+    plan.tonemap_output_flags = tone | (plan.samples ? io::kOutputSamples : 0U);
     return plan;
 }
 

@@ -57,8 +57,12 @@ struct FramePlan {
     bool lighting_compute = false;
     bool lighting_fragment = false;
     bool toon_pass = false;
+    bool outline = false; // edges darkened, before anything is blended
     bool transparent = false;
+    view::BloomKind bloom = view::BloomKind::kNone; // of the linear picture, blended surfaces too
+    bool samples = false;  // four a pixel: everything is drawn at twice the sides
     bool tonemap = false;  // a pass of its own
+    bool fxaa = false;     // the last pass, over packed pixels
     bool lists = false;    // lights are assigned to clusters
     bool radiance = false; // the radiance target exists
     bool count_pairs = false;
@@ -77,6 +81,9 @@ struct FramePlan {
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.
 [[nodiscard]] bool isForward(view::Renderer renderer);
+
+// What the settings' pictures are drawn at: twice the sides where pixels have four samples.
+[[nodiscard]] view::Size drawnSize(const view::ViewSettings& settings);
 
 [[nodiscard]] FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts);
 

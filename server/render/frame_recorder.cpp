@@ -4,6 +4,7 @@
 #include "render/raster_passes.h"
 #include "render/visibility_passes.h"
 
+#include <utility>
 #include <vector>
 
 namespace froxel::render {
@@ -108,6 +109,13 @@ void recordVisible(const FrameContext& frame) {
             Stage::eComputeShader, Access::eShaderSampledRead);
 }
 
+// radiance as the last pass left it, in either stage -> loads and stores of a compute pass
+void radianceToCompute(const vk::raii::CommandBuffer& cmd) {
+    barrier(cmd, Stage::eColorAttachmentOutput | Stage::eComputeShader,
+            Access::eColorAttachmentWrite | Access::eShaderStorageWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite);
+}
+
 // Fills the G-buffer; what follows reads it.
 void recordGeometry(const FrameContext& frame) {
     if (frame.plan.visibility) {
@@ -134,11 +142,21 @@ void recordDeferred(const FrameContext& frame) {
         recordLightingFragment(frame);
     }
     if (frame.plan.toon_pass) {
-        // lit radiance -> toon's load and store
-        barrier(frame.slot.cmd, Stage::eColorAttachmentOutput | Stage::eComputeShader,
-                Access::eColorAttachmentWrite | Access::eShaderStorageWrite, Stage::eComputeShader,
-                Access::eShaderStorageRead | Access::eShaderStorageWrite);
+        radianceToCompute(frame.slot.cmd);
         recordToon(frame);
+    }
+    if (frame.plan.outline) {
+        radianceToCompute(frame.slot.cmd);
+        recordOutline(frame);
+    }
+}
+
+void recordBloom(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "bloom");
+    for (size_t step = 0; step < frame.bloom->steps.size(); ++step) {
+        // the picture, what steps before left -> this one's loads; their loads -> its stores
+        radianceToCompute(frame.slot.cmd);
+        recordBloomStep(frame.slot.cmd, frame.scene.bloom(), *frame.slot.bloom, *frame.bloom, step);
     }
 }
 
@@ -164,11 +182,7 @@ void recordReplacement(const FrameContext& frame) {
 }
 
 // Moves fresh images into the GENERAL layout.
-void transitionFresh(const vk::raii::CommandBuffer& cmd, ViewTargets& targets) {
-    if (!targets.fresh) {
-        return;
-    }
-    targets.fresh = false;
+void transitionFresh(FrameSlot& slot) {
     std::vector<vk::ImageMemoryBarrier2> barriers;
     const auto add = [&](const gpu::Image& image, vk::ImageAspectFlags aspect) {
         if (*image.handle) {
@@ -181,14 +195,25 @@ void transitionFresh(const vk::raii::CommandBuffer& cmd, ViewTargets& targets) {
                                 .subresourceRange = {aspect, 0, 1, 0, 1}});
         }
     };
-    add(targets.depth, vk::ImageAspectFlagBits::eDepth);
-    add(targets.gbuffer, vk::ImageAspectFlagBits::eColor);
-    add(targets.gbuffer_extra, vk::ImageAspectFlagBits::eColor);
-    add(targets.ids, vk::ImageAspectFlagBits::eColor);
-    add(targets.compute_depth, vk::ImageAspectFlagBits::eColor);
-    add(targets.radiance, vk::ImageAspectFlagBits::eColor);
-    cmd.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
-                          .pImageMemoryBarriers = barriers.data()});
+    ViewTargets& targets = *slot.targets;
+    if (std::exchange(targets.fresh, false)) {
+        add(targets.depth, vk::ImageAspectFlagBits::eDepth);
+        add(targets.gbuffer, vk::ImageAspectFlagBits::eColor);
+        add(targets.gbuffer_extra, vk::ImageAspectFlagBits::eColor);
+        add(targets.ids, vk::ImageAspectFlagBits::eColor);
+        add(targets.compute_depth, vk::ImageAspectFlagBits::eColor);
+        add(targets.radiance, vk::ImageAspectFlagBits::eColor);
+    }
+    if (slot.bloom && std::exchange(slot.bloom->fresh, false)) {
+        for (const auto& image : slot.bloom->images()) {
+            add(image, vk::ImageAspectFlagBits::eColor);
+        }
+    }
+    if (!barriers.empty()) {
+        slot.cmd.pipelineBarrier2(
+            {.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
+             .pImageMemoryBarriers = barriers.data()});
+    }
 }
 
 void copyImage(const vk::raii::CommandBuffer& cmd,
@@ -213,7 +238,7 @@ void recordFrame(const FrameContext& frame) {
     // the view's last frame, which had the same targets -> this one
     barrier(frame.slot.cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eAllCommands,
             Access::eMemoryRead | Access::eMemoryWrite);
-    transitionFresh(slot.cmd, *slot.targets);
+    transitionFresh(slot);
     if (slot.device_lists) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
     }
@@ -252,6 +277,9 @@ void recordFrame(const FrameContext& frame) {
                     Access::eColorAttachmentWrite);
         recordTransparent(frame);
     }
+    if (frame.bloom != nullptr) {
+        recordBloom(frame);
+    }
     if (view::isOverlay(frame.plan.debug)) {
         // the picture's radiance and depth -> blending, loads
         barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
@@ -263,11 +291,14 @@ void recordFrame(const FrameContext& frame) {
         recordWires(frame);
     }
     if (frame.plan.tonemap) {
-        // radiance -> tone map's load
-        barrier(frame.slot.cmd, Stage::eColorAttachmentOutput | Stage::eComputeShader,
-                Access::eColorAttachmentWrite | Access::eShaderStorageWrite, Stage::eComputeShader,
-                Access::eShaderStorageRead);
+        radianceToCompute(frame.slot.cmd);
         recordTonemap(frame);
+    }
+    if (frame.plan.fxaa) {
+        // packed pixels -> the filter's loads
+        barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+                Stage::eComputeShader, Access::eShaderSampledRead);
+        recordFxaa(frame);
     }
     if (slot.targets->needs.device_pixels) {
         // packed pixels -> copy

@@ -29,6 +29,7 @@ struct FrameContext {
     glm::vec3 background{0};
     VisibilityScene* visibility = nullptr; // where the plan has it
     const DebugFrame* debug = nullptr;     // likewise
+    const BloomPlan* bloom = nullptr;      // likewise
 };
 
 // Records slot.cmd from begin to end.

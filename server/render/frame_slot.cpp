@@ -84,7 +84,11 @@ FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, P
     screen_set = std::move(sets[1]);
 }
 
-void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
+const gpu::Buffer& pixelsOf(const FrameSlot& slot) {
+    return slot.targets->needs.device_pixels ? slot.targets->pixels : slot.readback->buffer;
+}
+
+void writeScreenSet(const gpu::Device& device, FrameSlot& slot, const gpu::Buffer& packed) {
     const auto image = [](const gpu::Image& target) {
         return vk::DescriptorImageInfo{.imageView = *target.view,
                                        .imageLayout = vk::ImageLayout::eGeneral};
@@ -94,8 +98,7 @@ void writeScreenSet(const gpu::Device& device, FrameSlot& slot) {
     // leave the freed image of an earlier size behind, so it is described as none.
     const std::array images = {image(t.gbuffer), image(t.solidDepth()), image(t.radiance),
                                image(t.gbuffer_extra)};
-    const auto& pixels = t.needs.device_pixels ? t.pixels : slot.readback->buffer;
-    const vk::DescriptorBufferInfo buffer{*pixels.handle, 0, VK_WHOLE_SIZE};
+    const vk::DescriptorBufferInfo buffer{*packed.handle, 0, VK_WHOLE_SIZE};
     std::vector<vk::WriteDescriptorSet> writes;
     const auto add = [&](uint32_t binding, vk::DescriptorType type) -> vk::WriteDescriptorSet& {
         writes.push_back({.dstSet = *slot.screen_set,

@@ -6,7 +6,9 @@
 #include "gpu/memory.h"
 #include "gpu/sample_counter.h"
 #include "gpu/timestamps.h"
+#include "render/bloom.h"
 #include "render/debug_pass.h"
+#include "render/fxaa.h"
 #include "render/gpu_light_lists.h"
 #include "render/pair_counter.h"
 #include "render/pipelines.h"
@@ -73,6 +75,7 @@ struct FrameSlot {
     gpu::Timestamps timestamps;
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
+    std::shared_ptr<BloomTargets> bloom; // null: the frame last recorded has none
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet frame_set{nullptr};
@@ -84,6 +87,7 @@ struct FrameSlot {
     bool counts_pairs = false;                     // in the frame last recorded
     std::unique_ptr<gpu::SampleCounter> samples;   // likewise
     bool counts_samples = false;                   // in the frame last recorded
+    std::unique_ptr<FxaaSlot> fxaa;                // likewise
     std::unique_ptr<AssignSlot> assignment;        // likewise
     bool device_lists = false; // the frame last recorded had its lists made on the device
     bool stale = false;        // an older frame was drawn again after this one
@@ -94,7 +98,11 @@ struct FrameSlot {
     std::chrono::steady_clock::time_point submitted;
 };
 
-// Describes the slot's targets and pixel buffer to the screen passes; the slot is not in flight.
-void writeScreenSet(const gpu::Device& device, FrameSlot& slot);
+// Where the slot's finished pixels are read from or copied from.
+[[nodiscard]] const gpu::Buffer& pixelsOf(const FrameSlot& slot);
+
+// Describes the slot's targets and where packed pixels go to the screen passes; the slot is not in
+// flight.
+void writeScreenSet(const gpu::Device& device, FrameSlot& slot, const gpu::Buffer& packed);
 
 } // namespace froxel::render

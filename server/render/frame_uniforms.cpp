@@ -102,6 +102,11 @@ io::Frame makeFrameUniforms(const view::ViewSettings& settings,
     frame.ambient_sky = view::kAmbientSky * settings.lights.ambient;
     frame.ambient_ground = view::kAmbientGround * settings.lights.ambient;
     frame.background = view::kBackground;
+    const auto& outline = settings.toon_outline;
+    const auto side_px =
+        static_cast<float>(std::min(settings.size.width_px, settings.size.height_px));
+    frame.outline_strength = outline.strength;
+    frame.outline_reach_px = std::max(1.0F, outline.width * side_px);
     fillToon(settings.renderer == view::Renderer::kToonCompute ? settings.toon_compute
                                                                : settings.toon_fragment,
              frame);

@@ -4,6 +4,7 @@
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
 #include "interface/pairs_io.h"
+#include "render/screen_groups.h"
 
 #include <algorithm>
 #include <array>
@@ -84,10 +85,7 @@ void PairCounter::recordCount(const vk::raii::CommandBuffer& cmd,
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
     const std::array sets = {frame_set, screen_set, *set_};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
-    const auto groups = [](uint32_t pixels) {
-        return (pixels + io::kScreenGroup - 1) / io::kScreenGroup;
-    };
-    cmd.dispatch(groups(size_px.width), groups(size_px.height), 1);
+    cmd.dispatch(screenGroups(size_px.width), screenGroups(size_px.height), 1);
 }
 
 PairStats PairCounter::read() const {

@@ -2,6 +2,7 @@
 
 #include "interface/constants.h"
 #include "render/rendering_scope.h"
+#include "render/screen_groups.h"
 
 #include <array>
 #include <span>
@@ -111,13 +112,16 @@ void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipe
     cmd.bindDescriptorSets(point, frame.scene.pipelines.screenPipelineLayout(), 0, sets, {});
 }
 
-void dispatch(const FrameContext& frame, ScreenPass pass, const VariantKey& key) {
+void dispatch(const FrameContext& frame,
+              ScreenPass pass,
+              const VariantKey& key,
+              const view::Size& size) {
     bindScreen(frame, vk::PipelineBindPoint::eCompute, frame.scene.pipelines.screen(pass, key));
-    const auto groups = [](uint32_t size_px) {
-        return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;
-    };
-    const auto& size = frame.slot.targets->size;
-    frame.slot.cmd.dispatch(groups(size.width_px), groups(size.height_px), 1);
+    frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
+}
+
+void dispatch(const FrameContext& frame, ScreenPass pass, const VariantKey& key) {
+    dispatch(frame, pass, key, frame.slot.targets->size);
 }
 
 } // namespace
@@ -184,6 +188,11 @@ void recordToon(const FrameContext& frame) {
     dispatch(frame, ScreenPass::kToon, {0, 0, frame.plan.toon_output_flags});
 }
 
+void recordOutline(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "outline");
+    dispatch(frame, ScreenPass::kOutline, {0, 0, frame.plan.gbuffer_output_flags});
+}
+
 void recordTransparent(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "transparent");
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
@@ -194,7 +203,15 @@ void recordTransparent(const FrameContext& frame) {
 
 void recordTonemap(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "tonemap");
-    dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags});
+    dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags},
+             frame.slot.targets->shown);
+}
+
+void recordFxaa(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fxaa");
+    const auto& size = frame.slot.targets->shown;
+    frame.slot.fxaa->record(frame.slot.cmd, frame.scene.fxaa(), *frame.slot.frame_set,
+                            {size.width_px, size.height_px});
 }
 
 void recordOverdraw(const FrameContext& frame) {

@@ -17,7 +17,7 @@ using Type = vk::DescriptorType;
 constexpr std::array<std::string_view, 7> kGeometryNames = {
     "depth prepass", "gbuffer", "gbuffer after depth", "forward", "forward after depth",
     "transparent",   "overdraw"};
-constexpr std::array<std::string_view, 3> kScreenNames = {"lighting", "toon", "tonemap"};
+constexpr std::array<std::string_view, 4> kScreenNames = {"lighting", "toon", "outline", "tonemap"};
 constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
 
 constexpr vk::ShaderStageFlags kAllStages = Stage::eVertex | Stage::eFragment | Stage::eCompute;
@@ -186,6 +186,9 @@ vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
         case ScreenPass::kToon:
             return gpu::makeComputePipeline(device_, shaders::toon_comp(), constants(key),
                                             *screen_layout_, "toon");
+        case ScreenPass::kOutline:
+            return gpu::makeComputePipeline(device_, shaders::outline_comp(), constants(key),
+                                            *screen_layout_, "outline");
         case ScreenPass::kTonemap:
             break;
         }

@@ -24,7 +24,7 @@ enum class GeometryPass : uint8_t {
     kOverdraw,          // counts fragments, writing depth
 };
 
-enum class ScreenPass : uint8_t { kLighting, kToon, kTonemap };
+enum class ScreenPass : uint8_t { kLighting, kToon, kOutline, kTonemap };
 
 // Which specialisation a pipeline has (shaders/interface/constants.h).
 struct VariantKey {

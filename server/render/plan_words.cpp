@@ -109,6 +109,26 @@ void addSolidWords(Lines& lines,
     }
 }
 
+// What is done to the lit picture; nothing where nothing is asked for.
+void addPostWords(Lines& lines, const FramePlan& plan) {
+    if (plan.outline) {
+        lines.emplace_back(
+            "outline: edges of depth and normals are darkened, in a pass of its own");
+    }
+    if (plan.bloom != view::BloomKind::kNone) {
+        lines.push_back("bloom by " + nameOf(view::kBloomKindNames, plan.bloom) +
+                        ": bright light is spread over the linear picture");
+    }
+    if (plan.samples) {
+        lines.emplace_back(
+            "ssaa4: four samples a pixel, drawn at twice the sides, each tone mapped");
+    }
+    if (plan.fxaa) {
+        lines.emplace_back(
+            "fxaa: edges of the finished picture are filtered, in a pass of its own");
+    }
+}
+
 std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     if (!plan.tonemap) {
         return plan.toon_pass ? "the toon pass maps tones: no pass for it"
@@ -119,6 +139,9 @@ std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     }
     if (view::isOverlay(plan.debug)) {
         return "tone map in a pass of its own, after the debug view's lines";
+    }
+    if (plan.samples || plan.outline || plan.bloom != view::BloomKind::kNone) {
+        return "tone map in a pass of its own, after those over the lit picture";
     }
     return "tone map in a pass of its own, after a fragment stage";
 }
@@ -176,6 +199,7 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     addLightWords(lines, settings, facts, plan);
     lines.emplace_back(plan.transparent ? "transparent surfaces in view: sorted and blended"
                                         : "no transparent surface in view: no sort, no blend pass");
+    addPostWords(lines, plan);
     lines.push_back(toneMapWords(facts, plan));
     if (plan.count_pairs) {
         lines.emplace_back("light-pixel pairs are counted, in a pass of its own");

@@ -56,6 +56,24 @@ Result<void> showable(const FrameInputs& inputs) {
     return {};
 }
 
+// Of each 2 x 2 of them.
+LinearImage meanOfSamples(const LinearImage& samples) {
+    LinearImage image{samples.width_px / 2, samples.height_px / 2, {}};
+    image.rgb.reserve(samples.rgb.size() / 4);
+    const size_t row = size_t{samples.width_px} * 3;
+    for (size_t y = 0; y < image.height_px; ++y) {
+        for (size_t x = 0; x < image.width_px; ++x) {
+            const float* top = &samples.rgb[2 * y * row + 6 * x];
+            const float* low = top + row;
+            for (size_t channel = 0; channel < 3; ++channel) {
+                image.rgb.push_back(
+                    0.25F * (top[channel] + top[channel + 3] + low[channel] + low[channel + 3]));
+            }
+        }
+    }
+    return image;
+}
+
 } // namespace
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
@@ -86,7 +104,12 @@ struct ViewRenderer::Impl {
         }
         return nullptr;
     }
-    void prepareTargets(FrameSlot& slot, const FramePlan& plan, const view::Size& size);
+    void prepareTargets(FrameSlot& slot,
+                        const FramePlan& plan,
+                        const view::Size& drawn,
+                        const view::Size& shown);
+    // Takes part in the frame where its plan is not null.
+    void prepareBloom(FrameSlot& slot, const BloomPlan* plan);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     // Errors: kCapacity. Throws vk::SystemError.
     [[nodiscard]] Result<void> submit(FrameSlot& slot, const FrameInputs& inputs);
@@ -98,21 +121,26 @@ struct ViewRenderer::Impl {
     std::vector<std::unique_ptr<FrameSlot>> slots;
     std::deque<FrameSlot*> pending; // submitted, oldest first
     std::shared_ptr<ViewTargets> targets;
+    std::shared_ptr<BloomTargets> bloom; // null: the last frame has none
     FrameDetailsKeeper details;
 };
 
 void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
                                         const FramePlan& plan,
-                                        const view::Size& size) {
+                                        const view::Size& drawn,
+                                        const view::Size& shown) {
     const TargetNeeds wanted{.gbuffer = plan.gbuffer,
                              .gbuffer_flags = plan.gbuffer_output_flags,
                              .radiance = plan.radiance,
                              .visibility = plan.visibility,
                              .compute_raster = plan.compute_raster,
+                             .sampled_radiance = plan.bloom != view::BloomKind::kNone,
+                             .display = plan.fxaa,
                              .device_pixels = !scene.device.traits().is_cpu};
-    if (!targets || targets->size != size || !targets->needs.covers(wanted)) {
+    const bool same_size = targets && targets->size == drawn && targets->shown == shown;
+    if (!same_size || !targets->needs.covers(wanted)) {
         TargetNeeds grown = wanted;
-        if (targets && targets->size == size) {
+        if (same_size) {
             if (!wanted.gbuffer && targets->needs.gbuffer) {
                 grown.gbuffer = true;
                 grown.gbuffer_flags = targets->needs.gbuffer_flags;
@@ -123,15 +151,27 @@ void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
         }
         // Frames in flight keep the old targets alive through their slots.
         targets.reset();
-        targets = std::make_shared<ViewTargets>(scene.device, size, grown);
+        bloom.reset();
+        targets = std::make_shared<ViewTargets>(scene.device, drawn, shown, grown);
     }
     targets->rastered_in_compute = plan.compute_raster;
     slot.targets = targets;
-    const vk::DeviceSize bytes = vk::DeviceSize{4} * size.width_px * size.height_px;
+    const vk::DeviceSize bytes = vk::DeviceSize{4} * shown.width_px * shown.height_px;
     if (!slot.readback || slot.readback->buffer.size_bytes != bytes) {
         slot.readback.reset();
         slot.readback = std::make_shared<Readback>(scene.device, bytes);
     }
+}
+
+void ViewRenderer::Impl::prepareBloom(FrameSlot& slot, const BloomPlan* plan) {
+    slot.bloom.reset(); // its last frame has finished
+    if (plan == nullptr || (bloom && !bloom->fits(*plan, *targets))) {
+        bloom.reset();
+    }
+    if (plan != nullptr && !bloom) {
+        bloom = std::make_shared<BloomTargets>(scene.device, scene.bloom(), *plan, targets);
+    }
+    slot.bloom = bloom;
 }
 
 void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
@@ -153,15 +193,35 @@ void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets
          .depth = *t.compute_depth.view});
 }
 
-Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inputs) {
+Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& asked) {
     const auto start = Clock::now();
+    FrameInputs inputs = asked;
+    inputs.settings.size = drawnSize(asked.settings);
     const FramePlan plan = builder.build(inputs);
     if (auto affordable = builder.affordable(inputs); !affordable) {
         return affordable;
     }
-    prepareTargets(slot, plan, inputs.settings.size);
+    std::optional<BloomPlan> bloom_plan;
+    if (plan.bloom != view::BloomKind::kNone) {
+        const auto& settings = inputs.settings;
+        bloom_plan = planBloom(settings.bloom, settings.size, settings.exposure);
+        if (auto affordable =
+                checkBloomBudget(*bloom_plan, settings.size, scene.device.traits().is_cpu);
+            !affordable) {
+            return affordable;
+        }
+    }
+    const BloomPlan* bloom_steps = bloom_plan ? &*bloom_plan : nullptr;
+    prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
+    prepareBloom(slot, bloom_steps);
     const UploadOffsets offsets = builder.upload(slot);
-    writeScreenSet(scene.device, slot);
+    writeScreenSet(scene.device, slot, plan.fxaa ? targets->display : pixelsOf(slot));
+    if (plan.fxaa) {
+        if (!slot.fxaa) {
+            slot.fxaa = std::make_unique<FxaaSlot>(scene.device, scene.fxaa());
+        }
+        slot.fxaa->write(targets->display, pixelsOf(slot));
+    }
     if (plan.visibility) {
         writeVisibilitySet(slot, offsets);
     }
@@ -182,7 +242,8 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& inpu
                  .offsets = offsets,
                  .background = builder.background(),
                  .visibility = plan.visibility ? &scene.visibility() : nullptr,
-                 .debug = debug ? &builder.debugFrame() : nullptr});
+                 .debug = debug ? &builder.debugFrame() : nullptr,
+                 .bloom = bloom_steps});
     slot.stats = {};
     slot.stats.triangle_count = builder.draws().triangle_count;
     if (plan.visibility) { // the host does not know what the device culls
@@ -273,10 +334,13 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
         }
         impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
-        impl_->targets.reset(); // so that a smaller picture may fit
+        impl_->bloom.reset(); // so that a smaller picture may fit
+        impl_->targets.reset();
+        const bool samples = view::samplesAcross(inputs.settings.antialiasing) > 1;
         return Error{ErrorCode::kCapacity, "the device has no memory for a picture of " +
                                                std::to_string(inputs.settings.size.width_px) + "x" +
-                                               std::to_string(inputs.settings.size.height_px)};
+                                               std::to_string(inputs.settings.size.height_px) +
+                                               (samples ? " with four samples a pixel" : "")};
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice, std::string("the device failed: ") + error.what()};
     }
@@ -315,7 +379,7 @@ Result<RenderedFrame> ViewRenderer::collect() {
     }
     slot.stats.frame_us = microsSince(slot.submitted);
     slot.readback->leased = true;
-    const auto& size = slot.targets->size;
+    const auto& size = slot.targets->shown;
     const PixelView pixels{.data = slot.readback->buffer.mapped,
                            .width_px = size.width_px,
                            .height_px = size.height_px,
@@ -346,7 +410,7 @@ Result<LinearImage> ViewRenderer::readLinear() {
         return Error{ErrorCode::kDevice,
                      std::string("reading the picture failed: ") + error.what()};
     }
-    return image;
+    return targets.size == targets.shown ? image : meanOfSamples(image);
 }
 
 Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {

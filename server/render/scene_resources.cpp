@@ -182,6 +182,20 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     }
 }
 
+BloomPipelines& SceneResources::bloom() {
+    if (!bloom_) {
+        bloom_ = std::make_unique<BloomPipelines>(device);
+    }
+    return *bloom_;
+}
+
+const FxaaPipeline& SceneResources::fxaa() {
+    if (!fxaa_) {
+        fxaa_ = std::make_unique<FxaaPipeline>(device, pipelines);
+    }
+    return *fxaa_;
+}
+
 VisibilityScene& SceneResources::visibility() {
     if (!visibility_) {
         gpu::Uploader uploader(device, timeline, kStagingBytes);

@@ -6,6 +6,8 @@
 #include "gpu/memory.h"
 #include "light/light_rig.h"
 #include "render/assign_pipelines.h"
+#include "render/bloom.h"
+#include "render/fxaa.h"
 #include "render/geometry_pack.h"
 #include "render/pipelines.h"
 #include "render/scene_needs.h"
@@ -59,6 +61,9 @@ class SceneResources {
 
     // Made at the first call. Null: the device cannot assign lights as the host does.
     [[nodiscard]] const AssignPipelines* assignment();
+    // Both made at the first call. Throw vk::SystemError.
+    [[nodiscard]] BloomPipelines& bloom();
+    [[nodiscard]] const FxaaPipeline& fxaa();
     // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
     [[nodiscard]] VisibilityScene& visibility();
 
@@ -77,6 +82,8 @@ class SceneResources {
     std::unique_ptr<VisibilityScene> visibility_;
     bool assignment_tried_ = false;
     std::unique_ptr<AssignPipelines> assignment_;
+    std::unique_ptr<BloomPipelines> bloom_;
+    std::unique_ptr<FxaaPipeline> fxaa_;
 };
 
 } // namespace froxel::render

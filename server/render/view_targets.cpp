@@ -7,9 +7,10 @@
 namespace froxel::render {
 
 ViewTargets::ViewTargets(const gpu::Device& device,
-                         const view::Size& size_in,
+                         const view::Size& drawn,
+                         const view::Size& shown_in,
                          const TargetNeeds& needs_in)
-    : size(size_in), needs(needs_in), arena(device) {
+    : size(drawn), shown(shown_in), needs(needs_in), arena(device) {
     using Usage = vk::ImageUsageFlagBits;
     const vk::Extent2D extent{size.width_px, size.height_px};
     depth = arena.makeImage({.format = Pipelines::kDepthFormat,
@@ -34,12 +35,11 @@ ViewTargets::ViewTargets(const gpu::Device& device,
         }
     }
     if (needs.visibility) {
-        ids = arena.makeImage(
-            {.format = VisibilityPipelines::kIdFormat,
-             .extent = extent,
-             .usage = Usage::eColorAttachment | Usage::eSampled | Usage::eStorage |
-                      Usage::eTransferSrc},
-            "visible ids");
+        ids = arena.makeImage({.format = VisibilityPipelines::kIdFormat,
+                               .extent = extent,
+                               .usage = Usage::eColorAttachment | Usage::eSampled |
+                                        Usage::eStorage | Usage::eTransferSrc},
+                              "visible ids");
     }
     if (needs.compute_raster) {
         using BufferUsage = vk::BufferUsageFlagBits;
@@ -47,21 +47,29 @@ ViewTargets::ViewTargets(const gpu::Device& device,
                                  BufferUsage::eStorageBuffer | BufferUsage::eTransferSrc |
                                      BufferUsage::eTransferDst,
                                  gpu::MemoryUse::kDevice, "depth and id words");
-        compute_depth = arena.makeImage(
-            {.format = vk::Format::eR32Sfloat,
-             .extent = extent,
-             .usage = Usage::eSampled | Usage::eStorage | Usage::eTransferSrc},
-            "depth from compute");
+        compute_depth =
+            arena.makeImage({.format = vk::Format::eR32Sfloat,
+                             .extent = extent,
+                             .usage = Usage::eSampled | Usage::eStorage | Usage::eTransferSrc},
+                            "depth from compute");
     }
     if (needs.radiance) {
-        radiance = arena.makeImage(
-            {.format = Pipelines::kRadianceFormat,
-             .extent = extent,
-             .usage = Usage::eColorAttachment | Usage::eStorage | Usage::eTransferSrc},
-            "radiance");
+        radiance = arena.makeImage({.format = Pipelines::kRadianceFormat,
+                                    .extent = extent,
+                                    .usage = Usage::eColorAttachment | Usage::eStorage |
+                                             Usage::eTransferSrc |
+                                             (needs.sampled_radiance ? Usage::eSampled : Usage{})},
+                                   "radiance");
+    }
+    const auto packed_bytes = vk::DeviceSize{4} * shown.width_px * shown.height_px;
+    if (needs.display) {
+        display = arena.makeBuffer(packed_bytes,
+                                   vk::BufferUsageFlagBits::eStorageBuffer |
+                                       vk::BufferUsageFlagBits::eUniformTexelBuffer,
+                                   gpu::MemoryUse::kDevice, "display");
     }
     if (needs.device_pixels) {
-        pixels = arena.makeBuffer(vk::DeviceSize{4} * size.width_px * size.height_px,
+        pixels = arena.makeBuffer(packed_bytes,
                                   vk::BufferUsageFlagBits::eStorageBuffer |
                                       vk::BufferUsageFlagBits::eTransferSrc,
                                   gpu::MemoryUse::kDevice, "pixels");

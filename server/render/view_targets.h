@@ -15,21 +15,28 @@ struct TargetNeeds {
     bool radiance = false;
     bool visibility = false;
     bool compute_raster = false; // what compute rasters into
+    bool sampled_radiance = false; // passes look at a pixel's neighbours
+    bool display = false;       // the picture before the filter over it
     bool device_pixels = false; // packed pixels are copied to the host rather than written there
 
     [[nodiscard]] bool covers(const TargetNeeds& other) const {
         const bool same_gbuffer = gbuffer && gbuffer_flags == other.gbuffer_flags;
         return (same_gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
                (visibility || !other.visibility) && (compute_raster || !other.compute_raster) &&
+               (sampled_radiance || !other.sampled_radiance) && display == other.display &&
                (device_pixels || !other.device_pixels);
     }
 };
 
 struct ViewTargets {
     // All images end in the GENERAL layout, where they stay. Throws vk::OutOfDeviceMemoryError.
-    ViewTargets(const gpu::Device& device, const view::Size& size, const TargetNeeds& needs);
+    ViewTargets(const gpu::Device& device,
+                const view::Size& drawn,
+                const view::Size& shown,
+                const TargetNeeds& needs);
 
-    view::Size size;
+    view::Size size;  // drawn at
+    view::Size shown; // of the pixels; smaller where they have several samples
     TargetNeeds needs;
     gpu::MemoryArena arena;
     gpu::Image depth;
@@ -39,6 +46,7 @@ struct ViewTargets {
     gpu::Buffer words;   // depth and id, 64 bits a pixel; null handle: not needed
     gpu::Image compute_depth; // as depth, where compute rasters; null handle: not needed
     gpu::Image radiance; // null handle: not needed
+    gpu::Buffer display; // packed pixels that a filter follows; null handle: not needed
     gpu::Buffer pixels;  // null handle: not needed
     bool fresh = true;   // the images still await their first transition
     bool rastered_in_compute = false; // solid surfaces of the frame last submitted

@@ -114,6 +114,8 @@ readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs
     inputs.settings.lighting = view::LightingStage::kAuto;
     inputs.settings.shading = view::ShadingModel::kLambert;
     inputs.settings.gbuffer = {};
+    inputs.settings.bloom = {};
+    inputs.settings.antialiasing = view::Antialiasing::kNone;
     inputs.settings.lights.count = 0;
     inputs.settings.lights.scene_lights = false;
     inputs.geometry = GeometryPath::kVisibility;

@@ -74,6 +74,17 @@ struct SetExposure {
 struct SetToon {
     std::optional<view::ToonRamp> fragment;
     std::optional<view::ToonRamp> compute;
+    std::optional<double> outline_strength = std::nullopt;
+    std::optional<double> outline_width = std::nullopt;
+};
+
+struct SetPost {
+    std::optional<view::BloomKind> bloom;
+    std::optional<double> bloom_threshold;
+    std::optional<double> bloom_knee;
+    std::optional<double> bloom_strength;
+    std::optional<double> bloom_radius;
+    std::optional<view::Antialiasing> antialiasing;
 };
 
 struct SetDebugView {
@@ -130,6 +141,7 @@ using Command = std::variant<Hello,
                              SetGrid,
                              SetExposure,
                              SetToon,
+                             SetPost,
                              SetDebugView,
                              SetSize,
                              SetEncoding,

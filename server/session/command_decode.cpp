@@ -2,8 +2,10 @@
 
 #include "froxel/v1/client.pb.h"
 #include "protocol/limits.h"
+#include "session/enum_field.h"
 #include "session/field_validator.h"
 #include "session/json_input.h"
+#include "session/look_decode.h"
 #include "session/proto_enums.h"
 #include "session/room.h"
 
@@ -30,24 +32,6 @@ CommandResult<void> parseBinary(protocol::ByteSpan bytes, v1::ClientMessage& mes
 
 glm::dvec3 vec(const v1::Vec3& value) {
     return {value.x(), value.y(), value.z()};
-}
-
-template <class Proto, class Ours, size_t N>
-Ours enumeration(FieldValidator& fields,
-                 std::string_view field,
-                 const std::array<std::pair<Proto, Ours>, N>& table,
-                 Proto value) {
-    if (const auto known = fromProto(table, value)) {
-        return *known;
-    }
-    std::string names;
-    for (const auto& [proto, ours] : table) {
-        names += (names.empty() ? "" : ", ") +
-                 google::protobuf::GetEnumDescriptor<Proto>()->FindValueByNumber(proto)->name();
-    }
-    fields.fail(RejectCode::kUnsupported, field,
-                "is " + numberText(static_cast<int>(value)) + "; known are " + names);
-    return {};
 }
 
 Command decode(const v1::Hello& hello, FieldValidator& fields) {
@@ -231,48 +215,6 @@ Command decode(const v1::SetExposure& set, FieldValidator& fields) {
     return command;
 }
 
-view::ToonRamp
-decodeRamp(const std::string& name, const v1::ToonRamp& ramp, FieldValidator& fields) {
-    const auto count = static_cast<uint32_t>(ramp.points_size());
-    if (count < 2 || count > view::ToonRamp::kMaxPoints) {
-        fields.fail(RejectCode::kOutOfRange, name,
-                    "has " + numberText(count) + " points; it must have 2 to " +
-                        numberText(view::ToonRamp::kMaxPoints));
-        return {};
-    }
-    view::ToonRamp command;
-    command.count = count;
-    command.points = {};
-    for (uint32_t i = 0; i < count; ++i) {
-        const v1::ToonRamp::Point& point = ramp.points(static_cast<int>(i));
-        const std::string field = name + ".points[" + numberText(i) + "]";
-        const auto number = [&](const char* part, const view::Range<double>& range, double value) {
-            return static_cast<float>(fields.number(field + part, range, value));
-        };
-        command.points[i] = {number(".x", view::kToonRange, point.x()),
-                             number(".y", view::kToonRange, point.y()),
-                             number(".slope", view::kToonSlopeRange, point.slope())};
-        // In float, as the shader will see them: equal neighbours would divide by zero.
-        if (i > 0 && !(command.points[i].x > command.points[i - 1].x)) {
-            fields.fail(RejectCode::kOutOfRange, field + ".x",
-                        "is " + numberText(point.x()) + "; it must be above " +
-                            numberText(command.points[i - 1].x) + ", the one before it");
-        }
-    }
-    return command;
-}
-
-Command decode(const v1::SetToon& toon, FieldValidator& fields) {
-    SetToon command;
-    if (toon.has_fragment()) {
-        command.fragment = decodeRamp("toon_fragment", toon.fragment(), fields);
-    }
-    if (toon.has_compute()) {
-        command.compute = decodeRamp("toon_compute", toon.compute(), fields);
-    }
-    return command;
-}
-
 Command decode(const v1::SetDebugView& set, FieldValidator& fields) {
     fields.require(set.has_view() || set.has_scale_max() || set.has_freeze(), "debug_view");
     SetDebugView command;
@@ -342,7 +284,9 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
     case v1::ClientMessage::kSetExposure:
         return decode(message.set_exposure(), fields);
     case v1::ClientMessage::kSetToon:
-        return decode(message.set_toon(), fields);
+        return decodeToon(message.set_toon(), fields);
+    case v1::ClientMessage::kSetPost:
+        return decodePost(message.set_post(), fields);
     case v1::ClientMessage::kSetDebugView:
         return decode(message.set_debug_view(), fields);
     case v1::ClientMessage::kSetSize:

@@ -76,6 +76,18 @@ inline constexpr std::array kToneMapTable = {
     std::pair{v1::TONE_MAP_PBR_NEUTRAL, view::ToneMap::kPbrNeutral},
     std::pair{v1::TONE_MAP_CLAMP, view::ToneMap::kClamp},
 };
+inline constexpr std::array kBloomKindTable = {
+    std::pair{v1::BLOOM_KIND_NONE, view::BloomKind::kNone},
+    std::pair{v1::BLOOM_KIND_SINGLE_PASS, view::BloomKind::kSinglePass},
+    std::pair{v1::BLOOM_KIND_SEPARABLE, view::BloomKind::kSeparable},
+    std::pair{v1::BLOOM_KIND_A_TROUS, view::BloomKind::kATrous},
+    std::pair{v1::BLOOM_KIND_MIP_CHAIN, view::BloomKind::kMipChain},
+};
+inline constexpr std::array kAntialiasingTable = {
+    std::pair{v1::ANTIALIASING_NONE, view::Antialiasing::kNone},
+    std::pair{v1::ANTIALIASING_FXAA, view::Antialiasing::kFxaa},
+    std::pair{v1::ANTIALIASING_SSAA4, view::Antialiasing::kSsaa4},
+};
 inline constexpr std::array kChromaTable = {
     std::pair{v1::CHROMA_420, view::Chroma::k420},
     std::pair{v1::CHROMA_444, view::Chroma::k444},
@@ -105,6 +117,8 @@ static_assert(kLightLoopTable.size() == view::kLightLoopNames.size());
 static_assert(kNormalEncodingTable.size() == view::kNormalEncodingNames.size());
 static_assert(kPositionSourceTable.size() == view::kPositionSourceNames.size());
 static_assert(kToneMapTable.size() == view::kToneMapNames.size());
+static_assert(kBloomKindTable.size() == view::kBloomKindNames.size());
+static_assert(kAntialiasingTable.size() == view::kAntialiasingNames.size());
 static_assert(kChromaTable.size() == view::kChromaNames.size());
 static_assert(kDebugViewTable.size() == view::kDebugViewNames.size());
 static_assert(kCodecTable.size() == view::kCodecNames.size());

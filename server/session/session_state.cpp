@@ -120,6 +120,8 @@ struct Reducer {
     Outcome operator()(const SetToon& command) const {
         assignIfGiven(state.settings.toon_fragment, command.fragment);
         assignIfGiven(state.settings.toon_compute, command.compute);
+        assignIfGiven(state.settings.toon_outline.strength, command.outline_strength);
+        assignIfGiven(state.settings.toon_outline.width, command.outline_width);
         return {};
     }
 
@@ -135,16 +137,36 @@ struct Reducer {
         return {};
     }
 
-    Outcome operator()(const SetSize& command) const {
-        const uint64_t area_px = uint64_t{command.size.width_px} * command.size.height_px;
-        if (area_px > context.defaults.max_area_px) {
-            return outOfRange("width", "x height is " + numberText(command.size.width_px) + "x" +
-                                           numberText(command.size.height_px) +
-                                           "; this server draws at most " +
-                                           numberText(context.defaults.max_area_px) + " pixels");
+    // What is drawn of a picture at most; `field` is the one that asked for more.
+    Outcome checkArea(const char* field) const {
+        const view::Size& size = state.settings.size;
+        const uint64_t across = view::samplesAcross(state.settings.antialiasing);
+        const uint64_t area_px = across * across * size.width_px * size.height_px;
+        if (area_px <= context.defaults.max_area_px) {
+            return {};
         }
+        const std::string samples =
+            across > 1 ? " with " + numberText(across * across) + " samples a pixel" : "";
+        return Rejection{RejectCode::kOutOfRange, 0, field,
+                         "width x height is " + numberText(size.width_px) + "x" +
+                             numberText(size.height_px) + samples + "; this server draws at most " +
+                             numberText(context.defaults.max_area_px) + " pixels"};
+    }
+
+    Outcome operator()(const SetPost& command) const {
+        view::Bloom& bloom = state.settings.bloom;
+        assignIfGiven(bloom.kind, command.bloom);
+        assignIfGiven(bloom.threshold, command.bloom_threshold);
+        assignIfGiven(bloom.knee, command.bloom_knee);
+        assignIfGiven(bloom.strength, command.bloom_strength);
+        assignIfGiven(bloom.radius, command.bloom_radius);
+        assignIfGiven(state.settings.antialiasing, command.antialiasing);
+        return command.antialiasing ? checkArea("antialiasing") : Outcome{};
+    }
+
+    Outcome operator()(const SetSize& command) const {
         state.settings.size = command.size;
-        return {};
+        return checkArea("width");
     }
 
     Outcome operator()(const SetEncoding& command) const {

@@ -58,6 +58,15 @@ void fillLights(v1::ViewState& out, const view::Lights& lights, const BoundsD3& 
     }
 }
 
+void fillPost(v1::ViewState& out, const view::ViewSettings& settings) {
+    out.set_bloom(toProto(kBloomKindTable, settings.bloom.kind));
+    out.set_bloom_threshold(settings.bloom.threshold);
+    out.set_bloom_knee(settings.bloom.knee);
+    out.set_bloom_strength(settings.bloom.strength);
+    out.set_bloom_radius(settings.bloom.radius);
+    out.set_antialiasing(toProto(kAntialiasingTable, settings.antialiasing));
+}
+
 void fill(v1::ViewState& out, const SessionContext& context, const SessionState& state) {
     const view::ViewSettings& settings = state.settings;
     fillCamera(out, settings.camera);
@@ -84,6 +93,9 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     out.set_tone_map(toProto(kToneMapTable, settings.tone_map));
     fill(*out.mutable_toon_fragment(), settings.toon_fragment);
     fill(*out.mutable_toon_compute(), settings.toon_compute);
+    out.set_outline_strength(settings.toon_outline.strength);
+    out.set_outline_width(settings.toon_outline.width);
+    fillPost(out, settings);
     out.set_width(settings.size.width_px);
     out.set_height(settings.size.height_px);
     out.set_quality(state.encoding.quality);

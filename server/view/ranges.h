@@ -42,15 +42,30 @@ inline constexpr Range<uint32_t> kVideoKbpsRange{"video_kbps", 100, 100'000};
 inline constexpr Range<double> kToonRange{"toon", 0.0, 1.0};
 inline constexpr Range<double> kToonSlopeRange{"toon.slope", -20.0, 20.0};
 inline constexpr Range<double> kDebugScaleRange{"debug_scale_max", 0.0, 1e6}; // 0: chosen
+inline constexpr Range<double> kOutlineStrengthRange{"outline_strength", 0.0, 1.0};
+inline constexpr Range<double> kOutlineWidthRange{"outline_width", 0.0005, 0.01};
+inline constexpr Range<double> kBloomThresholdRange{"bloom_threshold", 0.0, 1'000.0};
+inline constexpr Range<double> kBloomKneeRange{"bloom_knee", 0.0, 1.0};
+inline constexpr Range<double> kBloomStrengthRange{"bloom_strength", 0.0, 1.0};
+inline constexpr Range<double> kBloomRadiusRange{"bloom_radius", 0.001, 0.05};
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
 
 // Every range that a client can run into; the server tells them all when it greets.
-inline constexpr std::tuple kCommandRanges{
-    kWidthRange,      kHeightRange,     kLightCountRange,  kLightRadiusRange, kLightIntensityRange,
-    kLightSpeedRange, kAmbientRange,    kGridXRange,       kGridYRange,       kGridZRange,
-    kExposureRange,   kFovRange,        kHalfHeightRange,  kPositionRange,    kFocusRange,
-    kUpRange,         kQualityRange,    kToonRange,        kToonSlopeRange,   kTimeRange,
-    kLensShiftXRange, kLensShiftYRange, kLightCutoffRange, kTargetFpsRange,
-    kVideoKbpsRange,  kDebugScaleRange};
+inline constexpr std::tuple kCommandRanges{kWidthRange,          kHeightRange,
+                                           kLightCountRange,     kLightRadiusRange,
+                                           kLightIntensityRange, kLightSpeedRange,
+                                           kAmbientRange,        kGridXRange,
+                                           kGridYRange,          kGridZRange,
+                                           kExposureRange,       kFovRange,
+                                           kHalfHeightRange,     kPositionRange,
+                                           kFocusRange,          kUpRange,
+                                           kQualityRange,        kToonRange,
+                                           kToonSlopeRange,      kTimeRange,
+                                           kLensShiftXRange,     kLensShiftYRange,
+                                           kLightCutoffRange,    kTargetFpsRange,
+                                           kVideoKbpsRange,      kOutlineStrengthRange,
+                                           kOutlineWidthRange,   kBloomThresholdRange,
+                                           kBloomKneeRange,      kBloomStrengthRange,
+                                           kBloomRadiusRange,    kDebugScaleRange};
 
 } // namespace froxel::view

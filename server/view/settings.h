@@ -69,6 +69,22 @@ enum class ToneMap : uint8_t { kPbrNeutral, kClamp };
 inline constexpr std::array kToneMapNames = {std::string_view("pbr_neutral"),
                                              std::string_view("clamp")};
 
+// How bright light is spread. All kinds come to a Gaussian of one standard deviation: as one kernel,
+// along rows and columns, by a wavelet with holes, or down and up a chain of halved pictures.
+enum class BloomKind : uint8_t { kNone, kSinglePass, kSeparable, kATrous, kMipChain };
+inline constexpr std::array kBloomKindNames = {
+    std::string_view("none"), std::string_view("single_pass"), std::string_view("separable"),
+    std::string_view("a_trous"), std::string_view("mip_chain")};
+
+// fxaa: a filter over the finished picture. ssaa4: four samples a pixel, tone mapped one by one.
+enum class Antialiasing : uint8_t { kNone, kFxaa, kSsaa4 };
+inline constexpr std::array kAntialiasingNames = {
+    std::string_view("none"), std::string_view("fxaa"), std::string_view("ssaa4")};
+// Samples across a pixel, and down it.
+[[nodiscard]] constexpr uint32_t samplesAcross(Antialiasing antialiasing) {
+    return antialiasing == Antialiasing::kSsaa4 ? 2 : 1;
+}
+
 enum class Chroma : uint8_t { k420, k444 };
 inline constexpr std::array kChromaNames = {std::string_view("420"), std::string_view("444")};
 
@@ -129,6 +145,24 @@ struct Lights {
     bool operator==(const Lights&) const = default;
 };
 
+// Spreads a share of what is bright; none is lost. Lengths are shares of the picture's smaller side,
+// so that a picture of another size looks the same.
+struct Bloom {
+    BloomKind kind = BloomKind::kNone;
+    float threshold = 1.0F; // exposed radiance from which light is spread; 0: all light
+    float knee = 0.5F;      // share of the threshold over which spreading sets in
+    float strength = 0.25F; // share of that light that is spread
+    float radius = 0.015F;  // the Gaussian's standard deviation
+    bool operator==(const Bloom&) const = default;
+};
+
+// Of the toon renderers: edges of depth and normals are darkened.
+struct ToonOutline {
+    float strength = 0.0F; // 0: none; 1: black
+    float width = 0.003F;  // share of the picture's smaller side
+    bool operator==(const ToonOutline&) const = default;
+};
+
 // A cubic Hermite ramp from [0, 1] to [0, 1]: points in ascending x; constant outside.
 struct ToonRamp {
     static constexpr uint32_t kMaxPoints = 8;
@@ -170,6 +204,9 @@ struct ViewSettings {
                                      {0.38F, 0.55F, 0},
                                      {0.65F, 0.60F, 0},
                                      {0.80F, 1.00F, 0}}};
+    ToonOutline toon_outline;
+    Bloom bloom;
+    Antialiasing antialiasing = Antialiasing::kNone;
     bool operator==(const ViewSettings&) const = default;
 };
 

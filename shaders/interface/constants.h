@@ -50,6 +50,7 @@ FROXEL_CONST uint kOutputRadiance = 1U << 1;   // lighting writes linear fp32 ra
 FROXEL_CONST uint kOutputWideGbuffer = 1U << 2; // metalness, occlusion, emission are stored
 FROXEL_CONST uint kOutputClamp = 1U << 3;      // plain clamp instead of the neutral tone map
 FROXEL_CONST uint kOutputDepth = 1U << 4;      // the resolve replaces depths by those of planes
+FROXEL_CONST uint kOutputSamples = 1U << 5;    // the tone map's pixel is the mean of 2 x 2 samples
 
 FROXEL_CONST uint kMaxToonSegments = 9U; // 8 points: 7 cubics and two constant ends
 FROXEL_CONST uint kScreenGroup = 8U;     // screen passes: workgroups of 8 x 8 pixels

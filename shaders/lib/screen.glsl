@@ -11,5 +11,5 @@ bool insideScreen(uvec2 pixel) {
 }
 
 void storePixel(uvec2 pixel, vec3 radiance) {
-    pixels[pixel.y * frame.width_px + pixel.x] = displayPixel(radiance);
+    pixels[pixel.y * frame.width_px + pixel.x] = packDisplay(displayColor(radiance));
 }

@@ -25,11 +25,19 @@ vec3 srgbEncode(vec3 c) {
     return mix(high, low, lessThan(c, vec3(0.0031308)));
 }
 
-// RGBA8, alpha 255. Radiance beyond fp32's comfort becomes white, not infinity.
-uint displayPixel(vec3 radiance) {
+vec3 srgbDecode(vec3 c) {
+    vec3 high = pow((c + 0.055) / 1.055, vec3(2.4));
+    return mix(high, c / 12.92, lessThanEqual(c, vec3(0.04045)));
+}
+
+// What the display emits, linear, 0 to 1. Radiance beyond fp32's comfort becomes white, not infinity.
+vec3 displayColor(vec3 radiance) {
     vec3 c = min(radiance * frame.exposure, vec3(1e6));
     if (!hasOutput(kOutputClamp)) {
         c = pbrNeutral(c);
     }
-    return packUnorm4x8(vec4(srgbEncode(clamp(c, vec3(0.0), vec3(1.0))), 1.0));
+    return clamp(c, vec3(0.0), vec3(1.0));
 }
+
+// RGBA8, alpha 255.
+uint packDisplay(vec3 color) { return packUnorm4x8(vec4(srgbEncode(color), 1.0)); }

@@ -187,7 +187,8 @@ TEST_F(HardBadInput, DegenerateGeometry_IsFiniteAndExact) {
     auto inputs = roomInputs(scene);
     inputs.settings.lights.count = 100;
     inputs.settings.lights.box = BoundsD3{{-5, 0, -4}, {5, 5, 5}};
-    for (const auto shading : {view::ShadingModel::kLambert, view::ShadingModel::kPbr}) {
+    for (const auto shading : {view::ShadingModel::kLambert, view::ShadingModel::kBlinnPhong,
+                               view::ShadingModel::kPbr}) {
         inputs.settings.shading = shading;
         (void)expectExact(renderer, inputs, Toon::kNo);
     }

@@ -31,14 +31,15 @@ void expectAsCommitted(const Picture& picture, const std::string& name) {
     SCOPED_TRACE(name);
     const auto path = std::filesystem::path(FROXEL_GOLDEN_DIR) / ("hall_" + name + ".png");
     if (std::getenv("FROXEL_UPDATE_GOLDEN") != nullptr) {
-        const PixelView pixels{picture.rgba8.data(), 320, 180, size_t{4} * 320};
+        const PixelView pixels{picture.rgba8.data(), picture.width_px, picture.height_px,
+                               size_t{4} * picture.width_px};
         ASSERT_TRUE(encode::writeImage(path, pixels, {}));
         return;
     }
     const auto golden = readPng(path);
     ASSERT_TRUE(golden) << path << " is missing";
-    ASSERT_EQ(golden->width_px, 320U);
-    ASSERT_EQ(golden->height_px, 180U);
+    ASSERT_EQ(golden->width_px, picture.width_px);
+    ASSERT_EQ(golden->height_px, picture.height_px);
     const auto difference = compare(*golden, picture.rgba8);
     EXPECT_LT(difference.rmse, kMaxRmse);
     EXPECT_LT(difference.share_above_8, kMaxShareAbove8);
@@ -76,6 +77,30 @@ TEST_F(Golden, DebugViews_BuiltinScene_LookAsCommitted) {
             inputs.settings.camera = scene.cameras[1].camera;
         }
         expectAsCommitted(drawPixels(view, inputs), "debug_" + std::string(view::nameOf(debug)));
+    }
+}
+
+TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
+    using Change = void (*)(view::ViewSettings&);
+    const std::pair<const char*, Change> options[] = {
+        {"blinn_phong", [](auto& s) { s.shading = view::ShadingModel::kBlinnPhong; }},
+        {"bloom",
+         [](auto& s) {
+             s.bloom = {view::BloomKind::kMipChain, 0.5F, 0.5F, 0.6F, 0.03F};
+         }},
+        {"fxaa", [](auto& s) { s.antialiasing = view::Antialiasing::kFxaa; }},
+        {"ssaa4", [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; }},
+        {"outline", [](auto& s) {
+             s.renderer = view::Renderer::kToonFragment;
+             s.toon_outline.strength = 0.9F;
+         }}};
+    const auto scene = hall::makeHall();
+    render::Renderer renderer(device(), scene);
+    for (const auto& [name, change] : options) {
+        auto inputs = inputsFor(scene);
+        inputs.settings.size = {240, 135};
+        change(inputs.settings);
+        expectAsCommitted(draw(renderer, inputs), name);
     }
 }
 

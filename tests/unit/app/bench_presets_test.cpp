@@ -194,6 +194,9 @@ TEST(RenderArguments, EverySetting_ParsesBack) {
     s.debug = {.view = view::DebugView::kDepth, .scale_max = 12.5, .grid_camera = {}};
     s.exposure = 1.7F;
     s.tone_map = view::ToneMap::kClamp;
+    s.bloom = {view::BloomKind::kSeparable, 0.5F, 0.25F, 0.75F, 0.02F};
+    s.antialiasing = view::Antialiasing::kFxaa;
+    s.toon_outline = {0.5F, 0.005F};
     options.lens_shift = glm::dvec2(0.1, -0.25);
     options.timings = "t.json";
     auto texts = renderArguments(options, "");

@@ -80,6 +80,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     const auto has = [](uint32_t flags, uint32_t flag) { return (flags & flag) != 0; };
     const bool compute_lights = p.lighting_compute || p.visibility_shade;
     const bool lit_by_lighting = p.gbuffer || p.visibility_shade;
+    const bool is_toon =
+        settings.renderer == Renderer::kToonFragment || settings.renderer == Renderer::kToonCompute;
     const bool lighting_packs = has(p.lighting_output_flags, io::kOutputPixels);
     const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
     const bool lighting_stores = has(p.lighting_output_flags, io::kOutputRadiance);
@@ -124,6 +126,16 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         {has(p.tonemap_output_flags, io::kOutputClamp) ==
              (settings.tone_map == view::ToneMap::kClamp),
          "the tone map asked for"},
+        {p.outline == (is_toon && settings.toon_outline.strength > 0),
+         "outlines where a toon renderer is asked for them"},
+        {p.bloom == settings.bloom.kind, "the bloom asked for"},
+        {p.samples == (settings.antialiasing == view::Antialiasing::kSsaa4),
+         "four samples where asked for"},
+        {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
+         "which the tone map averages"},
+        {p.fxaa == (settings.antialiasing == view::Antialiasing::kFxaa), "the filter asked for"},
+        {p.tonemap || !(p.outline || p.samples || p.bloom != view::BloomKind::kNone),
+         "tones are mapped after all that is done to the lit picture"},
     };
     for (const auto& [holds, rule] : rules) {
         if (!holds) {
@@ -219,6 +231,42 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
             ASSERT_EQ(p, planFrame(settings, facts));
         }
     }
+}
+
+TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
+    view::ViewSettings settings;
+    for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 2; ++setting) {
+        settings.renderer = static_cast<Renderer>(setting % 5);
+        settings.lighting = static_cast<LightingStage>(setting / 5 % 3);
+        settings.antialiasing = static_cast<view::Antialiasing>(setting / 15 % 3);
+        settings.bloom.kind =
+            setting / 45 % 2 != 0 ? view::BloomKind::kMipChain : view::BloomKind::kNone;
+        settings.toon_outline.strength = setting / 90 % 2 != 0 ? 0.5F : 0.0F;
+        for (uint32_t bits = 0; bits < 16; ++bits) {
+            const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
+            const FrameFacts facts{.transparent_visible = has(0),
+                                   .local_lights = has(1),
+                                   .keep_radiance = has(2),
+                                   .visibility = has(3)};
+            ASSERT_EQ(brokenRule(settings, facts, planFrame(settings, facts)), "")
+                << "settings " << setting << ", facts " << bits;
+        }
+    }
+}
+
+TEST(FramePlan, BloomOfNoStrength_IsNone) {
+    view::ViewSettings settings;
+    settings.bloom.kind = view::BloomKind::kSeparable;
+    settings.bloom.strength = 0;
+    EXPECT_EQ(planFrame(settings, {}).bloom, view::BloomKind::kNone);
+}
+
+TEST(FramePlan, DrawnSize_IsTwiceTheSidesForFourSamples) {
+    view::ViewSettings settings;
+    settings.size = {101, 57};
+    EXPECT_EQ(drawnSize(settings), settings.size);
+    settings.antialiasing = view::Antialiasing::kSsaa4;
+    EXPECT_EQ(drawnSize(settings), (view::Size{202, 114}));
 }
 
 TEST(FramePlan, GenericParts_OnlyWiden) {

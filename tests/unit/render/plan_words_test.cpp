@@ -44,6 +44,24 @@ TEST(PlanWords, LightsOfOneRadius_AreNamed) {
     EXPECT_THAT(words, Contains(HasSubstr("light lists")));
 }
 
+TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
+    view::ViewSettings settings;
+    const auto of_post = ::testing::AnyOf(HasSubstr("bloom"), HasSubstr("outline"),
+                                          HasSubstr("fxaa"), HasSubstr("ssaa4"));
+    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(of_post)));
+    settings.renderer = view::Renderer::kToonCompute;
+    settings.toon_outline.strength = 1;
+    settings.bloom.kind = view::BloomKind::kATrous;
+    settings.antialiasing = view::Antialiasing::kSsaa4;
+    const auto words = wordsOf(settings, {});
+    EXPECT_THAT(words, Contains(HasSubstr("outline")));
+    EXPECT_THAT(words, Contains(HasSubstr("bloom by a_trous")));
+    EXPECT_THAT(words, Contains(HasSubstr("ssaa4")));
+    EXPECT_THAT(words, Contains("tone map in a pass of its own, after those over the lit picture"));
+    settings.antialiasing = view::Antialiasing::kFxaa;
+    EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("fxaa")));
+}
+
 TEST(PlanWords, Scene_CountsMaterials) {
     EXPECT_THAT(sceneWords(findNeeds(sceneOf(25, 18))),
                 Contains("normal maps on 18 of 25 materials"));

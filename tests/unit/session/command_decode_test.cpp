@@ -235,6 +235,8 @@ TEST(DecodeCommand, Enums_Unknown_AreNamedWithWhatIsKnown) {
         {renderer(R"("gbuffer":{"position":VALUE})"), "gbuffer.position", "POSITION_SOURCE_FP16"},
         {R"("setLights":{"lightLoop":VALUE})", "light_loop", "LIGHT_LOOP_ALL_LIGHTS"},
         {R"("setGrid":{"law":VALUE})", "law", "GRID_LAW_HYPERBOLIC"},
+        {R"("setPost":{"bloom":VALUE})", "bloom", "BLOOM_KIND_MIP_CHAIN"},
+        {R"("setPost":{"antialiasing":VALUE})", "antialiasing", "ANTIALIASING_FXAA"},
     };
     const auto with = [](const Case& test, const std::string& value) {
         std::string body = test.body;
@@ -249,47 +251,6 @@ TEST(DecodeCommand, Enums_Unknown_AreNamedWithWhatIsKnown) {
             EXPECT_NE(rejection.message.find(test.known), std::string::npos) << rejection.message;
         }
     }
-}
-
-void addPoint(v1::ToonRamp& ramp, double x, double y, double slope = 0) {
-    v1::ToonRamp::Point& point = *ramp.add_points();
-    point.set_x(x);
-    point.set_y(y);
-    point.set_slope(slope);
-}
-
-TEST(DecodeCommand, SetToon_TakesAscendingRamps) {
-    v1::ClientMessage message = clientMessage();
-    v1::ToonRamp& ramp = *message.mutable_set_toon()->mutable_compute();
-    addPoint(ramp, 0, 0.25, 2);
-    addPoint(ramp, 1, 1, -20);
-    const auto command = accepted<SetToon>(decodeBinary(message));
-    EXPECT_FALSE(command.fragment);
-    EXPECT_EQ(command.compute->count, 2U);
-    EXPECT_EQ(command.compute->points[0], (view::ToonRamp::Point{0, 0.25F, 2}));
-    EXPECT_EQ(command.compute->points[1], (view::ToonRamp::Point{1, 1, -20}));
-    EXPECT_EQ(command.compute->points[2], view::ToonRamp::Point{});
-}
-
-TEST(DecodeCommand, SetToon_PointCountAndOrder_AreChecked) {
-    const auto fault = [](std::initializer_list<double> xs) {
-        v1::ClientMessage message = clientMessage();
-        v1::ToonRamp& ramp = *message.mutable_set_toon()->mutable_fragment();
-        for (const double x : xs) {
-            addPoint(ramp, x, 0.5);
-        }
-        return refused(decodeBinary(message)).message;
-    };
-    EXPECT_EQ(fault({}), "toon_fragment has 0 points; it must have 2 to 8");
-    EXPECT_EQ(fault({0}), "toon_fragment has 1 points; it must have 2 to 8");
-    EXPECT_EQ(fault({0, .1, .2, .3, .4, .5, .6, .7, .8}),
-              "toon_fragment has 9 points; it must have 2 to 8");
-    EXPECT_EQ(fault({0, 0.5, 0.5}),
-              "toon_fragment.points[2].x is 0.5; it must be above 0.5, the one before it");
-    // Apart in double, one float: the shader would divide by their difference.
-    EXPECT_THAT(fault({0, 0.5, 0.5 + 1e-12}), HasSubstr("points[2].x"));
-    EXPECT_THAT(fault({0, 1.5}), HasSubstr("points[1].x is 1.5; it must be from 0 to 1"));
-    EXPECT_THAT(fault({0, kNan}), HasSubstr("points[1].x is nan"));
 }
 
 TEST(DecodeCommand, SetEncodingAndSizeAndAck_AreTaken) {

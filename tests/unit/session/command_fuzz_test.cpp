@@ -44,6 +44,12 @@ struct PromiseKept {
     bool operator()(const SetToon& c) const {
         return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2);
     }
+    bool operator()(const SetPost& c) const {
+        return (!c.bloom || static_cast<size_t>(*c.bloom) < view::kBloomKindNames.size()) &&
+               (!c.bloom_radius || view::kBloomRadiusRange.contains(*c.bloom_radius)) &&
+               (!c.antialiasing ||
+                static_cast<size_t>(*c.antialiasing) < view::kAntialiasingNames.size());
+    }
     template <class Other>
     bool operator()(const Other& /*command*/) const {
         return true;
@@ -78,6 +84,9 @@ std::vector<v1::ClientMessage> seeds() {
     all[4].mutable_set_toon()->mutable_compute()->add_points()->set_x(1);
     all[5].mutable_set_size()->set_width(64);
     all[5].mutable_set_size()->set_height(64);
+    all[6].mutable_set_post()->set_bloom(v1::BLOOM_KIND_A_TROUS);
+    all[6].mutable_set_post()->set_bloom_radius(0.01);
+    all[6].mutable_set_post()->set_antialiasing(v1::ANTIALIASING_SSAA4);
     return all;
 }
 

@@ -309,6 +309,46 @@ TEST_F(State, TooLargeAPicture_IsRefused) {
               "width x height is 1001x1000; this server draws at most 1000000 pixels");
 }
 
+TEST_F(State, SamplesOfAPixel_CountAsPixels) {
+    context.defaults.max_area_px = 1'000'000;
+    SetPost smooth;
+    smooth.antialiasing = view::Antialiasing::kSsaa4;
+    const SessionState small = applied(initial, SetSize{{500, 500}});
+    const SessionState smoothed = applied(small, smooth);
+    EXPECT_EQ(smoothed.settings.antialiasing, view::Antialiasing::kSsaa4);
+    const auto larger = apply(smoothed, {{3, 0}, SetSize{{501, 500}}}, context, kStart);
+    ASSERT_FALSE(larger);
+    EXPECT_EQ(larger.error().field, "width");
+    EXPECT_EQ(larger.error().message, "width x height is 501x500 with 4 samples a pixel; this "
+                                      "server draws at most 1000000 pixels");
+    const SessionState large = applied(initial, SetSize{{1000, 1000}});
+    const auto refused = apply(large, {{4, 0}, smooth}, context, kStart);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().field, "antialiasing");
+}
+
+TEST_F(State, SetPostAndOutline_PartsAreSetOneByOne) {
+    SetPost command;
+    command.bloom = view::BloomKind::kMipChain;
+    command.bloom_threshold = 2;
+    SessionState state = applied(initial, command);
+    command = {};
+    command.bloom_knee = 0.25;
+    command.bloom_strength = 0.5;
+    command.bloom_radius = 0.03;
+    state = applied(state, command);
+    EXPECT_EQ(state.settings.bloom,
+              (view::Bloom{view::BloomKind::kMipChain, 2, 0.25F, 0.5F, 0.03F}));
+    SetToon outline;
+    outline.outline_strength = 0.5;
+    state = applied(state, outline);
+    outline = {};
+    outline.outline_width = 0.01;
+    state = applied(state, outline);
+    EXPECT_EQ(state.settings.toon_outline, (view::ToonOutline{0.5F, 0.01F}));
+    EXPECT_EQ(state.settings.toon_fragment, initial.settings.toon_fragment);
+}
+
 TEST_F(State, SameValueAgain_CountsAsAppliedNotAsChanged) {
     const SessionState once = applied(initial, gridOf({8, 8, 8}));
     const SessionState twice = applied(once, gridOf({8, 8, 8}));

@@ -68,6 +68,9 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.exposure = 0.5F;
     state.settings.tone_map = view::ToneMap::kClamp;
     state.settings.toon_compute.count = 2;
+    state.settings.toon_outline = {0.5F, 0.0078125F};
+    state.settings.bloom = {view::BloomKind::kATrous, 2.5F, 0.25F, 0.75F, 0.03125F};
+    state.settings.antialiasing = view::Antialiasing::kFxaa;
     state.delivery = {true, 12.5, view::Refine::kHigh};
     state.encoding = {42, view::Chroma::k444, view::Codec::kVp9, 777};
     const v1::ServerMessage message = makeStateChanged(context, state);
@@ -105,6 +108,14 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.tone_map(), v1::TONE_MAP_CLAMP);
     EXPECT_EQ(view.toon_fragment().points_size(), 8);
     EXPECT_EQ(view.toon_compute().points_size(), 2);
+    EXPECT_EQ(view.outline_strength(), 0.5);
+    EXPECT_EQ(view.outline_width(), 0.0078125);
+    EXPECT_EQ(view.bloom(), v1::BLOOM_KIND_A_TROUS);
+    EXPECT_EQ(view.bloom_threshold(), 2.5);
+    EXPECT_EQ(view.bloom_knee(), 0.25);
+    EXPECT_EQ(view.bloom_strength(), 0.75);
+    EXPECT_EQ(view.bloom_radius(), 0.03125);
+    EXPECT_EQ(view.antialiasing(), v1::ANTIALIASING_FXAA);
     EXPECT_EQ(view.quality(), 42U);
     EXPECT_TRUE(view.adaptive());
     EXPECT_EQ(view.target_fps(), 12.5);

@@ -1,0 +1,48 @@
+// The passes of bloom as data: which shader reads which picture and writes which. Pure.
+#pragma once
+
+#include "core/error.h"
+#include "interface/bloom_io.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace froxel::render {
+
+enum class BloomShader : uint8_t { kBright, kSingle, kLine, kATrous, kDown, kUp };
+
+// A pass reads one picture and writes another: the frame's own or one of bloom's.
+struct BloomWire {
+    static constexpr uint32_t kPicture = ~0U;
+    uint32_t source = kPicture;
+    uint32_t target = kPicture;
+    bool operator==(const BloomWire&) const = default;
+};
+
+struct BloomStep {
+    BloomShader shader = BloomShader::kBright;
+    BloomWire wire;
+    io::BloomPass pass{};
+
+    // kBloomBright, kBloomAdds
+    [[nodiscard]] uint32_t flags() const;
+};
+
+struct BloomPlan {
+    std::vector<view::Size> images; // bloom's own pictures
+    std::vector<BloomStep> steps;   // in order, each reading what those before wrote
+
+    [[nodiscard]] std::vector<BloomWire> wires() const;
+};
+
+// Of a picture of `size`; the kind is not none. What every kind comes to is a Gaussian of standard
+// deviation radius x the smaller side, cut at three of them or by splines of the same variance.
+[[nodiscard]] BloomPlan
+planBloom(const view::Bloom& bloom, const view::Size& size, float exposure);
+
+// Errors: kCapacity where the taps would take minutes, as those of one large kernel do.
+[[nodiscard]] Result<void>
+checkBloomBudget(const BloomPlan& plan, const view::Size& size, bool device_is_cpu);
+
+} // namespace froxel::render

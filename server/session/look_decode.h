@@ -1,0 +1,13 @@
+// Commands that say how the lit picture looks: toon ramps and outlines, bloom, antialiasing.
+#pragma once
+
+#include "froxel/v1/client.pb.h"
+#include "session/command.h"
+#include "session/field_validator.h"
+
+namespace froxel::session {
+
+[[nodiscard]] SetToon decodeToon(const v1::SetToon& toon, FieldValidator& fields);
+[[nodiscard]] SetPost decodePost(const v1::SetPost& set, FieldValidator& fields);
+
+} // namespace froxel::session

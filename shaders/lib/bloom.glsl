@@ -1,0 +1,56 @@
+// Bloom moves a share of each pixel's bright part to the pixels around it: picture + strength *
+// (spread - bright). Every kind's weights add up to 1 for a pixel that gathers, and, with the picture
+// mirrored at its borders, for one that gives too: a constant picture stays as it is, and light is moved,
+// neither lost nor made, however many pixels it comes from.
+#include "interface/bloom_io.h"
+#include "interface/constants.h"
+
+layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
+layout(constant_id = 2) const uint BLOOM_FLAGS = 0;
+layout(set = 0, binding = 0) uniform texture2D source_image;
+layout(set = 0, binding = 1, rgba32f) uniform image2D target_image;
+layout(push_constant, scalar) uniform PassBlock { BloomPass bloom; };
+
+// Infinity would spread over the picture and become no number.
+const vec3 kMostBright = vec3(1e30);
+
+// The part of it that is above the threshold; from knee below to knee above it sets in as a parabola.
+vec3 brightPart(vec3 radiance) {
+    vec3 color = min(radiance, kMostBright);
+    float peak = max(color.r, max(color.g, color.b));
+    float soft = clamp(peak - bloom.threshold + bloom.knee, 0.0, 2.0 * bloom.knee);
+    soft = bloom.knee > 0.0 ? soft * soft / (4.0 * bloom.knee) : 0.0;
+    float part = max(soft, peak - bloom.threshold);
+    return peak > 0.0 ? color * (max(part, 0.0) / peak) : vec3(0.0);
+}
+
+// The plan keeps every reach below the picture's sides, so that once is enough.
+ivec2 mirrored(ivec2 at) {
+    ivec2 size = ivec2(bloom.source_width_px, bloom.source_height_px);
+    at = mix(at, -1 - at, lessThan(at, ivec2(0)));
+    return clamp(min(at, 2 * size - 1 - at), ivec2(0), size - 1);
+}
+
+vec3 sourceAt(ivec2 at) {
+    vec3 color = texelFetch(source_image, mirrored(at), 0).rgb;
+    return (BLOOM_FLAGS & kBloomBright) != 0 ? brightPart(color) : color;
+}
+
+bool insideTarget() {
+    return all(lessThan(gl_GlobalInvocationID.xy,
+                        uvec2(bloom.target_width_px, bloom.target_height_px)));
+}
+
+// `share`: of `spread`; the rest is what the target has, of the picture its bright part.
+void put(ivec2 at, vec3 spread, float share) {
+    bool adds = (BLOOM_FLAGS & kBloomAdds) != 0;
+    if (!adds && share == 1.0) {
+        imageStore(target_image, at, vec4(spread, 1.0));
+        return;
+    }
+    vec3 before = imageLoad(target_image, at).rgb;
+    vec3 own = adds ? brightPart(before) : before;
+    vec3 mixed = mix(own, spread, share);
+    imageStore(target_image, at,
+               vec4(adds ? before + bloom.strength * (mixed - own) : mixed, 1.0));
+}
