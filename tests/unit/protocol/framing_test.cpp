@@ -66,7 +66,8 @@ TEST(Frame, WrongPrefix_IsNamed) {
 TEST(Frame, HeaderLength_MustFit) {
     EXPECT_THAT(decodeError(std::string_view("\xf7\x01\x00\x00", 4)), HasSubstr("of 0 bytes"));
     EXPECT_THAT(decodeError(std::string("\xf7\x01\x05\x00", 4) + "ab"), HasSubstr("of 5 bytes"));
-    const std::string long_header = std::string("\xf7\x01\x01\x10", 4) + std::string(5000, '\0');
+    std::string long_header("\xf7\x01\x01\x10", 4);
+    long_header.append(5000, '\0');
     EXPECT_THAT(decodeError(long_header), HasSubstr("of 4097 bytes"));
     EXPECT_THAT(decodeError(std::string_view("\xf7\x01\x02\x00\xff\xff", 6)),
                 HasSubstr("not a FrameHeader"));
