@@ -4,8 +4,8 @@
 #include "render/frame_builder.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
-#include "render/gbuffer_layout.h"
 #include "render/memory_report.h"
+#include "render/refusals.h"
 #include "render/scene_resources.h"
 #include "render/visibility_readback.h"
 
@@ -21,39 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 double microsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-}
-
-// Whether there is no other way to draw what is asked for.
-bool needsVisibility(const FrameInputs& inputs) {
-    return inputs.geometry == GeometryPath::kVisibility ||
-           inputs.geometry == GeometryPath::kComputeRaster ||
-           (isForward(inputs.settings.renderer) &&
-            inputs.settings.lighting == view::LightingStage::kCompute);
-}
-
-// Whether the debug view can show what was asked for. Errors: kUnsupported.
-Result<void> showable(const FrameInputs& inputs) {
-    const auto& settings = inputs.settings;
-    const view::DebugView debug = settings.debug.view;
-    const std::string name = "debug_view: " + std::string(view::nameOf(debug));
-    if (inputs.keep_radiance && view::replacesPicture(debug)) {
-        return Error{ErrorCode::kUnsupported,
-                     name + " has no linear picture; ask for .png or .jpg"};
-    }
-    if (view::showsGbuffer(debug) && isForward(settings.renderer)) {
-        return Error{ErrorCode::kUnsupported,
-                     name + " is not available for renderer " +
-                         std::string(view::kRendererNames[static_cast<size_t>(settings.renderer)]) +
-                         ", which has no G-buffer; use clustered_deferred, toon_fragment or "
-                         "toon_compute"};
-    }
-    if (debug == view::DebugView::kGbufferExtra &&
-        extraFormat(settings.gbuffer) == vk::Format::eUndefined) {
-        return Error{ErrorCode::kUnsupported,
-                     name + " is not available for this G-buffer layout, which has one target; use "
-                            "normal xyz16 or a position other than depth"};
-    }
-    return {};
 }
 
 // Of each 2 x 2 of them.
@@ -311,21 +278,8 @@ uint32_t ViewRenderer::inFlight() const {
 Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
     FrameSlot* slot = impl_->freeSlot();
     FROXEL_ASSERT(slot != nullptr, "submit needs a free readback slot");
-    if (const auto& why = impl_->scene.visibility_unusable;
-        !why.empty() && needsVisibility(inputs)) {
-        return Error{
-            ErrorCode::kUnsupported,
-            "lighting: compute is not available for renderer " +
-                std::string(view::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]) +
-                ", since " + why + "; use auto or fragment"};
-    }
-    if (auto shown = showable(inputs); !shown) {
-        return shown;
-    }
-    if (inputs.geometry == GeometryPath::kComputeRaster &&
-        !impl_->scene.visibility().compute_unusable.empty()) {
-        return Error{ErrorCode::kUnsupported, "ids cannot be rastered in compute, since " +
-                                                  impl_->scene.visibility().compute_unusable};
+    if (auto able = canDraw(inputs, impl_->scene); !able) {
+        return able;
     }
     try {
         slot->inputs = inputs;

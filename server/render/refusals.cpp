@@ -1,0 +1,68 @@
+#include "render/refusals.h"
+
+#include "render/frame_plan.h"
+#include "render/gbuffer_layout.h"
+#include "render/scene_resources.h"
+
+#include <string>
+
+namespace froxel::render {
+
+namespace {
+
+std::string rendererName(const FrameInputs& inputs) {
+    return std::string(view::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]);
+}
+
+// Whether there is no other way to draw what is asked for.
+bool needsVisibility(const FrameInputs& inputs) {
+    return inputs.geometry == GeometryPath::kVisibility ||
+           inputs.geometry == GeometryPath::kComputeRaster ||
+           (isForward(inputs.settings.renderer) &&
+            inputs.settings.lighting == view::LightingStage::kCompute);
+}
+
+// Whether the debug view can show what was asked for. Errors: kUnsupported.
+Result<void> showable(const FrameInputs& inputs) {
+    const auto& settings = inputs.settings;
+    const view::DebugView debug = settings.debug.view;
+    const std::string name = "debug_view: " + std::string(view::nameOf(debug));
+    if (inputs.keep_radiance && view::replacesPicture(debug)) {
+        return Error{ErrorCode::kUnsupported,
+                     name + " has no linear picture; ask for .png or .jpg"};
+    }
+    if (view::showsGbuffer(debug) && isForward(settings.renderer)) {
+        return Error{ErrorCode::kUnsupported,
+                     name + " is not available for renderer " + rendererName(inputs) +
+                         ", which has no G-buffer; use clustered_deferred, toon_fragment or "
+                         "toon_compute"};
+    }
+    if (debug == view::DebugView::kGbufferExtra &&
+        extraFormat(settings.gbuffer) == vk::Format::eUndefined) {
+        return Error{ErrorCode::kUnsupported,
+                     name + " is not available for this G-buffer layout, which has one target; use "
+                            "normal xyz16 or a position other than depth"};
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
+    if (const auto& why = scene.visibility_unusable; !why.empty() && needsVisibility(inputs)) {
+        return Error{ErrorCode::kUnsupported, "lighting: compute is not available for renderer " +
+                                                  rendererName(inputs) + ", since " + why +
+                                                  "; use auto or fragment"};
+    }
+    if (auto shown = showable(inputs); !shown) {
+        return shown;
+    }
+    if (inputs.geometry == GeometryPath::kComputeRaster &&
+        !scene.visibility().compute_unusable.empty()) {
+        return Error{ErrorCode::kUnsupported, "ids cannot be rastered in compute, since " +
+                                                  scene.visibility().compute_unusable};
+    }
+    return {};
+}
+
+} // namespace froxel::render
