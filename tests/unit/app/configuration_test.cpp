@@ -56,7 +56,8 @@ class ConfigurationTest : public testing::Test {
         std::ofstream(path_) << text;
         return path_.c_str();
     }
-    std::string path_ = testing::TempDir() + "froxel_configuration_test.toml";
+    std::string path_ = testing::TempDir() + "froxel_configuration_" +
+                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".toml";
 };
 
 TEST_F(ConfigurationTest, Precedence_CommandLineThenEnvironmentThenFileThenDefault) {

@@ -24,7 +24,8 @@ class TokenGateTest : public testing::Test {
         std::ofstream(path_) << text;
         return gate_->load(path_);
     }
-    const std::string path_ = testing::TempDir() + "froxel_token_gate_test";
+    const std::string path_ = testing::TempDir() + "froxel_token_gate_" +
+                              testing::UnitTest::GetInstance()->current_test_info()->name();
     std::shared_ptr<TokenGate> gate_ = std::make_shared<TokenGate>();
 };
 
