@@ -17,7 +17,9 @@ void LightGrid::choose(const view::ViewSettings& settings,
         why_ = "looping over all lights was asked for";
     } else {
         chooseGrid(settings, lights, scene_bounds_world, costs);
+        return;
     }
+    frames_left_ = 0; // the last choice's reason is gone
 }
 
 void LightGrid::chooseGrid(const view::ViewSettings& settings,
@@ -33,7 +35,6 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
         frames_left_ = kFramesAChoice;
     }
     --frames_left_;
-    why_ = loop_why_;
     lists_ = !memory_.all_lights;
     if (lists_) {
         grid_ = cluster::makeClusterGrid(shape_, settings.size, settings.camera, range_.near_m,
@@ -69,7 +70,7 @@ void LightGrid::makeChoice(const view::ViewSettings& settings,
         loop = cluster::chooseLoop(facts, list_length_, memory_);
     }
     memory_.all_lights = loop.all_lights;
-    loop_why_ = std::move(loop.why);
+    why_ = std::move(loop.why);
 }
 
 GridStats LightGrid::stats() const {

@@ -60,7 +60,6 @@ class LightGrid {
     uint32_t frames_left_ = 0; // that it stands for
     cluster::GridShape shape_;
     std::string why_;
-    std::string loop_why_;
     std::string grid_why_;
     double list_length_ = 0;
     cluster::DepthRange range_{};
