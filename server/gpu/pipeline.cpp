@@ -136,4 +136,15 @@ makeSetLayout(const Device& device, std::span<const vk::DescriptorSetLayoutBindi
         {.bindingCount = static_cast<uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
+vk::raii::PipelineLayout makePipelineLayout(const Device& device,
+                                            std::initializer_list<vk::DescriptorSetLayout> sets,
+                                            uint32_t push_bytes) {
+    const vk::PushConstantRange range{vk::ShaderStageFlagBits::eCompute, 0, push_bytes};
+    return device.handle().createPipelineLayout(
+        {.setLayoutCount = static_cast<uint32_t>(sets.size()),
+         .pSetLayouts = sets.begin(),
+         .pushConstantRangeCount = push_bytes > 0 ? 1U : 0U,
+         .pPushConstantRanges = &range});
+}
+
 } // namespace froxel::gpu

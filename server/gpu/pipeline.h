@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -49,5 +50,11 @@ makeGraphicsPipeline(const Device& device, const GraphicsPipelineInfo& info, std
 
 [[nodiscard]] vk::raii::DescriptorSetLayout
 makeSetLayout(const Device& device, std::span<const vk::DescriptorSetLayoutBinding> bindings);
+
+// Sets from 0 on; push constants are for the compute stage.
+[[nodiscard]] vk::raii::PipelineLayout
+makePipelineLayout(const Device& device,
+                   std::initializer_list<vk::DescriptorSetLayout> sets,
+                   uint32_t push_bytes = 0);
 
 } // namespace froxel::gpu

@@ -27,10 +27,6 @@ vk::raii::DescriptorSetLayout storageLayout(const gpu::Device& device, uint32_t 
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::PipelineLayout pipelineLayout(const gpu::Device& device, vk::DescriptorSetLayout set) {
-    return device.handle().createPipelineLayout({.setLayoutCount = 1, .pSetLayouts = &set});
-}
-
 // Positive, of any mantissa, within what depths and coordinates can be.
 std::vector<double> probeOperands() {
     std::mt19937_64 random(1);
@@ -54,7 +50,7 @@ std::string AssignPipelines::unusable(const gpu::Device& device, gpu::Timeline& 
         return "the device binds too few storage buffers";
     }
     const auto set_layout = storageLayout(device, 2);
-    const auto layout = pipelineLayout(device, *set_layout);
+    const auto layout = gpu::makePipelineLayout(device, {*set_layout});
     const auto pipeline = gpu::makeComputePipeline(device, shaders::assign_probe_comp(), {},
                                                    *layout, "assignment probe");
     const auto operands = probeOperands();
@@ -101,7 +97,8 @@ std::string AssignPipelines::unusable(const gpu::Device& device, gpu::Timeline& 
 }
 
 AssignPipelines::AssignPipelines(const gpu::Device& device)
-    : set_layout_(storageLayout(device, kBindings)), layout_(pipelineLayout(device, *set_layout_)) {
+    : set_layout_(storageLayout(device, kBindings)),
+      layout_(gpu::makePipelineLayout(device, {*set_layout_})) {
     using namespace shaders;
     const auto add = [&](gpu::Spirv code, std::string_view name) {
         pipelines_.push_back(gpu::makeComputePipeline(device, code, {}, *layout_, name));

@@ -22,14 +22,6 @@ vk::raii::DescriptorSetLayout setLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::PipelineLayout pipelineLayout(const gpu::Device& device, vk::DescriptorSetLayout set) {
-    const vk::PushConstantRange range{vk::ShaderStageFlagBits::eCompute, 0, sizeof(io::BloomPass)};
-    return device.handle().createPipelineLayout({.setLayoutCount = 1,
-                                                 .pSetLayouts = &set,
-                                                 .pushConstantRangeCount = 1,
-                                                 .pPushConstantRanges = &range});
-}
-
 struct Shader {
     gpu::Spirv code;
     std::string_view name;
@@ -65,21 +57,16 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device, uint32_t set_count)
 
 } // namespace
 
-BloomPipelines::BloomPipelines(const gpu::Device& device)
+BloomPipelines::BloomPipelines(const gpu::Device& device, const gpu::Timeline& timeline)
     : device_(device), set_layout_(render::setLayout(device)),
-      layout_(pipelineLayout(device, *set_layout_)) {}
+      layout_(gpu::makePipelineLayout(device, {*set_layout_}, sizeof(io::BloomPass))),
+      made_(timeline, Pipelines::kKeptScreen) {}
 
 vk::Pipeline BloomPipelines::pipeline(BloomShader shader, uint32_t flags) {
-    const std::pair key(shader, flags);
-    auto found = made_.find(key);
-    if (found == made_.end()) {
+    return *made_.findOrMake(std::pair(shader, flags), [&] {
         const auto [code, name] = shaderOf(shader);
-        found = made_
-                    .emplace(key,
-                             gpu::makeComputePipeline(device_, code, {0, 0, flags}, *layout_, name))
-                    .first;
-    }
-    return *found->second;
+        return gpu::makeComputePipeline(device_, code, {0, 0, flags}, *layout_, name);
+    });
 }
 
 BloomTargets::BloomTargets(const gpu::Device& device,

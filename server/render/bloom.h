@@ -4,9 +4,9 @@
 #include "gpu/device.h"
 #include "gpu/memory.h"
 #include "render/bloom_plan.h"
+#include "render/variant_cache.h"
 #include "render/view_targets.h"
 
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -16,7 +16,7 @@ namespace froxel::render {
 // Shared by every view; a pipeline is made when first needed.
 class BloomPipelines {
   public:
-    explicit BloomPipelines(const gpu::Device& device);
+    BloomPipelines(const gpu::Device& device, const gpu::Timeline& timeline);
 
     [[nodiscard]] vk::Pipeline pipeline(BloomShader shader, uint32_t flags);
     [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
@@ -26,7 +26,7 @@ class BloomPipelines {
     const gpu::Device& device_;
     vk::raii::DescriptorSetLayout set_layout_;
     vk::raii::PipelineLayout layout_;
-    std::map<std::pair<BloomShader, uint32_t>, vk::raii::Pipeline> made_;
+    VariantCache<std::pair<BloomShader, uint32_t>> made_;
 };
 
 // One view's pictures for one plan. Frames in flight keep theirs alive.

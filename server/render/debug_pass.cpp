@@ -3,22 +3,13 @@
 #include "embedded.h"
 #include "gpu/pipeline.h"
 #include "render/pair_counter.h"
+#include "render/screen_groups.h"
 
 #include <algorithm>
 
 namespace froxel::render {
 
 namespace {
-
-vk::raii::PipelineLayout valuesLayout(const gpu::Device& device, const Pipelines& shared) {
-    const std::array sets = {shared.frameLayout(), shared.screenLayout()};
-    const vk::PushConstantRange values{vk::ShaderStageFlagBits::eCompute, 0,
-                                       sizeof(io::DebugFrame)};
-    return device.handle().createPipelineLayout({.setLayoutCount = sets.size(),
-                                                 .pSetLayouts = sets.data(),
-                                                 .pushConstantRangeCount = 1,
-                                                 .pPushConstantRanges = &values});
-}
 
 gpu::GraphicsPipelineInfo wiresInfo(gpu::Spirv vertex, vk::PipelineLayout layout) {
     gpu::GraphicsPipelineInfo info;
@@ -35,7 +26,9 @@ gpu::GraphicsPipelineInfo wiresInfo(gpu::Spirv vertex, vk::PipelineLayout layout
 } // namespace
 
 DebugPass::DebugPass(const gpu::Device& device, const Pipelines& shared)
-    : device_(device), values_layout_(valuesLayout(device, shared)),
+    : device_(device),
+      values_layout_(gpu::makePipelineLayout(
+          device, {shared.frameLayout(), shared.screenLayout()}, sizeof(io::DebugFrame))),
       wires_layout_(shared.screenPipelineLayout()) {}
 
 void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
@@ -55,10 +48,7 @@ void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *values_layout_, 0, sets, {});
     cmd.pushConstants<io::DebugFrame>(*values_layout_, vk::ShaderStageFlagBits::eCompute, 0,
                                       values);
-    const auto groups = [](uint32_t pixels) {
-        return (pixels + io::kScreenGroup - 1) / io::kScreenGroup;
-    };
-    cmd.dispatch(groups(size_px.width), groups(size_px.height), 1);
+    cmd.dispatch(screenGroups(size_px.width), screenGroups(size_px.height), 1);
 }
 
 void DebugPass::bindWires(const vk::raii::CommandBuffer& cmd,

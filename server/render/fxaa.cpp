@@ -20,13 +20,6 @@ vk::raii::DescriptorSetLayout setLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::PipelineLayout
-pipelineLayout(const gpu::Device& device, const Pipelines& shared, vk::DescriptorSetLayout own) {
-    const std::array sets = {shared.frameLayout(), own};
-    return device.handle().createPipelineLayout(
-        {.setLayoutCount = static_cast<uint32_t>(sets.size()), .pSetLayouts = sets.data()});
-}
-
 vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     const std::array sizes = {vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1},
                               vk::DescriptorPoolSize{Type::eStorageBuffer, 1}};
@@ -40,7 +33,8 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
 } // namespace
 
 FxaaPipeline::FxaaPipeline(const gpu::Device& device, const Pipelines& shared)
-    : set_layout_(render::setLayout(device)), layout_(pipelineLayout(device, shared, *set_layout_)),
+    : set_layout_(render::setLayout(device)),
+      layout_(gpu::makePipelineLayout(device, {shared.frameLayout(), *set_layout_})),
       pipeline_(gpu::makeComputePipeline(device, shaders::fxaa_comp(), {}, *layout_, "fxaa")) {}
 
 FxaaSlot::FxaaSlot(const gpu::Device& device, const FxaaPipeline& shared)

@@ -20,13 +20,6 @@ vk::raii::DescriptorSetLayout setLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::PipelineLayout
-pipelineLayout(const gpu::Device& device, const Pipelines& shared, vk::DescriptorSetLayout own) {
-    const std::array sets = {shared.frameLayout(), shared.screenLayout(), own};
-    return device.handle().createPipelineLayout(
-        {.setLayoutCount = static_cast<uint32_t>(sets.size()), .pSetLayouts = sets.data()});
-}
-
 vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, 1};
     return device.handle().createDescriptorPool(
@@ -49,7 +42,9 @@ PairCounter::PairCounter(const gpu::Device& device, const Pipelines& shared)
                                     vk::BufferUsageFlagBits::eTransferDst,
                                 gpu::MemoryUse::kReadback,
                                 "pair counts")),
-      set_layout_(setLayout(device)), layout_(pipelineLayout(device, shared, *set_layout_)),
+      set_layout_(setLayout(device)),
+      layout_(gpu::makePipelineLayout(device,
+                                      {shared.frameLayout(), shared.screenLayout(), *set_layout_})),
       pool_(makePool(device)) {
     const auto layout = *set_layout_;
     auto sets = device.handle().allocateDescriptorSets(

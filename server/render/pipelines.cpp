@@ -57,13 +57,6 @@ vk::raii::DescriptorSetLayout screenSetLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::PipelineLayout
-pipelineLayout(const gpu::Device& device, vk::DescriptorSetLayout a, vk::DescriptorSetLayout b) {
-    const std::array sets = {a, b};
-    return device.handle().createPipelineLayout(
-        {.setLayoutCount = static_cast<uint32_t>(sets.size()), .pSetLayouts = sets.data()});
-}
-
 // Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance rows.
 void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool textured, bool extended) {
     using Rate = vk::VertexInputRate;
@@ -115,8 +108,8 @@ gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32
 Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline)
     : device_(device), frame_layout_(frameSetLayout(device)),
       material_layout_(materialSetLayout(device)), screen_set_layout_(screenSetLayout(device)),
-      geometry_layout_(pipelineLayout(device, *frame_layout_, *material_layout_)),
-      screen_layout_(pipelineLayout(device, *frame_layout_, *screen_set_layout_)),
+      geometry_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *material_layout_})),
+      screen_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *screen_set_layout_})),
       geometry_(timeline, kKeptGeometry), screen_(timeline, kKeptScreen),
       fragment_lighting_(timeline, kKeptScreen) {}
 

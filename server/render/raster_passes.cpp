@@ -1,6 +1,7 @@
 #include "render/raster_passes.h"
 
 #include "render/compute_raster.h"
+#include "render/screen_groups.h"
 #include "render/visibility_binding.h"
 
 #include <array>
@@ -83,10 +84,7 @@ void recordRasterUnpack(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_unpack");
     bindVisibilityCompute(frame, raster(frame).unpack());
     const auto& size = frame.slot.targets->size;
-    const auto groups = [](uint32_t size_px) {
-        return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;
-    };
-    frame.slot.cmd.dispatch(groups(size.width_px), groups(size.height_px), 1);
+    frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
 }
 
 void recordDepthOut(const FrameContext& frame) {

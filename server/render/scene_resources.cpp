@@ -184,7 +184,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
 
 BloomPipelines& SceneResources::bloom() {
     if (!bloom_) {
-        bloom_ = std::make_unique<BloomPipelines>(device);
+        bloom_ = std::make_unique<BloomPipelines>(device, timeline);
     }
     return *bloom_;
 }

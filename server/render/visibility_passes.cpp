@@ -2,6 +2,7 @@
 
 #include "interface/constants.h"
 #include "render/rendering_scope.h"
+#include "render/screen_groups.h"
 #include "render/visibility_binding.h"
 
 #include <array>
@@ -26,10 +27,7 @@ void resolve(const FrameContext& frame, vk::Pipeline pipeline) {
     const auto shade = [&](vk::DescriptorSet textures, uint32_t material, bool last) {
         cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3, textures, {});
         pushVisibilityWords(frame, {material, last ? 1U : 0U});
-        const auto groups = [](uint32_t size_px) {
-            return (size_px + io::kScreenGroup - 1) / io::kScreenGroup;
-        };
-        cmd.dispatch(groups(size.width_px), groups(size.height_px), 1);
+        cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
     };
     if (scene.pipelines.bindless()) {
         shade(scene.textureSet(), io::kAnyMaterial, true);

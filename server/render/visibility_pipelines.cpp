@@ -32,17 +32,6 @@ vk::raii::DescriptorSetLayout texturesLayout(const gpu::Device& device, uint32_t
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::PipelineLayout pipelineLayout(const gpu::Device& device,
-                                        std::span<const vk::DescriptorSetLayout> sets,
-                                        uint32_t push_bytes) {
-    const vk::PushConstantRange range{Stage::eCompute, 0, push_bytes};
-    return device.handle().createPipelineLayout(
-        {.setLayoutCount = static_cast<uint32_t>(sets.size()),
-         .pSetLayouts = sets.data(),
-         .pushConstantRangeCount = push_bytes > 0 ? 1U : 0U,
-         .pPushConstantRanges = &range});
-}
-
 } // namespace
 
 VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
@@ -54,11 +43,13 @@ VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
       compute_layout_(nullptr), cull_(nullptr), compact_(nullptr),
       raster_(timeline, Pipelines::kKeptGeometry), gbuffer_(timeline, Pipelines::kKeptGeometry),
       shade_(timeline, Pipelines::kKeptGeometry) {
-    const std::array raster = {shared.frameLayout(), shared.materialLayout(), *set_layout_};
-    raster_layout_ = pipelineLayout(device, raster, 0);
-    const std::array compute = {shared.frameLayout(), shared.screenLayout(), *set_layout_,
-                                bindless_ ? *texture_layout_ : shared.materialLayout()};
-    compute_layout_ = pipelineLayout(device, compute, 2 * sizeof(uint32_t));
+    raster_layout_ = gpu::makePipelineLayout(
+        device, {shared.frameLayout(), shared.materialLayout(), *set_layout_});
+    compute_layout_ =
+        gpu::makePipelineLayout(device,
+                                {shared.frameLayout(), shared.screenLayout(), *set_layout_,
+                                 bindless_ ? *texture_layout_ : shared.materialLayout()},
+                                2 * sizeof(uint32_t));
     cull_ = gpu::makeComputePipeline(device, shaders::cull_meshlets_comp(), constants({}),
                                      *compute_layout_, "cull");
     compact_ = gpu::makeComputePipeline(device, shaders::cull_compact_comp(), constants({}),
