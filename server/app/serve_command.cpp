@@ -12,6 +12,7 @@
 #include "net/stop_signal.h"
 #include "net/tls.h"
 #include "net/token_gate.h"
+#include "render/memory_report.h"
 #include "stream/renderer_source.h"
 
 #include <spdlog/spdlog.h>
@@ -79,11 +80,12 @@ OpenedScene openScene(const ServeOptions& options,
                  context.scene.draw_count, context.scene.cameras.size());
 
     const bool on_cpu = traits.is_cpu;
+    auto memory = [ledger = device->memoryLedger()] { return render::memoryReport(*ledger); };
     report({"moving the scene to the device", 0.6});
     auto source = stream::makeRendererSource(std::move(device), scene);
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
-    return {std::move(source), std::move(context), Seconds(limit_s)};
+    return {std::move(source), std::move(context), std::move(memory), Seconds(limit_s)};
 }
 
 fs::path webRootOf(const ServeOptions& options) {

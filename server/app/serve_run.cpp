@@ -32,6 +32,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
         OpenedScene opened = options_.open(
             [&service](net::LoadingProgress progress) { service.setLoading(std::move(progress)); });
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
+        server_->metrics().watchMemory(std::move(opened.memory));
         loop_.setMinRate(context->defaults.min_rate_hz);
         service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit});
         return std::move(opened.source);

@@ -19,6 +19,7 @@ namespace froxel::app {
 struct OpenedScene {
     std::unique_ptr<stream::FrameSource> source;
     session::SessionContext context;
+    std::function<std::vector<MemoryUse>()> memory; // what the device's is used for; any thread
     Seconds step_limit{0}; // of the render thread, see net::Serving; 0: none
 };
 

@@ -1,7 +1,6 @@
 // Metrics whose values are known elsewhere and read when somebody scrapes.
 #pragma once
 
-#include <initializer_list>
 #include <prometheus/metric_family.h>
 #include <string>
 #include <utility>
@@ -17,7 +16,7 @@ using MetricRow = std::pair<std::string, double>;
                                                            const std::string& name,
                                                            const std::string& help,
                                                            const std::string& label,
-                                                           std::initializer_list<MetricRow> rows) {
+                                                           const std::vector<MetricRow>& rows) {
     prometheus::MetricFamily family{name, help, type, {}};
     for (const auto& [label_value, value] : rows) {
         prometheus::ClientMetric metric;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <map>
 #include <mutex>
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
@@ -101,7 +100,7 @@ struct Metrics::Impl {
                                                                                          bounds);
     }
     void noteDelivery(const FrameRecord& record);
-    void setMemory(const std::shared_ptr<const FrameDetails>& details);
+    [[nodiscard]] prometheus::MetricFamily memoryFamily() const;
 
     Gauge& sessions = gauge("froxel_sessions", "Viewers now.");
     Gauge& capacity = gauge("froxel_session_capacity", "Sessions that the server takes at once.");
@@ -135,14 +134,8 @@ struct Metrics::Impl {
         "froxel_light_pairs_total", "(light, pixel) pairs of the pictures sent that counted them.");
     Counter& evaluated = pairs.Add({{"kind", "evaluated"}});
     Counter& contributing = pairs.Add({{"kind", "contributing"}});
-    prometheus::Family<Gauge>& memory = prometheus::BuildGauge()
-                                            .Name("froxel_device_memory_bytes")
-                                            .Help("Device memory by purpose, as last told.")
-                                            .Register(registry);
-
-    std::mutex memory_mutex;
-    std::shared_ptr<const FrameDetails> told;
-    std::map<std::string, Gauge*> purposes;
+    mutable std::mutex memory_mutex;
+    std::function<std::vector<MemoryUse>()> memory;
 };
 
 Metrics::Metrics(const std::string& version) : impl_(std::make_unique<Impl>()) {
@@ -216,7 +209,6 @@ void Metrics::frameSent(const FrameRecord& record) {
         impl_->contributing.Increment(static_cast<double>(pairs.contributing));
     }
     impl_->noteDelivery(record);
-    impl_->setMemory(record.stats.details);
 }
 
 void Metrics::Impl::noteDelivery(const FrameRecord& record) {
@@ -233,27 +225,6 @@ void Metrics::rateStepped(session::RateStep step) {
     if (step != session::RateStep::kNone) {
         impl_->rate_steps.at(static_cast<size_t>(step) - 1)->Increment();
     }
-}
-
-// Other than the rest seldom news: a purpose that is gone leaves no row behind.
-void Metrics::Impl::setMemory(const std::shared_ptr<const FrameDetails>& details) {
-    const std::lock_guard lock(memory_mutex);
-    if (!details || details == told) {
-        return;
-    }
-    told = details;
-    std::map<std::string, Gauge*> rows;
-    for (const MemoryUse& use : details->memory) {
-        Gauge*& row = rows[use.purpose];
-        row = &memory.Add({{"purpose", use.purpose}}); // the one that is there, if any
-        row->Set(static_cast<double>(use.bytes));
-    }
-    for (const auto& [purpose, row] : purposes) {
-        if (rows.count(purpose) == 0) {
-            memory.Remove(row);
-        }
-    }
-    purposes = std::move(rows);
 }
 
 void Metrics::frameDropped() {
@@ -278,6 +249,21 @@ void Metrics::connectionRefused() {
 
 void Metrics::watch(std::shared_ptr<const FrameFates> fates) {
     impl_->fates = std::move(fates);
+}
+
+void Metrics::watchMemory(std::function<std::vector<MemoryUse>()> memory) {
+    const std::lock_guard lock(impl_->memory_mutex);
+    impl_->memory = std::move(memory);
+}
+
+prometheus::MetricFamily Metrics::Impl::memoryFamily() const {
+    std::vector<MetricRow> rows;
+    const std::lock_guard lock(memory_mutex);
+    for (const MemoryUse& use : memory ? memory() : std::vector<MemoryUse>{}) {
+        rows.emplace_back(use.purpose, static_cast<double>(use.bytes));
+    }
+    return metricFamily(prometheus::MetricType::Gauge, "froxel_device_memory_bytes",
+                        "Device memory by purpose.", "purpose", rows);
 }
 
 std::vector<prometheus::MetricFamily> Metrics::Impl::frameFamilies() const {
@@ -305,6 +291,7 @@ std::string Metrics::text() const {
     for (auto more : {impl_->frameFamilies(), processMetrics()}) {
         std::move(more.begin(), more.end(), std::back_inserter(families));
     }
+    families.push_back(impl_->memoryFamily());
     return prometheus::TextSerializer().Serialize(families);
 }
 

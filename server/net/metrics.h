@@ -12,8 +12,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace froxel::net {
 
@@ -48,6 +50,9 @@ class Metrics {
 
     // Where pictures that never reach a connection are counted; once, before the first text().
     void watch(std::shared_ptr<const FrameFates> fates);
+    // Tells what the device's memory is used for at that moment; called by text(), on its thread.
+    // Until it is set nothing is told of memory.
+    void watchMemory(std::function<std::vector<MemoryUse>()> memory);
 
     // The README lists the names.
     [[nodiscard]] std::string text() const;

@@ -37,7 +37,9 @@ TestServer::TestServer(const TestServerOptions& options) : opened_(options.open_
         report({"loading the scene", 0.25});
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return opened_; });
-        return app::OpenedScene{makeFakeSource(device_), context};
+        return app::OpenedScene{makeFakeSource(device_), context, [] {
+                                    return std::vector<MemoryUse>{{"pixels", 4096}};
+                                }};
     };
     run.on_failure = [](const Error&) {};
     run_.emplace(std::move(run));

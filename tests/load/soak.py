@@ -4,13 +4,15 @@ Usage: soak.py FROXEL [--minutes 30] [--joins-per-minute 50] [--scripts orbit,id
        [-- OPTIONS OF froxel serve]
 
 Starts `FROXEL serve` and, again and again, `FROXEL load` with one viewer for some seconds, by the
-scripts in turn. Reads the server's /metrics every two seconds. The first fifth
-of the time (at least 60 s where that is less than half) is warm-up. Passes if after it
+scripts in turn, for 45 s; then it lets all of them leave, looks at the server at rest, and begins
+anew. Reads the server's /metrics every two seconds. The first fifth of the time (at least 60 s where
+that is less than half) is warm-up. Passes if after it
 
-  - resident memory rises by less than 8 MB from the first to the last third of the samples, by
-    their medians (a rise of 1 MB in an hour is below what half an hour can tell from noise);
+  - resident memory at rest rises by less than 8 MB from the first to the last third of the rounds,
+    by their medians (how much there is with viewers depends on how many there happen to be; a rise
+    of 1 MB in an hour is below what half an hour can tell from noise);
   - descriptors and sessions are back where they were before the first viewer, once all have left;
-  - device memory after a last viewer is what it was after the first ones, within 1 %;
+  - device memory with no viewer left is what it was after the first ones, within 1 %;
   - the server answered every scrape within 5 s, every viewer ended as it should, and the server ends
     with exit code 0.
 
@@ -29,6 +31,7 @@ import urllib.request
 SCRIPTS = ("orbit", "idle", "storm")
 MEMORY_RISE_BYTES = 8e6
 SAMPLE_EVERY_S = 2.0
+ROUND_S = 45.0
 
 
 class Server:
@@ -108,46 +111,65 @@ def thirds(samples, name):
     )
 
 
-def soak(server, viewers, minutes, joins_per_minute):
-    """Samples after the warm-up."""
-    begin = time.monotonic()
-    end = begin + minutes * 60
-    warm = begin + max(minutes * 60 / 5, min(60, minutes * 30))
-    next_join, next_sample, next_line = begin, begin, begin + 30
+def line(seconds, started, sample):
+    print(
+        f"{seconds:.0f} s: {started} joined, "
+        f"{sample['froxel_sessions']:.0f} there, "
+        f"{sample['process_resident_memory_bytes'] / 1e6:.1f} MB, "
+        f"{sample['process_open_fds']:.0f} descriptors, "
+        f"{sample.get('froxel_device_memory_bytes', 0) / 1e6:.1f} MB on the device",
+        flush=True,
+    )
+
+
+def busy_round(server, viewers, end, joins_per_minute):
+    """Joins until `end`; samples, the last with viewers there."""
     samples = []
+    next_join = next_sample = time.monotonic()
     while (now := time.monotonic()) < end:
         if now >= next_join:
             viewers.start()
             next_join += 60 / joins_per_minute
         if now >= next_sample:
-            sample = server.sample()
+            samples.append(server.sample())
             next_sample = now + SAMPLE_EVERY_S
-            if now >= warm:
-                samples.append(sample)
-            if now >= next_line:
-                next_line += 30
-                print(
-                    f"{now - begin:.0f} s: {viewers.started} joined, "
-                    f"{sample['froxel_sessions']:.0f} there, "
-                    f"{sample['process_resident_memory_bytes'] / 1e6:.1f} MB, "
-                    f"{sample['process_open_fds']:.0f} descriptors, "
-                    f"{sample.get('froxel_device_memory_bytes', 0) / 1e6:.1f} MB on the device",
-                    flush=True,
-                )
         viewers.reap()
         time.sleep(0.05)
-    viewers.reap(wait=True)
     return samples
 
 
-def judge(samples, before, after, device, viewers):
+def soak(server, viewers, minutes, joins_per_minute):
+    """Samples of a busy server and at rest, after the warm-up."""
+    begin = time.monotonic()
+    end = begin + minutes * 60
+    warm = begin + max(minutes * 60 / 5, min(60, minutes * 30))
+    busy, rests = [], []
+    while (now := time.monotonic()) < end:
+        samples = busy_round(server, viewers, min(end, now + ROUND_S), joins_per_minute)
+        line(time.monotonic() - begin, viewers.started, samples[-1])
+        viewers.reap(wait=True)
+        rest = server.settle()
+        if rest is None:
+            return [], []
+        line(time.monotonic() - begin, viewers.started, rest)
+        if now >= warm:
+            busy += samples
+            rests.append(rest)
+    return busy, rests
+
+
+def judge(busy, rests, before, after, device, viewers):
     """Lines that say what broke the rule."""
-    first, last = thirds(samples, "process_resident_memory_bytes")
-    hours = (samples[-1]["at_s"] - samples[0]["at_s"]) / 3600
-    print(f"resident memory: {first / 1e6:.1f} to {last / 1e6:.1f} MB in {hours * 60:.1f} min")
+    first, last = thirds(rests, "process_resident_memory_bytes")
+    minutes = (rests[-1]["at_s"] - rests[0]["at_s"]) / 60
+    most = max(sample["process_resident_memory_bytes"] for sample in busy)
+    print(
+        f"resident memory at rest: {first / 1e6:.1f} to {last / 1e6:.1f} MB in {minutes:.1f} min; "
+        f"with viewers at most {most / 1e6:.1f} MB"
+    )
     print(f"descriptors: {before['process_open_fds']:.0f} before, {after['process_open_fds']:.0f} after")
     print(f"device memory: {device[0] / 1e6:.2f} MB at first, {device[1] / 1e6:.2f} MB at last")
-    scrapes = sorted(sample["scrape_s"] for sample in samples)
+    scrapes = sorted(sample["scrape_s"] for sample in busy)
     print(
         f"scrapes: {len(scrapes)}, median {scrapes[len(scrapes) // 2] * 1000:.1f} ms, "
         f"longest {scrapes[-1] * 1000:.1f} ms"
@@ -190,7 +212,7 @@ def main():
             viewers.run(script, 2)
             viewers.reap(wait=True)
         before = server.settle()
-        samples = soak(server, viewers, options.minutes, options.joins_per_minute)
+        busy, rests = soak(server, viewers, options.minutes, options.joins_per_minute)
         for script in scripts:
             viewers.run(script, 2)
             viewers.reap(wait=True)
@@ -198,11 +220,11 @@ def main():
     finally:
         server.process.terminate()
         code = server.process.wait(60)
-    if before is None or after is None or not samples:
+    if before is None or after is None or not rests:
         print("failed: sessions stay though all viewers left")
         return 1
     device = [values["froxel_device_memory_bytes"] for values in (before, after)]
-    broken = judge(samples, before, after, device, viewers)
+    broken = judge(busy, rests, before, after, device, viewers)
     if code != 0:
         broken.append(f"the server ended with {code}")
     print(f"{viewers.started} viewers")

@@ -10,12 +10,10 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-session::FrameRecord recordWith(std::vector<MemoryUse> memory) {
+session::FrameRecord aRecord() {
     session::FrameRecord record;
     record.render_us = 20'000;
     record.stats.lists.p95 = 33;
-    record.stats.details =
-        std::make_shared<const FrameDetails>(FrameDetails{{}, std::move(memory), {}});
     return record;
 }
 
@@ -37,7 +35,7 @@ TEST(Metrics, Sessions_ComeAndGo) {
 
 TEST(Metrics, FrameSent_FillsHistogramsAndGauges) {
     Metrics metrics;
-    metrics.frameSent(recordWith({}));
+    metrics.frameSent(aRecord());
     metrics.frameDropped();
     metrics.bytesSent(1000);
     const std::string text = metrics.text();
@@ -96,7 +94,7 @@ TEST(Metrics, BuildAndProcess_AreThere) {
 
 TEST(Metrics, Delivery_IsCountedByWhatFramesWereMadeWith) {
     Metrics metrics;
-    auto record = recordWith({});
+    auto record = aRecord();
     record.delivered = {0.75, {55, view::Chroma::k420}, session::Refinement::kInteractive, 2};
     record.queue_delay_us = 30'000;
     metrics.frameSent(record);
@@ -115,7 +113,7 @@ TEST(Metrics, Delivery_IsCountedByWhatFramesWereMadeWith) {
 
 TEST(Metrics, Pairs_OnlyOfFramesThatCountedThem) {
     Metrics metrics;
-    auto record = recordWith({});
+    auto record = aRecord();
     record.stats.pairs = {true, 100, 40};
     metrics.frameSent(record);
     record.stats.pairs.counted = false;
@@ -123,11 +121,13 @@ TEST(Metrics, Pairs_OnlyOfFramesThatCountedThem) {
     EXPECT_THAT(metrics.text(), HasSubstr("froxel_light_pairs_total{kind=\"evaluated\"} 100\n"));
 }
 
-TEST(Metrics, Memory_APurposeThatIsGone_LeavesNoRow) {
+TEST(Metrics, Memory_IsWhatItIsAtEachScrape) {
     Metrics metrics;
-    metrics.frameSent(recordWith({{"textures", 7}, {"light lists", 8}}));
+    EXPECT_THAT(metrics.text(), Not(HasSubstr("froxel_device_memory_bytes{")));
+    std::vector<MemoryUse> uses{{"textures", 7}, {"light lists", 8}};
+    metrics.watchMemory([&uses] { return uses; });
     EXPECT_THAT(metrics.text(), HasSubstr("froxel_device_memory_bytes{purpose=\"textures\"} 7\n"));
-    metrics.frameSent(recordWith({{"light lists", 9}}));
+    uses = {{"light lists", 9}};
     EXPECT_THAT(metrics.text(),
                 HasSubstr("froxel_device_memory_bytes{purpose=\"light lists\"} 9\n"));
     EXPECT_THAT(metrics.text(), Not(HasSubstr("textures")));
