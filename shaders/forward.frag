@@ -1,5 +1,6 @@
 // Forward shading of opaque, masked and transparent surfaces (naive, forward_plus, and the
-// transparent part of every renderer). Writes premultiplied linear radiance.
+// transparent part of every renderer). Writes premultiplied linear radiance: where transparency is
+// weighted, times a weight of distance; where it is peeled, of the layer's own triangle alone.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -18,7 +19,32 @@
 #include "lib/material.glsl"
 #include "lib/fragment_inputs.glsl"
 
+#ifdef FROXEL_PEELED
+#include "lib/peel.glsl"
+#endif
+
+#ifdef FROXEL_WEIGHTED
+layout(location = 0) out vec4 weighted_sum; // alpha: 1 - alpha is multiplied in
+layout(location = 1) out float weight_sum;
+
+// Of surfaces at a distance in metres (McGuire and Bavoil 2013, equation 7).
+float distanceWeight(float distance) {
+    float near = distance / 5.0;
+    float far = distance / 200.0;
+    float far2 = far * far;
+    return clamp(10.0 / (1e-5 + near * near + far2 * far2 * far2), 1e-2, 3e3);
+}
+
+void store(vec3 color, float alpha, float distance) {
+    float weight = alpha * distanceWeight(distance);
+    weighted_sum = vec4(color * (alpha * weight), alpha);
+    weight_sum = alpha * weight;
+}
+#else
 layout(location = 0) out vec4 radiance;
+
+void store(vec3 color, float alpha, float distance) { radiance = vec4(color * alpha, alpha); }
+#endif
 
 void main() {
     VertexData v = vertexData();
@@ -30,14 +56,19 @@ void main() {
     if (maskedOut(base)) {
         discard;
     }
+#ifdef FROXEL_PEELED
+    if (texelFetch(layer_keys, ivec2(pixel), 0).g != peelOrder()) {
+        discard; // another triangle at the same depth is this layer
+    }
+#endif
     float alpha = hasMaterial(kMaterialBlend) ? clamp(base.a, 0.0, 1.0) : 1.0;
     if (g.unlit) {
-        radiance = vec4(g.base_color * alpha, alpha);
+        store(g.base_color, alpha, distance);
         return;
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
     LightSum sum = sumLights(s, pixel, distance, true);
     vec3 lit = shadeSum(sum, g.base_color, g.metallic) +
                ambientRadiance(s, g.base_color, g.metallic, g.occlusion) + g.emissive;
-    radiance = vec4(lit * alpha, alpha);
+    store(lit, alpha, distance);
 }

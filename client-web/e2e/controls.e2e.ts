@@ -23,6 +23,7 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   bloom_knee: [1, false],
   bloom_strength: [1, true],
   bloom_radius: [0.05, true],
+  peel_layers: [2, false],
   outline_strength: [1, true],
   outline_width: [0.01, true],
   light_speed: [2, false],
@@ -39,6 +40,7 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
 
 /** What must be chosen so that fields of a prefix can be set. */
 const kNeeded = {
+  peel_: { name: 'transparency', label: 'peeled', usual: 'sorted' },
   bloom_: { name: 'bloom', label: 'mip chain', usual: 'none' },
   outline_: { name: 'renderer', label: 'toon fragment', usual: 'clustered deferred' },
 } as const;

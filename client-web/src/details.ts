@@ -32,6 +32,11 @@ export function listRows(header: FrameHeader): Row[] {
   ];
 }
 
+/** Layers peeled of blended surfaces, and pixels that have more. */
+export function peelText({ peel }: FrameHeader): string {
+  return peel ? `${peel.layers} · ${count(peel.overflowPixels)} px` : '–';
+}
+
 /** The cluster grid of a frame; none without lights in clusters. */
 export function gridRows({ grid }: FrameHeader): Row[] {
   if (!grid) return [];

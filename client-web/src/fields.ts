@@ -20,6 +20,8 @@ import {
   RendererSchema,
   ShadingModelSchema,
   ToneMapSchema,
+  Transparency,
+  TransparencySchema,
 } from './gen/froxel/v1/common_pb';
 import { choicesOf, type Choice } from './schema_names';
 import { isDeferred, isToon, type Settings } from './settings';
@@ -39,6 +41,7 @@ type ChoiceKey =
   | 'toneMap'
   | 'bloom'
   | 'antialiasing'
+  | 'transparency'
   | 'chroma'
   | 'codec'
   | 'refine'
@@ -204,6 +207,21 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       false,
       'How far, as a share of the smaller side; larger costs more, but little by mip chain',
     ),
+    choice(
+      'transparency',
+      'transparency',
+      'Transparency',
+      TransparencySchema,
+      'sorted: by instance, cheapest; weighted: as cheap, approximate; peeled: exact, two passes over the glass a layer',
+    ),
+    number(
+      'peelLayers',
+      'peel_layers',
+      'Peel layers',
+      'linear',
+      true,
+      'Peeled at most; each costs what is visible of it, and what lies behind the last is left out',
+    ),
     number(
       'outlineStrength',
       'outline_strength',
@@ -346,6 +364,7 @@ export const kAllFields: readonly Field[] = Object.values(kFields).flat();
 
 const kPng: number = Codec.PNG;
 const kNoBloom = BloomKind.NONE;
+const kPeeled = Transparency.PEELED;
 
 /** The values that a viewer may choose; PNG is the server's own choice, for a resting picture. */
 export const choicesFor = ({ key, schema }: ChoiceField): Choice[] =>
@@ -362,6 +381,7 @@ export function isInUse(field: Field, settings: Settings): boolean {
   if (field.name.startsWith('gbuffer.')) return isDeferred(settings);
   if (field.name.startsWith('outline_')) return isToon(settings);
   if (field.name.startsWith('bloom_')) return settings.bloom !== kNoBloom;
+  if (field.name === 'peel_layers') return settings.transparency === kPeeled;
   return true;
 }
 

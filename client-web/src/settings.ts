@@ -19,6 +19,7 @@ import {
   type ShadingModel,
   type ToneMap,
   type ToonRamp,
+  type Transparency,
   type Vec3,
   type ViewState,
 } from './gen/froxel/v1/common_pb';
@@ -84,6 +85,8 @@ export interface Settings {
   readonly bloomStrength: number;
   readonly bloomRadius: number; // share of the picture's smaller side
   readonly antialiasing: Antialiasing;
+  readonly transparency: Transparency;
+  readonly peelLayers: number; // at most, while peeled
   readonly width: number;
   readonly height: number;
   readonly quality: number;
@@ -164,6 +167,8 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     bloomStrength: state.bloomStrength,
     bloomRadius: state.bloomRadius,
     antialiasing: state.antialiasing,
+    transparency: state.transparency,
+    peelLayers: state.peelLayers,
     width: state.width,
     height: state.height,
     quality: state.quality,
@@ -258,6 +263,10 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   if (Object.keys(toon).length > 0) commands.push({ case: 'setToon', value: toon });
   const post = postChanges(from, to);
   if (Object.keys(post).length > 0) commands.push({ case: 'setPost', value: post });
+  const transparency = transparencyChanges(from, to);
+  if (Object.keys(transparency).length > 0) {
+    commands.push({ case: 'setTransparency', value: transparency });
+  }
   if (changed('quality', 'chroma', 'codec', 'videoKbps')) {
     commands.push({
       case: 'setEncoding',
@@ -320,6 +329,15 @@ function postChanges(from: Settings, to: Settings): PostValue {
     ...(from.bloomStrength !== to.bloomStrength && { bloomStrength: to.bloomStrength }),
     ...(from.bloomRadius !== to.bloomRadius && { bloomRadius: to.bloomRadius }),
     ...(from.antialiasing !== to.antialiasing && { antialiasing: to.antialiasing }),
+  };
+}
+
+type TransparencyValue = Extract<ClientBody, { case: 'setTransparency' }>['value'];
+
+function transparencyChanges(from: Settings, to: Settings): TransparencyValue {
+  return {
+    ...(from.transparency !== to.transparency && { transparency: to.transparency }),
+    ...(from.peelLayers !== to.peelLayers && { peelLayers: to.peelLayers }),
   };
 }
 

@@ -1,7 +1,7 @@
 import { create } from '@bufbuild/protobuf';
 import { describe, expect, it } from 'vitest';
 
-import { gridRows, listRows, memoryRows } from '../src/details';
+import { gridRows, listRows, memoryRows, peelText } from '../src/details';
 import { FrameDetailsSchema } from '../src/gen/froxel/v1/server_pb';
 import { frameHeader } from './fakes';
 
@@ -36,6 +36,13 @@ describe('details', () => {
     ]);
     expect(gridRows(frameHeader({ grid }))[0]?.name).toBe('Grid, by hand');
     expect(gridRows(frameHeader({}))).toEqual([]);
+  });
+
+  it('PeeledLayers_AreToldWithPixelsThatHaveMore', () => {
+    expect(peelText(frameHeader({}))).toBe('–');
+    expect(peelText(frameHeader({ peel: { layers: 4, overflowPixels: 1200n } }))).toBe(
+      '4 · 1\u2009200 px',
+    );
   });
 
   it('Memory_IsLargestFirstWithItsSum', () => {

@@ -17,6 +17,7 @@ import {
   Renderer,
   ShadingModel,
   ToneMap,
+  Transparency,
   ViewStateSchema,
   type ViewState,
 } from '../src/gen/froxel/v1/common_pb';
@@ -72,6 +73,8 @@ export function viewState(change: ViewInit = {}): ViewState {
     bloomStrength: 0.25,
     bloomRadius: 0.015,
     antialiasing: Antialiasing.NONE,
+    transparency: Transparency.SORTED,
+    peelLayers: 4,
     width: 960,
     height: 540,
     quality: 80,

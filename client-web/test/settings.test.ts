@@ -15,6 +15,7 @@ import {
   Renderer,
   ShadingModel,
   ToneMap,
+  Transparency,
 } from '../src/gen/froxel/v1/common_pb';
 import { cameraCommand, settingCommands, settingsOf, type Settings } from '../src/settings';
 import { kBounds, sampleSettings, viewState } from './sample';
@@ -134,6 +135,12 @@ describe('settingCommands', () => {
       { antialiasing: Antialiasing.SSAA4 },
       { case: 'setPost', value: { antialiasing: Antialiasing.SSAA4 } },
     ],
+    [
+      'transparency',
+      { transparency: Transparency.PEELED },
+      { case: 'setTransparency', value: { transparency: Transparency.PEELED } },
+    ],
+    ['layers', { peelLayers: 9 }, { case: 'setTransparency', value: { peelLayers: 9 } }],
     ['quality', { quality: 5 }, { case: 'setEncoding', value: { quality: 5 } }],
     ['adaptive', { adaptive: false }, { case: 'setDelivery', value: { adaptive: false } }],
     ['target rate', { targetFps: 24 }, { case: 'setDelivery', value: { targetFps: 24 } }],

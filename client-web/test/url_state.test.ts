@@ -11,6 +11,7 @@ import {
   PositionSource,
   Renderer,
   ShadingModel,
+  Transparency,
 } from '../src/gen/froxel/v1/common_pb';
 import { formatLink, parseLink, type SizeMode } from '../src/url_state';
 import { kBounds, sampleSettings } from './sample';
@@ -41,6 +42,8 @@ describe('links', () => {
       bloom: BloomKind.A_TROUS,
       bloomRadius: 0.02,
       antialiasing: Antialiasing.FXAA,
+      transparency: Transparency.PEELED,
+      peelLayers: 9,
       outlineStrength: 0.75,
       gbufferNormal: NormalEncoding.SPHEREMAP16,
       gbufferPosition: PositionSource.STORED_DEPTH,

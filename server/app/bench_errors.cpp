@@ -2,6 +2,7 @@
 
 #include "app/picture_scale.h"
 #include "core/error.h"
+#include "view/ranges.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -111,6 +112,8 @@ view::ViewSettings r2Settings(view::ViewSettings settings) {
     settings.lighting = view::LightingStage::kAuto;
     settings.gbuffer = {};
     settings.antialiasing = view::Antialiasing::kNone;
+    settings.transparency = {}; // blended surfaces are sorted pixel by pixel
+    settings.peel_layers = view::ViewSettings{}.peel_layers;
     settings.lights.cutoff = 0;
     settings.grid = {};
     settings.light_loop = view::LightLoop::kAuto;
@@ -162,7 +165,12 @@ PictureError ErrorMeter::against(Reference reference, const BenchRow& row, Drawn
         }
         auto meant = is_r1 ? r1Settings(settings) : r2Settings(settings);
         meant.size = reference_size;
-        const auto right = is_r1                 ? pictures_.drawOnce(meant, time_s)
+        if (!is_r1 && row.against_peeled) {
+            meant.transparency = view::Transparency::kPeeled;
+            meant.peel_layers = view::kPeelLayersRange.max;
+        }
+        const bool by_device = is_r1 || row.against_peeled;
+        const auto right = by_device             ? pictures_.drawOnce(meant, time_s)
                            : row.against_samples ? pictures_.sampleOnce(meant, time_s)
                                                  : pictures_.shadeOnce(meant, time_s);
         if (!right) {

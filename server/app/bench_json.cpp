@@ -126,6 +126,7 @@ std::string workloadOf(const BenchRow& row, const BenchBase& base) {
         text += fmt::format(", {}", view::kRendererNames[static_cast<size_t>(settings.renderer)]);
     }
     text += settings.bloom.kind != view::BloomKind::kNone ? ", bloom" : "";
+    text += row.against_peeled ? ", against 16 peeled layers" : "";
     text += row.against_samples ? ", against 64 samples a pixel" : "";
     return text;
 }

@@ -252,6 +252,7 @@ constexpr std::array kPresets = {
     Preset{"cutoff", cutoffSweep},
     Preset{"bloom", bloomSweep},
     Preset{"antialiasing", antialiasingSweep},
+    Preset{"transparency", transparencySweep},
     Preset{"stream", streamSweep},
     Preset{"smoke", smokeSweep},
 };

@@ -28,6 +28,7 @@ struct BenchRow {
     std::optional<size_t> only_view; // a stop of the path; none: timed at the first, errors at all
     std::optional<view::Size> scaled_to;
     std::optional<view::Encoding> stream; // JPEG whose error is taken too
+    bool against_peeled = false;  // R2 is the same with 16 layers peeled, drawn by the device
     bool against_samples = false; // R2 is the mean of many samples a pixel, drawn by the device
 
     [[nodiscard]] size_t timedView() const { return only_view.value_or(0); }

@@ -127,6 +127,34 @@ Sweep antialiasingSweep(const BenchBase& base) {
     return sweep;
 }
 
+Sweep transparencySweep(const BenchBase& base) {
+    Sweep sweep{"transparency",
+                "Ways of transparency",
+                "kind",
+                "",
+                Axis::kCategory,
+                "R2 is here up to 16 layers peeled by the device. For the built-in scene: --camera "
+                "Glass.",
+                {}};
+    const auto add = [&](view::Transparency kind, std::optional<uint32_t> layers) {
+        auto label = nameOf(view::kTransparencyNames, kind);
+        label += layers ? fmt::format(", {} layers", *layers) : "";
+        auto row =
+            rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()), [&](auto& s) {
+                s.transparency = kind;
+                s.peel_layers = layers.value_or(s.peel_layers);
+            });
+        row.against_peeled = true;
+        sweep.rows.push_back(std::move(row));
+    };
+    add(view::Transparency::kSorted, std::nullopt);
+    add(view::Transparency::kWeighted, std::nullopt);
+    for (const uint32_t layers : {1U, 2U, 4U, 8U, 16U}) {
+        add(view::Transparency::kPeeled, layers);
+    }
+    return sweep;
+}
+
 Sweep streamSweep(const BenchBase& base) {
     Sweep sweep{"stream",
                 "Error of the stream's JPEG",

@@ -10,6 +10,7 @@ namespace froxel::app {
 [[nodiscard]] Sweep cutoffSweep(const BenchBase& base);
 [[nodiscard]] Sweep bloomSweep(const BenchBase& base);
 [[nodiscard]] Sweep antialiasingSweep(const BenchBase& base);
+[[nodiscard]] Sweep transparencySweep(const BenchBase& base);
 [[nodiscard]] Sweep streamSweep(const BenchBase& base);
 // One row of every kind, small.
 [[nodiscard]] Sweep smokeSweep(const BenchBase& base);

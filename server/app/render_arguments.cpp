@@ -82,6 +82,9 @@ void addShading(Arguments& arguments,
                           usual.gbuffer.normal);
     arguments.changedName("--gbuffer-position", view::kPositionSourceNames,
                           settings.gbuffer.position, usual.gbuffer.position);
+    arguments.changedName("--transparency", view::kTransparencyNames, settings.transparency,
+                          usual.transparency);
+    arguments.changed("--peel-layers", settings.peel_layers, usual.peel_layers);
     arguments.flag("--count-pairs", settings.count_pairs);
     arguments.changedName("--debug-view", view::kDebugViewNames, settings.debug.view,
                           usual.debug.view);

@@ -125,6 +125,12 @@ Json toJson(const PairStats& pairs) {
                : Json(nullptr);
 }
 
+Json toJson(const PeelStats& peel) {
+    return peel.layer_count > 0
+               ? Json{{"layers", peel.layer_count}, {"overflow_pixels", peel.overflow_count}}
+               : Json(nullptr);
+}
+
 Json memoryOf(const FrameDetails& details) {
     Json memory = Json::object();
     for (const auto& use : details.memory) {
@@ -167,6 +173,12 @@ Json settingsReport(const view::ViewSettings& settings) {
     if (settings.antialiasing != view::Antialiasing::kNone) {
         json["antialiasing"] = nameOf(view::kAntialiasingNames, settings.antialiasing);
     }
+    if (settings.transparency != view::Transparency::kSorted) {
+        json["transparency"] = nameOf(view::kTransparencyNames, settings.transparency);
+    }
+    if (settings.transparency == view::Transparency::kPeeled) {
+        json["peel_layers"] = settings.peel_layers;
+    }
     if (const auto& outline = settings.toon_outline; outline.strength > 0) {
         json["toon_outline"] = {{"strength", outline.strength}, {"width", outline.width}};
     }
@@ -176,9 +188,13 @@ Json settingsReport(const view::ViewSettings& settings) {
 Json frameReport(const FrameStats& stats) {
     const FrameDetails none;
     const FrameDetails& details = stats.details ? *stats.details : none;
-    return {{"triangles", stats.triangle_count}, {"draws", stats.draw_count},
-            {"grid", toJson(stats.grid)},        {"light_lists", toJson(stats.lists)},
-            {"pairs", toJson(stats.pairs)},      {"plan", details.plan},
+    return {{"triangles", stats.triangle_count},
+            {"draws", stats.draw_count},
+            {"grid", toJson(stats.grid)},
+            {"light_lists", toJson(stats.lists)},
+            {"pairs", toJson(stats.pairs)},
+            {"peel", toJson(stats.peel)},
+            {"plan", details.plan},
             {"memory_bytes", memoryOf(details)}};
 }
 

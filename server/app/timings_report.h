@@ -52,6 +52,7 @@ struct TimedRun {
 //   bytes,
 //                 all_lights, why}
 //   pairs         {evaluated, contributing}: (light, pixel) pairs; null: not counted
+//   peel          {layers, overflow_pixels}: of blended surfaces; null: nothing was peeled
 //   plan          a line each: what the frame's variant leaves out, and why
 //   memory_bytes  {purpose: bytes} of the device's memory
 [[nodiscard]] nlohmann::ordered_json frameReport(const FrameStats& stats);

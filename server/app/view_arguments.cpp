@@ -31,6 +31,10 @@ void addShading(CommandBuilder& command, view::ViewSettings& settings) {
                  "How deferred renderers keep normals");
     command.name("--gbuffer-position", settings.gbuffer.position, view::kPositionSourceNames,
                  "Where deferred lighting takes positions from");
+    command.name("--transparency", settings.transparency, view::kTransparencyNames,
+                 "How blended surfaces that overlap come together");
+    command.number("--peel-layers", settings.peel_layers, view::kPeelLayersRange,
+                   "Layers that peeled draws at most");
     command.cli().add_flag("--count-pairs", settings.count_pairs,
                            "Count evaluated and contributing (light, pixel) pairs (slower)");
     command.name("--debug-view", settings.debug.view, view::kDebugViewNames,

@@ -51,6 +51,12 @@ struct PairStats {
     uint64_t contributing = 0;      // of which within the light's radius and cone
 };
 
+// Blended surfaces, layer by layer.
+struct PeelStats {
+    uint32_t layer_count = 0;    // layers drawn; 0: nothing was peeled
+    uint64_t overflow_count = 0; // pixels drawn that have more: the farther ones are left out
+};
+
 struct MemoryUse {
     std::string purpose;
     uint64_t bytes = 0;
@@ -85,6 +91,7 @@ struct FrameStats {
     LightListStats lists;
     GridStats grid;
     PairStats pairs;
+    PeelStats peel;
     std::shared_ptr<const FrameDetails> details; // another one only when something changed
 };
 

@@ -33,13 +33,16 @@ struct SpecInfo {
 vk::PipelineColorBlendAttachmentState attachmentState(Blend blend) {
     using Factor = vk::BlendFactor;
     using Component = vk::ColorComponentFlagBits;
-    const Factor kept = blend == Blend::kAdd ? Factor::eOne : Factor::eOneMinusSrcAlpha;
+    const bool over = blend == Blend::kNone || blend == Blend::kOver;
+    const bool weighted = blend == Blend::kWeighted;
+    const Factor taken = blend == Blend::kUnder ? Factor::eOneMinusDstAlpha : Factor::eOne;
+    const Factor kept = over ? Factor::eOneMinusSrcAlpha : Factor::eOne;
     return {.blendEnable = blend != Blend::kNone,
-            .srcColorBlendFactor = Factor::eOne,
+            .srcColorBlendFactor = taken,
             .dstColorBlendFactor = kept,
             .colorBlendOp = vk::BlendOp::eAdd,
-            .srcAlphaBlendFactor = Factor::eOne,
-            .dstAlphaBlendFactor = kept,
+            .srcAlphaBlendFactor = weighted ? Factor::eZero : taken,
+            .dstAlphaBlendFactor = weighted ? Factor::eOneMinusSrcAlpha : kept,
             .alphaBlendOp = vk::BlendOp::eAdd,
             .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
 }
@@ -138,8 +141,9 @@ makeSetLayout(const Device& device, std::span<const vk::DescriptorSetLayoutBindi
 
 vk::raii::PipelineLayout makePipelineLayout(const Device& device,
                                             std::initializer_list<vk::DescriptorSetLayout> sets,
-                                            uint32_t push_bytes) {
-    const vk::PushConstantRange range{vk::ShaderStageFlagBits::eCompute, 0, push_bytes};
+                                            uint32_t push_bytes,
+                                            vk::ShaderStageFlags push_stages) {
+    const vk::PushConstantRange range{push_stages, 0, push_bytes};
     return device.handle().createPipelineLayout(
         {.setLayoutCount = static_cast<uint32_t>(sets.size()),
          .pSetLayouts = sets.begin(),

@@ -20,6 +20,8 @@ enum class Blend : uint8_t {
     kNone,
     kOver, // source over destination, premultiplied
     kAdd,
+    kUnder,    // source under destination, both premultiplied
+    kWeighted, // colours are added, destination alpha is multiplied by 1 - source alpha
 };
 
 struct GraphicsPipelineInfo {
@@ -51,10 +53,11 @@ makeGraphicsPipeline(const Device& device, const GraphicsPipelineInfo& info, std
 [[nodiscard]] vk::raii::DescriptorSetLayout
 makeSetLayout(const Device& device, std::span<const vk::DescriptorSetLayoutBinding> bindings);
 
-// Sets from 0 on; push constants are for the compute stage.
+// Sets from 0 on; push constants from offset 0.
 [[nodiscard]] vk::raii::PipelineLayout
 makePipelineLayout(const Device& device,
                    std::initializer_list<vk::DescriptorSetLayout> sets,
-                   uint32_t push_bytes = 0);
+                   uint32_t push_bytes = 0,
+                   vk::ShaderStageFlags push_stages = vk::ShaderStageFlagBits::eCompute);
 
 } // namespace froxel::gpu

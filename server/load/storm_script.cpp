@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kLeastSide = 16;      // pixels
 constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
 constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 15;          // of commands
+constexpr uint32_t kKinds = 16;          // of commands
 
 } // namespace
 
@@ -134,6 +134,10 @@ std::optional<Step> StormScript::next() {
         break;
     case 14:
         fillPost(*message.mutable_set_post());
+        break;
+    case 15:
+        message.mutable_set_transparency()->set_transparency(named(v1::TRANSPARENCY_PEELED));
+        message.mutable_set_transparency()->set_peel_layers(whole(1, 16));
         break;
     case 9:
         message.mutable_set_delivery()->set_adaptive(whole(0, 1) == 0);

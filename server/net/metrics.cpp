@@ -111,6 +111,9 @@ struct Metrics::Impl {
     Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of pictures and messages sent.");
     Counter& redraws = counter("froxel_light_list_redraws_total",
                                "Times that a picture was drawn again since its lists had to grow.");
+    Counter& peel_overflow =
+        counter("froxel_peel_overflow_pixels_total",
+                "Pixels of the pictures sent that have more blended layers than were peeled.");
     Histogram& quality =
         histogram("froxel_frame_quality", "JPEG quality of pictures sent.", kQualities);
     Histogram& scale =
@@ -198,6 +201,7 @@ void Metrics::sessionClosed() {
 void Metrics::frameSent(const FrameRecord& record) {
     impl_->sent.Increment();
     impl_->redraws.Increment(static_cast<double>(record.stats.lists.redraw_count));
+    impl_->peel_overflow.Increment(static_cast<double>(record.stats.peel.overflow_count));
     for (size_t i = 0; i < kStages.size(); ++i) {
         impl_->stages[i]->Observe(kStages[i].micros(record) / 1e6);
     }

@@ -111,7 +111,7 @@ class Builder {
           clip_from_view_(clipFromView(camera, projection)),
           half_size_px_(glm::vec2(size.width_px, size.height_px) * 0.5F), out_(out) {}
 
-    void build(bool solid_wanted);
+    void build(bool solid_wanted, TransparentOrder order);
 
   private:
     void placeInstances();
@@ -121,7 +121,7 @@ class Builder {
     [[nodiscard]] float distance(const DrawItem& item, const glm::vec3& center) const;
     void collect(uint32_t item_index, std::vector<Visible>& visible) const;
     void addSolid(std::vector<Visible>& visible);
-    void addTransparent(std::vector<Visible>& visible);
+    void addTransparent(std::vector<Visible>& visible, TransparentOrder order);
     void openGroup(const DrawItem& item, std::vector<DrawGroup>& groups);
     void cullRun(Run& run, std::vector<uint32_t>& indices) const;
     void cullRuns(std::span<Run> runs);
@@ -315,21 +315,26 @@ void Builder::addSolid(std::vector<Visible>& visible) {
             out_.solid);
 }
 
-// Whole items, far ones first: blending needs order more than it needs few draws.
-void Builder::addTransparent(std::vector<Visible>& visible) {
-    const auto farther = [&](const Visible& a, const Visible& b) {
+// Whole items: blending needs order more than it needs few draws.
+void Builder::addTransparent(std::vector<Visible>& visible, TransparentOrder order) {
+    const auto before = [&](const Visible& a, const Visible& b) {
         const auto key = [&](const Visible& v) {
             const DrawItem& item = scene_.items[v.item];
-            return std::tuple(-distance(item, item.primitive.center), v.item, v.meshlet);
+            const float nearness = order == TransparentOrder::kByDistance
+                                       ? -distance(item, item.primitive.center)
+                                       : 0.0F;
+            return std::tuple(nearness, v.item, v.meshlet);
         };
         return key(a) < key(b);
     };
-    std::sort(visible.begin(), visible.end(), farther);
+    std::sort(visible.begin(), visible.end(), before);
+    const uint32_t solid_count = out_.triangle_count;
     addRuns(splitRuns(visible, [](const Visible& x, const Visible& y) { return x.item == y.item; }),
             out_.transparent);
+    out_.transparent_triangle_count = out_.triangle_count - solid_count;
 }
 
-void Builder::build(bool solid_wanted) {
+void Builder::build(bool solid_wanted, TransparentOrder order) {
     placeInstances();
     std::vector<Visible> solid;
     std::vector<Visible> transparent;
@@ -340,7 +345,7 @@ void Builder::build(bool solid_wanted) {
         }
     }
     addSolid(solid);
-    addTransparent(transparent);
+    addTransparent(transparent, order);
     const auto empty = [](const DrawGroup& group) { return group.command_count == 0; };
     std::erase_if(out_.solid, empty);
     std::erase_if(out_.transparent, empty);
@@ -354,13 +359,14 @@ void buildDrawList(const SceneResources& scene,
                    const ViewProjection& projection,
                    bool by_triangle,
                    bool solid,
+                   TransparentOrder order,
                    DrawList& out) {
     out.commands.clear();
     out.solid.clear();
     out.transparent.clear();
     out.indices.clear();
     out.triangle_count = 0;
-    Builder(scene, camera, size, projection, by_triangle, out).build(solid);
+    Builder(scene, camera, size, projection, by_triangle, out).build(solid, order);
 }
 
 } // namespace froxel::render

@@ -33,11 +33,16 @@ struct DrawList {
     std::vector<InstanceRows> rows;                       // one for each instance
     std::vector<vk::DrawIndexedIndirectCommand> commands; // of all groups
     std::vector<DrawGroup> solid;                         // opaque and masked, near ones first
-    std::vector<DrawGroup> transparent;                   // far ones first
+    std::vector<DrawGroup> transparent;                   // in the order asked for
+    uint32_t transparent_triangle_count = 0;              // of these
     std::vector<uint32_t> indices;     // culled by triangle; empty: commands index the scene's own
     std::vector<uint32_t> far_indices; // scratch of the culling
     uint32_t triangle_count = 0;
 };
+
+// Of transparent surfaces: whole items from far to near, or all triangles as they stand in the
+// scene, whatever the camera.
+enum class TransparentOrder : uint8_t { kByDistance, kOfTheScene };
 
 // by_triangle: also cull single triangles, into DrawList::indices. solid: false leaves out all but
 // transparent surfaces. Pure.
@@ -47,6 +52,7 @@ void buildDrawList(const SceneResources& scene,
                    const ViewProjection& projection,
                    bool by_triangle,
                    bool solid,
+                   TransparentOrder order,
                    DrawList& out);
 
 } // namespace froxel::render

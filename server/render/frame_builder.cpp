@@ -223,7 +223,11 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     visibility_ = choosesVisibility(inputs);
     compute_raster_ = visibility_ && choosesComputeRaster(inputs);
     auto culling = std::async(is_cpu ? std::launch::async : std::launch::deferred, [&] {
-        buildDrawList(scene_, camera, settings.size, projection, is_cpu, !visibility_, draws_);
+        buildDrawList(scene_, camera, settings.size, projection, is_cpu, !visibility_,
+                      settings.transparency == view::Transparency::kSorted
+                          ? TransparentOrder::kByDistance
+                          : TransparentOrder::kOfTheScene,
+                      draws_);
         if (visibility_) {
             placeInstances(scene_, camera, draws_.rows, instances_);
             orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);

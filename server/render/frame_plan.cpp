@@ -71,6 +71,8 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.forward = plan.visibility_shade = false;
     plan.lighting_compute = plan.lighting_fragment = false;
     plan.toon_pass = plan.transparent = false;
+    plan.transparency = view::Transparency::kSorted;
+    plan.peel_layers = 0;
     plan.outline = plan.samples = plan.fxaa = false; // nothing is done to what it shows
     plan.bloom = view::BloomKind::kNone;
     plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
@@ -122,6 +124,11 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.samples = view::samplesAcross(settings.antialiasing) > 1;
     plan.fxaa = settings.antialiasing == view::Antialiasing::kFxaa;
     plan.transparent = facts.transparent_visible;
+    if (plan.transparent) {
+        plan.transparency = settings.transparency;
+        plan.peel_layers =
+            settings.transparency == view::Transparency::kPeeled ? settings.peel_layers : 0;
+    }
     plan.debug = settings.debug.view;
     const bool replaced = view::replacesPicture(plan.debug);
     plan.lists = (renderer != Renderer::kNaive || view::showsClusters(plan.debug)) &&

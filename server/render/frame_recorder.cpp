@@ -1,5 +1,7 @@
 #include "render/frame_recorder.h"
 
+#include "render/barrier.h"
+#include "render/blended_recorder.h"
 #include "render/passes.h"
 #include "render/raster_passes.h"
 #include "render/visibility_passes.h"
@@ -14,19 +16,7 @@ namespace {
 using Access = vk::AccessFlagBits2;
 using Stage = vk::PipelineStageFlagBits2;
 
-constexpr vk::PipelineStageFlags2 kDepthStages =
-    Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 constexpr vk::PipelineStageFlags2 kShaders = Stage::eComputeShader | Stage::eFragmentShader;
-
-void barrier(const vk::raii::CommandBuffer& cmd,
-             vk::PipelineStageFlags2 from,
-             vk::AccessFlags2 written,
-             vk::PipelineStageFlags2 to,
-             vk::AccessFlags2 used) {
-    const vk::MemoryBarrier2 memory{
-        .srcStageMask = from, .srcAccessMask = written, .dstStageMask = to, .dstAccessMask = used};
-    cmd.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
-}
 
 void recordPrepass(const FrameContext& frame) {
     if (frame.plan.depth_prepass) {
@@ -66,21 +56,6 @@ void recordComputeRaster(const FrameContext& frame) {
     // depth and ids -> the pass that shades or fills the G-buffer, which also stores depth anew
     barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
             Access::eShaderSampledRead | Access::eShaderStorageWrite);
-}
-
-// Solid depth that compute rastered -> the rasteriser's.
-void recordDepthHandover(const FrameContext& frame) {
-    const auto& cmd = frame.slot.cmd;
-    // depth from compute, words no longer read -> copy by way of the words' buffer
-    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
-            Access::eTransferRead | Access::eTransferWrite);
-    recordDepthOut(frame);
-    // first copy -> second
-    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eCopy, Access::eTransferRead);
-    recordDepthIn(frame);
-    // copied depth -> depth test
-    barrier(cmd, Stage::eCopy, Access::eTransferWrite, kDepthStages,
-            Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
 }
 
 // Depth and ids; what follows reads them in compute.
@@ -204,6 +179,14 @@ void transitionFresh(FrameSlot& slot) {
         add(targets.compute_depth, vk::ImageAspectFlagBits::eColor);
         add(targets.radiance, vk::ImageAspectFlagBits::eColor);
     }
+    if (slot.blend && std::exchange(slot.blend->fresh, false)) {
+        add(slot.blend->sums, vk::ImageAspectFlagBits::eColor);
+        add(slot.blend->weights, vk::ImageAspectFlagBits::eColor);
+        add(slot.blend->layer_depth, vk::ImageAspectFlagBits::eDepth);
+        for (const auto& keys : slot.blend->layer_keys) {
+            add(keys, vk::ImageAspectFlagBits::eColor);
+        }
+    }
     if (slot.bloom && std::exchange(slot.bloom->fresh, false)) {
         for (const auto& image : slot.bloom->images()) {
             add(image, vk::ImageAspectFlagBits::eColor);
@@ -265,17 +248,7 @@ void recordFrame(const FrameContext& frame) {
         recordCountPairs(frame);
     }
     if (frame.plan.transparent) {
-        if (frame.plan.compute_raster) {
-            recordDepthHandover(frame);
-        }
-        // solid surfaces' radiance and depth -> blending and depth test
-        barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
-                Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |
-                    Access::eShaderStorageWrite,
-                kDepthStages | Stage::eColorAttachmentOutput,
-                Access::eDepthStencilAttachmentRead | Access::eColorAttachmentRead |
-                    Access::eColorAttachmentWrite);
-        recordTransparent(frame);
+        recordBlended(frame);
     }
     if (frame.bloom != nullptr) {
         recordBloom(frame);

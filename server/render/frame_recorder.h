@@ -1,4 +1,5 @@
-// The frame: which pass follows which, and the barriers between them. The only file that has any.
+// The frame: which pass follows which, and the barriers between them. Only this file and
+// blended_recorder.cpp have any.
 #pragma once
 
 #include "render/assign_passes.h"

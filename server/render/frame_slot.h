@@ -6,6 +6,7 @@
 #include "gpu/memory.h"
 #include "gpu/sample_counter.h"
 #include "gpu/timestamps.h"
+#include "render/blend_targets.h"
 #include "render/bloom.h"
 #include "render/debug_pass.h"
 #include "render/fxaa.h"
@@ -76,6 +77,7 @@ struct FrameSlot {
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
     std::shared_ptr<BloomTargets> bloom; // null: the frame last recorded has none
+    std::shared_ptr<BlendTargets> blend; // likewise
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet frame_set{nullptr};
@@ -87,6 +89,8 @@ struct FrameSlot {
     bool counts_pairs = false;                     // in the frame last recorded
     std::unique_ptr<gpu::SampleCounter> samples;   // likewise
     bool counts_samples = false;                   // in the frame last recorded
+    std::unique_ptr<gpu::SampleCounter> overflow;  // likewise
+    bool counts_overflow = false;                  // of peeled layers, in the frame last recorded
     std::unique_ptr<FxaaSlot> fxaa;                // likewise
     std::unique_ptr<AssignSlot> assignment;        // likewise
     bool device_lists = false; // the frame last recorded had its lists made on the device

@@ -1,11 +1,10 @@
 #include "render/passes.h"
 
-#include "interface/constants.h"
+#include "render/geometry_draws.h"
 #include "render/rendering_scope.h"
 #include "render/screen_groups.h"
 
 #include <array>
-#include <span>
 #include <vector>
 
 namespace froxel::render {
@@ -13,22 +12,6 @@ namespace froxel::render {
 namespace {
 
 using LoadOp = vk::AttachmentLoadOp;
-
-void bindGeometry(const FrameContext& frame) {
-    const auto& cmd = frame.slot.cmd;
-    const auto& scene = frame.scene;
-    const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
-                                *scene.extended_buffer.handle, // none: no pipeline reads it
-                                frame.slot.upload.buffer()};
-    const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, frame.offsets.rows};
-    cmd.bindVertexBuffers(0, buffers, offsets);
-    cmd.bindIndexBuffer(frame.draws.indices.empty() ? *scene.index_buffer.handle
-                                                    : frame.slot.upload.buffer(),
-                        0, vk::IndexType::eUint32);
-    cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
-                           frame.scene.pipelines.geometryPipelineLayout(), 0, *frame.slot.frame_set,
-                           {});
-}
 
 // Counts the samples that pass the depth test, in the pass that draws depth first.
 class SampleScope {
@@ -52,53 +35,6 @@ class SampleScope {
     gpu::SampleCounter* counter_;
     const vk::raii::CommandBuffer& cmd_;
 };
-
-// The variant of a pass for a group: only the flags that the pass's shader looks at.
-VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
-    const auto& plan = frame.plan;
-    switch (pass) {
-    case GeometryPass::kDepth:
-    case GeometryPass::kOverdraw: {
-        const bool masked = (group.material_flags & io::kMaterialMask) != 0;
-        return {masked ? group.material_flags : 0U, 0, 0};
-    }
-    case GeometryPass::kGbuffer:
-    case GeometryPass::kGbufferAfterDepth:
-        return {group.material_flags & ~plan.gbuffer_unused_material_flags, 0,
-                plan.gbuffer_output_flags};
-    default:
-        return {group.material_flags, plan.forward_light_flags, 0};
-    }
-}
-
-void drawGroups(const FrameContext& frame, GeometryPass pass, std::span<const DrawGroup> groups) {
-    const auto& cmd = frame.slot.cmd;
-    auto& pipelines = frame.scene.pipelines;
-    bindGeometry(frame);
-    vk::Pipeline bound;
-    for (const DrawGroup& group : groups) {
-        const auto pipeline = pipelines.geometry(pass, variant(frame, pass, group));
-        if (pipeline != bound) {
-            cmd.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-            bound = pipeline;
-        }
-        const bool both_sides = (group.material_flags & io::kMaterialDoubleSided) != 0;
-        cmd.setCullMode(both_sides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-        cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise
-                                        : vk::FrontFace::eCounterClockwise);
-        const bool depth_only = pass == GeometryPass::kDepth || pass == GeometryPass::kOverdraw;
-        if (!depth_only || (group.material_flags & io::kMaterialMask) != 0) {
-            cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
-                                   pipelines.geometryPipelineLayout(), 1,
-                                   frame.scene.materialSet(group.material), {});
-        }
-        constexpr uint32_t kStride = sizeof(vk::DrawIndexedIndirectCommand);
-        cmd.drawIndexedIndirect(frame.slot.upload.buffer(),
-                                frame.offsets.commands +
-                                    vk::DeviceSize{group.first_command} * kStride,
-                                group.command_count, kStride);
-    }
-}
 
 vk::ClearValue background(const FrameContext& frame) {
     const auto& color = frame.background;

@@ -2,6 +2,7 @@
 
 #include "embedded.h"
 #include "interface/constants.h"
+#include "interface/peel_io.h"
 #include "render/gbuffer_layout.h"
 
 #include <algorithm>
@@ -14,9 +15,11 @@ namespace {
 using Stage = vk::ShaderStageFlagBits;
 using Type = vk::DescriptorType;
 
-constexpr std::array<std::string_view, 7> kGeometryNames = {
-    "depth prepass", "gbuffer", "gbuffer after depth", "forward", "forward after depth",
-    "transparent",   "overdraw"};
+constexpr std::array<std::string_view, 11> kGeometryNames = {
+    "depth prepass", "gbuffer",  "gbuffer after depth", "forward",    "forward after depth",
+    "transparent",   "weighted", "peel select",         "peel shade", "peel count",
+    "overdraw"};
+constexpr std::string_view kBlendResolveName = "blend resolve";
 constexpr std::array<std::string_view, 4> kScreenNames = {"lighting", "toon", "outline", "tonemap"};
 constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
 
@@ -57,6 +60,13 @@ vk::raii::DescriptorSetLayout screenSetLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
+vk::raii::DescriptorSetLayout blendSetLayout(const gpu::Device& device) {
+    const std::array bindings = {
+        vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, Stage::eFragment},
+        vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, Stage::eFragment}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
 // Streams: 0 positions, 1 surface vertices, 2 extended vertices, 3 instance rows.
 void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool textured, bool extended) {
     using Rate = vk::VertexInputRate;
@@ -81,6 +91,31 @@ void describeVertices(gpu::GraphicsPipelineInfo& info, bool surface, bool textur
     }
 }
 
+// One of four: with the extended streams or not, lights fetched together or not.
+gpu::Spirv pick(bool extended,
+                bool batched,
+                gpu::Spirv plain,
+                gpu::Spirv with_streams,
+                gpu::Spirv together,
+                gpu::Spirv both) {
+    return batched ? (extended ? both : together) : (extended ? with_streams : plain);
+}
+
+gpu::Spirv forwardShader(GeometryPass pass, bool extended, bool batched) {
+    using namespace shaders;
+    switch (pass) {
+    case GeometryPass::kWeighted:
+        return pick(extended, batched, forward_weighted_frag(), forward_weighted_extended_frag(),
+                    forward_weighted_batched_frag(), forward_weighted_batched_extended_frag());
+    case GeometryPass::kPeelShade:
+        return pick(extended, batched, forward_peeled_frag(), forward_peeled_extended_frag(),
+                    forward_peeled_batched_frag(), forward_peeled_batched_extended_frag());
+    default:
+        return pick(extended, batched, forward_frag(), forward_extended_frag(),
+                    forward_batched_frag(), forward_batched_extended_frag());
+    }
+}
+
 gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32_t output_flags) {
     using namespace shaders;
     switch (pass) {
@@ -95,12 +130,74 @@ gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32
         }
         return extended ? gbuffer_extended_frag() : gbuffer_frag();
     default:
+        return forwardShader(pass, extended, batched);
+    }
+}
+
+// Of a pass whose vertices are positions alone.
+gpu::Spirv depthOnlyShader(GeometryPass pass) {
+    switch (pass) {
+    case GeometryPass::kOverdraw:
+        return shaders::overdraw_frag();
+    case GeometryPass::kPeelSelect:
+        return shaders::peel_select_frag();
+    case GeometryPass::kPeelCount:
+        return shaders::peel_count_frag();
+    default:
+        return {};
+    }
+}
+
+std::vector<vk::Format> colorFormats(GeometryPass pass, uint32_t output_flags) {
+    switch (pass) {
+    case GeometryPass::kDepth:
+    case GeometryPass::kPeelCount:
+        return {};
+    case GeometryPass::kGbuffer:
+    case GeometryPass::kGbufferAfterDepth:
+        if (const auto extra = extraFormat(output_flags); extra != vk::Format::eUndefined) {
+            return {Pipelines::gbufferFormat(output_flags), extra};
+        }
+        return {Pipelines::gbufferFormat(output_flags)};
+    case GeometryPass::kWeighted:
+        return {Pipelines::kRadianceFormat, Pipelines::kBlendWeightFormat};
+    case GeometryPass::kPeelSelect:
+        return {Pipelines::kPeelKeyFormat};
+    default:
+        return {Pipelines::kRadianceFormat};
+    }
+}
+
+// How a pass meets the depth and the colours that are there.
+void describeTests(gpu::GraphicsPipelineInfo& info, GeometryPass pass) {
+    switch (pass) {
+    case GeometryPass::kGbufferAfterDepth:
+    case GeometryPass::kForwardAfterDepth:
+        info.depth_compare = vk::CompareOp::eEqual;
+        info.depth_write = false;
+        break;
+    case GeometryPass::kTransparent:
+        info.depth_write = false;
+        info.blend = gpu::Blend::kOver;
+        break;
+    case GeometryPass::kWeighted:
+        info.depth_write = false;
+        info.blend = gpu::Blend::kWeighted;
+        break;
+    case GeometryPass::kPeelShade:
+        info.depth_compare = vk::CompareOp::eEqual;
+        info.depth_write = false;
+        info.blend = gpu::Blend::kUnder;
+        break;
+    case GeometryPass::kPeelCount:
+        info.depth_compare = vk::CompareOp::eGreater;
+        break;
+    case GeometryPass::kOverdraw:
+        info.blend = gpu::Blend::kAdd;
+        break;
+    default:
         break;
     }
-    if (batched) {
-        return extended ? forward_batched_extended_frag() : forward_batched_frag();
-    }
-    return extended ? forward_extended_frag() : forward_frag();
 }
 
 } // namespace
@@ -110,8 +207,14 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline)
       material_layout_(materialSetLayout(device)), screen_set_layout_(screenSetLayout(device)),
       geometry_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *material_layout_})),
       screen_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *screen_set_layout_})),
-      geometry_(timeline, kKeptGeometry), screen_(timeline, kKeptScreen),
-      fragment_lighting_(timeline, kKeptScreen) {}
+      blend_set_layout_(render::blendSetLayout(device)),
+      peel_layout_(gpu::makePipelineLayout(device,
+                                           {*frame_layout_, *material_layout_, *blend_set_layout_},
+                                           sizeof(io::PeelDraw),
+                                           Stage::eFragment)),
+      resolve_layout_(gpu::makePipelineLayout(device, {*blend_set_layout_})),
+      blend_resolve_(timeline, view::kTransparencyNames.size()), geometry_(timeline, kKeptGeometry),
+      screen_(timeline, kKeptScreen), fragment_lighting_(timeline, kKeptScreen) {}
 
 gpu::SpecConstants Pipelines::constants(const VariantKey& key) const {
     return {key.material_flags, key.light_flags, key.output_flags,
@@ -122,12 +225,10 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     const bool masked = (key.material_flags & io::kMaterialMask) != 0;
     const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
     const bool batched = (key.light_flags & io::kLightBatched) != 0;
-    const bool overdraw = pass == GeometryPass::kOverdraw;
-    const bool depth_only = pass == GeometryPass::kDepth || overdraw;
-    const bool surface = !depth_only || masked;
+    const bool surface = !depthOnly(pass) || masked;
     gpu::GraphicsPipelineInfo info;
     info.constants = constants(key);
-    info.layout = *geometry_layout_;
+    info.layout = peels(pass) ? *peel_layout_ : *geometry_layout_;
     info.depth_format = kDepthFormat;
     const bool textured = extended || (key.material_flags & io::kMaterialTextures) != 0;
     describeVertices(info, surface, textured, surface && extended);
@@ -135,32 +236,10 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
                   : extended ? shaders::surface_extended_vert()
                   : textured ? shaders::surface_vert()
                              : shaders::surface_untextured_vert();
-    if (overdraw && !masked) {
-        info.fragment = shaders::overdraw_frag();
-    } else if (surface) {
-        info.fragment = fragmentShader(pass, extended, batched, key.output_flags);
-    }
-    const bool after_depth =
-        pass == GeometryPass::kGbufferAfterDepth || pass == GeometryPass::kForwardAfterDepth;
-    if (pass == GeometryPass::kGbuffer || pass == GeometryPass::kGbufferAfterDepth) {
-        info.color_formats = {gbufferFormat(key.output_flags)};
-        if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
-            info.color_formats.push_back(extraFormat(key.output_flags));
-        }
-    } else if (pass != GeometryPass::kDepth) {
-        info.color_formats = {kRadianceFormat};
-    }
-    if (after_depth) {
-        info.depth_compare = vk::CompareOp::eEqual;
-        info.depth_write = false;
-    }
-    if (pass == GeometryPass::kTransparent) {
-        info.depth_write = false;
-        info.blend = gpu::Blend::kOver;
-    }
-    if (overdraw) {
-        info.blend = gpu::Blend::kAdd;
-    }
+    info.fragment =
+        surface ? fragmentShader(pass, extended, batched, key.output_flags) : depthOnlyShader(pass);
+    info.color_formats = colorFormats(pass, key.output_flags);
+    describeTests(info, pass);
     return gpu::makeGraphicsPipeline(device_, info, kGeometryNames[static_cast<size_t>(pass)]);
 }
 
@@ -204,6 +283,20 @@ vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
     });
 }
 
+vk::Pipeline Pipelines::blendResolve(view::Transparency transparency) {
+    return *blend_resolve_.findOrMake(transparency, [&] {
+        gpu::GraphicsPipelineInfo info;
+        info.vertex = shaders::fullscreen_vert();
+        info.fragment = transparency == view::Transparency::kWeighted
+                            ? shaders::blend_resolve_weighted_frag()
+                            : shaders::blend_resolve_peeled_frag();
+        info.layout = *resolve_layout_;
+        info.color_formats = {kRadianceFormat};
+        info.blend = gpu::Blend::kOver;
+        return gpu::makeGraphicsPipeline(device_, info, kBlendResolveName);
+    });
+}
+
 std::vector<Pipelines::Made> Pipelines::made() const {
     std::vector<Made> all;
     geometry_.forEachKey([&](const auto& id) {
@@ -215,6 +308,7 @@ std::vector<Pipelines::Made> Pipelines::made() const {
     fragment_lighting_.forEachKey([&](const auto& key) {
         all.push_back({kFragmentLightingName, key});
     });
+    blend_resolve_.forEachKey([&](const auto& /*key*/) { all.push_back({kBlendResolveName, {}}); });
     return all;
 }
 

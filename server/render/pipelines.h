@@ -5,6 +5,7 @@
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
 #include "render/variant_cache.h"
+#include "view/settings.h"
 
 #include <array>
 #include <cstdint>
@@ -21,10 +22,26 @@ enum class GeometryPass : uint8_t {
     kForward,           // forward, writing depth
     kForwardAfterDepth, // forward where the prepass left the same depth
     kTransparent,       // forward, blended, over finished depth
+    kWeighted,          // forward, summed by weights
+    kPeelSelect,        // which triangle each pixel's next layer is of
+    kPeelShade,         // forward, that layer under those before
+    kPeelCount,         // pixels that have yet another
     kOverdraw,          // counts fragments, writing depth
 };
 
 enum class ScreenPass : uint8_t { kLighting, kToon, kOutline, kTonemap };
+
+// Peeling passes tell triangles apart.
+[[nodiscard]] constexpr bool peels(GeometryPass pass) {
+    return pass == GeometryPass::kPeelSelect || pass == GeometryPass::kPeelShade ||
+           pass == GeometryPass::kPeelCount;
+}
+
+// Passes that no material has a say in, but a masked one.
+[[nodiscard]] constexpr bool depthOnly(GeometryPass pass) {
+    return pass == GeometryPass::kDepth || pass == GeometryPass::kOverdraw ||
+           pass == GeometryPass::kPeelSelect || pass == GeometryPass::kPeelCount;
+}
 
 // Which specialisation a pipeline has (shaders/interface/constants.h).
 struct VariantKey {
@@ -38,6 +55,8 @@ class Pipelines {
   public:
     static constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
     static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
+    static constexpr vk::Format kBlendWeightFormat = vk::Format::eR32Sfloat;
+    static constexpr vk::Format kPeelKeyFormat = vk::Format::eR32G32Uint; // depth's bits, order
     static constexpr uint32_t kFrameBindings = 6;
     static constexpr std::array<vk::DescriptorType, kFrameBindings> kFrameBindingTypes = {
         vk::DescriptorType::eUniformBuffer,      // frame
@@ -59,6 +78,8 @@ class Pipelines {
     Pipelines(const gpu::Device& device, const gpu::Timeline& timeline);
 
     [[nodiscard]] vk::Pipeline geometry(GeometryPass pass, const VariantKey& key);
+    // What weighted or peeled surfaces came to, over the picture.
+    [[nodiscard]] vk::Pipeline blendResolve(view::Transparency transparency);
     [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
     // The lighting pass in the fragment stage.
     [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key);
@@ -73,7 +94,12 @@ class Pipelines {
     [[nodiscard]] vk::DescriptorSetLayout frameLayout() const { return *frame_layout_; }
     [[nodiscard]] vk::DescriptorSetLayout materialLayout() const { return *material_layout_; }
     [[nodiscard]] vk::DescriptorSetLayout screenLayout() const { return *screen_set_layout_; }
+    // Two sampled images: peeling's solid depth and keys, or what the resolve reads.
+    [[nodiscard]] vk::DescriptorSetLayout blendSetLayout() const { return *blend_set_layout_; }
+    [[nodiscard]] vk::PipelineLayout blendResolveLayout() const { return *resolve_layout_; }
     [[nodiscard]] vk::PipelineLayout geometryPipelineLayout() const { return *geometry_layout_; }
+    // As that, a blend set and the push constants of io::PeelDraw.
+    [[nodiscard]] vk::PipelineLayout peelPipelineLayout() const { return *peel_layout_; }
     [[nodiscard]] vk::PipelineLayout screenPipelineLayout() const { return *screen_layout_; }
 
     [[nodiscard]] static vk::Format gbufferFormat(uint32_t output_flags) {
@@ -91,6 +117,10 @@ class Pipelines {
     vk::raii::DescriptorSetLayout screen_set_layout_;
     vk::raii::PipelineLayout geometry_layout_;
     vk::raii::PipelineLayout screen_layout_;
+    vk::raii::DescriptorSetLayout blend_set_layout_;
+    vk::raii::PipelineLayout peel_layout_;
+    vk::raii::PipelineLayout resolve_layout_;
+    VariantCache<view::Transparency> blend_resolve_;
     VariantCache<std::tuple<GeometryPass, VariantKey>> geometry_;
     VariantCache<std::tuple<ScreenPass, VariantKey>> screen_;
     VariantCache<VariantKey> fragment_lighting_;

@@ -129,6 +129,22 @@ void addPostWords(Lines& lines, const FramePlan& plan) {
     }
 }
 
+std::string transparentWords(const FramePlan& plan) {
+    if (!plan.transparent) {
+        return "no transparent surface in view: no sort, no blend pass";
+    }
+    switch (plan.transparency) {
+    case view::Transparency::kWeighted:
+        return "transparent surfaces in view: summed at once by weights of distance, approximate";
+    case view::Transparency::kPeeled:
+        return "transparent surfaces in view: up to " + std::to_string(plan.peel_layers) +
+               " layers peeled from the eye, each pixel's next one shaded alone";
+    case view::Transparency::kSorted:
+        break;
+    }
+    return "transparent surfaces in view: sorted and blended";
+}
+
 std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     if (!plan.tonemap) {
         return plan.toon_pass ? "the toon pass maps tones: no pass for it"
@@ -197,8 +213,7 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
                    (compute ? "compute" : "the fragment stage")};
     addSolidWords(lines, settings, facts, plan);
     addLightWords(lines, settings, facts, plan);
-    lines.emplace_back(plan.transparent ? "transparent surfaces in view: sorted and blended"
-                                        : "no transparent surface in view: no sort, no blend pass");
+    lines.push_back(transparentWords(plan));
     addPostWords(lines, plan);
     lines.push_back(toneMapWords(facts, plan));
     if (plan.count_pairs) {

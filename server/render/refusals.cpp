@@ -46,6 +46,23 @@ Result<void> showable(const FrameInputs& inputs) {
     return {};
 }
 
+// Peeling tells triangles apart and counts what it leaves out. Errors: kUnsupported.
+Result<void> peelable(const FrameInputs& inputs, const SceneResources& scene) {
+    const auto& traits = scene.device.traits();
+    if (inputs.settings.transparency != view::Transparency::kPeeled || !scene.needs.blended) {
+        return {};
+    }
+    const std::string lacks = !traits.visibility_lacks.empty() ? traits.visibility_lacks
+                              : !traits.counts_samples         ? "occlusionQueryPrecise"
+                                                               : "";
+    if (!lacks.empty()) {
+        return Error{ErrorCode::kUnsupported,
+                     "transparency: peeled is not available, since the device lacks " + lacks +
+                         "; use sorted or weighted"};
+    }
+    return {};
+}
+
 } // namespace
 
 Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
@@ -56,6 +73,9 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
     }
     if (auto shown = showable(inputs); !shown) {
         return shown;
+    }
+    if (auto peeled = peelable(inputs, scene); !peeled) {
+        return peeled;
     }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
         !scene.visibility().compute_unusable.empty()) {

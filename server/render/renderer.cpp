@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "core/assert.h"
+#include "render/blended_recorder.h"
 #include "render/frame_builder.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
@@ -77,6 +78,7 @@ struct ViewRenderer::Impl {
                         const view::Size& shown);
     // Takes part in the frame where its plan is not null.
     void prepareBloom(FrameSlot& slot, const BloomPlan* plan);
+    void prepareBlend(FrameSlot& slot, const FramePlan& plan);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     // Errors: kCapacity. Throws vk::SystemError.
     [[nodiscard]] Result<void> submit(FrameSlot& slot, const FrameInputs& inputs);
@@ -89,6 +91,7 @@ struct ViewRenderer::Impl {
     std::deque<FrameSlot*> pending; // submitted, oldest first
     std::shared_ptr<ViewTargets> targets;
     std::shared_ptr<BloomTargets> bloom; // null: the last frame has none
+    std::shared_ptr<BlendTargets> blend; // likewise
     FrameDetailsKeeper details;
 };
 
@@ -119,6 +122,7 @@ void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
         // Frames in flight keep the old targets alive through their slots.
         targets.reset();
         bloom.reset();
+        blend.reset();
         targets = std::make_shared<ViewTargets>(scene.device, drawn, shown, grown);
     }
     targets->rastered_in_compute = plan.compute_raster;
@@ -139,6 +143,16 @@ void ViewRenderer::Impl::prepareBloom(FrameSlot& slot, const BloomPlan* plan) {
         bloom = std::make_shared<BloomTargets>(scene.device, scene.bloom(), *plan, targets);
     }
     slot.bloom = bloom;
+}
+
+void ViewRenderer::Impl::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
+    slot.blend.reset(); // its last frame has finished
+    slot.blend = blend =
+        blendTargetsFor(plan, scene.device, scene.pipelines, targets, std::move(blend));
+    slot.counts_overflow = countsOverflow(plan, builder.draws());
+    if (slot.counts_overflow && !slot.overflow) {
+        slot.overflow = std::make_unique<gpu::SampleCounter>(scene.device);
+    }
 }
 
 void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
@@ -181,6 +195,7 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
     const BloomPlan* bloom_steps = bloom_plan ? &*bloom_plan : nullptr;
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBloom(slot, bloom_steps);
+    prepareBlend(slot, plan);
     const UploadOffsets offsets = builder.upload(slot);
     writeScreenSet(scene.device, slot, plan.fxaa ? targets->display : pixelsOf(slot));
     if (plan.fxaa) {
@@ -218,6 +233,7 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
     }
     slot.stats.draw_count = static_cast<uint32_t>(builder.draws().commands.size());
     slot.stats.lists = builder.listStats();
+    slot.stats.peel.layer_count = peelLayers(plan, builder.draws());
     slot.stats.details = details.update(inputs.settings, builder.plannedFacts(), plan, scene.needs,
                                         *scene.device.memoryLedger(),
                                         debug ? &builder.debugFrame().legend : nullptr);
@@ -288,6 +304,7 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
         }
         impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
+        impl_->blend.reset();
         impl_->bloom.reset(); // so that a smaller picture may fit
         impl_->targets.reset();
         const bool samples = view::samplesAcross(inputs.settings.antialiasing) > 1;
@@ -325,6 +342,9 @@ Result<RenderedFrame> ViewRenderer::collect() {
     }
     if (slot.counts_pairs) {
         slot.stats.pairs = slot.pairs->read();
+    }
+    if (slot.counts_overflow) {
+        slot.stats.peel.overflow_count = slot.overflow->read();
     }
     if (slot.counts_samples) {
         const auto& drawn = slot.targets->size;

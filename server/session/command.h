@@ -87,6 +87,11 @@ struct SetPost {
     std::optional<view::Antialiasing> antialiasing;
 };
 
+struct SetTransparency {
+    std::optional<view::Transparency> transparency;
+    std::optional<uint32_t> peel_layers;
+};
+
 struct SetDebugView {
     std::optional<view::DebugView> view;
     std::optional<double> scale_max;
@@ -143,6 +148,7 @@ using Command = std::variant<Hello,
                              SetToon,
                              SetPost,
                              SetDebugView,
+                             SetTransparency,
                              SetSize,
                              SetEncoding,
                              SetDelivery,

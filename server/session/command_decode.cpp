@@ -289,6 +289,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decodePost(message.set_post(), fields);
     case v1::ClientMessage::kSetDebugView:
         return decode(message.set_debug_view(), fields);
+    case v1::ClientMessage::kSetTransparency:
+        return decodeTransparency(message.set_transparency(), fields);
     case v1::ClientMessage::kSetSize:
         return decode(message.set_size(), fields);
     case v1::ClientMessage::kSetEncoding:

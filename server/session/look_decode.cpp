@@ -85,4 +85,17 @@ SetPost decodePost(const v1::SetPost& set, FieldValidator& fields) {
     return command;
 }
 
+SetTransparency decodeTransparency(const v1::SetTransparency& set, FieldValidator& fields) {
+    fields.require(set.has_transparency() || set.has_peel_layers(), "transparency");
+    SetTransparency command;
+    if (set.has_transparency()) {
+        command.transparency =
+            enumeration(fields, "transparency", kTransparencyTable, set.transparency());
+    }
+    if (set.has_peel_layers()) {
+        command.peel_layers = fields.number(view::kPeelLayersRange, set.peel_layers());
+    }
+    return command;
+}
+
 } // namespace froxel::session

@@ -1,4 +1,5 @@
-// Commands that say how the lit picture looks: toon ramps and outlines, bloom, antialiasing.
+// Commands that say how the lit picture looks: toon ramps and outlines, bloom, antialiasing,
+// transparency.
 #pragma once
 
 #include "froxel/v1/client.pb.h"
@@ -9,5 +10,7 @@ namespace froxel::session {
 
 [[nodiscard]] SetToon decodeToon(const v1::SetToon& toon, FieldValidator& fields);
 [[nodiscard]] SetPost decodePost(const v1::SetPost& set, FieldValidator& fields);
+[[nodiscard]] SetTransparency decodeTransparency(const v1::SetTransparency& set,
+                                                 FieldValidator& fields);
 
 } // namespace froxel::session

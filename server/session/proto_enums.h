@@ -88,6 +88,11 @@ inline constexpr std::array kAntialiasingTable = {
     std::pair{v1::ANTIALIASING_FXAA, view::Antialiasing::kFxaa},
     std::pair{v1::ANTIALIASING_SSAA4, view::Antialiasing::kSsaa4},
 };
+inline constexpr std::array kTransparencyTable = {
+    std::pair{v1::TRANSPARENCY_SORTED, view::Transparency::kSorted},
+    std::pair{v1::TRANSPARENCY_WEIGHTED, view::Transparency::kWeighted},
+    std::pair{v1::TRANSPARENCY_PEELED, view::Transparency::kPeeled},
+};
 inline constexpr std::array kChromaTable = {
     std::pair{v1::CHROMA_420, view::Chroma::k420},
     std::pair{v1::CHROMA_444, view::Chroma::k444},
@@ -119,6 +124,7 @@ static_assert(kPositionSourceTable.size() == view::kPositionSourceNames.size());
 static_assert(kToneMapTable.size() == view::kToneMapNames.size());
 static_assert(kBloomKindTable.size() == view::kBloomKindNames.size());
 static_assert(kAntialiasingTable.size() == view::kAntialiasingNames.size());
+static_assert(kTransparencyTable.size() == view::kTransparencyNames.size());
 static_assert(kChromaTable.size() == view::kChromaNames.size());
 static_assert(kDebugViewTable.size() == view::kDebugViewNames.size());
 static_assert(kCodecTable.size() == view::kCodecNames.size());

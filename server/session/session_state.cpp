@@ -164,6 +164,12 @@ struct Reducer {
         return command.antialiasing ? checkArea("antialiasing") : Outcome{};
     }
 
+    Outcome operator()(const SetTransparency& command) const {
+        assignIfGiven(state.settings.transparency, command.transparency);
+        assignIfGiven(state.settings.peel_layers, command.peel_layers);
+        return {};
+    }
+
     Outcome operator()(const SetSize& command) const {
         state.settings.size = command.size;
         return checkArea("width");

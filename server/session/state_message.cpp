@@ -89,6 +89,8 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     out.set_debug_view(toProto(kDebugViewTable, settings.debug.view));
     out.set_debug_scale_max(settings.debug.scale_max);
     out.set_debug_frozen(settings.debug.grid_camera.has_value());
+    out.set_transparency(toProto(kTransparencyTable, settings.transparency));
+    out.set_peel_layers(settings.peel_layers);
     out.set_exposure(settings.exposure);
     out.set_tone_map(toProto(kToneMapTable, settings.tone_map));
     fill(*out.mutable_toon_fragment(), settings.toon_fragment);
@@ -380,6 +382,10 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     if (record.stats.pairs.counted) {
         header.mutable_pairs()->set_evaluated(record.stats.pairs.evaluated);
         header.mutable_pairs()->set_contributing(record.stats.pairs.contributing);
+    }
+    if (const PeelStats& peel = record.stats.peel; peel.layer_count > 0) {
+        header.mutable_peel()->set_layers(peel.layer_count);
+        header.mutable_peel()->set_overflow_pixels(peel.overflow_count);
     }
     fillDelivery(header, record);
     header.set_dropped_frames(record.dropped_count);

@@ -42,6 +42,7 @@ inline constexpr Range<uint32_t> kVideoKbpsRange{"video_kbps", 100, 100'000};
 inline constexpr Range<double> kToonRange{"toon", 0.0, 1.0};
 inline constexpr Range<double> kToonSlopeRange{"toon.slope", -20.0, 20.0};
 inline constexpr Range<double> kDebugScaleRange{"debug_scale_max", 0.0, 1e6}; // 0: chosen
+inline constexpr Range<uint32_t> kPeelLayersRange{"peel_layers", 1, 16};
 inline constexpr Range<double> kOutlineStrengthRange{"outline_strength", 0.0, 1.0};
 inline constexpr Range<double> kOutlineWidthRange{"outline_width", 0.0005, 0.01};
 inline constexpr Range<double> kBloomThresholdRange{"bloom_threshold", 0.0, 1'000.0};
@@ -66,6 +67,7 @@ inline constexpr std::tuple kCommandRanges{kWidthRange,          kHeightRange,
                                            kVideoKbpsRange,      kOutlineStrengthRange,
                                            kOutlineWidthRange,   kBloomThresholdRange,
                                            kBloomKneeRange,      kBloomStrengthRange,
-                                           kBloomRadiusRange,    kDebugScaleRange};
+                                           kBloomRadiusRange,    kDebugScaleRange,
+                                           kPeelLayersRange};
 
 } // namespace froxel::view

@@ -85,6 +85,13 @@ inline constexpr std::array kAntialiasingNames = {
     return antialiasing == Antialiasing::kSsaa4 ? 2 : 1;
 }
 
+// How blended surfaces that overlap come together. sorted: whole instances from far to near, wrong
+// where they interlace. weighted: all at once, by weights of distance; approximate in any order.
+// peeled: layer by layer from the eye, exact up to a number of layers.
+enum class Transparency : uint8_t { kSorted, kWeighted, kPeeled };
+inline constexpr std::array kTransparencyNames = {
+    std::string_view("sorted"), std::string_view("weighted"), std::string_view("peeled")};
+
 enum class Chroma : uint8_t { k420, k444 };
 inline constexpr std::array kChromaNames = {std::string_view("420"), std::string_view("444")};
 
@@ -190,6 +197,8 @@ struct ViewSettings {
     LightLoop light_loop = LightLoop::kAuto;
     bool count_pairs = false; // count evaluated and contributing light-pixel pairs; costs time
     Debug debug;
+    Transparency transparency = Transparency::kSorted;
+    uint32_t peel_layers = 4; // at most, while peeled; pixels with more are counted
     Lights lights;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;

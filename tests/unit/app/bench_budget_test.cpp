@@ -116,6 +116,8 @@ TEST(R2Settings, WhatTradesError_IsAtItsDefaultAndWaysOfDrawingAreOne) {
     settings.lights.cutoff = 1;
     settings.lights.count = 7;
     settings.renderer = view::Renderer::kNaive;
+    settings.transparency = view::Transparency::kWeighted;
+    settings.peel_layers = 2;
     view::ViewSettings meant;
     meant.lights.count = 7;
     EXPECT_EQ(r2Settings(settings), meant);

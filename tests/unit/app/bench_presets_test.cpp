@@ -78,6 +78,7 @@ TEST(BenchPresets, EveryRow_IsInRange) {
         EXPECT_TRUE(view::kGridXRange.contains(s.grid.size.x)) << row.label;
         EXPECT_TRUE(view::kGridYRange.contains(s.grid.size.y)) << row.label;
         EXPECT_TRUE(view::kGridZRange.contains(s.grid.size.z)) << row.label;
+        EXPECT_TRUE(view::kPeelLayersRange.contains(s.peel_layers)) << row.label;
         EXPECT_LT(row.timedView(), base().views.size());
         if (row.stream) {
             EXPECT_TRUE(view::kQualityRange.contains(row.stream->quality)) << row.label;
@@ -197,6 +198,8 @@ TEST(RenderArguments, EverySetting_ParsesBack) {
     s.bloom = {view::BloomKind::kSeparable, 0.5F, 0.25F, 0.75F, 0.02F};
     s.antialiasing = view::Antialiasing::kFxaa;
     s.toon_outline = {0.5F, 0.005F};
+    s.transparency = view::Transparency::kPeeled;
+    s.peel_layers = 7;
     options.lens_shift = glm::dvec2(0.1, -0.25);
     options.timings = "t.json";
     auto texts = renderArguments(options, "");

@@ -77,8 +77,9 @@ TEST(BenchReport, Row_HasTheSchemasFields) {
                 testing::UnorderedElementsAre(
                     "label", "series", "value", "workload", "settings", "scaled_to", "command",
                     "frames", "gpu_us", "host_us", "frame_us", "cpu_us", "passes", "samples",
-                    "triangles", "draws", "grid", "light_lists", "pairs", "plan", "memory_bytes",
-                    "gbuffer_bytes_per_pixel", "error_r1", "error_r2", "stream", "note"));
+                    "triangles", "draws", "grid", "light_lists", "pairs", "peel", "plan",
+                    "memory_bytes", "gbuffer_bytes_per_pixel", "error_r1", "error_r2", "stream",
+                    "note"));
     EXPECT_EQ(row["label"], "forward_plus");
     EXPECT_EQ(row["frames"], 40);
     EXPECT_EQ(row["gpu_us"]["median"], 100);

@@ -121,6 +121,17 @@ TEST(Metrics, Pairs_OnlyOfFramesThatCountedThem) {
     EXPECT_THAT(metrics.text(), HasSubstr("froxel_light_pairs_total{kind=\"evaluated\"} 100\n"));
 }
 
+TEST(Metrics, PeeledPictures_AddUpPixelsWithMoreLayers) {
+    Metrics metrics;
+    auto record = aRecord();
+    metrics.frameSent(record);
+    EXPECT_THAT(metrics.text(), HasSubstr("froxel_peel_overflow_pixels_total 0\n"));
+    record.stats.peel = {4, 70};
+    metrics.frameSent(record);
+    metrics.frameSent(record);
+    EXPECT_THAT(metrics.text(), HasSubstr("froxel_peel_overflow_pixels_total 140\n"));
+}
+
 TEST(Metrics, Memory_IsWhatItIsAtEachScrape) {
     Metrics metrics;
     EXPECT_THAT(metrics.text(), Not(HasSubstr("froxel_device_memory_bytes{")));

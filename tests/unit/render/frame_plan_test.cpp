@@ -63,6 +63,24 @@ TEST(FramePlan, Deferred_GlassInView_AddsBlendingAndToneMap) {
     EXPECT_EQ(p.lighting_output_flags & io::kOutputPixels, 0U);
 }
 
+TEST(FramePlan, Transparency_IsPlannedWhereSomethingIsBlended) {
+    view::ViewSettings settings;
+    settings.transparency = view::Transparency::kPeeled;
+    settings.peel_layers = 6;
+    const auto usual = planFrame({}, kLit);
+    EXPECT_EQ(planFrame(settings, kLit), usual);
+    FrameFacts facts = kLit;
+    facts.transparent_visible = true;
+    EXPECT_EQ(planFrame(settings, facts).transparency, view::Transparency::kPeeled);
+    EXPECT_EQ(planFrame(settings, facts).peel_layers, 6U);
+    settings.transparency = view::Transparency::kWeighted;
+    EXPECT_EQ(planFrame(settings, facts).transparency, view::Transparency::kWeighted);
+    EXPECT_EQ(planFrame(settings, facts).peel_layers, 0U);
+    settings.debug.view = view::DebugView::kNormal; // shows no blended surface
+    EXPECT_FALSE(planFrame(settings, facts).transparent);
+    EXPECT_EQ(planFrame(settings, facts).transparency, view::Transparency::kSorted);
+}
+
 TEST(FramePlan, NoLights_AnyRenderer_NeitherListsNorLightCode) {
     for (uint8_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
         const auto p = plan(static_cast<Renderer>(kind), {});

@@ -62,6 +62,18 @@ TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("fxaa")));
 }
 
+TEST(PlanWords, Transparency_IsNamedWhereSomethingIsBlended) {
+    view::ViewSettings settings;
+    settings.transparency = view::Transparency::kPeeled;
+    settings.peel_layers = 5;
+    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("peeled"))));
+    EXPECT_THAT(wordsOf(settings, {.transparent_visible = true}),
+                Contains(HasSubstr("up to 5 layers peeled")));
+    settings.transparency = view::Transparency::kWeighted;
+    EXPECT_THAT(wordsOf(settings, {.transparent_visible = true}),
+                Contains(HasSubstr("weights of distance")));
+}
+
 TEST(PlanWords, Scene_CountsMaterials) {
     EXPECT_THAT(sceneWords(findNeeds(sceneOf(25, 18))),
                 Contains("normal maps on 18 of 25 materials"));

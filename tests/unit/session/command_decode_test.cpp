@@ -237,6 +237,7 @@ TEST(DecodeCommand, Enums_Unknown_AreNamedWithWhatIsKnown) {
         {R"("setGrid":{"law":VALUE})", "law", "GRID_LAW_HYPERBOLIC"},
         {R"("setPost":{"bloom":VALUE})", "bloom", "BLOOM_KIND_MIP_CHAIN"},
         {R"("setPost":{"antialiasing":VALUE})", "antialiasing", "ANTIALIASING_FXAA"},
+        {R"("setTransparency":{"transparency":VALUE})", "transparency", "TRANSPARENCY_PEELED"},
     };
     const auto with = [](const Case& test, const std::string& value) {
         std::string body = test.body;

@@ -50,6 +50,11 @@ struct PromiseKept {
                (!c.antialiasing ||
                 static_cast<size_t>(*c.antialiasing) < view::kAntialiasingNames.size());
     }
+    bool operator()(const SetTransparency& c) const {
+        return (!c.transparency ||
+                static_cast<size_t>(*c.transparency) < view::kTransparencyNames.size()) &&
+               (!c.peel_layers || view::kPeelLayersRange.contains(*c.peel_layers));
+    }
     template <class Other>
     bool operator()(const Other& /*command*/) const {
         return true;

@@ -114,6 +114,8 @@ const std::vector<RangedField>& fields() {
                [](M& m, double v) { m.mutable_set_encoding()->set_quality(u32(v)); }),
         ranged(view::kVideoKbpsRange,
                [](M& m, double v) { m.mutable_set_encoding()->set_video_kbps(u32(v)); }),
+        ranged(view::kPeelLayersRange,
+               [](M& m, double v) { m.mutable_set_transparency()->set_peel_layers(u32(v)); }),
         ranged(view::kOutlineStrengthRange,
                [](M& m, double v) { m.mutable_set_toon()->set_outline_strength(v); }),
         ranged(view::kOutlineWidthRange,

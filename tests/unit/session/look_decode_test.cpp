@@ -75,6 +75,19 @@ TEST(DecodeCommand, SetPost_IsTakenInPartsAndNotEmpty) {
     EXPECT_EQ(command.bloom_radius, 0.01);
 }
 
+TEST(DecodeCommand, SetTransparency_IsTakenInPartsAndNotEmpty) {
+    v1::ClientMessage message = clientMessage();
+    v1::SetTransparency& set = *message.mutable_set_transparency();
+    EXPECT_EQ(refused(decodeBinary(message)).message, "transparency is missing");
+    set.set_peel_layers(16);
+    auto command = accepted<SetTransparency>(decodeBinary(message));
+    EXPECT_FALSE(command.transparency);
+    EXPECT_EQ(command.peel_layers, 16U);
+    set.set_transparency(v1::TRANSPARENCY_WEIGHTED);
+    command = accepted<SetTransparency>(decodeBinary(message));
+    EXPECT_EQ(command.transparency, view::Transparency::kWeighted);
+}
+
 TEST(DecodeCommand, SetToonOutline_IsTakenWithoutARamp) {
     v1::ClientMessage message = clientMessage();
     message.mutable_set_toon()->set_outline_strength(0.75);

@@ -71,6 +71,8 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.toon_outline = {0.5F, 0.0078125F};
     state.settings.bloom = {view::BloomKind::kATrous, 2.5F, 0.25F, 0.75F, 0.03125F};
     state.settings.antialiasing = view::Antialiasing::kFxaa;
+    state.settings.transparency = view::Transparency::kPeeled;
+    state.settings.peel_layers = 7;
     state.delivery = {true, 12.5, view::Refine::kHigh};
     state.encoding = {42, view::Chroma::k444, view::Codec::kVp9, 777};
     const v1::ServerMessage message = makeStateChanged(context, state);
@@ -116,6 +118,8 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.bloom_strength(), 0.75);
     EXPECT_EQ(view.bloom_radius(), 0.03125);
     EXPECT_EQ(view.antialiasing(), v1::ANTIALIASING_FXAA);
+    EXPECT_EQ(view.transparency(), v1::TRANSPARENCY_PEELED);
+    EXPECT_EQ(view.peel_layers(), 7U);
     EXPECT_EQ(view.quality(), 42U);
     EXPECT_TRUE(view.adaptive());
     EXPECT_EQ(view.target_fps(), 12.5);
@@ -263,6 +267,14 @@ TEST(FrameHeader, GridAndPairs_AreThereOnlyWhereTheFrameHasThem) {
     EXPECT_FALSE(header.has_grid());
     EXPECT_EQ(header.pairs().evaluated(), 5'000'000'000U);
     EXPECT_EQ(header.pairs().contributing(), 3U);
+}
+
+TEST(FrameHeader, PeeledLayers_AreThereOnlyWhereSomethingWasPeeled) {
+    FrameRecord frame = record();
+    EXPECT_FALSE(makeFrameHeader(frame).has_peel());
+    frame.stats.peel = {4, 5'000'000'000};
+    EXPECT_EQ(makeFrameHeader(frame).peel().layers(), 4U);
+    EXPECT_EQ(makeFrameHeader(frame).peel().overflow_pixels(), 5'000'000'000U);
 }
 
 TEST(FrameDetails, Legend_IsThereWithADebugView) {

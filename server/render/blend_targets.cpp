@@ -1,0 +1,87 @@
+#include "render/blend_targets.h"
+
+#include <utility>
+
+namespace froxel::render {
+
+BlendTargets::BlendTargets(const gpu::Device& device,
+                           const Pipelines& pipelines,
+                           view::Transparency transparency,
+                           std::shared_ptr<const ViewTargets> view)
+    : arena(device), transparency_(transparency), view_(std::move(view)),
+      solid_depth_(*view_->solidDepth().view) {
+    using Usage = vk::ImageUsageFlagBits;
+    const vk::Extent2D extent{view_->size.width_px, view_->size.height_px};
+    const auto color = [&](vk::Format format, std::string_view name) {
+        return arena.makeImage({.format = format,
+                                .extent = extent,
+                                .usage = Usage::eColorAttachment | Usage::eSampled},
+                               name);
+    };
+    sums = color(Pipelines::kRadianceFormat, "blended sums");
+    if (transparency == view::Transparency::kWeighted) {
+        weights = color(Pipelines::kBlendWeightFormat, "blend weights");
+    } else {
+        layer_depth = arena.makeImage({.format = Pipelines::kDepthFormat,
+                                       .extent = extent,
+                                       .usage = Usage::eDepthStencilAttachment,
+                                       .aspect = vk::ImageAspectFlagBits::eDepth},
+                                      "peeled layer depth");
+        for (auto& keys : layer_keys) {
+            keys = color(Pipelines::kPeelKeyFormat, "peeled layer keys");
+        }
+    }
+    writeSets(device, pipelines);
+}
+
+bool BlendTargets::fits(view::Transparency transparency, const ViewTargets& view) const {
+    return transparency_ == transparency && view_.get() == &view &&
+           solid_depth_ == *view.solidDepth().view;
+}
+
+void BlendTargets::writeSets(const gpu::Device& device, const Pipelines& pipelines) {
+    constexpr uint32_t kSets = 3;
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eSampledImage, 2 * kSets};
+    pool_ = device.handle().createDescriptorPool(
+        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+         .maxSets = kSets,
+         .poolSizeCount = 1,
+         .pPoolSizes = &size});
+    const std::vector layouts(kSets, pipelines.blendSetLayout());
+    sets_ = device.handle().allocateDescriptorSets(
+        {.descriptorPool = *pool_, .descriptorSetCount = kSets, .pSetLayouts = layouts.data()});
+    const auto write = [&](const vk::raii::DescriptorSet& set, vk::ImageView a, vk::ImageView b) {
+        // A null handle describes none.
+        const std::array images = {
+            vk::DescriptorImageInfo{.imageView = a, .imageLayout = vk::ImageLayout::eGeneral},
+            vk::DescriptorImageInfo{.imageView = b, .imageLayout = vk::ImageLayout::eGeneral}};
+        device.handle().updateDescriptorSets(
+            vk::WriteDescriptorSet{.dstSet = *set,
+                                   .dstBinding = 0,
+                                   .descriptorCount = static_cast<uint32_t>(images.size()),
+                                   .descriptorType = vk::DescriptorType::eSampledImage,
+                                   .pImageInfo = images.data()},
+            {});
+    };
+    for (size_t parity = 0; parity < layer_keys.size(); ++parity) {
+        write(sets_[parity], solid_depth_, *layer_keys[parity].view);
+    }
+    write(sets_[2], *sums.view, *weights.view);
+}
+
+std::shared_ptr<BlendTargets> blendTargetsFor(const FramePlan& plan,
+                                              const gpu::Device& device,
+                                              const Pipelines& pipelines,
+                                              std::shared_ptr<const ViewTargets> view,
+                                              std::shared_ptr<BlendTargets> kept) {
+    if (!plan.transparent || plan.transparency == view::Transparency::kSorted) {
+        return nullptr;
+    }
+    if (kept && kept->fits(plan.transparency, *view)) {
+        return kept;
+    }
+    kept.reset(); // before its successor takes memory
+    return std::make_shared<BlendTargets>(device, pipelines, plan.transparency, std::move(view));
+}
+
+} // namespace froxel::render

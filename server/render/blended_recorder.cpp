@@ -1,0 +1,99 @@
+#include "render/blended_recorder.h"
+
+#include "render/barrier.h"
+#include "render/blended_passes.h"
+#include "render/passes.h"
+#include "render/raster_passes.h"
+
+#include <algorithm>
+
+namespace froxel::render {
+
+namespace {
+
+using Access = vk::AccessFlagBits2;
+using Stage = vk::PipelineStageFlagBits2;
+
+constexpr vk::PipelineStageFlags2 kRasterStages =
+    kDepthStages | Stage::eColorAttachmentOutput | Stage::eFragmentShader;
+constexpr vk::AccessFlags2 kRasterWrites =
+    Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite;
+constexpr vk::AccessFlags2 kRasterUses =
+    kRasterWrites | Access::eDepthStencilAttachmentRead | Access::eColorAttachmentRead;
+
+// Solid depth that compute rastered -> the rasteriser's.
+void recordDepthHandover(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    // depth from compute, words no longer read -> copy by way of the words' buffer
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
+            Access::eTransferRead | Access::eTransferWrite);
+    recordDepthOut(frame);
+    // first copy -> second
+    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eCopy, Access::eTransferRead);
+    recordDepthIn(frame);
+    // copied depth -> depth test
+    barrier(cmd, Stage::eCopy, Access::eTransferWrite, kDepthStages,
+            Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+}
+
+// what a raster pass wrote and read -> the next one's tests, blending and loads
+void nextRasterPass(const vk::raii::CommandBuffer& cmd) {
+    barrier(cmd, kRasterStages, kRasterWrites, kRasterStages,
+            kRasterUses | Access::eShaderSampledRead);
+}
+
+void recordPeeled(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    const uint32_t layers = peelLayers(frame.plan, frame.draws);
+    {
+        const gpu::PassScope scope(frame.slot.timestamps, cmd, "peel");
+        for (uint32_t layer = 0; layer < layers; ++layer) {
+            recordPeelSelect(frame, layer);
+            nextRasterPass(cmd);
+            recordPeelShade(frame, layer);
+            nextRasterPass(cmd);
+        }
+    }
+    if (countsOverflow(frame.plan, frame.draws)) {
+        recordPeelCount(frame, layers);
+    }
+    if (layers > 0) {
+        recordBlendResolve(frame);
+    }
+}
+
+} // namespace
+
+uint32_t peelLayers(const FramePlan& plan, const DrawList& draws) {
+    return std::min(plan.peel_layers, draws.transparent_triangle_count);
+}
+
+bool countsOverflow(const FramePlan& plan, const DrawList& draws) {
+    return plan.peel_layers > 0 && draws.transparent_triangle_count > plan.peel_layers;
+}
+
+void recordBlended(const FrameContext& frame) {
+    const bool peeled = frame.plan.transparency == view::Transparency::kPeeled;
+    if (frame.plan.compute_raster && !peeled) { // which only loads solid depth
+        recordDepthHandover(frame);
+    }
+    // solid surfaces' radiance and depth -> blending, depth test and loads
+    barrier(frame.slot.cmd, kRasterStages | Stage::eComputeShader,
+            kRasterWrites | Access::eShaderStorageWrite, kRasterStages,
+            kRasterUses | Access::eShaderSampledRead);
+    switch (frame.plan.transparency) {
+    case view::Transparency::kSorted:
+        recordTransparent(frame);
+        break;
+    case view::Transparency::kWeighted:
+        recordWeighted(frame);
+        nextRasterPass(frame.slot.cmd);
+        recordBlendResolve(frame);
+        break;
+    case view::Transparency::kPeeled:
+        recordPeeled(frame);
+        break;
+    }
+}
+
+} // namespace froxel::render
