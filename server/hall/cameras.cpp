@@ -13,12 +13,13 @@ struct View {
     double yfov_deg;
 };
 
-constexpr std::array<View, 5> kViews = {
+constexpr std::array<View, 6> kViews = {
     View{"Nave", {-14.6, 2.3, 0.0}, {0.0, 4.6, 0.0}, 62},
     View{"Gallery", {-10.1, 7.7, 3.3}, {6.0, 3.4, -2.6}, 62},
     View{"Arcade", {-14.4, 1.7, -5.6}, {2.0, 2.3, -5.0}, 60},
     View{"Garden", {6.3, 1.65, -0.3}, {9.5, 2.2, -7.0}, 58},
     View{"Detail", {-9.8, 2.4, -2.0}, {-6.3, 2.65, -4.6}, 48},
+    View{"Glass", {-12.1, 1.55, 5.75}, {-13.7, 1.07, 6.28}, 46},
 };
 
 } // namespace

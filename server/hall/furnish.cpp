@@ -5,6 +5,7 @@
 #include "hall/plan.h"
 
 #include <array>
+#include <vector>
 
 namespace froxel::hall {
 namespace {
@@ -74,6 +75,36 @@ void placePlants(Stage& stage) {
     }
 }
 
+// In the first bay of the south aisle, where only the camera "Glass" looks: up to nine panes and
+// sides of goblets one behind the other, two of them crossing.
+void placeGlass(Stage& stage) {
+    constexpr float kTop = 0.88F;
+    constexpr float kX = -13.7F;
+    constexpr float kZ = 6.1F;
+    stage.place(stage.mesh("stone_table", stoneTable()), moved(kX, 0, kZ));
+    stage.place(stage.mesh("vitrine", vitrine()), moved(kX, kTop, kZ - 0.05F));
+    struct Goblet {
+        Surface glass;
+        const char* name;
+        std::vector<glm::vec2> at; // x and z from the table's middle
+    };
+    const std::array goblets = {
+        Goblet{Surface::kRubyGlass, "goblet_ruby", {{0.05F, -0.22F}, {0.42F, -0.33F}}},
+        Goblet{Surface::kCobaltGlass, "goblet_cobalt", {{-0.10F, 0.02F}, {0.44F, 0.03F}}},
+        Goblet{Surface::kAmberGlass, "goblet_amber", {{0.10F, 0.15F}, {-0.43F, -0.30F}}}};
+    for (const Goblet& kind : goblets) {
+        const uint32_t mesh = stage.mesh(kind.name, goblet(kind.glass));
+        for (const glm::vec2& at : kind.at) {
+            stage.place(mesh, moved(kX + at.x, kTop, kZ + at.y));
+        }
+    }
+    const glm::mat4 beside = moved(kX + 0.08F, kTop, kZ + 0.70F);
+    stage.place(stage.mesh("screen_ruby", glassScreen(Surface::kRubyGlass)),
+                beside * turnedY(0.75F));
+    stage.place(stage.mesh("screen_cobalt", glassScreen(Surface::kCobaltGlass)),
+                beside * turnedY(2.2F));
+}
+
 } // namespace
 
 void furnish(Stage& stage) {
@@ -84,6 +115,7 @@ void furnish(Stage& stage) {
     placeLamps(stage);
     placeSpandrels(stage);
     placePlants(stage);
+    placeGlass(stage);
 }
 
 } // namespace froxel::hall

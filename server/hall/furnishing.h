@@ -26,6 +26,16 @@ namespace froxel::hall {
 // A six-sided lantern of bronze and glass that hangs `drop` metres below the origin.
 [[nodiscard]] MeshBuilder lantern(float drop, float scale);
 
+// glassware.cpp
+// A goblet 0.38 m high: what is seen of it is its near side and the inside of its far one.
+[[nodiscard]] MeshBuilder goblet(Surface glass);
+// A pane 0.48 m wide and 0.52 m high, upright in the plane z = 0.
+[[nodiscard]] MeshBuilder glassScreen(Surface glass);
+// A case of clear panes between bronze posts, 0.6 x 0.5 x 0.68 m.
+[[nodiscard]] MeshBuilder vitrine();
+// A slab on two feet, 2.1 m along z, its top at 0.88 m.
+[[nodiscard]] MeshBuilder stoneTable();
+
 // banner.cpp
 // A swallow-tailed cloth on a gilded rod, hanging from the origin, facing +z.
 [[nodiscard]] MeshBuilder banner(float width, float length);

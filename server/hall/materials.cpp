@@ -90,6 +90,12 @@ std::vector<Look> looks() {
         {Surface::kGlass, blended("glass", 0.06F, {0.75F, 0.85F, 0.86F, 0.18F}), std::nullopt},
         {Surface::kStainedGlass, stained, stainedGlassRecipe()},
         {Surface::kWater, blended("water", 0.08F, glm::vec4(1)), waterRecipe()},
+        {Surface::kRubyGlass, blended("ruby_glass", 0.10F, {0.80F, 0.06F, 0.10F, 0.42F}),
+         std::nullopt},
+        {Surface::kCobaltGlass, blended("cobalt_glass", 0.10F, {0.05F, 0.16F, 0.75F, 0.42F}),
+         std::nullopt},
+        {Surface::kAmberGlass, blended("amber_glass", 0.10F, {0.90F, 0.52F, 0.08F, 0.42F}),
+         std::nullopt},
         {Surface::kSky, glowing("sky", {0.08F, 0.14F, 0.29F}), std::nullopt},
         {Surface::kFlame, glowing("flame", {6.0F, 3.4F, 1.3F}), std::nullopt},
     };

@@ -30,6 +30,9 @@ enum class Surface : uint32_t {
     kGlass,        // clear panes, blended
     kStainedGlass, // coloured panes, blended, glowing with the sky behind them
     kWater,        // fountain, blended
+    kRubyGlass,    // tinted glass, blended
+    kCobaltGlass,  // likewise
+    kAmberGlass,   // likewise
     kSky,          // dusk behind the windows
     kFlame,        // emissive heart of the lamps
     kCount

@@ -104,4 +104,20 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
     }
 }
 
+// Goblets within a case, beside two panes that cross.
+TEST_F(Golden, Transparency_BuiltinScene_LooksAsCommitted) {
+    const auto scene = hall::makeHall();
+    render::Renderer renderer(device(), scene);
+    for (size_t kind = 0; kind < view::kTransparencyNames.size(); ++kind) {
+        auto inputs = inputsFor(scene);
+        inputs.settings.camera = scene.cameras.back().camera;
+        inputs.settings.lights.count = 1000;
+        inputs.settings.exposure = 2.5F;
+        inputs.settings.transparency = static_cast<view::Transparency>(kind);
+        inputs.settings.peel_layers = 16;
+        expectAsCommitted(draw(renderer, inputs),
+                          "glass_" + std::string(view::kTransparencyNames[kind]));
+    }
+}
+
 } // namespace froxel::test

@@ -148,7 +148,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         report = json.loads(run.stdout)
         self.assertGreaterEqual(report["scene"]["triangles"], 100_000)
-        self.assertEqual(len(report["scene"]["cameras"]), 5)
+        self.assertEqual(len(report["scene"]["cameras"]), 6)
         self.assertEqual(report["device"]["kind"], "cpu")
         self.assertGreater(report["limits"]["max_picture_side_px"], 0)
         self.assertTrue(report["frame"]["grid"]["automatic"])
