@@ -32,13 +32,14 @@ SCRIPTS = ("orbit", "idle", "storm")
 MEMORY_RISE_BYTES = 8e6
 SAMPLE_EVERY_S = 2.0
 ROUND_S = 45.0
+GRACE_S = 2
 
 
 class Server:
     def __init__(self, froxel, options):
         command = [froxel, "serve", "--port", "0", "--admin-bind", "127.0.0.1:0"]
         # However slow the device: viewers are let in.
-        command += ["--log-level", "error", "--min-fps", "0", *options]
+        command += ["--log-level", "error", "--min-fps", "0", "--resume-grace", str(GRACE_S), *options]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         self.url = self.process.stdout.readline().strip()
         self.metrics_url = self.process.stdout.readline().strip()
@@ -56,17 +57,20 @@ class Server:
         values["scrape_s"] = time.monotonic() - start
         return values
 
-    def settle(self):
-        """Waits until no viewer is left and what the last one had is free; None when that never
-        happens."""
+    def settle(self, device_bytes=None):
+        """Waits until no viewer is left and the sessions of lost ones have ended; with device_bytes
+        also until the device's memory is that again, within 1 %. None when it never happens."""
         end = time.monotonic() + 60
-        last = {}
+        alone_since = None
         while time.monotonic() < end:
             values = self.sample()
-            device = values.get("froxel_device_memory_bytes")
-            if values["froxel_sessions"] == 0 and device == last.get("froxel_device_memory_bytes"):
+            device = values["froxel_device_memory_bytes"] if device_bytes else 0
+            if values["froxel_sessions"] > 0 or abs(device - (device_bytes or 0)) > 0.01 * device:
+                alone_since = None
+            elif alone_since is None:
+                alone_since = time.monotonic()
+            elif time.monotonic() - alone_since > GRACE_S + 1:
                 return values
-            last = values
             time.sleep(1)
         return None
 
@@ -138,7 +142,7 @@ def busy_round(server, viewers, end, joins_per_minute):
     return samples
 
 
-def soak(server, viewers, minutes, joins_per_minute):
+def soak(server, viewers, device_bytes, minutes, joins_per_minute):
     """Samples of a busy server and at rest, after the warm-up."""
     begin = time.monotonic()
     end = begin + minutes * 60
@@ -148,7 +152,7 @@ def soak(server, viewers, minutes, joins_per_minute):
         samples = busy_round(server, viewers, min(end, now + ROUND_S), joins_per_minute)
         line(time.monotonic() - begin, viewers.started, samples[-1])
         viewers.reap(wait=True)
-        rest = server.settle()
+        rest = server.settle(device_bytes)
         if rest is None:
             return [], []
         line(time.monotonic() - begin, viewers.started, rest)
@@ -212,16 +216,17 @@ def main():
             viewers.run(script, 2)
             viewers.reap(wait=True)
         before = server.settle()
-        busy, rests = soak(server, viewers, options.minutes, options.joins_per_minute)
+        device = before["froxel_device_memory_bytes"] if before else 0
+        busy, rests = soak(server, viewers, device, options.minutes, options.joins_per_minute)
         for script in scripts:
             viewers.run(script, 2)
             viewers.reap(wait=True)
-        after = server.settle()
+        after = server.settle(device)
     finally:
         server.process.terminate()
         code = server.process.wait(60)
     if before is None or after is None or not rests:
-        print("failed: sessions stay though all viewers left")
+        print("failed: sessions or device memory stay though all viewers left")
         return 1
     device = [values["froxel_device_memory_bytes"] for values in (before, after)]
     broken = judge(busy, rests, before, after, device, viewers)
