@@ -24,6 +24,8 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   bloom_strength: [1, true],
   bloom_radius: [0.05, true],
   peel_layers: [2, false],
+  shadow_lights: [4, false],
+  shadow_size: [64, false],
   outline_strength: [1, true],
   outline_width: [0.01, true],
   light_speed: [2, false],

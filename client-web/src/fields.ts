@@ -223,6 +223,22 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'Peeled at most; each costs what is visible of it, and what lies behind the last is left out',
     ),
     number(
+      'shadowLights',
+      'shadow_lights',
+      'Shadows of',
+      'linear',
+      true,
+      'So many lights, the most important ones, stop at walls; each draws the scene around it six times. 0: none',
+    ),
+    number(
+      'shadowSize',
+      'shadow_size',
+      'Shadow map',
+      'linear',
+      true,
+      'Pixels of a map’s side: sharper shadows, and memory that grows with its square',
+    ),
+    number(
       'outlineStrength',
       'outline_strength',
       'Outline',
@@ -380,6 +396,7 @@ export function isInUse(field: Field, settings: Settings): boolean {
   if (isGridSide(field)) return !settings.gridAutomatic;
   if (field.name.startsWith('gbuffer.')) return isDeferred(settings);
   if (field.name.startsWith('outline_')) return isToon(settings);
+  if (field.name === 'shadow_size') return settings.shadowLights > 0;
   if (field.name.startsWith('bloom_')) return settings.bloom !== kNoBloom;
   if (field.name === 'peel_layers') return settings.transparency === kPeeled;
   return true;

@@ -87,6 +87,8 @@ export interface Settings {
   readonly antialiasing: Antialiasing;
   readonly transparency: Transparency;
   readonly peelLayers: number; // at most, while peeled
+  readonly shadowLights: number; // lights with shadow maps; 0: none
+  readonly shadowSize: number; // pixels of a map's side
   readonly width: number;
   readonly height: number;
   readonly quality: number;
@@ -169,6 +171,8 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     antialiasing: state.antialiasing,
     transparency: state.transparency,
     peelLayers: state.peelLayers,
+    shadowLights: state.shadowLights,
+    shadowSize: state.shadowSize,
     width: state.width,
     height: state.height,
     quality: state.quality,
@@ -266,6 +270,15 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   const transparency = transparencyChanges(from, to);
   if (Object.keys(transparency).length > 0) {
     commands.push({ case: 'setTransparency', value: transparency });
+  }
+  if (changed('shadowLights', 'shadowSize')) {
+    commands.push({
+      case: 'setShadows',
+      value: {
+        ...(changed('shadowLights') && { lights: to.shadowLights }),
+        ...(changed('shadowSize') && { size: to.shadowSize }),
+      },
+    });
   }
   if (changed('quality', 'chroma', 'codec', 'videoKbps')) {
     commands.push({

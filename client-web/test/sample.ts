@@ -75,6 +75,8 @@ export function viewState(change: ViewInit = {}): ViewState {
     antialiasing: Antialiasing.NONE,
     transparency: Transparency.SORTED,
     peelLayers: 4,
+    shadowLights: 0,
+    shadowSize: 256,
     width: 960,
     height: 540,
     quality: 80,

@@ -141,6 +141,8 @@ describe('settingCommands', () => {
       { case: 'setTransparency', value: { transparency: Transparency.PEELED } },
     ],
     ['layers', { peelLayers: 9 }, { case: 'setTransparency', value: { peelLayers: 9 } }],
+    ['shadows', { shadowLights: 4 }, { case: 'setShadows', value: { lights: 4 } }],
+    ['shadow map', { shadowSize: 128 }, { case: 'setShadows', value: { size: 128 } }],
     ['quality', { quality: 5 }, { case: 'setEncoding', value: { quality: 5 } }],
     ['adaptive', { adaptive: false }, { case: 'setDelivery', value: { adaptive: false } }],
     ['target rate', { targetFps: 24 }, { case: 'setDelivery', value: { targetFps: 24 } }],

@@ -44,6 +44,8 @@ describe('links', () => {
       antialiasing: Antialiasing.FXAA,
       transparency: Transparency.PEELED,
       peelLayers: 9,
+      shadowLights: 6,
+      shadowSize: 384,
       outlineStrength: 0.75,
       gbufferNormal: NormalEncoding.SPHEREMAP16,
       gbufferPosition: PositionSource.STORED_DEPTH,

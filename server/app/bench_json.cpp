@@ -127,6 +127,9 @@ std::string workloadOf(const BenchRow& row, const BenchBase& base) {
     }
     text += settings.bloom.kind != view::BloomKind::kNone ? ", bloom" : "";
     text += row.against_peeled ? ", against 16 peeled layers" : "";
+    if (settings.shadows.light_count > 0) {
+        text += fmt::format(", shadows of {} lights", settings.shadows.light_count);
+    }
     text += row.against_samples ? ", against 64 samples a pixel" : "";
     return text;
 }

@@ -253,6 +253,7 @@ constexpr std::array kPresets = {
     Preset{"bloom", bloomSweep},
     Preset{"antialiasing", antialiasingSweep},
     Preset{"transparency", transparencySweep},
+    Preset{"shadows", shadowSweep},
     Preset{"stream", streamSweep},
     Preset{"smoke", smokeSweep},
 };

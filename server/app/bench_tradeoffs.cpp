@@ -155,6 +155,27 @@ Sweep transparencySweep(const BenchBase& base) {
     return sweep;
 }
 
+Sweep shadowSweep(const BenchBase& base) {
+    Sweep sweep{"shadows",
+                "Lights with shadow maps",
+                "lights",
+                "",
+                Axis::kLinear,
+                "R2 asks by ray whether a light arrives; what differs lies at the shadows' edges.",
+                {}};
+    for (const uint32_t size_px : {128U, 256U, 512U}) {
+        for (const uint32_t count : {0U, 1U, 4U, 16U, 32U}) {
+            auto row = rowOf(base, kDeferred, fmt::format("{} lights of {}", count, size_px), count,
+                             [&](auto& s) {
+                                 s.shadows = {count, size_px};
+                             });
+            row.series = fmt::format("{} pixels a side", size_px);
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
 Sweep streamSweep(const BenchBase& base) {
     Sweep sweep{"stream",
                 "Error of the stream's JPEG",

@@ -9,6 +9,7 @@ namespace froxel::app {
 [[nodiscard]] Sweep resolutionScaleSweep(const BenchBase& base);
 [[nodiscard]] Sweep cutoffSweep(const BenchBase& base);
 [[nodiscard]] Sweep bloomSweep(const BenchBase& base);
+[[nodiscard]] Sweep shadowSweep(const BenchBase& base);
 [[nodiscard]] Sweep antialiasingSweep(const BenchBase& base);
 [[nodiscard]] Sweep transparencySweep(const BenchBase& base);
 [[nodiscard]] Sweep streamSweep(const BenchBase& base);

@@ -24,6 +24,12 @@ void addPost(CommandBuilder& command, view::ViewSettings& settings) {
                    "Standard deviation of the spread, as a share of the smaller side");
     command.name("--antialiasing", settings.antialiasing, view::kAntialiasingNames,
                  "A filter over the picture, or four samples a pixel");
+    auto& shadows = settings.shadows;
+    command.number("--shadow-lights", shadows.light_count, view::kShadowLightsRange,
+                   "Lights with shadow maps, the most important ones; the others shine through "
+                   "walls");
+    command.number("--shadow-size", shadows.size_px, view::kShadowSizeRange,
+                   "Pixels of a map's side; a point light has six");
     auto& outline = settings.toon_outline;
     command.number("--outline-strength", outline.strength, view::kOutlineStrengthRange,
                    "How dark the toon renderers draw edges");

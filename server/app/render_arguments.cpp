@@ -117,6 +117,9 @@ void addPost(Arguments& arguments,
     arguments.changed("--bloom-radius", bloom.radius, usual.bloom.radius);
     arguments.changedName("--antialiasing", view::kAntialiasingNames, settings.antialiasing,
                           usual.antialiasing);
+    const auto& shadows = settings.shadows;
+    arguments.changed("--shadow-lights", shadows.light_count, usual.shadows.light_count);
+    arguments.changed("--shadow-size", shadows.size_px, usual.shadows.size_px);
     const auto& outline = settings.toon_outline;
     arguments.changed("--outline-strength", outline.strength, usual.toon_outline.strength);
     arguments.changed("--outline-width", outline.width, usual.toon_outline.width);

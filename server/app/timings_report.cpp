@@ -131,6 +131,13 @@ Json toJson(const PeelStats& peel) {
                : Json(nullptr);
 }
 
+Json toJson(const ShadowStats& shadows) {
+    return {{"lights", shadows.light_count},
+            {"maps", shadows.map_count},
+            {"draws", shadows.draw_count},
+            {"triangles", shadows.triangle_count}};
+}
+
 Json memoryOf(const FrameDetails& details) {
     Json memory = Json::object();
     for (const auto& use : details.memory) {
@@ -179,6 +186,9 @@ Json settingsReport(const view::ViewSettings& settings) {
     if (settings.transparency == view::Transparency::kPeeled) {
         json["peel_layers"] = settings.peel_layers;
     }
+    if (const auto& shadows = settings.shadows; shadows.light_count > 0) {
+        json["shadows"] = {{"lights", shadows.light_count}, {"size_px", shadows.size_px}};
+    }
     if (const auto& outline = settings.toon_outline; outline.strength > 0) {
         json["toon_outline"] = {{"strength", outline.strength}, {"width", outline.width}};
     }
@@ -188,14 +198,18 @@ Json settingsReport(const view::ViewSettings& settings) {
 Json frameReport(const FrameStats& stats) {
     const FrameDetails none;
     const FrameDetails& details = stats.details ? *stats.details : none;
-    return {{"triangles", stats.triangle_count},
-            {"draws", stats.draw_count},
-            {"grid", toJson(stats.grid)},
-            {"light_lists", toJson(stats.lists)},
-            {"pairs", toJson(stats.pairs)},
-            {"peel", toJson(stats.peel)},
-            {"plan", details.plan},
-            {"memory_bytes", memoryOf(details)}};
+    Json json = {{"triangles", stats.triangle_count},
+                 {"draws", stats.draw_count},
+                 {"grid", toJson(stats.grid)},
+                 {"light_lists", toJson(stats.lists)},
+                 {"pairs", toJson(stats.pairs)},
+                 {"peel", toJson(stats.peel)},
+                 {"plan", details.plan},
+                 {"memory_bytes", memoryOf(details)}};
+    if (stats.shadows.light_count > 0) {
+        json["shadows"] = toJson(stats.shadows);
+    }
+    return json;
 }
 
 Json timingsReport(const TimedRun& run) {

@@ -57,6 +57,14 @@ struct PeelStats {
     uint64_t overflow_count = 0; // pixels drawn that have more: the farther ones are left out
 };
 
+// Depths drawn from lights; none: no light had maps.
+struct ShadowStats {
+    uint32_t light_count = 0;
+    uint32_t map_count = 0;         // six for a point light
+    uint32_t draw_count = 0;
+    uint32_t triangle_count = 0;    // of casters, sent to the rasteriser
+};
+
 struct MemoryUse {
     std::string purpose;
     uint64_t bytes = 0;
@@ -92,6 +100,7 @@ struct FrameStats {
     GridStats grid;
     PairStats pairs;
     PeelStats peel;
+    ShadowStats shadows;
     std::shared_ptr<const FrameDetails> details; // another one only when something changed
 };
 

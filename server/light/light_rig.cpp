@@ -1,5 +1,6 @@
 #include "light/light_rig.h"
 
+#include "core/assert.h"
 #include "light/light_cutoff.h"
 #include "light/seeded_lights.h"
 
@@ -99,6 +100,28 @@ BoundsD3 LightRig::seededBox(const view::Lights& settings) const {
     box.min += margin;
     box.max -= margin;
     return box;
+}
+
+LightRig::Place
+LightRig::placeOf(const view::Lights& settings, double time_s, uint32_t index) const {
+    if (index < settings.count) {
+        return {.position_world =
+                    seededLight(settings, seededBox(settings), time_s, index).position_world};
+    }
+    uint32_t left = index - settings.count;
+    for (const scene::PunctualLight& light : scene_lights_) {
+        if (light.type == scene::LightType::kDirectional || left-- > 0) {
+            continue;
+        }
+        Place place{.position_world = light.position_world};
+        if (light.type == scene::LightType::kSpot) {
+            place.direction_world = glm::normalize(light.direction_world);
+            place.outer_cone_rad = light.outer_cone_rad;
+        }
+        return place;
+    }
+    FROXEL_ASSERT(false, "no local light has this index");
+    return {};
 }
 
 void LightRig::addSceneLights(const view::Camera& camera, FrameLights& out) const {

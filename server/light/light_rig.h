@@ -7,6 +7,8 @@
 #include "view/camera.h"
 #include "view/settings.h"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace froxel::light {
@@ -26,6 +28,16 @@ class LightRig {
                   const view::Camera& camera,
                   double time_s,
                   FrameLights& out) const;
+
+    // Where the local light of an index of FrameLights::lights is, whatever the camera. `index` is
+    // below their number.
+    struct Place {
+        glm::dvec3 position_world{0};
+        glm::dvec3 direction_world{0}; // unit, the way it shines; spots only
+        std::optional<double> outer_cone_rad = std::nullopt; // half angle; none: a point light
+    };
+    [[nodiscard]] Place
+    placeOf(const view::Lights& settings, double time_s, uint32_t index) const;
 
     // The box that seeded lights move in, metres in world space: the settings' own, or the scene's
     // bounds less kShrink of their size on every side.

@@ -132,6 +132,16 @@ struct WorldLights {
     }
 };
 
+// Writes the only one that is asked for.
+struct OneWorldLight {
+    SeededLight& out;
+
+    void look(size_t /*index*/, const glm::vec3& color) const { out.color = color; }
+    void place(size_t /*index*/, const glm::dvec3& position) const {
+        out.position_world = position;
+    }
+};
+
 // Lights [begin, end) of all.
 template <class Lights>
 void fillRange(const SeededFrame& frame, size_t begin, size_t end, const Lights& out) {
@@ -201,6 +211,16 @@ seededLights(const view::Lights& settings, const BoundsD3& box_world, double tim
     const SeededFrame frame = seededFrame(settings, {}, box_world, time_s); // the world's own axes
     fillRange(frame, 0, lights.size(), WorldLights{lights});
     return lights;
+}
+
+SeededLight seededLight(const view::Lights& settings,
+                        const BoundsD3& box_world,
+                        double time_s,
+                        uint32_t index) {
+    SeededLight light;
+    const SeededFrame frame = seededFrame(settings, {}, box_world, time_s);
+    fillRange(frame, index, size_t{index} + 1, OneWorldLight{light});
+    return light;
 }
 
 } // namespace froxel::light

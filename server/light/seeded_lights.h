@@ -32,6 +32,9 @@ struct SeededLight {
 };
 [[nodiscard]] std::vector<SeededLight>
 seededLights(const view::Lights& settings, const BoundsD3& box_world, double time_s);
+// The one of index `index`.
+[[nodiscard]] SeededLight
+seededLight(const view::Lights& settings, const BoundsD3& box_world, double time_s, uint32_t index);
 
 // 1 / radius^2 as the shaders take it; finite for every radius > 0, and 0 for infinity.
 [[nodiscard]] float inverseRadius2(double radius_m);

@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kLeastSide = 16;      // pixels
 constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
 constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 16;          // of commands
+constexpr uint32_t kKinds = 17;          // of commands
 
 } // namespace
 
@@ -81,6 +81,11 @@ void StormScript::fillPost(v1::SetPost& command) {
     command.set_antialiasing(named(v1::ANTIALIASING_SSAA4));
 }
 
+void StormScript::fillShadows(v1::SetShadows& command) {
+    command.set_lights(whole(0, 2));
+    command.set_size(whole(64, 128));
+}
+
 void StormScript::fillSize(v1::SetSize& command) {
     command.set_width(whole(kLeastSide, start_.width()));
     command.set_height(whole(kLeastSide, start_.height()));
@@ -138,6 +143,9 @@ std::optional<Step> StormScript::next() {
     case 15:
         message.mutable_set_transparency()->set_transparency(named(v1::TRANSPARENCY_PEELED));
         message.mutable_set_transparency()->set_peel_layers(whole(1, 16));
+        break;
+    case 16:
+        fillShadows(*message.mutable_set_shadows());
         break;
     case 9:
         message.mutable_set_delivery()->set_adaptive(whole(0, 1) == 0);

@@ -99,7 +99,7 @@ double attenuation(const PointLight& light, const glm::dvec3& to_light) {
     return window * window / std::max(d2, kFloor2_m2) * share * share;
 }
 
-glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights) {
+glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, const Open& open) {
     if (s.unlit) {
         return s.base_color;
     }
@@ -109,7 +109,7 @@ glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights) 
         const double d2 = glm::dot(to_light, to_light);
         if (d2 < light.radius2) { // most lights are too far away
             const double share = attenuation(light, to_light);
-            if (share > 0) {
+            if (share > 0 && (!light.shadowed || open(s.position, light.position))) {
                 sum += light.color * reflected(s, model, to_light / std::sqrt(d2)) * share;
             }
         }

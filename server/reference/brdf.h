@@ -5,6 +5,8 @@
 #include "reference/lights.h"
 #include "view/settings.h"
 
+#include <functional>
+
 namespace froxel::reference {
 
 inline constexpr double kLeastRoughness = 0.045; // a smaller highlight would slip between pixels
@@ -26,6 +28,9 @@ struct Surface {
     bool unlit = false;
 };
 
+// Whether nothing stands between two points, relative to the eye.
+using Open = std::function<bool(const glm::dvec3& from, const glm::dvec3& to)>;
+
 struct Model {
     view::ShadingModel shading = view::ShadingModel::kPbr;
     const view::ToonRamp* ramp = nullptr; // over n.l of what is scattered; null: n.l itself
@@ -40,7 +45,10 @@ reflected(const Surface& surface, const Model& model, const glm::dvec3& to_light
 // on a plane that faces it; 0 from its radius on.
 [[nodiscard]] double attenuation(const PointLight& light, const glm::dvec3& to_light);
 
-// All lights, ambient and emission; of an unlit surface its base colour.
-[[nodiscard]] glm::dvec3 radiance(const Surface& surface, const Model& model, const Lights& lights);
+// All lights, ambient and emission; of an unlit surface its base colour. open: of shadowed lights.
+[[nodiscard]] glm::dvec3 radiance(const Surface& surface,
+                                  const Model& model,
+                                  const Lights& lights,
+                                  const Open& open = {});
 
 } // namespace froxel::reference

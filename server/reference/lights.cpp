@@ -2,6 +2,7 @@
 
 #include "light/light_rig.h"
 #include "light/seeded_lights.h"
+#include "light/shadow_choice.h"
 #include "view/environment.h"
 
 #include <algorithm>
@@ -22,10 +23,21 @@ void addCone(const scene::PunctualLight& light, PointLight& out) {
     out.cone_offset = -cos_outer * out.cone_scale;
 }
 
-} // namespace
+void addShadows(const light::LightRig& rig,
+                const BoundsD3& bounds_world,
+                const view::ViewSettings& settings,
+                double time_s,
+                Lights& lights) {
+    light::FrameLights frame;
+    rig.evaluate(settings.lights, settings.camera, time_s, frame);
+    for (const uint32_t i :
+         light::chooseShadowed(frame, settings.camera, settings.size,
+                               glm::length(bounds_world.size()), settings.shadows.light_count)) {
+        lights.points[i].shadowed = true;
+    }
+}
 
-Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, double time_s) {
-    const light::LightRig rig(scene);
+Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings, double time_s) {
     const glm::dvec3& eye = settings.camera.eye_world;
     Lights lights;
     const double seeded_radius = static_cast<double>(settings.lights.radius_m);
@@ -55,6 +67,17 @@ Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, d
             addCone(light, point);
         }
         lights.points.push_back(point);
+    }
+    return lights;
+}
+
+} // namespace
+
+Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, double time_s) {
+    const light::LightRig rig(scene);
+    Lights lights = unshadowed(rig, settings, time_s);
+    if (settings.shadows.light_count > 0) {
+        addShadows(rig, scene.bounds_world, settings, time_s, lights);
     }
     return lights;
 }

@@ -18,6 +18,7 @@ struct PointLight {
     glm::dvec3 direction{0}; // the way the light travels
     double cone_scale = 0;
     double cone_offset = 1;
+    bool shadowed = false; // what stands between it and a surface takes its light away
 };
 
 struct DirectionalLight {
@@ -32,6 +33,7 @@ struct Lights {
     glm::dvec3 ground{0};
 };
 
+// Shadowed: those that have maps by light/shadow_choice.h.
 [[nodiscard]] Lights
 lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, double time_s);
 

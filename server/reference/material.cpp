@@ -113,6 +113,12 @@ glm::dvec3 Materials::normalAt(const scene::Material& material,
            facing;
 }
 
+double Materials::alpha(uint32_t material, const SurfacePoint& point) const {
+    const scene::Material& m = scene_.materials[material];
+    return static_cast<double>(m.base_color.w) * sample(looks_.at(material).base_color, point).w *
+           point.color.w;
+}
+
 Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     const scene::Material& m = scene_.materials[material];
     const Look& look = looks_.at(material);

@@ -20,6 +20,8 @@ class Materials {
               std::span<const uint32_t> used,
               const Filtering& filtering);
 
+    // Of the base colour, by the texture's base level.
+    [[nodiscard]] double alpha(uint32_t material, const SurfacePoint& point) const;
     [[nodiscard]] Surface at(uint32_t material, const SurfacePoint& point) const;
 
   private:

@@ -5,11 +5,13 @@
 #include "reference/geometry.h"
 #include "reference/lights.h"
 #include "reference/material.h"
+#include "reference/occluders.h"
 #include "reference/toon.h"
 #include "view/environment.h"
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -30,7 +32,9 @@ primitiveOf(const scene::Scene& scene, uint32_t instance, uint32_t primitive) {
     return scene.meshes[scene.instances[instance].mesh].primitives[primitive];
 }
 
-std::vector<uint32_t> visibleMaterials(const scene::Scene& scene, const Visibility& visibility) {
+// Those of pixels, of what is blended and, where there are shadows, of what is cut out.
+std::vector<uint32_t>
+visibleMaterials(const scene::Scene& scene, const Visibility& visibility, bool shadows) {
     std::set<uint32_t> materials;
     std::pair last(VisibleTriangle::kNothing, 0U);
     for (const auto& pixel : visibility.pixels) {
@@ -41,7 +45,8 @@ std::vector<uint32_t> visibleMaterials(const scene::Scene& scene, const Visibili
         }
     }
     for (uint32_t i = 0; i < scene.materials.size(); ++i) {
-        if (scene.materials[i].alpha_mode == scene::AlphaMode::kBlend) {
+        const auto mode = scene.materials[i].alpha_mode;
+        if (mode == scene::AlphaMode::kBlend || (shadows && mode == scene::AlphaMode::kMask)) {
             materials.insert(i);
         }
     }
@@ -64,8 +69,19 @@ class Shader {
           rays_(settings.camera, settings.size), model_(modelOf(settings)),
           lights_(lightsAt(scene, settings, time_s)),
           placements_(placementsOf(scene, settings.camera.eye_world)),
-          materials_(scene, visibleMaterials(scene, visibility), filtering),
-          blended_(scene, placements_, settings.camera, settings.size) {}
+          materials_(scene,
+                     visibleMaterials(scene, visibility, settings.shadows.light_count > 0),
+                     filtering),
+          blended_(scene, placements_, settings.camera, settings.size) {
+        if (settings.shadows.light_count > 0) {
+            occluders_.emplace(scene, placements_, materials_);
+            open_ = [this](const glm::dvec3& from, const glm::dvec3& to) {
+                return !occluders_->between(from, to);
+            };
+        }
+    }
+    Shader(const Shader&) = delete;
+    Shader& operator=(const Shader&) = delete;
 
     [[nodiscard]] glm::dvec3 pixel(uint32_t x, uint32_t y) const {
         const auto& visible = visibility_.pixels[size_t{y} * visibility_.width_px + x];
@@ -106,7 +122,7 @@ class Shader {
         if (alpha != nullptr) {
             *alpha = surface.alpha;
         }
-        return radiance(surface, model_, lights_);
+        return radiance(surface, model_, lights_, open_);
     }
 
     const scene::Scene& scene_;
@@ -119,6 +135,8 @@ class Shader {
     const std::vector<Placement> placements_;
     const Materials materials_;
     const BlendedSurfaces blended_;
+    std::optional<Occluders> occluders_; // none: no light has shadows
+    Open open_;
 };
 
 // Empty where every triangle exists.

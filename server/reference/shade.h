@@ -17,7 +17,7 @@ using froxel::VisibleTriangle;
 
 // Shades every pixel with every light of `settings` at `time_s` (the lights' clock), by the
 // renderer and the shading model that `settings` name. Grids, lists, stages and layouts do not
-// matter, and what trades error for speed (a G-buffer layout, a lights' cut-off) is left out, so
+// matter, nor how shadow maps are made: a ray says whether a light with shadows arrives; and what trades error for speed (a G-buffer layout, a lights' cut-off) is left out, so
 // that it is priced. The ray through
 // the pixel's centre meets the plane of the stated triangle in double (kPlaneGoesOn in rays.h says
 // what holds for centres just outside it). Blended triangles are found by ray here and sorted pixel

@@ -1,6 +1,7 @@
 #include "render/frame_builder.h"
 
 #include "render/gbuffer_layout.h"
+#include "render/grown_lights.h"
 #include "render/light_budget.h"
 #include "render/prepass_choice.h"
 #include "render/visibility_instances.h"
@@ -67,21 +68,6 @@ bool byIds(GeometryPath path) {
     return path == GeometryPath::kVisibility || path == GeometryPath::kComputeRaster;
 }
 
-// A position in halves lies up to 2^-11 of each coordinate off its pixel, and so perhaps in another
-// cluster: lights are assigned as if they reached that much farther. Spots as points.
-void growForHalves(const light::FrameLights& lights, light::FrameLights& grown) {
-    constexpr float kShare = 1.0F / 1024.0F;
-    grown.lights = lights.lights;
-    grown.radii_m = lights.radii_m;
-    for (size_t i = 0; i < grown.lights.size(); ++i) {
-        io::Light& light = grown.lights[i];
-        float& radius_m = grown.radii_m[i];
-        radius_m += kShare * glm::length(glm::abs(light.position_view) + radius_m);
-        light.inv_radius2 = 1.0F / (radius_m * radius_m);
-        light.spot = io::kNoSpot;
-    }
-}
-
 } // namespace
 
 bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
@@ -132,6 +118,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
+            .shadows = !shadows_.lights.empty(),
             .equal_radii = equalRadii(lights_, inputs.settings.lights),
             .long_loops = traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
             .directional = !lights_.directionals.empty(),
@@ -208,8 +195,8 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         lists_.stats.light_count = static_cast<uint32_t>(lights_.lights.size());
         lists_.stats.all_lights = !lights_.lights.empty();
     }
-    lists_.stats.why = needsLights(settings.debug.view) ? light_grid_.why()
-                                                        : "the debug view shows no light";
+    lists_.stats.why =
+        needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
 }
 
 FramePlan FrameBuilder::build(const FrameInputs& inputs) {
@@ -241,6 +228,10 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     scene_.light_rig.evaluate(lights, camera, inputs.time_s, lights_);
     assignLights(inputs);
     culling.get();
+    shadows_.clear();
+    if (settings.shadows.light_count > 0 && !view::replacesPicture(settings.debug.view)) {
+        buildShadows(scene_, lights_, settings, inputs.time_s, shadows_);
+    }
     planned_ = generalised(facts(inputs), inputs.generic);
     const FramePlan plan = planFrame(settings, planned_);
     uniforms_ = makeFrameUniforms(settings, projection, plan.lists ? &light_grid_.grid() : nullptr,
@@ -312,6 +303,8 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     place(3, std::span<const uint32_t>(lists_.indices));
     place(4, std::span<const io::Spot>(lights_.spots));
     place(5, std::span<const io::DirectionalLight>(lights_.directionals));
+    place(6, std::span<const uint32_t>(shadows_.shadow_of_light));
+    place(7, std::span<const io::ShadowLight>(shadows_.lights));
     const AssignOffsets assign = uploadAssignment(upload, blocks);
     UploadOffsets offsets;
     offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));
@@ -328,6 +321,12 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     }
     if (!debug_.wires.empty()) {
         offsets.wires = upload.add(std::span<const io::WireVertex>(debug_.wires));
+    }
+    if (!shadows_.lights.empty()) {
+        offsets.shadow_uniforms = upload.add(std::span<const io::Frame>(&shadows_.uniforms, 1));
+        offsets.shadow_rows = upload.add(std::span<const InstanceRows>(shadows_.rows));
+        offsets.shadow_commands =
+            upload.add(std::span<const vk::DrawIndexedIndirectCommand>(shadows_.commands));
     }
     offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
     upload.commit();
@@ -370,6 +369,7 @@ void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
     std::array<vk::BufferView, Pipelines::kFrameBindings> views;
     std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
     slot.texel_views.clear();
+    const vk::DescriptorImageInfo atlas = atlasInfo(slot.shadows.get());
     for (uint32_t i = 0; i < infos.size(); ++i) {
         // What the frame lacks is described as none.
         const auto& [offset, bytes, own] = blocks[i];
@@ -380,6 +380,7 @@ void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
                      .dstBinding = i,
                      .descriptorCount = 1,
                      .descriptorType = Pipelines::kFrameBindingTypes[i],
+                     .pImageInfo = &atlas,
                      .pBufferInfo = &infos[i]};
         if (Pipelines::kFrameTexelFormats[i] != vk::Format::eUndefined) {
             if (bytes > 0) {

@@ -12,6 +12,7 @@
 #include "render/light_grid.h"
 #include "render/renderer.h"
 #include "render/scene_resources.h"
+#include "render/shadow_maps.h"
 
 namespace froxel::render {
 
@@ -32,6 +33,11 @@ class FrameBuilder {
     [[nodiscard]] UploadOffsets upload(FrameSlot& slot);
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
+    [[nodiscard]] const ShadowFrame& shadows() const { return shadows_; }
+    // Point and spot lights of the frame.
+    [[nodiscard]] uint32_t localLightCount() const {
+        return static_cast<uint32_t>(lights_.lights.size());
+    }
     // What the last plan was made from.
     [[nodiscard]] const FrameFacts& plannedFacts() const { return planned_; }
     // Of a frame with a debug view.
@@ -75,6 +81,7 @@ class FrameBuilder {
     bool on_device_ = false;
     view::ViewSettings refused_; // what the device's lists were too small for
     DrawList draws_;
+    ShadowFrame shadows_;
     FrameFacts planned_;
     bool visibility_ = false;
     bool compute_raster_ = false;

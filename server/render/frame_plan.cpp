@@ -39,6 +39,7 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= io::kLightLocal;
         flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
         flags |= facts.spots ? io::kLightSpots : 0U;
+        flags |= facts.shadows ? io::kLightShadows : 0U;
         flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
         flags |= facts.long_loops ? io::kLightLong : 0U;
         if (compute) {
@@ -129,6 +130,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
         plan.peel_layers =
             settings.transparency == view::Transparency::kPeeled ? settings.peel_layers : 0;
     }
+    plan.shadows = facts.shadows && facts.local_lights;
     plan.debug = settings.debug.view;
     const bool replaced = view::replacesPicture(plan.debug);
     plan.lists = (renderer != Renderer::kNaive || view::showsClusters(plan.debug)) &&

@@ -15,6 +15,7 @@ struct FrameFacts {
     bool transparent_visible = false; // blended surfaces are in view
     bool local_lights = false;        // any point or spot light
     bool spots = false;
+    bool shadows = false;     // some of them have shadow maps
     bool equal_radii = false; // all local lights reach equally far
     bool long_loops = false;  // more iterations than a software rasteriser's loops may have
     bool directional = false;
@@ -48,6 +49,7 @@ struct GenericParts {
 struct FramePlan {
     bool depth_prepass = false;
     bool count_samples = false;    // that pass the depth test where depth is drawn first
+    bool shadows = false;          // depths are drawn from lights
     bool forward = false;          // solid surfaces by the forward shader
     bool gbuffer = false;          // else by geometry pass and lighting pass
     bool visibility = false;       // solid surfaces by ids of triangles, culled on the device

@@ -187,6 +187,9 @@ void transitionFresh(FrameSlot& slot) {
             add(keys, vk::ImageAspectFlagBits::eColor);
         }
     }
+    if (slot.shadows && std::exchange(slot.shadows->fresh, false)) {
+        add(slot.shadows->atlas, vk::ImageAspectFlagBits::eDepth);
+    }
     if (slot.bloom && std::exchange(slot.bloom->fresh, false)) {
         for (const auto& image : slot.bloom->images()) {
             add(image, vk::ImageAspectFlagBits::eColor);
@@ -224,6 +227,12 @@ void recordFrame(const FrameContext& frame) {
     transitionFresh(slot);
     if (slot.device_lists) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
+    }
+    if (frame.plan.shadows) {
+        recordShadows(frame);
+        // depths as lights see them -> lighting's loads
+        barrier(slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, kShaders,
+                Access::eShaderSampledRead);
     }
 
     if (view::replacesPicture(frame.plan.debug)) {
@@ -328,12 +337,13 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
     recordAssignCopy(assign);
 }
 
-void recordRadianceCopy(const vk::raii::CommandBuffer& cmd,
-                        const ViewTargets& targets,
-                        const gpu::Buffer& to) {
-    // the frame's last write of radiance -> copy
+void recordTargetCopy(const vk::raii::CommandBuffer& cmd,
+                      const gpu::Image& target,
+                      vk::ImageAspectFlags aspect,
+                      const gpu::Buffer& to) {
+    // the frame's last write of the target -> copy
     barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
-    copyImage(cmd, targets.radiance, vk::ImageAspectFlagBits::eColor, to, 0);
+    copyImage(cmd, target, aspect, to, 0);
     // copy -> host
     barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }

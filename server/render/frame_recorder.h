@@ -8,6 +8,7 @@
 #include "render/frame_plan.h"
 #include "render/frame_slot.h"
 #include "render/scene_resources.h"
+#include "render/shadow_maps.h"
 
 namespace froxel::render {
 
@@ -19,6 +20,9 @@ struct UploadOffsets {
     vk::DeviceSize instances = 0;
     vk::DeviceSize meshlet_order = 0;
     vk::DeviceSize wires = 0; // of the cluster grid
+    vk::DeviceSize shadow_uniforms = 0;
+    vk::DeviceSize shadow_rows = 0;
+    vk::DeviceSize shadow_commands = 0;
 };
 
 struct FrameContext {
@@ -31,6 +35,7 @@ struct FrameContext {
     VisibilityScene* visibility = nullptr; // where the plan has it
     const DebugFrame* debug = nullptr;     // likewise
     const BloomPlan* bloom = nullptr;      // likewise
+    const ShadowFrame* shadows = nullptr;  // likewise
 };
 
 // Records slot.cmd from begin to end.
@@ -43,10 +48,11 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps);
 // What compute shaders and copies wrote -> the host, once the commands have completed.
 void recordHostRead(const vk::raii::CommandBuffer& cmd);
 
-// Copies the radiance target, RGBA fp32, to a host buffer, for after a frame.
-void recordRadianceCopy(const vk::raii::CommandBuffer& cmd,
-                        const ViewTargets& targets,
-                        const gpu::Buffer& to);
+// Copies a target that frames draw into, as it is, to a host buffer, for after a frame.
+void recordTargetCopy(const vk::raii::CommandBuffer& cmd,
+                      const gpu::Image& target,
+                      vk::ImageAspectFlags aspect,
+                      const gpu::Buffer& to);
 
 // Likewise which triangles are visible: all ids, then all depths, 4 bytes each.
 void recordVisibilityCopy(const vk::raii::CommandBuffer& cmd,

@@ -13,7 +13,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
         vk::DescriptorPoolSize{Type::eUniformBuffer, 1},
         vk::DescriptorPoolSize{Type::eUniformTexelBuffer, Pipelines::kFrameBindings},
         vk::DescriptorPoolSize{Type::eStorageBuffer, 2},
-        vk::DescriptorPoolSize{Type::eSampledImage, 3},
+        vk::DescriptorPoolSize{Type::eSampledImage, 4},
         vk::DescriptorPoolSize{Type::eStorageImage, 1}};
     return device.handle().createDescriptorPool(
         {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,

@@ -14,6 +14,7 @@
 #include "render/pair_counter.h"
 #include "render/pipelines.h"
 #include "render/renderer.h"
+#include "render/shadow_pass.h"
 #include "render/view_targets.h"
 #include "render/visibility_scene.h"
 
@@ -78,6 +79,7 @@ struct FrameSlot {
     std::shared_ptr<ViewTargets> targets;
     std::shared_ptr<BloomTargets> bloom; // null: the frame last recorded has none
     std::shared_ptr<BlendTargets> blend; // likewise
+    std::shared_ptr<ShadowTargets> shadows; // likewise
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet frame_set{nullptr};
@@ -92,6 +94,7 @@ struct FrameSlot {
     std::unique_ptr<gpu::SampleCounter> overflow;  // likewise
     bool counts_overflow = false;                  // of peeled layers, in the frame last recorded
     std::unique_ptr<FxaaSlot> fxaa;                // likewise
+    std::unique_ptr<ShadowSlot> shadow_slot;       // likewise
     std::unique_ptr<AssignSlot> assignment;        // likewise
     bool device_lists = false; // the frame last recorded had its lists made on the device
     bool stale = false;        // an older frame was drawn again after this one

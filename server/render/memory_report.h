@@ -32,6 +32,7 @@ class FrameDetailsKeeper {
         view::Renderer renderer{};
         view::ShadingModel shading{};
         view::GbufferLayout gbuffer;
+        view::Shadows shadows;
         FrameFacts facts;
         FramePlan plan;
         std::optional<DebugLegend> legend;

@@ -66,6 +66,12 @@ void addLightWords(Lines& lines,
             lines.emplace_back("subgroups fetch lights together");
         }
     }
+    if (plan.shadows) {
+        lines.push_back("shadow maps: up to " +
+                        counted(settings.shadows.light_count, "light", "lights") + ", faces of " +
+                        std::to_string(settings.shadows.size_px) +
+                        " pixels a side, drawn each frame");
+    }
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
     }

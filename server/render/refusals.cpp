@@ -1,5 +1,6 @@
 #include "render/refusals.h"
 
+#include "interface/shadow_io.h"
 #include "render/frame_plan.h"
 #include "render/gbuffer_layout.h"
 #include "render/scene_resources.h"
@@ -77,12 +78,32 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
     if (auto peeled = peelable(inputs, scene); !peeled) {
         return peeled;
     }
+    const auto& shadows = inputs.settings.shadows;
+    const uint32_t limit_px = scene.device.limits().maxImageDimension2D;
+    if (shadows.light_count > 0 && io::kShadowColumns * shadows.size_px > limit_px) {
+        return Error{ErrorCode::kUnsupported, "shadow_size is " + std::to_string(shadows.size_px) +
+                                                  "; this device's images allow " +
+                                                  std::to_string(limit_px / io::kShadowColumns)};
+    }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
         !scene.visibility().compute_unusable.empty()) {
         return Error{ErrorCode::kUnsupported, "ids cannot be rastered in compute, since " +
                                                   scene.visibility().compute_unusable};
     }
     return {};
+}
+
+Error noMemoryFor(const view::ViewSettings& settings) {
+    std::string what = "the device has no memory for a picture of " +
+                       std::to_string(settings.size.width_px) + "x" +
+                       std::to_string(settings.size.height_px);
+    if (view::samplesAcross(settings.antialiasing) > 1) {
+        what += " with four samples a pixel";
+    }
+    if (settings.shadows.light_count > 0) {
+        what += " and shadow maps of " + std::to_string(settings.shadows.light_count) + " lights";
+    }
+    return {ErrorCode::kCapacity, what};
 }
 
 } // namespace froxel::render

@@ -10,4 +10,7 @@ namespace froxel::render {
 // what lacks and what would do.
 [[nodiscard]] Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene);
 
+// kCapacity: targets of these settings did not fit the device's memory.
+[[nodiscard]] Error noMemoryFor(const view::ViewSettings& settings);
+
 } // namespace froxel::render

@@ -6,6 +6,7 @@
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
 #include "render/memory_report.h"
+#include "render/radiance_readback.h"
 #include "render/refusals.h"
 #include "render/scene_resources.h"
 #include "render/visibility_readback.h"
@@ -22,24 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 double microsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-}
-
-// Of each 2 x 2 of them.
-LinearImage meanOfSamples(const LinearImage& samples) {
-    LinearImage image{samples.width_px / 2, samples.height_px / 2, {}};
-    image.rgb.reserve(samples.rgb.size() / 4);
-    const size_t row = size_t{samples.width_px} * 3;
-    for (size_t y = 0; y < image.height_px; ++y) {
-        for (size_t x = 0; x < image.width_px; ++x) {
-            const float* top = &samples.rgb[2 * y * row + 6 * x];
-            const float* low = top + row;
-            for (size_t channel = 0; channel < 3; ++channel) {
-                image.rgb.push_back(
-                    0.25F * (top[channel] + top[channel + 3] + low[channel] + low[channel + 3]));
-            }
-        }
-    }
-    return image;
 }
 
 } // namespace
@@ -79,6 +62,8 @@ struct ViewRenderer::Impl {
     // Takes part in the frame where its plan is not null.
     void prepareBloom(FrameSlot& slot, const BloomPlan* plan);
     void prepareBlend(FrameSlot& slot, const FramePlan& plan);
+    // Kept while settings ask for them, also with no light in view.
+    void prepareShadows(FrameSlot& slot, const FramePlan& plan, const view::Shadows& settings);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     // Errors: kCapacity. Throws vk::SystemError.
     [[nodiscard]] Result<void> submit(FrameSlot& slot, const FrameInputs& inputs);
@@ -90,8 +75,9 @@ struct ViewRenderer::Impl {
     std::vector<std::unique_ptr<FrameSlot>> slots;
     std::deque<FrameSlot*> pending; // submitted, oldest first
     std::shared_ptr<ViewTargets> targets;
-    std::shared_ptr<BloomTargets> bloom; // null: the last frame has none
-    std::shared_ptr<BlendTargets> blend; // likewise
+    std::shared_ptr<BloomTargets> bloom;    // null: the last frame has none
+    std::shared_ptr<BlendTargets> blend;    // likewise
+    std::shared_ptr<ShadowTargets> shadows; // likewise
     FrameDetailsKeeper details;
 };
 
@@ -155,6 +141,20 @@ void ViewRenderer::Impl::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     }
 }
 
+void ViewRenderer::Impl::prepareShadows(FrameSlot& slot,
+                                        const FramePlan& plan,
+                                        const view::Shadows& settings) {
+    slot.shadows.reset(); // its last frame has finished
+    shadows = shadowTargetsFor(scene.device, settings, builder.localLightCount(), plan.shadows,
+                               std::move(shadows));
+    if (plan.shadows) {
+        slot.shadows = shadows;
+        if (!slot.shadow_slot) {
+            slot.shadow_slot = std::make_unique<ShadowSlot>(scene.device, scene.pipelines);
+        }
+    }
+}
+
 void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
     if (!slot.visibility) {
         slot.visibility = std::make_unique<VisibilityFrame>(scene.device, scene.visibility());
@@ -196,7 +196,11 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBloom(slot, bloom_steps);
     prepareBlend(slot, plan);
+    prepareShadows(slot, plan, inputs.settings.shadows);
     const UploadOffsets offsets = builder.upload(slot);
+    if (plan.shadows) {
+        slot.shadow_slot->write(slot.upload.buffer(), offsets.shadow_uniforms);
+    }
     writeScreenSet(scene.device, slot, plan.fxaa ? targets->display : pixelsOf(slot));
     if (plan.fxaa) {
         if (!slot.fxaa) {
@@ -225,13 +229,15 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
                  .background = builder.background(),
                  .visibility = plan.visibility ? &scene.visibility() : nullptr,
                  .debug = debug ? &builder.debugFrame() : nullptr,
-                 .bloom = bloom_steps});
+                 .bloom = bloom_steps,
+                 .shadows = plan.shadows ? &builder.shadows() : nullptr});
     slot.stats = {};
     slot.stats.triangle_count = builder.draws().triangle_count;
     if (plan.visibility) { // the host does not know what the device culls
         slot.stats.triangle_count += scene.visibility().triangle_count;
     }
     slot.stats.draw_count = static_cast<uint32_t>(builder.draws().commands.size());
+    slot.stats.shadows = builder.shadows().stats();
     slot.stats.lists = builder.listStats();
     slot.stats.peel.layer_count = peelLayers(plan, builder.draws());
     slot.stats.details = details.update(inputs.settings, builder.plannedFacts(), plan, scene.needs,
@@ -306,12 +312,9 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
     } catch (const vk::OutOfDeviceMemoryError&) {
         impl_->blend.reset();
         impl_->bloom.reset(); // so that a smaller picture may fit
+        impl_->shadows.reset();
         impl_->targets.reset();
-        const bool samples = view::samplesAcross(inputs.settings.antialiasing) > 1;
-        return Error{ErrorCode::kCapacity, "the device has no memory for a picture of " +
-                                               std::to_string(inputs.settings.size.width_px) + "x" +
-                                               std::to_string(inputs.settings.size.height_px) +
-                                               (samples ? " with four samples a pixel" : "")};
+        return noMemoryFor(inputs.settings);
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice, std::string("the device failed: ") + error.what()};
     }
@@ -366,25 +369,22 @@ Result<RenderedFrame> ViewRenderer::collect() {
 Result<LinearImage> ViewRenderer::readLinear() {
     FROXEL_ASSERT(impl_->targets && impl_->targets->needs.radiance,
                   "readLinear needs a frame with keep_radiance");
-    const auto& targets = *impl_->targets;
-    auto& scene = impl_->scene;
-    const size_t pixel_count = size_t{targets.size.width_px} * targets.size.height_px;
-    LinearImage image{targets.size.width_px, targets.size.height_px, {}};
-    image.rgb.resize(pixel_count * 3);
     try {
-        const Readback readback(scene.device, pixel_count * 4 * sizeof(float));
-        scene.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
-            recordRadianceCopy(cmd, targets, readback.buffer);
-        });
-        for (size_t i = 0; i < pixel_count; ++i) {
-            std::memcpy(&image.rgb[i * 3], readback.buffer.mapped + i * 4 * sizeof(float),
-                        3 * sizeof(float));
-        }
+        return copyRadiance(impl_->scene, *impl_->targets);
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice,
                      std::string("reading the picture failed: ") + error.what()};
     }
-    return targets.size == targets.shown ? image : meanOfSamples(image);
+}
+
+Result<ShadowAtlas> ViewRenderer::readShadows() {
+    FROXEL_ASSERT(impl_->shadows, "readShadows needs a frame with shadow maps");
+    try {
+        return copyShadows(impl_->scene, *impl_->shadows, impl_->builder.shadows());
+    } catch (const vk::SystemError& error) {
+        return Error{ErrorCode::kDevice,
+                     std::string("reading the shadow maps failed: ") + error.what()};
+    }
 }
 
 Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {

@@ -10,6 +10,7 @@
 #include "gpu/device.h"
 #include "render/frame_plan.h"
 #include "render/list_limits.h"
+#include "render/shadow_atlas.h"
 #include "scene/scene.h"
 #include "view/settings.h"
 
@@ -85,6 +86,8 @@ class ViewRenderer {
     // The linear picture of the frame last submitted, which had keep_radiance (not a fast path:
     // waits and copies).
     [[nodiscard]] Result<LinearImage> readLinear();
+    // The shadow maps of the frame last submitted, which had some (not a fast path). Errors: kDevice.
+    [[nodiscard]] Result<ShadowAtlas> readShadows();
     // Which triangles the frame last collected shows, which took the visibility passes; `scene` is
     // the renderer's (not a fast path: see visibility_readback.h). Errors: kDevice.
     [[nodiscard]] Result<Visibility> readVisibility(const scene::Scene& scene);

@@ -92,6 +92,11 @@ struct SetTransparency {
     std::optional<uint32_t> peel_layers;
 };
 
+struct SetShadows {
+    std::optional<uint32_t> lights;
+    std::optional<uint32_t> size_px;
+};
+
 struct SetDebugView {
     std::optional<view::DebugView> view;
     std::optional<double> scale_max;
@@ -147,6 +152,7 @@ using Command = std::variant<Hello,
                              SetExposure,
                              SetToon,
                              SetPost,
+                             SetShadows,
                              SetDebugView,
                              SetTransparency,
                              SetSize,

@@ -98,4 +98,16 @@ SetTransparency decodeTransparency(const v1::SetTransparency& set, FieldValidato
     return command;
 }
 
+SetShadows decodeShadows(const v1::SetShadows& set, FieldValidator& fields) {
+    fields.require(set.has_lights() || set.has_size(), "shadow_lights");
+    SetShadows command;
+    if (set.has_lights()) {
+        command.lights = fields.number(view::kShadowLightsRange, set.lights());
+    }
+    if (set.has_size()) {
+        command.size_px = fields.number(view::kShadowSizeRange, set.size());
+    }
+    return command;
+}
+
 } // namespace froxel::session

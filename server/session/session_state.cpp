@@ -170,6 +170,12 @@ struct Reducer {
         return {};
     }
 
+    Outcome operator()(const SetShadows& command) const {
+        assignIfGiven(state.settings.shadows.light_count, command.lights);
+        assignIfGiven(state.settings.shadows.size_px, command.size_px);
+        return {};
+    }
+
     Outcome operator()(const SetSize& command) const {
         state.settings.size = command.size;
         return checkArea("width");

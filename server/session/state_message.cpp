@@ -65,6 +65,8 @@ void fillPost(v1::ViewState& out, const view::ViewSettings& settings) {
     out.set_bloom_strength(settings.bloom.strength);
     out.set_bloom_radius(settings.bloom.radius);
     out.set_antialiasing(toProto(kAntialiasingTable, settings.antialiasing));
+    out.set_shadow_lights(settings.shadows.light_count);
+    out.set_shadow_size(settings.shadows.size_px);
 }
 
 void fill(v1::ViewState& out, const SessionContext& context, const SessionState& state) {

@@ -49,6 +49,9 @@ inline constexpr Range<double> kBloomThresholdRange{"bloom_threshold", 0.0, 1'00
 inline constexpr Range<double> kBloomKneeRange{"bloom_knee", 0.0, 1.0};
 inline constexpr Range<double> kBloomStrengthRange{"bloom_strength", 0.0, 1.0};
 inline constexpr Range<double> kBloomRadiusRange{"bloom_radius", 0.001, 0.05};
+// 32 point lights of 512 take 201 MB a viewer.
+inline constexpr Range<uint32_t> kShadowLightsRange{"shadow_lights", 0, 32};
+inline constexpr Range<uint32_t> kShadowSizeRange{"shadow_size", 64, 512};
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
 
 // Every range that a client can run into; the server tells them all when it greets.
@@ -68,6 +71,7 @@ inline constexpr std::tuple kCommandRanges{kWidthRange,          kHeightRange,
                                            kOutlineWidthRange,   kBloomThresholdRange,
                                            kBloomKneeRange,      kBloomStrengthRange,
                                            kBloomRadiusRange,    kDebugScaleRange,
-                                           kPeelLayersRange};
+                                           kPeelLayersRange,     kShadowLightsRange,
+                                           kShadowSizeRange};
 
 } // namespace froxel::view

@@ -170,6 +170,13 @@ struct ToonOutline {
     bool operator==(const ToonOutline&) const = default;
 };
 
+// Maps of the point and spot lights that matter most to a view; the others light through walls.
+struct Shadows {
+    uint32_t light_count = 0; // lights with maps, at most; 0: none
+    uint32_t size_px = 256;   // of a map's side; a point light has six of them
+    bool operator==(const Shadows&) const = default;
+};
+
 // A cubic Hermite ramp from [0, 1] to [0, 1]: points in ascending x; constant outside.
 struct ToonRamp {
     static constexpr uint32_t kMaxPoints = 8;
@@ -200,6 +207,7 @@ struct ViewSettings {
     Transparency transparency = Transparency::kSorted;
     uint32_t peel_layers = 4; // at most, while peeled; pixels with more are counted
     Lights lights;
+    Shadows shadows;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;
     ToonRamp toon_fragment; // over each light's n.l

@@ -21,6 +21,7 @@ struct Surface {
     float visibility_v; // sqrt(n_dot_v^2 (1 - alpha2) + alpha2)
     float shininess;    // blinn_phong: half of s
     float lobe;         // blinn_phong: 2 pi times the lobe's height
+    uvec4 shadows;      // what arrives of the lights with shadow maps (lib/shadow.glsl)
 };
 
 struct LightSum {
@@ -35,6 +36,7 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     Surface s;
     s.position_view = position_view;
     s.normal_view = normal_view;
+    s.shadows = uvec4(0u); // found where lights are looped over
     if (hasLight(kLightLambert)) {
         s.to_eye_view = vec3(0.0);
         s.n_dot_v = s.n_dot_eye = s.alpha2 = s.visibility_v = 0.0;

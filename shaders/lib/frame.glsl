@@ -1,6 +1,7 @@
 // Set 0: the frame, its lights and lists; and the geometry of a pixel.
 #include "interface/frame_io.h"
 #include "interface/light_io.h"
+#include "interface/shadow_io.h"
 
 layout(constant_id = 0) const uint MATERIAL_FLAGS = 0;
 layout(constant_id = 1) const uint LIGHT_FLAGS = 0;
@@ -15,6 +16,9 @@ layout(set = 0, binding = 2) uniform utextureBuffer list_texels;   // io::Cluste
 layout(set = 0, binding = 3) uniform utextureBuffer index_texels;  // light index list
 layout(set = 0, binding = 4) uniform textureBuffer spot_texels;    // io::Spot: 2 texels
 layout(set = 0, binding = 5, scalar) readonly buffer SunBlock { DirectionalLight suns[]; };
+layout(set = 0, binding = 6) uniform utextureBuffer shadow_of_light; // a local light's, or kNoShadow
+layout(set = 0, binding = 7) uniform textureBuffer shadow_texels;    // io::ShadowLight: 5 texels
+layout(set = 0, binding = 8) uniform texture2D shadow_atlas;
 
 #ifdef FROXEL_VISIBILITY
 uint visible_flags; // of this invocation's pixel; MATERIAL_FLAGS: what any of them may have

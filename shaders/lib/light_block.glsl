@@ -51,6 +51,8 @@ shared vec4 shared_reach[kSharedLights]; // position, inverse square radius
 shared vec3 shared_color[kSharedLights];
 shared vec4 shared_cone[kSharedSpots]; // direction, scale
 shared float shared_cone_offset[kSharedSpots];
+const uint kSharedShadows = (LIGHT_FLAGS & kLightShadows) != 0 ? kSharedLights : 1;
+shared uint shared_shadow[kSharedShadows];
 
 // Of this invocation, to its subgroup.
 void offerLight(LocalLight light) {
@@ -61,6 +63,9 @@ void offerLight(LocalLight light) {
         if (hasLight(kLightSpots)) {
             shared_cone[slot] = vec4(light.cone_direction, light.cone_scale);
             shared_cone_offset[slot] = light.cone_offset;
+        }
+        if (hasLight(kLightShadows)) {
+            shared_shadow[slot] = light.shadow;
         }
         subgroupMemoryBarrierShared();
         subgroupBarrier();
@@ -80,6 +85,9 @@ LocalLight takeLight(LocalLight mine, uint invocation) {
         light.cone_direction = shared_cone[slot].xyz;
         light.cone_scale = shared_cone[slot].w;
         light.cone_offset = shared_cone_offset[slot];
+    }
+    if (hasLight(kLightShadows)) {
+        light.shadow = shared_shadow[slot];
     }
     return light;
 }

@@ -1,5 +1,6 @@
 // One light out of the frame's buffers, and what it adds to a surface.
 #include "lib/brdf.glsl"
+#include "lib/shadow.glsl"
 
 // A light as it is fetched; a point light's cone lets everything through: 0 * x + 1.
 struct LocalLight {
@@ -9,10 +10,11 @@ struct LocalLight {
     vec3 cone_direction;
     float cone_scale;
     float cone_offset;
+    uint shadow; // kNoShadow: none
 };
 
 LocalLight darkLight() {
-    return LocalLight(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 1.0);
+    return LocalLight(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 1.0, kNoShadow);
 }
 
 // Where it is and how far it reaches.
@@ -36,6 +38,9 @@ void fetchColor(uint index, inout LocalLight light) {
             light.cone_scale = c.w;
             light.cone_offset = texelFetch(spot_texels, int(2u * spot + 1u)).x;
         }
+    }
+    if (hasLight(kLightShadows)) {
+        light.shadow = texelFetch(shadow_of_light, int(index)).x;
     }
 }
 
@@ -66,6 +71,10 @@ void addLocalLight(Surface s, LocalLight light, float share, inout LightSum sum)
     if (hasLight(kLightSpots)) {
         share *= coneShare(light, to_light);
     }
+    if (hasLight(kLightShadows)) {
+        precise float seen = share * shadowShare(s, light.shadow);
+        share = seen;
+    }
     addLight(s, to_light, light.inv_radius2, light.color, share, sum);
 }
 
@@ -81,6 +90,9 @@ LocalLight shuffleLight(LocalLight mine, uint invocation) {
         light.cone_direction = subgroupShuffle(mine.cone_direction, invocation);
         light.cone_scale = subgroupShuffle(mine.cone_scale, invocation);
         light.cone_offset = subgroupShuffle(mine.cone_offset, invocation);
+    }
+    if (hasLight(kLightShadows)) {
+        light.shadow = subgroupShuffle(mine.shadow, invocation);
     }
     return light;
 }

@@ -137,6 +137,9 @@ void addListBatched(Surface s, bool lit, bool all_lights, uint cluster, inout Li
 LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
     LightSum sum = noLight();
     if (hasLight(kLightLocal)) {
+        if (hasLight(kLightShadows)) {
+            s.shadows = findShadows(s, lit);
+        }
         bool all_lights = !hasLight(kLightLists);
         uint cluster = all_lights || !lit ? kNoCluster : clusterAt(pixel, distance);
         bool reached = lit && (all_lights || cluster != kNoCluster);

@@ -90,6 +90,13 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
          }},
         {"fxaa", [](auto& s) { s.antialiasing = view::Antialiasing::kFxaa; }},
         {"ssaa4", [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; }},
+        {"shadows",
+         [](auto& s) {
+             s.lights.count = 5;
+             s.lights.radius_m = 16;
+             s.lights.intensity = 30;
+             s.shadows = {16, 256};
+         }},
         {"outline", [](auto& s) {
              s.renderer = view::Renderer::kToonFragment;
              s.toon_outline.strength = 0.9F;

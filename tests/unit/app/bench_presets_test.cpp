@@ -200,6 +200,7 @@ TEST(RenderArguments, EverySetting_ParsesBack) {
     s.toon_outline = {0.5F, 0.005F};
     s.transparency = view::Transparency::kPeeled;
     s.peel_layers = 7;
+    s.shadows = {8, 128};
     options.lens_shift = glm::dvec2(0.1, -0.25);
     options.timings = "t.json";
     auto texts = renderArguments(options, "");

@@ -147,6 +147,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         {p.outline == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
         {p.bloom == settings.bloom.kind, "the bloom asked for"},
+        {p.shadows == (facts.shadows && facts.local_lights), "maps of lights that have them"},
         {p.samples == (settings.antialiasing == view::Antialiasing::kSsaa4),
          "four samples where asked for"},
         {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
@@ -167,13 +168,14 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         const uint32_t laws = io::kLightSlicesLinear | io::kLightSlicesHyperbolic;
         const uint32_t of_local = io::kLightLists | io::kLightSpots | io::kLightBatched |
                                   io::kLightPartial | io::kLightEqualRadii | io::kLightCulled |
-                                  io::kLightLong | laws;
+                                  io::kLightLong | io::kLightShadows | laws;
         const std::pair<bool, const char*> light_rules[] = {
             {local == facts.local_lights, "local light code if there are any"},
             {local || (flags & of_local) == 0, "nothing of local lights without one"},
             {has(flags, io::kLightDirectional) == facts.directional, "suns if there are any"},
             {lists == p.lists, "lists are read if they are made"},
             {has(flags, io::kLightSpots) == (local && facts.spots), "cones if there are spots"},
+            {has(flags, io::kLightShadows) == p.shadows, "maps are read if they are drawn"},
             {has(flags, io::kLightEqualRadii) == (local && facts.equal_radii),
              "a constant radius if there is one"},
             {lists || (flags & laws) == 0, "no slices without lists"},
@@ -260,10 +262,11 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
         settings.bloom.kind =
             setting / 45 % 2 != 0 ? view::BloomKind::kMipChain : view::BloomKind::kNone;
         settings.toon_outline.strength = setting / 90 % 2 != 0 ? 0.5F : 0.0F;
-        for (uint32_t bits = 0; bits < 16; ++bits) {
+        for (uint32_t bits = 0; bits < 32; ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
             const FrameFacts facts{.transparent_visible = has(0),
                                    .local_lights = has(1),
+                                   .shadows = has(4),
                                    .keep_radiance = has(2),
                                    .visibility = has(3)};
             ASSERT_EQ(brokenRule(settings, facts, planFrame(settings, facts)), "")

@@ -74,6 +74,15 @@ TEST(PlanWords, Transparency_IsNamedWhereSomethingIsBlended) {
                 Contains(HasSubstr("weights of distance")));
 }
 
+TEST(PlanWords, ShadowMaps_AreNamedWhereTheyAreDrawn) {
+    view::ViewSettings settings;
+    settings.shadows = {8, 128};
+    EXPECT_THAT(wordsOf(settings, {.local_lights = true}), Not(Contains(HasSubstr("shadow maps"))));
+    EXPECT_THAT(wordsOf(settings, {.local_lights = true, .shadows = true}),
+                Contains("shadow maps: up to 8 lights, faces of 128 pixels a side, drawn each "
+                         "frame"));
+}
+
 TEST(PlanWords, Scene_CountsMaterials) {
     EXPECT_THAT(sceneWords(findNeeds(sceneOf(25, 18))),
                 Contains("normal maps on 18 of 25 materials"));

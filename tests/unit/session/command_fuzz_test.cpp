@@ -44,6 +44,10 @@ struct PromiseKept {
     bool operator()(const SetToon& c) const {
         return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2);
     }
+    bool operator()(const SetShadows& c) const {
+        return (!c.lights || view::kShadowLightsRange.contains(*c.lights)) &&
+               (!c.size_px || view::kShadowSizeRange.contains(*c.size_px));
+    }
     bool operator()(const SetPost& c) const {
         return (!c.bloom || static_cast<size_t>(*c.bloom) < view::kBloomKindNames.size()) &&
                (!c.bloom_radius || view::kBloomRadiusRange.contains(*c.bloom_radius)) &&

@@ -88,6 +88,22 @@ TEST(DecodeCommand, SetTransparency_IsTakenInPartsAndNotEmpty) {
     EXPECT_EQ(command.transparency, view::Transparency::kWeighted);
 }
 
+TEST(DecodeCommand, SetShadows_IsTakenInPartsAndNotEmpty) {
+    v1::ClientMessage message = clientMessage();
+    v1::SetShadows& set = *message.mutable_set_shadows();
+    EXPECT_EQ(refused(decodeBinary(message)).message, "shadow_lights is missing");
+    set.set_size(512);
+    auto command = accepted<SetShadows>(decodeBinary(message));
+    EXPECT_EQ(command.size_px, 512U);
+    EXPECT_FALSE(command.lights);
+    set.set_lights(32);
+    command = accepted<SetShadows>(decodeBinary(message));
+    EXPECT_EQ(command.lights, 32U);
+    set.set_lights(33);
+    EXPECT_EQ(refused(decodeBinary(message)).message,
+              "shadow_lights is 33; it must be from 0 to 32");
+}
+
 TEST(DecodeCommand, SetToonOutline_IsTakenWithoutARamp) {
     v1::ClientMessage message = clientMessage();
     message.mutable_set_toon()->set_outline_strength(0.75);

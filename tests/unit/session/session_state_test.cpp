@@ -349,6 +349,19 @@ TEST_F(State, SetPostAndOutline_PartsAreSetOneByOne) {
     EXPECT_EQ(state.settings.toon_fragment, initial.settings.toon_fragment);
 }
 
+TEST_F(State, SetShadows_PartsAreSetOneByOne) {
+    EXPECT_EQ(initial.settings.shadows.light_count, 0U);
+    SetShadows command;
+    command.lights = 4;
+    SessionState state = applied(initial, command);
+    EXPECT_EQ(state.settings.shadows, (view::Shadows{4, 256}));
+    command = {};
+    command.size_px = 128;
+    state = applied(state, command);
+    EXPECT_EQ(state.settings.shadows, (view::Shadows{4, 128}));
+    EXPECT_GT(state.version, initial.version);
+}
+
 TEST_F(State, SameValueAgain_CountsAsAppliedNotAsChanged) {
     const SessionState once = applied(initial, gridOf({8, 8, 8}));
     const SessionState twice = applied(once, gridOf({8, 8, 8}));

@@ -73,6 +73,7 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.antialiasing = view::Antialiasing::kFxaa;
     state.settings.transparency = view::Transparency::kPeeled;
     state.settings.peel_layers = 7;
+    state.settings.shadows = {12, 320};
     state.delivery = {true, 12.5, view::Refine::kHigh};
     state.encoding = {42, view::Chroma::k444, view::Codec::kVp9, 777};
     const v1::ServerMessage message = makeStateChanged(context, state);
@@ -120,6 +121,8 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.antialiasing(), v1::ANTIALIASING_FXAA);
     EXPECT_EQ(view.transparency(), v1::TRANSPARENCY_PEELED);
     EXPECT_EQ(view.peel_layers(), 7U);
+    EXPECT_EQ(view.shadow_lights(), 12U);
+    EXPECT_EQ(view.shadow_size(), 320U);
     EXPECT_EQ(view.quality(), 42U);
     EXPECT_TRUE(view.adaptive());
     EXPECT_EQ(view.target_fps(), 12.5);
@@ -292,9 +295,8 @@ TEST(FrameDetails, Legend_IsThereWithADebugView) {
 }
 
 TEST(FrameDetails, CarryTheirLinesAndRowsInOrder) {
-    const FrameDetails details{{"no masks: no discard", "no spots"},
-                               {{"textures", 5'000'000'000}, {"lists", 7}},
-                               {}};
+    const FrameDetails details{
+        {"no masks: no discard", "no spots"}, {{"textures", 5'000'000'000}, {"lists", 7}}, {}};
     const v1::ServerMessage message = makeFrameDetails(details);
     ASSERT_EQ(message.details().plan_size(), 2);
     EXPECT_EQ(message.details().plan(1), "no spots");

@@ -1,0 +1,96 @@
+#include "light/shadow_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace froxel::light {
+
+namespace {
+
+// Planes through the eye that bound what the camera sees, inwards; unit normals, in view space.
+struct SeenSpace {
+    struct Plane {
+        glm::dvec3 normal{0};
+        double offset_m = 0;
+    };
+    std::array<Plane, 5> planes;
+    size_t count = 0;
+
+    SeenSpace(const view::Camera& camera, const view::Size& size) {
+        add({0, 0, -1}, 0);
+        if (camera.lens_shift != glm::dvec2(0)) {
+            return;
+        }
+        const double aspect = static_cast<double>(size.width_px) / size.height_px;
+        if (camera.projection == view::Projection::kOrthographic) {
+            for (const double side : {-1.0, 1.0}) {
+                add({side, 0, 0}, camera.half_height_m * aspect);
+                add({0, side, 0}, camera.half_height_m);
+            }
+            return;
+        }
+        const double half = std::tan(camera.yfov_rad * 0.5);
+        for (const double side : {-1.0, 1.0}) {
+            add(glm::normalize(glm::dvec3(side, 0, -half * aspect)), 0);
+            add(glm::normalize(glm::dvec3(0, side, -half)), 0);
+        }
+    }
+    void add(const glm::dvec3& normal, double offset_m) { planes[count++] = {normal, offset_m}; }
+
+    [[nodiscard]] bool meets(const glm::dvec3& center, double radius_m) const {
+        return std::all_of(planes.begin(), planes.begin() + static_cast<std::ptrdiff_t>(count),
+                           [&](const Plane& plane) {
+                               return glm::dot(plane.normal, center) + plane.offset_m > -radius_m;
+                           });
+    }
+};
+
+double luminanceOf(const glm::vec3& color) {
+    return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+} // namespace
+
+double importance(double luminance, double distance_m, double reach_m, double share) {
+    const double nearest_m = std::max(distance_m, reach_m);
+    return nearest_m > 0 ? luminance * share / (nearest_m * nearest_m) : 0.0;
+}
+
+std::vector<uint32_t> chooseShadowed(const FrameLights& lights,
+                                     const view::Camera& camera,
+                                     const view::Size& size,
+                                     double farthest_m,
+                                     uint32_t count) {
+    const SeenSpace seen(camera, size);
+    const bool parallel = camera.projection == view::Projection::kOrthographic;
+    std::vector<std::pair<double, uint32_t>> ranked; // ascends: negated importance, index
+    for (uint32_t i = 0; i < lights.lights.size(); ++i) {
+        const io::Light& light = lights.lights[i];
+        const glm::dvec3 center(light.position_view);
+        const double reach_m = std::min(static_cast<double>(lights.radii_m[i]), farthest_m);
+        if (!(reach_m > 0) || !seen.meets(center, reach_m)) {
+            continue;
+        }
+        const double share =
+            light.spot == io::kNoSpot ? 1.0 : 0.5 * (1.0 - lights.cones[light.spot].cos_outer);
+        // Parallel rays show a ball in one size wherever it is.
+        const double distance_m = parallel ? camera.half_height_m : glm::length(center);
+        const double value = importance(luminanceOf(light.color), distance_m, reach_m, share);
+        if (value > 0) {
+            ranked.emplace_back(-value, i);
+        }
+    }
+    const size_t kept = std::min<size_t>(count, ranked.size());
+    std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept),
+                      ranked.end());
+    std::vector<uint32_t> chosen;
+    for (size_t i = 0; i < kept; ++i) {
+        chosen.push_back(ranked[i].second);
+    }
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+}
+
+} // namespace froxel::light

@@ -1,0 +1,23 @@
+// Lights as they are assigned where a G-buffer stores positions in halves.
+#pragma once
+
+#include "light/frame_lights.h"
+
+namespace froxel::render {
+
+// A position in halves lies up to 2^-11 of each coordinate off its pixel, and so perhaps in another
+// cluster: lights are assigned as if they reached that much farther. Spots as points.
+inline void growForHalves(const light::FrameLights& lights, light::FrameLights& grown) {
+    constexpr float kShare = 1.0F / 1024.0F;
+    grown.lights = lights.lights;
+    grown.radii_m = lights.radii_m;
+    for (size_t i = 0; i < grown.lights.size(); ++i) {
+        io::Light& light = grown.lights[i];
+        float& radius_m = grown.radii_m[i];
+        radius_m += kShare * glm::length(glm::abs(light.position_view) + radius_m);
+        light.inv_radius2 = 1.0F / (radius_m * radius_m);
+        light.spot = io::kNoSpot;
+    }
+}
+
+} // namespace froxel::render

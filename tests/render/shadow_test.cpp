@@ -1,0 +1,400 @@
+// Shadow maps on pictures: no acne, no leaks, no shimmer, exact lists, and the double-precision
+// reference's rays.
+#include "interface/constants.h"
+#include "reference/shade.h"
+#include "render/scene_resources.h"
+#include "render/visibility_readback.h"
+#include "support/draw.h"
+#include "support/exact.h"
+#include "support/gpu_fixture.h"
+#include "support/shapes.h"
+#include "support/test_scenes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <random>
+
+namespace froxel::test {
+
+namespace {
+
+using glm::dvec3;
+using view::Renderer;
+
+class Shadows : public SharedGpuTest {};
+
+render::FrameInputs
+inputsFrom(const dvec3& eye, const dvec3& target, const view::Shadows& shadows) {
+    auto inputs = hardInputs();
+    inputs.settings.size = {96, 54};
+    inputs.settings.renderer = Renderer::kForwardPlus;
+    inputs.settings.camera = view::lookAt(eye, target, {0, 1, 0});
+    inputs.settings.camera.yfov_rad = glm::radians(60.0);
+    inputs.settings.shadows = shadows;
+    return inputs;
+}
+
+// A floor of 20 m with its middle at the origin.
+scene::Primitive ground(uint32_t cells, uint32_t material = 0) {
+    return quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}, cells, material);
+}
+
+Picture drawn(const scene::Scene& scene, const render::FrameInputs& inputs, gpu::Device& device) {
+    render::Renderer renderer(device, scene);
+    return draw(renderer, inputs);
+}
+
+// The picture's luminance at a point of the world.
+float lightAt(const Picture& picture, const view::ViewSettings& settings, const dvec3& world) {
+    const auto& camera = settings.camera;
+    const dvec3 seen = glm::transpose(camera.world_from_view) * (world - camera.eye_world);
+    const double half = std::tan(camera.yfov_rad * 0.5) * -seen.z;
+    const double aspect = static_cast<double>(picture.width_px) / picture.height_px;
+    const auto x = static_cast<uint32_t>((seen.x / (half * aspect) + 1) * 0.5 * picture.width_px);
+    const auto y = static_cast<uint32_t>((1 - seen.y / half) * 0.5 * picture.height_px);
+    return at(picture, x, y, 0);
+}
+
+} // namespace
+
+// Alone in the scene a plane can only be in its own shadow: with maps it looks as without, bit for
+// bit, at every angle of the light and every place of the picture, grazing light too.
+TEST_F(Shadows, APlane_HasNoAcneAtAnyAngle) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    size_t lit = 0;
+    for (int i = 0; i < 24; ++i) {
+        const glm::dmat4 turn = glm::rotate(glm::dmat4(1), 4 * unit(random),
+                                            glm::normalize(dvec3(unit(random), unit(random), 1)));
+        const auto placed = [&](double x, double y, double z) {
+            return dvec3(turn * glm::dvec4(x, y, z, 1));
+        };
+        SceneMaker maker;
+        maker.add(ground(1 + static_cast<uint32_t>(i)), turn);
+        const double height = i % 3 == 0 ? 0.02 : i % 3 == 1 ? 0.5 : 4.0;
+        maker.point(placed(2 * unit(random), height, 2 * unit(random)), 15, 10);
+        maker.spot(placed(-3, height, 0), placed(1, -0.3, 0) - placed(0, 0, 0), 15, 20, 50);
+        auto inputs = inputsFrom(placed(0, 4, 7), placed(0, 0, 0), {2, 0});
+        render::Renderer renderer(device(), maker.scene);
+        render::ViewRenderer view(renderer);
+        for (const uint32_t size_px : {64U, 177U, 512U}) {
+            inputs.settings.shadows = {2, size_px};
+            const Picture with = draw(view, inputs);
+            inputs.settings.shadows = {};
+            EXPECT_EQ(differingFloats(with, draw(view, inputs)), 0U)
+                << "angle " << i << ", size " << size_px;
+            EXPECT_EQ(with.stats.shadows.light_count, 2U);
+            lit += litPixels(with);
+        }
+    }
+    EXPECT_GT(lit, 100'000U);
+}
+
+// Walls without thickness all around the light, drawn from either side: nothing gets out, also at
+// corners and where a wall stands on the floor that goes on outside.
+TEST_F(Shadows, AClosedBox_LetsNothingOut) {
+    for (const bool outwards : {false, true}) {
+        SceneMaker maker;
+        maker.add(ground(8));
+        scene::Scene box = insideOfABox(0.5F).scene;
+        for (auto& mesh : box.meshes) {
+            auto& part = mesh.primitives.front();
+            for (size_t i = 0; outwards && i < part.indices.size(); i += 3) {
+                std::swap(part.indices[i], part.indices[i + 1]);
+            }
+            for (auto& normal : part.normals) {
+                normal *= outwards ? -1.0F : 1.0F;
+            }
+            maker.add(part, glm::translate(glm::dmat4(1), dvec3(0.3, 0.5, -0.2)));
+        }
+        maker.point({0.4, 0.45, -0.1}, 8, 10);
+        render::Renderer renderer(device(), maker.scene);
+        render::ViewRenderer view(renderer);
+        for (const uint32_t size_px : {64U, 256U}) {
+            auto inputs = inputsFrom({2, 3, 4}, {0, 0.5, 0}, {1, size_px});
+            const Picture with = draw(view, inputs);
+            if (outwards) {
+                auto unlit = inputs;
+                unlit.settings.lights.scene_lights = false;
+                EXPECT_EQ(differingFloats(with, draw(view, unlit)), 0U) << size_px;
+            } // else the inside shows through the walls' culled backs: look at the floor alone
+            for (const dvec3& outside : {dvec3(0.9, 0, -0.2), dvec3(0.82, 0, 0.32),
+                                         dvec3(0.3, 0, 0.4), dvec3(-2, 0, 1), dvec3(3, 0, -3)}) {
+                EXPECT_EQ(lightAt(with, inputs.settings, outside), 0)
+                    << outside.x << " " << outside.z << " " << size_px;
+            }
+            inputs.settings.shadows = {};
+            EXPECT_GT(lightAt(draw(view, inputs), inputs.settings, {0.9, 0, -0.2}), 0);
+        }
+    }
+}
+
+namespace {
+
+// The bits of an atlas's first tiles, which lie in its first row; what no light uses is undefined.
+std::vector<uint32_t> bitsOfTiles(const render::ShadowAtlas& atlas, uint32_t tile_count) {
+    std::vector<uint32_t> bits;
+    for (size_t y = 0; y < atlas.size_px; ++y) {
+        for (size_t x = 0; x < size_t{tile_count} * atlas.size_px; ++x) {
+            bits.push_back(std::bit_cast<uint32_t>(atlas.depths[y * atlas.width_px + x]));
+        }
+    }
+    return bits;
+}
+
+} // namespace
+
+// Depths of a light's maps are the same bits wherever the camera stands, so that shadows do not
+// shimmer; and not those of a light that has moved.
+TEST_F(Shadows, ACameraThatMoves_LeavesTexelsAsTheyAre) {
+    auto room = makeRoom();
+    scene::PunctualLight lamp;
+    lamp.position_world = {0.3, 2.7, 1.1};
+    lamp.range_m = 6;
+    lamp.intensity = 5;
+    room.lights = {lamp};
+    scene::PunctualLight spot = lamp;
+    spot.type = scene::LightType::kSpot;
+    spot.direction_world = glm::normalize(dvec3(-0.3, -1, -0.4));
+    spot.outer_cone_rad = 0.7;
+    room.lights.push_back(spot);
+    const auto mapsFrom = [&](render::Renderer& renderer, const dvec3& eye) {
+        auto inputs = inputsFrom(eye, {0, 1, 0}, {3, 128});
+        inputs.settings.lights.count = 1;
+        inputs.settings.lights.radius_m = 4;
+        inputs.time_s = 3;
+        render::ViewRenderer view(renderer);
+        (void)draw(view, inputs);
+        return view.readShadows().value();
+    };
+    render::Renderer renderer(device(), room);
+    const auto first = mapsFrom(renderer, {0.5, 2.2, 7});
+    ASSERT_EQ(first.first_tiles.size(), 3U);
+    const auto bits = bitsOfTiles(first, 13); // two point lights and a spot
+    EXPECT_GT(std::count_if(bits.begin(), bits.end(), [](uint32_t b) { return b != 0; }), 10'000);
+    for (const dvec3& eye : {dvec3(0.5001, 2.2, 7), dvec3(-5, 0.4, 3), dvec3(0, 9, 0.5)}) {
+        const auto moved = mapsFrom(renderer, eye);
+        EXPECT_EQ(moved.shadow_of_light, first.shadow_of_light);
+        EXPECT_TRUE(bitsOfTiles(moved, 13) == bits);
+    }
+    room.lights[0].position_world.x += 0.01;
+    render::Renderer other(device(), room);
+    EXPECT_FALSE(bitsOfTiles(mapsFrom(other, {0.5, 2.2, 7}), 13) == bits);
+}
+
+// The exactness contract with shadows, by every way to add lights up.
+TEST_F(Shadows, ListsStagesAndLoops_AreExact) {
+    auto room = makeRoom();
+    scene::PunctualLight spot;
+    spot.type = scene::LightType::kSpot;
+    spot.position_world = {1, 4, 2};
+    spot.direction_world = glm::normalize(dvec3(0, -1, -0.2));
+    spot.intensity = 20;
+    room.lights = {spot};
+    render::Renderer renderer(device(), room);
+    render::ViewRenderer view(renderer);
+    for (const auto& camera : room.cameras) {
+        for (const auto shading : {view::ShadingModel::kPbr, view::ShadingModel::kLambert}) {
+            auto inputs = inputsFrom({0, 0, 0}, {0, 0, -1}, {20, 96});
+            inputs.settings.camera = camera.camera;
+            inputs.settings.shading = shading;
+            inputs.settings.lights.count = 150;
+            inputs.settings.lights.radius_m = 3;
+            inputs.time_s = 2;
+            (void)expectExact(view, inputs);
+            for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+                SCOPED_TRACE(view::kRendererNames[kind]);
+                inputs.settings.renderer = static_cast<Renderer>(kind);
+                const Picture usual = draw(view, inputs);
+                EXPECT_EQ(usual.stats.shadows.light_count, 20U);
+                EXPECT_EQ(differingFloats(usual, draw(view, inputs)), 0U);
+                for (const auto part : {render::GenericParts{.plain_loops = true},
+                                        render::GenericParts{.uncut_loops = true},
+                                        render::GenericParts{.uneven_radii = true}}) {
+                    auto generic = inputs;
+                    generic.generic = part;
+                    EXPECT_EQ(differingFloats(usual, draw(view, generic)), 0U);
+                }
+                if (!render::isForward(inputs.settings.renderer)) {
+                    auto fragment = inputs;
+                    fragment.settings.lighting = view::LightingStage::kFragment;
+                    EXPECT_EQ(differingFloats(usual, draw(view, fragment)), 0U);
+                }
+            }
+        }
+    }
+}
+
+// Without maps nothing of them exists, and a light out of view changes no bit.
+TEST_F(Shadows, WhereNoneAreAskedForOrSeen_NothingIsThere) {
+    const auto room = makeRoom();
+    render::Renderer renderer(device(), room);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFrom({0.5, 2.2, 7}, {0, 1, 0}, {});
+    inputs.settings.lights.count = 40;
+    const Picture without = draw(view, inputs);
+    EXPECT_EQ(device().memoryLedger()->byPurpose().count("shadow atlas"), 0U);
+    for (const auto& made : renderer.resources().pipelines.made()) {
+        EXPECT_EQ(made.key.light_flags & io::kLightShadows, 0U);
+    }
+    EXPECT_EQ(without.stats.shadows.map_count, 0U);
+    for (const auto& pass : without.stats.passes) {
+        EXPECT_NE(pass.name, "shadows");
+    }
+    inputs.settings.shadows = {32, 128};
+    const Picture with = draw(view, inputs);
+    EXPECT_EQ(with.stats.shadows.light_count, 32U);
+    EXPECT_EQ(with.stats.shadows.map_count, 192U);
+    EXPECT_GT(with.stats.shadows.triangle_count, 0U);
+    EXPECT_TRUE(std::any_of(with.stats.passes.begin(), with.stats.passes.end(),
+                            [](const auto& pass) { return pass.name == "shadows"; }));
+    EXPECT_GT(differingFloats(without, with), 0U);
+    EXPECT_GE(device().memoryLedger()->byPurpose().at("shadow atlas"), 192U * 128 * 128 * 4);
+    inputs.settings.shadows = {};
+    EXPECT_EQ(differingFloats(without, draw(view, inputs)), 0U);
+    // Each slot lets go of its maps as it is used again.
+    for (int i = 0; i < 3; ++i) {
+        (void)draw(view, inputs);
+    }
+    EXPECT_EQ(device().memoryLedger()->byPurpose().count("shadow atlas"), 0U);
+
+    inputs.settings.lights.box = BoundsD3{{-50, 50, -50}, {-40, 60, -40}};
+    const Picture dark = draw(view, inputs);
+    inputs.settings.shadows = {4, 128};
+    const Picture unseen = draw(view, inputs);
+    EXPECT_EQ(unseen.stats.shadows.light_count, 0U);
+    EXPECT_EQ(differingFloats(dark, unseen), 0U);
+}
+
+// What casts: solid and cut-out surfaces from both sides, not glass and not what glows.
+TEST_F(Shadows, Casters_AreSolidOrCutOut) {
+    enum class Kind { kSolid, kBack, kGlass, kGlowing, kCutOut, kUncut };
+    for (const auto kind :
+         {Kind::kSolid, Kind::kBack, Kind::kGlass, Kind::kGlowing, Kind::kCutOut, Kind::kUncut}) {
+        SceneMaker maker;
+        scene::Material pane = chalk();
+        pane.alpha_mode = kind == Kind::kGlass ? scene::AlphaMode::kBlend
+                          : kind == Kind::kCutOut || kind == Kind::kUncut
+                              ? scene::AlphaMode::kMask
+                              : scene::AlphaMode::kOpaque;
+        pane.base_color.w = kind == Kind::kCutOut ? 0.4F : kind == Kind::kGlass ? 0.5F : 0.6F;
+        pane.emissive = glm::vec3(kind == Kind::kGlowing ? 1.0F : 0.0F);
+        const uint32_t material = maker.add(pane);
+        maker.add(ground(4));
+        maker.add(kind == Kind::kBack ? quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, 2, material)
+                                      : quad({-1, 1, 1}, {2, 0, 0}, {0, 0, -2}, 2, material));
+        maker.point({0, 2, 0}, 12, 10);
+        const auto inputs = inputsFrom({0, 3, 7}, {0, 0, 0}, {1, 256});
+        const Picture picture = drawn(maker.scene, inputs, device());
+        const bool casts = kind == Kind::kSolid || kind == Kind::kBack || kind == Kind::kUncut;
+        EXPECT_EQ(lightAt(picture, inputs.settings, {1.4, 0, 1.4}) == 0, casts)
+            << static_cast<int>(kind);
+        EXPECT_GT(lightAt(picture, inputs.settings, {2.6, 0, 2.2}), 0); // beyond the shadow
+    }
+}
+
+namespace {
+
+// The room without textures and glass.
+scene::Scene plainRoom() {
+    scene::Scene room = makeRoom();
+    for (auto& material : room.materials) {
+        material = chalk();
+    }
+    room.instances.erase(room.instances.begin() + 3);
+    return room;
+}
+
+// What a pixel shows: instance and primitive, which are flat there.
+std::pair<uint32_t, uint32_t> surfaceOf(const Visibility& seen, size_t pixel) {
+    return {seen.pixels[pixel].instance, seen.pixels[pixel].primitive};
+}
+
+} // namespace
+
+// Against rays in double: pixels differ only within two texels of a shadow's edge. A pixel's texels
+// are unknown here, so its neighbours stand for them: where none differs in how much of the light
+// it gets, there is no edge.
+TEST_F(Shadows, APlainRoom_IsAsRaysHaveIt_ButAtEdges) {
+    auto room = plainRoom();
+    scene::PunctualLight lamp;
+    lamp.range_m = 12;
+    lamp.intensity = 8;
+    for (const dvec3& position : {dvec3(0.3, 2.7, 1.6), dvec3(-4, 1.2, 2), dvec3(1.3, 0.6, 1.2)}) {
+        lamp.position_world = position;
+        room.lights = {lamp};
+        render::Renderer renderer(device(), room);
+        render::ViewRenderer view(renderer);
+        for (const auto& camera : room.cameras) {
+            auto inputs = inputsFrom({0, 0, 0}, {0, 0, -1}, {1, 512});
+            inputs.settings.size = {240, 135};
+            inputs.settings.camera = camera.camera;
+            const Picture picture = draw(view, inputs);
+            const auto seen = render::readVisibility(renderer, room, inputs);
+            ASSERT_TRUE(seen);
+            const auto by_rays = reference::shade(room, inputs.settings, 0, *seen);
+            auto open = inputs.settings;
+            open.shadows = {};
+            const auto unshadowed = reference::shade(room, open, 0, *seen);
+            ASSERT_TRUE(by_rays && unshadowed);
+            const auto blocked = [&](size_t pixel) {
+                return by_rays->rgb[3 * pixel] == 0 && unshadowed->rgb[3 * pixel] > 0;
+            };
+            size_t differing = 0;
+            size_t away_from_edges = 0;
+            size_t dark = 0;
+            constexpr int kNear_px = 4;
+            for (int y = 0; y < 135; ++y) {
+                for (int x = 0; x < 240; ++x) {
+                    const size_t pixel = static_cast<size_t>(y * 240 + x);
+                    dark += blocked(pixel) ? 1U : 0U;
+                    const auto value = static_cast<double>(by_rays->rgb[3 * pixel]);
+                    const auto error =
+                        std::abs(static_cast<double>(picture.radiance[3 * pixel]) - value);
+                    if (error <= 1e-4 * (value + 0.01)) {
+                        continue;
+                    }
+                    ++differing;
+                    bool edge = false;
+                    for (int dy = -kNear_px; dy <= kNear_px; ++dy) {
+                        for (int dx = -kNear_px; dx <= kNear_px; ++dx) {
+                            const int nx = std::clamp(x + dx, 0, 239);
+                            const int ny = std::clamp(y + dy, 0, 134);
+                            const auto other = static_cast<size_t>(ny * 240 + nx);
+                            edge |= blocked(other) != blocked(pixel) ||
+                                    surfaceOf(*seen, other) != surfaceOf(*seen, pixel);
+                        }
+                    }
+                    away_from_edges += edge ? 0U : 1U;
+                }
+            }
+            std::printf("shadows against rays: %zu of 32400 pixels differ, %zu away from edges, "
+                        "%zu blocked\n",
+                        differing, away_from_edges, dark);
+            EXPECT_GT(dark, 300U);
+            EXPECT_LT(differing, 32400U / 100);
+            EXPECT_EQ(away_from_edges, 0U);
+        }
+    }
+}
+
+TEST_F(Shadows, ASpot_IsDarkBehindWhatBlocksIt) {
+    for (const double outer_deg : {10.0, 35.0, 60.0, 75.0, 89.0}) {
+        SceneMaker maker;
+        maker.add(ground(4)).add(quad({-0.25F, 1, 0.25F}, {0.5F, 0, 0}, {0, 0, -0.5F}, 1, 0));
+        maker.spot({0, 3, 0}, {0.02, -1, 0.01}, 12, outer_deg * 0.9, outer_deg);
+        const auto inputs = inputsFrom({0, 2, 6}, {0, 0, 0}, {1, 256});
+        const Picture picture = drawn(maker.scene, inputs, device());
+        EXPECT_EQ(picture.stats.shadows.map_count, outer_deg <= 60 ? 1U : 6U);
+        EXPECT_EQ(lightAt(picture, inputs.settings, {0.2, 0, 0.2}), 0) << outer_deg;
+        EXPECT_EQ(lightAt(picture, inputs.settings, {-0.3, 0, 0}), 0) << outer_deg;
+        if (outer_deg > 20) {
+            EXPECT_GT(lightAt(picture, inputs.settings, {0.6, 0, 0.3}), 0) << outer_deg;
+        }
+    }
+}
+
+} // namespace froxel::test
