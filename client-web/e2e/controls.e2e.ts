@@ -19,6 +19,7 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   light_radius: [4, true],
   light_intensity: [3, true],
   light_cutoff: [0.01, true],
+  list_cap: [1, true],
   bloom_threshold: [0.25, false],
   bloom_knee: [1, false],
   bloom_strength: [1, true],
@@ -62,7 +63,7 @@ afterAll(async () => {
   expect(await server.stop()).toBe(0);
 });
 
-const told = (): Settings | null => (viewer.state ? settingsOf(viewer.state, null) : null);
+const told = (): Settings | null => (viewer.state ? settingsOf(viewer.state, null, []) : null);
 
 async function setSwitch(name: string, on: boolean): Promise<void> {
   await viewer.control(name).locator('input').setChecked(on);
@@ -71,7 +72,7 @@ async function setSwitch(name: string, on: boolean): Promise<void> {
 
 async function expectState(field: Field, value: number | boolean): Promise<void> {
   await viewer.stateWith(`${field.name} = ${String(value)}`, (state) => {
-    const now = settingsOf(state, null)[field.key];
+    const now = settingsOf(state, null, [])[field.key];
     return typeof now === 'number' && typeof value === 'number'
       ? Math.abs(now - value) <= 1e-6 * Math.abs(value)
       : now === value;

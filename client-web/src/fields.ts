@@ -258,6 +258,12 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       false,
       'A light ends where its irradiance would fall to this: faster, darker. 0: at its radius',
     ),
+    toggle(
+      'lightCutoffCompensated',
+      'light_cutoff_compensated',
+      'Give back',
+      'Lights that end early are brighter by what they lost; costs nothing',
+    ),
     number('lightSpeed', 'light_speed', 'Speed', 'log', false, "Scales the animation's clock"),
     number('lightSeed', 'light_seed', 'Seed', 'none', true, 'Places, paths and colours of the lights'),
     toggle('lightAnimate', 'light_animate', 'Animate', 'Off: time stands still'),
@@ -271,6 +277,14 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'Light loop',
       LightLoopSchema,
       'Which lights a pixel loops over. auto: all of them where lists cannot pay',
+    ),
+    number(
+      'listCap',
+      'list_cap',
+      'List cap',
+      'linear',
+      true,
+      'Lights that a list keeps at most, those that can add most: faster, darker; assigned on the host. 0: all',
     ),
     toggle(
       'countPairs',

@@ -23,6 +23,7 @@ import {
   type Vec3,
   type ViewState,
 } from './gen/froxel/v1/common_pb';
+import { placedChanges, type PlacedLights } from './placed_lights';
 import { equal, vec, type Vec } from './vec3';
 
 export interface Bounds {
@@ -56,13 +57,16 @@ export interface Settings {
   readonly lightRadius: number;
   readonly lightIntensity: number;
   readonly lightCutoff: number;
+  readonly lightCutoffCompensated: boolean;
   readonly lightSeed: number;
   readonly lightAnimate: boolean;
   readonly lightSpeed: number;
   readonly lightBox: Bounds | null; // null: the scene's bounds
   readonly ambient: number;
   readonly sceneLights: boolean;
+  readonly placedLights: PlacedLights;
   readonly lightLoop: LightLoop;
+  readonly listCap: number; // 0: none
   readonly countPairs: boolean;
   readonly lightTime: number | null; // seconds where the lights' clock stands; null: it runs
   readonly gridAutomatic: boolean;
@@ -116,7 +120,11 @@ const toRamp = (ramp: ToonRamp | undefined): Ramp =>
   (ramp?.points ?? []).map(({ x, y, slope }) => ({ x, y, slope }));
 
 /** The server's state as settings; a light box that is the scene's bounds becomes null. */
-export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settings {
+export function settingsOf(
+  state: ViewState,
+  sceneBounds: Bounds | null,
+  placedLights: PlacedLights,
+): Settings {
   const box = state.lightBox
     ? { min: toVec(state.lightBox.min), max: toVec(state.lightBox.max) }
     : null;
@@ -138,13 +146,16 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     lightRadius: state.lightRadiusM,
     lightIntensity: state.lightIntensity,
     lightCutoff: state.lightCutoff,
+    lightCutoffCompensated: state.lightCutoffCompensated,
     lightSeed: state.lightSeed,
     lightAnimate: state.lightAnimate,
     lightSpeed: state.lightSpeed,
     lightBox: box && sceneBounds && sameBounds(box, sceneBounds) ? null : box,
     ambient: state.ambient,
     sceneLights: state.sceneLights,
+    placedLights,
     lightLoop: state.lightLoop,
+    listCap: state.listCap,
     countPairs: state.countPairs,
     lightTime: state.lightTimeS ?? null,
     gridAutomatic: state.gridAutomatic,
@@ -238,6 +249,9 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   }
   const lights = lightChanges(from, to);
   if (Object.keys(lights).length > 0) commands.push({ case: 'setLights', value: lights });
+  for (const value of placedChanges(from.placedLights, to.placedLights)) {
+    commands.push({ case: 'setPlacedLights', value });
+  }
   const grid = gridChanges(from, to);
   if (Object.keys(grid).length > 0) commands.push({ case: 'setGrid', value: grid });
   if (changed('debugView', 'debugScaleMax', 'debugFrozen')) {
@@ -363,6 +377,10 @@ function lightChanges(from: Settings, to: Settings): LightsValue {
     ...(from.lightRadius !== to.lightRadius && { radiusM: to.lightRadius }),
     ...(from.lightIntensity !== to.lightIntensity && { intensity: to.lightIntensity }),
     ...(from.lightCutoff !== to.lightCutoff && { cutoff: to.lightCutoff }),
+    ...(from.lightCutoffCompensated !== to.lightCutoffCompensated && {
+      cutoffCompensated: to.lightCutoffCompensated,
+    }),
+    ...(from.listCap !== to.listCap && { listCap: to.listCap }),
     ...(from.lightSeed !== to.lightSeed && { seed: to.lightSeed }),
     ...(from.lightAnimate !== to.lightAnimate && { animate: to.lightAnimate }),
     ...(from.lightSpeed !== to.lightSpeed && { speed: to.lightSpeed }),

@@ -53,6 +53,8 @@ export function viewState(change: ViewInit = {}): ViewState {
     lightRadiusM: 2,
     lightIntensity: 1,
     lightCutoff: 0,
+    lightCutoffCompensated: false,
+    listCap: 0,
     lightSeed: 1,
     lightAnimate: true,
     lightSpeed: 1,
@@ -89,7 +91,7 @@ export function viewState(change: ViewInit = {}): ViewState {
 }
 
 export const sampleSettings = (change: Partial<Settings> = {}): Settings => ({
-  ...settingsOf(viewState(), kBounds),
+  ...settingsOf(viewState(), kBounds, []),
   ...change,
 });
 

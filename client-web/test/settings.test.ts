@@ -27,13 +27,13 @@ const commandsFor = (change: Partial<Settings>): unknown =>
 describe('settingsOf', () => {
   it('LightTime_OfLightsThatMove_IsNone', () => {
     expect(base.lightTime).toBeNull();
-    expect(settingsOf(viewState({ lightTimeS: 0 }), kBounds).lightTime).toBe(0);
+    expect(settingsOf(viewState({ lightTimeS: 0 }), kBounds, []).lightTime).toBe(0);
   });
 
   it('LightBox_ThatIsTheScenesBounds_IsNone', () => {
     expect(base.lightBox).toBeNull();
     const box = { min: { x: 0, y: 0, z: 0 }, max: { x: 1, y: 1, z: 1 } };
-    expect(settingsOf(viewState({ lightBox: box }), kBounds).lightBox).toEqual(box);
+    expect(settingsOf(viewState({ lightBox: box }), kBounds, []).lightBox).toEqual(box);
   });
 });
 
@@ -61,6 +61,12 @@ describe('settingCommands', () => {
     ['light radius', { lightRadius: 3 }, { case: 'setLights', value: { radiusM: 3 } }],
     ['intensity', { lightIntensity: 0 }, { case: 'setLights', value: { intensity: 0 } }],
     ['cut-off', { lightCutoff: 0.01 }, { case: 'setLights', value: { cutoff: 0.01 } }],
+    [
+      'compensation',
+      { lightCutoffCompensated: true },
+      { case: 'setLights', value: { cutoffCompensated: true } },
+    ],
+    ['list cap', { listCap: 40 }, { case: 'setLights', value: { listCap: 40 } }],
     ['seed', { lightSeed: 9 }, { case: 'setLights', value: { seed: 9 } }],
     ['animate', { lightAnimate: false }, { case: 'setLights', value: { animate: false } }],
     ['speed', { lightSpeed: 2 }, { case: 'setLights', value: { speed: 2 } }],

@@ -233,6 +233,7 @@ std::string commandOf(const BenchResult& result, const BenchRow& row, size_t fra
     options.scene = result.scene_source;
     options.device.choice = result.device_choice;
     options.settings = row.settings;
+    options.light_set = result.light_set;
     options.time_s = view.time_s;
     options.frame_count = static_cast<uint32_t>(frame_count);
     options.warmup_count = result.budget.warmup_first;
@@ -270,7 +271,9 @@ std::vector<std::string> inexactRows(const BenchResult& result) {
         for (size_t i = 0; i < found.rows.size(); ++i) {
             const auto& row = found.sweep.rows[i];
             const auto& error = found.rows[i].errors.r1;
-            if (!found.rows[i].times.measured() || !error.skipped.empty() || error.exact()) {
+            const bool capped = row.settings.list_cap > 0; // inexact on purpose
+            if (!found.rows[i].times.measured() || !error.skipped.empty() || error.exact() ||
+                capped) {
                 continue;
             }
             lines.push_back(fmt::format(

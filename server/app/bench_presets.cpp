@@ -250,6 +250,8 @@ constexpr std::array kPresets = {
     Preset{"debug_view", debugViews},
     Preset{"resolution_scale", resolutionScaleSweep},
     Preset{"cutoff", cutoffSweep},
+    Preset{"compensation", compensationSweep},
+    Preset{"list_cap", listCapSweep},
     Preset{"bloom", bloomSweep},
     Preset{"antialiasing", antialiasingSweep},
     Preset{"transparency", transparencySweep},

@@ -95,6 +95,48 @@ Sweep cutoffSweep(const BenchBase& base) {
     return sweep;
 }
 
+Sweep compensationSweep(const BenchBase& base) {
+    Sweep sweep{"compensation",
+                "Lights cut off early, and what they lost given back",
+                "cutoff",
+                "",
+                Axis::kLog,
+                "A light that ends early is brighter by what it lost, or not.",
+                {}};
+    for (const bool compensated : {false, true}) {
+        for (const float value : {0.2F, 0.1F, 0.05F, 0.02F, 0.01F}) {
+            auto row = rowOf(base, kDeferred, "cutoff " + numberText(value),
+                             static_cast<double>(value), [&](auto& s) {
+                                 s.lights.cutoff = value;
+                                 s.lights.cutoff_compensated = compensated;
+                             });
+            row.series = compensated ? "given back" : "lost";
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
+Sweep listCapSweep(const BenchBase& base) {
+    Sweep sweep{
+        "list_cap",
+        "Lists capped by importance",
+        "cap",
+        "lights",
+        Axis::kLog,
+        "R1 is the error of the cap: the picture of every light is what it is held against.",
+        {}};
+    for (const auto& way : kListWays) {
+        for (const uint32_t cap : {4U, 8U, 16U, 32U, 64U, 128U, 256U}) {
+            sweep.rows.push_back(rowOf(base, way, fmt::format("cap {}", cap), cap, [&](auto& s) {
+                s.list_cap = cap;
+                s.light_loop = view::LightLoop::kLists;
+            }));
+        }
+    }
+    return sweep;
+}
+
 Sweep bloomSweep(const BenchBase& base) {
     Sweep sweep{
         "bloom", "Ways of bloom", "kind",

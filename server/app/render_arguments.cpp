@@ -78,6 +78,7 @@ void addShading(Arguments& arguments,
     arguments.changedName("--grid-law", view::kGridLawNames, settings.grid.law, usual.grid.law);
     arguments.changedName("--light-loop", view::kLightLoopNames, settings.light_loop,
                           usual.light_loop);
+    arguments.changed("--list-cap", settings.list_cap, usual.list_cap);
     arguments.changedName("--gbuffer-normal", view::kNormalEncodingNames, settings.gbuffer.normal,
                           usual.gbuffer.normal);
     arguments.changedName("--gbuffer-position", view::kPositionSourceNames,
@@ -96,6 +97,7 @@ void addLights(Arguments& arguments, const view::Lights& lights, const view::Lig
     arguments.always("--light-radius", numberText(lights.radius_m));
     arguments.changed("--light-intensity", lights.intensity, usual.intensity);
     arguments.changed("--light-cutoff", lights.cutoff, usual.cutoff);
+    arguments.flag("--light-cutoff-compensated", lights.cutoff_compensated);
     if (lights.box) {
         arguments.always("--light-box", textOf(*lights.box));
     }
@@ -153,6 +155,9 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
                      std::string(view::kRendererNames[static_cast<size_t>(settings.renderer)]));
     addShading(arguments, settings, usual.settings);
     addLights(arguments, settings.lights, usual.settings.lights);
+    if (!options.light_set.empty()) {
+        arguments.always("--light-set", options.light_set.string());
+    }
     arguments.changed("--exposure", settings.exposure, usual.settings.exposure);
     arguments.changedName("--tone-map", view::kToneMapNames, settings.tone_map,
                           usual.settings.tone_map);

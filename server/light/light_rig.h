@@ -7,9 +7,12 @@
 #include "view/camera.h"
 #include "view/settings.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace froxel::light {
+
+[[nodiscard]] scene::PunctualLight asPunctual(const view::PlacedLight& placed);
 
 // Immutable after construction: any number of threads may evaluate at once, each into its own
 // FrameLights.
@@ -31,16 +34,21 @@ class LightRig {
     // bounds less kShrink of their size on every side.
     [[nodiscard]] BoundsD3 seededBox(const view::Lights& settings) const;
 
-    // The scene's lights that frames hold, in file order.
-    [[nodiscard]] const std::vector<scene::PunctualLight>& sceneLights() const {
-        return scene_lights_;
+    // Calls visit(const scene::PunctualLight&) for the lights of a frame that are not seeded, in
+    // their order: the scene's, as its file has them, then those that viewers placed, by id.
+    template <class Visit>
+    void eachFixed(const view::Lights& settings, const Visit& visit) const {
+        if (settings.scene_lights) {
+            std::for_each(scene_lights_.begin(), scene_lights_.end(), visit);
+        }
+        for (const view::PlacedLight& placed : settings.placed.lights()) {
+            visit(asPunctual(placed));
+        }
     }
 
     static constexpr double kShrink = 0.04;
 
   private:
-    void addSceneLights(const view::Camera& camera, FrameLights& out) const;
-
     std::vector<scene::PunctualLight> scene_lights_;
     BoundsD3 scene_bounds_world_;
 };

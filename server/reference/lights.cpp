@@ -38,14 +38,11 @@ Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, d
     const double ambient = static_cast<double>(settings.lights.ambient);
     lights.sky = glm::dvec3(view::kAmbientSky) * ambient;
     lights.ground = glm::dvec3(view::kAmbientGround) * ambient;
-    if (!settings.lights.scene_lights) {
-        return lights;
-    }
-    for (const auto& light : rig.sceneLights()) {
+    rig.eachFixed(settings.lights, [&](const scene::PunctualLight& light) {
         const glm::dvec3 color = glm::dvec3(light.color) * static_cast<double>(light.intensity);
         if (light.type == scene::LightType::kDirectional) {
             lights.directionals.push_back({glm::normalize(light.direction_world), color});
-            continue;
+            return;
         }
         PointLight point{.position = light.position_world - eye, .color = color};
         if (light.range_m > 0) {
@@ -55,7 +52,7 @@ Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, d
             addCone(light, point);
         }
         lights.points.push_back(point);
-    }
+    });
     return lights;
 }
 

@@ -1,5 +1,6 @@
 #include "render/frame_builder.h"
 
+#include "cluster/list_cap.h"
 #include "render/gbuffer_layout.h"
 #include "render/light_budget.h"
 #include "render/prepass_choice.h"
@@ -156,9 +157,9 @@ bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
     const bool wanted =
         inputs.assignment == AssignmentPlace::kDevice ||
         (inputs.assignment == AssignmentPlace::kAuto && !scene_.device.traits().is_cpu);
-    // Grown lights are assigned on the host.
-    if (!wanted || storesHalves(inputs.settings) || !light_grid_.lists() ||
-        scene_.assignment() == nullptr) {
+    // Grown lights are assigned, and lists are capped, on the host.
+    if (!wanted || inputs.settings.list_cap > 0 || storesHalves(inputs.settings) ||
+        !light_grid_.lists() || scene_.assignment() == nullptr) {
         return false;
     }
     const auto& settings = inputs.settings;
@@ -201,6 +202,9 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         (void)device_lists_.prepare(light_grid_.grid(), lights_);
     } else if (light_grid_.lists()) {
         scene_.light_assigner.assign(light_grid_.grid(), reach, lists_);
+        if (settings.list_cap > 0) {
+            cluster::capLists(light_grid_.grid(), reach, settings.list_cap, lists_);
+        }
     } else {
         lists_.clusters.clear();
         lists_.indices.clear();
@@ -208,8 +212,8 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         lists_.stats.light_count = static_cast<uint32_t>(lights_.lights.size());
         lists_.stats.all_lights = !lights_.lights.empty();
     }
-    lists_.stats.why = needsLights(settings.debug.view) ? light_grid_.why()
-                                                        : "the debug view shows no light";
+    lists_.stats.why =
+        needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
 }
 
 FramePlan FrameBuilder::build(const FrameInputs& inputs) {
@@ -237,6 +241,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     if (!needsLights(settings.debug.view)) {
         lights.count = 0;
         lights.scene_lights = false;
+        lights.placed = {};
     }
     scene_.light_rig.evaluate(lights, camera, inputs.time_s, lights_);
     assignLights(inputs);

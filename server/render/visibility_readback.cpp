@@ -118,6 +118,7 @@ readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs
     inputs.settings.antialiasing = view::Antialiasing::kNone;
     inputs.settings.lights.count = 0;
     inputs.settings.lights.scene_lights = false;
+    inputs.settings.lights.placed = {};
     inputs.geometry = GeometryPath::kVisibility;
     ViewRenderer view(renderer);
     if (const auto submitted = view.submit(inputs); !submitted) {

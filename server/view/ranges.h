@@ -22,6 +22,7 @@ inline constexpr Range<uint32_t> kLightCountRange{"lights", 0, 1'000'000};
 inline constexpr Range<double> kLightRadiusRange{"light_radius", 0.001, 10'000.0};
 inline constexpr Range<double> kLightIntensityRange{"light_intensity", 0.0, 1'000'000.0};
 inline constexpr Range<double> kLightCutoffRange{"light_cutoff", 0.0, 1'000.0};
+inline constexpr Range<uint32_t> kListCapRange{"list_cap", 0, 65'535};
 inline constexpr Range<double> kLightSpeedRange{"light_speed", 0.0, 100.0};
 inline constexpr Range<double> kAmbientRange{"ambient", 0.0, 1'000.0};
 inline constexpr Range<uint32_t> kGridXRange{"grid.x", 1, 128};
@@ -49,6 +50,11 @@ inline constexpr Range<double> kBloomThresholdRange{"bloom_threshold", 0.0, 1'00
 inline constexpr Range<double> kBloomKneeRange{"bloom_knee", 0.0, 1.0};
 inline constexpr Range<double> kBloomStrengthRange{"bloom_strength", 0.0, 1.0};
 inline constexpr Range<double> kBloomRadiusRange{"bloom_radius", 0.001, 0.05};
+inline constexpr Range<uint32_t> kPlacedIdRange{"lights.id", 1, 0xffffffff};
+// All of them are told to whoever joins: some 200 KB.
+inline constexpr Range<uint32_t> kPlacedCountRange{"placed_lights", 0, 2048};
+inline constexpr Range<double> kPlacedColorRange{"lights.color", 0.0, 1.0};
+inline constexpr Range<double> kConeRange{"lights.cone_deg", 0.0, 90.0}; // half angles
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
 
 // Every range that a client can run into; the server tells them all when it greets.
@@ -68,6 +74,7 @@ inline constexpr std::tuple kCommandRanges{kWidthRange,          kHeightRange,
                                            kOutlineWidthRange,   kBloomThresholdRange,
                                            kBloomKneeRange,      kBloomStrengthRange,
                                            kBloomRadiusRange,    kDebugScaleRange,
-                                           kPeelLayersRange};
+                                           kPeelLayersRange,     kPlacedColorRange,
+                                           kConeRange,           kListCapRange};
 
 } // namespace froxel::view

@@ -3,6 +3,7 @@
 #include "unit/session/messages.h"
 #include "view/ranges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -24,6 +25,13 @@ struct PromiseKept {
         return (!c.count || view::kLightCountRange.contains(*c.count)) &&
                (!c.radius_m || view::kLightRadiusRange.contains(*c.radius_m)) &&
                (!c.box || (finite(c.box->min) && finite(c.box->max) && !c.box->empty()));
+    }
+    bool operator()(const SetPlacedLights& c) const {
+        return std::all_of(c.lights.begin(), c.lights.end(), [](const PlacedLightChange& light) {
+            return light.id > 0 && (!light.position_world || finite(*light.position_world)) &&
+                   (!light.direction_world || glm::length(*light.direction_world) > 0) &&
+                   (!light.radius_m || view::kLightRadiusRange.contains(*light.radius_m));
+        });
     }
     bool operator()(const SetGrid& c) const {
         return (!c.size || (c.size->x > 0 && c.size->y > 0 && c.size->z > 0 && c.size->x <= 128)) &&
@@ -73,10 +81,14 @@ void expectSane(const CommandResult<CommandMessage>& result) {
 }
 
 std::vector<v1::ClientMessage> seeds() {
-    std::vector<v1::ClientMessage> all(7, clientMessage());
+    std::vector<v1::ClientMessage> all(8, clientMessage());
     all[0].mutable_hello()->set_client_name("fuzz");
     all[6].mutable_set_debug_view()->set_view(v1::DEBUG_VIEW_DEPTH);
     all[6].mutable_set_debug_view()->set_scale_max(10);
+    all[7].mutable_set_placed_lights()->add_remove(3);
+    all[7].mutable_set_placed_lights()->add_lights()->set_id(4);
+    all[7].mutable_set_placed_lights()->mutable_lights(0)->mutable_position()->set_x(1);
+    all[7].mutable_set_placed_lights()->mutable_lights(0)->set_kind(v1::LIGHT_KIND_SPOT);
     all[1].mutable_set_camera()->mutable_eye()->set_x(1);
     all[1].mutable_set_camera()->mutable_target()->set_y(1);
     all[1].mutable_set_camera()->set_fov_deg(45);

@@ -53,6 +53,12 @@ v1::SetCamera& camera(v1::ClientMessage& message) {
     return set;
 }
 
+v1::PlacedLight& placed(v1::ClientMessage& message) {
+    auto& light = *message.mutable_set_placed_lights()->add_lights();
+    light.set_id(1);
+    return light;
+}
+
 v1::ToonRamp::Point& firstPoint(v1::ClientMessage& message) {
     auto& ramp = *message.mutable_set_toon()->mutable_compute();
     ramp.add_points();
@@ -82,6 +88,8 @@ const std::vector<RangedField>& fields() {
                [](M& m, double v) { m.mutable_set_lights()->set_intensity(v); }),
         ranged(view::kLightCutoffRange,
                [](M& m, double v) { m.mutable_set_lights()->set_cutoff(v); }),
+        ranged(view::kListCapRange,
+               [](M& m, double v) { m.mutable_set_lights()->set_list_cap(u32(v)); }),
         ranged(view::kLightSpeedRange,
                [](M& m, double v) { m.mutable_set_lights()->set_speed(v); }),
         ranged(view::kAmbientRange, [](M& m, double v) { m.mutable_set_lights()->set_ambient(v); }),
@@ -128,6 +136,18 @@ const std::vector<RangedField>& fields() {
                [](M& m, double v) { m.mutable_set_post()->set_bloom_strength(v); }),
         ranged(view::kBloomRadiusRange,
                [](M& m, double v) { m.mutable_set_post()->set_bloom_radius(v); }),
+        ranged(
+            view::kPlacedColorRange, [](M& m, double v) { placed(m).mutable_color()->set_z(v); },
+            "lights[0].color"),
+        ranged(
+            view::kLightRadiusRange, [](M& m, double v) { placed(m).set_radius_m(v); },
+            "lights[0].radius_m"),
+        ranged(
+            view::kConeRange, [](M& m, double v) { placed(m).set_outer_cone_deg(v); },
+            "lights[0].outer_cone_deg"),
+        ranged(
+            view::kPositionRange, [](M& m, double v) { placed(m).mutable_position()->set_x(v); },
+            "lights[0].position.x"),
         ranged(
             view::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
             "toon_compute.points[0].y"),
