@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kLeastSide = 16;      // pixels
 constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
 constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 17;          // of commands
+constexpr uint32_t kKinds = 18;          // of commands
 constexpr uint32_t kPlacedIds = 8;       // of lights that come and go
 
 } // namespace
@@ -95,6 +95,16 @@ void StormScript::fillPlacedLights(v1::PlacedLights& command) {
     light.set_radius_m(start_.light_radius_m() * real(0.5, 4));
 }
 
+void StormScript::fillFog(v1::Fog& fog) {
+    fog.set_density(whole(0, 1) == 0 ? 0 : real(0, 0.3));
+    fog.set_height_falloff(real(0, 1));
+    fog.set_anisotropy(real(-0.9, 0.9));
+    fog.set_tile(whole(8, 64));
+    fog.set_slices(whole(8, 64));
+    fog.set_half_rate(whole(0, 1) == 0);
+    fog.set_noise(whole(0, 1) == 0);
+}
+
 void StormScript::fillSize(v1::SetSize& command) {
     command.set_width(whole(kLeastSide, start_.width()));
     command.set_height(whole(kLeastSide, start_.height()));
@@ -155,6 +165,9 @@ std::optional<Step> StormScript::next() {
         break;
     case 16:
         fillPlacedLights(*message.mutable_set_placed_lights());
+        break;
+    case 17:
+        fillFog(*message.mutable_set_fog()->mutable_fog());
         break;
     case 9:
         message.mutable_set_delivery()->set_adaptive(whole(0, 1) == 0);

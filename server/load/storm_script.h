@@ -25,6 +25,7 @@ class StormScript final : public Script {
     void fillToon(v1::SetToon& command);
     void fillPost(v1::SetPost& command);
     void fillPlacedLights(v1::PlacedLights& command);
+    void fillFog(v1::Fog& fog);
     void fillSize(v1::SetSize& command);
 
     const v1::ViewState start_;

@@ -114,6 +114,18 @@ struct SetTransparency {
     std::optional<uint32_t> peel_layers;
 };
 
+struct SetFog {
+    std::optional<double> density;
+    std::optional<double> height_falloff;
+    std::optional<double> base_height_m;
+    std::optional<double> anisotropy;
+    std::optional<glm::dvec3> albedo;
+    std::optional<uint32_t> tile_px;
+    std::optional<uint32_t> slice_count;
+    std::optional<bool> half_rate;
+    std::optional<bool> noise;
+};
+
 struct SetDebugView {
     std::optional<view::DebugView> view;
     std::optional<double> scale_max;
@@ -170,6 +182,7 @@ using Command = std::variant<Hello,
                              SetExposure,
                              SetToon,
                              SetPost,
+                             SetFog,
                              SetDebugView,
                              SetTransparency,
                              SetSize,

@@ -296,6 +296,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decodeToon(message.set_toon(), fields);
     case v1::ClientMessage::kSetPost:
         return decodePost(message.set_post(), fields);
+    case v1::ClientMessage::kSetFog:
+        return decodeFog(message.set_fog().fog(), fields);
     case v1::ClientMessage::kSetDebugView:
         return decode(message.set_debug_view(), fields);
     case v1::ClientMessage::kSetTransparency:

@@ -1,5 +1,5 @@
 // Commands that say how the lit picture looks: toon ramps and outlines, bloom, antialiasing,
-// transparency.
+// transparency, fog.
 #pragma once
 
 #include "froxel/v1/client.pb.h"
@@ -12,5 +12,6 @@ namespace froxel::session {
 [[nodiscard]] SetPost decodePost(const v1::SetPost& set, FieldValidator& fields);
 [[nodiscard]] SetTransparency decodeTransparency(const v1::SetTransparency& set,
                                                  FieldValidator& fields);
+[[nodiscard]] SetFog decodeFog(const v1::Fog& fog, FieldValidator& fields);
 
 } // namespace froxel::session

@@ -137,6 +137,20 @@ struct Reducer {
         return {};
     }
 
+    Outcome operator()(const SetFog& command) const {
+        view::Fog& fog = state.settings.fog;
+        assignIfGiven(fog.density, command.density);
+        assignIfGiven(fog.height_falloff, command.height_falloff);
+        assignIfGiven(fog.base_height_m, command.base_height_m);
+        assignIfGiven(fog.anisotropy, command.anisotropy);
+        assignIfGiven(fog.albedo, command.albedo);
+        assignIfGiven(fog.tile_px, command.tile_px);
+        assignIfGiven(fog.slice_count, command.slice_count);
+        assignIfGiven(fog.half_rate, command.half_rate);
+        assignIfGiven(fog.noise, command.noise);
+        return {};
+    }
+
     Outcome operator()(const SetDebugView& command) const {
         view::Debug& debug = state.settings.debug;
         assignIfGiven(debug.view, command.view);

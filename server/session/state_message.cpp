@@ -69,6 +69,18 @@ void fillPost(v1::ViewState& out, const view::ViewSettings& settings) {
     out.set_antialiasing(toProto(kAntialiasingTable, settings.antialiasing));
 }
 
+void fill(v1::Fog& out, const view::Fog& fog) {
+    out.set_density(fog.density);
+    out.set_height_falloff(fog.height_falloff);
+    out.set_base_height(fog.base_height_m);
+    out.set_anisotropy(fog.anisotropy);
+    fill(*out.mutable_albedo(), glm::dvec3(fog.albedo));
+    out.set_tile(fog.tile_px);
+    out.set_slices(fog.slice_count);
+    out.set_half_rate(fog.half_rate);
+    out.set_noise(fog.noise);
+}
+
 void fill(v1::ViewState& out, const SessionContext& context, const SessionState& state) {
     const view::ViewSettings& settings = state.settings;
     fillCamera(out, settings.camera);
@@ -101,6 +113,7 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     out.set_outline_strength(settings.toon_outline.strength);
     out.set_outline_width(settings.toon_outline.width);
     fillPost(out, settings);
+    fill(*out.mutable_fog(), settings.fog);
     out.set_width(settings.size.width_px);
     out.set_height(settings.size.height_px);
     out.set_quality(state.encoding.quality);

@@ -55,6 +55,13 @@ inline constexpr Range<uint32_t> kPlacedIdRange{"lights.id", 1, 0xffffffff};
 inline constexpr Range<uint32_t> kPlacedCountRange{"placed_lights", 0, 2048};
 inline constexpr Range<double> kPlacedColorRange{"lights.color", 0.0, 1.0};
 inline constexpr Range<double> kConeRange{"lights.cone_deg", 0.0, 90.0}; // half angles
+inline constexpr Range<double> kFogDensityRange{"fog_density", 0.0, 100.0};
+inline constexpr Range<double> kFogHeightFalloffRange{"fog_height_falloff", 0.0, 100.0};
+inline constexpr Range<double> kFogBaseHeightRange{"fog_base_height", -1e7, 1e7};
+inline constexpr Range<double> kFogAnisotropyRange{"fog_anisotropy", -0.95, 0.95};
+inline constexpr Range<double> kFogAlbedoRange{"fog_albedo", 0.0, 1.0};
+inline constexpr Range<uint32_t> kFogTileRange{"fog_tile", 4, 64};
+inline constexpr Range<uint32_t> kFogSlicesRange{"fog_slices", 8, 256};
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
 
 // Every range that a client can run into; the server tells them all when it greets.
@@ -75,6 +82,10 @@ inline constexpr std::tuple kCommandRanges{kWidthRange,          kHeightRange,
                                            kBloomKneeRange,      kBloomStrengthRange,
                                            kBloomRadiusRange,    kDebugScaleRange,
                                            kPeelLayersRange,     kPlacedColorRange,
-                                           kConeRange,           kListCapRange};
+                                           kConeRange,           kListCapRange,
+                                           kFogDensityRange,     kFogHeightFalloffRange,
+                                           kFogBaseHeightRange,  kFogAnisotropyRange,
+                                           kFogAlbedoRange,      kFogTileRange,
+                                           kFogSlicesRange};
 
 } // namespace froxel::view

@@ -168,6 +168,27 @@ struct Bloom {
     bool operator==(const Bloom&) const = default;
 };
 
+// A medium that absorbs light and scatters it once: `density` up to the base height, falling off
+// exponentially above it. Scattering of lights is sampled in a froxel volume; what is lost on the
+// way, and what comes from all around, has a closed form.
+struct Fog {
+    float density = 0;         // extinction, 1/m; 0: none
+    float height_falloff = 0;  // 1/m: e times less every 1 / height_falloff; 0: the same everywhere
+    double base_height_m = 0;  // world y
+    float anisotropy = 0;      // Henyey-Greenstein's g; above 0: mostly onwards
+    glm::vec3 albedo{1};       // share of the extinction that scatters
+    uint32_t tile_px = 16;     // from node to node of the volume, across and down
+    uint32_t slice_count = 64; // of the volume
+    bool half_rate = false;    // half the volume's resolution on each axis
+    bool noise = false;        // places in slices jittered by time, instead of their middles
+    bool operator==(const Fog&) const = default;
+
+    [[nodiscard]] bool present() const { return density > 0; }
+    [[nodiscard]] bool scatters() const {
+        return present() && (albedo.x > 0 || albedo.y > 0 || albedo.z > 0);
+    }
+};
+
 // Of the toon renderers: edges of depth and normals are darkened.
 struct ToonOutline {
     float strength = 0.0F; // 0: none; 1: black
@@ -222,6 +243,7 @@ struct ViewSettings {
                                      {0.80F, 1.00F, 0}}};
     ToonOutline toon_outline;
     Bloom bloom;
+    Fog fog;
     Antialiasing antialiasing = Antialiasing::kNone;
     bool operator==(const ViewSettings&) const = default;
 };

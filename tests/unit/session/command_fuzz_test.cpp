@@ -63,6 +63,12 @@ struct PromiseKept {
                 static_cast<size_t>(*c.transparency) < view::kTransparencyNames.size()) &&
                (!c.peel_layers || view::kPeelLayersRange.contains(*c.peel_layers));
     }
+    bool operator()(const SetFog& c) const {
+        return (!c.density || view::kFogDensityRange.contains(*c.density)) &&
+               (!c.albedo || finite(*c.albedo)) &&
+               (!c.tile_px || view::kFogTileRange.contains(*c.tile_px)) &&
+               (!c.slice_count || view::kFogSlicesRange.contains(*c.slice_count));
+    }
     template <class Other>
     bool operator()(const Other& /*command*/) const {
         return true;
@@ -101,6 +107,11 @@ std::vector<v1::ClientMessage> seeds() {
     all[4].mutable_set_toon()->mutable_compute()->add_points()->set_x(1);
     all[5].mutable_set_size()->set_width(64);
     all[5].mutable_set_size()->set_height(64);
+    all.push_back(clientMessage());
+    all.back().mutable_set_fog()->mutable_fog()->set_density(0.5);
+    all.back().mutable_set_fog()->mutable_fog()->mutable_albedo()->set_y(0.5);
+    all.back().mutable_set_fog()->mutable_fog()->set_tile(8);
+    all.back().mutable_set_fog()->mutable_fog()->set_slices(32);
     all[6].mutable_set_post()->set_bloom(v1::BLOOM_KIND_A_TROUS);
     all[6].mutable_set_post()->set_bloom_radius(0.01);
     all[6].mutable_set_post()->set_antialiasing(v1::ANTIALIASING_SSAA4);

@@ -66,6 +66,10 @@ v1::ToonRamp::Point& firstPoint(v1::ClientMessage& message) {
     return *ramp.mutable_points(0);
 }
 
+v1::Fog& fog(v1::ClientMessage& message) {
+    return *message.mutable_set_fog()->mutable_fog();
+}
+
 using M = v1::ClientMessage;
 
 const std::vector<RangedField>& fields() {
@@ -136,6 +140,15 @@ const std::vector<RangedField>& fields() {
                [](M& m, double v) { m.mutable_set_post()->set_bloom_strength(v); }),
         ranged(view::kBloomRadiusRange,
                [](M& m, double v) { m.mutable_set_post()->set_bloom_radius(v); }),
+        ranged(view::kFogDensityRange, [](M& m, double v) { fog(m).set_density(v); }),
+        ranged(view::kFogHeightFalloffRange, [](M& m, double v) { fog(m).set_height_falloff(v); }),
+        ranged(view::kFogBaseHeightRange, [](M& m, double v) { fog(m).set_base_height(v); }),
+        ranged(view::kFogAnisotropyRange, [](M& m, double v) { fog(m).set_anisotropy(v); }),
+        ranged(
+            view::kFogAlbedoRange, [](M& m, double v) { fog(m).mutable_albedo()->set_y(v); },
+            "fog_albedo.y"),
+        ranged(view::kFogTileRange, [](M& m, double v) { fog(m).set_tile(u32(v)); }),
+        ranged(view::kFogSlicesRange, [](M& m, double v) { fog(m).set_slices(u32(v)); }),
         ranged(
             view::kPlacedColorRange, [](M& m, double v) { placed(m).mutable_color()->set_z(v); },
             "lights[0].color"),

@@ -90,6 +90,7 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.toon_compute.count = 2;
     state.settings.toon_outline = {0.5F, 0.0078125F};
     state.settings.bloom = {view::BloomKind::kATrous, 2.5F, 0.25F, 0.75F, 0.03125F};
+    state.settings.fog = {0.5F, 0.25F, 2, -0.5F, {0.5F, 0.25F, 1}, 8, 32, true, true};
     state.settings.antialiasing = view::Antialiasing::kFxaa;
     state.settings.transparency = view::Transparency::kPeeled;
     state.settings.peel_layers = 7;
@@ -142,6 +143,15 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.antialiasing(), v1::ANTIALIASING_FXAA);
     EXPECT_EQ(view.transparency(), v1::TRANSPARENCY_PEELED);
     EXPECT_EQ(view.peel_layers(), 7U);
+    EXPECT_EQ(view.fog().density(), 0.5);
+    EXPECT_EQ(view.fog().height_falloff(), 0.25);
+    EXPECT_EQ(view.fog().base_height(), 2);
+    EXPECT_EQ(view.fog().anisotropy(), -0.5);
+    EXPECT_EQ(view.fog().albedo().y(), 0.25);
+    EXPECT_EQ(view.fog().tile(), 8U);
+    EXPECT_EQ(view.fog().slices(), 32U);
+    EXPECT_TRUE(view.fog().half_rate());
+    EXPECT_TRUE(view.fog().noise());
     EXPECT_EQ(view.quality(), 42U);
     EXPECT_TRUE(view.adaptive());
     EXPECT_EQ(view.target_fps(), 12.5);
