@@ -26,7 +26,9 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
                            const light::FrameLights& lights,
                            const BoundsD3& scene_bounds_world,
                            const cluster::GridCosts& costs) {
-    range_ = cluster::litDepthRange(lights, settings.camera, scene_bounds_world);
+    range_ = cluster::litDepthRange(lights, settings.camera, scene_bounds_world,
+                                    settings.fog.scatters() ? cluster::Lit::kMedium
+                                                            : cluster::Lit::kSurfaces);
     const Asked asked{settings.size,     settings.renderer, settings.grid, settings.light_loop,
                       settings.list_cap, settings.lights,   &costs};
     if (frames_left_ == 0 || asked != asked_) {
