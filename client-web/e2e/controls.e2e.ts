@@ -25,6 +25,12 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   bloom_strength: [1, true],
   bloom_radius: [0.05, true],
   peel_layers: [2, false],
+  fog_density: [0.25, true],
+  fog_height_falloff: [2, true],
+  fog_base_height: [1.5, true],
+  fog_anisotropy: [0.5, true],
+  fog_tile: [8, false],
+  fog_slices: [128, false],
   outline_strength: [1, true],
   outline_width: [0.01, true],
   light_speed: [2, false],
@@ -190,7 +196,7 @@ describe('debug views', () => {
 });
 
 describe('switches', () => {
-  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto', 'debug_frozen'] as const)('Control_%s_GoesOnAndOff', async (name) => {
+  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto', 'debug_frozen', 'fog_half_rate', 'fog_noise'] as const)('Control_%s_GoesOnAndOff', async (name) => {
     const field = kAllFields.find((candidate) => candidate.name === name);
     if (!field) throw new Error(`no field ${name}`);
     const before = told()?.[field.key] === true;

@@ -91,6 +91,14 @@ export interface Settings {
   readonly antialiasing: Antialiasing;
   readonly transparency: Transparency;
   readonly peelLayers: number; // at most, while peeled
+  readonly fogDensity: number; // 1/m; 0: none
+  readonly fogHeightFalloff: number; // 1/m; 0: the same at every height
+  readonly fogBaseHeight: number; // metres
+  readonly fogAnisotropy: number;
+  readonly fogTile: number; // pixels
+  readonly fogSlices: number;
+  readonly fogHalfRate: boolean;
+  readonly fogNoise: boolean;
   readonly width: number;
   readonly height: number;
   readonly quality: number;
@@ -180,6 +188,14 @@ export function settingsOf(
     antialiasing: state.antialiasing,
     transparency: state.transparency,
     peelLayers: state.peelLayers,
+    fogDensity: state.fog?.density ?? 0,
+    fogHeightFalloff: state.fog?.heightFalloff ?? 0,
+    fogBaseHeight: state.fog?.baseHeight ?? 0,
+    fogAnisotropy: state.fog?.anisotropy ?? 0,
+    fogTile: state.fog?.tile ?? 16,
+    fogSlices: state.fog?.slices ?? 64,
+    fogHalfRate: state.fog?.halfRate ?? false,
+    fogNoise: state.fog?.noise ?? false,
     width: state.width,
     height: state.height,
     quality: state.quality,
@@ -281,6 +297,8 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   if (Object.keys(transparency).length > 0) {
     commands.push({ case: 'setTransparency', value: transparency });
   }
+  const fog = fogChanges(from, to);
+  if (Object.keys(fog).length > 0) commands.push({ case: 'setFog', value: { fog } });
   if (changed('quality', 'chroma', 'codec', 'videoKbps')) {
     commands.push({
       case: 'setEncoding',
@@ -352,6 +370,21 @@ function transparencyChanges(from: Settings, to: Settings): TransparencyValue {
   return {
     ...(from.transparency !== to.transparency && { transparency: to.transparency }),
     ...(from.peelLayers !== to.peelLayers && { peelLayers: to.peelLayers }),
+  };
+}
+
+type FogValue = NonNullable<Extract<ClientBody, { case: 'setFog' }>['value']['fog']>;
+
+function fogChanges(from: Settings, to: Settings): FogValue {
+  return {
+    ...(from.fogDensity !== to.fogDensity && { density: to.fogDensity }),
+    ...(from.fogHeightFalloff !== to.fogHeightFalloff && { heightFalloff: to.fogHeightFalloff }),
+    ...(from.fogBaseHeight !== to.fogBaseHeight && { baseHeight: to.fogBaseHeight }),
+    ...(from.fogAnisotropy !== to.fogAnisotropy && { anisotropy: to.fogAnisotropy }),
+    ...(from.fogTile !== to.fogTile && { tile: to.fogTile }),
+    ...(from.fogSlices !== to.fogSlices && { slices: to.fogSlices }),
+    ...(from.fogHalfRate !== to.fogHalfRate && { halfRate: to.fogHalfRate }),
+    ...(from.fogNoise !== to.fogNoise && { noise: to.fogNoise }),
   };
 }
 

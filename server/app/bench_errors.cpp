@@ -114,6 +114,11 @@ view::ViewSettings r2Settings(view::ViewSettings settings) {
     settings.lighting = view::LightingStage::kAuto;
     settings.gbuffer = {};
     settings.antialiasing = view::Antialiasing::kNone;
+    const view::Fog volume; // which the reference has none of
+    settings.fog.tile_px = volume.tile_px;
+    settings.fog.slice_count = volume.slice_count;
+    settings.fog.half_rate = volume.half_rate;
+    settings.fog.noise = volume.noise;
     settings.transparency = {}; // blended surfaces are sorted pixel by pixel
     settings.peel_layers = view::ViewSettings{}.peel_layers;
     settings.lights.cutoff = 0;

@@ -127,6 +127,10 @@ std::string workloadOf(const BenchRow& row, const BenchBase& base) {
     }
     text += settings.bloom.kind != view::BloomKind::kNone ? ", bloom" : "";
     text += row.against_peeled ? ", against 16 peeled layers" : "";
+    if (const auto& fog = settings.fog; fog.present()) {
+        text += fmt::format(", fog of {} a metre{}", numberText(fog.density),
+                            fog.height_falloff > 0 ? " by height" : "");
+    }
     text += row.against_samples ? ", against 64 samples a pixel" : "";
     return text;
 }

@@ -255,6 +255,7 @@ constexpr std::array kPresets = {
     Preset{"bloom", bloomSweep},
     Preset{"antialiasing", antialiasingSweep},
     Preset{"transparency", transparencySweep},
+    Preset{"fog", fogSweep},
     Preset{"stream", streamSweep},
     Preset{"smoke", smokeSweep},
 };

@@ -197,6 +197,45 @@ Sweep transparencySweep(const BenchBase& base) {
     return sweep;
 }
 
+Sweep fogSweep(const BenchBase& base) {
+    struct Volume {
+        uint32_t tile_px;
+        uint32_t slice_count;
+    };
+    Sweep sweep{"fog",
+                "Fog by volumes",
+                "volume",
+                "",
+                Axis::kCategory,
+                "R2 integrates lights along each ray, in double; each to be read beside no fog.",
+                {}};
+    const auto add = [&](const std::string& label, const view::Fog& fog) {
+        sweep.rows.push_back(rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()),
+                                   [&](auto& s) { s.fog = fog; }));
+    };
+    view::Fog fog;
+    add("none", fog);
+    fog.density = 0.05F;
+    fog.anisotropy = 0.4F;
+    for (const auto& [tile_px, slice_count] :
+         {Volume{64, 16}, Volume{32, 32}, Volume{16, 32}, Volume{16, 64}, Volume{16, 128},
+          Volume{8, 64}, Volume{8, 128}}) {
+        fog.tile_px = tile_px;
+        fog.slice_count = slice_count;
+        add(fmt::format("{} px, {} slices", tile_px, slice_count), fog);
+    }
+    fog = {.density = 0.05F, .anisotropy = 0.4F};
+    fog.half_rate = true;
+    add("16 px, 64 slices, half rate", fog);
+    fog.half_rate = false;
+    fog.noise = true;
+    add("16 px, 64 slices, noise", fog);
+    fog.noise = false;
+    fog.height_falloff = 0.5F;
+    add("16 px, 64 slices, by height", fog);
+    return sweep;
+}
+
 Sweep streamSweep(const BenchBase& base) {
     Sweep sweep{"stream",
                 "Error of the stream's JPEG",
@@ -239,6 +278,7 @@ Sweep smokeSweep(const BenchBase& base) {
               [](auto& s) { s.gbuffer.normal = view::NormalEncoding::kOct8; }));
     add(rowOf(small, kDeferred, "bloom", 0,
               [](auto& s) { s.bloom.kind = view::BloomKind::kMipChain; }));
+    add(rowOf(small, kDeferred, "fog", 0, [](auto& s) { s.fog.density = 0.05F; }));
     auto smooth = rowOf(small, kDeferred, "ssaa4", 0,
                         [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; });
     smooth.against_samples = true;

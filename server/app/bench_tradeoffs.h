@@ -13,6 +13,7 @@ namespace froxel::app {
 [[nodiscard]] Sweep bloomSweep(const BenchBase& base);
 [[nodiscard]] Sweep antialiasingSweep(const BenchBase& base);
 [[nodiscard]] Sweep transparencySweep(const BenchBase& base);
+[[nodiscard]] Sweep fogSweep(const BenchBase& base);
 [[nodiscard]] Sweep streamSweep(const BenchBase& base);
 // One row of every kind, small.
 [[nodiscard]] Sweep smokeSweep(const BenchBase& base);

@@ -108,6 +108,21 @@ void addLights(Arguments& arguments, const view::Lights& lights, const view::Lig
     arguments.flag("--no-animate", !lights.animate);
 }
 
+void addFog(Arguments& arguments, const view::Fog& fog, const view::Fog& usual) {
+    arguments.changed("--fog-density", fog.density, usual.density);
+    arguments.changed("--fog-height-falloff", fog.height_falloff, usual.height_falloff);
+    arguments.changed("--fog-base-height", fog.base_height_m, usual.base_height_m);
+    arguments.changed("--fog-anisotropy", fog.anisotropy, usual.anisotropy);
+    if (fog.albedo != usual.albedo) {
+        arguments.always("--fog-albedo", numberText(fog.albedo.x) + "," + numberText(fog.albedo.y) +
+                                             "," + numberText(fog.albedo.z));
+    }
+    arguments.changed("--fog-tile", fog.tile_px, usual.tile_px);
+    arguments.changed("--fog-slices", fog.slice_count, usual.slice_count);
+    arguments.flag("--fog-half-rate", fog.half_rate);
+    arguments.flag("--fog-noise", fog.noise);
+}
+
 void addPost(Arguments& arguments,
              const view::ViewSettings& settings,
              const view::ViewSettings& usual) {
@@ -119,6 +134,7 @@ void addPost(Arguments& arguments,
     arguments.changed("--bloom-radius", bloom.radius, usual.bloom.radius);
     arguments.changedName("--antialiasing", view::kAntialiasingNames, settings.antialiasing,
                           usual.antialiasing);
+    addFog(arguments, settings.fog, usual.fog);
     const auto& outline = settings.toon_outline;
     arguments.changed("--outline-strength", outline.strength, usual.toon_outline.strength);
     arguments.changed("--outline-width", outline.width, usual.toon_outline.width);

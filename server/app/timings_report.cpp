@@ -175,6 +175,17 @@ Json settingsReport(const view::ViewSettings& settings) {
                          {"strength", bloom.strength},
                          {"radius", bloom.radius}};
     }
+    if (const auto& fog = settings.fog; fog.present()) {
+        json["fog"] = {{"density", fog.density},
+                       {"height_falloff", fog.height_falloff},
+                       {"base_height_m", fog.base_height_m},
+                       {"anisotropy", fog.anisotropy},
+                       {"albedo", toJson(glm::dvec3(fog.albedo))},
+                       {"tile_px", fog.tile_px},
+                       {"slices", fog.slice_count},
+                       {"half_rate", fog.half_rate},
+                       {"noise", fog.noise}};
+    }
     if (settings.antialiasing != view::Antialiasing::kNone) {
         json["antialiasing"] = nameOf(view::kAntialiasingNames, settings.antialiasing);
     }

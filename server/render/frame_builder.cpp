@@ -1,6 +1,8 @@
 #include "render/frame_builder.h"
 
+#include "cluster/depth_range.h"
 #include "cluster/list_cap.h"
+#include "render/fog_plan.h"
 #include "render/gbuffer_layout.h"
 #include "render/light_budget.h"
 #include "render/prepass_choice.h"
@@ -253,6 +255,14 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
+    fogged_ = plan.fog;
+    if (plan.fog) {
+        fog_ = makeFog(
+            settings,
+            cluster::litDepthRange(lights_, camera, scene_.bounds_world, cluster::Lit::kMedium)
+                .far_m,
+            inputs.time_s);
+    }
     debug_.wires.clear();
     if (plan.debug != view::DebugView::kNone) {
         buildDebug(inputs, plan, farthest_m);
@@ -301,6 +311,14 @@ Result<void> FrameBuilder::affordable(const FrameInputs& inputs) const {
                             !light_grid_.lists() || lists_.stats.overflowed;
     // What the device lists is not known yet.
     const uint64_t each = all_lights ? lights_.lights.size() : on_device_ ? 0 : lists_.stats.p95;
+    if (fogged_) {
+        if (auto affordable =
+                checkFogBudget(fog_, each, scene_.device.limits().maxTexelBufferElements,
+                               scene_.device.traits().is_cpu);
+            !affordable) {
+            return affordable;
+        }
+    }
     return checkLightBudget(inputs.settings.size, each, scene_.device.traits().is_cpu);
 }
 
@@ -317,6 +335,11 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     place(3, std::span<const uint32_t>(lists_.indices));
     place(4, std::span<const io::Spot>(lights_.spots));
     place(5, std::span<const io::DirectionalLight>(lights_.directionals));
+    place(6, std::span<const io::Fog>(&fog_, fogged_ ? 1 : 0));
+    if (slot.fog) {
+        blocks[7] = {.bytes = kFroxelBytes * froxelCount(fog_),
+                     .buffer = *slot.fog->froxels().handle};
+    }
     const AssignOffsets assign = uploadAssignment(upload, blocks);
     UploadOffsets offsets;
     offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));

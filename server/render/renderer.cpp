@@ -2,6 +2,7 @@
 
 #include "core/assert.h"
 #include "render/blended_recorder.h"
+#include "render/fog_plan.h"
 #include "render/frame_builder.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
@@ -79,6 +80,8 @@ struct ViewRenderer::Impl {
     // Takes part in the frame where its plan is not null.
     void prepareBloom(FrameSlot& slot, const BloomPlan* plan);
     void prepareBlend(FrameSlot& slot, const FramePlan& plan);
+    // Likewise, where it has froxels.
+    void prepareFog(FrameSlot& slot, uint64_t froxel_count);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     // Errors: kCapacity. Throws vk::SystemError.
     [[nodiscard]] Result<void> submit(FrameSlot& slot, const FrameInputs& inputs);
@@ -92,6 +95,7 @@ struct ViewRenderer::Impl {
     std::shared_ptr<ViewTargets> targets;
     std::shared_ptr<BloomTargets> bloom; // null: the last frame has none
     std::shared_ptr<BlendTargets> blend; // likewise
+    std::shared_ptr<FogVolume> fog;      // likewise
     FrameDetailsKeeper details;
 };
 
@@ -155,6 +159,17 @@ void ViewRenderer::Impl::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     }
 }
 
+void ViewRenderer::Impl::prepareFog(FrameSlot& slot, uint64_t froxel_count) {
+    slot.fog.reset();
+    if (!fog || fog->froxels().size_bytes != kFroxelBytes * froxel_count) {
+        fog.reset();
+    }
+    if (froxel_count > 0 && !fog) {
+        fog = std::make_shared<FogVolume>(scene.device, scene.fog(), froxel_count);
+    }
+    slot.fog = fog;
+}
+
 void ViewRenderer::Impl::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
     if (!slot.visibility) {
         slot.visibility = std::make_unique<VisibilityFrame>(scene.device, scene.visibility());
@@ -196,6 +211,7 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBloom(slot, bloom_steps);
     prepareBlend(slot, plan);
+    prepareFog(slot, plan.fog_volume ? froxelCount(builder.fog()) : 0);
     const UploadOffsets offsets = builder.upload(slot);
     writeScreenSet(scene.device, slot, plan.fxaa ? targets->display : pixelsOf(slot));
     if (plan.fxaa) {
@@ -225,7 +241,8 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
                  .background = builder.background(),
                  .visibility = plan.visibility ? &scene.visibility() : nullptr,
                  .debug = debug ? &builder.debugFrame() : nullptr,
-                 .bloom = bloom_steps});
+                 .bloom = bloom_steps,
+                 .fog = plan.fog ? &builder.fog() : nullptr});
     slot.stats = {};
     slot.stats.triangle_count = builder.draws().triangle_count;
     if (plan.visibility) { // the host does not know what the device culls
@@ -306,6 +323,7 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
     } catch (const vk::OutOfDeviceMemoryError&) {
         impl_->blend.reset();
         impl_->bloom.reset(); // so that a smaller picture may fit
+        impl_->fog.reset();
         impl_->targets.reset();
         const bool samples = view::samplesAcross(inputs.settings.antialiasing) > 1;
         return Error{ErrorCode::kCapacity, "the device has no memory for a picture of " +

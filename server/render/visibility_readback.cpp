@@ -115,6 +115,7 @@ readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs
     inputs.settings.shading = view::ShadingModel::kLambert;
     inputs.settings.gbuffer = {};
     inputs.settings.bloom = {};
+    inputs.settings.fog = {};
     inputs.settings.antialiasing = view::Antialiasing::kNone;
     inputs.settings.lights.count = 0;
     inputs.settings.lights.scene_lights = false;

@@ -201,6 +201,7 @@ TEST(RenderArguments, EverySetting_ParsesBack) {
     s.exposure = 1.7F;
     s.tone_map = view::ToneMap::kClamp;
     s.bloom = {view::BloomKind::kSeparable, 0.5F, 0.25F, 0.75F, 0.02F};
+    s.fog = {0.5F, 0.25F, -3, 0.75F, {0.5F, 0.25F, 1}, 8, 32, true, true};
     s.antialiasing = view::Antialiasing::kFxaa;
     s.toon_outline = {0.5F, 0.005F};
     s.transparency = view::Transparency::kPeeled;

@@ -147,7 +147,7 @@ TEST(CompareReports, WithItself_NothingDiffers) {
     const auto report = benchReport(result(100));
     const auto comparison = compareReports(report, report).value();
     EXPECT_EQ(comparison.measure, "gpu_us");
-    EXPECT_EQ(comparison.rows.size(), 9U);
+    EXPECT_EQ(comparison.rows.size(), 10U);
     EXPECT_THAT(comparison.warnings, IsEmpty());
     EXPECT_THAT(comparison.only_a, IsEmpty());
     EXPECT_FALSE(comparison.worse());
