@@ -18,6 +18,7 @@
 #include "lib/light_loop.glsl"
 #include "lib/material.glsl"
 #include "lib/fragment_inputs.glsl"
+#include "lib/fog.glsl"
 
 #ifdef FROXEL_PEELED
 #include "lib/peel.glsl"
@@ -46,6 +47,11 @@ layout(location = 0) out vec4 radiance;
 void store(vec3 color, float alpha, float distance) { radiance = vec4(color * alpha, alpha); }
 #endif
 
+// A blended surface brings as much of the fog before it as it covers.
+vec3 seen(vec3 lit, uvec2 pixel, float distance) {
+    return hasOutput(kOutputFog) ? throughFog(lit, pixel, distance) : lit;
+}
+
 void main() {
     VertexData v = vertexData();
     vec4 base = baseColor(v);
@@ -63,12 +69,12 @@ void main() {
 #endif
     float alpha = hasMaterial(kMaterialBlend) ? clamp(base.a, 0.0, 1.0) : 1.0;
     if (g.unlit) {
-        store(g.base_color, alpha, distance);
+        store(seen(g.base_color, pixel, distance), alpha, distance);
         return;
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
     LightSum sum = sumLights(s, pixel, distance, true);
     vec3 lit = shadeSum(sum, g.base_color, g.metallic) +
                ambientRadiance(s, g.base_color, g.metallic, g.occlusion) + g.emissive;
-    store(lit, alpha, distance);
+    store(seen(lit, pixel, distance), alpha, distance);
 }

@@ -19,11 +19,18 @@ const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
   light_radius: [4, true],
   light_intensity: [3, true],
   light_cutoff: [0.01, true],
+  list_cap: [1, true],
   bloom_threshold: [0.25, false],
   bloom_knee: [1, false],
   bloom_strength: [1, true],
   bloom_radius: [0.05, true],
   peel_layers: [2, false],
+  fog_density: [0.25, true],
+  fog_height_falloff: [2, true],
+  fog_base_height: [1.5, true],
+  fog_anisotropy: [0.5, true],
+  fog_tile: [8, false],
+  fog_slices: [128, false],
   shadow_lights: [4, false],
   shadow_size: [64, false],
   outline_strength: [1, true],
@@ -64,7 +71,7 @@ afterAll(async () => {
   expect(await server.stop()).toBe(0);
 });
 
-const told = (): Settings | null => (viewer.state ? settingsOf(viewer.state, null) : null);
+const told = (): Settings | null => (viewer.state ? settingsOf(viewer.state, null, []) : null);
 
 async function setSwitch(name: string, on: boolean): Promise<void> {
   await viewer.control(name).locator('input').setChecked(on);
@@ -73,7 +80,7 @@ async function setSwitch(name: string, on: boolean): Promise<void> {
 
 async function expectState(field: Field, value: number | boolean): Promise<void> {
   await viewer.stateWith(`${field.name} = ${String(value)}`, (state) => {
-    const now = settingsOf(state, null)[field.key];
+    const now = settingsOf(state, null, [])[field.key];
     return typeof now === 'number' && typeof value === 'number'
       ? Math.abs(now - value) <= 1e-6 * Math.abs(value)
       : now === value;
@@ -191,7 +198,7 @@ describe('debug views', () => {
 });
 
 describe('switches', () => {
-  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto', 'debug_frozen'] as const)('Control_%s_GoesOnAndOff', async (name) => {
+  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto', 'debug_frozen', 'fog_half_rate', 'fog_noise'] as const)('Control_%s_GoesOnAndOff', async (name) => {
     const field = kAllFields.find((candidate) => candidate.name === name);
     if (!field) throw new Error(`no field ${name}`);
     const before = told()?.[field.key] === true;

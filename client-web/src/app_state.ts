@@ -7,6 +7,7 @@
 
 import type { FieldRange, FrameDetails, SceneInfo, ServerMessage } from './gen/froxel/v1/server_pb';
 import { Refine } from './gen/froxel/v1/common_pb';
+import { placedAfter } from './placed_lights';
 import { mayControl, roomOf, type Room } from './room';
 import { cameraOf, settingsOf, type Bounds, type Settings } from './settings';
 import type { SizeMode } from './url_state';
@@ -53,12 +54,16 @@ export interface AppState {
   readonly notice: Notice | null;
   readonly details: FrameDetails | null; // of the frames from now on
   readonly room: Room | null; // null: a session of one's own
+  readonly chosenLight: number | null; // id of the placed light that is being edited
+  readonly handles: boolean; // whether placed lights have handles over the picture
 }
 
 export type Action =
   | { readonly type: 'link'; readonly link: Link }
   | { readonly type: 'received'; readonly message: ServerMessage }
   | { readonly type: 'edit'; readonly patch: Partial<Settings> }
+  | { readonly type: 'choose_light'; readonly id: number | null }
+  | { readonly type: 'show_handles'; readonly visible: boolean }
   | { readonly type: 'size_mode'; readonly mode: SizeMode }
   | { readonly type: 'sent'; readonly seq: bigint; readonly settings: Settings }
   | { readonly type: 'restored'; readonly wanted: Partial<Settings>; readonly size: SizeMode | null }
@@ -78,6 +83,8 @@ export const kInitialState: AppState = {
   notice: null,
   details: null,
   room: null,
+  chosenLight: null,
+  handles: true,
 };
 
 export function reduce(state: AppState, action: Action): AppState {
@@ -91,6 +98,10 @@ export function reduce(state: AppState, action: Action): AppState {
       return state.settings
         ? { ...state, settings: { ...state.settings, ...action.patch } }
         : { ...state, wanted: { ...state.wanted, ...action.patch } };
+    case 'choose_light':
+      return { ...state, chosenLight: action.id };
+    case 'show_handles':
+      return { ...state, handles: action.visible };
     case 'size_mode':
       return { ...state, sizeMode: action.mode };
     case 'sent':
@@ -130,7 +141,8 @@ function received(state: AppState, message: ServerMessage): AppState {
     case 'state': {
       const answer = body.value;
       if (!answer.state) return state;
-      const confirmed = settingsOf(answer.state, state.server?.bounds ?? null);
+      const placed = placedAfter(state.confirmed?.placedLights ?? [], answer.placedLights);
+      const confirmed = settingsOf(answer.state, state.server?.bounds ?? null, placed);
       const stale =
         mayControl(state.room) &&
         (state.settings !== state.sent || answer.refSeq < state.sentSeq);
@@ -165,8 +177,10 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
   }
   const scene = welcome.scene ?? null;
   const bounds = boundsOf(scene);
-  const present = settingsOf(welcome.state, bounds);
-  const initial = welcome.defaults ? settingsOf(welcome.defaults, bounds) : present;
+  const present = settingsOf(welcome.state, bounds, placedAfter([], welcome.placedLights));
+  const initial = welcome.defaults
+    ? settingsOf(welcome.defaults, bounds, placedAfter([], welcome.defaultPlacedLights))
+    : present;
   const room = welcome.room ? roomOf(welcome.room) : null;
   const server: ServerInfo = {
     version: welcome.serverVersion,
@@ -204,7 +218,8 @@ function desired(state: AppState, server: ServerInfo, present: Settings): Settin
   }
   if (state.server?.scene?.name === server.scene?.name) return before;
   // Another scene: places of the old one mean nothing in it.
-  return { ...before, ...cameraOf(present), lightBox: null };
+  const { placedLights } = present;
+  return { ...before, ...cameraOf(present), lightBox: null, placedLights };
 }
 
 function boundsOf(scene: SceneInfo | null): Bounds | null {

@@ -6,6 +6,16 @@ import { patchFor, type Field } from './fields';
 import { RendererSchema } from './gen/froxel/v1/common_pb';
 import type { InputTarget, View } from './input';
 import type { PanelActions } from './panel';
+import {
+  findLight,
+  freeId,
+  kNewLight,
+  lightSetOf,
+  lightSetText,
+  withLight,
+  withoutLight,
+  type PlacedLight,
+} from './placed_lights';
 import { mayControl, roomText } from './room';
 import type { RoomActions } from './room_card';
 import { download, type Picture } from './picture';
@@ -14,10 +24,12 @@ import { choicesOf } from './schema_names';
 import { cameraCommand, settingCommands, type Settings } from './settings';
 import { isUint32, type SizeMode } from './url_state';
 import type { Store } from './store';
-import { length, sub } from './vec3';
+import { add, length, normalize, scale, sub } from './vec3';
 
 /** Seconds that flying through a scene from end to end takes. */
 const kFlightSeconds = 12;
+/** How far before the eye a new light is put, at most. */
+const kAheadM = 4;
 
 export class Commands implements PanelActions, InputTarget, RoomActions {
   constructor(
@@ -38,6 +50,52 @@ export class Commands implements PanelActions, InputTarget, RoomActions {
       return;
     }
     this.edit(patchFor(field, value));
+  }
+
+  chooseLight(id: number | null): void {
+    this.store.dispatch({ type: 'choose_light', id });
+  }
+
+  showHandles(visible: boolean): void {
+    this.store.dispatch({ type: 'show_handles', visible });
+  }
+
+  /** A little before where the view looks. */
+  addLight(): void {
+    const { settings } = this.store.state;
+    if (!settings || !this.allowed()) return;
+    const id = freeId(settings.placedLights);
+    const ahead = sub(settings.target, settings.eye);
+    const distance = Math.min(kAheadM, length(ahead));
+    const position = add(settings.eye, scale(normalize(ahead, ahead), distance));
+    this.edit({ placedLights: withLight(settings.placedLights, { ...kNewLight, id, position }) });
+    this.chooseLight(id);
+  }
+
+  editLight(id: number, patch: Partial<PlacedLight>): void {
+    const { placedLights } = this.store.state.settings ?? { placedLights: [] };
+    const light = findLight(placedLights, id);
+    if (light) this.edit({ placedLights: withLight(placedLights, { ...light, ...patch }) });
+  }
+
+  removeLight(id: number): void {
+    const { settings } = this.store.state;
+    if (settings) this.edit({ placedLights: withoutLight(settings.placedLights, id) });
+  }
+
+  async loadLights(file: Blob & { readonly name: string }): Promise<void> {
+    try {
+      this.edit({ placedLights: lightSetOf(await file.text()) });
+    } catch (error) {
+      this.refuse(`${file.name} is no light set: ${error instanceof Error ? error.message : ''}`);
+    }
+  }
+
+  saveLights(): void {
+    const { settings } = this.store.state;
+    if (!settings) return;
+    const json = new Blob([lightSetText(settings.placedLights)], { type: 'application/json' });
+    download(json, fileName('lights.json'));
   }
 
   setSizeMode(mode: SizeMode): void {

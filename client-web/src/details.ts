@@ -23,6 +23,13 @@ export function listRows(header: FrameHeader): Row[] {
   if (header.listRedraws > 0) {
     rows.push({ name: 'Drawn again', value: `${header.listRedraws} × for longer lists` });
   }
+  if (header.listsCapped > 0) {
+    const worst = header.listDroppedIrradiance.toPrecision(3);
+    rows.push(
+      { name: 'Capped lists', value: count(header.listsCapped) },
+      { name: '… dropped', value: `${count(header.listDropped)} · at most ${worst} each point` },
+    );
+  }
   if (!pairs) return rows;
   const share = percent(Number(pairs.contributing), Number(pairs.evaluated));
   return [

@@ -223,6 +223,66 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'Peeled at most; each costs what is visible of it, and what lies behind the last is left out',
     ),
     number(
+      'fogDensity',
+      'fog_density',
+      'Fog',
+      'log',
+      false,
+      'What the air takes of light in a metre; more than 0 costs three passes: lights in a volume, their sum, the picture',
+    ),
+    number(
+      'fogHeightFalloff',
+      'fog_height_falloff',
+      'Fog falloff',
+      'log',
+      false,
+      'How fast it thins out above its base height, by powers of e a metre; 0: not at all. Costs little',
+    ),
+    number(
+      'fogBaseHeight',
+      'fog_base_height',
+      'Fog base m',
+      'none',
+      false,
+      'The height up to which it is whole; costs nothing',
+    ),
+    number(
+      'fogAnisotropy',
+      'fog_anisotropy',
+      'Fog anisotropy',
+      'linear',
+      false,
+      'Above 0 it scatters light onwards, so that lamps ahead glow; below 0 back. Costs nothing',
+    ),
+    number(
+      'fogTile',
+      'fog_tile',
+      'Fog tile px',
+      'linear',
+      true,
+      'From node to node of the volume; half of it costs four times as much',
+    ),
+    number(
+      'fogSlices',
+      'fog_slices',
+      'Fog slices',
+      'linear',
+      true,
+      'Of the volume in depth; twice as many cost twice as much',
+    ),
+    toggle(
+      'fogHalfRate',
+      'fog_half_rate',
+      'Fog half rate',
+      'Half the volume’s resolution on each axis: an eighth of its cost, coarser glows',
+    ),
+    toggle(
+      'fogNoise',
+      'fog_noise',
+      'Fog noise',
+      'Bands become grain that changes with time; costs nothing',
+    ),
+    number(
       'shadowLights',
       'shadow_lights',
       'Shadows of',
@@ -274,6 +334,12 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       false,
       'A light ends where its irradiance would fall to this: faster, darker. 0: at its radius',
     ),
+    toggle(
+      'lightCutoffCompensated',
+      'light_cutoff_compensated',
+      'Give back',
+      'Lights that end early are brighter by what they lost; costs nothing',
+    ),
     number('lightSpeed', 'light_speed', 'Speed', 'log', false, "Scales the animation's clock"),
     number('lightSeed', 'light_seed', 'Seed', 'none', true, 'Places, paths and colours of the lights'),
     toggle('lightAnimate', 'light_animate', 'Animate', 'Off: time stands still'),
@@ -287,6 +353,14 @@ export const kFields: Readonly<Record<Section, readonly Field[]>> = {
       'Light loop',
       LightLoopSchema,
       'Which lights a pixel loops over. auto: all of them where lists cannot pay',
+    ),
+    number(
+      'listCap',
+      'list_cap',
+      'List cap',
+      'linear',
+      true,
+      'Lights that a list keeps at most, those that can add most: faster, darker; assigned on the host. 0: all',
     ),
     toggle(
       'countPairs',
@@ -396,6 +470,7 @@ export function isInUse(field: Field, settings: Settings): boolean {
   if (isGridSide(field)) return !settings.gridAutomatic;
   if (field.name.startsWith('gbuffer.')) return isDeferred(settings);
   if (field.name.startsWith('outline_')) return isToon(settings);
+  if (field.name.startsWith('fog_') && field.key !== 'fogDensity') return settings.fogDensity > 0;
   if (field.name === 'shadow_size') return settings.shadowLights > 0;
   if (field.name.startsWith('bloom_')) return settings.bloom !== kNoBloom;
   if (field.name === 'peel_layers') return settings.transparency === kPeeled;

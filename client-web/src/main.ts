@@ -8,6 +8,7 @@ import { Connection } from './connection';
 import { workerDecoder } from './decoder';
 import { element } from './dom';
 import { Legend } from './legend';
+import { LightHandles } from './light_handles';
 import { Overlay } from './overlay';
 import { Panel } from './panel';
 import { Picture } from './picture';
@@ -101,6 +102,7 @@ const connection = new Connection(
 );
 
 const commands = new Commands(store, connection, picture, recorder);
+const handles = new LightHandles(element('handles', HTMLElement), canvas, commands);
 const overlay = new Overlay(stats, () => presenter.droppedCount, !narrow);
 const panel = new Panel(element('panel', HTMLElement), commands, narrow, codecs);
 const banner = new Banner({
@@ -119,6 +121,7 @@ store.listen((state) => {
   panel.show(state);
   banner.show(state);
   roomCard.show(state.room);
+  handles.show(state);
   element('panel', HTMLElement).inert = !mayControl(state.room);
 });
 store.listen(({ link }, before) => {

@@ -8,13 +8,14 @@ import { choicesFor, isInUse, kFields, type Field, type NumberField, type Sectio
 import { gridText, tidy } from './format';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { FrameGrid } from './gen/froxel/v1/server_pb';
+import { LightEditor, type LightActions } from './light_editor';
 import { linearScale, logScale } from './range_scale';
 import type { Settings } from './settings';
 import { SizeEditor, type SizeActions } from './size_editor';
 import { attachSlider } from './slider';
 import { ToonEditor } from './toon_editor';
 
-export interface PanelActions extends SizeActions {
+export interface PanelActions extends SizeActions, LightActions {
   edit(patch: Partial<Settings>): void;
   set(field: Field, value: number | boolean): void;
   selectCamera(name: string): void;
@@ -39,6 +40,7 @@ export class Panel {
   private builtFor: ServerInfo | null = null;
   private shown: Settings | null = null;
   private sizeEditor: SizeEditor | null = null;
+  private lightEditor: LightEditor | null = null;
   private gridInUse: Controller | null = null;
 
   constructor(
@@ -54,13 +56,14 @@ export class Panel {
     this.gui.openAnimated(this.gui._closed);
   }
 
-  show({ server, settings, sizeMode }: AppState): void {
+  show({ server, settings, sizeMode, chosenLight }: AppState): void {
     if (!server || !settings) return;
     if (!this.builtFor || !sameControls(server, this.builtFor)) this.build(server);
     this.builtFor = server;
     if (settings !== this.shown) for (const show of this.shows) show(settings);
     this.shown = settings;
     this.sizeEditor?.show(settings, sizeMode);
+    this.lightEditor?.show(settings.placedLights, chosenLight);
   }
 
   /** The grid of the picture that is shown; none where no light is assigned to clusters. */
@@ -87,6 +90,7 @@ export class Panel {
     this.section('effects', server).close();
     const lights = this.section('lights', server);
     this.addBox(lights, server);
+    this.lightEditor = new LightEditor(lights, this.actions);
     const clusters = this.section('clusters', server);
     this.addGridInUse(clusters);
     clusters.close();

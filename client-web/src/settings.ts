@@ -23,6 +23,7 @@ import {
   type Vec3,
   type ViewState,
 } from './gen/froxel/v1/common_pb';
+import { placedChanges, type PlacedLights } from './placed_lights';
 import { equal, vec, type Vec } from './vec3';
 
 export interface Bounds {
@@ -56,13 +57,16 @@ export interface Settings {
   readonly lightRadius: number;
   readonly lightIntensity: number;
   readonly lightCutoff: number;
+  readonly lightCutoffCompensated: boolean;
   readonly lightSeed: number;
   readonly lightAnimate: boolean;
   readonly lightSpeed: number;
   readonly lightBox: Bounds | null; // null: the scene's bounds
   readonly ambient: number;
   readonly sceneLights: boolean;
+  readonly placedLights: PlacedLights;
   readonly lightLoop: LightLoop;
+  readonly listCap: number; // 0: none
   readonly countPairs: boolean;
   readonly lightTime: number | null; // seconds where the lights' clock stands; null: it runs
   readonly gridAutomatic: boolean;
@@ -87,6 +91,14 @@ export interface Settings {
   readonly antialiasing: Antialiasing;
   readonly transparency: Transparency;
   readonly peelLayers: number; // at most, while peeled
+  readonly fogDensity: number; // 1/m; 0: none
+  readonly fogHeightFalloff: number; // 1/m; 0: the same at every height
+  readonly fogBaseHeight: number; // metres
+  readonly fogAnisotropy: number;
+  readonly fogTile: number; // pixels
+  readonly fogSlices: number;
+  readonly fogHalfRate: boolean;
+  readonly fogNoise: boolean;
   readonly shadowLights: number; // lights with shadow maps; 0: none
   readonly shadowSize: number; // pixels of a map's side
   readonly width: number;
@@ -118,7 +130,11 @@ const toRamp = (ramp: ToonRamp | undefined): Ramp =>
   (ramp?.points ?? []).map(({ x, y, slope }) => ({ x, y, slope }));
 
 /** The server's state as settings; a light box that is the scene's bounds becomes null. */
-export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settings {
+export function settingsOf(
+  state: ViewState,
+  sceneBounds: Bounds | null,
+  placedLights: PlacedLights,
+): Settings {
   const box = state.lightBox
     ? { min: toVec(state.lightBox.min), max: toVec(state.lightBox.max) }
     : null;
@@ -140,13 +156,16 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     lightRadius: state.lightRadiusM,
     lightIntensity: state.lightIntensity,
     lightCutoff: state.lightCutoff,
+    lightCutoffCompensated: state.lightCutoffCompensated,
     lightSeed: state.lightSeed,
     lightAnimate: state.lightAnimate,
     lightSpeed: state.lightSpeed,
     lightBox: box && sceneBounds && sameBounds(box, sceneBounds) ? null : box,
     ambient: state.ambient,
     sceneLights: state.sceneLights,
+    placedLights,
     lightLoop: state.lightLoop,
+    listCap: state.listCap,
     countPairs: state.countPairs,
     lightTime: state.lightTimeS ?? null,
     gridAutomatic: state.gridAutomatic,
@@ -171,6 +190,14 @@ export function settingsOf(state: ViewState, sceneBounds: Bounds | null): Settin
     antialiasing: state.antialiasing,
     transparency: state.transparency,
     peelLayers: state.peelLayers,
+    fogDensity: state.fog?.density ?? 0,
+    fogHeightFalloff: state.fog?.heightFalloff ?? 0,
+    fogBaseHeight: state.fog?.baseHeight ?? 0,
+    fogAnisotropy: state.fog?.anisotropy ?? 0,
+    fogTile: state.fog?.tile ?? 16,
+    fogSlices: state.fog?.slices ?? 64,
+    fogHalfRate: state.fog?.halfRate ?? false,
+    fogNoise: state.fog?.noise ?? false,
     shadowLights: state.shadowLights,
     shadowSize: state.shadowSize,
     width: state.width,
@@ -242,6 +269,9 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   }
   const lights = lightChanges(from, to);
   if (Object.keys(lights).length > 0) commands.push({ case: 'setLights', value: lights });
+  for (const value of placedChanges(from.placedLights, to.placedLights)) {
+    commands.push({ case: 'setPlacedLights', value });
+  }
   const grid = gridChanges(from, to);
   if (Object.keys(grid).length > 0) commands.push({ case: 'setGrid', value: grid });
   if (changed('debugView', 'debugScaleMax', 'debugFrozen')) {
@@ -271,6 +301,8 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   if (Object.keys(transparency).length > 0) {
     commands.push({ case: 'setTransparency', value: transparency });
   }
+  const fog = fogChanges(from, to);
+  if (Object.keys(fog).length > 0) commands.push({ case: 'setFog', value: { fog } });
   if (changed('shadowLights', 'shadowSize')) {
     commands.push({
       case: 'setShadows',
@@ -354,6 +386,21 @@ function transparencyChanges(from: Settings, to: Settings): TransparencyValue {
   };
 }
 
+type FogValue = NonNullable<Extract<ClientBody, { case: 'setFog' }>['value']['fog']>;
+
+function fogChanges(from: Settings, to: Settings): FogValue {
+  return {
+    ...(from.fogDensity !== to.fogDensity && { density: to.fogDensity }),
+    ...(from.fogHeightFalloff !== to.fogHeightFalloff && { heightFalloff: to.fogHeightFalloff }),
+    ...(from.fogBaseHeight !== to.fogBaseHeight && { baseHeight: to.fogBaseHeight }),
+    ...(from.fogAnisotropy !== to.fogAnisotropy && { anisotropy: to.fogAnisotropy }),
+    ...(from.fogTile !== to.fogTile && { tile: to.fogTile }),
+    ...(from.fogSlices !== to.fogSlices && { slices: to.fogSlices }),
+    ...(from.fogHalfRate !== to.fogHalfRate && { halfRate: to.fogHalfRate }),
+    ...(from.fogNoise !== to.fogNoise && { noise: to.fogNoise }),
+  };
+}
+
 type GridValue = Extract<ClientBody, { case: 'setGrid' }>['value'];
 
 /** A size turns automatic off, so that the two never come together. */
@@ -376,6 +423,10 @@ function lightChanges(from: Settings, to: Settings): LightsValue {
     ...(from.lightRadius !== to.lightRadius && { radiusM: to.lightRadius }),
     ...(from.lightIntensity !== to.lightIntensity && { intensity: to.lightIntensity }),
     ...(from.lightCutoff !== to.lightCutoff && { cutoff: to.lightCutoff }),
+    ...(from.lightCutoffCompensated !== to.lightCutoffCompensated && {
+      cutoffCompensated: to.lightCutoffCompensated,
+    }),
+    ...(from.listCap !== to.listCap && { listCap: to.listCap }),
     ...(from.lightSeed !== to.lightSeed && { seed: to.lightSeed }),
     ...(from.lightAnimate !== to.lightAnimate && { animate: to.lightAnimate }),
     ...(from.lightSpeed !== to.lightSpeed && { speed: to.lightSpeed }),

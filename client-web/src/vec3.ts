@@ -10,6 +10,7 @@ export const vec = (x: number, y: number, z: number): Vec => ({ x, y, z });
 export const add = (a: Vec, b: Vec): Vec => vec(a.x + b.x, a.y + b.y, a.z + b.z);
 export const sub = (a: Vec, b: Vec): Vec => vec(a.x - b.x, a.y - b.y, a.z - b.z);
 export const scale = (a: Vec, s: number): Vec => vec(a.x * s, a.y * s, a.z * s);
+export const dot = (a: Vec, b: Vec): number => a.x * b.x + a.y * b.y + a.z * b.z;
 export const length = (a: Vec): number => Math.hypot(a.x, a.y, a.z);
 export const cross = (a: Vec, b: Vec): Vec =>
   vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);

@@ -53,6 +53,8 @@ export function viewState(change: ViewInit = {}): ViewState {
     lightRadiusM: 2,
     lightIntensity: 1,
     lightCutoff: 0,
+    lightCutoffCompensated: false,
+    listCap: 0,
     lightSeed: 1,
     lightAnimate: true,
     lightSpeed: 1,
@@ -75,6 +77,17 @@ export function viewState(change: ViewInit = {}): ViewState {
     antialiasing: Antialiasing.NONE,
     transparency: Transparency.SORTED,
     peelLayers: 4,
+    fog: {
+      density: 0,
+      heightFalloff: 0,
+      baseHeight: 0,
+      anisotropy: 0,
+      albedo: { x: 1, y: 1, z: 1 },
+      tile: 16,
+      slices: 64,
+      halfRate: false,
+      noise: false,
+    },
     shadowLights: 0,
     shadowSize: 256,
     width: 960,
@@ -91,7 +104,7 @@ export function viewState(change: ViewInit = {}): ViewState {
 }
 
 export const sampleSettings = (change: Partial<Settings> = {}): Settings => ({
-  ...settingsOf(viewState(), kBounds),
+  ...settingsOf(viewState(), kBounds, []),
   ...change,
 });
 

@@ -27,13 +27,13 @@ const commandsFor = (change: Partial<Settings>): unknown =>
 describe('settingsOf', () => {
   it('LightTime_OfLightsThatMove_IsNone', () => {
     expect(base.lightTime).toBeNull();
-    expect(settingsOf(viewState({ lightTimeS: 0 }), kBounds).lightTime).toBe(0);
+    expect(settingsOf(viewState({ lightTimeS: 0 }), kBounds, []).lightTime).toBe(0);
   });
 
   it('LightBox_ThatIsTheScenesBounds_IsNone', () => {
     expect(base.lightBox).toBeNull();
     const box = { min: { x: 0, y: 0, z: 0 }, max: { x: 1, y: 1, z: 1 } };
-    expect(settingsOf(viewState({ lightBox: box }), kBounds).lightBox).toEqual(box);
+    expect(settingsOf(viewState({ lightBox: box }), kBounds, []).lightBox).toEqual(box);
   });
 });
 
@@ -61,6 +61,12 @@ describe('settingCommands', () => {
     ['light radius', { lightRadius: 3 }, { case: 'setLights', value: { radiusM: 3 } }],
     ['intensity', { lightIntensity: 0 }, { case: 'setLights', value: { intensity: 0 } }],
     ['cut-off', { lightCutoff: 0.01 }, { case: 'setLights', value: { cutoff: 0.01 } }],
+    [
+      'compensation',
+      { lightCutoffCompensated: true },
+      { case: 'setLights', value: { cutoffCompensated: true } },
+    ],
+    ['list cap', { listCap: 40 }, { case: 'setLights', value: { listCap: 40 } }],
     ['seed', { lightSeed: 9 }, { case: 'setLights', value: { seed: 9 } }],
     ['animate', { lightAnimate: false }, { case: 'setLights', value: { animate: false } }],
     ['speed', { lightSpeed: 2 }, { case: 'setLights', value: { speed: 2 } }],
@@ -141,6 +147,14 @@ describe('settingCommands', () => {
       { case: 'setTransparency', value: { transparency: Transparency.PEELED } },
     ],
     ['layers', { peelLayers: 9 }, { case: 'setTransparency', value: { peelLayers: 9 } }],
+    ['fog', { fogDensity: 0.1 }, { case: 'setFog', value: { fog: { density: 0.1 } } }],
+    ['fog’s falloff', { fogHeightFalloff: 2 }, { case: 'setFog', value: { fog: { heightFalloff: 2 } } }],
+    ['fog’s base', { fogBaseHeight: -3 }, { case: 'setFog', value: { fog: { baseHeight: -3 } } }],
+    ['fog’s phase', { fogAnisotropy: 0.5 }, { case: 'setFog', value: { fog: { anisotropy: 0.5 } } }],
+    ['fog’s tile', { fogTile: 8 }, { case: 'setFog', value: { fog: { tile: 8 } } }],
+    ['fog’s slices', { fogSlices: 128 }, { case: 'setFog', value: { fog: { slices: 128 } } }],
+    ['fog’s rate', { fogHalfRate: true }, { case: 'setFog', value: { fog: { halfRate: true } } }],
+    ['fog’s noise', { fogNoise: true }, { case: 'setFog', value: { fog: { noise: true } } }],
     ['shadows', { shadowLights: 4 }, { case: 'setShadows', value: { lights: 4 } }],
     ['shadow map', { shadowSize: 128 }, { case: 'setShadows', value: { size: 128 } }],
     ['quality', { quality: 5 }, { case: 'setEncoding', value: { quality: 5 } }],

@@ -110,6 +110,7 @@ class BenchRun {
         result_.device = summarize(traits);
         result_.device_choice = options.device.choice;
         result_.scene_source = options.scene;
+        result_.light_set = options.light_set;
         const auto summary = session::summarize(scene_);
         result_.scene_name = summary.name;
         result_.triangle_count = summary.triangle_count;

@@ -19,6 +19,7 @@ struct BenchOptions {
     std::string scene = "builtin";
     gpu::DeviceOptions device;
     view::ViewSettings settings;      // what no sweep varies, but for the camera
+    std::filesystem::path light_set;  // that settings.lights.placed was read from; empty: none
     std::vector<std::string> cameras; // none: the scene's first three
     double seconds_per_row = 10;
     view::Size error_size{640, 360};

@@ -28,7 +28,8 @@ uint32_t share(uint32_t part, uint32_t whole, uint32_t of) {
 }
 
 size_t lightCountOf(const view::ViewSettings& settings, const scene::Scene& scene) {
-    return settings.lights.count + (settings.lights.scene_lights ? scene.lights.size() : 0);
+    return settings.lights.count + (settings.lights.scene_lights ? scene.lights.size() : 0) +
+           settings.lights.placed.lights().size();
 }
 
 BenchPicture scaledTo(const BenchPicture& picture, const view::Size& size) {
@@ -100,6 +101,7 @@ view::ViewSettings r1Settings(view::ViewSettings settings) {
         settings.renderer = view::Renderer::kNaive;
     }
     settings.light_loop = view::LightLoop::kAllLights;
+    settings.list_cap = 0;
     settings.grid = {};
     settings.count_pairs = false;
     return settings;
@@ -112,9 +114,15 @@ view::ViewSettings r2Settings(view::ViewSettings settings) {
     settings.lighting = view::LightingStage::kAuto;
     settings.gbuffer = {};
     settings.antialiasing = view::Antialiasing::kNone;
+    const view::Fog volume; // which the reference has none of
+    settings.fog.tile_px = volume.tile_px;
+    settings.fog.slice_count = volume.slice_count;
+    settings.fog.half_rate = volume.half_rate;
+    settings.fog.noise = volume.noise;
     settings.transparency = {}; // blended surfaces are sorted pixel by pixel
     settings.peel_layers = view::ViewSettings{}.peel_layers;
     settings.lights.cutoff = 0;
+    settings.list_cap = 0;
     settings.grid = {};
     settings.light_loop = view::LightLoop::kAuto;
     settings.count_pairs = false;

@@ -127,6 +127,10 @@ std::string workloadOf(const BenchRow& row, const BenchBase& base) {
     }
     text += settings.bloom.kind != view::BloomKind::kNone ? ", bloom" : "";
     text += row.against_peeled ? ", against 16 peeled layers" : "";
+    if (const auto& fog = settings.fog; fog.present()) {
+        text += fmt::format(", fog of {} a metre{}", numberText(fog.density),
+                            fog.height_falloff > 0 ? " by height" : "");
+    }
     if (settings.shadows.light_count > 0) {
         text += fmt::format(", shadows of {} lights", settings.shadows.light_count);
     }
@@ -236,6 +240,7 @@ std::string commandOf(const BenchResult& result, const BenchRow& row, size_t fra
     options.scene = result.scene_source;
     options.device.choice = result.device_choice;
     options.settings = row.settings;
+    options.light_set = result.light_set;
     options.time_s = view.time_s;
     options.frame_count = static_cast<uint32_t>(frame_count);
     options.warmup_count = result.budget.warmup_first;
@@ -273,7 +278,9 @@ std::vector<std::string> inexactRows(const BenchResult& result) {
         for (size_t i = 0; i < found.rows.size(); ++i) {
             const auto& row = found.sweep.rows[i];
             const auto& error = found.rows[i].errors.r1;
-            if (!found.rows[i].times.measured() || !error.skipped.empty() || error.exact()) {
+            const bool capped = row.settings.list_cap > 0; // inexact on purpose
+            if (!found.rows[i].times.measured() || !error.skipped.empty() || error.exact() ||
+                capped) {
                 continue;
             }
             lines.push_back(fmt::format(

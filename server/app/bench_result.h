@@ -35,7 +35,8 @@ struct BenchResult {
     double elapsed_s = 0;
     DeviceSummary device;
     gpu::DeviceChoice device_choice = gpu::DeviceChoice::kAuto;
-    std::string scene_source; // as given
+    std::string scene_source;        // as given
+    std::filesystem::path light_set; // as given; empty: none
     std::string scene_name;
     size_t triangle_count = 0;
     BenchBudget budget;

@@ -95,6 +95,48 @@ Sweep cutoffSweep(const BenchBase& base) {
     return sweep;
 }
 
+Sweep compensationSweep(const BenchBase& base) {
+    Sweep sweep{"compensation",
+                "Lights cut off early, and what they lost given back",
+                "cutoff",
+                "",
+                Axis::kLog,
+                "A light that ends early is brighter by what it lost, or not.",
+                {}};
+    for (const bool compensated : {false, true}) {
+        for (const float value : {0.2F, 0.1F, 0.05F, 0.02F, 0.01F}) {
+            auto row = rowOf(base, kDeferred, "cutoff " + numberText(value),
+                             static_cast<double>(value), [&](auto& s) {
+                                 s.lights.cutoff = value;
+                                 s.lights.cutoff_compensated = compensated;
+                             });
+            row.series = compensated ? "given back" : "lost";
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
+Sweep listCapSweep(const BenchBase& base) {
+    Sweep sweep{
+        "list_cap",
+        "Lists capped by importance",
+        "cap",
+        "lights",
+        Axis::kLog,
+        "R1 is the error of the cap: the picture of every light is what it is held against.",
+        {}};
+    for (const auto& way : kListWays) {
+        for (const uint32_t cap : {4U, 8U, 16U, 32U, 64U, 128U, 256U}) {
+            sweep.rows.push_back(rowOf(base, way, fmt::format("cap {}", cap), cap, [&](auto& s) {
+                s.list_cap = cap;
+                s.light_loop = view::LightLoop::kLists;
+            }));
+        }
+    }
+    return sweep;
+}
+
 Sweep bloomSweep(const BenchBase& base) {
     Sweep sweep{
         "bloom", "Ways of bloom", "kind",
@@ -152,6 +194,45 @@ Sweep transparencySweep(const BenchBase& base) {
     for (const uint32_t layers : {1U, 2U, 4U, 8U, 16U}) {
         add(view::Transparency::kPeeled, layers);
     }
+    return sweep;
+}
+
+Sweep fogSweep(const BenchBase& base) {
+    struct Volume {
+        uint32_t tile_px;
+        uint32_t slice_count;
+    };
+    Sweep sweep{"fog",
+                "Fog by volumes",
+                "volume",
+                "",
+                Axis::kCategory,
+                "R2 integrates lights along each ray, in double; each to be read beside no fog.",
+                {}};
+    const auto add = [&](const std::string& label, const view::Fog& fog) {
+        sweep.rows.push_back(rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()),
+                                   [&](auto& s) { s.fog = fog; }));
+    };
+    view::Fog fog;
+    add("none", fog);
+    fog.density = 0.05F;
+    fog.anisotropy = 0.4F;
+    for (const auto& [tile_px, slice_count] :
+         {Volume{64, 16}, Volume{32, 32}, Volume{16, 32}, Volume{16, 64}, Volume{16, 128},
+          Volume{8, 64}, Volume{8, 128}}) {
+        fog.tile_px = tile_px;
+        fog.slice_count = slice_count;
+        add(fmt::format("{} px, {} slices", tile_px, slice_count), fog);
+    }
+    fog = {.density = 0.05F, .anisotropy = 0.4F};
+    fog.half_rate = true;
+    add("16 px, 64 slices, half rate", fog);
+    fog.half_rate = false;
+    fog.noise = true;
+    add("16 px, 64 slices, noise", fog);
+    fog.noise = false;
+    fog.height_falloff = 0.5F;
+    add("16 px, 64 slices, by height", fog);
     return sweep;
 }
 
@@ -218,6 +299,7 @@ Sweep smokeSweep(const BenchBase& base) {
               [](auto& s) { s.gbuffer.normal = view::NormalEncoding::kOct8; }));
     add(rowOf(small, kDeferred, "bloom", 0,
               [](auto& s) { s.bloom.kind = view::BloomKind::kMipChain; }));
+    add(rowOf(small, kDeferred, "fog", 0, [](auto& s) { s.fog.density = 0.05F; }));
     auto smooth = rowOf(small, kDeferred, "ssaa4", 0,
                         [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; });
     smooth.against_samples = true;

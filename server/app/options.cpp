@@ -146,6 +146,7 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
         byDevice([](const Defaults& d) { return textOf(view::kRendererNames, d.renderer); }),
         "First renderer");
     addLightDetails(command, options.other.lights, "The lights stand still");
+    addLightSet(command, options.other.lights.placed, options.light_set);
     addDelivery(command, options.delivery);
     addShading(command, options.other);
     addPost(command, options.other);
@@ -185,7 +186,7 @@ void addRender(CLI::App& app, Targets& targets) {
     command.pipelineCache(options.device.pipeline_cache);
     command.name("--renderer", settings.renderer, view::kRendererNames, "How to draw");
     addShading(command, settings);
-    addLights(command, settings.lights);
+    addLights(command, settings.lights, options.light_set);
     command.number("--time", options.time_s, view::kTimeRange, "The lights' clock in seconds");
     command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),
                   sizeHelp("Picture"));
@@ -247,7 +248,7 @@ void addBench(CLI::App& app, Targets& targets) {
         });
     command.value("--size", "WxH", options.settings.size, parseSize, textOf(options.settings.size),
                   sizeHelp("Picture"));
-    addLights(command, options.settings.lights);
+    addLights(command, options.settings.lights, options.light_set);
     addBenchMethod(command, options);
     command.text("--out", "FILE", options.out, "", "JSON; see tests/bench/results/README.md");
     command.text("--report", "FILE", options.report, "", "HTML with plots, in one file");

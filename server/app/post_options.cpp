@@ -10,6 +10,30 @@ void addToneMap(CommandBuilder& command, view::ViewSettings& settings) {
     command.name("--tone-map", settings.tone_map, view::kToneMapNames, "After the exposure");
 }
 
+namespace {
+
+void addFog(CommandBuilder& command, view::Fog& fog) {
+    command.number("--fog-density", fog.density, view::kFogDensityRange,
+                   "What a medium takes of light in a metre; 0: none");
+    command.number("--fog-height-falloff", fog.height_falloff, view::kFogHeightFalloffRange,
+                   "A metre above the base height its density falls by this power of e");
+    command.number("--fog-base-height", fog.base_height_m, view::kFogBaseHeightRange,
+                   "World y up to which its density is whole, in metres");
+    command.number("--fog-anisotropy", fog.anisotropy, view::kFogAnisotropyRange,
+                   "Whether it scatters light onwards (above 0) or back");
+    command.value("--fog-albedo", "R,G,B", fog.albedo, parseAlbedo, "1,1,1",
+                  "Share of that light that it scatters; 0 to 1 each");
+    command.number("--fog-tile", fog.tile_px, view::kFogTileRange,
+                   "Pixels from node to node of the volume that lights are scattered in");
+    command.number("--fog-slices", fog.slice_count, view::kFogSlicesRange, "Slices of that volume");
+    command.cli().add_flag("--fog-half-rate", fog.half_rate,
+                           "Half its resolution on each axis: faster, coarser");
+    command.cli().add_flag("--fog-noise", fog.noise,
+                           "Sample it at places jittered by time, instead of slices' middles");
+}
+
+} // namespace
+
 void addPost(CommandBuilder& command, view::ViewSettings& settings) {
     auto& bloom = settings.bloom;
     command.name("--bloom", bloom.kind, view::kBloomKindNames,
@@ -24,6 +48,7 @@ void addPost(CommandBuilder& command, view::ViewSettings& settings) {
                    "Standard deviation of the spread, as a share of the smaller side");
     command.name("--antialiasing", settings.antialiasing, view::kAntialiasingNames,
                  "A filter over the picture, or four samples a pixel");
+    addFog(command, settings.fog);
     auto& shadows = settings.shadows;
     command.number("--shadow-lights", shadows.light_count, view::kShadowLightsRange,
                    "Lights with shadow maps, the most important ones; the others shine through "

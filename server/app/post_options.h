@@ -9,7 +9,7 @@ namespace froxel::app {
 // Of pictures alone.
 void addToneMap(CommandBuilder& command, view::ViewSettings& settings);
 
-// What both pictures and first views take: bloom, antialiasing, shadows, outlines.
+// What both pictures and first views take: bloom, antialiasing, fog, shadows, outlines.
 void addPost(CommandBuilder& command, view::ViewSettings& settings);
 
 } // namespace froxel::app

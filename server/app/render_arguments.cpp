@@ -78,6 +78,7 @@ void addShading(Arguments& arguments,
     arguments.changedName("--grid-law", view::kGridLawNames, settings.grid.law, usual.grid.law);
     arguments.changedName("--light-loop", view::kLightLoopNames, settings.light_loop,
                           usual.light_loop);
+    arguments.changed("--list-cap", settings.list_cap, usual.list_cap);
     arguments.changedName("--gbuffer-normal", view::kNormalEncodingNames, settings.gbuffer.normal,
                           usual.gbuffer.normal);
     arguments.changedName("--gbuffer-position", view::kPositionSourceNames,
@@ -96,6 +97,7 @@ void addLights(Arguments& arguments, const view::Lights& lights, const view::Lig
     arguments.always("--light-radius", numberText(lights.radius_m));
     arguments.changed("--light-intensity", lights.intensity, usual.intensity);
     arguments.changed("--light-cutoff", lights.cutoff, usual.cutoff);
+    arguments.flag("--light-cutoff-compensated", lights.cutoff_compensated);
     if (lights.box) {
         arguments.always("--light-box", textOf(*lights.box));
     }
@@ -104,6 +106,21 @@ void addLights(Arguments& arguments, const view::Lights& lights, const view::Lig
     arguments.changed("--ambient", lights.ambient, usual.ambient);
     arguments.flag("--no-scene-lights", !lights.scene_lights);
     arguments.flag("--no-animate", !lights.animate);
+}
+
+void addFog(Arguments& arguments, const view::Fog& fog, const view::Fog& usual) {
+    arguments.changed("--fog-density", fog.density, usual.density);
+    arguments.changed("--fog-height-falloff", fog.height_falloff, usual.height_falloff);
+    arguments.changed("--fog-base-height", fog.base_height_m, usual.base_height_m);
+    arguments.changed("--fog-anisotropy", fog.anisotropy, usual.anisotropy);
+    if (fog.albedo != usual.albedo) {
+        arguments.always("--fog-albedo", numberText(fog.albedo.x) + "," + numberText(fog.albedo.y) +
+                                             "," + numberText(fog.albedo.z));
+    }
+    arguments.changed("--fog-tile", fog.tile_px, usual.tile_px);
+    arguments.changed("--fog-slices", fog.slice_count, usual.slice_count);
+    arguments.flag("--fog-half-rate", fog.half_rate);
+    arguments.flag("--fog-noise", fog.noise);
 }
 
 void addPost(Arguments& arguments,
@@ -117,6 +134,7 @@ void addPost(Arguments& arguments,
     arguments.changed("--bloom-radius", bloom.radius, usual.bloom.radius);
     arguments.changedName("--antialiasing", view::kAntialiasingNames, settings.antialiasing,
                           usual.antialiasing);
+    addFog(arguments, settings.fog, usual.fog);
     const auto& shadows = settings.shadows;
     arguments.changed("--shadow-lights", shadows.light_count, usual.shadows.light_count);
     arguments.changed("--shadow-size", shadows.size_px, usual.shadows.size_px);
@@ -156,6 +174,9 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
                      std::string(view::kRendererNames[static_cast<size_t>(settings.renderer)]));
     addShading(arguments, settings, usual.settings);
     addLights(arguments, settings.lights, usual.settings.lights);
+    if (!options.light_set.empty()) {
+        arguments.always("--light-set", options.light_set.string());
+    }
     arguments.changed("--exposure", settings.exposure, usual.settings.exposure);
     arguments.changedName("--tone-map", view::kToneMapNames, settings.tone_map,
                           usual.settings.tone_map);

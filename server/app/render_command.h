@@ -21,11 +21,12 @@ inline constexpr double kFrameStepS = 1.0 / 30.0;
 struct RenderOptions {
     std::string scene = "builtin";
     gpu::DeviceOptions device;
-    view::ViewSettings settings; // but for the camera, which `camera` chooses
+    view::ViewSettings settings;     // but for the camera, which `camera` chooses
+    std::filesystem::path light_set; // that settings.lights.placed was read from; empty: none
     CameraChoice camera;
-    std::optional<glm::dvec2> lens_shift; // of whichever camera it is
+    std::optional<glm::dvec2> lens_shift;    // of whichever camera it is
     std::optional<CameraChoice> grid_camera; // of the debug view cluster_wires
-    double time_s = 0;                    // the lights' clock of the first frame
+    double time_s = 0;                       // the lights' clock of the first frame
     view::Encoding encoding;
     std::filesystem::path out; // empty: no picture; else .png, .jpg or .pfm, of the last frame
     uint32_t frame_count = 1;  // frame k is drawn at time_s + k * lightStepS()

@@ -42,6 +42,7 @@ struct ServeOptions {
     session::DeliverySettings delivery =
         session::defaultsFor(session::DeviceKind::kCpu).delivery; // the same on both
     view::ViewSettings other; // of the first view, what the fields above and the camera do not say
+    std::filesystem::path light_set; // that other.lights.placed was read from; empty: none
     std::optional<glm::dvec2> lens_shift;
     // The built page. Empty: web/ beside the binary, else where this build made it.
     std::filesystem::path web_root;

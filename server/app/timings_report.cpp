@@ -51,6 +51,7 @@ Json toJson(const view::Lights& lights) {
             {"radius_m", lights.radius_m},
             {"intensity", lights.intensity},
             {"cutoff", lights.cutoff},
+            {"cutoff_compensated", lights.cutoff_compensated},
             {"seed", lights.seed},
             {"animate", lights.animate},
             {"speed", lights.speed},
@@ -58,7 +59,8 @@ Json toJson(const view::Lights& lights) {
                           ? Json{{"min", toJson(lights.box->min)}, {"max", toJson(lights.box->max)}}
                           : Json(nullptr)},
             {"ambient", lights.ambient},
-            {"scene_lights", lights.scene_lights}};
+            {"scene_lights", lights.scene_lights},
+            {"placed", lights.placed.lights().size()}};
 }
 
 Json toJson(const LightListStats& lists) {
@@ -72,6 +74,9 @@ Json toJson(const LightListStats& lists) {
             {"mean", lists.mean},
             {"p95", lists.p95},
             {"bytes", lists.bytes},
+            {"capped", lists.capped_count},
+            {"dropped", lists.dropped_count},
+            {"dropped_irradiance", lists.dropped_irradiance},
             {"all_lights", lists.all_lights},
             {"why", lists.why}};
 }
@@ -176,6 +181,17 @@ Json settingsReport(const view::ViewSettings& settings) {
                          {"knee", bloom.knee},
                          {"strength", bloom.strength},
                          {"radius", bloom.radius}};
+    }
+    if (const auto& fog = settings.fog; fog.present()) {
+        json["fog"] = {{"density", fog.density},
+                       {"height_falloff", fog.height_falloff},
+                       {"base_height_m", fog.base_height_m},
+                       {"anisotropy", fog.anisotropy},
+                       {"albedo", toJson(glm::dvec3(fog.albedo))},
+                       {"tile_px", fog.tile_px},
+                       {"slices", fog.slice_count},
+                       {"half_rate", fog.half_rate},
+                       {"noise", fog.noise}};
     }
     if (settings.antialiasing != view::Antialiasing::kNone) {
         json["antialiasing"] = nameOf(view::kAntialiasingNames, settings.antialiasing);

@@ -157,6 +157,21 @@ Result<glm::dvec2> parseLensShift(std::string_view text) {
                                      view::kLensShiftXRange.min, view::kLensShiftXRange.max));
 }
 
+Result<glm::dvec3> parseAlbedo(std::string_view text) {
+    const auto parts = split(text, ',');
+    if (parts.size() == 3) {
+        const auto red = readInRange(parts[0], view::kFogAlbedoRange);
+        const auto green = readInRange(parts[1], view::kFogAlbedoRange);
+        const auto blue = readInRange(parts[2], view::kFogAlbedoRange);
+        if (red && green && blue) {
+            return glm::dvec3(*red, *green, *blue);
+        }
+    }
+    return invalid(text, fmt::format("\"red,green,blue\", each from {} to {}, such as "
+                                     "\"0.9,0.9,1\"",
+                                     view::kFogAlbedoRange.min, view::kFogAlbedoRange.max));
+}
+
 Result<BoundsD3> parseBox(std::string_view text) {
     const auto corners = split(text, ';');
     if (corners.size() == 2) {

@@ -1,5 +1,6 @@
 #include "app/view_arguments.h"
 
+#include "app/light_set_file.h"
 #include "view/ranges.h"
 
 #include <limits>
@@ -27,6 +28,9 @@ void addShading(CommandBuilder& command, view::ViewSettings& settings) {
     command.name("--grid-law", settings.grid.law, view::kGridLawNames, "How slices divide depth");
     command.name("--light-loop", settings.light_loop, view::kLightLoopNames,
                  "Lights that a pixel loops over; auto: all where lists cannot pay");
+    command.number("--list-cap", settings.list_cap, view::kListCapRange,
+                   "Lights that a list keeps at most, those that can add most: faster, darker. 0: "
+                   "all");
     command.name("--gbuffer-normal", settings.gbuffer.normal, view::kNormalEncodingNames,
                  "How deferred renderers keep normals");
     command.name("--gbuffer-position", settings.gbuffer.position, view::kPositionSourceNames,
@@ -50,6 +54,8 @@ void addLightDetails(CommandBuilder& command, view::Lights& lights, const char* 
         "--light-cutoff", lights.cutoff, view::kLightCutoffRange,
         "A light ends where its irradiance would fall to this: faster, darker. 0: at its "
         "radius");
+    command.cli().add_flag("--light-cutoff-compensated", lights.cutoff_compensated,
+                           "Lights that end early are brighter by what they lost");
     command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
                   "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
     command.number("--light-speed", lights.speed, view::kLightSpeedRange,
@@ -63,11 +69,21 @@ void addLightDetails(CommandBuilder& command, view::Lights& lights, const char* 
         "--no-animate", [&lights] { lights.animate = false; }, no_animate);
 }
 
-void addLights(CommandBuilder& command, view::Lights& lights) {
+void addLightSet(CommandBuilder& command, view::PlacedLights& placed, std::filesystem::path& file) {
+    const auto parse = [&file](const std::string& text) {
+        file = text;
+        return readLightSet(file);
+    };
+    command.value("--light-set", "FILE", placed, parse, "none",
+                  "Lights with places of their own, as the page saves them");
+}
+
+void addLights(CommandBuilder& command, view::Lights& lights, std::filesystem::path& light_set) {
     command.number("--lights", lights.count, view::kLightCountRange, "Seeded point lights");
     command.number("--light-radius", lights.radius_m, view::kLightRadiusRange,
                    "Where a light reaches exactly 0, in metres");
     addLightDetails(command, lights, "Keep the lights at --time in all --frames");
+    addLightSet(command, lights.placed, light_set);
 }
 
 } // namespace froxel::app

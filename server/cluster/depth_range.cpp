@@ -19,14 +19,15 @@ constexpr double kSmallestNearOverFar = 1e-6;
 // Where nothing at all is lit.
 constexpr double kSmallestFar_m = 0.02;
 
-struct Lit {
+struct LitDepths {
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0;
+    double farthest_limited = 0;                                  // of lights with a limit
     double mean_radius = std::numeric_limits<double>::infinity(); // of lights with a limit
 };
 
-Lit litDepths(const light::FrameLights& lights) {
-    Lit lit;
+LitDepths litDepths(const light::FrameLights& lights) {
+    LitDepths lit;
     double radius_sum = 0;
     size_t limited_count = 0;
     for (size_t i = 0; i < lights.lights.size(); ++i) {
@@ -37,8 +38,11 @@ Lit litDepths(const light::FrameLights& lights) {
         if (reach > position.z) {
             lit.nearest = std::min(lit.nearest, -position.z - reach);
             lit.farthest = std::max(lit.farthest, -position.z + reach);
-            radius_sum += std::isfinite(radius) ? radius : 0.0;
-            limited_count += std::isfinite(radius) ? 1U : 0U;
+            if (std::isfinite(radius)) {
+                lit.farthest_limited = std::max(lit.farthest_limited, -position.z + reach);
+                radius_sum += radius;
+                ++limited_count;
+            }
         }
     }
     if (limited_count > 0) {
@@ -66,14 +70,18 @@ BoxDepths boxDepths(const view::Camera& camera, const BoundsD3& box_world) {
 
 DepthRange litDepthRange(const light::FrameLights& lights,
                          const view::Camera& camera,
-                         const BoundsD3& scene_bounds_world) {
-    const Lit lit = litDepths(lights);
+                         const BoundsD3& scene_bounds_world,
+                         Lit what) {
+    const LitDepths lit = litDepths(lights);
     double nearest = std::max(camera.near_m, lit.nearest);
     double farthest = 0; // of a scene that is empty: nothing can be lit
     if (!scene_bounds_world.empty()) {
         const BoxDepths scene = boxDepths(camera, scene_bounds_world);
-        nearest = std::max(nearest, scene.nearest);
+        nearest = what == Lit::kMedium ? nearest : std::max(nearest, scene.nearest);
         farthest = std::min(lit.farthest, scene.farthest);
+    }
+    if (what == Lit::kMedium) {
+        farthest = std::max(farthest, lit.farthest_limited);
     }
     const double far_m = std::max(farthest, kSmallestFar_m);
     const double merged =

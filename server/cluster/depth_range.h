@@ -5,6 +5,8 @@
 #include "light/frame_lights.h"
 #include "view/camera.h"
 
+#include <cstdint>
+
 namespace froxel::cluster {
 
 // Metres along the view direction; 0 < near < far.
@@ -13,11 +15,19 @@ struct DepthRange {
     double far_m;
 };
 
-// The grid's range for these lights: far is the farthest depth where a light meets the scene (with
-// a margin for rounding), near the depth below which more slices would not make shorter lists on
-// the whole. Every visible point of the scene at or beyond far is unlit.
+// What lights are looked up for.
+enum class Lit : uint8_t {
+    kSurfaces, // of the scene
+    kMedium,   // that fills space, too: behind the scene, and before it
+};
+
+// The grid's range for these lights: far is the farthest depth where a light meets what is lit
+// (with a margin for rounding), near the depth below which more slices would not make shorter lists
+// on the whole. Every visible point of the scene at or beyond far is unlit; in a medium every
+// point, but for lights without a range limit, which there end where the scene does.
 [[nodiscard]] DepthRange litDepthRange(const light::FrameLights& lights,
                                        const view::Camera& camera,
-                                       const BoundsD3& scene_bounds_world);
+                                       const BoundsD3& scene_bounds_world,
+                                       Lit lit = Lit::kSurfaces);
 
 } // namespace froxel::cluster

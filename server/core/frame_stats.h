@@ -16,19 +16,24 @@ struct PassTime {
 };
 
 struct LightListStats {
-    uint32_t light_count = 0;       // point and spot lights assigned to the grid
-    uint32_t cluster_count = 0;     // clusters in the grid
-    uint32_t empty_count = 0;       // clusters with no light
-    uint64_t entry_count = 0;       // light indices over all lists
-    uint32_t largest = 0;           // longest list
-    double mean = 0;                // entries per non-empty cluster
-    uint32_t p95 = 0;               // 95 % of the non-empty lists are at most this long, in steps
-                                    // of a sixteenth
-    uint64_t bytes = 0;             // of lists and light indices
-    bool overflowed = false;        // past their limit: every cluster names all lights
-    uint32_t redraw_count = 0;      // times the frame was drawn again since its lists had to grow
-    bool all_lights = false;        // no lists: every pixel loops over all lights
-    std::string why;                // of all_lights, or of its opposite
+    uint32_t light_count = 0;   // point and spot lights assigned to the grid
+    uint32_t cluster_count = 0; // clusters in the grid
+    uint32_t empty_count = 0;   // clusters with no light
+    uint64_t entry_count = 0;   // light indices over all lists
+    uint32_t largest = 0;       // longest list
+    double mean = 0;            // entries per non-empty cluster
+    uint32_t p95 = 0;           // 95 % of the non-empty lists are at most this long, in steps
+                                // of a sixteenth
+    uint64_t bytes = 0;         // of lists and light indices
+    bool overflowed = false;    // past their limit: every cluster names all lights
+    uint32_t redraw_count = 0;  // times the frame was drawn again since its lists had to grow
+    // Where lists are capped: how many were cut, the entries that they lost, and what a surface
+    // lacks at most in any one cluster, as irradiance in the strongest channel.
+    uint32_t capped_count = 0;
+    uint64_t dropped_count = 0;
+    double dropped_irradiance = 0;
+    bool all_lights = false; // no lists: every pixel loops over all lights
+    std::string why;         // of all_lights, or of its opposite
 };
 
 // The cluster grid of a frame; x of 0: none.
@@ -38,17 +43,17 @@ struct GridStats {
     uint32_t z = 0;
     uint32_t tile_width_px = 0;
     uint32_t tile_height_px = 0;
-    double near_m = 0;              // slice 0 reaches from the eye to the first plane beyond this
+    double near_m = 0; // slice 0 reaches from the eye to the first plane beyond this
     double far_m = 0;
     bool automatic = false;
-    std::string why;                // how the automatic grid was chosen, for a person
+    std::string why; // how the automatic grid was chosen, for a person
 };
 
 // How many light evaluations touched a pixel; only where it was asked for.
 struct PairStats {
     bool counted = false;
-    uint64_t evaluated = 0;         // (light, pixel) pairs that were looped over
-    uint64_t contributing = 0;      // of which within the light's radius and cone
+    uint64_t evaluated = 0;    // (light, pixel) pairs that were looped over
+    uint64_t contributing = 0; // of which within the light's radius and cone
 };
 
 // Blended surfaces, layer by layer.
@@ -60,9 +65,9 @@ struct PeelStats {
 // Depths drawn from lights; none: no light had maps.
 struct ShadowStats {
     uint32_t light_count = 0;
-    uint32_t map_count = 0;         // six for a point light
+    uint32_t map_count = 0; // six for a point light
     uint32_t draw_count = 0;
-    uint32_t triangle_count = 0;    // of casters, sent to the rasteriser
+    uint32_t triangle_count = 0; // of casters, sent to the rasteriser
 };
 
 struct MemoryUse {
@@ -72,9 +77,9 @@ struct MemoryUse {
 
 // How to read a debug view.
 struct DebugLegend {
-    std::string view;             // view::kDebugViewNames
-    std::string words;            // what its colours say, for a person
-    double min = 0;               // of a heat map's scale; the top stands for more, too
+    std::string view;  // view::kDebugViewNames
+    std::string words; // what its colours say, for a person
+    double min = 0;    // of a heat map's scale; the top stands for more, too
     double max = 0;
     std::string unit;
     std::vector<uint32_t> colors; // of the scale, evenly spaced, 0xRRGGBB; empty: no heat map
@@ -90,11 +95,11 @@ struct FrameDetails {
 };
 
 struct FrameStats {
-    std::vector<PassTime> passes;   // in the order recorded
-    double gpu_us = 0;              // first to last timestamp of the frame
-    double host_us = 0;             // host work: culling, lights, assignment, recording
-    double frame_us = 0;            // from submit call to readable pixels, on the host's clock
-    uint32_t triangle_count = 0;    // triangles sent to the rasteriser
+    std::vector<PassTime> passes; // in the order recorded
+    double gpu_us = 0;            // first to last timestamp of the frame
+    double host_us = 0;           // host work: culling, lights, assignment, recording
+    double frame_us = 0;          // from submit call to readable pixels, on the host's clock
+    uint32_t triangle_count = 0;  // triangles sent to the rasteriser
     uint32_t draw_count = 0;
     LightListStats lists;
     GridStats grid;

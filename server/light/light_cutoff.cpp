@@ -32,11 +32,14 @@ double cutRadius(const glm::vec3& color, double radius_m, double cutoff) {
     return d > kNearest_m ? d : 0.0;
 }
 
-void cutLights(FrameLights& lights, double cutoff) {
+void cutLights(FrameLights& lights, double cutoff, bool compensated) {
     for (size_t i = 0; i < lights.lights.size(); ++i) {
         io::Light& light = lights.lights[i];
-        const double radius =
-            cutRadius(light.color, static_cast<double>(lights.radii_m[i]), cutoff);
+        const auto whole = static_cast<double>(lights.radii_m[i]);
+        const double radius = cutRadius(light.color, whole, cutoff);
+        if (compensated && radius > 0 && std::isfinite(whole)) {
+            light.color *= static_cast<float>(whole / radius);
+        }
         lights.radii_m[i] = static_cast<float>(radius);
         light.inv_radius2 = inverseRadius2(static_cast<double>(lights.radii_m[i]));
     }

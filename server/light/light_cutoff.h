@@ -14,6 +14,11 @@ namespace froxel::light {
 
 // Gives every local light its cut radius. Within it a light is windowed anew, so it is darker than
 // it was and still ends smoothly.
-void cutLights(FrameLights& lights, double cutoff);
+//
+// compensated: a light's colour grows by what it lost. Over points spread evenly in space a light
+// adds in the mean what the integral of window(d)^2 / d^2 over its ball is, 4 pi 32/45 radius: the
+// colour is multiplied by the radii's ratio. A light without a radius keeps its colour: it loses
+// without end.
+void cutLights(FrameLights& lights, double cutoff, bool compensated);
 
 } // namespace froxel::light

@@ -83,6 +83,20 @@ void addLocal(const scene::PunctualLight& light,
 
 } // namespace
 
+scene::PunctualLight asPunctual(const view::PlacedLight& placed) {
+    scene::PunctualLight light;
+    light.type =
+        placed.kind == view::LightKind::kSpot ? scene::LightType::kSpot : scene::LightType::kPoint;
+    light.position_world = placed.position_world;
+    light.direction_world = placed.direction_world;
+    light.color = placed.color;
+    light.intensity = placed.intensity;
+    light.range_m = placed.radius_m;
+    light.inner_cone_rad = glm::radians(placed.inner_cone_deg);
+    light.outer_cone_rad = glm::radians(placed.outer_cone_deg);
+    return light;
+}
+
 LightRig::LightRig(const scene::Scene& scene) : scene_bounds_world_(scene.bounds_world) {
     std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(scene_lights_),
                  usable);
@@ -108,31 +122,20 @@ LightRig::placeOf(const view::Lights& settings, double time_s, uint32_t index) c
         return {.position_world =
                     seededLight(settings, seededBox(settings), time_s, index).position_world};
     }
-    uint32_t left = index - settings.count;
-    for (const scene::PunctualLight& light : scene_lights_) {
-        if (light.type == scene::LightType::kDirectional || left-- > 0) {
-            continue;
+    uint32_t at = settings.count;
+    std::optional<Place> found;
+    eachFixed(settings, [&](const scene::PunctualLight& light) {
+        if (light.type == scene::LightType::kDirectional || at++ != index) {
+            return;
         }
-        Place place{.position_world = light.position_world};
+        found.emplace().position_world = light.position_world;
         if (light.type == scene::LightType::kSpot) {
-            place.direction_world = glm::normalize(light.direction_world);
-            place.outer_cone_rad = light.outer_cone_rad;
+            found->direction_world = glm::normalize(light.direction_world);
+            found->outer_cone_rad = light.outer_cone_rad;
         }
-        return place;
-    }
-    FROXEL_ASSERT(false, "no local light has this index");
-    return {};
-}
-
-void LightRig::addSceneLights(const view::Camera& camera, FrameLights& out) const {
-    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
-    for (const scene::PunctualLight& light : scene_lights_) {
-        if (light.type == scene::LightType::kDirectional) {
-            addDirectional(light, view_from_world, out);
-        } else {
-            addLocal(light, camera, view_from_world, out);
-        }
-    }
+    });
+    FROXEL_ASSERT(found, "no local light has this index");
+    return *found;
 }
 
 void LightRig::evaluate(const view::Lights& settings,
@@ -145,11 +148,16 @@ void LightRig::evaluate(const view::Lights& settings,
     out.cones.clear();
     out.directionals.clear();
     fillSeededLights(settings, camera, seededBox(settings), time_s, out.lights);
-    if (settings.scene_lights) {
-        addSceneLights(camera, out);
-    }
+    const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+    eachFixed(settings, [&](const scene::PunctualLight& light) {
+        if (light.type == scene::LightType::kDirectional) {
+            addDirectional(light, view_from_world, out);
+        } else {
+            addLocal(light, camera, view_from_world, out);
+        }
+    });
     if (settings.cutoff > 0) {
-        cutLights(out, static_cast<double>(settings.cutoff));
+        cutLights(out, static_cast<double>(settings.cutoff), settings.cutoff_compensated);
     }
 }
 

@@ -7,11 +7,14 @@
 #include "view/camera.h"
 #include "view/settings.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace froxel::light {
+
+[[nodiscard]] scene::PunctualLight asPunctual(const view::PlacedLight& placed);
 
 // Immutable after construction: any number of threads may evaluate at once, each into its own
 // FrameLights.
@@ -33,26 +36,30 @@ class LightRig {
     // below their number.
     struct Place {
         glm::dvec3 position_world{0};
-        glm::dvec3 direction_world{0}; // unit, the way it shines; spots only
+        glm::dvec3 direction_world{0};                       // unit, the way it shines; spots only
         std::optional<double> outer_cone_rad = std::nullopt; // half angle; none: a point light
     };
-    [[nodiscard]] Place
-    placeOf(const view::Lights& settings, double time_s, uint32_t index) const;
+    [[nodiscard]] Place placeOf(const view::Lights& settings, double time_s, uint32_t index) const;
 
     // The box that seeded lights move in, metres in world space: the settings' own, or the scene's
     // bounds less kShrink of their size on every side.
     [[nodiscard]] BoundsD3 seededBox(const view::Lights& settings) const;
 
-    // The scene's lights that frames hold, in file order.
-    [[nodiscard]] const std::vector<scene::PunctualLight>& sceneLights() const {
-        return scene_lights_;
+    // Calls visit(const scene::PunctualLight&) for the lights of a frame that are not seeded, in
+    // their order: the scene's, as its file has them, then those that viewers placed, by id.
+    template <class Visit>
+    void eachFixed(const view::Lights& settings, const Visit& visit) const {
+        if (settings.scene_lights) {
+            std::for_each(scene_lights_.begin(), scene_lights_.end(), visit);
+        }
+        for (const view::PlacedLight& placed : settings.placed.lights()) {
+            visit(asPunctual(placed));
+        }
     }
 
     static constexpr double kShrink = 0.04;
 
   private:
-    void addSceneLights(const view::Camera& camera, FrameLights& out) const;
-
     std::vector<scene::PunctualLight> scene_lights_;
     BoundsD3 scene_bounds_world_;
 };

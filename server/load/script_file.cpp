@@ -60,7 +60,7 @@ Result<Step> readStep(const std::string& line, Clock::duration before) {
     }
     // The session's own reader first: it tells repeated keys, depth and wrong types apart.
     v1::ClientMessage ignored;
-    if (const auto read = session::parseClientJson(protocol::bytesOf(line), ignored); !read) {
+    if (const auto read = session::parseJson(protocol::bytesOf(line), ignored); !read) {
         return bad(read.error().message);
     }
     Json object = Json::parse(line);

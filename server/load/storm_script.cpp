@@ -11,7 +11,8 @@ namespace {
 constexpr uint32_t kLeastSide = 16;      // pixels
 constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
 constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 17;          // of commands
+constexpr uint32_t kKinds = 19;          // of commands
+constexpr uint32_t kPlacedIds = 8;       // of lights that come and go
 
 } // namespace
 
@@ -81,6 +82,29 @@ void StormScript::fillPost(v1::SetPost& command) {
     command.set_antialiasing(named(v1::ANTIALIASING_SSAA4));
 }
 
+void StormScript::fillPlacedLights(v1::PlacedLights& command) {
+    command.set_clear(whole(0, 3) == 0);
+    v1::PlacedLight& light = *command.add_lights();
+    light.set_id(whole(1, kPlacedIds));
+    light.set_kind(named(v1::LIGHT_KIND_SPOT));
+    const v1::Box& box = start_.light_box();
+    light.mutable_position()->set_x(real(box.min().x(), box.max().x()));
+    light.mutable_position()->set_y(real(box.min().y(), box.max().y()));
+    light.mutable_position()->set_z(real(box.min().z(), box.max().z()));
+    light.mutable_color()->set_x(real(0, 1));
+    light.set_radius_m(start_.light_radius_m() * real(0.5, 4));
+}
+
+void StormScript::fillFog(v1::Fog& fog) {
+    fog.set_density(whole(0, 1) == 0 ? 0 : real(0, 0.3));
+    fog.set_height_falloff(real(0, 1));
+    fog.set_anisotropy(real(-0.9, 0.9));
+    fog.set_tile(whole(8, 64));
+    fog.set_slices(whole(8, 64));
+    fog.set_half_rate(whole(0, 1) == 0);
+    fog.set_noise(whole(0, 1) == 0);
+}
+
 void StormScript::fillShadows(v1::SetShadows& command) {
     command.set_lights(whole(0, 2));
     command.set_size(whole(64, 128));
@@ -145,6 +169,12 @@ std::optional<Step> StormScript::next() {
         message.mutable_set_transparency()->set_peel_layers(whole(1, 16));
         break;
     case 16:
+        fillPlacedLights(*message.mutable_set_placed_lights());
+        break;
+    case 17:
+        fillFog(*message.mutable_set_fog()->mutable_fog());
+        break;
+    case 18:
         fillShadows(*message.mutable_set_shadows());
         break;
     case 9:

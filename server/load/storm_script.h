@@ -24,6 +24,8 @@ class StormScript final : public Script {
     void fillGrid(v1::SetGrid& command);
     void fillToon(v1::SetToon& command);
     void fillPost(v1::SetPost& command);
+    void fillPlacedLights(v1::PlacedLights& command);
+    void fillFog(v1::Fog& fog);
     void fillShadows(v1::SetShadows& command);
     void fillSize(v1::SetSize& command);
 

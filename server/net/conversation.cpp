@@ -99,7 +99,7 @@ void Conversation::sayWelcome() {
     place.resume_token = seat_->resume_token;
     place.resume_grace = lobby_->resumeGrace();
     place.resumed = seat_->resumed;
-    answer(seat_->session->welcome(seat_->place.member, std::move(place)));
+    answer(seat_->session->welcome(seat_->place.member, std::move(place), told_placed_));
 }
 
 void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
@@ -343,10 +343,11 @@ Outgoing Conversation::inReply(const v1::ServerMessage& message) const {
 }
 
 // Of several viewers each is answered by the number of its own command.
-Outgoing Conversation::stateMessage() const {
+Outgoing Conversation::stateMessage() {
     session::SessionState state = seat_->session->state();
     state.applied = newest_;
-    return inReply(session::makeStateChanged(seat_->session->context(), state));
+    const auto told = std::exchange(told_placed_, state.settings.lights.placed);
+    return inReply(session::makeStateChanged(seat_->session->context(), state, told));
 }
 
 // What the next picture's details say, where that is news: decided now, since pictures before it

@@ -75,7 +75,7 @@ class Conversation {
     void close(protocol::CloseCode code, std::string reason);
     void grantCredits();
     [[nodiscard]] Outgoing inReply(const v1::ServerMessage& message) const;
-    [[nodiscard]] Outgoing stateMessage() const;
+    [[nodiscard]] Outgoing stateMessage();
     void mendVideo();
     [[nodiscard]] std::optional<Outgoing> detailsMessage();
     void signRecord(session::FrameRecord& record);
@@ -98,6 +98,7 @@ class Conversation {
     session::CommandStamp newest_; // of this connection's commands that set state
     session::CommandStamp shown_;  // the newest of them that a picture has shown
     std::shared_ptr<const FrameDetails> told_details_;
+    view::PlacedLights told_placed_;
     uint64_t delivered_ = 0; // pictures that came from the session
     uint64_t granted_ = 0;
     bool paused_ = false;

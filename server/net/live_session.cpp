@@ -275,8 +275,10 @@ v1::ServerMessage LiveSession::roomState(MemberId you) const {
     return session::makeRoomState(room_, you);
 }
 
-v1::ServerMessage LiveSession::welcome(MemberId you, session::WelcomePlace place) const {
+v1::ServerMessage
+LiveSession::welcome(MemberId you, session::WelcomePlace place, view::PlacedLights& placed) const {
     const std::lock_guard lock(mutex_);
+    placed = state_.settings.lights.placed;
     if (room_.shared()) {
         place.room = &room_;
         place.member = you;

@@ -99,9 +99,10 @@ class LiveSession final : public session::FrameSink,
     [[nodiscard]] session::SessionState state() const;
     [[nodiscard]] bool controls(const Place& place) const;
     [[nodiscard]] v1::ServerMessage roomState(session::MemberId you) const;
-    // `resumed` and the token are the caller's.
-    [[nodiscard]] v1::ServerMessage welcome(session::MemberId you,
-                                            session::WelcomePlace place) const;
+    // `resumed` and the token are the caller's; `placed` becomes the placed lights that it tells
+    // of.
+    [[nodiscard]] v1::ServerMessage
+    welcome(session::MemberId you, session::WelcomePlace place, view::PlacedLights& placed) const;
 
     void deliver(session::ReadyFrame frame) override;
     void refuse(Error error,

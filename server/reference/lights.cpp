@@ -50,14 +50,11 @@ Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings
     const double ambient = static_cast<double>(settings.lights.ambient);
     lights.sky = glm::dvec3(view::kAmbientSky) * ambient;
     lights.ground = glm::dvec3(view::kAmbientGround) * ambient;
-    if (!settings.lights.scene_lights) {
-        return lights;
-    }
-    for (const auto& light : rig.sceneLights()) {
+    rig.eachFixed(settings.lights, [&](const scene::PunctualLight& light) {
         const glm::dvec3 color = glm::dvec3(light.color) * static_cast<double>(light.intensity);
         if (light.type == scene::LightType::kDirectional) {
             lights.directionals.push_back({glm::normalize(light.direction_world), color});
-            continue;
+            return;
         }
         PointLight point{.position = light.position_world - eye, .color = color};
         if (light.range_m > 0) {
@@ -67,7 +64,7 @@ Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings
             addCone(light, point);
         }
         lights.points.push_back(point);
-    }
+    });
     return lights;
 }
 

@@ -2,6 +2,7 @@
 
 #include "reference/blended.h"
 #include "reference/brdf.h"
+#include "reference/fog.h"
 #include "reference/geometry.h"
 #include "reference/lights.h"
 #include "reference/material.h"
@@ -68,6 +69,7 @@ class Shader {
         : scene_(scene), settings_(settings), visibility_(visibility), filtering_(filtering),
           rays_(settings.camera, settings.size), model_(modelOf(settings)),
           lights_(lightsAt(scene, settings, time_s)),
+          medium_(settings.fog, settings.camera, lights_),
           placements_(placementsOf(scene, settings.camera.eye_world)),
           materials_(scene,
                      visibleMaterials(scene, visibility, settings.shadows.light_count > 0),
@@ -96,12 +98,15 @@ class Shader {
                 color *= norm > 0 ? toonRamp(settings_.toon_compute, norm) / norm : 0.0;
             }
         }
+        const Ray ray = rays_.through(x, y);
+        color = medium_.seenThrough(color, ray, distance);
         for (const auto& layer : blended_.at(x, y)) {
             if (layer.point.distance <= distance) {
                 double alpha = 1;
                 const glm::dvec3 over = shadeHit(
                     {x, y, layer.point}, {layer.instance, layer.primitive, layer.triangle}, &alpha);
-                color = glm::mix(color, over, alpha);
+                color =
+                    glm::mix(color, medium_.seenThrough(over, ray, layer.point.distance), alpha);
             }
         }
         return color;
@@ -132,6 +137,7 @@ class Shader {
     const PixelRays rays_;
     const Model model_;
     const Lights lights_;
+    const Medium medium_;
     const std::vector<Placement> placements_;
     const Materials materials_;
     const BlendedSurfaces blended_;

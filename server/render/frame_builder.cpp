@@ -1,5 +1,8 @@
 #include "render/frame_builder.h"
 
+#include "cluster/depth_range.h"
+#include "cluster/list_cap.h"
+#include "render/fog_plan.h"
 #include "render/gbuffer_layout.h"
 #include "render/grown_lights.h"
 #include "render/light_budget.h"
@@ -143,9 +146,9 @@ bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
     const bool wanted =
         inputs.assignment == AssignmentPlace::kDevice ||
         (inputs.assignment == AssignmentPlace::kAuto && !scene_.device.traits().is_cpu);
-    // Grown lights are assigned on the host.
-    if (!wanted || storesHalves(inputs.settings) || !light_grid_.lists() ||
-        scene_.assignment() == nullptr) {
+    // Grown lights are assigned, and lists are capped, on the host.
+    if (!wanted || inputs.settings.list_cap > 0 || storesHalves(inputs.settings) ||
+        !light_grid_.lists() || scene_.assignment() == nullptr) {
         return false;
     }
     const auto& settings = inputs.settings;
@@ -188,6 +191,9 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         (void)device_lists_.prepare(light_grid_.grid(), lights_);
     } else if (light_grid_.lists()) {
         scene_.light_assigner.assign(light_grid_.grid(), reach, lists_);
+        if (settings.list_cap > 0) {
+            cluster::capLists(light_grid_.grid(), reach, settings.list_cap, lists_);
+        }
     } else {
         lists_.clusters.clear();
         lists_.indices.clear();
@@ -224,6 +230,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     if (!needsLights(settings.debug.view)) {
         lights.count = 0;
         lights.scene_lights = false;
+        lights.placed = {};
     }
     scene_.light_rig.evaluate(lights, camera, inputs.time_s, lights_);
     assignLights(inputs);
@@ -239,6 +246,14 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
+    fogged_ = plan.fog;
+    if (plan.fog) {
+        fog_ = makeFog(
+            settings,
+            cluster::litDepthRange(lights_, camera, scene_.bounds_world, cluster::Lit::kMedium)
+                .far_m,
+            inputs.time_s);
+    }
     debug_.wires.clear();
     if (plan.debug != view::DebugView::kNone) {
         buildDebug(inputs, plan, farthest_m);
@@ -287,6 +302,14 @@ Result<void> FrameBuilder::affordable(const FrameInputs& inputs) const {
                             !light_grid_.lists() || lists_.stats.overflowed;
     // What the device lists is not known yet.
     const uint64_t each = all_lights ? lights_.lights.size() : on_device_ ? 0 : lists_.stats.p95;
+    if (fogged_) {
+        if (auto affordable =
+                checkFogBudget(fog_, each, scene_.device.limits().maxTexelBufferElements,
+                               scene_.device.traits().is_cpu);
+            !affordable) {
+            return affordable;
+        }
+    }
     return checkLightBudget(inputs.settings.size, each, scene_.device.traits().is_cpu);
 }
 
@@ -303,8 +326,13 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     place(3, std::span<const uint32_t>(lists_.indices));
     place(4, std::span<const io::Spot>(lights_.spots));
     place(5, std::span<const io::DirectionalLight>(lights_.directionals));
-    place(6, std::span<const uint32_t>(shadows_.shadow_of_light));
-    place(7, std::span<const io::ShadowLight>(shadows_.lights));
+    place(6, std::span<const io::Fog>(&fog_, fogged_ ? 1 : 0));
+    if (slot.fog) {
+        blocks[7] = {.bytes = kFroxelBytes * froxelCount(fog_),
+                     .buffer = *slot.fog->froxels().handle};
+    }
+    place(8, std::span<const uint32_t>(shadows_.shadow_of_light));
+    place(9, std::span<const io::ShadowLight>(shadows_.lights));
     const AssignOffsets assign = uploadAssignment(upload, blocks);
     UploadOffsets offsets;
     offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));

@@ -1,6 +1,7 @@
 #include "render/frame_plan.h"
 
 #include "interface/constants.h"
+#include "interface/fog_io.h"
 #include "interface/gbuffer_io.h"
 #include "render/gbuffer_layout.h"
 
@@ -59,6 +60,13 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
     return flags;
 }
 
+// The part that says how lights are fetched, each invocation by itself.
+uint32_t fogLightFlags(uint32_t light_flags) {
+    return light_flags & (io::kLightLocal | io::kLightLists | io::kLightSpots |
+                          io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
+                          io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
+}
+
 // A debug view in the picture's place: the surfaces that it shows, and no lighting.
 void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const FrameFacts& facts) {
     const view::DebugView debug = settings.debug.view;
@@ -74,6 +82,7 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.toon_pass = plan.transparent = false;
     plan.transparency = view::Transparency::kSorted;
     plan.peel_layers = 0;
+    plan.fog = plan.fog_volume = plan.fog_noise = false;
     plan.outline = plan.samples = plan.fxaa = false; // nothing is done to what it shows
     plan.bloom = view::BloomKind::kNone;
     plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
@@ -124,6 +133,9 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.bloom = settings.bloom.strength > 0 ? settings.bloom.kind : view::BloomKind::kNone;
     plan.samples = view::samplesAcross(settings.antialiasing) > 1;
     plan.fxaa = settings.antialiasing == view::Antialiasing::kFxaa;
+    plan.fog = settings.fog.present();
+    plan.fog_volume = settings.fog.scatters() && facts.local_lights;
+    plan.fog_noise = plan.fog_volume && settings.fog.noise;
     plan.transparent = facts.transparent_visible;
     if (plan.transparent) {
         plan.transparency = settings.transparency;
@@ -143,7 +155,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
-    const bool follows = plan.transparent || plan.outline || plan.samples ||
+    const bool follows = plan.transparent || plan.outline || plan.fog || plan.samples ||
                          plan.bloom != view::BloomKind::kNone || view::isOverlay(plan.debug);
     const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
     plan.tonemap = !compute_ends && !replaced;
@@ -152,6 +164,11 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
 
     plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
+
+    if (plan.fog) {
+        plan.fog_light_flags = fogLightFlags(plan.forward_light_flags);
+        plan.fog_output_flags = io::kOutputFog | (plan.fog_volume ? io::kOutputFogVolume : 0U);
+    }
 
     const uint32_t wide = facts.wide_gbuffer
                               ? io::kOutputWideGbuffer | facts.emission_exponent

@@ -2,6 +2,7 @@
 
 #include "render/barrier.h"
 #include "render/blended_recorder.h"
+#include "render/fog_passes.h"
 #include "render/passes.h"
 #include "render/raster_passes.h"
 #include "render/visibility_passes.h"
@@ -124,6 +125,28 @@ void recordDeferred(const FrameContext& frame) {
         radianceToCompute(frame.slot.cmd);
         recordOutline(frame);
     }
+}
+
+// Solid surfaces and empty pixels, seen through fog.
+void recordFog(const FrameContext& frame) {
+    const auto& cmd = frame.slot.cmd;
+    if (frame.plan.fog_volume) {
+        recordFogScatter(frame);
+        // the slices' scattering -> their sums, in place
+        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite);
+        recordFogIntegrate(frame);
+        // the sums -> texel loads of this pass and of blended surfaces
+        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
+                Access::eShaderSampledRead);
+    }
+    // radiance and depth of solid surfaces -> loads and stores
+    barrier(cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
+            Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |
+                Access::eShaderStorageWrite,
+            Stage::eComputeShader,
+            Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite);
+    recordFogApply(frame);
 }
 
 void recordBloom(const FrameContext& frame) {
@@ -255,6 +278,9 @@ void recordFrame(const FrameContext& frame) {
                 Access::eShaderStorageRead | Access::eShaderStorageWrite |
                     Access::eShaderSampledRead);
         recordCountPairs(frame);
+    }
+    if (frame.plan.fog) {
+        recordFog(frame);
     }
     if (frame.plan.transparent) {
         recordBlended(frame);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "render/assign_passes.h"
-#include "render/draw_list.h"
 #include "render/debug_frame.h"
+#include "render/draw_list.h"
 #include "render/frame_plan.h"
 #include "render/frame_slot.h"
 #include "render/scene_resources.h"
@@ -35,6 +35,7 @@ struct FrameContext {
     VisibilityScene* visibility = nullptr; // where the plan has it
     const DebugFrame* debug = nullptr;     // likewise
     const BloomPlan* bloom = nullptr;      // likewise
+    const io::Fog* fog = nullptr;          // likewise
     const ShadowFrame* shadows = nullptr;  // likewise
 };
 

@@ -9,6 +9,7 @@
 #include "render/blend_targets.h"
 #include "render/bloom.h"
 #include "render/debug_pass.h"
+#include "render/fog.h"
 #include "render/fxaa.h"
 #include "render/gpu_light_lists.h"
 #include "render/pair_counter.h"
@@ -77,8 +78,9 @@ struct FrameSlot {
     gpu::Timestamps timestamps;
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
-    std::shared_ptr<BloomTargets> bloom; // null: the frame last recorded has none
-    std::shared_ptr<BlendTargets> blend; // likewise
+    std::shared_ptr<BloomTargets> bloom;    // null: the frame last recorded has none
+    std::shared_ptr<BlendTargets> blend;    // likewise
+    std::shared_ptr<FogVolume> fog;         // likewise: no volume
     std::shared_ptr<ShadowTargets> shadows; // likewise
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;

@@ -26,9 +26,11 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
                            const light::FrameLights& lights,
                            const BoundsD3& scene_bounds_world,
                            const cluster::GridCosts& costs) {
-    range_ = cluster::litDepthRange(lights, settings.camera, scene_bounds_world);
-    const Asked asked{settings.size,       settings.renderer, settings.grid,
-                      settings.light_loop, settings.lights,   &costs};
+    range_ = cluster::litDepthRange(lights, settings.camera, scene_bounds_world,
+                                    settings.fog.scatters() ? cluster::Lit::kMedium
+                                                            : cluster::Lit::kSurfaces);
+    const Asked asked{settings.size,     settings.renderer, settings.grid, settings.light_loop,
+                      settings.list_cap, settings.lights,   &costs};
     if (frames_left_ == 0 || asked != asked_) {
         makeChoice(settings, lights, costs);
         asked_ = asked;
@@ -65,8 +67,10 @@ void LightGrid::makeChoice(const view::ViewSettings& settings,
         list_length_ = cluster::expectedListLength(facts, shape_);
         grid_why_ = "its size was given";
     }
-    cluster::LoopChoice loop{false, "lists were asked for"};
-    if (settings.light_loop == view::LightLoop::kAuto) {
+    const bool capped = settings.list_cap > 0;
+    cluster::LoopChoice loop{false, capped ? "lists are capped" : "lists were asked for"};
+    // All lights instead of capped lists would be another picture.
+    if (settings.light_loop == view::LightLoop::kAuto && !capped) {
         loop = cluster::chooseLoop(facts, list_length_, memory_);
     }
     memory_.all_lights = loop.all_lights;

@@ -13,7 +13,7 @@
 namespace froxel::render {
 
 // Keep one a view: it remembers its last choice, so that grids do not flip from frame to frame.
-// Nothing that it decides changes the picture.
+// Nothing that it decides changes the picture, but where lists are capped.
 class LightGrid {
   public:
     // Decides for one frame and makes the grid if it needs one. `costs` lives as long as this.
@@ -38,6 +38,7 @@ class LightGrid {
         view::Renderer renderer{};
         view::Grid grid;
         view::LightLoop light_loop{};
+        uint32_t list_cap = 0;
         view::Lights lights;
         const cluster::GridCosts* costs = nullptr;
         bool operator==(const Asked&) const = default;

@@ -121,6 +121,13 @@ void addPostWords(Lines& lines, const FramePlan& plan) {
         lines.emplace_back(
             "outline: edges of depth and normals are darkened, in a pass of its own");
     }
+    if (plan.fog) {
+        lines.emplace_back(plan.fog_volume
+                               ? "fog: lights are scattered in a froxel volume by the same lists, "
+                                 "in two passes, and all is seen through it, in one"
+                               : "fog: no light to scatter, no froxel volume; all is seen through "
+                                 "it, in a pass of its own");
+    }
     if (plan.bloom != view::BloomKind::kNone) {
         lines.push_back("bloom by " + nameOf(view::kBloomKindNames, plan.bloom) +
                         ": bright light is spread over the linear picture");
@@ -162,7 +169,7 @@ std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     if (view::isOverlay(plan.debug)) {
         return "tone map in a pass of its own, after the debug view's lines";
     }
-    if (plan.samples || plan.outline || plan.bloom != view::BloomKind::kNone) {
+    if (plan.samples || plan.outline || plan.fog || plan.bloom != view::BloomKind::kNone) {
         return "tone map in a pass of its own, after those over the lit picture";
     }
     return "tone map in a pass of its own, after a fragment stage";

@@ -2,6 +2,7 @@
 
 #include "core/assert.h"
 #include "render/blended_recorder.h"
+#include "render/fog_plan.h"
 #include "render/frame_builder.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
@@ -62,6 +63,8 @@ struct ViewRenderer::Impl {
     // Takes part in the frame where its plan is not null.
     void prepareBloom(FrameSlot& slot, const BloomPlan* plan);
     void prepareBlend(FrameSlot& slot, const FramePlan& plan);
+    // Likewise, where it has froxels.
+    void prepareFog(FrameSlot& slot, uint64_t froxel_count);
     // Kept while settings ask for them, also with no light in view.
     void prepareShadows(FrameSlot& slot, const FramePlan& plan, const view::Shadows& settings);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
@@ -78,6 +81,7 @@ struct ViewRenderer::Impl {
     std::shared_ptr<BloomTargets> bloom;    // null: the last frame has none
     std::shared_ptr<BlendTargets> blend;    // likewise
     std::shared_ptr<ShadowTargets> shadows; // likewise
+    std::shared_ptr<FogVolume> fog;         // likewise
     FrameDetailsKeeper details;
 };
 
@@ -141,6 +145,17 @@ void ViewRenderer::Impl::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     }
 }
 
+void ViewRenderer::Impl::prepareFog(FrameSlot& slot, uint64_t froxel_count) {
+    slot.fog.reset();
+    if (!fog || fog->froxels().size_bytes != kFroxelBytes * froxel_count) {
+        fog.reset();
+    }
+    if (froxel_count > 0 && !fog) {
+        fog = std::make_shared<FogVolume>(scene.device, scene.fog(), froxel_count);
+    }
+    slot.fog = fog;
+}
+
 void ViewRenderer::Impl::prepareShadows(FrameSlot& slot,
                                         const FramePlan& plan,
                                         const view::Shadows& settings) {
@@ -196,6 +211,7 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBloom(slot, bloom_steps);
     prepareBlend(slot, plan);
+    prepareFog(slot, plan.fog_volume ? froxelCount(builder.fog()) : 0);
     prepareShadows(slot, plan, inputs.settings.shadows);
     const UploadOffsets offsets = builder.upload(slot);
     if (plan.shadows) {
@@ -230,6 +246,7 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
                  .visibility = plan.visibility ? &scene.visibility() : nullptr,
                  .debug = debug ? &builder.debugFrame() : nullptr,
                  .bloom = bloom_steps,
+                 .fog = plan.fog ? &builder.fog() : nullptr,
                  .shadows = plan.shadows ? &builder.shadows() : nullptr});
     slot.stats = {};
     slot.stats.triangle_count = builder.draws().triangle_count;
@@ -312,6 +329,7 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
     } catch (const vk::OutOfDeviceMemoryError&) {
         impl_->blend.reset();
         impl_->bloom.reset(); // so that a smaller picture may fit
+        impl_->fog.reset();
         impl_->shadows.reset();
         impl_->targets.reset();
         return noMemoryFor(inputs.settings);

@@ -196,6 +196,13 @@ const FxaaPipeline& SceneResources::fxaa() {
     return *fxaa_;
 }
 
+FogPipelines& SceneResources::fog() {
+    if (!fog_) {
+        fog_ = std::make_unique<FogPipelines>(device, timeline, pipelines);
+    }
+    return *fog_;
+}
+
 VisibilityScene& SceneResources::visibility() {
     if (!visibility_) {
         gpu::Uploader uploader(device, timeline, kStagingBytes);

@@ -7,6 +7,7 @@
 #include "light/light_rig.h"
 #include "render/assign_pipelines.h"
 #include "render/bloom.h"
+#include "render/fog.h"
 #include "render/fxaa.h"
 #include "render/geometry_pack.h"
 #include "render/pipelines.h"
@@ -64,6 +65,7 @@ class SceneResources {
     // Both made at the first call. Throw vk::SystemError.
     [[nodiscard]] BloomPipelines& bloom();
     [[nodiscard]] const FxaaPipeline& fxaa();
+    [[nodiscard]] FogPipelines& fog();
     // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
     [[nodiscard]] VisibilityScene& visibility();
 
@@ -84,6 +86,7 @@ class SceneResources {
     std::unique_ptr<AssignPipelines> assignment_;
     std::unique_ptr<BloomPipelines> bloom_;
     std::unique_ptr<FxaaPipeline> fxaa_;
+    std::unique_ptr<FogPipelines> fog_;
 };
 
 } // namespace froxel::render

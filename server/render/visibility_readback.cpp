@@ -115,10 +115,12 @@ readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs
     inputs.settings.shading = view::ShadingModel::kLambert;
     inputs.settings.gbuffer = {};
     inputs.settings.bloom = {};
+    inputs.settings.fog = {};
     inputs.settings.shadows = {};
     inputs.settings.antialiasing = view::Antialiasing::kNone;
     inputs.settings.lights.count = 0;
     inputs.settings.lights.scene_lights = false;
+    inputs.settings.lights.placed = {};
     inputs.geometry = GeometryPath::kVisibility;
     ViewRenderer view(renderer);
     if (const auto submitted = view.submit(inputs); !submitted) {

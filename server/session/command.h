@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace froxel::session {
 
@@ -48,6 +49,8 @@ struct SetLights {
     std::optional<double> radius_m;
     std::optional<double> intensity;
     std::optional<double> cutoff;
+    std::optional<bool> cutoff_compensated = std::nullopt;
+    std::optional<uint32_t> list_cap = std::nullopt;
     std::optional<uint32_t> seed;
     std::optional<bool> animate;
     std::optional<double> speed;
@@ -58,6 +61,25 @@ struct SetLights {
     std::optional<view::LightLoop> light_loop;
     std::optional<bool> count_pairs;
     std::optional<double> time_s; // of the lights' clock
+};
+
+struct PlacedLightChange {
+    uint32_t id = 0;
+    std::optional<view::LightKind> kind;
+    std::optional<glm::dvec3> position_world;
+    std::optional<glm::dvec3> direction_world; // not zero
+    std::optional<glm::vec3> color;
+    std::optional<double> intensity;
+    std::optional<double> radius_m;
+    std::optional<double> inner_cone_deg;
+    std::optional<double> outer_cone_deg;
+};
+
+// Done in the order of the fields.
+struct SetPlacedLights {
+    bool clear = false;
+    std::vector<uint32_t> remove;
+    std::vector<PlacedLightChange> lights; // no id twice
 };
 
 struct SetGrid {
@@ -90,6 +112,18 @@ struct SetPost {
 struct SetTransparency {
     std::optional<view::Transparency> transparency;
     std::optional<uint32_t> peel_layers;
+};
+
+struct SetFog {
+    std::optional<double> density;
+    std::optional<double> height_falloff;
+    std::optional<double> base_height_m;
+    std::optional<double> anisotropy;
+    std::optional<glm::dvec3> albedo;
+    std::optional<uint32_t> tile_px;
+    std::optional<uint32_t> slice_count;
+    std::optional<bool> half_rate;
+    std::optional<bool> noise;
 };
 
 struct SetShadows {
@@ -148,10 +182,12 @@ using Command = std::variant<Hello,
                              SelectSceneCamera,
                              SetRenderer,
                              SetLights,
+                             SetPlacedLights,
                              SetGrid,
                              SetExposure,
                              SetToon,
                              SetPost,
+                             SetFog,
                              SetShadows,
                              SetDebugView,
                              SetTransparency,

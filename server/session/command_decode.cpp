@@ -6,6 +6,7 @@
 #include "session/field_validator.h"
 #include "session/json_input.h"
 #include "session/look_decode.h"
+#include "session/placed_lights.h"
 #include "session/proto_enums.h"
 #include "session/room.h"
 
@@ -147,6 +148,12 @@ Command decode(const v1::SetLights& lights, FieldValidator& fields) {
     if (lights.has_cutoff()) {
         command.cutoff = fields.number(view::kLightCutoffRange, lights.cutoff());
     }
+    if (lights.has_cutoff_compensated()) {
+        command.cutoff_compensated = lights.cutoff_compensated();
+    }
+    if (lights.has_list_cap()) {
+        command.list_cap = fields.number(view::kListCapRange, lights.list_cap());
+    }
     if (lights.has_seed()) {
         command.seed = lights.seed();
     }
@@ -279,6 +286,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_renderer(), fields);
     case v1::ClientMessage::kSetLights:
         return decode(message.set_lights(), fields);
+    case v1::ClientMessage::kSetPlacedLights:
+        return decodePlacedLights(message.set_placed_lights(), fields);
     case v1::ClientMessage::kSetGrid:
         return decode(message.set_grid(), fields);
     case v1::ClientMessage::kSetExposure:
@@ -287,6 +296,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decodeToon(message.set_toon(), fields);
     case v1::ClientMessage::kSetPost:
         return decodePost(message.set_post(), fields);
+    case v1::ClientMessage::kSetFog:
+        return decodeFog(message.set_fog().fog(), fields);
     case v1::ClientMessage::kSetShadows:
         return decodeShadows(message.set_shadows(), fields);
     case v1::ClientMessage::kSetDebugView:
@@ -327,7 +338,7 @@ CommandResult<CommandMessage> decodeCommand(protocol::ByteSpan bytes, protocol::
     // Otherwise protobuf writes to stderr about a client's invalid UTF-8: a flood for the asking.
     const google::protobuf::LogSilencer silence;
     v1::ClientMessage message;
-    const auto parsed = format == protocol::WireFormat::kText ? parseClientJson(bytes, message)
+    const auto parsed = format == protocol::WireFormat::kText ? parseJson(bytes, message)
                                                               : parseBinary(bytes, message);
     if (!parsed) {
         return parsed.error();

@@ -1,7 +1,6 @@
 #include "session/json_input.h"
 
 #include "core/text.h"
-#include "froxel/v1/client.pb.h"
 #include "protocol/limits.h"
 
 #include <google/protobuf/descriptor.h>
@@ -47,7 +46,7 @@ struct ParseGuard {
     }
 };
 
-CommandResult<void> parseJson(std::string_view text, Json& document) {
+CommandResult<void> parseDocument(std::string_view text, Json& document) {
     ParseGuard guard;
     try {
         document = Json::parse(text, std::ref(guard));
@@ -166,21 +165,22 @@ uint64_t seqOf(const Json& document) {
 
 } // namespace
 
-CommandResult<void> parseClientJson(protocol::ByteSpan text, v1::ClientMessage& message) {
+CommandResult<void> parseJson(protocol::ByteSpan text, google::protobuf::Message& message) {
     Json document;
     const std::string_view json(reinterpret_cast<const char*>(text.data()), text.size());
-    if (const auto parsed = parseJson(json, document); !parsed) {
+    if (const auto parsed = parseDocument(json, document); !parsed) {
         return parsed.error();
     }
     const uint64_t seq = seqOf(document);
-    if (auto fault = fitToSchema(*v1::ClientMessage::descriptor(), document)) {
+    if (auto fault = fitToSchema(*message.GetDescriptor(), document)) {
         fault->ref_seq = seq;
         return *fault;
     }
     const auto status = google::protobuf::util::JsonStringToMessage(document.dump(), &message);
     if (!status.ok()) {
         auto fault = reject(RejectCode::kMalformed, "",
-                            "not a ClientMessage: " + printable(status.ToString(), 200));
+                            "not a " + message.GetDescriptor()->name() + ": " +
+                                printable(status.ToString(), 200));
         fault.ref_seq = seq;
         return fault;
     }

@@ -98,6 +98,44 @@ SetTransparency decodeTransparency(const v1::SetTransparency& set, FieldValidato
     return command;
 }
 
+SetFog decodeFog(const v1::Fog& fog, FieldValidator& fields) {
+    fields.require(fog.has_density() || fog.has_height_falloff() || fog.has_base_height() ||
+                       fog.has_anisotropy() || fog.has_albedo() || fog.has_tile() ||
+                       fog.has_slices() || fog.has_half_rate() || fog.has_noise(),
+                   "fog");
+    SetFog command;
+    if (fog.has_density()) {
+        command.density = fields.number(view::kFogDensityRange, fog.density());
+    }
+    if (fog.has_height_falloff()) {
+        command.height_falloff = fields.number(view::kFogHeightFalloffRange, fog.height_falloff());
+    }
+    if (fog.has_base_height()) {
+        command.base_height_m = fields.number(view::kFogBaseHeightRange, fog.base_height());
+    }
+    if (fog.has_anisotropy()) {
+        command.anisotropy = fields.number(view::kFogAnisotropyRange, fog.anisotropy());
+    }
+    if (fog.has_albedo()) {
+        command.albedo = {fields.number("fog_albedo.x", view::kFogAlbedoRange, fog.albedo().x()),
+                          fields.number("fog_albedo.y", view::kFogAlbedoRange, fog.albedo().y()),
+                          fields.number("fog_albedo.z", view::kFogAlbedoRange, fog.albedo().z())};
+    }
+    if (fog.has_tile()) {
+        command.tile_px = fields.number(view::kFogTileRange, fog.tile());
+    }
+    if (fog.has_slices()) {
+        command.slice_count = fields.number(view::kFogSlicesRange, fog.slices());
+    }
+    if (fog.has_half_rate()) {
+        command.half_rate = fog.half_rate();
+    }
+    if (fog.has_noise()) {
+        command.noise = fog.noise();
+    }
+    return command;
+}
+
 SetShadows decodeShadows(const v1::SetShadows& set, FieldValidator& fields) {
     fields.require(set.has_lights() || set.has_size(), "shadow_lights");
     SetShadows command;

@@ -1,5 +1,5 @@
 // Commands that say how the lit picture looks: toon ramps and outlines, bloom, antialiasing,
-// transparency, shadows.
+// transparency, fog, shadows.
 #pragma once
 
 #include "froxel/v1/client.pb.h"
@@ -12,6 +12,7 @@ namespace froxel::session {
 [[nodiscard]] SetPost decodePost(const v1::SetPost& set, FieldValidator& fields);
 [[nodiscard]] SetTransparency decodeTransparency(const v1::SetTransparency& set,
                                                  FieldValidator& fields);
+[[nodiscard]] SetFog decodeFog(const v1::Fog& fog, FieldValidator& fields);
 [[nodiscard]] SetShadows decodeShadows(const v1::SetShadows& set, FieldValidator& fields);
 
 } // namespace froxel::session

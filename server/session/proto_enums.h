@@ -18,6 +18,10 @@ inline constexpr std::array kRendererTable = {
     std::pair{v1::RENDERER_TOON_FRAGMENT, view::Renderer::kToonFragment},
     std::pair{v1::RENDERER_TOON_COMPUTE, view::Renderer::kToonCompute},
 };
+inline constexpr std::array kLightKindTable = {
+    std::pair{v1::LIGHT_KIND_POINT, view::LightKind::kPoint},
+    std::pair{v1::LIGHT_KIND_SPOT, view::LightKind::kSpot},
+};
 inline constexpr std::array kLightingStageTable = {
     std::pair{v1::LIGHTING_STAGE_AUTO, view::LightingStage::kAuto},
     std::pair{v1::LIGHTING_STAGE_COMPUTE, view::LightingStage::kCompute},

@@ -2,6 +2,7 @@
 
 #include "core/assert.h"
 #include "core/text.h"
+#include "session/placed_lights.h"
 
 #include <algorithm>
 #include <optional>
@@ -85,6 +86,8 @@ struct Reducer {
         assignIfGiven(lights.radius_m, command.radius_m);
         assignIfGiven(lights.intensity, command.intensity);
         assignIfGiven(lights.cutoff, command.cutoff);
+        assignIfGiven(lights.cutoff_compensated, command.cutoff_compensated);
+        assignIfGiven(state.settings.list_cap, command.list_cap);
         assignIfGiven(lights.seed, command.seed);
         assignIfGiven(lights.animate, command.animate);
         assignIfGiven(lights.speed, command.speed);
@@ -100,6 +103,15 @@ struct Reducer {
         if (command.time_s) {
             state.light_clock = state.light_clock.withTime(now, *command.time_s);
         }
+        return {};
+    }
+
+    Outcome operator()(const SetPlacedLights& command) const {
+        const auto placed = changed(state.settings.lights.placed, command);
+        if (!placed) {
+            return placed.error();
+        }
+        state.settings.lights.placed = *placed;
         return {};
     }
 
@@ -122,6 +134,20 @@ struct Reducer {
         assignIfGiven(state.settings.toon_compute, command.compute);
         assignIfGiven(state.settings.toon_outline.strength, command.outline_strength);
         assignIfGiven(state.settings.toon_outline.width, command.outline_width);
+        return {};
+    }
+
+    Outcome operator()(const SetFog& command) const {
+        view::Fog& fog = state.settings.fog;
+        assignIfGiven(fog.density, command.density);
+        assignIfGiven(fog.height_falloff, command.height_falloff);
+        assignIfGiven(fog.base_height_m, command.base_height_m);
+        assignIfGiven(fog.anisotropy, command.anisotropy);
+        assignIfGiven(fog.albedo, command.albedo);
+        assignIfGiven(fog.tile_px, command.tile_px);
+        assignIfGiven(fog.slice_count, command.slice_count);
+        assignIfGiven(fog.half_rate, command.half_rate);
+        assignIfGiven(fog.noise, command.noise);
         return {};
     }
 

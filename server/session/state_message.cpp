@@ -2,6 +2,7 @@
 
 #include "froxel/v1/server.pb.h"
 #include "protocol/limits.h"
+#include "session/placed_lights.h"
 #include "session/proto_enums.h"
 #include "view/ranges.h"
 
@@ -48,6 +49,7 @@ void fillLights(v1::ViewState& out, const view::Lights& lights, const BoundsD3& 
     out.set_light_radius_m(lights.radius_m);
     out.set_light_intensity(lights.intensity);
     out.set_light_cutoff(lights.cutoff);
+    out.set_light_cutoff_compensated(lights.cutoff_compensated);
     out.set_light_seed(lights.seed);
     out.set_light_animate(lights.animate);
     out.set_light_speed(lights.speed);
@@ -69,6 +71,18 @@ void fillPost(v1::ViewState& out, const view::ViewSettings& settings) {
     out.set_shadow_size(settings.shadows.size_px);
 }
 
+void fill(v1::Fog& out, const view::Fog& fog) {
+    out.set_density(fog.density);
+    out.set_height_falloff(fog.height_falloff);
+    out.set_base_height(fog.base_height_m);
+    out.set_anisotropy(fog.anisotropy);
+    fill(*out.mutable_albedo(), glm::dvec3(fog.albedo));
+    out.set_tile(fog.tile_px);
+    out.set_slices(fog.slice_count);
+    out.set_half_rate(fog.half_rate);
+    out.set_noise(fog.noise);
+}
+
 void fill(v1::ViewState& out, const SessionContext& context, const SessionState& state) {
     const view::ViewSettings& settings = state.settings;
     fillCamera(out, settings.camera);
@@ -84,6 +98,7 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     out.set_grid_automatic(settings.grid.automatic);
     out.set_grid_law(toProto(kGridLawTable, settings.grid.law));
     out.set_light_loop(toProto(kLightLoopTable, settings.light_loop));
+    out.set_list_cap(settings.list_cap);
     out.set_count_pairs(settings.count_pairs);
     if (const auto stopped_s = state.light_clock.stoppedAt()) {
         out.set_light_time_s(*stopped_s);
@@ -100,6 +115,7 @@ void fill(v1::ViewState& out, const SessionContext& context, const SessionState&
     out.set_outline_strength(settings.toon_outline.strength);
     out.set_outline_width(settings.toon_outline.width);
     fillPost(out, settings);
+    fill(*out.mutable_fog(), settings.fog);
     out.set_width(settings.size.width_px);
     out.set_height(settings.size.height_px);
     out.set_quality(state.encoding.quality);
@@ -211,6 +227,9 @@ void fillLists(v1::FrameHeader& out, const LightListStats& lists) {
     out.set_list_bytes(lists.bytes);
     out.set_lists_overflowed(lists.overflowed);
     out.set_list_redraws(lists.redraw_count);
+    out.set_lists_capped(lists.capped_count);
+    out.set_list_dropped(lists.dropped_count);
+    out.set_list_dropped_irradiance(lists.dropped_irradiance);
     out.set_all_lights(lists.all_lights);
     out.set_list_why(lists.why);
 }
@@ -266,6 +285,7 @@ makeWelcome(uint64_t session_id, const SessionContext& context, const SessionSta
     welcome.set_device(context.device_name);
     fill(*welcome.mutable_scene(), context.scene);
     fill(*welcome.mutable_state(), context, state);
+    *welcome.mutable_placed_lights() = changeOf({}, state.settings.lights.placed);
     std::apply([&](const auto&... range) { (addRange(welcome, range), ...); },
                view::kCommandRanges);
     return message;
@@ -285,6 +305,8 @@ void addPlace(v1::ServerMessage& message,
     }
     if (place.defaults != nullptr) {
         fill(*welcome.mutable_defaults(), context, *place.defaults);
+        *welcome.mutable_default_placed_lights() =
+            changeOf({}, place.defaults->settings.lights.placed);
     }
 }
 
@@ -294,10 +316,15 @@ v1::ServerMessage makeRoomState(const Room& room, MemberId you) {
     return message;
 }
 
-v1::ServerMessage makeStateChanged(const SessionContext& context, const SessionState& state) {
+v1::ServerMessage makeStateChanged(const SessionContext& context,
+                                   const SessionState& state,
+                                   const view::PlacedLights& told) {
     v1::ServerMessage message;
     message.mutable_state()->set_ref_seq(state.applied.seq);
     fill(*message.mutable_state()->mutable_state(), context, state);
+    if (const view::PlacedLights& placed = state.settings.lights.placed; !(placed == told)) {
+        *message.mutable_state()->mutable_placed_lights() = changeOf(told, placed);
+    }
     return message;
 }
 

@@ -26,9 +26,10 @@ struct WelcomePlace {
 void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const WelcomePlace& place);
 // As `you` is told it.
 [[nodiscard]] v1::ServerMessage makeRoomState(const Room& room, MemberId you);
-// Answers the command of `state.applied`.
+// Answers the command of `state.applied`; `told` are the placed lights that the viewer knows of.
 [[nodiscard]] v1::ServerMessage makeStateChanged(const SessionContext& context,
-                                                 const SessionState& state);
+                                                 const SessionState& state,
+                                                 const view::PlacedLights& told);
 // The protocol's name of it in small letters: "out_of_range".
 [[nodiscard]] std::string nameOf(RejectCode code);
 

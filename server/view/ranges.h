@@ -22,6 +22,7 @@ inline constexpr Range<uint32_t> kLightCountRange{"lights", 0, 1'000'000};
 inline constexpr Range<double> kLightRadiusRange{"light_radius", 0.001, 10'000.0};
 inline constexpr Range<double> kLightIntensityRange{"light_intensity", 0.0, 1'000'000.0};
 inline constexpr Range<double> kLightCutoffRange{"light_cutoff", 0.0, 1'000.0};
+inline constexpr Range<uint32_t> kListCapRange{"list_cap", 0, 65'535};
 inline constexpr Range<double> kLightSpeedRange{"light_speed", 0.0, 100.0};
 inline constexpr Range<double> kAmbientRange{"ambient", 0.0, 1'000.0};
 inline constexpr Range<uint32_t> kGridXRange{"grid.x", 1, 128};
@@ -49,6 +50,18 @@ inline constexpr Range<double> kBloomThresholdRange{"bloom_threshold", 0.0, 1'00
 inline constexpr Range<double> kBloomKneeRange{"bloom_knee", 0.0, 1.0};
 inline constexpr Range<double> kBloomStrengthRange{"bloom_strength", 0.0, 1.0};
 inline constexpr Range<double> kBloomRadiusRange{"bloom_radius", 0.001, 0.05};
+inline constexpr Range<uint32_t> kPlacedIdRange{"lights.id", 1, 0xffffffff};
+// All of them are told to whoever joins: some 200 KB.
+inline constexpr Range<uint32_t> kPlacedCountRange{"placed_lights", 0, 2048};
+inline constexpr Range<double> kPlacedColorRange{"lights.color", 0.0, 1.0};
+inline constexpr Range<double> kConeRange{"lights.cone_deg", 0.0, 90.0}; // half angles
+inline constexpr Range<double> kFogDensityRange{"fog_density", 0.0, 100.0};
+inline constexpr Range<double> kFogHeightFalloffRange{"fog_height_falloff", 0.0, 100.0};
+inline constexpr Range<double> kFogBaseHeightRange{"fog_base_height", -1e7, 1e7};
+inline constexpr Range<double> kFogAnisotropyRange{"fog_anisotropy", -0.95, 0.95};
+inline constexpr Range<double> kFogAlbedoRange{"fog_albedo", 0.0, 1.0};
+inline constexpr Range<uint32_t> kFogTileRange{"fog_tile", 4, 64};
+inline constexpr Range<uint32_t> kFogSlicesRange{"fog_slices", 8, 256};
 // 32 point lights of 512 take 201 MB a viewer.
 inline constexpr Range<uint32_t> kShadowLightsRange{"shadow_lights", 0, 32};
 inline constexpr Range<uint32_t> kShadowSizeRange{"shadow_size", 64, 512};
@@ -71,7 +84,12 @@ inline constexpr std::tuple kCommandRanges{kWidthRange,          kHeightRange,
                                            kOutlineWidthRange,   kBloomThresholdRange,
                                            kBloomKneeRange,      kBloomStrengthRange,
                                            kBloomRadiusRange,    kDebugScaleRange,
-                                           kPeelLayersRange,     kShadowLightsRange,
+                                           kPeelLayersRange,     kPlacedColorRange,
+                                           kConeRange,           kListCapRange,
+                                           kFogDensityRange,     kFogHeightFalloffRange,
+                                           kFogBaseHeightRange,  kFogAnisotropyRange,
+                                           kFogAlbedoRange,      kFogTileRange,
+                                           kFogSlicesRange,      kShadowLightsRange,
                                            kShadowSizeRange};
 
 } // namespace froxel::view

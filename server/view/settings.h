@@ -5,6 +5,7 @@
 #include "core/math.h"
 #include "view/camera.h"
 #include "view/debug_view.h"
+#include "view/placed_lights.h"
 
 #include <array>
 #include <bitset>
@@ -26,9 +27,10 @@ inline constexpr std::array kRendererNames = {
     std::string_view("clustered_deferred"), std::string_view("toon_fragment"),
     std::string_view("toon_compute")};
 
-// Where lights are added up. auto: in compute, but for the forward renderers on a CPU device and where
-// descriptor indexing is absent: there in the fragment stage. A forward renderer in compute is its twin: a thin prepass leaves which triangle
-// each pixel shows, and a compute pass fetches the material and shades.
+// Where lights are added up. auto: in compute, but for the forward renderers on a CPU device and
+// where descriptor indexing is absent: there in the fragment stage. A forward renderer in compute
+// is its twin: a thin prepass leaves which triangle each pixel shows, and a compute pass fetches
+// the material and shades.
 enum class LightingStage : uint8_t { kAuto, kCompute, kFragment };
 inline constexpr std::array kLightingStageNames = {
     std::string_view("auto"), std::string_view("compute"), std::string_view("fragment")};
@@ -69,8 +71,9 @@ enum class ToneMap : uint8_t { kPbrNeutral, kClamp };
 inline constexpr std::array kToneMapNames = {std::string_view("pbr_neutral"),
                                              std::string_view("clamp")};
 
-// How bright light is spread. All kinds come to a Gaussian of one standard deviation: as one kernel,
-// along rows and columns, by a wavelet with holes, or down and up a chain of halved pictures.
+// How bright light is spread. All kinds come to a Gaussian of one standard deviation: as one
+// kernel, along rows and columns, by a wavelet with holes, or down and up a chain of halved
+// pictures.
 enum class BloomKind : uint8_t { kNone, kSinglePass, kSeparable, kATrous, kMipChain };
 inline constexpr std::array kBloomKindNames = {
     std::string_view("none"), std::string_view("single_pass"), std::string_view("separable"),
@@ -143,17 +146,19 @@ struct Lights {
     float intensity = 1.0F; // scales every seeded light
     float cutoff = 0.0F;    // trades error for speed: a light ends where its irradiance, facing
                             // it, would fall to this before its window; 0: at its radius
+    bool cutoff_compensated = false; // lights that end early are brighter by what they lost
     uint32_t seed = 1;
     bool animate = true;         // off: time stands still
     float speed = 1.0F;          // scales the animation's clock
     std::optional<BoundsD3> box; // none: the scene's bounds
     float ambient = 1.0F;        // scales the ambient term
     bool scene_lights = true;    // the scene's own punctual lights
+    PlacedLights placed;         // those that viewers placed
     bool operator==(const Lights&) const = default;
 };
 
-// Spreads a share of what is bright; none is lost. Lengths are shares of the picture's smaller side,
-// so that a picture of another size looks the same.
+// Spreads a share of what is bright; none is lost. Lengths are shares of the picture's smaller
+// side, so that a picture of another size looks the same.
 struct Bloom {
     BloomKind kind = BloomKind::kNone;
     float threshold = 1.0F; // exposed radiance from which light is spread; 0: all light
@@ -161,6 +166,27 @@ struct Bloom {
     float strength = 0.25F; // share of that light that is spread
     float radius = 0.015F;  // the Gaussian's standard deviation
     bool operator==(const Bloom&) const = default;
+};
+
+// A medium that absorbs light and scatters it once: `density` up to the base height, falling off
+// exponentially above it. Scattering of lights is sampled in a froxel volume; what is lost on the
+// way, and what comes from all around, has a closed form.
+struct Fog {
+    float density = 0;         // extinction, 1/m; 0: none
+    float height_falloff = 0;  // 1/m: e times less every 1 / height_falloff; 0: the same everywhere
+    double base_height_m = 0;  // world y
+    float anisotropy = 0;      // Henyey-Greenstein's g; above 0: mostly onwards
+    glm::vec3 albedo{1};       // share of the extinction that scatters
+    uint32_t tile_px = 16;     // from node to node of the volume, across and down
+    uint32_t slice_count = 64; // of the volume
+    bool half_rate = false;    // half the volume's resolution on each axis
+    bool noise = false;        // places in slices jittered by time, instead of their middles
+    bool operator==(const Fog&) const = default;
+
+    [[nodiscard]] bool present() const { return density > 0; }
+    [[nodiscard]] bool scatters() const {
+        return present() && (albedo.x > 0 || albedo.y > 0 || albedo.z > 0);
+    }
 };
 
 // Of the toon renderers: edges of depth and normals are darkened.
@@ -202,6 +228,8 @@ struct ViewSettings {
     GbufferLayout gbuffer;
     Grid grid;
     LightLoop light_loop = LightLoop::kAuto;
+    uint32_t list_cap = 0; // trades error for speed: lights that a list keeps at most, those that
+                           // can add most; 0: all that reach it
     bool count_pairs = false; // count evaluated and contributing light-pixel pairs; costs time
     Debug debug;
     Transparency transparency = Transparency::kSorted;
@@ -223,6 +251,7 @@ struct ViewSettings {
                                      {0.80F, 1.00F, 0}}};
     ToonOutline toon_outline;
     Bloom bloom;
+    Fog fog;
     Antialiasing antialiasing = Antialiasing::kNone;
     bool operator==(const ViewSettings&) const = default;
 };

@@ -16,9 +16,9 @@ layout(set = 0, binding = 2) uniform utextureBuffer list_texels;   // io::Cluste
 layout(set = 0, binding = 3) uniform utextureBuffer index_texels;  // light index list
 layout(set = 0, binding = 4) uniform textureBuffer spot_texels;    // io::Spot: 2 texels
 layout(set = 0, binding = 5, scalar) readonly buffer SunBlock { DirectionalLight suns[]; };
-layout(set = 0, binding = 6) uniform utextureBuffer shadow_of_light; // a local light's, or kNoShadow
-layout(set = 0, binding = 7) uniform textureBuffer shadow_texels;    // io::ShadowLight: 5 texels
-layout(set = 0, binding = 8) uniform texture2D shadow_atlas;
+layout(set = 0, binding = 8) uniform utextureBuffer shadow_of_light; // a local light's, or kNoShadow
+layout(set = 0, binding = 9) uniform textureBuffer shadow_texels;    // io::ShadowLight: 5 texels
+layout(set = 0, binding = 10) uniform texture2D shadow_atlas;
 
 #ifdef FROXEL_VISIBILITY
 uint visible_flags; // of this invocation's pixel; MATERIAL_FLAGS: what any of them may have

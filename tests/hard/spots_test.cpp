@@ -1,4 +1,5 @@
 // Spots of every width, direction and reach.
+#include "light/light_rig.h"
 #include "reference/shade.h"
 #include "support/exact.h"
 #include "support/gpu_fixture.h"
@@ -56,6 +57,35 @@ void expectLikeReference(render::Renderer& renderer,
 }
 
 } // namespace
+
+// Placed lights come after the scene's, each with a radius of its own: points and spots, near and
+// far, one reaching past all. They shine as the scene's own would, to the bit.
+TEST_F(HardSpots, Placed_AreTheScenesOwn) {
+    scene::Scene scene = wallAhead(static_cast<float>(kWall_m)).scene;
+    std::vector<view::PlacedLight> placed;
+    for (uint32_t i = 0; i < 24; ++i) {
+        view::PlacedLight light;
+        light.id = 5 * i + 1;
+        light.kind = i % 3 == 0 ? view::LightKind::kSpot : view::LightKind::kPoint;
+        light.position_world = wallPoint(2.5 * i, i) + dvec3(0, 0, 0.1 * (i + 1));
+        light.direction_world = {0, 0.1 * i, -1};
+        light.color = {1, 0.04F * static_cast<float>(i), 0.5F};
+        light.radius_m = i == 7 ? 10'000 : 0.2F * static_cast<float>(i + 1);
+        placed.push_back(light);
+        scene.lights.push_back(light::asPunctual(light));
+    }
+    auto inputs = hardInputs();
+    render::Renderer with_scene_lights(device(), scene);
+    const auto wanted = expectExact(with_scene_lights, inputs);
+    scene.lights.clear();
+    inputs.settings.lights.placed = view::PlacedLights(placed);
+    render::Renderer renderer(device(), scene);
+    const auto pictures = expectExact(renderer, inputs);
+    EXPECT_GT(litPixels(pictures.naive), 500U);
+    EXPECT_EQ(differingFloats(pictures.naive, wanted.naive), 0U);
+    EXPECT_EQ(differingFloats(pictures.forward_plus, wanted.forward_plus), 0U);
+    EXPECT_EQ(differingFloats(pictures.deferred, wanted.deferred), 0U);
+}
 
 // Case 26. Each is aimed at a pixel's own point, since the narrowest light less than a pixel.
 TEST_F(HardSpots, AnyHalfAngle_IsAsDoublePrecisionHasIt) {

@@ -90,6 +90,20 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
          }},
         {"fxaa", [](auto& s) { s.antialiasing = view::Antialiasing::kFxaa; }},
         {"ssaa4", [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; }},
+        {"fog",
+         [](auto& s) {
+             s.fog = {.density = 0.06F, .anisotropy = 0.4F, .tile_px = 8};
+             s.lights.count = 24;
+             s.lights.radius_m = 5;
+             s.lights.intensity = 12;
+         }},
+        {"height_fog",
+         [](auto& s) {
+             s.fog = {.density = 0.6F, .height_falloff = 1.2F, .albedo = {0.8F, 0.9F, 1}};
+             s.fog.tile_px = 8;
+             s.lights.count = 60;
+             s.lights.intensity = 6;
+         }},
         {"shadows",
          [](auto& s) {
              s.lights.count = 5;

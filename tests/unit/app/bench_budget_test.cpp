@@ -118,8 +118,10 @@ TEST(R2Settings, WhatTradesError_IsAtItsDefaultAndWaysOfDrawingAreOne) {
     settings.renderer = view::Renderer::kNaive;
     settings.transparency = view::Transparency::kWeighted;
     settings.peel_layers = 2;
+    settings.fog = {0.5F, 0.25F, -3, 0.75F, {0.5F, 0.25F, 1}, 8, 32, true, true};
     view::ViewSettings meant;
     meant.lights.count = 7;
+    meant.fog = {0.5F, 0.25F, -3, 0.75F, {0.5F, 0.25F, 1}};
     EXPECT_EQ(r2Settings(settings), meant);
     settings.renderer = view::Renderer::kToonCompute;
     EXPECT_EQ(r2Settings(settings).renderer, view::Renderer::kToonCompute);

@@ -2,6 +2,7 @@
 #include "app/bench_errors.h"
 #include "app/bench_json.h"
 #include "app/bench_presets.h"
+#include "app/light_set_file.h"
 #include "app/options.h"
 #include "app/render_arguments.h"
 #include "view/ranges.h"
@@ -10,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <map>
 #include <set>
@@ -191,15 +194,22 @@ TEST(RenderArguments, EverySetting_ParsesBack) {
     s.lights.scene_lights = false;
     s.lights.animate = false;
     s.lights.cutoff = 0.1F;
+    s.lights.cutoff_compensated = true;
+    s.list_cap = 40;
     s.lights.speed = 2.5F;
     s.debug = {.view = view::DebugView::kDepth, .scale_max = 12.5, .grid_camera = {}};
     s.exposure = 1.7F;
     s.tone_map = view::ToneMap::kClamp;
     s.bloom = {view::BloomKind::kSeparable, 0.5F, 0.25F, 0.75F, 0.02F};
+    s.fog = {0.5F, 0.25F, -3, 0.75F, {0.5F, 0.25F, 1}, 8, 32, true, true};
     s.antialiasing = view::Antialiasing::kFxaa;
     s.toon_outline = {0.5F, 0.005F};
     s.transparency = view::Transparency::kPeeled;
     s.peel_layers = 7;
+    const auto file = std::filesystem::path(testing::TempDir()) / "render_arguments_lights.json";
+    std::ofstream(file) << R"({"lights":[{"id":1,"position":{"x":2}}]})";
+    s.lights.placed = readLightSet(file).value();
+    options.light_set = file;
     s.shadows = {8, 128};
     options.lens_shift = glm::dvec2(0.1, -0.25);
     options.timings = "t.json";

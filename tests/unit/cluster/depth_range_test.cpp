@@ -26,6 +26,27 @@ TEST(LitDepthRange, Scene_LimitsTheFar) {
     EXPECT_NEAR(litDepthRange(lights, perspective(45), kRoom).far_m, 100, 0.01);
 }
 
+// Between walls, behind them and in front of them: a medium is everywhere.
+TEST(LitDepthRange, Medium_IsLitBeyondTheScene) {
+    light::FrameLights lights;
+    addPoint(lights, {0, 0, -30}, 100);
+    EXPECT_NEAR(litDepthRange(lights, perspective(45), kRoom, Lit::kMedium).far_m, 130, 0.01);
+    addPoint(lights, {0, 0, -150}, 10);
+    EXPECT_NEAR(litDepthRange(lights, perspective(45), kRoom, Lit::kMedium).far_m, 160, 0.01);
+    const BoundsD3 behind{{-1, -1, 5}, {1, 1, 9}};
+    EXPECT_NEAR(litDepthRange(lights, perspective(45), behind, Lit::kMedium).far_m, 160, 0.01);
+    EXPECT_NEAR(litDepthRange(lights, perspective(45), {}, Lit::kMedium).far_m, 160, 0.01);
+}
+
+TEST(LitDepthRange, LightsWithoutLimitInAMedium_EndWithTheScene) {
+    light::FrameLights lights;
+    addPoint(lights, {0, 0, -30}, 1);
+    addPoint(lights, {0, 0, 5}, kUnlimited);
+    EXPECT_NEAR(litDepthRange(lights, perspective(45), kRoom, Lit::kMedium).far_m, 100, 0.01);
+    addPoint(lights, {0, 0, -200}, 1);
+    EXPECT_NEAR(litDepthRange(lights, perspective(45), kRoom, Lit::kMedium).far_m, 201, 0.01);
+}
+
 TEST(LitDepthRange, LightsBehind_AreIgnored) {
     light::FrameLights lights;
     addPoint(lights, {0, 0, 10}, 9);
@@ -45,10 +66,12 @@ TEST(LitDepthRange, AnyInput_GivesAscendingPositiveDepths) {
     for (const auto& lights : sets) {
         for (const auto& scene : scenes) {
             for (const view::Camera& camera : {perspective(45), orthographic(1)}) {
-                const DepthRange range = litDepthRange(lights, camera, scene);
-                EXPECT_GT(range.near_m, 0);
-                EXPECT_LT(range.near_m, range.far_m);
-                EXPECT_TRUE(std::isfinite(range.far_m));
+                for (const Lit what : {Lit::kSurfaces, Lit::kMedium}) {
+                    const DepthRange range = litDepthRange(lights, camera, scene, what);
+                    EXPECT_GT(range.near_m, 0);
+                    EXPECT_LT(range.near_m, range.far_m);
+                    EXPECT_TRUE(std::isfinite(range.far_m));
+                }
             }
         }
     }

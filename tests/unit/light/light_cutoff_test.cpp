@@ -1,5 +1,4 @@
 #include "light/light_cutoff.h"
-
 #include "light/light_rig.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +39,47 @@ TEST(LightCutoff, UnlimitedLight_EndsByTheInverseSquare) {
     EXPECT_NEAR(cut, 20, 1e-9);
 }
 
-TEST(LightCutoff, BlackLight_ReachesNothing) { EXPECT_EQ(cutRadius({0, 0, 0}, 2, 0.01), 0); }
+TEST(LightCutoff, BlackLight_ReachesNothing) {
+    EXPECT_EQ(cutRadius({0, 0, 0}, 2, 0.01), 0);
+}
+
+// What a light adds to points spread evenly in space, by Simpson's rule, is what it was.
+TEST(LightCutoff, Compensated_KeepsWhatALightAddsInTheMean) {
+    const auto total = [](double strongest, double radius_m) {
+        constexpr int kSteps = 2000;
+        double sum = 0;
+        for (int i = 0; i <= kSteps; ++i) {
+            const double d = radius_m * i / kSteps;
+            const double weight = i == 0 || i == kSteps ? 1 : i % 2 == 1 ? 4 : 2;
+            sum += weight * (i == 0 ? strongest : windowed(strongest, radius_m, d) * d * d);
+        }
+        return sum * radius_m / kSteps / 3;
+    };
+    FrameLights lights;
+    for (const float radius : {0.5F, 2.0F, 30.0F}) {
+        io::Light light{};
+        light.color = {1, 0.5F, 0};
+        lights.lights.push_back(light);
+        lights.radii_m.push_back(radius);
+    }
+    FrameLights dimmed = lights;
+    cutLights(dimmed, 0.05, false);
+    FrameLights kept = lights;
+    cutLights(kept, 0.05, true);
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        const auto of = [&](const FrameLights& all) {
+            return total(static_cast<double>(all.lights[i].color.x),
+                         static_cast<double>(all.radii_m[i]));
+        };
+        EXPECT_NEAR(of(kept) / of(lights), 1, 1e-6) << lights.radii_m[i];
+        EXPECT_LT(of(dimmed), of(lights));
+        EXPECT_EQ(kept.radii_m[i], dimmed.radii_m[i]);
+        EXPECT_EQ(kept.lights[i].color.y, 0.5F * kept.lights[i].color.x);
+    }
+    lights.radii_m = std::vector<float>(3, std::numeric_limits<float>::infinity());
+    cutLights(lights, 0.05, true);
+    EXPECT_EQ(lights.lights[0].color.x, 1); // it would lose without end
+}
 
 TEST(LightCutoff, LightRig_CutsWhereItIsAskedTo) {
     scene::Scene scene;

@@ -54,6 +54,46 @@ TEST(LightRig, Order_IsSeededThenSceneLights) {
     EXPECT_EQ(lights.lights[0].inv_radius2, 0.25F);
 }
 
+// What a viewer places shines as a light of the scene does.
+TEST(LightRig, PlacedLights_AreTheScenesOwnAndComeLast) {
+    view::PlacedLight point;
+    point.id = 4;
+    point.position_world = {1, 2, -3};
+    point.color = {1, 0.5F, 0.25F};
+    point.intensity = 4;
+    point.radius_m = 3;
+    view::PlacedLight spot = point;
+    spot.id = 5;
+    spot.kind = view::LightKind::kSpot;
+    spot.direction_world = {0, -2, 0};
+    spot.inner_cone_deg = 15;
+    spot.outer_cone_deg = 30;
+    scene::Scene scene;
+    for (const auto type : {scene::LightType::kPoint, scene::LightType::kSpot}) {
+        scene.lights.push_back(punctual(type));
+        scene.lights.back().range_m = 3;
+        scene.lights.back().inner_cone_rad = glm::radians(15.0);
+        scene.lights.back().outer_cone_rad = glm::radians(30.0);
+    }
+    view::Lights settings = noSeeded();
+    settings.placed = view::PlacedLights({point, spot});
+    const FrameLights lights = evaluated(scene, settings);
+    ASSERT_EQ(lights.lights.size(), 4U);
+    ASSERT_EQ(lights.spots.size(), 2U);
+    for (const size_t i : {0U, 1U}) {
+        EXPECT_EQ(lights.lights[i].position_view, lights.lights[i + 2].position_view);
+        EXPECT_EQ(lights.lights[i].color, lights.lights[i + 2].color);
+        EXPECT_EQ(lights.lights[i].inv_radius2, lights.lights[i + 2].inv_radius2);
+        EXPECT_EQ(lights.radii_m[i], lights.radii_m[i + 2]);
+    }
+    EXPECT_EQ(lights.lights[2].spot, io::kNoSpot);
+    EXPECT_EQ(lights.lights[3].spot, 1U);
+    EXPECT_EQ(lights.spots[0].direction_view, lights.spots[1].direction_view);
+    EXPECT_EQ(lights.spots[0].scale, lights.spots[1].scale);
+    settings.scene_lights = false;
+    EXPECT_EQ(evaluated(scene, settings).lights.size(), 2U);
+}
+
 TEST(LightRig, SceneLightsOff_LeavesThemOut) {
     scene::Scene scene;
     scene.lights = {punctual(scene::LightType::kPoint), punctual(scene::LightType::kDirectional)};

@@ -62,6 +62,26 @@ TEST_F(ConversationTest, Commands_BeforeTheAnswerIsWritten_AreAnsweredOnce) {
     EXPECT_EQ(port_.session().states.size(), 4U);
 }
 
+TEST_F(ConversationTest, PlacedLights_AreToldByChanges) {
+    join();
+    const auto place = [this](uint32_t id) {
+        v1::ClientMessage message;
+        v1::PlacedLight& light = *message.mutable_set_placed_lights()->add_lights();
+        light.set_id(id);
+        light.mutable_position();
+        say(message);
+    };
+    place(1);
+    EXPECT_EQ(nextAnswer()->state().placed_lights().lights_size(), 1);
+    setExposure(2);
+    EXPECT_FALSE(nextAnswer()->state().has_placed_lights());
+    place(2);
+    place(3); // answered together
+    const auto change = nextAnswer()->state().placed_lights();
+    ASSERT_EQ(change.lights_size(), 2);
+    EXPECT_EQ(change.lights(0).id(), 2U);
+}
+
 TEST_F(ConversationTest, Command_OutOfRange_KeepsTheState) {
     join();
     setExposure(-1);

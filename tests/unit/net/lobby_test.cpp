@@ -347,7 +347,9 @@ TEST_F(LobbyTest, Welcome_TellsPlaceTokenAndDefaults) {
     ASSERT_TRUE(apply(first, exposure(3)));
     const Guest second = enter("hall");
     session::WelcomePlace place{second.seat.resume_token, 10s, true, nullptr, 0, nullptr};
-    const auto told = second.seat.session->welcome(second.seat.place.member, place).welcome();
+    view::PlacedLights placed;
+    const auto told =
+        second.seat.session->welcome(second.seat.place.member, place, placed).welcome();
     EXPECT_EQ(told.resume_token(), second.seat.resume_token);
     EXPECT_EQ(told.resume_grace_ms(), 10'000U);
     EXPECT_TRUE(told.resumed());
@@ -356,7 +358,7 @@ TEST_F(LobbyTest, Welcome_TellsPlaceTokenAndDefaults) {
     EXPECT_EQ(told.state().exposure(), 3);
     EXPECT_EQ(told.defaults().exposure(), 1);
     const Guest own = enter();
-    const auto plain = own.seat.session->welcome(own.seat.place.member, {}).welcome();
+    const auto plain = own.seat.session->welcome(own.seat.place.member, {}, placed).welcome();
     EXPECT_FALSE(plain.has_room());
     EXPECT_FALSE(plain.has_defaults());
     EXPECT_FALSE(plain.resumed());

@@ -1,4 +1,5 @@
 #include "interface/constants.h"
+#include "interface/fog_io.h"
 #include "render/frame_plan.h"
 
 #include <gtest/gtest.h>
@@ -153,6 +154,18 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
          "which the tone map averages"},
         {p.fxaa == (settings.antialiasing == view::Antialiasing::kFxaa), "the filter asked for"},
+        {p.fog == settings.fog.present(), "fog where there is a medium"},
+        {p.fog_volume == (settings.fog.scatters() && facts.local_lights),
+         "a volume where it scatters lights"},
+        {p.fog_noise == (p.fog_volume && settings.fog.noise), "jittered where asked for"},
+        {has(p.fog_output_flags, io::kOutputFog) == p.fog &&
+             has(p.fog_output_flags, io::kOutputFogVolume) == p.fog_volume,
+         "who looks through it knows what there is"},
+        {p.fog || p.fog_light_flags == 0, "no lights for fog that is not there"},
+        {!p.fog || has(p.fog_light_flags, io::kLightLists) == p.lists, "the same lists"},
+        {(p.fog_light_flags & ~p.forward_light_flags & ~p.lighting_light_flags) == 0,
+         "lights as surfaces have them"},
+        {p.tonemap || !p.fog, "tones are mapped after fog"},
         {p.tonemap || !(p.outline || p.samples || p.bloom != view::BloomKind::kNone),
          "tones are mapped after all that is done to the lit picture"},
     };
@@ -255,7 +268,10 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
 
 TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
     view::ViewSettings settings;
-    for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 2; ++setting) {
+    for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 2 * 4; ++setting) {
+        settings.fog.density = setting / 180 != 0 ? 0.5F : 0.0F;
+        settings.fog.albedo = glm::vec3(setting / 180 == 1 ? 0.0F : 0.5F);
+        settings.fog.noise = setting / 180 == 3;
         settings.renderer = static_cast<Renderer>(setting % 5);
         settings.lighting = static_cast<LightingStage>(setting / 5 % 3);
         settings.antialiasing = static_cast<view::Antialiasing>(setting / 15 % 3);
@@ -273,6 +289,14 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
                 << "settings " << setting << ", facts " << bits;
         }
     }
+}
+
+TEST(FramePlan, FogOfNoDensity_IsNotThere) {
+    view::ViewSettings settings;
+    const FrameFacts facts{.local_lights = true, .directional = true};
+    const FramePlan without = planFrame(settings, facts);
+    settings.fog = {.density = 0, .height_falloff = 1, .half_rate = true, .noise = true};
+    EXPECT_EQ(planFrame(settings, facts), without);
 }
 
 TEST(FramePlan, BloomOfNoStrength_IsNone) {

@@ -47,7 +47,7 @@ TEST(PlanWords, LightsOfOneRadius_AreNamed) {
 TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
     view::ViewSettings settings;
     const auto of_post = ::testing::AnyOf(HasSubstr("bloom"), HasSubstr("outline"),
-                                          HasSubstr("fxaa"), HasSubstr("ssaa4"));
+                                          HasSubstr("fxaa"), HasSubstr("ssaa4"), HasSubstr("fog"));
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(of_post)));
     settings.renderer = view::Renderer::kToonCompute;
     settings.toon_outline.strength = 1;
@@ -72,6 +72,15 @@ TEST(PlanWords, Transparency_IsNamedWhereSomethingIsBlended) {
     settings.transparency = view::Transparency::kWeighted;
     EXPECT_THAT(wordsOf(settings, {.transparent_visible = true}),
                 Contains(HasSubstr("weights of distance")));
+}
+
+TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
+    view::ViewSettings settings;
+    settings.fog.density = 0.1F;
+    EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("no froxel volume")));
+    const auto words = wordsOf(settings, {.local_lights = true});
+    EXPECT_THAT(words, Contains(HasSubstr("scattered in a froxel volume")));
+    EXPECT_THAT(words, Contains("tone map in a pass of its own, after those over the lit picture"));
 }
 
 TEST(PlanWords, ShadowMaps_AreNamedWhereTheyAreDrawn) {

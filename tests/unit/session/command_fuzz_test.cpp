@@ -3,6 +3,7 @@
 #include "unit/session/messages.h"
 #include "view/ranges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -24,6 +25,13 @@ struct PromiseKept {
         return (!c.count || view::kLightCountRange.contains(*c.count)) &&
                (!c.radius_m || view::kLightRadiusRange.contains(*c.radius_m)) &&
                (!c.box || (finite(c.box->min) && finite(c.box->max) && !c.box->empty()));
+    }
+    bool operator()(const SetPlacedLights& c) const {
+        return std::all_of(c.lights.begin(), c.lights.end(), [](const PlacedLightChange& light) {
+            return light.id > 0 && (!light.position_world || finite(*light.position_world)) &&
+                   (!light.direction_world || glm::length(*light.direction_world) > 0) &&
+                   (!light.radius_m || view::kLightRadiusRange.contains(*light.radius_m));
+        });
     }
     bool operator()(const SetGrid& c) const {
         return (!c.size || (c.size->x > 0 && c.size->y > 0 && c.size->z > 0 && c.size->x <= 128)) &&
@@ -59,6 +67,12 @@ struct PromiseKept {
                 static_cast<size_t>(*c.transparency) < view::kTransparencyNames.size()) &&
                (!c.peel_layers || view::kPeelLayersRange.contains(*c.peel_layers));
     }
+    bool operator()(const SetFog& c) const {
+        return (!c.density || view::kFogDensityRange.contains(*c.density)) &&
+               (!c.albedo || finite(*c.albedo)) &&
+               (!c.tile_px || view::kFogTileRange.contains(*c.tile_px)) &&
+               (!c.slice_count || view::kFogSlicesRange.contains(*c.slice_count));
+    }
     template <class Other>
     bool operator()(const Other& /*command*/) const {
         return true;
@@ -77,10 +91,14 @@ void expectSane(const CommandResult<CommandMessage>& result) {
 }
 
 std::vector<v1::ClientMessage> seeds() {
-    std::vector<v1::ClientMessage> all(7, clientMessage());
+    std::vector<v1::ClientMessage> all(8, clientMessage());
     all[0].mutable_hello()->set_client_name("fuzz");
     all[6].mutable_set_debug_view()->set_view(v1::DEBUG_VIEW_DEPTH);
     all[6].mutable_set_debug_view()->set_scale_max(10);
+    all[7].mutable_set_placed_lights()->add_remove(3);
+    all[7].mutable_set_placed_lights()->add_lights()->set_id(4);
+    all[7].mutable_set_placed_lights()->mutable_lights(0)->mutable_position()->set_x(1);
+    all[7].mutable_set_placed_lights()->mutable_lights(0)->set_kind(v1::LIGHT_KIND_SPOT);
     all[1].mutable_set_camera()->mutable_eye()->set_x(1);
     all[1].mutable_set_camera()->mutable_target()->set_y(1);
     all[1].mutable_set_camera()->set_fov_deg(45);
@@ -93,6 +111,11 @@ std::vector<v1::ClientMessage> seeds() {
     all[4].mutable_set_toon()->mutable_compute()->add_points()->set_x(1);
     all[5].mutable_set_size()->set_width(64);
     all[5].mutable_set_size()->set_height(64);
+    all.push_back(clientMessage());
+    all.back().mutable_set_fog()->mutable_fog()->set_density(0.5);
+    all.back().mutable_set_fog()->mutable_fog()->mutable_albedo()->set_y(0.5);
+    all.back().mutable_set_fog()->mutable_fog()->set_tile(8);
+    all.back().mutable_set_fog()->mutable_fog()->set_slices(32);
     all[6].mutable_set_post()->set_bloom(v1::BLOOM_KIND_A_TROUS);
     all[6].mutable_set_post()->set_bloom_radius(0.01);
     all[6].mutable_set_post()->set_antialiasing(v1::ANTIALIASING_SSAA4);

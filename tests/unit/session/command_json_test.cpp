@@ -52,7 +52,7 @@ TEST(CommandJson, UnknownFields_AreIgnoredAtAnyDepth) {
 }
 
 TEST(CommandJson, UnknownCommand_IsUnsupported) {
-    const Rejection rejection = refused(decodeText(R"({"seq":3,"setFog":{"density":1}})"));
+    const Rejection rejection = refused(decodeText(R"({"seq":3,"setRain":{"density":1}})"));
     EXPECT_EQ(rejection.code, RejectCode::kUnsupported);
     EXPECT_EQ(rejection.ref_seq, 3U);
 }

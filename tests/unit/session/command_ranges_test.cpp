@@ -53,11 +53,21 @@ v1::SetCamera& camera(v1::ClientMessage& message) {
     return set;
 }
 
+v1::PlacedLight& placed(v1::ClientMessage& message) {
+    auto& light = *message.mutable_set_placed_lights()->add_lights();
+    light.set_id(1);
+    return light;
+}
+
 v1::ToonRamp::Point& firstPoint(v1::ClientMessage& message) {
     auto& ramp = *message.mutable_set_toon()->mutable_compute();
     ramp.add_points();
     ramp.add_points()->set_x(1);
     return *ramp.mutable_points(0);
+}
+
+v1::Fog& fog(v1::ClientMessage& message) {
+    return *message.mutable_set_fog()->mutable_fog();
 }
 
 using M = v1::ClientMessage;
@@ -82,6 +92,8 @@ const std::vector<RangedField>& fields() {
                [](M& m, double v) { m.mutable_set_lights()->set_intensity(v); }),
         ranged(view::kLightCutoffRange,
                [](M& m, double v) { m.mutable_set_lights()->set_cutoff(v); }),
+        ranged(view::kListCapRange,
+               [](M& m, double v) { m.mutable_set_lights()->set_list_cap(u32(v)); }),
         ranged(view::kLightSpeedRange,
                [](M& m, double v) { m.mutable_set_lights()->set_speed(v); }),
         ranged(view::kAmbientRange, [](M& m, double v) { m.mutable_set_lights()->set_ambient(v); }),
@@ -132,6 +144,27 @@ const std::vector<RangedField>& fields() {
                [](M& m, double v) { m.mutable_set_post()->set_bloom_strength(v); }),
         ranged(view::kBloomRadiusRange,
                [](M& m, double v) { m.mutable_set_post()->set_bloom_radius(v); }),
+        ranged(view::kFogDensityRange, [](M& m, double v) { fog(m).set_density(v); }),
+        ranged(view::kFogHeightFalloffRange, [](M& m, double v) { fog(m).set_height_falloff(v); }),
+        ranged(view::kFogBaseHeightRange, [](M& m, double v) { fog(m).set_base_height(v); }),
+        ranged(view::kFogAnisotropyRange, [](M& m, double v) { fog(m).set_anisotropy(v); }),
+        ranged(
+            view::kFogAlbedoRange, [](M& m, double v) { fog(m).mutable_albedo()->set_y(v); },
+            "fog_albedo.y"),
+        ranged(view::kFogTileRange, [](M& m, double v) { fog(m).set_tile(u32(v)); }),
+        ranged(view::kFogSlicesRange, [](M& m, double v) { fog(m).set_slices(u32(v)); }),
+        ranged(
+            view::kPlacedColorRange, [](M& m, double v) { placed(m).mutable_color()->set_z(v); },
+            "lights[0].color"),
+        ranged(
+            view::kLightRadiusRange, [](M& m, double v) { placed(m).set_radius_m(v); },
+            "lights[0].radius_m"),
+        ranged(
+            view::kConeRange, [](M& m, double v) { placed(m).set_outer_cone_deg(v); },
+            "lights[0].outer_cone_deg"),
+        ranged(
+            view::kPositionRange, [](M& m, double v) { placed(m).mutable_position()->set_x(v); },
+            "lights[0].position.x"),
         ranged(
             view::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
             "toon_compute.points[0].y"),

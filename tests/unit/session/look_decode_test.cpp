@@ -88,6 +88,38 @@ TEST(DecodeCommand, SetTransparency_IsTakenInPartsAndNotEmpty) {
     EXPECT_EQ(command.transparency, view::Transparency::kWeighted);
 }
 
+TEST(DecodeCommand, SetFog_IsTakenInPartsAndNotEmpty) {
+    v1::ClientMessage message = clientMessage();
+    message.mutable_set_fog();
+    EXPECT_EQ(refused(decodeBinary(message)).message, "fog is missing");
+    v1::Fog& fog = *message.mutable_set_fog()->mutable_fog();
+    EXPECT_EQ(refused(decodeBinary(message)).message, "fog is missing");
+    fog.set_density(0); // given, and off
+    auto command = accepted<SetFog>(decodeBinary(message));
+    EXPECT_EQ(command.density, 0);
+    EXPECT_FALSE(command.height_falloff || command.base_height_m || command.anisotropy ||
+                 command.albedo || command.tile_px || command.slice_count || command.half_rate ||
+                 command.noise);
+    fog.set_height_falloff(0.5);
+    fog.set_base_height(-2);
+    fog.set_anisotropy(0.75);
+    fog.mutable_albedo()->set_x(1);
+    fog.mutable_albedo()->set_z(0.5);
+    fog.set_tile(8);
+    fog.set_slices(128);
+    fog.set_half_rate(true);
+    fog.set_noise(false);
+    command = accepted<SetFog>(decodeBinary(message));
+    EXPECT_EQ(command.height_falloff, 0.5);
+    EXPECT_EQ(command.base_height_m, -2);
+    EXPECT_EQ(command.anisotropy, 0.75);
+    EXPECT_EQ(command.albedo, glm::dvec3(1, 0, 0.5));
+    EXPECT_EQ(command.tile_px, 8U);
+    EXPECT_EQ(command.slice_count, 128U);
+    EXPECT_EQ(command.half_rate, true);
+    EXPECT_EQ(command.noise, false);
+}
+
 TEST(DecodeCommand, SetShadows_IsTakenInPartsAndNotEmpty) {
     v1::ClientMessage message = clientMessage();
     v1::SetShadows& set = *message.mutable_set_shadows();

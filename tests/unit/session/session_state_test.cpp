@@ -327,6 +327,24 @@ TEST_F(State, SamplesOfAPixel_CountAsPixels) {
     EXPECT_EQ(refused.error().field, "antialiasing");
 }
 
+TEST_F(State, SetFog_PartsAreSetOneByOne) {
+    SetFog command;
+    command.density = 0.5;
+    command.base_height_m = 2;
+    command.half_rate = true;
+    SessionState state = applied(initial, command);
+    command = {};
+    command.height_falloff = 0.25;
+    command.anisotropy = -0.5;
+    command.albedo = glm::dvec3(0.5, 0.25, 1);
+    command.tile_px = 8;
+    command.slice_count = 32;
+    command.noise = true;
+    state = applied(state, command);
+    EXPECT_EQ(state.settings.fog,
+              (view::Fog{0.5F, 0.25F, 2, -0.5F, {0.5F, 0.25F, 1}, 8, 32, true, true}));
+}
+
 TEST_F(State, SetPostAndOutline_PartsAreSetOneByOne) {
     SetPost command;
     command.bloom = view::BloomKind::kMipChain;

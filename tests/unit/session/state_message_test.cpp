@@ -30,6 +30,25 @@ TEST(Welcome, TellsTheServerTheSceneAndTheState) {
     EXPECT_EQ(welcome.scene().bounds().max().y(), 12);
     EXPECT_EQ(welcome.state().width(), context.defaults.size.width_px);
     EXPECT_NEAR(welcome.state().eye().x(), -7, 1e-12);
+    EXPECT_EQ(welcome.placed_lights().lights_size(), 0);
+}
+
+TEST(Welcome, PlacedLights_AreToldWhole) {
+    const SessionContext context = makeContext();
+    SessionState state = initialState(context, TimePoint(1s));
+    view::PlacedLight light;
+    light.id = 7;
+    light.kind = view::LightKind::kSpot;
+    light.color = {0.25F, 0.5F, 1};
+    state.settings.lights.placed = view::PlacedLights({light});
+    const auto message = makeWelcome(12, context, state);
+    ASSERT_EQ(message.welcome().placed_lights().lights_size(), 1);
+    const v1::PlacedLight& told = message.welcome().placed_lights().lights(0);
+    EXPECT_EQ(told.id(), 7U);
+    EXPECT_EQ(told.kind(), v1::LIGHT_KIND_SPOT);
+    EXPECT_EQ(told.color().y(), 0.5);
+    EXPECT_EQ(told.radius_m(), 2);
+    EXPECT_NEAR(told.outer_cone_deg(), 45, 1e-9);
 }
 
 TEST(Welcome, Ranges_AreTheTablesOwn) {
@@ -56,11 +75,12 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.camera.lens_shift = {0.25, -0.5};
     state.settings.renderer = view::Renderer::kToonCompute;
     state.settings.lighting = view::LightingStage::kFragment;
-    state.settings.lights = {3, 1.5F, 2.5F, 0.125F, 9, false, 0.5F, {}, 0.25F, false};
+    state.settings.lights = {3, 1.5F, 2.5F, 0.125F, true, 9, false, 0.5F, {}, 0.25F, false, {}};
     state.settings.shading = view::ShadingModel::kLambert;
     state.settings.gbuffer = {view::NormalEncoding::kXy16, view::PositionSource::kFp16};
     state.settings.light_loop = view::LightLoop::kLists;
     state.settings.count_pairs = true;
+    state.settings.list_cap = 40;
     state.settings.grid = {.automatic = false, .size = {1, 2, 3}, .law = view::GridLaw::kLinear};
     state.light_clock =
         state.light_clock.withTime(TimePoint(2s), 6.5).withRate(TimePoint(2s), 1, false);
@@ -70,13 +90,14 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.toon_compute.count = 2;
     state.settings.toon_outline = {0.5F, 0.0078125F};
     state.settings.bloom = {view::BloomKind::kATrous, 2.5F, 0.25F, 0.75F, 0.03125F};
+    state.settings.fog = {0.5F, 0.25F, 2, -0.5F, {0.5F, 0.25F, 1}, 8, 32, true, true};
     state.settings.antialiasing = view::Antialiasing::kFxaa;
     state.settings.transparency = view::Transparency::kPeeled;
     state.settings.peel_layers = 7;
     state.settings.shadows = {12, 320};
     state.delivery = {true, 12.5, view::Refine::kHigh};
     state.encoding = {42, view::Chroma::k444, view::Codec::kVp9, 777};
-    const v1::ServerMessage message = makeStateChanged(context, state);
+    const v1::ServerMessage message = makeStateChanged(context, state, {});
     EXPECT_EQ(message.state().ref_seq(), 44U);
     const v1::ViewState& view = message.state().state();
     EXPECT_TRUE(view.orthographic());
@@ -90,6 +111,8 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.light_radius_m(), 1.5);
     EXPECT_EQ(view.light_intensity(), 2.5);
     EXPECT_EQ(view.light_cutoff(), 0.125);
+    EXPECT_TRUE(view.light_cutoff_compensated());
+    EXPECT_EQ(view.list_cap(), 40U);
     EXPECT_EQ(view.light_seed(), 9U);
     EXPECT_FALSE(view.light_animate());
     EXPECT_EQ(view.light_speed(), 0.5);
@@ -121,6 +144,15 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.antialiasing(), v1::ANTIALIASING_FXAA);
     EXPECT_EQ(view.transparency(), v1::TRANSPARENCY_PEELED);
     EXPECT_EQ(view.peel_layers(), 7U);
+    EXPECT_EQ(view.fog().density(), 0.5);
+    EXPECT_EQ(view.fog().height_falloff(), 0.25);
+    EXPECT_EQ(view.fog().base_height(), 2);
+    EXPECT_EQ(view.fog().anisotropy(), -0.5);
+    EXPECT_EQ(view.fog().albedo().y(), 0.25);
+    EXPECT_EQ(view.fog().tile(), 8U);
+    EXPECT_EQ(view.fog().slices(), 32U);
+    EXPECT_TRUE(view.fog().half_rate());
+    EXPECT_TRUE(view.fog().noise());
     EXPECT_EQ(view.shadow_lights(), 12U);
     EXPECT_EQ(view.shadow_size(), 320U);
     EXPECT_EQ(view.quality(), 42U);
@@ -132,23 +164,48 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.video_kbps(), 777U);
 }
 
+TEST(StateChanged, PlacedLights_OnlyWhatIsOtherThanWasTold) {
+    const SessionContext context = makeContext();
+    SessionState state = initialState(context, TimePoint(1s));
+    EXPECT_FALSE(makeStateChanged(context, state, {}).state().has_placed_lights());
+    view::PlacedLight kept;
+    kept.id = 1;
+    view::PlacedLight moved = kept;
+    moved.id = 2;
+    view::PlacedLight gone = kept;
+    gone.id = 3;
+    const view::PlacedLights told({kept, moved, gone});
+    moved.position_world = {1, 2, 3};
+    state.settings.lights.placed = view::PlacedLights({kept, moved});
+    const auto change = makeStateChanged(context, state, told).state().placed_lights();
+    EXPECT_FALSE(change.clear());
+    ASSERT_EQ(change.remove_size(), 1);
+    EXPECT_EQ(change.remove(0), 3U);
+    ASSERT_EQ(change.lights_size(), 1);
+    EXPECT_EQ(change.lights(0).id(), 2U);
+    EXPECT_EQ(change.lights(0).position().y(), 2);
+    // Equal lights in other memory are no news.
+    const view::PlacedLights same({kept, moved});
+    EXPECT_FALSE(makeStateChanged(context, state, same).state().has_placed_lights());
+}
+
 TEST(StateChanged, LightTime_IsToldOnlyWhereItStands) {
     const SessionContext context = makeContext();
     SessionState state = initialState(context, TimePoint(1s));
-    EXPECT_FALSE(makeStateChanged(context, state).state().state().has_light_time_s());
+    EXPECT_FALSE(makeStateChanged(context, state, {}).state().state().has_light_time_s());
     state.light_clock = state.light_clock.withRate(TimePoint(3s), 0, true);
-    EXPECT_EQ(makeStateChanged(context, state).state().state().light_time_s(), 2);
+    EXPECT_EQ(makeStateChanged(context, state, {}).state().state().light_time_s(), 2);
 }
 
 TEST(StateChanged, LightBox_IsTheOneInUse) {
     SessionContext context = makeContext();
     SessionState state = initialState(context, TimePoint(1s));
-    EXPECT_EQ(makeStateChanged(context, state).state().state().light_box().min().x(), -20);
+    EXPECT_EQ(makeStateChanged(context, state, {}).state().state().light_box().min().x(), -20);
     state.settings.lights.box = BoundsD3{glm::dvec3(-1), glm::dvec3(1)};
-    EXPECT_EQ(makeStateChanged(context, state).state().state().light_box().min().x(), -1);
+    EXPECT_EQ(makeStateChanged(context, state, {}).state().state().light_box().min().x(), -1);
     state.settings.lights.box.reset();
     context.scene.bounds_world = {};
-    EXPECT_FALSE(makeStateChanged(context, state).state().state().has_light_box());
+    EXPECT_FALSE(makeStateChanged(context, state, {}).state().state().has_light_box());
 }
 
 TEST(Error, EveryCode_HasItsOwn) {

@@ -1,0 +1,134 @@
+// Lights placed in the page: added, coloured, dragged by their handles, saved, loaded, deleted.
+
+import { readFileSync } from 'node:fs';
+
+import { expect, it } from 'vitest';
+
+import { placedAfter, type PlacedLights } from '../src/placed_lights';
+import { usePages } from './pages';
+import { until, type Viewer } from './viewer';
+
+const kStill = '#size=640x360&lights=0&refine=none&renderer=forward_plus';
+
+const pages = usePages();
+
+/** What the server has told of placed lights. */
+function told(viewer: Viewer): PlacedLights {
+  return viewer.received.reduce<PlacedLights>((lights, { body }) => {
+    if (body.case === 'welcome') return placedAfter([], body.value.placedLights);
+    return body.case === 'state' ? placedAfter(lights, body.value.placedLights) : lights;
+  }, []);
+}
+
+const count = (viewer: Viewer, wanted: number): Promise<true> =>
+  until(`${wanted} placed lights`, () => told(viewer).length === wanted);
+
+/** The middle of what the light lights, weighted by brightness, as shares of the picture. */
+function glow(viewer: Viewer): Promise<{ x: number; y: number }> {
+  return viewer.page.evaluate(() => {
+    const canvas = document.querySelector('canvas');
+    const pixels = canvas?.getContext('2d')?.getImageData(0, 0, canvas.width, canvas.height);
+    let [sum, x, y] = [1e-9, 0, 0];
+    const { data = [], width = 1, height = 1 } = pixels ?? {};
+    for (let i = 0; i < width * height; i += 1) {
+      const value = (data[4 * i] ?? 0) ** 2;
+      sum += value;
+      x += value * ((i % width) / width);
+      y += value * (Math.floor(i / width) / height);
+    }
+    return { x: x / sum, y: y / sum };
+  });
+}
+
+async function open(at: string): Promise<Viewer> {
+  const viewer = await pages.open(at);
+  await viewer.openPanel();
+  return viewer;
+}
+
+const press = (viewer: Viewer, name: string): Promise<void> =>
+  viewer.control(`placed_light.${name}`).locator('button').click();
+
+it('PlacedLight_AddedDraggedAndDeleted_ShinesWhereItsHandleIs', async () => {
+  const viewer = await open(kStill);
+  await viewer.type('ambient', 0);
+  await press(viewer, 'add');
+  await count(viewer, 1);
+  await viewer.type('placed_light.intensity', 20);
+  await viewer.type('placed_light.radius', 8);
+  await until('its radius', () => told(viewer)[0]?.radius === 8);
+  const handle = viewer.page.locator('#handles .handle');
+  expect(await handle.getAttribute('class')).toContain('chosen');
+  await viewer.settled();
+  await viewer.screenshot('placed-light');
+
+  const box = await handle.boundingBox();
+  if (!box) throw new Error('the handle is not visible');
+  const before = told(viewer)[0]?.position;
+  const lit = await glow(viewer);
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await viewer.page.mouse.move(x, y);
+  await viewer.page.mouse.down();
+  await viewer.page.mouse.move(x - 200, y, { steps: 4 });
+  await viewer.page.mouse.up();
+  await until('another place', () => told(viewer)[0]?.position.x !== before?.x);
+  const moved = await handle.boundingBox();
+  expect(Math.abs((moved?.x ?? 0) + 200 - box.x)).toBeLessThan(2);
+  await viewer.settled();
+  expect((await glow(viewer)).x).toBeLessThan(lit.x - 0.02);
+
+  await handle.press('ArrowUp');
+  await until('a place above', () => (told(viewer)[0]?.position.y ?? 0) > (before?.y ?? 0));
+  await handle.press('Delete');
+  await count(viewer, 0);
+  expect(await handle.count()).toBe(0);
+});
+
+it('PlacedLight_ColourAndKind_AreTheServers', async () => {
+  const viewer = await open(kStill);
+  await press(viewer, 'add');
+  await count(viewer, 1);
+  const color = viewer.control('placed_light.color').locator('input[type=text]');
+  await color.fill('#ff0000');
+  await color.press('Enter');
+  await until('red', () => told(viewer)[0]?.color.y === 0 && told(viewer)[0]?.color.x === 1);
+  await viewer.choose('placed_light.kind', 'spot');
+  await viewer.type('placed_light.outerConeDeg', 60);
+  await until('a wider cone', () => Math.abs((told(viewer)[0]?.outerConeDeg ?? 0) - 60) < 1e-6);
+  // Refused as a whole: the last good values stay.
+  await viewer.type('placed_light.innerConeDeg', 80);
+  await until('a refusal', async () =>
+    ((await viewer.page.locator('#banner-text').textContent()) ?? '').includes('inner_cone_deg is 80'),
+  );
+  expect(told(viewer)[0]?.innerConeDeg).toBeCloseTo(30);
+});
+
+it('LightSet_SavedAndLoaded_IsTheSame_AndNoSetIsRefusedByName', async () => {
+  const viewer = await open(kStill);
+  await press(viewer, 'add');
+  await press(viewer, 'add');
+  await count(viewer, 2);
+  const before = told(viewer);
+  const downloading = viewer.page.waitForEvent('download');
+  await press(viewer, 'save');
+  const path = await (await downloading).path();
+  expect(JSON.parse(readFileSync(path, 'utf8'))).toHaveProperty('lights');
+  await press(viewer, 'remove');
+  await count(viewer, 1);
+
+  const load = async (name: string, text: string): Promise<void> => {
+    const choosing = viewer.page.waitForEvent('filechooser');
+    await press(viewer, 'load');
+    const file = { name, mimeType: 'application/json', buffer: Buffer.from(text) };
+    await (await choosing).setFiles(file);
+  };
+  await load('set.json', readFileSync(path, 'utf8'));
+  await count(viewer, 2);
+  expect(told(viewer)).toEqual(before);
+  await load('other.json', '{"lights": 3}');
+  await until('a refusal', async () =>
+    ((await viewer.page.locator('#banner-text').textContent()) ?? '').startsWith("other.json is no light set",
+    ),
+  );
+  expect(told(viewer)).toEqual(before);
+});

@@ -1,0 +1,15 @@
+// Files of placed lights, as the page saves them and --light-set reads them.
+#pragma once
+
+#include "core/error.h"
+#include "view/placed_lights.h"
+
+#include <filesystem>
+
+namespace froxel::app {
+
+// The canonical JSON of a PlacedLights message that has `lights` alone. Errors: kIo;
+// kInvalidArgument naming the file, the field, its value and what would be right.
+[[nodiscard]] Result<view::PlacedLights> readLightSet(const std::filesystem::path& path);
+
+} // namespace froxel::app

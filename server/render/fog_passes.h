@@ -1,0 +1,12 @@
+// The passes of fog, as those of passes.h.
+#pragma once
+
+#include "render/frame_recorder.h"
+
+namespace froxel::render {
+
+void recordFogScatter(const FrameContext& frame);   // reads lights and lists; writes the volume
+void recordFogIntegrate(const FrameContext& frame); // adds it up from front to back
+void recordFogApply(const FrameContext& frame); // reads volume and depth; radiance seen through fog
+
+} // namespace froxel::render

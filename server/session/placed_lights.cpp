@@ -1,0 +1,197 @@
+#include "session/placed_lights.h"
+
+#include "session/enum_field.h"
+#include "session/json_input.h"
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace froxel::session {
+namespace {
+
+std::string element(const char* list, int index) {
+    return std::string(list) + "[" + numberText(index) + "]";
+}
+
+glm::dvec3 vec(const v1::Vec3& value) {
+    return {value.x(), value.y(), value.z()};
+}
+
+PlacedLightChange
+decodeLight(const std::string& field, const v1::PlacedLight& light, FieldValidator& fields) {
+    PlacedLightChange change;
+    change.id = fields.number(field + ".id", view::kPlacedIdRange, light.id());
+    if (light.has_kind()) {
+        change.kind = enumeration(fields, field + ".kind", kLightKindTable, light.kind());
+    }
+    if (light.has_position()) {
+        change.position_world = fields.position(field + ".position", vec(light.position()));
+    }
+    if (light.has_direction()) {
+        change.direction_world = vec(light.direction());
+        fields.number(field + ".direction", view::kUpRange, glm::length(*change.direction_world));
+    }
+    if (light.has_color()) {
+        const glm::dvec3 color = vec(light.color());
+        for (const double part : {color.x, color.y, color.z}) {
+            fields.number(field + ".color", view::kPlacedColorRange, part);
+        }
+        change.color = glm::vec3(color);
+    }
+    if (light.has_intensity()) {
+        change.intensity =
+            fields.number(field + ".intensity", view::kLightIntensityRange, light.intensity());
+    }
+    if (light.has_radius_m()) {
+        change.radius_m =
+            fields.number(field + ".radius_m", view::kLightRadiusRange, light.radius_m());
+    }
+    if (light.has_inner_cone_deg()) {
+        change.inner_cone_deg =
+            fields.number(field + ".inner_cone_deg", view::kConeRange, light.inner_cone_deg());
+    }
+    if (light.has_outer_cone_deg()) {
+        change.outer_cone_deg =
+            fields.number(field + ".outer_cone_deg", view::kConeRange, light.outer_cone_deg());
+    }
+    return change;
+}
+
+void apply(const PlacedLightChange& change, view::PlacedLight& light) {
+    light.id = change.id;
+    light.kind = change.kind.value_or(light.kind);
+    light.position_world = change.position_world.value_or(light.position_world);
+    light.direction_world = change.direction_world.value_or(light.direction_world);
+    light.color = change.color.value_or(light.color);
+    light.intensity =
+        static_cast<float>(change.intensity.value_or(static_cast<double>(light.intensity)));
+    light.radius_m =
+        static_cast<float>(change.radius_m.value_or(static_cast<double>(light.radius_m)));
+    light.inner_cone_deg = change.inner_cone_deg.value_or(light.inner_cone_deg);
+    light.outer_cone_deg = change.outer_cone_deg.value_or(light.outer_cone_deg);
+}
+
+Rejection outOfRange(const std::string& field, const std::string& text) {
+    return {RejectCode::kOutOfRange, 0, field, field + " " + text};
+}
+
+void fill(v1::Vec3& out, const glm::dvec3& value) {
+    out.set_x(value.x);
+    out.set_y(value.y);
+    out.set_z(value.z);
+}
+
+void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
+    out.set_id(light.id);
+    out.set_kind(toProto(kLightKindTable, light.kind));
+    fill(*out.mutable_position(), light.position_world);
+    fill(*out.mutable_direction(), light.direction_world);
+    fill(*out.mutable_color(), glm::dvec3(light.color));
+    out.set_intensity(static_cast<double>(light.intensity));
+    out.set_radius_m(static_cast<double>(light.radius_m));
+    out.set_inner_cone_deg(light.inner_cone_deg);
+    out.set_outer_cone_deg(light.outer_cone_deg);
+}
+
+} // namespace
+
+SetPlacedLights decodePlacedLights(const v1::PlacedLights& set, FieldValidator& fields) {
+    fields.require(set.clear() || set.remove_size() > 0 || set.lights_size() > 0, "lights");
+    SetPlacedLights command;
+    command.clear = set.clear();
+    command.remove.assign(set.remove().begin(), set.remove().end());
+    std::set<uint32_t> ids;
+    for (int i = 0; i < set.lights_size(); ++i) {
+        const std::string field = element("lights", i);
+        command.lights.push_back(decodeLight(field, set.lights(i), fields));
+        if (!ids.insert(set.lights(i).id()).second) {
+            fields.fail(RejectCode::kOutOfRange, field + ".id",
+                        "is " + numberText(set.lights(i).id()) + "; another light has it");
+        }
+    }
+    return command;
+}
+
+CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
+                                          const SetPlacedLights& change) {
+    std::map<uint32_t, view::PlacedLight> by_id;
+    if (!change.clear) {
+        for (const view::PlacedLight& light : lights.lights()) {
+            by_id.emplace(light.id, light);
+        }
+    }
+    for (size_t i = 0; i < change.remove.size(); ++i) {
+        if (by_id.erase(change.remove[i]) == 0) {
+            return outOfRange(element("remove", static_cast<int>(i)),
+                              "is " + numberText(change.remove[i]) + "; there is no such light");
+        }
+    }
+    for (size_t i = 0; i < change.lights.size(); ++i) {
+        const PlacedLightChange& wanted = change.lights[i];
+        const std::string field = element("lights", static_cast<int>(i));
+        const auto [light, added] = by_id.try_emplace(wanted.id);
+        if (added && !wanted.position_world) {
+            return outOfRange(field + ".position",
+                              "is missing; light " + numberText(wanted.id) + " is not there yet");
+        }
+        apply(wanted, light->second);
+        if (light->second.inner_cone_deg > light->second.outer_cone_deg) {
+            return outOfRange(field + ".inner_cone_deg",
+                              "is " + numberText(light->second.inner_cone_deg) +
+                                  "; it must be at most outer_cone_deg, " +
+                                  numberText(light->second.outer_cone_deg));
+        }
+    }
+    if (by_id.size() > view::kPlacedCountRange.max) {
+        return outOfRange("lights", "would be " + numberText(by_id.size()) + "; at most " +
+                                        numberText(view::kPlacedCountRange.max) + " are kept");
+    }
+    std::vector<view::PlacedLight> ordered;
+    ordered.reserve(by_id.size());
+    for (const auto& [id, light] : by_id) {
+        ordered.push_back(light);
+    }
+    return view::PlacedLights(std::move(ordered));
+}
+
+CommandResult<view::PlacedLights> parseLightSet(std::string_view json) {
+    v1::PlacedLights set;
+    if (const auto parsed =
+            parseJson({reinterpret_cast<const std::byte*>(json.data()), json.size()}, set);
+        !parsed) {
+        return parsed.error();
+    }
+    FieldValidator fields;
+    const SetPlacedLights command = decodePlacedLights(set, fields);
+    if (fields.rejection()) {
+        return *fields.rejection();
+    }
+    if (command.clear || !command.remove.empty()) {
+        const std::string field = command.clear ? "clear" : "remove";
+        return outOfRange(field, "is there; a light set has lights alone");
+    }
+    return changed({}, command);
+}
+
+v1::PlacedLights changeOf(const view::PlacedLights& told, const view::PlacedLights& now) {
+    v1::PlacedLights change;
+    if (told == now) {
+        return change;
+    }
+    for (const view::PlacedLight& light : told.lights()) {
+        if (now.find(light.id) == nullptr) {
+            change.add_remove(light.id);
+        }
+    }
+    for (const view::PlacedLight& light : now.lights()) {
+        const view::PlacedLight* before = told.find(light.id);
+        if (before == nullptr || !(*before == light)) {
+            fill(*change.add_lights(), light);
+        }
+    }
+    return change;
+}
+
+} // namespace froxel::session

@@ -1,0 +1,29 @@
+// Placed lights between the protocol and the view: the change that a command asks for, a set from a
+// file, and what a viewer is to be told. Pure; any thread.
+#pragma once
+
+#include "froxel/v1/common.pb.h"
+#include "session/command.h"
+#include "session/field_validator.h"
+
+#include <string_view>
+
+namespace froxel::session {
+
+[[nodiscard]] SetPlacedLights decodePlacedLights(const v1::PlacedLights& set,
+                                                 FieldValidator& fields);
+
+// `lights` after the change. Refused, kOutOfRange: an id to be removed that is not there, a new
+// light without a position, a cone inside out, more than view::kPlacedCountRange.
+[[nodiscard]] CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
+                                                        const SetPlacedLights& change);
+
+// The canonical JSON of a v1::PlacedLights that has `lights` alone, untrusted. Refused: as
+// parseJson, decodePlacedLights and changed, and a set that clears or removes.
+[[nodiscard]] CommandResult<view::PlacedLights> parseLightSet(std::string_view json);
+
+// The change that takes `told` to `now`; empty where they are equal.
+[[nodiscard]] v1::PlacedLights changeOf(const view::PlacedLights& told,
+                                        const view::PlacedLights& now);
+
+} // namespace froxel::session

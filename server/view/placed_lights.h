@@ -1,0 +1,47 @@
+// Lights that viewers place, one by one or as a set from a file. Immutable and shared: copies of
+// settings are made for every frame.
+#pragma once
+
+#include "core/math.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace froxel::view {
+
+enum class LightKind : uint8_t { kPoint, kSpot };
+inline constexpr std::array kLightKindNames = {std::string_view("point"), std::string_view("spot")};
+
+struct PlacedLight {
+    uint32_t id = 0; // of who placed it; not 0
+    LightKind kind = LightKind::kPoint;
+    glm::dvec3 position_world{0};
+    glm::dvec3 direction_world{0, -1, 0}; // the way a spot's light travels; of any length but 0
+    glm::vec3 color{1};                   // linear, 0 to 1
+    float intensity = 1;
+    float radius_m = 2;         // where its contribution reaches exactly 0
+    double inner_cone_deg = 30; // half angles; spots only
+    double outer_cone_deg = 45;
+    bool operator==(const PlacedLight&) const = default;
+};
+
+class PlacedLights {
+  public:
+    PlacedLights() = default;
+    // Ids ascend, none is there twice.
+    explicit PlacedLights(std::vector<PlacedLight> lights);
+
+    [[nodiscard]] std::span<const PlacedLight> lights() const;
+    // Null where there is none of that id.
+    [[nodiscard]] const PlacedLight* find(uint32_t id) const;
+    [[nodiscard]] bool operator==(const PlacedLights& other) const;
+
+  private:
+    std::shared_ptr<const std::vector<PlacedLight>> lights_; // null: none
+};
+
+} // namespace froxel::view

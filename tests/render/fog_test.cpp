@@ -1,0 +1,410 @@
+// Fog against closed forms, against lights integrated in double, and against itself.
+#include "hall/hall.h"
+#include "reference/rays.h"
+#include "reference/shade.h"
+#include "render/visibility_readback.h"
+#include "support/draw.h"
+#include "support/gpu_fixture.h"
+#include "support/shapes.h"
+#include "support/test_scenes.h"
+#include "view/environment.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::test {
+
+namespace {
+
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::Not;
+using view::Renderer;
+
+class Fog : public SharedGpuTest {
+  protected:
+    [[nodiscard]] static std::map<std::string, uint64_t> memory() {
+        return device().memoryLedger()->byPurpose();
+    }
+};
+
+constexpr view::Size kSize{160, 90};
+
+render::FrameInputs inputsFor(const view::Camera& camera, uint32_t lights) {
+    render::FrameInputs inputs;
+    inputs.settings.camera = camera;
+    inputs.settings.size = kSize;
+    inputs.settings.lights.count = lights;
+    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.time_s = 1.5;
+    return inputs;
+}
+
+view::Camera ahead() {
+    return view::lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
+}
+
+std::vector<std::string> passesOf(const Picture& picture) {
+    std::vector<std::string> names;
+    for (const auto& pass : picture.stats.passes) {
+        names.emplace_back(pass.name);
+    }
+    return names;
+}
+
+LinearImage
+meant(render::Renderer& renderer, const scene::Scene& scene, const render::FrameInputs& inputs) {
+    const auto seen = render::readVisibility(
+        renderer, scene, {.settings = inputs.settings, .time_s = inputs.time_s});
+    EXPECT_TRUE(seen);
+    auto picture = reference::shade(scene, inputs.settings, inputs.time_s, *seen);
+    EXPECT_TRUE(picture);
+    return std::move(*picture);
+}
+
+// What is off of a picture's light, as a share of it. Not its square: a ray that meets a lamp has a
+// peak of its own, as narrow as a ray.
+double errorOf(const std::vector<float>& drawn, const std::vector<float>& right) {
+    EXPECT_EQ(drawn.size(), right.size());
+    double off = 0;
+    double sum = 0;
+    for (size_t i = 0; i < drawn.size(); ++i) {
+        off += std::abs(static_cast<double>(drawn[i]) - static_cast<double>(right[i]));
+        sum += static_cast<double>(right[i]);
+    }
+    return off / sum;
+}
+
+double errorOf(render::Renderer& renderer,
+               const LinearImage& reference,
+               const render::FrameInputs& inputs) {
+    return errorOf(draw(renderer, inputs).radiance, reference.rgb);
+}
+
+// Lamps in an empty box: what is seen is their light in the air.
+SceneMaker lampsInTheAir() {
+    auto maker = insideOfABox(8);
+    maker.point({-1.5, 0.5, -4}, 3, 2).point({1, -1, -6}, 0, 1).point({2, 1, -3}, 2, 4);
+    maker.spot({-3, 3, -5}, {0.5, -1, 0}, 7, 10, 25);
+    return maker;
+}
+
+} // namespace
+
+// No light but that from all around: exp(-density d) of the surface, the rest from the air.
+TEST_F(Fog, ConstantWithoutLights_IsTheClosedForm) {
+    auto maker = wallAhead(4);
+    maker.scene.materials[0].unlit = true;
+    render::Renderer renderer(device(), maker.scene);
+    for (const auto projection :
+         {view::Projection::kPerspective, view::Projection::kOrthographic}) {
+        auto inputs = inputsFor(ahead(), 0);
+        inputs.settings.renderer = Renderer::kForwardPlus; // whose colours are not rounded
+        inputs.settings.camera.projection = projection;
+        inputs.settings.camera.half_height_m = 12;         // past the wall's edge
+        inputs.settings.camera.lens_shift = {0.31, -0.21}; // no centre on an edge
+        const reference::PixelRays rays(inputs.settings.camera, kSize);
+        for (const float density : {0.001F, 0.1F, 2.0F, 50.0F}) {
+            inputs.settings.fog.density = density;
+            const Picture picture = draw(renderer, inputs);
+            EXPECT_THAT(passesOf(picture), Not(Contains("fog_scatter")));
+            double worst = 0;
+            size_t covered = 0;
+            for (uint32_t y = 0; y < kSize.height_px; ++y) {
+                for (uint32_t x = 0; x < kSize.width_px; ++x) {
+                    const auto ray = rays.through(x, y);
+                    const glm::dvec3 at = ray.origin + ray.direction * 4.0;
+                    const bool wall = std::max(std::abs(at.x), std::abs(at.y)) < 10;
+                    covered += wall ? 1U : 0U;
+                    const double kept = wall ? std::exp(-static_cast<double>(density) *
+                                                        glm::length(ray.direction * 4.0))
+                                             : 0.0;
+                    for (int c = 0; c < 3; ++c) {
+                        const auto air = 0.5 * static_cast<double>(view::kAmbientSky[c] +
+                                                                   view::kAmbientGround[c]);
+                        const double right = kept * 1.0 + (1 - kept) * air;
+                        const size_t i = 3 * (size_t{y} * kSize.width_px + x);
+                        const auto drawn =
+                            static_cast<double>(picture.radiance[i + static_cast<size_t>(c)]);
+                        worst = std::max(worst, std::abs(drawn - right) / right);
+                    }
+                }
+            }
+            EXPECT_LT(worst, 2e-5) << density;
+            EXPECT_GT(covered, 500U);
+        }
+    }
+}
+
+// White air lights nothing up and dims nothing where all around has one radiance.
+TEST_F(Fog, Furnace_OfAlbedoOne_ShowsNothing) {
+    auto maker = insideOfABox(5);
+    auto& walls = maker.scene.materials[0];
+    const glm::vec3 around = 0.5F * (view::kAmbientSky + view::kAmbientGround);
+    walls.unlit = true;
+    walls.base_color = glm::vec4(around, 1);
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = inputsFor(ahead(), 0);
+    inputs.settings.renderer = Renderer::kForwardPlus;
+    for (const float falloff : {0.0F, 0.7F}) {
+        for (const float density : {0.01F, 0.5F, 10.0F}) {
+            inputs.settings.fog = {.density = density, .height_falloff = falloff};
+            const Picture picture = draw(renderer, inputs);
+            for (size_t i = 0; i < picture.radiance.size(); ++i) {
+                const float right = around[static_cast<int>(i % 3)];
+                ASSERT_NEAR(picture.radiance[i], right, 1e-5F * right) << density;
+            }
+        }
+    }
+}
+
+TEST_F(Fog, NoDensity_IsNoFogBitForBit) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(scene.cameras[0].camera, 30);
+    (void)draw(view, inputs); // which measures the overdraw
+    const Picture without = draw(view, inputs);
+    inputs.settings.fog = {.density = 0, .height_falloff = 1, .half_rate = true, .noise = true};
+    const Picture none = draw(view, inputs);
+    EXPECT_EQ(differingFloats(without, none), 0U);
+    EXPECT_EQ(without.rgba8, none.rgba8);
+    EXPECT_THAT(memory(), Not(Contains(Key("fog volume"))));
+    EXPECT_EQ(passesOf(without), passesOf(none));
+    inputs.settings.fog = {.density = 0.1F, .albedo = {0, 0, 0}}; // takes light and gives none
+    EXPECT_THAT(passesOf(draw(view, inputs)), Not(Contains("fog_scatter")));
+    inputs.settings.fog.albedo = {1, 1, 1};
+    const auto passes = passesOf(draw(view, inputs));
+    for (const char* name : {"fog_scatter", "fog_integrate", "fog"}) {
+        EXPECT_THAT(passes, Contains(name));
+    }
+    const uint64_t bytes = memory()["fog volume"];
+    EXPECT_GE(bytes, 11U * 7 * 64 * 16); // nodes of 160 x 90 pixels by 16, of four floats
+    EXPECT_LT(bytes, 11U * 7 * 64 * 16 + 65'536);
+    inputs.settings.fog.half_rate = true;
+    (void)draw(view, inputs);
+    EXPECT_LT(memory()["fog volume"], bytes);
+    inputs.settings.fog = {};
+    EXPECT_EQ(differingFloats(without, draw(view, inputs)), 0U);
+    EXPECT_THAT(memory(), Not(Contains(Key("fog volume"))));
+}
+
+// The lists of empty space are whole: also behind the scene and at the eye.
+TEST_F(Fog, Lists_EqualAllLightsBitForBit) {
+    const auto scene = makeRoom(); // with glass
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (size_t camera = 0; camera < 3; ++camera) {
+        for (const float radius : {0.3F, 2.0F, 9.0F}) {
+            SCOPED_TRACE("camera " + std::to_string(camera) + ", " + std::to_string(radius) + " m");
+            auto inputs = inputsFor(scene.cameras[0].camera, 150);
+            if (camera == 1) {
+                inputs.settings.camera.projection = view::Projection::kOrthographic;
+                inputs.settings.camera.half_height_m = 3;
+            } else if (camera == 2) {
+                inputs.settings.camera.lens_shift = {0.7, -0.4};
+            }
+            inputs.settings.lights.radius_m = radius;
+            inputs.settings.lights.box = BoundsD3{{-6, -2, -9}, {6, 5, 9}}; // around the room
+            inputs.settings.fog = {.density = 0.05F, .height_falloff = 0.1F, .anisotropy = 0.5F};
+            inputs.settings.renderer = Renderer::kNaive;
+            const Picture naive = draw(view, inputs);
+            for (const float value : naive.radiance) {
+                ASSERT_TRUE(std::isfinite(value));
+            }
+            inputs.settings.renderer = Renderer::kForwardPlus;
+            EXPECT_EQ(differingFloats(naive, draw(view, inputs)), 0U);
+            inputs.settings.renderer = Renderer::kClusteredDeferred;
+            const Picture clustered = draw(view, inputs);
+            inputs.settings.lighting = view::LightingStage::kFragment;
+            EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
+            inputs.settings.light_loop = view::LightLoop::kAllLights;
+            EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
+        }
+    }
+}
+
+TEST_F(Fog, Grids_AnyLawAndSize_GiveTheSamePicture) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(scene.cameras[0].camera, 200);
+    inputs.settings.fog.density = 0.1F;
+    const Picture first = draw(view, inputs);
+    for (const view::GridSize grid : {view::GridSize{1, 1, 1}, {15, 15, 15}, {128, 128, 3}}) {
+        for (const auto law :
+             {view::GridLaw::kLogarithmic, view::GridLaw::kLinear, view::GridLaw::kHyperbolic}) {
+            inputs.settings.grid = {.automatic = false, .size = grid, .law = law};
+            EXPECT_EQ(differingFloats(first, draw(view, inputs)), 0U) << grid.x;
+        }
+    }
+}
+
+// Finer volumes come to what is integrated in double; the figures are in ARCHITECTURE.md.
+TEST_F(Fog, FinerVolumes_ComeToTheReference) {
+    const auto maker = lampsInTheAir();
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = inputsFor(ahead(), 0);
+    inputs.settings.renderer = Renderer::kForwardPlus;
+    inputs.settings.shading = view::ShadingModel::kLambert;
+    const std::pair<const char*, view::Fog> media[] = {
+        {"thin", {.density = 0.02F}},
+        {"onwards", {.density = 0.1F, .anisotropy = 0.6F, .albedo = {0.9F, 0.6F, 0.3F}}},
+        {"by height", {.density = 0.3F, .height_falloff = 0.8F, .base_height_m = -1}},
+        {"dense", {.density = 1.5F}}};
+    for (const auto& [name, fog] : media) {
+        SCOPED_TRACE(name);
+        inputs.settings.fog = fog;
+        const LinearImage reference = meant(renderer, maker.scene, inputs);
+        std::vector<double> errors;
+        for (const auto& [tile, slices] :
+             {std::pair(32U, 32U), {16U, 64U}, {8U, 128U}, {4U, 256U}}) {
+            inputs.settings.fog.tile_px = tile;
+            inputs.settings.fog.slice_count = slices;
+            errors.push_back(errorOf(renderer, reference, inputs));
+        }
+        EXPECT_LT(errors[1], errors[0]);
+        EXPECT_LT(errors[2], errors[1]);
+        EXPECT_LT(errors[3], errors[2]);
+        EXPECT_LT(errors[3], 0.025);
+        inputs.settings.fog.tile_px = 8;
+        inputs.settings.fog.slice_count = 128;
+        inputs.settings.fog.half_rate = true; // is 16 px and 64 slices
+        EXPECT_EQ(errorOf(renderer, reference, inputs), errors[1]);
+    }
+}
+
+// Blended surfaces, parallel rays, an off-centre lens, the eye within lights; by every renderer
+// that the reference knows.
+TEST_F(Fog, Room_IsAsIntegratedInDouble) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    for (const bool parallel : {false, true}) {
+        auto inputs = inputsFor(scene.cameras[0].camera, 12);
+        inputs.settings.lights.radius_m = 5;
+        inputs.settings.shading = view::ShadingModel::kLambert;
+        inputs.settings.renderer = Renderer::kForwardPlus;
+        if (parallel) {
+            inputs.settings.camera.projection = view::Projection::kOrthographic;
+            inputs.settings.camera.half_height_m = 2;
+        }
+        inputs.settings.camera.lens_shift = {0.2, 0.1};
+        inputs.settings.fog = {.density = 0.08F, .anisotropy = 0.3F};
+        inputs.settings.fog.tile_px = 4;
+        inputs.settings.fog.slice_count = 128;
+        const LinearImage with = meant(renderer, scene, inputs);
+        const double error = errorOf(renderer, with, inputs);
+        auto clear = inputs;
+        clear.settings.fog = {};
+        const double before = errorOf(renderer, meant(renderer, scene, clear), clear);
+        EXPECT_LT(error, before + 0.02) << parallel; // textures' filters and normal maps
+        // Without the surfaces' fog the picture would be far off.
+        EXPECT_GT(errorOf(renderer, with, clear), 0.1);
+    }
+}
+
+TEST_F(Fog, Frames_ArePureFunctionsOfTheirInputs) {
+    const auto maker = lampsInTheAir();
+    render::Renderer renderer(device(), maker.scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(ahead(), 0); // lamps that stand still
+    inputs.settings.fog.density = 0.1F;
+    const Picture first = draw(view, inputs);
+    inputs.time_s = 7;
+    EXPECT_EQ(differingFloats(first, draw(view, inputs)), 0U); // no noise: time is nothing
+    inputs.settings.fog.noise = true;
+    const Picture noisy = draw(view, inputs);
+    EXPECT_GT(differingFloats(first, noisy), 0U);
+    inputs.time_s = 8;
+    EXPECT_GT(differingFloats(noisy, draw(view, inputs)), 0U);
+    inputs.time_s = 7;
+    EXPECT_EQ(differingFloats(noisy, draw(renderer, inputs)), 0U); // also by another viewer
+}
+
+// The volume's tiles are of pixels, so four samples of one see the same volume.
+TEST_F(Fog, FourSamples_AreThePictureOfTwiceTheSidesInItsMean) {
+    const auto maker = lampsInTheAir();
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = inputsFor(ahead(), 0);
+    inputs.settings.fog.density = 0.1F;
+    inputs.settings.bloom = {view::BloomKind::kNone};
+    inputs.settings.antialiasing = view::Antialiasing::kSsaa4;
+    const Picture resolved = draw(renderer, inputs);
+    inputs.settings.antialiasing = view::Antialiasing::kNone;
+    inputs.settings.size = {2 * kSize.width_px, 2 * kSize.height_px};
+    inputs.settings.fog.tile_px = 32;
+    const Picture samples = draw(renderer, inputs);
+    ASSERT_EQ(resolved.radiance.size() * 4, samples.radiance.size());
+    for (uint32_t i = 0; i < resolved.radiance.size(); ++i) {
+        const uint32_t x = i / 3 % kSize.width_px;
+        const uint32_t y = i / 3 / kSize.width_px;
+        double sum = 0;
+        for (uint32_t s = 0; s < 4; ++s) {
+            const size_t at = size_t{2 * y + s / 2} * samples.width_px + 2 * x + s % 2;
+            sum += 0.25 * static_cast<double>(samples.radiance[3 * at + i % 3]);
+        }
+        ASSERT_NEAR(resolved.radiance[i], sum, 1e-5 * sum);
+    }
+}
+
+// Debug views in the picture's place show surfaces, and those over it lie on the fog.
+TEST_F(Fog, DebugViews_AreNotFogged) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(scene.cameras[0].camera, 20);
+    for (const auto debug : {view::DebugView::kNormal, view::DebugView::kBaseColor}) {
+        inputs.settings.debug.view = debug;
+        inputs.settings.fog.density = 0;
+        const Picture without = drawPixels(view, inputs);
+        inputs.settings.fog.density = 0.5F;
+        const Picture with = drawPixels(view, inputs);
+        EXPECT_EQ(without.rgba8, with.rgba8);
+        EXPECT_THAT(passesOf(with), Not(Contains("fog")));
+    }
+    inputs.settings.debug.view = view::DebugView::kLightSpheres;
+    const auto passes = passesOf(drawPixels(view, inputs));
+    EXPECT_THAT(passes, Contains("fog"));
+    EXPECT_THAT(passes, Contains("wires"));
+}
+
+TEST_F(Fog, WithAllElse_EveryRendererIsFiniteAndRepeats) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+        auto inputs = inputsFor(scene.cameras[0].camera, 40);
+        inputs.settings.renderer = static_cast<Renderer>(kind);
+        const Picture clear = draw(view, inputs);
+        inputs.settings.fog = {.density = 0.1F, .height_falloff = 0.2F, .noise = true};
+        inputs.settings.bloom.kind = view::BloomKind::kMipChain;
+        inputs.settings.toon_outline.strength = 0.5F;
+        inputs.settings.antialiasing = view::Antialiasing::kFxaa;
+        const Picture picture = draw(view, inputs);
+        for (const float value : picture.radiance) {
+            ASSERT_TRUE(std::isfinite(value)) << view::kRendererNames[kind];
+        }
+        EXPECT_GT(differingFloats(clear, picture), 0U);
+        EXPECT_EQ(picture.rgba8, draw(view, inputs).rgba8) << view::kRendererNames[kind];
+    }
+}
+
+TEST_F(Fog, TooManyFroxels_AreRefusedAndTheNextFrameIsDrawn) {
+    const auto scene = makeRoom();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(scene.cameras[0].camera, 5);
+    inputs.settings.fog.density = 0.1F;
+    const Picture before = draw(view, inputs);
+    auto many = inputs;
+    many.settings.size = {3840, 2160};
+    many.settings.fog.tile_px = 4;
+    many.settings.fog.slice_count = 256;
+    const auto refused = view.submit(many);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    EXPECT_THAT(refused.error().message, ::testing::HasSubstr("fog_tile and fog_slices"));
+    EXPECT_EQ(differingFloats(before, draw(view, inputs)), 0U);
+}
+
+} // namespace froxel::test

@@ -1,0 +1,133 @@
+// Placed lights: commands, their effect, sets from files.
+#include "session/placed_lights.h"
+#include "unit/session/messages.h"
+
+#include <gmock/gmock.h>
+
+namespace froxel::session {
+namespace {
+
+using ::testing::HasSubstr;
+
+SetPlacedLights decoded(const std::string& body) {
+    return accepted<SetPlacedLights>(decodeBody("\"setPlacedLights\":{" + body + "}"));
+}
+
+view::PlacedLights after(const view::PlacedLights& before, const std::string& body) {
+    const auto result = changed(before, decoded(body));
+    if (!result) {
+        ADD_FAILURE() << result.error().message;
+        return before;
+    }
+    return *result;
+}
+
+std::string refusal(const view::PlacedLights& before, const std::string& body) {
+    const auto result = changed(before, decoded(body));
+    EXPECT_FALSE(result) << body;
+    return result ? "" : result.error().message;
+}
+
+const std::string kTwo = R"("lights":[{"id":9,"position":{"x":1}},
+                                      {"id":2,"position":{"y":1},"kind":"LIGHT_KIND_SPOT"}])";
+
+TEST(PlacedLights, New_HaveDefaultsAndAscendById) {
+    const auto placed = after({}, kTwo);
+    ASSERT_EQ(placed.lights().size(), 2U);
+    EXPECT_EQ(placed.lights()[0].id, 2U);
+    EXPECT_EQ(placed.lights()[1].id, 9U);
+    const view::PlacedLight* light = placed.find(9);
+    ASSERT_NE(light, nullptr);
+    EXPECT_EQ(light->kind, view::LightKind::kPoint);
+    EXPECT_EQ(light->position_world, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(light->color, glm::vec3(1));
+    EXPECT_EQ(light->intensity, 1);
+    EXPECT_EQ(light->radius_m, 2);
+    EXPECT_EQ(placed.find(2)->kind, view::LightKind::kSpot);
+    EXPECT_EQ(placed.find(3), nullptr);
+}
+
+TEST(PlacedLights, Changed_KeepWhatIsAbsent) {
+    const auto before = after({}, kTwo);
+    const auto placed = after(before, R"("lights":[{"id":9,"radiusM":5,"color":{"x":0.5}}])");
+    EXPECT_EQ(placed.find(9)->position_world, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(placed.find(9)->radius_m, 5);
+    EXPECT_EQ(placed.find(9)->color, glm::vec3(0.5F, 0, 0));
+    EXPECT_EQ(before.find(9)->radius_m, 2); // the set before is another
+    EXPECT_FALSE(placed == before);
+    EXPECT_TRUE(after(placed, R"("lights":[{"id":9,"radiusM":2,"color":{"x":1,"y":1,"z":1}}])") ==
+                before);
+}
+
+TEST(PlacedLights, ClearAndRemove_ComeFirst) {
+    const auto before = after({}, kTwo);
+    EXPECT_EQ(after(before, R"("remove":[2])").lights().size(), 1U);
+    EXPECT_TRUE(after(before, R"("clear":true)").lights().empty());
+    const auto replaced = after(before, R"("clear":true,"lights":[{"id":2,"position":{}}])");
+    ASSERT_EQ(replaced.lights().size(), 1U);
+    EXPECT_EQ(replaced.find(2)->kind, view::LightKind::kPoint); // new, not changed
+}
+
+TEST(PlacedLights, WhatCannotBe_IsRefusedByName) {
+    const auto before = after({}, kTwo);
+    EXPECT_EQ(refusal(before, R"("remove":[9,4])"), "remove[1] is 4; there is no such light");
+    EXPECT_EQ(refusal(before, R"("lights":[{"id":4,"radiusM":1}])"),
+              "lights[0].position is missing; light 4 is not there yet");
+    EXPECT_EQ(refusal(before, R"("lights":[{"id":2,"innerConeDeg":60}])"),
+              "lights[0].inner_cone_deg is 60; it must be at most outer_cone_deg, 45");
+}
+
+TEST(PlacedLights, Fields_AreCheckedWhenDecoded) {
+    const auto message = [](const std::string& body) {
+        return refused(decodeBody("\"setPlacedLights\":{" + body + "}")).message;
+    };
+    EXPECT_EQ(message(""), "lights is missing");
+    EXPECT_THAT(message(R"("lights":[{"position":{}}])"), HasSubstr("lights[0].id is 0"));
+    EXPECT_EQ(message(R"("lights":[{"id":1,"position":{}},{"id":1,"position":{}}])"),
+              "lights[1].id is 1; another light has it");
+    EXPECT_THAT(message(R"("lights":[{"id":1,"direction":{}}])"),
+                HasSubstr("lights[0].direction is 0"));
+    EXPECT_THAT(message(R"("lights":[{"id":1,"intensity":-1}])"),
+                HasSubstr("lights[0].intensity is -1"));
+    EXPECT_THAT(message(R"("lights":[{"id":1,"kind":9}])"),
+                HasSubstr("known are LIGHT_KIND_POINT"));
+}
+
+TEST(PlacedLights, MoreThanAreKept_AreRefused) {
+    SetPlacedLights command;
+    for (uint32_t id = 1; id <= view::kPlacedCountRange.max + 1; ++id) {
+        PlacedLightChange light;
+        light.id = id;
+        light.position_world = glm::dvec3(id);
+        command.lights.push_back(light);
+    }
+    EXPECT_THAT(changed({}, command).error().message,
+                HasSubstr("lights would be 2049; at most 2048"));
+    command.lights.pop_back();
+    EXPECT_EQ(changed({}, command)->lights().size(), 2048U);
+}
+
+TEST(LightSet, OfAFile_IsTheMessageWithLightsAlone) {
+    const auto set = parseLightSet("{" + kTwo + "}");
+    ASSERT_TRUE(set) << set.error().message;
+    EXPECT_EQ(set->lights().size(), 2U);
+    EXPECT_EQ(parseLightSet(R"({"lights":[],"clear":true})").error().message,
+              "clear is there; a light set has lights alone");
+    EXPECT_THAT(parseLightSet("[1]").error().message, HasSubstr("must be an object"));
+    EXPECT_THAT(parseLightSet("{\"lights\":[{").error().message, HasSubstr("not JSON"));
+    EXPECT_THAT(parseLightSet("{\"lights\":[{\"id\":1}]}").error().message,
+                HasSubstr("lights[0].position is missing"));
+}
+
+TEST(LightSet, Change_TakesOneToTheOther) {
+    const auto before = after({}, kTwo);
+    const auto now = after(before, R"("remove":[2],"lights":[{"id":3,"position":{"z":1}}])");
+    v1::ClientMessage message = clientMessage();
+    *message.mutable_set_placed_lights() = changeOf(before, now);
+    const auto command = accepted<SetPlacedLights>(decodeBinary(message));
+    EXPECT_TRUE(*changed(before, command) == now);
+    EXPECT_EQ(changeOf(now, now).ByteSizeLong(), 0U);
+}
+
+} // namespace
+} // namespace froxel::session
