@@ -59,9 +59,8 @@ void Conversation::handle(const CommandMessage& message, TimePoint now) {
 void Conversation::greet(const CommandMessage& message, TimePoint now) {
     const auto& hello = std::get<session::Hello>(message.body);
     if (gate_ && !gate_->lets(hello.token)) {
-        const std::string why = hello.token.empty() ? "token is missing" : "token is unknown";
-        reject({RejectCode::kToken, message.stamp.seq, "token", why}, now);
-        return;
+        const char* why = hello.token.empty() ? "token is missing" : "token is unknown";
+        return reject({RejectCode::kToken, message.stamp.seq, "token", why}, now);
     }
     hello_ = hello;
     hello_.token.clear();
@@ -347,7 +346,7 @@ Outgoing Conversation::stateMessage() {
     session::SessionState state = seat_->session->state();
     state.applied = newest_;
     const auto told = std::exchange(told_placed_, state.settings.lights.placed);
-    return inReply(session::makeStateChanged(seat_->session->context(), state, told));
+    return inReply(makeStateChanged(seat_->session->context(), state, told));
 }
 
 // What the next picture's details say, where that is news: decided now, since pictures before it

@@ -125,4 +125,16 @@ void recordBloomStep(const vk::raii::CommandBuffer& cmd,
     cmd.dispatch(screenGroups(pass.target_width_px), screenGroups(pass.target_height_px), 1);
 }
 
+std::shared_ptr<BloomTargets> bloomTargetsFor(const gpu::Device& device,
+                                              const BloomPipelines& pipelines,
+                                              const BloomPlan& plan,
+                                              const std::shared_ptr<ViewTargets>& view,
+                                              std::shared_ptr<BloomTargets> kept) {
+    if (kept && kept->fits(plan, *view)) {
+        return kept;
+    }
+    kept.reset(); // before others are made
+    return std::make_shared<BloomTargets>(device, pipelines, plan, view);
+}
+
 } // namespace froxel::render

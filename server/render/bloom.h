@@ -63,4 +63,12 @@ void recordBloomStep(const vk::raii::CommandBuffer& cmd,
                      const BloomPlan& plan,
                      size_t step);
 
+// `kept` where it fits the plan and the view, else others. Throws vk::OutOfDeviceMemoryError.
+[[nodiscard]] std::shared_ptr<BloomTargets>
+bloomTargetsFor(const gpu::Device& device,
+                const BloomPipelines& pipelines,
+                const BloomPlan& plan,
+                const std::shared_ptr<ViewTargets>& view,
+                std::shared_ptr<BloomTargets> kept);
+
 } // namespace froxel::render

@@ -79,4 +79,15 @@ FogVolume::FogVolume(const gpu::Device& device,
         {});
 }
 
+std::shared_ptr<FogVolume> fogVolumeFor(const gpu::Device& device,
+                                        const FogPipelines& pipelines,
+                                        uint64_t froxel_count,
+                                        std::shared_ptr<FogVolume> kept) {
+    if (kept && kept->froxels().size_bytes == kFroxelBytes * froxel_count) {
+        return kept;
+    }
+    kept.reset(); // before another is made
+    return std::make_shared<FogVolume>(device, pipelines, froxel_count);
+}
+
 } // namespace froxel::render

@@ -7,6 +7,7 @@
 #include "render/pipelines.h"
 #include "render/variant_cache.h"
 
+#include <memory>
 #include <utility>
 
 namespace froxel::render {
@@ -47,5 +48,11 @@ class FogVolume {
     vk::raii::DescriptorPool pool_;
     vk::raii::DescriptorSet set_{nullptr};
 };
+
+// `kept` where it has as many froxels, else another. Throws vk::OutOfDeviceMemoryError.
+[[nodiscard]] std::shared_ptr<FogVolume> fogVolumeFor(const gpu::Device& device,
+                                                      const FogPipelines& pipelines,
+                                                      uint64_t froxel_count,
+                                                      std::shared_ptr<FogVolume> kept);
 
 } // namespace froxel::render

@@ -60,11 +60,7 @@ struct ViewRenderer::Impl {
                         const FramePlan& plan,
                         const view::Size& drawn,
                         const view::Size& shown);
-    // Takes part in the frame where its plan is not null.
-    void prepareBloom(FrameSlot& slot, const BloomPlan* plan);
     void prepareBlend(FrameSlot& slot, const FramePlan& plan);
-    // Likewise, where it has froxels.
-    void prepareFog(FrameSlot& slot, uint64_t froxel_count);
     // Kept while settings ask for them, also with no light in view.
     void prepareShadows(FrameSlot& slot, const FramePlan& plan, const view::Shadows& settings);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
@@ -124,17 +120,6 @@ void ViewRenderer::Impl::prepareTargets(FrameSlot& slot,
     }
 }
 
-void ViewRenderer::Impl::prepareBloom(FrameSlot& slot, const BloomPlan* plan) {
-    slot.bloom.reset(); // its last frame has finished
-    if (plan == nullptr || (bloom && !bloom->fits(*plan, *targets))) {
-        bloom.reset();
-    }
-    if (plan != nullptr && !bloom) {
-        bloom = std::make_shared<BloomTargets>(scene.device, scene.bloom(), *plan, targets);
-    }
-    slot.bloom = bloom;
-}
-
 void ViewRenderer::Impl::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     slot.blend.reset(); // its last frame has finished
     slot.blend = blend =
@@ -143,17 +128,6 @@ void ViewRenderer::Impl::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     if (slot.counts_overflow && !slot.overflow) {
         slot.overflow = std::make_unique<gpu::SampleCounter>(scene.device);
     }
-}
-
-void ViewRenderer::Impl::prepareFog(FrameSlot& slot, uint64_t froxel_count) {
-    slot.fog.reset();
-    if (!fog || fog->froxels().size_bytes != kFroxelBytes * froxel_count) {
-        fog.reset();
-    }
-    if (froxel_count > 0 && !fog) {
-        fog = std::make_shared<FogVolume>(scene.device, scene.fog(), froxel_count);
-    }
-    slot.fog = fog;
 }
 
 void ViewRenderer::Impl::prepareShadows(FrameSlot& slot,
@@ -209,9 +183,16 @@ Result<void> ViewRenderer::Impl::submit(FrameSlot& slot, const FrameInputs& aske
     }
     const BloomPlan* bloom_steps = bloom_plan ? &*bloom_plan : nullptr;
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
-    prepareBloom(slot, bloom_steps);
+    slot.bloom.reset(); // its last frame has finished
+    slot.bloom = bloom =
+        bloom_steps != nullptr
+            ? bloomTargetsFor(scene.device, scene.bloom(), *bloom_steps, targets, std::move(bloom))
+            : nullptr;
     prepareBlend(slot, plan);
-    prepareFog(slot, plan.fog_volume ? froxelCount(builder.fog()) : 0);
+    slot.fog.reset(); // its last frame has finished
+    slot.fog = fog = plan.fog_volume ? fogVolumeFor(scene.device, scene.fog(),
+                                                    froxelCount(builder.fog()), std::move(fog))
+                                     : nullptr;
     prepareShadows(slot, plan, inputs.settings.shadows);
     const UploadOffsets offsets = builder.upload(slot);
     if (plan.shadows) {

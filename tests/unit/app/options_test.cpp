@@ -1,9 +1,7 @@
-#include "app/options.h"
-#include "core/error.h"
+#include "unit/app/parsed_options.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <gmock/gmock.h>
 #include <ostream>
 #include <string>
@@ -13,29 +11,6 @@ namespace froxel::app {
 namespace {
 
 using testing::HasSubstr;
-
-Options parse(std::vector<const char*> arguments) {
-    arguments.insert(arguments.begin(), "froxel");
-    return parseOptions(static_cast<int>(arguments.size()), arguments.data());
-}
-
-RenderOptions parseRender(std::vector<const char*> arguments) {
-    arguments.insert(arguments.begin(), {"render", "--out", "a.png"});
-    return std::get<RenderOptions>(parse(std::move(arguments)).command);
-}
-
-// The message of the usage error that the arguments must cause.
-std::string refusal(std::vector<const char*> arguments) {
-    try {
-        static_cast<void>(parse(std::move(arguments)));
-    } catch (const StartupError& error) {
-        EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "not one line";
-        return error.what();
-    }
-    ADD_FAILURE() << "accepted";
-    return {};
-}
 
 TEST(Options, RenderWithAll_FillsEveryField) {
     const auto options = parseRender({"--scene",
@@ -306,45 +281,6 @@ TEST(Options, Help_IsTextWithUnitsRangesAndDefaults) {
     }
     EXPECT_THAT(std::get<PrintText>(parse({"--help"}).command).text, HasSubstr("serve"));
     EXPECT_THAT(std::get<PrintText>(parse({"--help-all"}).command).text, HasSubstr("--web-root"));
-}
-
-// A file of a light set, as the page saves it.
-class LightSetFile : public testing::Test {
-  protected:
-    std::string write(const std::string& text) const {
-        std::ofstream(path_) << text;
-        return path_;
-    }
-    const std::string path_ = testing::TempDir() + "options_test_lights.json";
-};
-
-TEST_F(LightSetFile, OfEveryCommandThatDraws_IsRead) {
-    const std::string file = write(R"({"lights":[{"id":3,"position":{"y":2}}]})");
-    const auto render = parseRender({"--light-set", file.c_str()});
-    ASSERT_EQ(render.settings.lights.placed.lights().size(), 1U);
-    EXPECT_EQ(render.settings.lights.placed.find(3)->position_world.y, 2);
-    EXPECT_EQ(render.light_set, file);
-    const auto serve =
-        std::get<ServeOptions>(parse({"serve", "--light-set", file.c_str()}).command);
-    EXPECT_EQ(serve.other.lights.placed.lights().size(), 1U);
-    const auto bench = std::get<BenchOptions>(
-        parse({"bench", "--out", "a.json", "--light-set", file.c_str()}).command);
-    EXPECT_EQ(bench.settings.lights.placed.lights().size(), 1U);
-    EXPECT_EQ(bench.light_set, file);
-}
-
-TEST_F(LightSetFile, Bad_IsRefusedWithFileFieldAndValue) {
-    const auto said = [&](const std::string& text) {
-        const std::string file = write(text);
-        return refusal({"render", "--out", "a.png", "--light-set", file.c_str()});
-    };
-    EXPECT_THAT(said("nonsense"), HasSubstr(path_ + "': not JSON: error at byte 2"));
-    EXPECT_THAT(said(R"({"lights":[{"id":1,"position":{},"radiusM":0}]})"),
-                HasSubstr("lights[0].radius_m is 0; it must be from 0.001 to 10000"));
-    EXPECT_THAT(said(R"({"lights":[{"id":1,"position":{},"kind":"LIGHT_KIND_MOON"}]})"),
-                HasSubstr("kind has no value \"LIGHT_KIND_MOON\""));
-    EXPECT_THAT(refusal({"render", "--out", "a.png", "--light-set", "no.json"}),
-                HasSubstr("cannot read 'no.json': No such file"));
 }
 
 TEST(Options, Version_IsText) {

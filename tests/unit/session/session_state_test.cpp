@@ -1,5 +1,4 @@
-#include "session/session_state.h"
-#include "unit/session/context.h"
+#include "unit/session/state_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -11,37 +10,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
-
-constexpr TimePoint kStart{50s};
-
-class State : public ::testing::Test {
-  protected:
-    SessionState applied(const SessionState& state, Command body, TimePoint now = kStart) {
-        const auto result = apply(state, {{++seq_, seq_ * 10}, std::move(body)}, context, now);
-        if (!result) {
-            ADD_FAILURE() << result.error().message;
-            return state;
-        }
-        return *result;
-    }
-    static SetLights lights(const std::function<void(SetLights&)>& fill) {
-        SetLights command;
-        fill(command);
-        return command;
-    }
-
-    static SetGrid gridOf(const view::GridSize& size) {
-        SetGrid command;
-        command.size = size;
-        return command;
-    }
-
-    SessionContext context = makeContext();
-    SessionState initial = initialState(context, kStart);
-
-  private:
-    uint64_t seq_ = 0;
-};
 
 TEST_F(State, Initial_HasTheDefaultsAndTheFirstCamera) {
     EXPECT_EQ(initial.settings.camera, context.scene.cameras[0].camera);
@@ -325,59 +293,6 @@ TEST_F(State, SamplesOfAPixel_CountAsPixels) {
     const auto refused = apply(large, {{4, 0}, smooth}, context, kStart);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().field, "antialiasing");
-}
-
-TEST_F(State, SetFog_PartsAreSetOneByOne) {
-    SetFog command;
-    command.density = 0.5;
-    command.base_height_m = 2;
-    command.half_rate = true;
-    SessionState state = applied(initial, command);
-    command = {};
-    command.height_falloff = 0.25;
-    command.anisotropy = -0.5;
-    command.albedo = glm::dvec3(0.5, 0.25, 1);
-    command.tile_px = 8;
-    command.slice_count = 32;
-    command.noise = true;
-    state = applied(state, command);
-    EXPECT_EQ(state.settings.fog,
-              (view::Fog{0.5F, 0.25F, 2, -0.5F, {0.5F, 0.25F, 1}, 8, 32, true, true}));
-}
-
-TEST_F(State, SetPostAndOutline_PartsAreSetOneByOne) {
-    SetPost command;
-    command.bloom = view::BloomKind::kMipChain;
-    command.bloom_threshold = 2;
-    SessionState state = applied(initial, command);
-    command = {};
-    command.bloom_knee = 0.25;
-    command.bloom_strength = 0.5;
-    command.bloom_radius = 0.03;
-    state = applied(state, command);
-    EXPECT_EQ(state.settings.bloom,
-              (view::Bloom{view::BloomKind::kMipChain, 2, 0.25F, 0.5F, 0.03F}));
-    SetToon outline;
-    outline.outline_strength = 0.5;
-    state = applied(state, outline);
-    outline = {};
-    outline.outline_width = 0.01;
-    state = applied(state, outline);
-    EXPECT_EQ(state.settings.toon_outline, (view::ToonOutline{0.5F, 0.01F}));
-    EXPECT_EQ(state.settings.toon_fragment, initial.settings.toon_fragment);
-}
-
-TEST_F(State, SetShadows_PartsAreSetOneByOne) {
-    EXPECT_EQ(initial.settings.shadows.light_count, 0U);
-    SetShadows command;
-    command.lights = 4;
-    SessionState state = applied(initial, command);
-    EXPECT_EQ(state.settings.shadows, (view::Shadows{4, 256}));
-    command = {};
-    command.size_px = 128;
-    state = applied(state, command);
-    EXPECT_EQ(state.settings.shadows, (view::Shadows{4, 128}));
-    EXPECT_GT(state.version, initial.version);
 }
 
 TEST_F(State, SameValueAgain_CountsAsAppliedNotAsChanged) {

@@ -1,0 +1,38 @@
+// Command lines, read or refused.
+#pragma once
+
+#include "app/options.h"
+#include "core/error.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace froxel::app {
+
+inline Options parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "froxel");
+    return parseOptions(static_cast<int>(arguments.size()), arguments.data());
+}
+
+inline RenderOptions parseRender(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), {"render", "--out", "a.png"});
+    return std::get<RenderOptions>(parse(std::move(arguments)).command);
+}
+
+// The message of the usage error that the arguments must cause.
+inline std::string refusal(std::vector<const char*> arguments) {
+    try {
+        static_cast<void>(parse(std::move(arguments)));
+    } catch (const StartupError& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "not one line";
+        return error.what();
+    }
+    ADD_FAILURE() << "accepted";
+    return {};
+}
+
+} // namespace froxel::app
