@@ -71,7 +71,10 @@ it('PlacedLight_AddedDraggedAndDeleted_ShinesWhereItsHandleIs', async () => {
   await viewer.page.mouse.down();
   await viewer.page.mouse.move(x - 200, y, { steps: 4 });
   await viewer.page.mouse.up();
-  await until('another place', () => told(viewer)[0]?.position.x !== before?.x);
+  await until('another place', () => {
+    const now = told(viewer)[0]?.position;
+    return now && before && (now.x !== before.x || now.z !== before.z);
+  });
   const moved = await handle.boundingBox();
   expect(Math.abs((moved?.x ?? 0) + 200 - box.x)).toBeLessThan(2);
   await viewer.settled();
