@@ -139,6 +139,23 @@ makeSetLayout(const Device& device, std::span<const vk::DescriptorSetLayoutBindi
         {.bindingCount = static_cast<uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
+vk::raii::DescriptorPool makeDescriptorPool(const Device& device,
+                                            std::span<const vk::DescriptorPoolSize> sizes,
+                                            uint32_t max_sets) {
+    return device.handle().createDescriptorPool(
+        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+         .maxSets = max_sets,
+         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
+         .pPoolSizes = sizes.data()});
+}
+
+vk::raii::DescriptorSet makeSet(const Device& device,
+                                const vk::raii::DescriptorPool& pool,
+                                vk::DescriptorSetLayout layout) {
+    return std::move(device.handle().allocateDescriptorSets(
+        {.descriptorPool = *pool, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+}
+
 vk::raii::PipelineLayout makePipelineLayout(const Device& device,
                                             std::initializer_list<vk::DescriptorSetLayout> sets,
                                             uint32_t push_bytes,

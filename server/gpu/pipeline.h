@@ -53,6 +53,13 @@ makeGraphicsPipeline(const Device& device, const GraphicsPipelineInfo& info, std
 [[nodiscard]] vk::raii::DescriptorSetLayout
 makeSetLayout(const Device& device, std::span<const vk::DescriptorSetLayoutBinding> bindings);
 
+// Its sets end before it does.
+[[nodiscard]] vk::raii::DescriptorPool makeDescriptorPool(
+    const Device& device, std::span<const vk::DescriptorPoolSize> sizes, uint32_t max_sets = 1);
+
+[[nodiscard]] vk::raii::DescriptorSet
+makeSet(const Device& device, const vk::raii::DescriptorPool& pool, vk::DescriptorSetLayout layout);
+
 // Sets from 0 on; push constants from offset 0.
 [[nodiscard]] vk::raii::PipelineLayout
 makePipelineLayout(const Device& device,

@@ -2,9 +2,11 @@
 
 #include "embedded.h"
 #include "gpu/memory.h"
+#include "gpu/pipeline.h"
 #include "interface/assign_math.h"
 #include "render/frame_recorder.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -62,17 +64,12 @@ std::string AssignPipelines::unusable(const gpu::Device& device, gpu::Timeline& 
                                       gpu::MemoryUse::kReadback, "assignment probe");
     std::memcpy(in.mapped, operands.data(), operands.size() * sizeof(double));
     const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, 2};
-    const auto pool = device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = 1,
-         .pPoolSizes = &size});
-    const auto sets = device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool, .descriptorSetCount = 1, .pSetLayouts = &*set_layout});
+    const auto pool = gpu::makeDescriptorPool(device, std::array{size});
+    const auto set = gpu::makeSet(device, pool, *set_layout);
     const std::array infos = {vk::DescriptorBufferInfo{*in.handle, 0, VK_WHOLE_SIZE},
                               vk::DescriptorBufferInfo{*out.handle, 0, VK_WHOLE_SIZE}};
     device.handle().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = *sets[0],
+        vk::WriteDescriptorSet{.dstSet = *set,
                                .dstBinding = 0,
                                .descriptorCount = 2,
                                .descriptorType = vk::DescriptorType::eStorageBuffer,
@@ -80,7 +77,7 @@ std::string AssignPipelines::unusable(const gpu::Device& device, gpu::Timeline& 
         {});
     timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
-        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout, 0, *sets[0], {});
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout, 0, *set, {});
         cmd.dispatch(kProbes / 64, 1, 1);
         recordHostRead(cmd);
     });

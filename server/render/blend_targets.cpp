@@ -1,5 +1,8 @@
 #include "render/blend_targets.h"
 
+#include "gpu/pipeline.h"
+
+#include <array>
 #include <utility>
 
 namespace froxel::render {
@@ -42,11 +45,7 @@ bool BlendTargets::fits(view::Transparency transparency, const ViewTargets& view
 void BlendTargets::writeSets(const gpu::Device& device, const Pipelines& pipelines) {
     constexpr uint32_t kSets = 3;
     const vk::DescriptorPoolSize size{vk::DescriptorType::eSampledImage, 2 * kSets};
-    pool_ = device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = kSets,
-         .poolSizeCount = 1,
-         .pPoolSizes = &size});
+    pool_ = gpu::makeDescriptorPool(device, std::array{size}, kSets);
     const std::vector layouts(kSets, pipelines.blendSetLayout());
     sets_ = device.handle().allocateDescriptorSets(
         {.descriptorPool = *pool_, .descriptorSetCount = kSets, .pSetLayouts = layouts.data()});

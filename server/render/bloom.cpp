@@ -48,11 +48,7 @@ Shader shaderOf(BloomShader shader) {
 vk::raii::DescriptorPool makePool(const gpu::Device& device, uint32_t set_count) {
     const std::array sizes = {vk::DescriptorPoolSize{Type::eSampledImage, set_count},
                               vk::DescriptorPoolSize{Type::eStorageImage, set_count}};
-    return device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = set_count,
-         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
-         .pPoolSizes = sizes.data()});
+    return gpu::makeDescriptorPool(device, sizes, set_count);
 }
 
 } // namespace

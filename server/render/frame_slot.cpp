@@ -1,6 +1,9 @@
 #include "render/frame_slot.h"
 
+#include "gpu/pipeline.h"
+
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace froxel::render {
@@ -15,11 +18,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
         vk::DescriptorPoolSize{Type::eStorageBuffer, 2},
         vk::DescriptorPoolSize{Type::eSampledImage, 4},
         vk::DescriptorPoolSize{Type::eStorageImage, 1}};
-    return device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 2,
-         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
-         .pPoolSizes = sizes.data()});
+    return gpu::makeDescriptorPool(device, sizes, 2);
 }
 
 vk::DeviceSize uploadAlignment(const gpu::Device& device) {
@@ -75,13 +74,8 @@ Readback::Readback(const gpu::Device& device, vk::DeviceSize size_bytes)
 FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines)
     : cmd(timeline.makeCommandBuffer()), timestamps(device), upload(device),
       pool(makePool(device)) {
-    const std::array layouts = {pipelines.frameLayout(), pipelines.screenLayout()};
-    auto sets = device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool,
-         .descriptorSetCount = static_cast<uint32_t>(layouts.size()),
-         .pSetLayouts = layouts.data()});
-    frame_set = std::move(sets[0]);
-    screen_set = std::move(sets[1]);
+    frame_set = gpu::makeSet(device, pool, pipelines.frameLayout());
+    screen_set = gpu::makeSet(device, pool, pipelines.screenLayout());
 }
 
 const gpu::Buffer& pixelsOf(const FrameSlot& slot) {

@@ -23,11 +23,7 @@ vk::raii::DescriptorSetLayout setLayout(const gpu::Device& device) {
 vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     const std::array sizes = {vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1},
                               vk::DescriptorPoolSize{Type::eStorageBuffer, 1}};
-    return device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
-         .pPoolSizes = sizes.data()});
+    return gpu::makeDescriptorPool(device, sizes);
 }
 
 } // namespace
@@ -39,10 +35,7 @@ FxaaPipeline::FxaaPipeline(const gpu::Device& device, const Pipelines& shared)
 
 FxaaSlot::FxaaSlot(const gpu::Device& device, const FxaaPipeline& shared)
     : device_(device), pool_(makePool(device)) {
-    const auto layout = shared.setLayout();
-    auto sets = device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout});
-    set_ = std::move(sets[0]);
+    set_ = gpu::makeSet(device, pool_, shared.setLayout());
 }
 
 void FxaaSlot::write(const gpu::Buffer& display, const gpu::Buffer& pixels) {

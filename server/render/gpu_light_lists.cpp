@@ -3,6 +3,7 @@
 #include "cluster/list_histogram.h"
 #include "cluster/spot_cut.h"
 #include "core/assert.h"
+#include "gpu/pipeline.h"
 
 #include <algorithm>
 #include <array>
@@ -82,15 +83,8 @@ AssignSlot::AssignSlot(const gpu::Device& device, const AssignPipelines& pipelin
       pool_(nullptr) {
     const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer,
                                       AssignPipelines::kBindings};
-    pool_ = device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = 1,
-         .pPoolSizes = &size});
-    const auto layout = pipelines.setLayout();
-    auto sets = device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout});
-    set_ = std::move(sets[0]);
+    pool_ = gpu::makeDescriptorPool(device, std::array{size});
+    set_ = gpu::makeSet(device, pool_, pipelines.setLayout());
 }
 
 void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,

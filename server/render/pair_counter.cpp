@@ -22,11 +22,7 @@ vk::raii::DescriptorSetLayout setLayout(const gpu::Device& device) {
 
 vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, 1};
-    return device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = 1,
-         .pPoolSizes = &size});
+    return gpu::makeDescriptorPool(device, std::array{size});
 }
 
 uint64_t join(uint32_t low, uint32_t high) {
@@ -46,10 +42,7 @@ PairCounter::PairCounter(const gpu::Device& device, const Pipelines& shared)
       layout_(gpu::makePipelineLayout(device,
                                       {shared.frameLayout(), shared.screenLayout(), *set_layout_})),
       pool_(makePool(device)) {
-    const auto layout = *set_layout_;
-    auto sets = device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout});
-    set_ = std::move(sets[0]);
+    set_ = gpu::makeSet(device, pool_, *set_layout_);
     const vk::DescriptorBufferInfo buffer{*counts_.handle, 0, VK_WHOLE_SIZE};
     device.handle().updateDescriptorSets(
         vk::WriteDescriptorSet{.dstSet = *set_,

@@ -1,6 +1,7 @@
 #include "render/visibility_scene.h"
 
 #include "core/assert.h"
+#include "gpu/pipeline.h"
 #include "interface/constants.h"
 #include "render/scene_resources.h"
 
@@ -191,14 +192,8 @@ void VisibilityScene::writeTextures(const SceneResources& scene) {
     const auto& textures = scene.material_textures;
     const auto count = static_cast<uint32_t>(textures.size());
     const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, count};
-    pool_ = scene.device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = 1,
-         .pPoolSizes = &size});
-    const auto layout = pipelines.textureLayout();
-    texture_set_ = std::move(scene.device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+    pool_ = gpu::makeDescriptorPool(scene.device, std::array{size});
+    texture_set_ = gpu::makeSet(scene.device, pool_, pipelines.textureLayout());
     const vk::WriteDescriptorSet write{.dstSet = *texture_set_,
                                        .dstBinding = 0,
                                        .descriptorCount = count,
@@ -214,14 +209,8 @@ VisibilityFrame::VisibilityFrame(const gpu::Device& device, const VisibilityScen
         vk::DescriptorPoolSize{Type::eStorageBuffer, VisibilityPipelines::kBindings},
         vk::DescriptorPoolSize{Type::eSampledImage, 1},
         vk::DescriptorPoolSize{Type::eStorageImage, 3}};
-    pool_ = device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
-         .pPoolSizes = sizes.data()});
-    const auto layout = scene.pipelines.setLayout();
-    set_ = std::move(device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+    pool_ = gpu::makeDescriptorPool(device, sizes);
+    set_ = gpu::makeSet(device, pool_, scene.pipelines.setLayout());
 }
 
 void VisibilityFrame::write(const Bindings& bindings) {
