@@ -7,21 +7,23 @@
 
 namespace froxel::render {
 
-namespace {
-
-void bindGeometry(const FrameContext& frame, vk::PipelineLayout layout) {
+void bindGeometry(const FrameContext& frame,
+                  vk::PipelineLayout layout,
+                  vk::DescriptorSet frame_set,
+                  vk::Buffer indices,
+                  vk::DeviceSize rows) {
     const auto& cmd = frame.slot.cmd;
     const auto& scene = frame.scene;
     const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
                                 *scene.extended_buffer.handle, // none: no pipeline reads it
                                 frame.slot.upload.buffer()};
-    const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, frame.offsets.rows};
+    const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, rows};
     cmd.bindVertexBuffers(0, buffers, offsets);
-    cmd.bindIndexBuffer(frame.draws.indices.empty() ? *scene.index_buffer.handle
-                                                    : frame.slot.upload.buffer(),
-                        0, vk::IndexType::eUint32);
-    cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, *frame.slot.frame_set, {});
+    cmd.bindIndexBuffer(indices, 0, vk::IndexType::eUint32);
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frame_set, {});
 }
+
+namespace {
 
 // The variant of a pass for a group: only the flags that the pass's shader looks at.
 VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
@@ -80,7 +82,10 @@ void drawGroups(const FrameContext& frame,
     auto& pipelines = frame.scene.pipelines;
     const auto layout =
         peels(pass) ? pipelines.peelPipelineLayout() : pipelines.geometryPipelineLayout();
-    bindGeometry(frame, layout);
+    bindGeometry(frame, layout, *frame.slot.frame_set,
+                 frame.draws.indices.empty() ? *frame.scene.index_buffer.handle
+                                             : frame.slot.upload.buffer(),
+                 frame.offsets.rows);
     vk::Pipeline bound;
     io::PeelDraw peel{.first_triangle = 0, .layer = layer};
     for (const DrawGroup& group : groups) {

@@ -7,6 +7,13 @@
 
 namespace froxel::render {
 
+// Vertices, indices and set 0. `rows`: of the draws' instances in the frame's upload.
+void bindGeometry(const FrameContext& frame,
+                  vk::PipelineLayout layout,
+                  vk::DescriptorSet frame_set,
+                  vk::Buffer indices,
+                  vk::DeviceSize rows);
+
 // Within a rendering. layer: of the peeling passes, which also need their blend set bound.
 void drawGroups(const FrameContext& frame,
                 GeometryPass pass,

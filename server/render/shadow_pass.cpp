@@ -1,8 +1,10 @@
 #include "render/shadow_pass.h"
 
+#include "gpu/pipeline.h"
 #include "interface/constants.h"
 #include "interface/shadow_io.h"
 #include "render/frame_recorder.h"
+#include "render/geometry_draws.h"
 
 #include <algorithm>
 #include <array>
@@ -28,27 +30,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     for (const Type type : Pipelines::kFrameBindingTypes) {
         sizes.push_back({type, 1});
     }
-    return device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = static_cast<uint32_t>(sizes.size()),
-         .pPoolSizes = sizes.data()});
-}
-
-void bindGeometry(const FrameContext& frame) {
-    const auto& cmd = frame.slot.cmd;
-    const auto& scene = frame.scene;
-    const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
-                                *scene.extended_buffer.handle, // none: no pipeline reads it
-                                frame.slot.upload.buffer()};
-    const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, frame.offsets.shadow_rows};
-    cmd.bindVertexBuffers(0, buffers, offsets);
-    cmd.bindIndexBuffer(*scene.index_buffer.handle, 0, vk::IndexType::eUint32);
-    cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
-                           scene.pipelines.geometryPipelineLayout(), 0,
-                           frame.slot.shadow_slot->set(), {});
-    cmd.setCullMode(vk::CullModeFlagBits::eNone);
-    cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
+    return gpu::makeDescriptorPool(device, sizes);
 }
 
 void drawFace(const FrameContext& frame, const ShadowFace& face) {
@@ -114,10 +96,7 @@ vk::DescriptorImageInfo atlasInfo(const ShadowTargets* targets) {
 
 ShadowSlot::ShadowSlot(const gpu::Device& device, const Pipelines& pipelines)
     : device_(device), pool_(makePool(device)) {
-    const auto layout = pipelines.frameLayout();
-    auto sets = device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout});
-    set_ = std::move(sets[0]);
+    set_ = gpu::makeSet(device, pool_, pipelines.frameLayout());
 }
 
 void ShadowSlot::write(vk::Buffer upload, vk::DeviceSize uniforms) {
@@ -170,7 +149,11 @@ void recordShadows(const FrameContext& frame) {
     cmd.beginRendering({.renderArea = {{0, 0}, extentOf(used, targets.size_px)},
                         .layerCount = 1,
                         .pDepthAttachment = &depth});
-    bindGeometry(frame);
+    bindGeometry(frame, frame.scene.pipelines.geometryPipelineLayout(),
+                 frame.slot.shadow_slot->set(), *frame.scene.index_buffer.handle,
+                 frame.offsets.shadow_rows);
+    cmd.setCullMode(vk::CullModeFlagBits::eNone);
+    cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
     for (const ShadowFace& face : frame.shadows->faces) {
         drawFace(frame, face);
     }
