@@ -8,6 +8,7 @@
 #include "session/look_decode.h"
 #include "session/placed_lights.h"
 #include "session/proto_enums.h"
+#include "session/proto_vec.h"
 #include "session/room.h"
 
 #include <climits>
@@ -29,10 +30,6 @@ CommandResult<void> parseBinary(protocol::ByteSpan bytes, v1::ClientMessage& mes
         return Rejection{RejectCode::kMalformed, 0, "", "not a ClientMessage"};
     }
     return {};
-}
-
-glm::dvec3 vec(const v1::Vec3& value) {
-    return {value.x(), value.y(), value.z()};
 }
 
 Command decode(const v1::Hello& hello, FieldValidator& fields) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace froxel::session {
@@ -30,6 +31,10 @@ struct Rejection {
     std::string field;    // as in view/ranges.h where it has a range; empty if none
     std::string message;  // one line for a person
 };
+
+[[nodiscard]] inline Rejection outOfRange(std::string_view field, const std::string& text) {
+    return {RejectCode::kOutOfRange, 0, std::string(field), std::string(field) + " " + text};
+}
 
 template <class T>
 using CommandResult = boost::system::result<T, Rejection>;

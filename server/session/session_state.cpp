@@ -17,10 +17,6 @@ void assignIfGiven(Target& target, const std::optional<Value>& value) {
     }
 }
 
-Rejection outOfRange(std::string_view field, const std::string& text) {
-    return {RejectCode::kOutOfRange, 0, std::string(field), std::string(field) + " " + text};
-}
-
 std::string_view nameOf(view::Codec codec) {
     return view::kCodecNames[static_cast<size_t>(codec)];
 }

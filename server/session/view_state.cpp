@@ -1,15 +1,10 @@
 #include "session/view_state.h"
 
 #include "session/proto_enums.h"
+#include "session/proto_vec.h"
 
 namespace froxel::session {
 namespace {
-
-void fill(v1::Vec3& out, const glm::dvec3& value) {
-    out.set_x(value.x);
-    out.set_y(value.y);
-    out.set_z(value.z);
-}
 
 void fill(v1::ToonRamp& out, const view::ToonRamp& ramp) {
     for (uint32_t i = 0; i < ramp.count; ++i) {
@@ -21,9 +16,9 @@ void fill(v1::ToonRamp& out, const view::ToonRamp& ramp) {
 }
 
 void fillCamera(v1::ViewState& out, const view::Camera& camera) {
-    fill(*out.mutable_eye(), camera.eye_world);
-    fill(*out.mutable_target(), camera.target_world());
-    fill(*out.mutable_up(), camera.world_from_view[1]);
+    fillVec(*out.mutable_eye(), camera.eye_world);
+    fillVec(*out.mutable_target(), camera.target_world());
+    fillVec(*out.mutable_up(), camera.world_from_view[1]);
     out.set_fov_deg(glm::degrees(camera.yfov_rad));
     out.set_half_height_m(camera.half_height_m);
     out.set_orthographic(camera.projection == view::Projection::kOrthographic);
@@ -63,7 +58,7 @@ void fill(v1::Fog& out, const view::Fog& fog) {
     out.set_height_falloff(fog.height_falloff);
     out.set_base_height(fog.base_height_m);
     out.set_anisotropy(fog.anisotropy);
-    fill(*out.mutable_albedo(), glm::dvec3(fog.albedo));
+    fillVec(*out.mutable_albedo(), glm::dvec3(fog.albedo));
     out.set_tile(fog.tile_px);
     out.set_slices(fog.slice_count);
     out.set_half_rate(fog.half_rate);
@@ -73,8 +68,8 @@ void fill(v1::Fog& out, const view::Fog& fog) {
 } // namespace
 
 void fillBox(v1::Box& out, const BoundsD3& bounds) {
-    fill(*out.mutable_min(), bounds.min);
-    fill(*out.mutable_max(), bounds.max);
+    fillVec(*out.mutable_min(), bounds.min);
+    fillVec(*out.mutable_max(), bounds.max);
 }
 
 void fillViewState(v1::ViewState& out, const SessionContext& context, const SessionState& state) {
