@@ -3,7 +3,8 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { choicesFor, isGridSide, kAllFields, type Field } from '../src/fields';
+import type { Field } from '../src/field';
+import { choicesFor, isGridSide, kAllFields } from '../src/fields';
 import { Renderer } from '../src/gen/froxel/v1/common_pb';
 import { settingsOf, type Settings } from '../src/settings';
 import { startServer, type Server } from './server';

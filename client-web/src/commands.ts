@@ -2,7 +2,8 @@
 
 import type { Pose } from './camera_controller';
 import type { Connection } from './connection';
-import { patchFor, type Field } from './fields';
+import type { Field } from './field';
+import { patchFor } from './fields';
 import { RendererSchema } from './gen/froxel/v1/common_pb';
 import type { InputTarget, View } from './input';
 import type { PanelActions } from './panel';
@@ -21,7 +22,8 @@ import type { RoomActions } from './room_card';
 import { download, type Picture } from './picture';
 import type { Recorder } from './recorder';
 import { choicesOf } from './schema_names';
-import { cameraCommand, settingCommands, type Settings } from './settings';
+import { cameraCommand, settingCommands } from './setting_commands';
+import type { Settings } from './settings';
 import { isUint32, type SizeMode } from './url_state';
 import type { Store } from './store';
 import { add, length, normalize, scale, sub } from './vec3';

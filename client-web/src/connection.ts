@@ -12,7 +12,7 @@ import {
 } from './framing';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { ServerMessage } from './gen/froxel/v1/server_pb';
-import type { ClientBody } from './settings';
+import type { ClientBody } from './setting_commands';
 import type { Link } from './app_state';
 
 export interface ConnectionEvents {

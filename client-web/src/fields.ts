@@ -1,8 +1,6 @@
 // The table of scalar settings: the panel builds its controls from it and the URL its keys.
 // `name` is the protocol's name, under which Welcome.ranges tells what the server accepts.
 
-import type { DescEnum } from '@bufbuild/protobuf';
-
 import {
   AntialiasingSchema,
   BloomKind,
@@ -23,89 +21,9 @@ import {
   Transparency,
   TransparencySchema,
 } from './gen/froxel/v1/common_pb';
+import { choice, number, toggle, type ChoiceField, type Field, type Section } from './field';
 import { choicesOf, type Choice } from './schema_names';
 import { isDeferred, isToon, type Settings } from './settings';
-
-type KeysOf<T> = {
-  [Key in keyof Settings]: Settings[Key] extends T ? Key : never;
-}[keyof Settings];
-
-type ChoiceKey =
-  | 'renderer'
-  | 'lighting'
-  | 'shading'
-  | 'gbufferNormal'
-  | 'gbufferPosition'
-  | 'gridLaw'
-  | 'lightLoop'
-  | 'toneMap'
-  | 'bloom'
-  | 'antialiasing'
-  | 'transparency'
-  | 'chroma'
-  | 'codec'
-  | 'refine'
-  | 'debugView';
-
-interface Base {
-  readonly name: string;
-  readonly label: string;
-  readonly tip: string;
-}
-
-export interface NumberField extends Base {
-  readonly kind: 'number';
-  readonly key: KeysOf<number>;
-  readonly integer: boolean;
-  /** 'log' where useful values span decades, 'none' for a plain number box. */
-  readonly slider: 'linear' | 'log' | 'none';
-}
-
-export interface BooleanField extends Base {
-  readonly kind: 'boolean';
-  readonly key: KeysOf<boolean>;
-}
-
-export interface ChoiceField extends Base {
-  readonly kind: 'choice';
-  readonly key: ChoiceKey;
-  readonly schema: DescEnum;
-}
-
-export type Field = NumberField | BooleanField | ChoiceField;
-
-export type Section =
-  | 'camera'
-  | 'rendering'
-  | 'effects'
-  | 'lights'
-  | 'clusters'
-  | 'debug'
-  | 'stream';
-
-const number = (
-  key: KeysOf<number>,
-  name: string,
-  label: string,
-  slider: NumberField['slider'],
-  integer: boolean,
-  tip: string,
-): NumberField => ({ kind: 'number', key, name, label, slider, integer, tip });
-
-const choice = (
-  key: ChoiceField['key'],
-  name: string,
-  label: string,
-  schema: DescEnum,
-  tip: string,
-): ChoiceField => ({ kind: 'choice', key, name, label, schema, tip });
-
-const toggle = (
-  key: KeysOf<boolean>,
-  name: string,
-  label: string,
-  tip: string,
-): BooleanField => ({ kind: 'boolean', key, name, label, tip });
 
 export const kFields: Readonly<Record<Section, readonly Field[]>> = {
   camera: [

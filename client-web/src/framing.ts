@@ -14,7 +14,7 @@ import {
   type FrameHeader,
   type ServerMessage,
 } from './gen/froxel/v1/server_pb';
-import type { ClientBody } from './settings';
+import type { ClientBody } from './setting_commands';
 
 export const kSubprotocol = 'froxel.v1';
 export const kProtocolMajor = 1;

@@ -2,7 +2,7 @@
 // writes it a moment after a change.
 
 import type { AppState } from './app_state';
-import { cameraCommand, settingCommands } from './settings';
+import { cameraCommand, settingCommands } from './setting_commands';
 import { formatLink, parseLink } from './url_state';
 import type { Store } from './store';
 

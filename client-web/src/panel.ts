@@ -4,7 +4,8 @@ import GUI, { type Controller } from 'lil-gui';
 
 import type { AppState, ServerInfo } from './app_state';
 import { BoxEditor } from './box_editor';
-import { choicesFor, isInUse, kFields, type Field, type NumberField, type Section } from './fields';
+import type { Field, NumberField, Section } from './field';
+import { choicesFor, isInUse, kFields } from './fields';
 import { gridText, tidy } from './format';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { FrameGrid } from './gen/froxel/v1/server_pb';
@@ -13,6 +14,7 @@ import { linearScale, logScale } from './range_scale';
 import type { Settings } from './settings';
 import { SizeEditor, type SizeActions } from './size_editor';
 import { attachSlider } from './slider';
+import { displayColor, linearColor } from './srgb';
 import { ToonEditor } from './toon_editor';
 
 export interface PanelActions extends SizeActions, LightActions {
@@ -87,7 +89,9 @@ export class Panel {
     const camera = this.section('camera', server);
     this.addSceneCameras(camera, server);
     this.section('rendering', server);
-    this.section('effects', server).close();
+    const effects = this.section('effects', server);
+    this.addFogColor(effects, server);
+    effects.close();
     const lights = this.section('lights', server);
     this.addBox(lights, server);
     this.lightEditor = new LightEditor(lights, this.actions);
@@ -186,6 +190,18 @@ export class Panel {
   private addGridInUse(folder: GUI): void {
     this.gridInUse = folder.add({ text: '–' }, 'text').disable();
     this.finish(this.gridInUse, { label: 'In use', tip: '', name: 'grid.in_use' }, () => undefined);
+  }
+
+  private addFogColor(folder: GUI, server: ServerInfo): void {
+    const model = { color: displayColor(server.initial.fogAlbedo) };
+    const controller = folder.addColor(model, 'color');
+    controller.onChange((color: string) => this.actions.edit({ fogAlbedo: linearColor(color) }));
+    const tip = 'What it scatters of light; the rest is swallowed. Costs nothing';
+    this.finish(controller, { label: 'Fog colour', tip, name: 'fog_albedo' }, (settings) => {
+      model.color = displayColor(settings.fogAlbedo);
+      controller.updateDisplay();
+      controller.enable(settings.fogDensity > 0);
+    });
   }
 
   private addBox(folder: GUI, server: ServerInfo): void {

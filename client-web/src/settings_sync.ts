@@ -3,7 +3,8 @@
 
 import type { AppState } from './app_state';
 import { mayControl } from './room';
-import { cameraCommand, cameraOf, settingCommands, type ClientBody, type Settings } from './settings';
+import { cameraCommand, settingCommands, type ClientBody } from './setting_commands';
+import { cameraOf, type Settings } from './settings';
 import type { Store } from './store';
 
 export interface Sender {

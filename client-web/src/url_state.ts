@@ -2,7 +2,8 @@
 // ranges are not judged here: the server refuses them and says why.
 
 import type { Settings } from './settings';
-import { choicesFor, isGridSide, kAllFields, patchFor, type Field } from './fields';
+import type { Field } from './field';
+import { choicesFor, isGridSide, kAllFields, patchFor } from './fields';
 import type { Bounds, Ramp } from './settings';
 import { vec, type Vec } from './vec3';
 
@@ -20,7 +21,7 @@ export interface LinkState {
 
 type Writable<T> = { -readonly [Key in keyof T]: T[Key] };
 
-const kVectors = ['eye', 'target', 'up'] as const;
+const kVectors = { eye: 'eye', target: 'target', up: 'up', fog_albedo: 'fogAlbedo' } as const;
 const kRamps = { toon_fragment: 'toonFragment', toon_compute: 'toonCompute' } as const;
 
 /** The fragment, without '#', for these settings; ramps only where they differ from `initial`. */
@@ -35,7 +36,7 @@ export function formatLink(settings: Settings, size: SizeMode, initial: Settings
   if (settings.orthographic) put('half_height', short(settings.halfHeight));
   // To the last bit: two pages of a scene that stands still show the same picture.
   if (settings.lightTime !== null) put('light_time', String(settings.lightTime));
-  for (const key of kVectors) put(key, formatVec(settings[key]));
+  for (const [name, key] of Object.entries(kVectors)) put(name, formatVec(settings[key]));
   if (settings.lightBox) {
     put('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
   }
@@ -88,10 +89,10 @@ function parseEntry(name: string, text: string): Entry | null {
     const lightBox = parseBox(text);
     return lightBox && { settings: { lightBox } };
   }
-  const vector = kVectors.find((key) => key === name);
+  const vector = Object.entries(kVectors).find(([key]) => key === name);
   if (vector) {
     const value = parseVec(text);
-    return value && { settings: { [vector]: value } };
+    return value && { settings: { [vector[1]]: value } };
   }
   if (name === 'toon_fragment' || name === 'toon_compute') {
     const ramp = parseRamp(text);

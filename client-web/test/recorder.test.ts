@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { beforeEach, describe, expect, it } from 'vitest';
 
 import { Recorder } from '../src/recorder';
-import type { ClientBody } from '../src/settings';
+import type { ClientBody } from '../src/setting_commands';
 
 let now: number;
 let recorder: Recorder;

@@ -17,7 +17,8 @@ import {
   ToneMap,
   Transparency,
 } from '../src/gen/froxel/v1/common_pb';
-import { cameraCommand, settingCommands, settingsOf, type Settings } from '../src/settings';
+import { cameraCommand, settingCommands } from '../src/setting_commands';
+import { settingsOf, type Settings } from '../src/settings';
 import { kBounds, sampleSettings, viewState } from './sample';
 
 const base = sampleSettings();
@@ -73,6 +74,7 @@ describe('settingCommands', () => {
     ['ambient', { ambient: 0 }, { case: 'setLights', value: { ambient: 0 } }],
     ['scene lights', { sceneLights: false }, { case: 'setLights', value: { sceneLights: false } }],
     ['box', { lightBox: kBounds }, { case: 'setLights', value: { box: kBounds } }],
+    ['fog colour', { fogAlbedo: { x: 1, y: 0.5, z: 0 } }, { case: 'setFog', value: { fog: { albedo: { x: 1, y: 0.5, z: 0 } } } }],
     ['light loop', { lightLoop: LightLoop.LISTS }, { case: 'setLights', value: { lightLoop: 2 } }],
     [
       'debug view',

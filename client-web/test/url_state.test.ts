@@ -50,6 +50,7 @@ describe('links', () => {
       fogDensity: 0.05,
       fogBaseHeight: -2.5,
       fogHalfRate: true,
+      fogAlbedo: { x: 1, y: 0.25, z: 0 },
       gbufferNormal: NormalEncoding.SPHEREMAP16,
       gbufferPosition: PositionSource.STORED_DEPTH,
       lensShiftX: -0.5,
