@@ -241,16 +241,13 @@ TEST_F(Shadows, WhereNoneAreAskedForOrSeen_NothingIsThere) {
         EXPECT_EQ(made.key.light_flags & io::kLightShadows, 0U);
     }
     EXPECT_EQ(without.stats.shadows.map_count, 0U);
-    for (const auto& pass : without.stats.passes) {
-        EXPECT_NE(pass.name, "shadows");
-    }
+    EXPECT_FALSE(hasPass(without, "shadows"));
     inputs.settings.shadows = {32, 128};
     const Picture with = draw(view, inputs);
     EXPECT_EQ(with.stats.shadows.light_count, 32U);
     EXPECT_EQ(with.stats.shadows.map_count, 192U);
     EXPECT_GT(with.stats.shadows.triangle_count, 0U);
-    EXPECT_TRUE(std::any_of(with.stats.passes.begin(), with.stats.passes.end(),
-                            [](const auto& pass) { return pass.name == "shadows"; }));
+    EXPECT_TRUE(hasPass(with, "shadows"));
     EXPECT_GT(differingFloats(without, with), 0U);
     EXPECT_GE(device().memoryLedger()->byPurpose().at("shadow atlas"), 192U * 128 * 128 * 4);
     inputs.settings.shadows = {};

@@ -152,11 +152,6 @@ Errors errorsOf(const Picture& picture, const Crossing& crossing, const view::Ca
     return errors;
 }
 
-bool hasPass(const Picture& picture, std::string_view name) {
-    return std::ranges::any_of(picture.stats.passes,
-                               [&](const auto& pass) { return pass.name == name; });
-}
-
 } // namespace
 
 // Twelve panes that all cross: no order of instances is right anywhere. fp32 adds 12 roundings.

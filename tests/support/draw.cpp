@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace froxel::test {
 
 Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs) {
@@ -42,6 +44,12 @@ Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {
 Picture draw(render::Renderer& renderer, const render::FrameInputs& inputs) {
     render::ViewRenderer view(renderer);
     return draw(view, inputs);
+}
+
+bool hasPass(const Picture& picture, std::string_view name) {
+    const auto& passes = picture.stats.passes;
+    return std::any_of(passes.begin(), passes.end(),
+                       [&](const PassTime& pass) { return pass.name == name; });
 }
 
 size_t differingFloats(const Picture& a, const Picture& b) {

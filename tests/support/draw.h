@@ -4,6 +4,7 @@
 #include "render/renderer.h"
 
 #include <cstring>
+#include <string_view>
 #include <vector>
 
 namespace froxel::test {
@@ -22,6 +23,8 @@ struct Picture {
 
 // Without its radiance, as debug views have none.
 [[nodiscard]] Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs);
+
+[[nodiscard]] bool hasPass(const Picture& picture, std::string_view name);
 
 // Floats whose bits differ; every float where the sizes do.
 [[nodiscard]] size_t differingFloats(const Picture& a, const Picture& b);
