@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <malloc.h>
 #include <optional>
 #include <string>
 #include <sys/resource.h>
@@ -53,6 +54,10 @@ std::vector<prometheus::MetricFamily> processMetrics() {
         add(MetricType::Gauge, "process_resident_memory_bytes", "Resident memory.",
             *kibibytes * 1024);
     }
+    // Resident memory has holes, too, which come and go with what is torn down in which order.
+    const auto heap = mallinfo2();
+    add(MetricType::Gauge, "process_heap_used_bytes", "What is allocated of the heap.",
+        static_cast<double>(heap.uordblks + heap.hblkhd));
     if (const auto count = statusNumber("Threads")) {
         add(MetricType::Gauge, "process_threads", "Threads of the process.", *count);
     }

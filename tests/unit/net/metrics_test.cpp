@@ -86,8 +86,9 @@ TEST(Metrics, Rejects_AreCountedByReason) {
 TEST(Metrics, BuildAndProcess_AreThere) {
     const std::string text = Metrics("1.2.3").text();
     EXPECT_THAT(text, HasSubstr("version=\"1.2.3\"} 1\n"));
-    for (const char* name : {"process_resident_memory_bytes", "process_open_fds", "process_max_fds",
-                             "process_threads", "process_cpu_seconds_total"}) {
+    for (const char* name :
+         {"process_resident_memory_bytes", "process_open_fds", "process_max_fds", "process_threads",
+          "process_heap_used_bytes", "process_cpu_seconds_total"}) {
         EXPECT_THAT(text, HasSubstr(std::string("\n") + name + " "));
     }
 }
