@@ -58,7 +58,7 @@ struct Slice {
 
 // Of one number of slices, where the model looks.
 struct Slices {
-    std::array<Slice, kPixelDepths> pixels;
+    std::vector<Slice> pixels;
     std::vector<Slice> lights; // at LightSpread::seen_depths_m
 };
 
@@ -95,14 +95,17 @@ Slice CostModel::sliceAt(const SliceLaw& law, uint32_t count, double depth_m) co
     return {2 * frustum.half_y / frustum.image.height_px * scale, end - begin};
 }
 
-// Pixels are taken to lie at any depth alike.
 Slices CostModel::slices(uint32_t count) const {
     const DepthRange& range = facts_.range;
     const SliceLaw law = makeSliceLaw(facts_.law, count, range.near_m, range.far_m);
     Slices slices;
-    for (size_t i = 0; i < kPixelDepths; ++i) {
-        const double depth = range.far_m * (static_cast<double>(i) + 0.5) / kPixelDepths;
-        slices.pixels[i] = sliceAt(law, count, depth);
+    for (size_t i = 0; i < kPixelDepths && facts_.pixel_depths_m.empty(); ++i) {
+        const double share = (static_cast<double>(i) + 0.5) / kPixelDepths;
+        const double depth = range.far_m * share * share;
+        slices.pixels.push_back(sliceAt(law, count, depth));
+    }
+    for (const double depth : facts_.pixel_depths_m) {
+        slices.pixels.push_back(sliceAt(law, count, std::min(depth, range.far_m)));
     }
     for (const double depth : facts_.lights.seen_depths_m) {
         slices.lights.push_back(sliceAt(law, count, std::min(depth, range.far_m)));
@@ -147,13 +150,14 @@ Expected CostModel::expect(const GridShape& shape, const Slices& slices) const {
     const double clusters = static_cast<double>(shape.size.x) * shape.size.y * shape.size.z;
     Expected expected;
     double pixel_ns = 0;
+    const double share = 1.0 / static_cast<double>(slices.pixels.size());
     for (const Slice& slice : slices.pixels) {
         const Block block = blockOf(shape, slice);
         const double length = listLength(block);
         const double across = costs.subgroup_width * block.height / shape.tile_height_px;
         const double lists = std::min(1 + kSlant * across / block.depth, costs.subgroup_width);
-        expected.list_length += length / kPixelDepths;
-        pixel_ns += lists * (costs.walk_ns + costs.pair_ns * length) / kPixelDepths;
+        expected.list_length += length * share;
+        pixel_ns += lists * (costs.walk_ns + costs.pair_ns * length) * share;
     }
     for (const Slice& slice : slices.lights) {
         const Block block = blockOf(shape, slice);

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace froxel::cluster {
@@ -61,6 +62,9 @@ struct GridFacts {
     view::GridLaw law = view::GridLaw::kLogarithmic;
     const LightSpread& lights;
     GridCosts costs;
+    // Where the picture's pixels lie, along the view axis; empty: by the square of an even
+    // share of the range, as in rooms.
+    std::span<const double> pixel_depths_m = {};
 };
 
 // Keep one a view, from frame to frame: a choice stands until another is a fifth cheaper.
