@@ -43,7 +43,6 @@ vec3 scatteredBy(Stretch s, LocalLight light) {
     precise float d2 = fma(to_light.z, to_light.z,
                            fma(to_light.y, to_light.y, to_light.x * to_light.x));
     precise float x = d2 * light.inv_radius2;
-    precise float w = max(fma(-x, x, 1.0), 0.0);
     precise vec3 from_origin = light.position_view - s.origin_view;
     precise float along = dot(from_origin, s.direction_view);
     precise vec3 beside = cross(from_origin, s.direction_view);
@@ -53,10 +52,17 @@ vec3 scatteredBy(Stretch s, LocalLight light) {
     precise float back = s.back_m - along;
     precise float span = h * (s.back_m - s.front_m);
     precise float inverse_d2 = atan(span, fma(front, back, h2)) / span;
+    if (hasLight(kLightAreas) && light.area != kNoArea) {
+        AreaRect rect = fetchArea(light.area);
+        inverse_d2 = solidAngle(to_light, rect) * rect.inv_area;
+    }
     precise float kept = exp(-opticalDepth(light.position_view, s.sample_view));
-    precise float share = (w * w) * inverse_d2 * meanPhase(h, front, back) * kept;
+    precise float share = rangeWindow(x) * inverse_d2 * meanPhase(h, front, back) * kept;
     if (hasLight(kLightSpots)) {
         share *= coneShare(light, to_light);
+    }
+    if (hasLight(kLightShadows) && light.shadow != kNoShadow) {
+        share *= shadowInAir(s.sample_view, light.shadow);
     }
     precise vec3 scattered = light.color * share;
     return scattered;

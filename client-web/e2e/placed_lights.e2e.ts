@@ -104,6 +104,11 @@ it('PlacedLight_ColourAndKind_AreTheServers', async () => {
     ((await viewer.page.locator('#banner-text').textContent()) ?? '').includes('inner_cone_deg is 80'),
   );
   expect(told(viewer)[0]?.innerConeDeg).toBeCloseTo(30);
+  await viewer.type('placed_light.radius', 4);
+  await viewer.choose('placed_light.kind', 'area');
+  await viewer.type('placed_light.widthM', 2.5);
+  await until('a wider rectangle', () => told(viewer)[0]?.widthM === 2.5);
+  expect(await viewer.control('placed_light.outerConeDeg').isVisible()).toBe(false);
 });
 
 it('LightSet_SavedAndLoaded_IsTheSame_AndNoSetIsRefusedByName', async () => {

@@ -6,7 +6,7 @@ import type { Controller } from 'lil-gui';
 import { tidy } from './format';
 import { LightKind } from './gen/froxel/v1/common_pb';
 import type { HandleActions } from './light_handles';
-import { findLight, sameLight, type PlacedLight, type PlacedLights } from './placed_lights';
+import { findLight, kLightKinds, sameLight, type PlacedLight, type PlacedLights } from './placed_lights';
 import { displayColor, linearColor } from './srgb';
 
 export interface LightActions extends HandleActions {
@@ -17,8 +17,17 @@ export interface LightActions extends HandleActions {
 }
 
 const kNone = 'none';
-const kKinds = { point: LightKind.POINT, spot: LightKind.SPOT };
-const kSpotOnly = ['innerConeDeg', 'outerConeDeg', 'directionX', 'directionY', 'directionZ'] as const;
+/** Values that not every kind of light has. */
+const kKindsWith: Readonly<Record<string, readonly LightKind[]>> = {
+  innerConeDeg: [LightKind.SPOT],
+  outerConeDeg: [LightKind.SPOT],
+  directionX: [LightKind.SPOT, LightKind.AREA],
+  directionY: [LightKind.SPOT, LightKind.AREA],
+  directionZ: [LightKind.SPOT, LightKind.AREA],
+  widthM: [LightKind.AREA],
+  heightM: [LightKind.AREA],
+  rollDeg: [LightKind.AREA],
+};
 
 interface Model {
   chosen: string;
@@ -35,6 +44,9 @@ interface Model {
   directionX: number;
   directionY: number;
   directionZ: number;
+  widthM: number;
+  heightM: number;
+  rollDeg: number;
 }
 
 export class LightEditor {
@@ -53,11 +65,14 @@ export class LightEditor {
     directionX: 0,
     directionY: -1,
     directionZ: 0,
+    widthM: 1,
+    heightM: 1,
+    rollDeg: 0,
   };
   private readonly folder: GUI;
   private chooser: Controller;
   private readonly values: Controller[] = [];
-  private readonly spotValues: Controller[] = [];
+  private readonly ofKinds = new Map<Controller, readonly LightKind[]>();
   private readonly remove: Controller;
   private ids = '';
   private shown: PlacedLight | null = null;
@@ -72,8 +87,8 @@ export class LightEditor {
       actions.addLight(),
     );
     this.chooser = this.addChooser([]);
-    const kind = folder.add(this.model, 'kind', kKinds);
-    this.value(kind, 'kind', 'Kind', 'A spot shines into a cone; its test costs a little in each pixel', () => ({
+    const kind = folder.add(this.model, 'kind', kLightKinds);
+    this.value(kind, 'kind', 'Kind', 'A spot’s cone costs a little in each pixel, an area light’s rectangle as much as ten points', () => ({
       kind: this.model.kind,
     }));
     const color = folder.addColor(this.model, 'color');
@@ -105,6 +120,13 @@ export class LightEditor {
           z: this.model.directionZ,
         },
       }));
+    }
+    for (const [key, label, tip] of [
+      ['widthM', 'Width m', 'Of the rectangle; larger is softer, not brighter'],
+      ['heightM', 'Height m', 'Of the rectangle; larger is softer, not brighter'],
+      ['rollDeg', 'Roll', 'Degrees about its direction'],
+    ] as const) {
+      this.number(key, label, tip, () => ({ [key]: this.model[key] }));
     }
     this.remove = this.button('remove', 'Delete this light', 'Also the Delete key at its handle', () => {
       if (this.shown) actions.removeLight(this.shown.id);
@@ -153,13 +175,18 @@ export class LightEditor {
         directionX: tidy(direction.x),
         directionY: tidy(direction.y),
         directionZ: tidy(direction.z),
+        widthM: tidy(light.widthM),
+        heightM: tidy(light.heightM),
+        rollDeg: tidy(light.rollDeg),
       });
     }
     for (const controller of [...this.values, this.remove]) {
       controller.show(light !== null);
       controller.updateDisplay();
     }
-    for (const controller of this.spotValues) controller.show(light?.kind === LightKind.SPOT);
+    for (const [controller, kinds] of this.ofKinds) {
+      controller.show(light !== null && kinds.includes(light.kind));
+    }
   }
 
   /** lil-gui makes a new controller for new options; it is put where the old one was. */
@@ -181,7 +208,8 @@ export class LightEditor {
   ): void {
     const controller = this.folder.add(this.model, key);
     this.value(controller, key, label, tip, patch);
-    if ((kSpotOnly as readonly string[]).includes(key)) this.spotValues.push(controller);
+    const kinds = kKindsWith[key];
+    if (kinds) this.ofKinds.set(controller, kinds);
   }
 
   private value(

@@ -4,8 +4,7 @@
 
 import type { AppState } from './app_state';
 import { make } from './dom';
-import { LightKind } from './gen/froxel/v1/common_pb';
-import { findLight, type PlacedLight } from './placed_lights';
+import { findLight, kindName, type PlacedLight } from './placed_lights';
 import { halfHeightAt, project, unproject, type PicturePoint } from './projection';
 import { mayControl } from './room';
 import type { Settings } from './settings';
@@ -99,7 +98,7 @@ export class LightHandles {
       handle.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
       handle.style.setProperty('--light', displayColor(light.color));
       handle.classList.toggle('chosen', light.id === this.chosen);
-      const kind = light.kind === LightKind.SPOT ? 'spot' : 'point';
+      const kind = kindName(light.kind);
       handle.setAttribute('aria-label', `Light ${light.id}, ${kind}`);
     }
   }

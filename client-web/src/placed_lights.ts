@@ -14,13 +14,25 @@ export interface PlacedLight {
   readonly id: number;
   readonly kind: LightKind;
   readonly position: Vec; // metres, world
-  readonly direction: Vec; // spots only, of any length but 0
+  readonly direction: Vec; // not of points; of any length but 0
   readonly color: Vec; // linear red, green, blue, 0 to 1
   readonly intensity: number;
   readonly radius: number; // metres, where it ends
   readonly innerConeDeg: number; // half angles; spots only
   readonly outerConeDeg: number;
+  readonly widthM: number; // of an area light's rectangle
+  readonly heightM: number;
+  readonly rollDeg: number;
 }
+
+export const kLightKinds = {
+  point: LightKind.POINT,
+  spot: LightKind.SPOT,
+  area: LightKind.AREA,
+};
+
+export const kindName = (kind: LightKind): string =>
+  Object.entries(kLightKinds).find(([, value]) => value === kind)?.[0] ?? 'light';
 
 /** Ids ascend. */
 export type PlacedLights = readonly PlacedLight[];
@@ -34,6 +46,9 @@ export const kNewLight: Omit<PlacedLight, 'id' | 'position'> = {
   radius: 2,
   innerConeDeg: 30,
   outerConeDeg: 45,
+  widthM: 1,
+  heightM: 1,
+  rollDeg: 0,
 };
 
 /** A message of the server or of a file is not to grow past what a server takes: 64 KiB. */
@@ -49,7 +64,10 @@ export function sameLight(a: PlacedLight, b: PlacedLight): boolean {
     a.intensity === b.intensity &&
     a.radius === b.radius &&
     a.innerConeDeg === b.innerConeDeg &&
-    a.outerConeDeg === b.outerConeDeg
+    a.outerConeDeg === b.outerConeDeg &&
+    a.widthM === b.widthM &&
+    a.heightM === b.heightM &&
+    a.rollDeg === b.rollDeg
   );
 }
 
@@ -93,6 +111,9 @@ function lightOf(told: PlacedLightMessage, before: PlacedLight | undefined): Pla
     radius: told.radiusM ?? kept.radius,
     innerConeDeg: told.innerConeDeg ?? kept.innerConeDeg,
     outerConeDeg: told.outerConeDeg ?? kept.outerConeDeg,
+    widthM: told.widthM ?? kept.widthM,
+    heightM: told.heightM ?? kept.heightM,
+    rollDeg: told.rollDeg ?? kept.rollDeg,
   };
 }
 

@@ -6,6 +6,7 @@
 #include "app/timings_report.h"
 #include "core/text.h"
 #include "measure/statistics.h"
+#include "session/placed_lights.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -134,16 +135,23 @@ std::string workloadOf(const BenchRow& row, const BenchBase& base) {
     if (settings.shadows.light_count > 0) {
         text += fmt::format(", shadows of {} lights", settings.shadows.light_count);
     }
+    if (const auto placed = settings.lights.placed.lights(); !placed.empty()) {
+        text += fmt::format(", {} placed lights", placed.size());
+    }
     text += row.against_samples ? ", against 64 samples a pixel" : "";
     return text;
 }
 
 Json headOf(const BenchResult& result, const BenchRow& row, size_t frame_count) {
-    return {{"label", row.label},
-            {"series", row.series},
-            {"value", row.value},
-            {"settings", settingsReport(row.settings)},
-            {"command", commandOf(result, row, frame_count)}};
+    Json json = {{"label", row.label},
+                 {"series", row.series},
+                 {"value", row.value},
+                 {"settings", settingsReport(row.settings)},
+                 {"command", commandOf(result, row, frame_count)}};
+    if (!row.light_set.empty()) { // what the command's file holds
+        json["light_set"] = Json::parse(session::lightSetJson(row.settings.lights.placed));
+    }
+    return json;
 }
 
 Json measuredRow(const BenchResult& result, const BenchRow& row, const RowResult& found) {
@@ -240,7 +248,7 @@ std::string commandOf(const BenchResult& result, const BenchRow& row, size_t fra
     options.scene = result.scene_source;
     options.device.choice = result.device_choice;
     options.settings = row.settings;
-    options.light_set = result.light_set;
+    options.light_set = row.light_set.empty() ? result.light_set : row.light_set;
     options.time_s = view.time_s;
     options.frame_count = static_cast<uint32_t>(frame_count);
     options.warmup_count = result.budget.warmup_first;

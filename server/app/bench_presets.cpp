@@ -257,6 +257,7 @@ constexpr std::array kPresets = {
     Preset{"transparency", transparencySweep},
     Preset{"fog", fogSweep},
     Preset{"shadows", shadowSweep},
+    Preset{"area_lights", areaSweep},
     Preset{"stream", streamSweep},
     Preset{"smoke", smokeSweep},
 };

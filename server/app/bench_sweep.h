@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct BenchRow {
     std::optional<size_t> only_view; // a stop of the path; none: timed at the first, errors at all
     std::optional<view::Size> scaled_to;
     std::optional<view::Encoding> stream; // JPEG whose error is taken too
+    // Where settings.lights.placed would be; empty: where the base's are.
+    std::filesystem::path light_set = {};
     bool against_peeled = false;  // R2 is the same with 16 layers peeled, drawn by the device
     bool against_samples = false; // R2 is the mean of many samples a pixel, drawn by the device
 

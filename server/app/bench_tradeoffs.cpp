@@ -257,6 +257,51 @@ Sweep shadowSweep(const BenchBase& base) {
     return sweep;
 }
 
+// Ahead of the path's first stop, shining down.
+std::vector<view::PlacedLight> areaLights(const view::Camera& camera, uint32_t count) {
+    std::vector<view::PlacedLight> lights;
+    const glm::dmat3& axes = camera.world_from_view;
+    for (uint32_t i = 0; i < count; ++i) {
+        view::PlacedLight light;
+        light.id = i + 1;
+        light.kind = view::LightKind::kArea;
+        light.position_world = camera.eye_world - axes[2] * (2.0 + i / 3) +
+                               axes[0] * (i % 3 - 1.0) * 1.5 + axes[1] * 0.75;
+        light.width_m = 1;
+        light.height_m = 0.25;
+        light.radius_m = 5;
+        light.intensity = 2;
+        lights.push_back(light);
+    }
+    return lights;
+}
+
+Sweep areaSweep(const BenchBase& base) {
+    Sweep sweep{"area_lights",
+                "Rectangular area lights beside the others",
+                "lights",
+                "",
+                Axis::kLinear,
+                "R2 sums over each rectangle's parts: what differs is the highlight's fit.",
+                {}};
+    for (const auto shading : {view::ShadingModel::kPbr, view::ShadingModel::kLambert}) {
+        for (const uint32_t count : {0U, 1U, 4U, 16U}) {
+            auto row =
+                rowOf(base, kDeferred, fmt::format("{} area lights", count), count, [&](auto& s) {
+                    s.shading = shading;
+                    s.lights.placed =
+                        view::PlacedLights(areaLights(base.views.front().camera, count));
+                });
+            row.series = nameOf(view::kShadingModelNames, shading);
+            if (count > 0) {
+                row.light_set = fmt::format("area_lights_{}.json", count);
+            }
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
 Sweep streamSweep(const BenchBase& base) {
     Sweep sweep{"stream",
                 "Error of the stream's JPEG",

@@ -12,6 +12,7 @@ namespace froxel::app {
 [[nodiscard]] Sweep listCapSweep(const BenchBase& base);
 [[nodiscard]] Sweep bloomSweep(const BenchBase& base);
 [[nodiscard]] Sweep shadowSweep(const BenchBase& base);
+[[nodiscard]] Sweep areaSweep(const BenchBase& base);
 [[nodiscard]] Sweep antialiasingSweep(const BenchBase& base);
 [[nodiscard]] Sweep transparencySweep(const BenchBase& base);
 [[nodiscard]] Sweep fogSweep(const BenchBase& base);

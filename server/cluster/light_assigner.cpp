@@ -86,6 +86,12 @@ void appendLight(const ClusterGrid& grid,
 
 } // namespace
 
+void LightLists::finishStats() {
+    const uint32_t filled = stats.cluster_count - stats.empty_count;
+    stats.mean = filled > 0 ? static_cast<double>(stats.entry_count) / filled : 0.0;
+    stats.bytes = clusters.size() * sizeof(io::ClusterList) + indices.size() * sizeof(uint32_t);
+}
+
 struct LightAssigner::Impl {
     Impl(unsigned threads, uint64_t max_entries_)
         : crew(threads), chunks(threads), tallies(threads), max_entries(max_entries_) {}
@@ -228,10 +234,7 @@ void LightAssigner::assign(const ClusterGrid& grid,
         out.stats.largest = tally.largest;
         out.stats.p95 = tally.lengths.p95(tally.largest);
     }
-    const uint32_t filled = out.stats.cluster_count - out.stats.empty_count;
-    out.stats.mean = filled > 0 ? static_cast<double>(out.stats.entry_count) / filled : 0.0;
-    out.stats.bytes =
-        out.clusters.size() * sizeof(io::ClusterList) + out.indices.size() * sizeof(uint32_t);
+    out.finishStats();
 }
 
 } // namespace froxel::cluster

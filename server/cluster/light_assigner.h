@@ -21,6 +21,9 @@ struct LightLists {
     // The lists would have passed the assigner's limit: every cluster names one shared list of all
     // lights instead. Exact, but slow; stats count it as it is shaded.
     bool all_lights = false;
+
+    // Those of the statistics that follow from the others and from the buffers.
+    void finishStats();
 };
 
 // Guarantee: where shading in fp32 finds a light's contribution other than 0 at a point of a

@@ -2,19 +2,17 @@
 
 #include "cluster/list_histogram.h"
 #include "core/math.h"
+#include "light/falloff.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <span>
-#include <utility>
+#include <vector>
 
 namespace froxel::cluster {
 
 namespace {
-
-// Nearer than this a light's distance counts as this (shaders/lib/brdf.glsl).
-constexpr double kNearest_m = 0.01;
 
 // In view space, whose y points up and whose z behind the eye.
 BoundsD3 boxOf(const ClusterGrid& grid, const Cell& cell) {
@@ -34,23 +32,48 @@ struct Candidate {
     uint32_t light;
 };
 
-// The first `cap` of them are to stay.
+// The stronger ones stay.
 bool before(const Candidate& a, const Candidate& b) {
     return a.irradiance != b.irradiance ? a.irradiance > b.irradiance : a.light < b.light;
 }
 
+// Keeps the `cap` strongest of `all`, in ascending order at its front; returns what the others
+// might have given.
+double keepStrongest(std::span<uint32_t> all,
+                     uint32_t cap,
+                     const BoundsD3& box,
+                     const light::FrameLights& lights,
+                     std::vector<Candidate>& candidates) {
+    candidates.clear();
+    for (const uint32_t light : all) {
+        candidates.push_back(
+            {mostIrradiance(lights, lights.lights[light], box.min, box.max), light});
+    }
+    const auto kept = candidates.begin() + cap;
+    std::nth_element(candidates.begin(), kept, candidates.end(), before);
+    std::sort(candidates.begin(), kept,
+              [](const auto& a, const auto& b) { return a.light < b.light; });
+    std::transform(candidates.begin(), kept, all.begin(),
+                   [](const Candidate& stays) { return stays.light; });
+    return std::accumulate(kept, candidates.end(), 0.0,
+                           [](double sum, const Candidate& gone) { return sum + gone.irradiance; });
+}
+
 } // namespace
 
-double
-mostIrradiance(const io::Light& light, const glm::dvec3& box_min, const glm::dvec3& box_max) {
+double mostIrradiance(const light::FrameLights& lights,
+                      const io::Light& light,
+                      const glm::dvec3& box_min,
+                      const glm::dvec3& box_max) {
     const glm::dvec3 position(light.position_view);
     const glm::dvec3 away = glm::clamp(position, box_min, box_max) - position;
     const double distance2 = glm::dot(away, away);
     const double share = distance2 * static_cast<double>(light.inv_radius2);
     const double window = std::max(0.0, 1.0 - share * share);
-    const double strongest =
-        static_cast<double>(std::max({light.color.x, light.color.y, light.color.z}));
-    return strongest * window * window / std::max(distance2, kNearest_m * kNearest_m);
+    // A rectangle's corners may be nearer than its centre.
+    const double extent = static_cast<double>(light::extentOf(lights, light));
+    const double nearest = std::max(std::sqrt(distance2) - extent, light::kNearest_m);
+    return light::strongestChannel(light.color) * window * window / (nearest * nearest);
 }
 
 void capLists(const ClusterGrid& grid,
@@ -71,25 +94,11 @@ void capLists(const ClusterGrid& grid,
                 io::ClusterList& list = lists.clusters[grid.clusterIndex(x, y, z)];
                 const auto all = std::span(lists.indices).subspan(list.offset, list.count);
                 if (list.count > cap) {
-                    const BoundsD3 box = boxOf(grid, grid.cell(x, y, z));
-                    candidates.clear();
-                    for (const uint32_t light : all) {
-                        candidates.push_back(
-                            {mostIrradiance(lights.lights[light], box.min, box.max), light});
-                    }
-                    const auto kept = candidates.begin() + cap;
-                    std::nth_element(candidates.begin(), kept, candidates.end(), before);
-                    double dropped = 0;
-                    for (auto gone = kept; gone != candidates.end(); ++gone) {
-                        dropped += gone->irradiance;
-                    }
+                    const double dropped = keepStrongest(all, cap, boxOf(grid, grid.cell(x, y, z)),
+                                                         lights, candidates);
                     stats.dropped_irradiance = std::max(stats.dropped_irradiance, dropped);
                     stats.dropped_count += list.count - cap;
                     ++stats.capped_count;
-                    std::sort(candidates.begin(), kept,
-                              [](const auto& a, const auto& b) { return a.light < b.light; });
-                    std::transform(candidates.begin(), kept, all.begin(),
-                                   [](const Candidate& stays) { return stays.light; });
                     list.count = cap;
                 }
                 // Lists only move towards the front.
@@ -104,9 +113,7 @@ void capLists(const ClusterGrid& grid,
     lists.indices.resize(end);
     stats.entry_count = end;
     stats.p95 = lengths.p95(stats.largest);
-    const uint32_t filled = stats.cluster_count - stats.empty_count;
-    stats.mean = filled > 0 ? static_cast<double>(end) / filled : 0.0;
-    stats.bytes = lists.clusters.size() * sizeof(io::ClusterList) + end * sizeof(uint32_t);
+    lists.finishStats();
 }
 
 } // namespace froxel::cluster

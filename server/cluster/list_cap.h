@@ -10,8 +10,10 @@ namespace froxel::cluster {
 // More than a light can add to the irradiance of a surface anywhere in a box: its strongest channel
 // times its falloff at the nearest point of the box; cones are left out. Positions are in view
 // space. 0 where the box is out of its reach.
-[[nodiscard]] double
-mostIrradiance(const io::Light& light, const glm::dvec3& box_min, const glm::dvec3& box_max);
+[[nodiscard]] double mostIrradiance(const light::FrameLights& lights,
+                                    const io::Light& light,
+                                    const glm::dvec3& box_min,
+                                    const glm::dvec3& box_max);
 
 // Leaves in each list the `cap` > 0 lights of most mostIrradiance() in the cluster's box, the first
 // ones where several have as much; indices still ascend, and lists still follow each other. Fills

@@ -1,7 +1,10 @@
 // One frame's lights as the shaders and the light assignment read them.
 #pragma once
 
+#include "interface/area_io.h"
 #include "interface/light_io.h"
+
+#include <glm/geometric.hpp>
 
 #include <vector>
 
@@ -19,10 +22,20 @@ struct SpotCone {
 // again: its buffers are reused.
 struct FrameLights {
     std::vector<io::Light> lights;
-    std::vector<float> radii_m;  // of lights; infinity: no range limit
-    std::vector<io::Spot> spots; // named by io::Light::spot
-    std::vector<SpotCone> cones; // of spots
+    std::vector<float> radii_m;       // of lights; infinity: no range limit
+    std::vector<io::Spot> spots;      // named by io::Light::spot
+    std::vector<SpotCone> cones;      // of spots
+    std::vector<io::AreaLight> areas; // named by io::Spot::area
     std::vector<io::DirectionalLight> directionals;
 };
+
+// From a light's centre to its farthest corner, metres; 0 where it is a point.
+[[nodiscard]] inline float extentOf(const io::AreaLight& area) {
+    return glm::length(area.half_right_view + area.half_up_view);
+}
+[[nodiscard]] inline float extentOf(const FrameLights& lights, const io::Light& light) {
+    const uint32_t area = light.spot == io::kNoSpot ? io::kNoArea : lights.spots[light.spot].area;
+    return area < lights.areas.size() ? extentOf(lights.areas[area]) : 0.0F;
+}
 
 } // namespace froxel::light

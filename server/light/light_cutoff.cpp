@@ -1,5 +1,6 @@
 #include "light/light_cutoff.h"
 
+#include "light/falloff.h"
 #include "light/seeded_lights.h"
 
 #include <algorithm>
@@ -7,15 +8,8 @@
 
 namespace froxel::light {
 
-namespace {
-
-// Nearer than this a light's distance counts as this (shaders/lib/brdf.glsl).
-constexpr double kNearest_m = 0.01;
-
-} // namespace
-
 double cutRadius(const glm::vec3& color, double radius_m, double cutoff) {
-    const double strongest = static_cast<double>(std::max({color.x, color.y, color.z}));
+    const double strongest = strongestChannel(color);
     if (!(strongest > 0)) {
         return 0;
     }

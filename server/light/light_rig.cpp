@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace froxel::light {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 // Farther than this a light adds less than 1e-30 of its intensity, and its squared distance would
 // leave a float's range: it is put at this distance instead.
 constexpr double kFarthest_m = 1e15;
+
+// A rectangle shines ahead of its plane and not behind: a cone without a slope.
+constexpr float kStep = 1e30F;
 
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -48,6 +52,29 @@ void addDirectional(const scene::PunctualLight& light,
     out.directionals.push_back(directional);
 }
 
+uint32_t addArea(const scene::LightRectangle& rectangle,
+                 const glm::dmat3& view_from_world,
+                 FrameLights& out) {
+    const double area =
+        4 * glm::length(rectangle.half_right_world) * glm::length(rectangle.half_up_world);
+    out.areas.push_back({.half_right_view = view_from_world * rectangle.half_right_world,
+                         .inv_area = static_cast<float>(1 / area),
+                         .half_up_view = view_from_world * rectangle.half_up_world,
+                         .padding0 = 0});
+    return static_cast<uint32_t>(out.areas.size() - 1);
+}
+
+// Level, then rolled about the direction.
+scene::LightRectangle rectangleOf(const view::PlacedLight& placed) {
+    const glm::dvec3 direction = glm::normalize(placed.direction_world);
+    const glm::dvec3 side = glm::cross(direction, glm::dvec3(0, 1, 0));
+    const glm::dvec3 level = glm::length(side) > 1e-6 ? glm::normalize(side) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 above = glm::cross(level, direction);
+    const double roll = glm::radians(placed.roll_deg);
+    const glm::dvec3 right = level * std::cos(roll) + above * std::sin(roll);
+    return {right * (placed.width_m / 2), glm::cross(right, direction) * (placed.height_m / 2)};
+}
+
 uint32_t
 addSpot(const scene::PunctualLight& light, const glm::dmat3& view_from_world, FrameLights& out) {
     const double cos_outer = std::cos(light.outer_cone_rad);
@@ -56,6 +83,12 @@ addSpot(const scene::PunctualLight& light, const glm::dmat3& view_from_world, Fr
     spot.direction_view = directionView(light, view_from_world);
     spot.scale = static_cast<float>(scale);
     spot.offset = static_cast<float>(-cos_outer * scale);
+    spot.area = io::kNoArea;
+    if (light.rectangle) {
+        spot.scale = kStep;
+        spot.offset = 0;
+        spot.area = addArea(*light.rectangle, view_from_world, out);
+    }
     out.spots.push_back(spot);
     out.cones.push_back({cos_outer, std::sin(light.outer_cone_rad)});
     return static_cast<uint32_t>(out.spots.size() - 1);
@@ -85,8 +118,9 @@ void addLocal(const scene::PunctualLight& light,
 
 scene::PunctualLight asPunctual(const view::PlacedLight& placed) {
     scene::PunctualLight light;
-    light.type =
-        placed.kind == view::LightKind::kSpot ? scene::LightType::kSpot : scene::LightType::kPoint;
+    const bool area = placed.kind == view::LightKind::kArea;
+    light.type = area || placed.kind == view::LightKind::kSpot ? scene::LightType::kSpot
+                                                               : scene::LightType::kPoint;
     light.position_world = placed.position_world;
     light.direction_world = placed.direction_world;
     light.color = placed.color;
@@ -94,6 +128,10 @@ scene::PunctualLight asPunctual(const view::PlacedLight& placed) {
     light.range_m = placed.radius_m;
     light.inner_cone_rad = glm::radians(placed.inner_cone_deg);
     light.outer_cone_rad = glm::radians(placed.outer_cone_deg);
+    if (area) {
+        light.inner_cone_rad = light.outer_cone_rad = std::numbers::pi / 2;
+        light.rectangle = rectangleOf(placed);
+    }
     return light;
 }
 
@@ -146,6 +184,7 @@ void LightRig::evaluate(const view::Lights& settings,
     out.radii_m.assign(settings.count, settings.radius_m);
     out.spots.clear();
     out.cones.clear();
+    out.areas.clear();
     out.directionals.clear();
     fillSeededLights(settings, camera, seededBox(settings), time_s, out.lights);
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);

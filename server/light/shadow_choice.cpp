@@ -70,7 +70,9 @@ std::vector<uint32_t> chooseShadowed(const FrameLights& lights,
         const io::Light& light = lights.lights[i];
         const glm::dvec3 center(light.position_view);
         const double reach_m = std::min(static_cast<double>(lights.radii_m[i]), farthest_m);
-        if (!(reach_m > 0) || !seen.meets(center, reach_m)) {
+        // A map is drawn from one point: rectangles have none.
+        const bool point = extentOf(lights, light) == 0.0F;
+        if (!point || !(reach_m > 0) || !seen.meets(center, reach_m)) {
             continue;
         }
         const double share =

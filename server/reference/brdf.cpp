@@ -1,5 +1,6 @@
 #include "reference/brdf.h"
 
+#include "reference/lobes.h"
 #include "reference/toon.h"
 
 #include <algorithm>
@@ -10,32 +11,6 @@ namespace froxel::reference {
 namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
-
-double fifth(double x) {
-    return x * x * x * x * x;
-}
-
-// Trowbridge and Reitz's distribution of microfacets.
-double distribution(double n_dot_h, double alpha2) {
-    const double t = n_dot_h * n_dot_h * (alpha2 - 1) + 1;
-    return n_dot_h > 0 ? alpha2 * kInvPi / (t * t) : 0.0;
-}
-
-// Smith's masking and shadowing over 4 |n.l| |n.v|, height-correlated (Heitz 2014, equation 99).
-double visibility(double n_dot_l, double n_dot_v, double alpha2) {
-    const double l = n_dot_v * std::sqrt(alpha2 + (1 - alpha2) * n_dot_l * n_dot_l);
-    const double v = n_dot_l * std::sqrt(alpha2 + (1 - alpha2) * n_dot_v * n_dot_v);
-    return 0.5 / (l + v);
-}
-
-// Blinn's lobe (1977) over what it reflects head-on (Giesen 2009), times the cosine's share of the
-// BRDF; the exponent as Walter et al. (2007) match it to Beckmann's distribution.
-double blinnPhong(double n_dot_h, double alpha2) {
-    const double s = 2 / alpha2 - 2;
-    const double returned =
-        8 * std::numbers::pi * (s + std::pow(2.0, -s / 2)) / ((s + 2) * (s + 4));
-    return n_dot_h > 0 ? std::pow(n_dot_h, s) / returned : 0.0;
-}
 
 // The colours of glTF's mixed dielectric and metal.
 struct Colors {
@@ -96,7 +71,26 @@ double attenuation(const PointLight& light, const glm::dvec3& to_light) {
     const double window = 1 - x * x;
     const double along = -glm::dot(light.direction, to_light) / std::sqrt(d2);
     const double share = std::clamp(along * light.cone_scale + light.cone_offset, 0.0, 1.0);
-    return window * window / std::max(d2, kFloor2_m2) * share * share;
+    return window * window / (light.rectangle ? d2 : std::max(d2, kFloor2_m2)) * share * share;
+}
+
+// As many points of a rectangle, each a small light of the same radiance; nothing of it lies nearer
+// to a surface than they lie to one another, or the sum is coarse.
+glm::dvec3 fromRectangle(const Surface& s, const Model& model, const PointLight& light) {
+    const glm::dvec3 to_centre = light.position - s.position;
+    const double window = attenuation(light, to_centre) * glm::dot(to_centre, to_centre);
+    glm::dvec3 sum(0);
+    if (window > 0) {
+        light.eachPart(s.position, [&](const glm::dvec3& part, double share) {
+            const glm::dvec3 to_part = part - s.position;
+            const double d = glm::length(to_part);
+            const double facing = -glm::dot(light.direction, to_part) / d;
+            if (facing > 0) {
+                sum += reflected(s, model, to_part / d) * (facing * share / (d * d));
+            }
+        });
+    }
+    return light.color * sum * window;
 }
 
 glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, const Open& open) {
@@ -107,7 +101,9 @@ glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, 
     for (const PointLight& light : lights.points) {
         const glm::dvec3 to_light = light.position - s.position;
         const double d2 = glm::dot(to_light, to_light);
-        if (d2 < light.radius2) { // most lights are too far away
+        if (light.rectangle) {
+            sum += fromRectangle(s, model, light);
+        } else if (d2 < light.radius2) { // most lights are too far away
             const double share = attenuation(light, to_light);
             if (share > 0 && (!light.shadowed || open(s.position, light.position))) {
                 sum += light.color * reflected(s, model, to_light / std::sqrt(d2)) * share;

@@ -1,5 +1,5 @@
-// What a surface sends towards the eye: glTF 2.0, appendix B, or one of the other shading models, in
-// double.
+// What a surface sends towards the eye: glTF 2.0, appendix B, or one of the other shading models,
+// in double.
 #pragma once
 
 #include "reference/lights.h"
@@ -46,9 +46,7 @@ reflected(const Surface& surface, const Model& model, const glm::dvec3& to_light
 [[nodiscard]] double attenuation(const PointLight& light, const glm::dvec3& to_light);
 
 // All lights, ambient and emission; of an unlit surface its base colour. open: of shadowed lights.
-[[nodiscard]] glm::dvec3 radiance(const Surface& surface,
-                                  const Model& model,
-                                  const Lights& lights,
-                                  const Open& open = {});
+[[nodiscard]] glm::dvec3
+radiance(const Surface& surface, const Model& model, const Lights& lights, const Open& open = {});
 
 } // namespace froxel::reference

@@ -60,8 +60,11 @@ double phase(double anisotropy, double cosine) {
     return (1 - g * g) / (4 * std::numbers::pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
 }
 
-Medium::Medium(const view::Fog& fog, const view::Camera& camera, const Lights& lights)
-    : fog_(fog), lights_(lights), density_(static_cast<double>(fog.density)),
+Medium::Medium(const view::Fog& fog,
+               const view::Camera& camera,
+               const Lights& lights,
+               const Open& open)
+    : fog_(fog), lights_(lights), open_(open), density_(static_cast<double>(fog.density)),
       falloff_(static_cast<double>(fog.height_falloff)),
       eye_height_m_(camera.eye_world.y - fog.base_height_m) {}
 
@@ -78,6 +81,20 @@ double Medium::opticalDepth(const glm::dvec3& from, const glm::dvec3& to) const 
     const double column =
         columnTo(eye_height_m_ + to.y, falloff_) - columnTo(eye_height_m_ + from.y, falloff_);
     return density_ * length_m * column / rise_m;
+}
+
+double Medium::fromRectangle(const PointLight& light,
+                             const glm::dvec3& point,
+                             const glm::dvec3& away) const {
+    double sum = 0;
+    light.eachPart(point, [&](const glm::dvec3& part, double share) {
+        const glm::dvec3 to_point = point - part;
+        const double d = glm::length(to_point);
+        const double facing = std::max(0.0, glm::dot(light.direction, to_point) / d);
+        const double cosine = -glm::dot(to_point, away) / d;
+        sum += share * facing * phase(static_cast<double>(fog_.anisotropy), cosine) / (d * d);
+    });
+    return sum;
 }
 
 glm::dvec3 Medium::scattered(const PointLight& light, const Ray& ray, double length_m) const {
@@ -101,15 +118,21 @@ glm::dvec3 Medium::scattered(const PointLight& light, const Ray& ray, double len
         const double d2 = squared(beside) + t * t;
         const double d = std::sqrt(std::max(d2, 1e-30));
         const glm::dvec3 point = ray.origin + away * (along + t);
+        if (light.shadowed && open_ && !open_(point, light.position)) {
+            continue;
+        }
         const double window = squared(std::max(0.0, 1 - squared(d2 / light.radius2)));
         const double towards = glm::dot(light.direction, point - light.position) / d;
         const double cone =
             squared(std::clamp(towards * light.cone_scale + light.cone_offset, 0.0, 1.0));
+        double reached = phase(static_cast<double>(fog_.anisotropy), -t / d) /
+                         std::max(d2, squared(kLeastDistance_m));
+        if (light.rectangle) {
+            reached = fromRectangle(light, point, away);
+        }
         const double lost = opticalDepth(ray.origin, point) + opticalDepth(point, light.position);
         const double spread_m = (squared(scale) + t * t) / scale * half_angle * weight;
-        sum += densityAt(point) * std::exp(-lost) * window * cone *
-               phase(static_cast<double>(fog_.anisotropy), -t / d) /
-               std::max(d2, squared(kLeastDistance_m)) * spread_m;
+        sum += densityAt(point) * std::exp(-lost) * window * cone * reached * spread_m;
     }
     return light.color * sum;
 }

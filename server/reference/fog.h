@@ -7,6 +7,7 @@
 // Surfaces are lit as without the medium.
 #pragma once
 
+#include "reference/brdf.h"
 #include "reference/lights.h"
 #include "reference/rays.h"
 #include "view/settings.h"
@@ -18,8 +19,12 @@ namespace froxel::reference {
 
 class Medium {
   public:
-    // `lights` lives as long as this.
-    Medium(const view::Fog& fog, const view::Camera& camera, const Lights& lights);
+    // All live as long as this.
+    // `open` is asked for shadowed lights.
+    Medium(const view::Fog& fog,
+           const view::Camera& camera,
+           const Lights& lights,
+           const Open& open = {});
 
     // In the world's axes, relative to the eye, metres.
     [[nodiscard]] double densityAt(const glm::dvec3& point) const;
@@ -29,6 +34,10 @@ class Medium {
     // angles seen from the light (Kulla and Fajardo 2012), in kPoints places of Gauss and Legendre.
     [[nodiscard]] glm::dvec3
     scattered(const PointLight& light, const Ray& ray, double length_m) const;
+    // What scatters towards the eye at a point, of a rectangle's intensity and of the point's
+    // density.
+    [[nodiscard]] double
+    fromRectangle(const PointLight& light, const glm::dvec3& point, const glm::dvec3& away) const;
     static constexpr int kPoints = 48;
 
     // Radiance at `distance` along the view axis as it is seen; infinity: at nothing.
@@ -38,6 +47,7 @@ class Medium {
   private:
     const view::Fog& fog_;
     const Lights& lights_;
+    const Open& open_;
     double density_;
     double falloff_;
     double eye_height_m_; // above the base height

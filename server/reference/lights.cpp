@@ -62,6 +62,12 @@ Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings
         }
         if (light.type == scene::LightType::kSpot) {
             addCone(light, point);
+            if (light.rectangle) {
+                point.rectangle = {light.rectangle->half_right_world,
+                                   light.rectangle->half_up_world};
+                point.cone_scale = 1e30;
+                point.cone_offset = 0;
+            }
         }
         lights.points.push_back(point);
     });

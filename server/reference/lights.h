@@ -5,6 +5,7 @@
 #include "view/settings.h"
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace froxel::reference {
@@ -18,7 +19,49 @@ struct PointLight {
     glm::dvec3 direction{0}; // the way the light travels
     double cone_scale = 0;
     double cone_offset = 1;
+    // A rectangle's halves, perpendicular to the direction, which it shines to as a whole.
+    struct Rectangle {
+        glm::dvec3 half_right{0};
+        glm::dvec3 half_up{0};
+    };
+    std::optional<Rectangle> rectangle = std::nullopt;
     bool shadowed = false; // what stands between it and a surface takes its light away
+
+    // Calls visit(position, share of the whole) at the middles of the rectangle's parts, which are
+    // the smaller the nearer they are to the point.
+    template <class Visit>
+    void eachPart(const glm::dvec3& seen_from, const Visit& visit) const {
+        for (int i = 0; i < kParts; ++i) {
+            for (int k = 0; k < kParts; ++k) {
+                splitPart(seen_from, {(2 * i + 1.0) / kParts - 1, (2 * k + 1.0) / kParts - 1},
+                          1.0 / kParts, visit);
+            }
+        }
+    }
+
+  private:
+    static constexpr int kParts = 16;
+    static constexpr double kMostSeen = 0.1; // a part's half diagonal over its distance
+    static constexpr double kLeastPart = 1.0 / (kParts << 6);
+
+    template <class Visit>
+    void splitPart(const glm::dvec3& seen_from,
+                   const glm::dvec2& middle,
+                   double half,
+                   const Visit& visit) const {
+        const glm::dvec3 at =
+            position + rectangle->half_right * middle.x + rectangle->half_up * middle.y;
+        const double extent = half * glm::length(rectangle->half_right + rectangle->half_up);
+        if (extent <= kMostSeen * glm::distance(seen_from, at) || half <= kLeastPart) {
+            visit(at, half * half);
+            return;
+        }
+        for (const double x : {-0.5, 0.5}) {
+            for (const double y : {-0.5, 0.5}) {
+                splitPart(seen_from, middle + glm::dvec2(x, y) * half, half / 2, visit);
+            }
+        }
+    }
 };
 
 struct DirectionalLight {

@@ -69,7 +69,7 @@ class Shader {
         : scene_(scene), settings_(settings), visibility_(visibility), filtering_(filtering),
           rays_(settings.camera, settings.size), model_(modelOf(settings)),
           lights_(lightsAt(scene, settings, time_s)),
-          medium_(settings.fog, settings.camera, lights_),
+          medium_(settings.fog, settings.camera, lights_, open_),
           placements_(placementsOf(scene, settings.camera.eye_world)),
           materials_(scene,
                      visibleMaterials(scene, visibility, settings.shadows.light_count > 0),

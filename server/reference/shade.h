@@ -17,11 +17,11 @@ using froxel::VisibleTriangle;
 
 // Shades every pixel with every light of `settings` at `time_s` (the lights' clock), by the
 // renderer and the shading model that `settings` name. Grids, lists, stages and layouts do not
-// matter, nor how shadow maps are made: a ray says whether a light with shadows arrives; and what trades error for speed (a G-buffer layout, a lights' cut-off) is left out, so
-// that it is priced. The ray through
-// the pixel's centre meets the plane of the stated triangle in double (kPlaneGoesOn in rays.h says
-// what holds for centres just outside it). Blended triangles are found by ray here and sorted pixel
-// by pixel. Runs on every hardware thread. `scene` is only read.
+// matter, nor how shadow maps are made: a ray says whether a light with shadows arrives; and what
+// trades error for speed (a G-buffer layout, a lights' cut-off) is left out, so that it is priced.
+// The ray through the pixel's centre meets the plane of the stated triangle in double (kPlaneGoesOn
+// in rays.h says what holds for centres just outside it). Blended triangles are found by ray here
+// and sorted pixel by pixel. Runs on every hardware thread. `scene` is only read.
 //
 // Stated model, besides glTF 2.0 with KHR_lights_punctual, KHR_materials_unlit and
 // KHR_texture_transform: visibility is height-correlated Smith (Heitz 2014); roughness is at least

@@ -20,11 +20,7 @@ vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
 
 vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     const vk::DescriptorPoolSize size{Type::eStorageBuffer, 1};
-    return device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = 1,
-         .poolSizeCount = 1,
-         .pPoolSizes = &size});
+    return gpu::makeDescriptorPool(device, std::array{size});
 }
 
 } // namespace
@@ -65,10 +61,7 @@ FogVolume::FogVolume(const gpu::Device& device,
                                                  gpu::MemoryUse::kDevice,
                                                  "fog volume")),
       pool_(makePool(device)) {
-    const auto layout = pipelines.setLayout();
-    auto sets = device.handle().allocateDescriptorSets(
-        {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout});
-    set_ = std::move(sets[0]);
+    set_ = gpu::makeSet(device, pool_, pipelines.setLayout());
     const vk::DescriptorBufferInfo buffer{*froxels_.handle, 0, VK_WHOLE_SIZE};
     device.handle().updateDescriptorSets(
         vk::WriteDescriptorSet{.dstSet = *set_,

@@ -40,6 +40,7 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= io::kLightLocal;
         flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
         flags |= facts.spots ? io::kLightSpots : 0U;
+        flags |= facts.areas ? io::kLightAreas : 0U;
         flags |= facts.shadows ? io::kLightShadows : 0U;
         flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
         flags |= facts.long_loops ? io::kLightLong : 0U;
@@ -62,8 +63,8 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
 
 // The part that says how lights are fetched, each invocation by itself.
 uint32_t fogLightFlags(uint32_t light_flags) {
-    return light_flags & (io::kLightLocal | io::kLightLists | io::kLightSpots |
-                          io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
+    return light_flags & (io::kLightLocal | io::kLightLists | io::kLightSpots | io::kLightAreas |
+                          io::kLightShadows | io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
                           io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
 }
 

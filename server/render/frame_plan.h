@@ -13,8 +13,9 @@ struct FrameFacts {
     bool wide_gbuffer = false;        // SceneNeeds::wide_gbuffer
     uint32_t emission_exponent = 0;   // SceneNeeds::emission_exponent
     bool transparent_visible = false; // blended surfaces are in view
-    bool local_lights = false;        // any point or spot light
+    bool local_lights = false;        // any light that has a place
     bool spots = false;
+    bool areas = false;       // some of the spots are rectangles
     bool shadows = false;     // some of them have shadow maps
     bool equal_radii = false; // all local lights reach equally far
     bool long_loops = false;  // more iterations than a software rasteriser's loops may have

@@ -57,19 +57,21 @@ class Pipelines {
     static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
     static constexpr vk::Format kBlendWeightFormat = vk::Format::eR32Sfloat;
     static constexpr vk::Format kPeelKeyFormat = vk::Format::eR32G32Uint; // depth's bits, order
-    static constexpr uint32_t kFrameBindings = 11;
+    static constexpr uint32_t kFrameBindings = 13;
     static constexpr std::array<vk::DescriptorType, kFrameBindings> kFrameBindingTypes = {
-        vk::DescriptorType::eUniformBuffer,      // frame
-        vk::DescriptorType::eUniformTexelBuffer, // lights
-        vk::DescriptorType::eUniformTexelBuffer, // cluster lists
-        vk::DescriptorType::eUniformTexelBuffer, // light index list
-        vk::DescriptorType::eUniformTexelBuffer, // spots
-        vk::DescriptorType::eStorageBuffer,      // directional lights
-        vk::DescriptorType::eUniformBuffer,      // fog
-        vk::DescriptorType::eUniformTexelBuffer, // its volume
-        vk::DescriptorType::eUniformTexelBuffer, // which shadow maps a light has
-        vk::DescriptorType::eUniformTexelBuffer, // lights with shadow maps
-        vk::DescriptorType::eSampledImage};      // shadow atlas
+        vk::DescriptorType::eUniformBuffer,       // frame
+        vk::DescriptorType::eUniformTexelBuffer,  // lights
+        vk::DescriptorType::eUniformTexelBuffer,  // cluster lists
+        vk::DescriptorType::eUniformTexelBuffer,  // light index list
+        vk::DescriptorType::eUniformTexelBuffer,  // spots
+        vk::DescriptorType::eStorageBuffer,       // directional lights
+        vk::DescriptorType::eUniformBuffer,       // fog
+        vk::DescriptorType::eUniformTexelBuffer,  // its volume
+        vk::DescriptorType::eUniformTexelBuffer,  // which shadow maps a light has
+        vk::DescriptorType::eUniformTexelBuffer,  // lights with shadow maps
+        vk::DescriptorType::eSampledImage,        // shadow atlas
+        vk::DescriptorType::eUniformTexelBuffer,  // rectangular lights
+        vk::DescriptorType::eUniformTexelBuffer}; // what their highlights take
     // Of the texel buffers among them; undefined for the others.
     static constexpr std::array<vk::Format, kFrameBindings> kFrameTexelFormats = {
         vk::Format::eUndefined,
@@ -82,7 +84,9 @@ class Pipelines {
         vk::Format::eR32G32B32A32Sfloat,
         vk::Format::eR32Uint,
         vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eUndefined};
+        vk::Format::eUndefined,
+        vk::Format::eR32G32B32A32Sfloat,
+        vk::Format::eR32G32B32A32Sfloat};
     static constexpr uint32_t kShadowAtlasBinding = 10;
 
     // Variants kept: of surfaces, where a frame takes one for each kind of material, and of passes

@@ -57,6 +57,12 @@ void addLightWords(Lines& lines,
     if (facts.local_lights) {
         lines.emplace_back(facts.spots ? "spot lights: cones are fetched and cut"
                                        : "no spot light: no cone data");
+        if (facts.areas) {
+            lines.emplace_back(
+                settings.shading == view::ShadingModel::kLambert
+                    ? "area lights: their rectangles are fetched and integrated"
+                    : "area lights: rectangles and the highlight's table are fetched");
+        }
         lines.emplace_back(facts.equal_radii ? "all radii equal: radius is a constant"
                                              : "radii differ: each light brings its own");
         if ((flags & io::kLightCulled) != 0) {

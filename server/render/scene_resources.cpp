@@ -1,7 +1,9 @@
 #include "render/scene_resources.h"
 
 #include "core/error.h"
+#include "gpu/pipeline.h"
 #include "interface/frame_io.h"
+#include "ltc/table.h"
 #include "scene/scene_check.h"
 
 #include <spdlog/spdlog.h>
@@ -132,11 +134,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
                                static_cast<uint32_t>(count * kTexturesOfMaterial)}};
-    material_pool_ = device.handle().createDescriptorPool(
-        {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-         .maxSets = count,
-         .poolSizeCount = static_cast<uint32_t>(pool_sizes.size()),
-         .pPoolSizes = pool_sizes.data()});
+    material_pool_ = gpu::makeDescriptorPool(device, pool_sizes, count);
     const std::vector layouts(count, pipelines.materialLayout());
     material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
                                                              .descriptorSetCount = count,
@@ -209,6 +207,20 @@ VisibilityScene& SceneResources::visibility() {
         visibility_ = std::make_unique<VisibilityScene>(*this, uploader);
     }
     return *visibility_;
+}
+
+const gpu::Buffer& SceneResources::ltcTable() {
+    if (!ltc_arena_) {
+        const auto bytes = std::as_bytes(ltc::table());
+        auto made = std::make_unique<gpu::MemoryArena>(device);
+        ltc_table_ = made->makeBuffer(bytes.size(),
+                                      vk::BufferUsageFlagBits::eUniformTexelBuffer |
+                                          vk::BufferUsageFlagBits::eTransferDst,
+                                      gpu::MemoryUse::kDevice, "linearly transformed cosines");
+        gpu::Uploader(device, timeline, bytes.size()).upload(ltc_table_, bytes);
+        ltc_arena_ = std::move(made);
+    }
+    return ltc_table_;
 }
 
 const AssignPipelines* SceneResources::assignment() {

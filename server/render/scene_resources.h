@@ -62,10 +62,12 @@ class SceneResources {
 
     // Made at the first call. Null: the device cannot assign lights as the host does.
     [[nodiscard]] const AssignPipelines* assignment();
-    // Both made at the first call. Throw vk::SystemError.
+    // All made at the first call. Throw vk::SystemError.
     [[nodiscard]] BloomPipelines& bloom();
     [[nodiscard]] const FxaaPipeline& fxaa();
     [[nodiscard]] FogPipelines& fog();
+    // The highlights of rectangular lights: ltc::table().
+    [[nodiscard]] const gpu::Buffer& ltcTable();
     // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
     [[nodiscard]] VisibilityScene& visibility();
 
@@ -87,6 +89,8 @@ class SceneResources {
     std::unique_ptr<BloomPipelines> bloom_;
     std::unique_ptr<FxaaPipeline> fxaa_;
     std::unique_ptr<FogPipelines> fog_;
+    std::unique_ptr<gpu::MemoryArena> ltc_arena_;
+    gpu::Buffer ltc_table_;
 };
 
 } // namespace froxel::render

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,13 @@ struct NamedCamera {
 enum class LightType : uint8_t { kPoint, kSpot, kDirectional };
 
 // KHR_lights_punctual. Units: candela (point, spot), lux (directional).
+// What a light shines from, ahead of it alone; the axes and the light's direction are
+// perpendicular.
+struct LightRectangle {
+    glm::dvec3 half_right_world{0}; // m, from the centre to the middle of an edge
+    glm::dvec3 half_up_world{0};    // -direction is right x up's
+};
+
 struct PunctualLight {
     std::string name;
     LightType type = LightType::kPoint;
@@ -111,9 +119,10 @@ struct PunctualLight {
     glm::dvec3 direction_world{0, 0, -1}; // unit, the way the light travels
     glm::vec3 color{1, 1, 1};             // linear
     float intensity = 1;
-    float range_m = 0;                    // 0: none given
-    double inner_cone_rad = 0;            // half angles; spot only
+    float range_m = 0;         // 0: none given
+    double inner_cone_rad = 0; // half angles; spot only
     double outer_cone_rad = 0.7853981633974483;
+    std::optional<LightRectangle> rectangle; // of a spot of 90 degrees; no file has any
 };
 
 struct Scene {

@@ -73,6 +73,9 @@ struct PlacedLightChange {
     std::optional<double> radius_m;
     std::optional<double> inner_cone_deg;
     std::optional<double> outer_cone_deg;
+    std::optional<double> width_m;
+    std::optional<double> height_m;
+    std::optional<double> roll_deg;
 };
 
 // Done in the order of the fields.

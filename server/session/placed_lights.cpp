@@ -1,8 +1,13 @@
 #include "session/placed_lights.h"
 
+#include "core/assert.h"
 #include "session/enum_field.h"
 #include "session/json_input.h"
+#include "session/proto_vec.h"
 
+#include <google/protobuf/util/json_util.h>
+
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -13,10 +18,6 @@ namespace {
 
 std::string element(const char* list, int index) {
     return std::string(list) + "[" + numberText(index) + "]";
-}
-
-glm::dvec3 vec(const v1::Vec3& value) {
-    return {value.x(), value.y(), value.z()};
 }
 
 PlacedLightChange
@@ -56,6 +57,16 @@ decodeLight(const std::string& field, const v1::PlacedLight& light, FieldValidat
         change.outer_cone_deg =
             fields.number(field + ".outer_cone_deg", view::kConeRange, light.outer_cone_deg());
     }
+    if (light.has_width_m()) {
+        change.width_m = fields.number(field + ".width_m", view::kAreaSideRange, light.width_m());
+    }
+    if (light.has_height_m()) {
+        change.height_m =
+            fields.number(field + ".height_m", view::kAreaSideRange, light.height_m());
+    }
+    if (light.has_roll_deg()) {
+        change.roll_deg = fields.number(field + ".roll_deg", view::kRollRange, light.roll_deg());
+    }
     return change;
 }
 
@@ -71,28 +82,24 @@ void apply(const PlacedLightChange& change, view::PlacedLight& light) {
         static_cast<float>(change.radius_m.value_or(static_cast<double>(light.radius_m)));
     light.inner_cone_deg = change.inner_cone_deg.value_or(light.inner_cone_deg);
     light.outer_cone_deg = change.outer_cone_deg.value_or(light.outer_cone_deg);
-}
-
-Rejection outOfRange(const std::string& field, const std::string& text) {
-    return {RejectCode::kOutOfRange, 0, field, field + " " + text};
-}
-
-void fill(v1::Vec3& out, const glm::dvec3& value) {
-    out.set_x(value.x);
-    out.set_y(value.y);
-    out.set_z(value.z);
+    light.width_m = change.width_m.value_or(light.width_m);
+    light.height_m = change.height_m.value_or(light.height_m);
+    light.roll_deg = change.roll_deg.value_or(light.roll_deg);
 }
 
 void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
     out.set_id(light.id);
     out.set_kind(toProto(kLightKindTable, light.kind));
-    fill(*out.mutable_position(), light.position_world);
-    fill(*out.mutable_direction(), light.direction_world);
-    fill(*out.mutable_color(), glm::dvec3(light.color));
+    fillVec(*out.mutable_position(), light.position_world);
+    fillVec(*out.mutable_direction(), light.direction_world);
+    fillVec(*out.mutable_color(), glm::dvec3(light.color));
     out.set_intensity(static_cast<double>(light.intensity));
     out.set_radius_m(static_cast<double>(light.radius_m));
     out.set_inner_cone_deg(light.inner_cone_deg);
     out.set_outer_cone_deg(light.outer_cone_deg);
+    out.set_width_m(light.width_m);
+    out.set_height_m(light.height_m);
+    out.set_roll_deg(light.roll_deg);
 }
 
 } // namespace
@@ -137,6 +144,14 @@ CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
                               "is missing; light " + numberText(wanted.id) + " is not there yet");
         }
         apply(wanted, light->second);
+        const double corner_m = 0.5 * std::hypot(light->second.width_m, light->second.height_m);
+        if (light->second.kind == view::LightKind::kArea &&
+            static_cast<double>(light->second.radius_m) < corner_m) {
+            return outOfRange(field + ".radius_m",
+                              "is " + numberText(static_cast<double>(light->second.radius_m)) +
+                                  "; a rectangle's corners must lie within it, here " +
+                                  numberText(corner_m));
+        }
         if (light->second.inner_cone_deg > light->second.outer_cone_deg) {
             return outOfRange(field + ".inner_cone_deg",
                               "is " + numberText(light->second.inner_cone_deg) +
@@ -177,9 +192,6 @@ CommandResult<view::PlacedLights> parseLightSet(std::string_view json) {
 
 v1::PlacedLights changeOf(const view::PlacedLights& told, const view::PlacedLights& now) {
     v1::PlacedLights change;
-    if (told == now) {
-        return change;
-    }
     for (const view::PlacedLight& light : told.lights()) {
         if (now.find(light.id) == nullptr) {
             change.add_remove(light.id);
@@ -192,6 +204,13 @@ v1::PlacedLights changeOf(const view::PlacedLights& told, const view::PlacedLigh
         }
     }
     return change;
+}
+
+std::string lightSetJson(const view::PlacedLights& lights) {
+    std::string json;
+    const auto written = google::protobuf::util::MessageToJsonString(changeOf({}, lights), &json);
+    FROXEL_ASSERT(written.ok(), "a light set is JSON");
+    return json;
 }
 
 } // namespace froxel::session

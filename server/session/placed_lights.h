@@ -6,6 +6,7 @@
 #include "session/command.h"
 #include "session/field_validator.h"
 
+#include <string>
 #include <string_view>
 
 namespace froxel::session {
@@ -21,6 +22,9 @@ namespace froxel::session {
 // The canonical JSON of a v1::PlacedLights that has `lights` alone, untrusted. Refused: as
 // parseJson, decodePlacedLights and changed, and a set that clears or removes.
 [[nodiscard]] CommandResult<view::PlacedLights> parseLightSet(std::string_view json);
+
+// What parseLightSet reads back as the same.
+[[nodiscard]] std::string lightSetJson(const view::PlacedLights& lights);
 
 // The change that takes `told` to `now`; empty where they are equal.
 [[nodiscard]] v1::PlacedLights changeOf(const view::PlacedLights& told,

@@ -21,6 +21,7 @@ inline constexpr std::array kRendererTable = {
 inline constexpr std::array kLightKindTable = {
     std::pair{v1::LIGHT_KIND_POINT, view::LightKind::kPoint},
     std::pair{v1::LIGHT_KIND_SPOT, view::LightKind::kSpot},
+    std::pair{v1::LIGHT_KIND_AREA, view::LightKind::kArea},
 };
 inline constexpr std::array kLightingStageTable = {
     std::pair{v1::LIGHTING_STAGE_AUTO, view::LightingStage::kAuto},

@@ -13,19 +13,24 @@
 
 namespace froxel::view {
 
-enum class LightKind : uint8_t { kPoint, kSpot };
-inline constexpr std::array kLightKindNames = {std::string_view("point"), std::string_view("spot")};
+enum class LightKind : uint8_t { kPoint, kSpot, kArea };
+inline constexpr std::array kLightKindNames = {std::string_view("point"), std::string_view("spot"),
+                                               std::string_view("area")};
 
 struct PlacedLight {
     uint32_t id = 0; // of who placed it; not 0
     LightKind kind = LightKind::kPoint;
     glm::dvec3 position_world{0};
-    glm::dvec3 direction_world{0, -1, 0}; // the way a spot's light travels; of any length but 0
+    glm::dvec3 direction_world{0, -1, 0}; // the way its light travels, but a point's; of any
+                                          // length but 0
     glm::vec3 color{1};                   // linear, 0 to 1
     float intensity = 1;
     float radius_m = 2;         // where its contribution reaches exactly 0
     double inner_cone_deg = 30; // half angles; spots only
     double outer_cone_deg = 45;
+    double width_m = 1; // of an area light's rectangle, whose radiance is intensity / area
+    double height_m = 1;
+    double roll_deg = 0; // about the direction, from a level width
     bool operator==(const PlacedLight&) const = default;
 };
 

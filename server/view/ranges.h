@@ -54,7 +54,9 @@ inline constexpr Range<uint32_t> kPlacedIdRange{"lights.id", 1, 0xffffffff};
 // All of them are told to whoever joins: some 200 KB.
 inline constexpr Range<uint32_t> kPlacedCountRange{"placed_lights", 0, 2048};
 inline constexpr Range<double> kPlacedColorRange{"lights.color", 0.0, 1.0};
-inline constexpr Range<double> kConeRange{"lights.cone_deg", 0.0, 90.0}; // half angles
+inline constexpr Range<double> kConeRange{"lights.cone_deg", 0.0, 90.0};     // half angles
+inline constexpr Range<double> kAreaSideRange{"lights.side_m", 0.01, 100.0}; // of a rectangle
+inline constexpr Range<double> kRollRange{"lights.roll_deg", -360.0, 360.0};
 inline constexpr Range<double> kFogDensityRange{"fog_density", 0.0, 100.0};
 inline constexpr Range<double> kFogHeightFalloffRange{"fog_height_falloff", 0.0, 100.0};
 inline constexpr Range<double> kFogBaseHeightRange{"fog_base_height", -1e7, 1e7};
@@ -68,28 +70,52 @@ inline constexpr Range<uint32_t> kShadowSizeRange{"shadow_size", 64, 512};
 inline constexpr Range<double> kTimeRange{"time", 0.0, 1e9};
 
 // Every range that a client can run into; the server tells them all when it greets.
-inline constexpr std::tuple kCommandRanges{kWidthRange,          kHeightRange,
-                                           kLightCountRange,     kLightRadiusRange,
-                                           kLightIntensityRange, kLightSpeedRange,
-                                           kAmbientRange,        kGridXRange,
-                                           kGridYRange,          kGridZRange,
-                                           kExposureRange,       kFovRange,
-                                           kHalfHeightRange,     kPositionRange,
-                                           kFocusRange,          kUpRange,
-                                           kQualityRange,        kToonRange,
-                                           kToonSlopeRange,      kTimeRange,
-                                           kLensShiftXRange,     kLensShiftYRange,
-                                           kLightCutoffRange,    kTargetFpsRange,
-                                           kVideoKbpsRange,      kOutlineStrengthRange,
-                                           kOutlineWidthRange,   kBloomThresholdRange,
-                                           kBloomKneeRange,      kBloomStrengthRange,
-                                           kBloomRadiusRange,    kDebugScaleRange,
-                                           kPeelLayersRange,     kPlacedColorRange,
-                                           kConeRange,           kListCapRange,
-                                           kFogDensityRange,     kFogHeightFalloffRange,
-                                           kFogBaseHeightRange,  kFogAnisotropyRange,
-                                           kFogAlbedoRange,      kFogTileRange,
-                                           kFogSlicesRange,      kShadowLightsRange,
-                                           kShadowSizeRange};
+inline constexpr std::tuple kCommandRanges{kWidthRange,
+                                           kHeightRange,
+                                           kLightCountRange,
+                                           kLightRadiusRange,
+                                           kLightIntensityRange,
+                                           kLightSpeedRange,
+                                           kAmbientRange,
+                                           kGridXRange,
+                                           kGridYRange,
+                                           kGridZRange,
+                                           kExposureRange,
+                                           kFovRange,
+                                           kHalfHeightRange,
+                                           kPositionRange,
+                                           kFocusRange,
+                                           kUpRange,
+                                           kQualityRange,
+                                           kToonRange,
+                                           kToonSlopeRange,
+                                           kTimeRange,
+                                           kLensShiftXRange,
+                                           kLensShiftYRange,
+                                           kLightCutoffRange,
+                                           kTargetFpsRange,
+                                           kVideoKbpsRange,
+                                           kOutlineStrengthRange,
+                                           kOutlineWidthRange,
+                                           kBloomThresholdRange,
+                                           kBloomKneeRange,
+                                           kBloomStrengthRange,
+                                           kBloomRadiusRange,
+                                           kDebugScaleRange,
+                                           kPeelLayersRange,
+                                           kPlacedColorRange,
+                                           kConeRange,
+                                           kListCapRange,
+                                           kFogDensityRange,
+                                           kFogHeightFalloffRange,
+                                           kFogBaseHeightRange,
+                                           kFogAnisotropyRange,
+                                           kFogAlbedoRange,
+                                           kFogTileRange,
+                                           kFogSlicesRange,
+                                           kShadowLightsRange,
+                                           kShadowSizeRange,
+                                           kAreaSideRange,
+                                           kRollRange};
 
 } // namespace froxel::view

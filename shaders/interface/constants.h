@@ -29,7 +29,7 @@ FROXEL_CONST uint kMaterialTangents = 1U << 10;   // the tangents are from the f
 FROXEL_CONST uint kMaterialBlend = 1U << 11;
 
 // Light flags: which lights a frame has and how they are looped over.
-FROXEL_CONST uint kLightLocal = 1U << 0;       // any point or spot light
+FROXEL_CONST uint kLightLocal = 1U << 0;       // any light that has a place
 FROXEL_CONST uint kLightLists = 1U << 1;       // through cluster lists; else all lights
 FROXEL_CONST uint kLightSpots = 1U << 2;       // some of the local lights are spots
 FROXEL_CONST uint kLightDirectional = 1U << 3;
@@ -43,6 +43,7 @@ FROXEL_CONST uint kLightLong = 1U << 10;       // loops take several lights an i
 FROXEL_CONST uint kLightBlinnPhong = 1U << 11; // view::ShadingModel::kBlinnPhong
 FROXEL_CONST uint kLightSlicesLinear = 1U << 12; // cluster::SliceLaw; neither: logarithmic
 FROXEL_CONST uint kLightSlicesHyperbolic = 1U << 13;
+FROXEL_CONST uint kLightAreas = 1U << 14;      // some of the spots are rectangles
 FROXEL_CONST uint kLightShadows = 1U << 17;    // some local lights have shadow maps
 
 // Output flags: targets and what the last pass does.

@@ -51,11 +51,12 @@ struct Frame {
     float slice_unit;
     vec3 background; // linear radiance of empty pixels
     float light_inv_radius2; // of every local light, where they are equal
+    float area_reach_m;      // from a rectangular light's centre to its corners, the most of all
     float outline_strength;
     float outline_reach_px; // how far from an edge pixels are darkened
     ToonSegment toon[kMaxToonSegments];
 };
-FROXEL_SIZE_ASSERT(Frame, 372);
+FROXEL_SIZE_ASSERT(Frame, 376);
 
 // One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
 struct UvTransform {

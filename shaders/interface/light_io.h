@@ -22,9 +22,9 @@ struct Spot {
     vec3 direction_view; // unit, the way the light travels
     float scale;         // 1 / max(1e-3, cos(inner) - cos(outer)), made in double
     float offset;        // -cos(outer) * scale
+    uint area;           // index into the rectangles, kNoArea; these shine ahead alone
     float padding0;
     float padding1;
-    float padding2;
 };
 FROXEL_SIZE_ASSERT(Spot, 32);
 

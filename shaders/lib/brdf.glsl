@@ -74,6 +74,20 @@ float lobePower(float c2, float h2, float power) {
     return exponent > -64.0 ? exp2(exponent) : 0.0;
 }
 
+// (1 - l.h)^5 for h2 = |l + v|^2.
+float schlick(float h2) {
+    precise float q = max(fma(-0.5, sqrt(h2), 1.0), 0.0);
+    precise float p = (q * q) * (q * q) * q;
+    return p;
+}
+
+// Of a light's irradiance at x = distance^2 / radius^2: exactly 0 at its radius.
+float rangeWindow(float x) {
+    precise float w = max(fma(-x, x, 1.0), 0.0);
+    precise float window = w * w;
+    return window;
+}
+
 // Adds light of irradiance colour * attenuation from direction l; both dot products signed.
 void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, vec3 color,
                    inout LightSum sum) {
@@ -89,8 +103,7 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, v
     // The half vector only appears by |l + v|^2 and n.(l + v): no need to normalise it.
     precise float h2 = max(fma(2.0, v_dot_l, 2.0), 1e-6);
     precise float n_dot_sum = facing + s.n_dot_eye;
-    precise float q = max(fma(-0.5, sqrt(h2), 1.0), 0.0);
-    precise float p = (q * q) * (q * q) * q;
+    precise float p = schlick(h2);
     precise float lobe;
     if (hasLight(kLightBlinnPhong)) {
         precise float c2 = min(n_dot_sum * n_dot_sum, h2);
@@ -118,9 +131,8 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
     precise float d2 = fma(to_light.z, to_light.z,
                            fma(to_light.y, to_light.y, to_light.x * to_light.x));
     precise float x = d2 * inv_radius2;
-    precise float w = max(fma(-x, x, 1.0), 0.0);
     precise float inv_d = inversesqrt(max(d2, kLeastDistance2));
-    precise float attenuation = (w * w) * min(inv_d * inv_d, kMostInverse2) * share;
+    precise float attenuation = rangeWindow(x) * min(inv_d * inv_d, kMostInverse2) * share;
     precise float n_dot_l = fma(s.normal_view.z, to_light.z,
                                 fma(s.normal_view.y, to_light.y, s.normal_view.x * to_light.x)) *
                             inv_d;

@@ -19,6 +19,8 @@ layout(set = 0, binding = 5, scalar) readonly buffer SunBlock { DirectionalLight
 layout(set = 0, binding = 8) uniform utextureBuffer shadow_of_light; // a local light's, or kNoShadow
 layout(set = 0, binding = 9) uniform textureBuffer shadow_texels;    // io::ShadowLight: 5 texels
 layout(set = 0, binding = 10) uniform texture2D shadow_atlas;
+layout(set = 0, binding = 11) uniform textureBuffer area_texels; // io::AreaLight: 2 texels
+layout(set = 0, binding = 12) uniform textureBuffer ltc_texels;
 
 #ifdef FROXEL_VISIBILITY
 uint visible_flags; // of this invocation's pixel; MATERIAL_FLAGS: what any of them may have

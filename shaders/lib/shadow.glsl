@@ -79,6 +79,12 @@ uint shadowLevel(Surface s, uint index) {
     return uint(level);
 }
 
+// Of a light's radiance at a point in the air, which is in no surface's own shadow.
+float shadowInAir(vec3 position_view, uint shadow) {
+    Surface nowhere = makeSurface(position_view, vec3(0.0), 1.0);
+    return float(shadowLevel(nowhere, shadow)) / float(kShadowLevels);
+}
+
 // Bit i: light i with maps can reach the surface, by the steps of addLight(). What faces away gets
 // nothing anyway, but where a ramp may lift it.
 uint shadowsInReach(Surface s, uint count) {

@@ -243,6 +243,36 @@ TEST_F(Fog, Room_IsAsIntegratedInDouble) {
     }
 }
 
+// A lamp behind a screen: the air in its shadow is dark. Rays in double say where; a slice is lit
+// or not by its middle, so the rest is at the shaft's edges.
+TEST_F(Fog, ShadowsFall_IntoTheAir) {
+    SceneMaker maker = wallAhead(6);
+    maker.add(quad({-0.6F, -0.6F, -3.2F}, {1.2F, 0, 0}, {0, 1.2F, 0}, 1, 0));
+    maker.point({0.2, 0.1, -4}, 5, 6);
+    maker.spot({-2, 2, -4.5}, {0.7, -0.7, 0.1}, 6, 25, 35);
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = inputsFor(ahead(), 0);
+    inputs.settings.fog = {.density = 0.1F, .anisotropy = 0.2F};
+    inputs.settings.fog.tile_px = 4;
+    inputs.settings.fog.slice_count = 128;
+    inputs.settings.lights.ambient = 0;
+    inputs.settings.shading = view::ShadingModel::kLambert;
+    const double before = errorOf(renderer, meant(renderer, maker.scene, inputs), inputs);
+    auto shadowed = inputs;
+    shadowed.settings.shadows = {2, 512};
+    const LinearImage right = meant(renderer, maker.scene, shadowed);
+    EXPECT_LT(errorOf(renderer, right, shadowed), before + 0.03);
+    EXPECT_GT(errorOf(renderer, right, inputs), 0.15);
+    for (const auto kind : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+        shadowed.settings.renderer = kind;
+        const Picture lists = draw(renderer, shadowed);
+        auto all = shadowed;
+        all.settings.light_loop = view::LightLoop::kAllLights;
+        all.settings.renderer = kind == Renderer::kForwardPlus ? Renderer::kNaive : kind;
+        EXPECT_EQ(differingFloats(lists, draw(renderer, all)), 0U);
+    }
+}
+
 TEST_F(Fog, Frames_ArePureFunctionsOfTheirInputs) {
     const auto maker = lampsInTheAir();
     render::Renderer renderer(device(), maker.scene);
@@ -308,7 +338,9 @@ TEST_F(Fog, DebugViews_AreNotFogged) {
     EXPECT_THAT(passes, Contains("wires"));
 }
 
-TEST_F(Fog, WithAllElse_EveryRendererIsFiniteAndRepeats) {
+// Fog, shadows, glass by every order, area lights, bloom, outlines and a filter at once: lists are
+// as exact as with none of them.
+TEST_F(Fog, WithAllElse_EveryRendererIsFiniteRepeatsAndIsExact) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
@@ -320,12 +352,27 @@ TEST_F(Fog, WithAllElse_EveryRendererIsFiniteAndRepeats) {
         inputs.settings.bloom.kind = view::BloomKind::kMipChain;
         inputs.settings.toon_outline.strength = 0.5F;
         inputs.settings.antialiasing = view::Antialiasing::kFxaa;
-        const Picture picture = draw(view, inputs);
-        for (const float value : picture.radiance) {
-            ASSERT_TRUE(std::isfinite(value)) << view::kRendererNames[kind];
+        inputs.settings.shadows = {8, 128};
+        view::PlacedLight area;
+        area.id = 1;
+        area.kind = view::LightKind::kArea;
+        area.position_world = {0, 2.5, 0};
+        area.radius_m = 4;
+        inputs.settings.lights.placed = view::PlacedLights({area});
+        for (size_t order = 0; order < view::kTransparencyNames.size(); ++order) {
+            SCOPED_TRACE(std::string(view::kRendererNames[kind]) + ", " +
+                         std::string(view::kTransparencyNames[order]));
+            inputs.settings.transparency = static_cast<view::Transparency>(order);
+            const Picture picture = draw(view, inputs);
+            for (const float value : picture.radiance) {
+                ASSERT_TRUE(std::isfinite(value));
+            }
+            EXPECT_GT(differingFloats(clear, picture), 0U);
+            EXPECT_EQ(picture.rgba8, draw(view, inputs).rgba8);
+            auto all = inputs;
+            all.settings.light_loop = view::LightLoop::kAllLights;
+            EXPECT_EQ(differingFloats(picture, draw(view, all)), 0U);
         }
-        EXPECT_GT(differingFloats(clear, picture), 0U);
-        EXPECT_EQ(picture.rgba8, draw(view, inputs).rgba8) << view::kRendererNames[kind];
     }
 }
 

@@ -5,6 +5,7 @@
 #include "app/light_set_file.h"
 #include "app/options.h"
 #include "app/render_arguments.h"
+#include "session/placed_lights.h"
 #include "view/ranges.h"
 
 #include <gtest/gtest.h>
@@ -149,6 +150,10 @@ RenderOptions parsedCommand(const BenchResult& result, const BenchRow& row) {
     options.time_s = result.base.views[row.timedView()].time_s;
     options.frame_count = 40;
     options.timings = "timings.json";
+    if (!row.light_set.empty()) {
+        options.light_set = std::filesystem::path(testing::TempDir()) / row.light_set;
+        std::ofstream(options.light_set) << session::lightSetJson(row.settings.lights.placed);
+    }
     auto texts = renderArguments(options, result.base.views[row.timedView()].name);
     texts.insert(texts.begin(), "froxel");
     std::vector<const char*> arguments;

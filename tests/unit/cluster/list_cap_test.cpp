@@ -101,7 +101,8 @@ TEST(ListCap, Dropped_IsAtLeastWhatAnyPointLacks) {
                 double lacking = 0;
                 for (const uint32_t light : listOf(result.all, cluster)) {
                     if (!std::binary_search(kept.begin(), kept.end(), light)) {
-                        lacking += mostIrradiance(result.lights.lights[light], point, point);
+                        lacking += mostIrradiance(result.lights, result.lights.lights[light], point,
+                                                  point);
                     }
                 }
                 worst = std::max(worst, lacking);
@@ -142,8 +143,9 @@ TEST(MostIrradiance, IsTheShadersFalloffAtTheNearestPoint) {
     light.position_view = {0, 0, -1};
     light.inv_radius2 = 0.25F;
     light.color = {0.5F, 3, 1};
+    light.spot = io::kNoSpot;
     const auto at = [&](double nearest, double farthest) {
-        return mostIrradiance(light, {-1, -1, -farthest}, {1, 1, -nearest});
+        return mostIrradiance({}, light, {-1, -1, -farthest}, {1, 1, -nearest});
     };
     const double window = 1 - 0.25 * 0.25;
     EXPECT_DOUBLE_EQ(at(2, 9), 3 * window * window); // 1 m away of a radius of 2
@@ -151,6 +153,24 @@ TEST(MostIrradiance, IsTheShadersFalloffAtTheNearestPoint) {
     EXPECT_DOUBLE_EQ(at(0.5, 2), 3 / 1e-4); // within: as at 1 cm
     light.inv_radius2 = 0;
     EXPECT_DOUBLE_EQ(at(3, 9), 0.75);
+}
+
+// A corner is nearer than the centre by half a diagonal.
+TEST(MostIrradiance, OfARectangle_IsAtItsNearestCorner) {
+    light::FrameLights lights;
+    lights.spots.push_back({.direction_view = {0, 0, -1},
+                            .scale = 1,
+                            .offset = 0,
+                            .area = 0,
+                            .padding0 = 0,
+                            .padding1 = 0});
+    lights.areas.push_back({.half_right_view = {0.3F, 0, 0},
+                            .inv_area = 1,
+                            .half_up_view = {0, 0.4F, 0},
+                            .padding0 = 0});
+    const io::Light light{
+        .position_view = {0, 0, -1}, .inv_radius2 = 0, .color = glm::vec3(2), .spot = 0};
+    EXPECT_NEAR(mostIrradiance(lights, light, {-1, -1, -9}, {1, 1, -3}), 2 / (1.5 * 1.5), 1e-6);
 }
 
 } // namespace

@@ -54,6 +54,41 @@ TEST(LightRig, Order_IsSeededThenSceneLights) {
     EXPECT_EQ(lights.lights[0].inv_radius2, 0.25F);
 }
 
+// Whatever its direction and roll, and through any camera.
+TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
+    view::PlacedLight area;
+    area.id = 1;
+    area.kind = view::LightKind::kArea;
+    area.position_world = {1, 2, 3};
+    area.width_m = 3;
+    area.height_m = 0.5;
+    for (const auto& direction : {glm::dvec3(0, -1, 0), glm::dvec3(0, 4, 0), glm::dvec3(1, -2, 0.5),
+                                  glm::dvec3(0, 0, -1)}) {
+        for (const double roll : {0.0, 30.0, -120.0}) {
+            area.direction_world = direction;
+            area.roll_deg = roll;
+            view::Lights settings = noSeeded();
+            settings.placed = view::PlacedLights({area});
+            const FrameLights lights = evaluated({}, settings);
+            ASSERT_EQ(lights.areas.size(), 1U);
+            ASSERT_EQ(lights.spots.size(), 1U);
+            EXPECT_EQ(lights.spots[0].area, 0U);
+            const io::AreaLight& rectangle = lights.areas[0];
+            const glm::vec3 right = rectangle.half_right_view;
+            const glm::vec3 up = rectangle.half_up_view;
+            EXPECT_NEAR(glm::length(right), 1.5F, 1e-6F);
+            EXPECT_NEAR(glm::length(up), 0.25F, 1e-6F);
+            EXPECT_NEAR(rectangle.inv_area, 1 / 1.5F, 1e-6F);
+            const glm::vec3 ahead = -glm::cross(right, up) / (1.5F * 0.25F);
+            EXPECT_LT(glm::distance(ahead, lights.spots[0].direction_view), 1e-5F);
+            if (roll == 0) { // a level width; the camera is level too
+                EXPECT_NEAR(right.y, 0, 1e-6F);
+            }
+            EXPECT_NEAR(extentOf(lights, lights.lights[0]), std::hypot(1.5F, 0.25F), 1e-6F);
+        }
+    }
+}
+
 // What a viewer places shines as a light of the scene does.
 TEST(LightRig, PlacedLights_AreTheScenesOwnAndComeLast) {
     view::PlacedLight point;

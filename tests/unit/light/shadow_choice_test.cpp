@@ -54,6 +54,17 @@ TEST(ChooseShadowed, TakesTheMostImportant_InLightOrder) {
     EXPECT_THAT(ahead.choose(32), ElementsAre(0, 1, 2, 3));
 }
 
+TEST(ChooseShadowed, Rectangles_HaveNoMaps) {
+    Ahead ahead;
+    ahead.add({0, 0, -5}, 1, 100).asSpot(glm::radians(90.0)).add({0, 0, -6});
+    ahead.lights.spots[0].area = 0;
+    ahead.lights.areas.push_back({.half_right_view = {1, 0, 0},
+                                  .inv_area = 0.25F,
+                                  .half_up_view = {0, 1, 0},
+                                  .padding0 = 0});
+    EXPECT_THAT(ahead.choose(32), ElementsAre(1));
+}
+
 TEST(ChooseShadowed, OfEqualOnes_TheFirst) {
     Ahead ahead;
     ahead.add({0, 0, -5}).add({3, 0, -4}).add({-3, 0, -4}).add({0, 0, -5});

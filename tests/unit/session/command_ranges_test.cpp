@@ -163,6 +163,15 @@ const std::vector<RangedField>& fields() {
             view::kConeRange, [](M& m, double v) { placed(m).set_outer_cone_deg(v); },
             "lights[0].outer_cone_deg"),
         ranged(
+            view::kAreaSideRange, [](M& m, double v) { placed(m).set_height_m(v); },
+            "lights[0].height_m"),
+        ranged(
+            view::kAreaSideRange, [](M& m, double v) { placed(m).set_width_m(v); },
+            "lights[0].width_m"),
+        ranged(
+            view::kRollRange, [](M& m, double v) { placed(m).set_roll_deg(v); },
+            "lights[0].roll_deg"),
+        ranged(
             view::kPositionRange, [](M& m, double v) { placed(m).mutable_position()->set_x(v); },
             "lights[0].position.x"),
         ranged(

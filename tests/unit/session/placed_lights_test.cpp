@@ -75,6 +75,9 @@ TEST(PlacedLights, WhatCannotBe_IsRefusedByName) {
               "lights[0].position is missing; light 4 is not there yet");
     EXPECT_EQ(refusal(before, R"("lights":[{"id":2,"innerConeDeg":60}])"),
               "lights[0].inner_cone_deg is 60; it must be at most outer_cone_deg, 45");
+    EXPECT_EQ(
+        refusal(before, R"("lights":[{"id":2,"kind":"LIGHT_KIND_AREA","widthM":6,"heightM":8}])"),
+        "lights[0].radius_m is 2; a rectangle's corners must lie within it, here 5");
 }
 
 TEST(PlacedLights, Fields_AreCheckedWhenDecoded) {
@@ -117,6 +120,13 @@ TEST(LightSet, OfAFile_IsTheMessageWithLightsAlone) {
     EXPECT_THAT(parseLightSet("{\"lights\":[{").error().message, HasSubstr("not JSON"));
     EXPECT_THAT(parseLightSet("{\"lights\":[{\"id\":1}]}").error().message,
                 HasSubstr("lights[0].position is missing"));
+}
+
+TEST(LightSet, Written_IsReadBackAsTheSame) {
+    const auto set =
+        after({}, R"("lights":[{"id":3,"position":{"x":0.1,"y":-7e-3},"kind":"LIGHT_KIND_AREA",
+                                            "intensity":0.3,"color":{"x":0.7,"y":0.1},"rollDeg":12.3}])");
+    EXPECT_TRUE(*parseLightSet(lightSetJson(set)) == set);
 }
 
 TEST(LightSet, Change_TakesOneToTheOther) {

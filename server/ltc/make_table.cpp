@@ -1,0 +1,28 @@
+// Writes the table of every lobe as C++ source: make_ltc_table FILE.
+#include "ltc/fit.h"
+
+#include <cstdio>
+#include <fstream>
+#include <future>
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fputs("usage: make_ltc_table FILE\n", stderr);
+        return 2;
+    }
+    std::ofstream out(argv[1]);
+    out << std::hexfloat << "#include \"ltc/table.h\"\n\nnamespace {\nconst float kValues[] = {\n";
+    auto second = std::async(std::launch::async,
+                             [] { return froxel::ltc::fit(froxel::ltc::Lobe::kBlinnPhong); });
+    for (const auto& entries : {froxel::ltc::fit(froxel::ltc::Lobe::kGgx), second.get()}) {
+        for (const auto& entry : entries) {
+            for (const float value : {entry.a, entry.b, entry.c, entry.d, entry.albedo,
+                                      entry.grazing, entry.padding0, entry.padding1}) {
+                out << value << "F,";
+            }
+            out << '\n';
+        }
+    }
+    out << "};\n}\n\nstd::span<const float> froxel::ltc::table() { return kValues; }\n";
+    return out.good() ? 0 : 1;
+}

@@ -1,0 +1,129 @@
+// What a frame's host data becomes on the device.
+#include "ltc/table.h"
+#include "render/fog.h"
+#include "render/frame_builder.h"
+
+#include <array>
+#include <memory>
+#include <span>
+
+namespace froxel::render {
+
+UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
+    auto& upload = slot.upload;
+    upload.clear();
+    Blocks blocks;
+    const auto place = [&](size_t binding, auto span) {
+        blocks[binding] = span.empty() ? Block{} : Block{upload.add(span), span.size_bytes()};
+    };
+    place(0, std::span<const io::Frame>(&uniforms_, 1));
+    place(1, std::span<const io::Light>(lights_.lights));
+    place(2, std::span<const io::ClusterList>(lists_.clusters));
+    place(3, std::span<const uint32_t>(lists_.indices));
+    place(4, std::span<const io::Spot>(lights_.spots));
+    place(5, std::span<const io::DirectionalLight>(lights_.directionals));
+    place(6, std::span<const io::Fog>(&fog_, fogged_ ? 1 : 0));
+    if (slot.fog) {
+        blocks[7] = {.bytes = kFroxelBytes * froxelCount(fog_),
+                     .buffer = *slot.fog->froxels().handle};
+    }
+    place(8, std::span<const uint32_t>(shadows_.shadow_of_light));
+    place(9, std::span<const io::ShadowLight>(shadows_.lights));
+    place(11, std::span<const io::AreaLight>(lights_.areas));
+    if (!lights_.areas.empty()) {
+        const gpu::Buffer& table = scene_.ltcTable();
+        blocks[12] = {.bytes = ltc::table().size_bytes(), .buffer = *table.handle};
+    }
+    const AssignOffsets assign = uploadAssignment(upload, blocks);
+    UploadOffsets offsets;
+    offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));
+    if (!draws_.indices.empty()) {
+        // lavapipe 22.3 ignores an index buffer's offset in indirect draws: count from 0 instead.
+        const auto first = upload.add(std::span<const uint32_t>(draws_.indices)) / sizeof(uint32_t);
+        for (auto& command : draws_.commands) {
+            command.firstIndex += static_cast<uint32_t>(first);
+        }
+    }
+    if (visibility_) {
+        offsets.instances = upload.add(std::span<const io::InstanceView>(instances_));
+        offsets.meshlet_order = upload.add(std::span<const uint32_t>(meshlet_order_));
+    }
+    if (!debug_.wires.empty()) {
+        offsets.wires = upload.add(std::span<const io::WireVertex>(debug_.wires));
+    }
+    if (!shadows_.lights.empty()) {
+        offsets.shadow_uniforms = upload.add(std::span<const io::Frame>(&shadows_.uniforms, 1));
+        offsets.shadow_rows = upload.add(std::span<const InstanceRows>(shadows_.rows));
+        offsets.shadow_commands =
+            upload.add(std::span<const vk::DrawIndexedIndirectCommand>(shadows_.commands));
+    }
+    offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
+    upload.commit();
+    writeFrameSet(slot, blocks);
+    writeAssignment(slot, assign);
+    return offsets;
+}
+
+AssignOffsets FrameBuilder::uploadAssignment(FrameUpload& upload, Blocks& blocks) const {
+    if (!on_device_) {
+        return {};
+    }
+    const AssignData& data = device_lists_.data();
+    const ListBuffers& buffers = *device_lists_.buffers();
+    blocks[2] = {.bytes = data.frame[0].cluster_count * sizeof(io::ClusterList),
+                 .buffer = *buffers.lists.handle};
+    blocks[3] = {.bytes = uint64_t{buffers.capacity.entries} * sizeof(uint32_t),
+                 .buffer = *buffers.indices.handle};
+    return {.frame = upload.add(std::span<const io::AssignFrame>(data.frame)),
+            .tables = upload.add(std::span<const double>(data.tables)),
+            .lights = blocks[1].offset,
+            .radii = upload.add(data.radii_m),
+            .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
+}
+
+void FrameBuilder::writeAssignment(FrameSlot& slot, const AssignOffsets& offsets) const {
+    slot.device_lists = on_device_;
+    if (!on_device_) {
+        return;
+    }
+    if (!slot.assignment) {
+        slot.assignment = std::make_unique<AssignSlot>(scene_.device, *scene_.assignment());
+    }
+    slot.assignment->write(device_lists_.buffers(), device_lists_.data(), slot.upload.buffer(),
+                           offsets);
+}
+
+void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
+    std::array<vk::DescriptorBufferInfo, Pipelines::kFrameBindings> infos;
+    std::array<vk::BufferView, Pipelines::kFrameBindings> views;
+    std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
+    slot.texel_views.clear();
+    const vk::DescriptorImageInfo atlas = atlasInfo(slot.shadows.get());
+    for (uint32_t i = 0; i < infos.size(); ++i) {
+        // What the frame lacks is described as none.
+        const auto& [offset, bytes, own] = blocks[i];
+        const vk::Buffer buffer = own ? own : slot.upload.buffer();
+        infos[i] = bytes > 0 ? vk::DescriptorBufferInfo{buffer, offset, bytes}
+                             : vk::DescriptorBufferInfo{.buffer = {}, .range = VK_WHOLE_SIZE};
+        writes[i] = {.dstSet = *slot.frame_set,
+                     .dstBinding = i,
+                     .descriptorCount = 1,
+                     .descriptorType = Pipelines::kFrameBindingTypes[i],
+                     .pImageInfo = &atlas,
+                     .pBufferInfo = &infos[i]};
+        if (Pipelines::kFrameTexelFormats[i] != vk::Format::eUndefined) {
+            if (bytes > 0) {
+                slot.texel_views.push_back(scene_.device.handle().createBufferView(
+                    {.buffer = buffer,
+                     .format = Pipelines::kFrameTexelFormats[i],
+                     .offset = offset,
+                     .range = bytes}));
+                views[i] = *slot.texel_views.back();
+            }
+            writes[i].pTexelBufferView = &views[i];
+        }
+    }
+    scene_.device.handle().updateDescriptorSets(writes, {});
+}
+
+} // namespace froxel::render
