@@ -52,10 +52,6 @@ vec3 scatteredBy(Stretch s, LocalLight light) {
     precise float back = s.back_m - along;
     precise float span = h * (s.back_m - s.front_m);
     precise float inverse_d2 = atan(span, fma(front, back, h2)) / span;
-    if (hasLight(kLightAreas) && light.area != kNoArea) {
-        AreaRect rect = fetchArea(light.area);
-        inverse_d2 = solidAngle(to_light, rect) * rect.inv_area;
-    }
     precise float kept = exp(-opticalDepth(light.position_view, s.sample_view));
     precise float share = rangeWindow(x) * inverse_d2 * meanPhase(h, front, back) * kept;
     if (hasLight(kLightSpots)) {
@@ -66,6 +62,34 @@ vec3 scatteredBy(Stretch s, LocalLight light) {
     }
     precise vec3 scattered = light.color * share;
     return scattered;
+}
+
+// At the sample alone: a rectangle is no needle that nodes could miss.
+vec3 scatteredByArea(Stretch s, LocalLight light, AreaRect rect) {
+    vec3 to_light = light.position_view - s.sample_view;
+    precise float d2 = dot(to_light, to_light);
+    precise float along = dot(to_light, s.direction_view) * inversesqrt(max(d2, kLeastDistance2));
+    precise float kept = exp(-opticalDepth(light.position_view, s.sample_view));
+    precise float share = rangeWindow(d2 * light.inv_radius2) * solidAngle(to_light, rect) *
+                          rect.inv_area * phase(along) * kept * coneShare(light, to_light);
+    precise vec3 scattered = light.color * share;
+    return scattered;
+}
+
+vec3 scatteredByAreas(Stretch s, bool all_lights, uint cluster) {
+    precise vec3 sum = vec3(0.0);
+    ClusterList list = wholeList(all_lights, cluster);
+    for (uint left = list.count; left > 0u; --left) {
+        uint index = all_lights ? left - 1u : fetchIndex(list.offset + left - 1u);
+        if (index < frame.first_area) {
+            break;
+        }
+        uint area = areaOf(index);
+        if (area != kNoArea) {
+            sum += scatteredByArea(s, fetchWhole(index), fetchArea(area));
+        }
+    }
+    return sum;
 }
 
 // As addListPlain: each invocation walks its own list.
@@ -87,6 +111,9 @@ vec3 scatteredByAll(Stretch s, uvec2 pixel, float distance) {
                 sum += scatteredBy(s, fetchLight(index));
             }
         }
+    }
+    if (hasLight(kLightAreas) && (all_lights || cluster != kNoCluster)) {
+        sum += scatteredByAreas(s, all_lights, cluster);
     }
     return sum;
 }

@@ -215,9 +215,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
-    for (const io::AreaLight& area : lights_.areas) {
-        uniforms_.area_reach_m = std::max(uniforms_.area_reach_m, light::extentOf(area));
-    }
+    uniforms_.first_area = light::firstArea(lights_);
     fogged_ = plan.fog;
     if (plan.fog) {
         fog_ = makeFog(

@@ -51,7 +51,7 @@ struct Frame {
     float slice_unit;
     vec3 background; // linear radiance of empty pixels
     float light_inv_radius2; // of every local light, where they are equal
-    float area_reach_m;      // from a rectangular light's centre to its corners, the most of all
+    uint first_area;         // the first light that may be a rectangle
     float outline_strength;
     float outline_reach_px; // how far from an edge pixels are darkened
     ToonSegment toon[kMaxToonSegments];

@@ -53,8 +53,6 @@ shared vec4 shared_cone[kSharedSpots]; // direction, scale
 shared float shared_cone_offset[kSharedSpots];
 const uint kSharedShadows = (LIGHT_FLAGS & kLightShadows) != 0 ? kSharedLights : 1;
 shared uint shared_shadow[kSharedShadows];
-const uint kSharedAreas = (LIGHT_FLAGS & kLightAreas) != 0 ? kSharedLights : 1;
-shared uint shared_area[kSharedAreas];
 
 // Of this invocation, to its subgroup.
 void offerLight(LocalLight light) {
@@ -68,9 +66,6 @@ void offerLight(LocalLight light) {
         }
         if (hasLight(kLightShadows)) {
             shared_shadow[slot] = light.shadow;
-        }
-        if (hasLight(kLightAreas)) {
-            shared_area[slot] = light.area;
         }
         subgroupMemoryBarrierShared();
         subgroupBarrier();
@@ -93,9 +88,6 @@ LocalLight takeLight(LocalLight mine, uint invocation) {
     }
     if (hasLight(kLightShadows)) {
         light.shadow = shared_shadow[slot];
-    }
-    if (hasLight(kLightAreas)) {
-        light.area = shared_area[slot];
     }
     return light;
 }
@@ -143,9 +135,6 @@ Block makeBlock(Surface s, bool mine) {
     vec3 size = b.high_view - b.low_view;
     b.turn = sqrt(worst.x) * 1.0001 + 1e-5;
     b.ahead = worst.y + 1e-5 * (size.x + size.y + size.z);
-    if (hasLight(kLightAreas)) {
-        b.ahead += frame.area_reach_m; // a corner may be ahead where the centre is not
-    }
     // 1e15 m: farther than any light is
     float radius = inversesqrt(max(frame.light_inv_radius2, 1e-32));
     float reach = (radius + sqrt(worst.z)) * 1.0001;

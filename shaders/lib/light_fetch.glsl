@@ -1,6 +1,6 @@
 // One light out of the frame's buffers, and what it adds to a surface.
+#include "interface/area_io.h"
 #include "lib/brdf.glsl"
-#include "lib/area.glsl"
 #include "lib/shadow.glsl"
 
 // A light as it is fetched; a point light's cone lets everything through: 0 * x + 1.
@@ -12,12 +12,10 @@ struct LocalLight {
     float cone_scale;
     float cone_offset;
     uint shadow; // kNoShadow: none
-    uint area;   // kNoArea: no rectangle
 };
 
 LocalLight darkLight() {
-    return LocalLight(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 1.0, kNoShadow,
-                      kNoArea);
+    return LocalLight(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 1.0, kNoShadow);
 }
 
 // Where it is and how far it reaches.
@@ -41,8 +39,8 @@ void fetchColor(uint index, inout LocalLight light) {
             light.cone_scale = c.w;
             vec4 d = texelFetch(spot_texels, int(2u * spot + 1u));
             light.cone_offset = d.x;
-            if (hasLight(kLightAreas)) {
-                light.area = floatBitsToUint(d.y);
+            if (hasLight(kLightAreas) && floatBitsToUint(d.y) != kNoArea) {
+                light.color = vec3(0.0); // lib/area_loop.glsl adds it
             }
         }
     }
@@ -82,10 +80,6 @@ void addLocalLight(Surface s, LocalLight light, float share, inout LightSum sum)
         precise float seen = share * shadowShare(s, light.shadow);
         share = seen;
     }
-    if (hasLight(kLightAreas) && light.area != kNoArea) {
-        addAreaLight(s, fetchArea(light.area), to_light, light.inv_radius2, light.color, share, sum);
-        return;
-    }
     addLight(s, to_light, light.inv_radius2, light.color, share, sum);
 }
 
@@ -101,9 +95,6 @@ LocalLight shuffleLight(LocalLight mine, uint invocation) {
         light.cone_direction = subgroupShuffle(mine.cone_direction, invocation);
         light.cone_scale = subgroupShuffle(mine.cone_scale, invocation);
         light.cone_offset = subgroupShuffle(mine.cone_offset, invocation);
-    }
-    if (hasLight(kLightAreas)) {
-        light.area = subgroupShuffle(mine.area, invocation);
     }
     if (hasLight(kLightShadows)) {
         light.shadow = subgroupShuffle(mine.shadow, invocation);

@@ -2,6 +2,7 @@
 // for every renderer; the loops below differ in how they fetch and in what they can skip, never in
 // what they add.
 #include "lib/light_fetch.glsl"
+#include "lib/area_loop.glsl"
 #ifdef FROXEL_SUBGROUPS
 #include "lib/light_block.glsl"
 #endif
@@ -155,6 +156,9 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
 #endif
         if (!hasLight(kLightBatched) || hasLight(kLightPartial)) {
             addListPlain(s, reached && !whole, all_lights, cluster, sum);
+        }
+        if (hasLight(kLightAreas) && reached) {
+            addAreas(s, all_lights, cluster, sum);
         }
     }
     if (hasLight(kLightDirectional)) {

@@ -93,13 +93,20 @@ void run(render::Renderer& renderer,
                              .lights = spread,
                              .costs = is_cpu ? cluster::kCpuCosts : cluster::kGpuCosts};
     const auto blind = cluster::chooseGrid(facts, {});
+    std::vector<double> evenly;
+    for (size_t i = 0; i < kDepths; ++i) {
+        evenly.push_back(range.far_m * (static_cast<double>(i) + 0.5) / kDepths);
+    }
+    facts.pixel_depths_m = evenly;
+    const auto even = cluster::chooseGrid(facts, {});
     facts.pixel_depths_m = depths;
     const auto seeing = cluster::chooseGrid(facts, {});
     std::array variants = {
-        Variant{"any depth", blind.shape.size, render::ViewRenderer(renderer)},
+        Variant{"mostly near", blind.shape.size, render::ViewRenderer(renderer)},
         Variant{"pixels' depths", seeing.shape.size, render::ViewRenderer(renderer)},
+        Variant{"any depth alike", even.shape.size, render::ViewRenderer(renderer)},
         Variant{"16x9x24", {16, 9, 24}, render::ViewRenderer(renderer)},
-        Variant{"any depth again", blind.shape.size, render::ViewRenderer(renderer)}};
+        Variant{"mostly near again", blind.shape.size, render::ViewRenderer(renderer)}};
     for (int i = -4; i < kFrames; ++i) {
         for (auto& variant : variants) {
             inputs.settings.grid = {.automatic = false, .size = variant.size};
