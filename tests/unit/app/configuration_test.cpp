@@ -115,6 +115,13 @@ TEST_F(ConfigurationTest, BadValue_NamesWhereItCameFrom) {
     EXPECT_THAT(refusal({"--config", file("port = {a = 1}\n")}), HasSubstr("line 1: port must be"));
 }
 
+TEST_F(ConfigurationTest, ValueOfSeveralLines_IsRefusedInOne) {
+    EXPECT_THAT(refusal({"--config", file("quality = \"1\\n2\"\n")}), HasSubstr("'1\\x0a2'"));
+    EXPECT_THAT(refusal({"--config", file("validation = \"1\\n2\"\n")}), HasSubstr("validation"));
+    EXPECT_THAT(refusal({"--quality", "1\n2"}), HasSubstr("'1\\x0a2'"));
+    EXPECT_THAT(refusal({"--no-such\noption"}), HasSubstr("--no-such\\x0aoption"));
+}
+
 TEST_F(ConfigurationTest, UnknownKey_IsRefused) {
     EXPECT_THAT(refusal({"--config", file("max_sessions = 3\n")}),
                 AllOf(HasSubstr(path_), HasSubstr("'max_sessions' is no option")));
