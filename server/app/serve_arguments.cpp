@@ -51,6 +51,9 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
     command.text("--tls-cert", "FILE", options.tls_certificate, "",
                  "Certificate with its chain, PEM, for https and wss; read again on SIGHUP");
     command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM");
+    command.cli().add_flag("--agones", options.agones,
+                           "Tell Agones' SDK at $AGONES_SDK_HTTP_PORT of this host, 9358 by "
+                           "default, of readiness, health, sessions and the end");
 }
 
 void addServeLimits(CommandBuilder& command, ServeOptions& options) {
