@@ -26,6 +26,7 @@ constexpr uint32_t kAdminConnectionsMax = 32;
 constexpr std::chrono::seconds kNetworkAnswer{1};
 // Of a deadline, for closing who is still there: a fifth of it, and at most this.
 constexpr std::chrono::milliseconds kClosingTime{1000};
+constexpr std::chrono::milliseconds kLeastClosingTime{500};
 constexpr std::chrono::seconds kLastWords{1};
 
 std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
@@ -188,9 +189,10 @@ bool Server::drain(std::chrono::milliseconds deadline) {
     draining.over = true;
     impl_->site->service->setDraining(std::move(draining));
     // The threads end by themselves when no connection is left.
+    const TimePoint closed_by = std::max(end, Clock::now() + kLeastClosingTime);
     const bool all_closed =
         std::all_of(impl_->done.begin(), impl_->done.end(), [&](const auto& done) {
-            return done.wait_until(end) == std::future_status::ready;
+            return done.wait_until(closed_by) == std::future_status::ready;
         });
     if (impl_->agones) {
         impl_->agones->shutDown();

@@ -54,8 +54,9 @@ class Server {
 
     // From now on no session begins: who asks for one is told to come back. Viewers are told when
     // it ends and where to go meanwhile; a part of the deadline is left to close those that stay.
-    // Returns when the last one has closed, at the deadline at the latest; whether all had. The
-    // admin address answers to the end. Agones is told after it, which may take 2 s more.
+    // Returns when the last one has closed, at the deadline at the latest, though never before
+    // those that stay can have heard of it; whether all had. The admin address answers to the end.
+    // Agones is told after it, which may take 2 s more.
     bool drain(std::chrono::milliseconds deadline);
     // Tells every viewer that no picture comes any more, and waits for at most a second until they
     // have heard it.
