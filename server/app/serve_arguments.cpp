@@ -46,8 +46,10 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
         .text("--allow-origin", "ORIGIN", options.allowed_origins, "",
               "Another site whose pages may connect, such as https://example.org; repeatable")
         ->allow_extra_args(false);
-    command.text("--token-file", "FILE", options.token_file, "",
-                 "Lets in who sends one of its tokens, one a line; read again on SIGHUP");
+    command.text(
+        "--token-file", "FILE", options.token_file, "",
+        "Lets in who sends one of its tokens, one a line; read again on SIGHUP, and who has "
+        "none of them any more is sent away");
     command.text("--tls-cert", "FILE", options.tls_certificate, "",
                  "Certificate with its chain, PEM, for https and wss; read again on SIGHUP");
     command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM");

@@ -209,8 +209,14 @@ int runServe(const ServeOptions& options) {
     raiseDescriptorLimit(options.connections_max);
     const Secrets secrets(options);
     net::StopSignal stop;
-    stop.onHangup([&secrets] { secrets.reload(); });
     LatestSlot<Error> failure; // of the render thread
+    std::optional<ServeRun> run;
+    stop.onHangup([&] {
+        secrets.reload();
+        if (run) {
+            run->checkTokens();
+        }
+    });
     ServeRunOptions run_options = runOptions(options);
     run_options.server.gate = secrets.gate;
     run_options.server.tls = secrets.tls;
@@ -220,7 +226,7 @@ int runServe(const ServeOptions& options) {
         stop.request();
     };
     run_options.server.on_drain_request = [&stop] { stop.request(); };
-    std::optional<ServeRun> run(std::in_place, std::move(run_options));
+    run.emplace(std::move(run_options));
     printAddresses(options, *run);
 
     Result<void> moves;
