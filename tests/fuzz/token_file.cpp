@@ -4,6 +4,8 @@
 #include "fuzz/target.h"
 #include "net/token_gate.h"
 
+#include <algorithm>
+
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace froxel;
     static const fuzz::MemoryFile file;
