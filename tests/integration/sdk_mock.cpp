@@ -25,6 +25,10 @@ namespace {
 
 const tcp::endpoint kAnyPort(asio::ip::address_v4::loopback(), 0);
 
+std::string textOf(boost::beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
 struct Connection {
     explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
     boost::beast::tcp_stream stream;
@@ -91,7 +95,7 @@ struct SdkMock::Impl {
             counter =
                 body.at("count").get<std::string>() + "/" + body.at("capacity").get<std::string>();
         }
-        calls.push_back(std::string(request.method_string()) + " " + std::string(request.target()));
+        calls.push_back(textOf(request.method_string()) + " " + textOf(request.target()));
     }
 
     std::mutex mutex;
