@@ -14,7 +14,7 @@ cd "$root"
 names=("${@:2}")
 ((${#names[@]})) || mapfile -t names < <(ls tests/fuzz/corpus)
 for name in "${names[@]}"; do
-    [[ -d tests/fuzz/corpus/$name ]] || die "there is no target $name, only: $(ls tests/fuzz/corpus | paste -sd ' ')"
+    [[ -d tests/fuzz/corpus/$name ]] || die "there is no target $name, only: $(cd tests/fuzz/corpus && echo *)"
 done
 
 require_packages "${build_packages[@]}" clang libclang-rt-dev
