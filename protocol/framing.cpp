@@ -1,6 +1,7 @@
 #include "protocol/framing.h"
 
 #include "core/assert.h"
+#include "core/text.h"
 #include "froxel/v1/client.pb.h"
 #include "froxel/v1/server.pb.h"
 #include "protocol/limits.h"
@@ -122,7 +123,8 @@ Result<void> decodeServerMessage(ByteSpan payload, WireFormat format, v1::Server
                                                  payload.size());
         const auto status = json::JsonStringToMessage(text, &message, options);
         return status.ok() ? Result<void>()
-                           : invalid("not the JSON of a ServerMessage: " + status.ToString());
+                           : invalid("not the JSON of a ServerMessage: " +
+                                     printable(status.ToString(), 200));
     }
     const auto kind = binaryKind(payload);
     if (!kind) {

@@ -51,6 +51,8 @@ Json serviceReport() {
             {"drain_path", net::kDrainPath},
             {"drain_seconds", defaults.drain_s},
             {"idle_timeout_seconds", net::kIdleTimeout.count()},
+            {"agones_counter", net::kAgonesCounter},
+            {"agones_health_seconds", net::kAgonesHealthPeriod.count()},
             {"exit_code_device_lost", kExitDeviceLost}};
 }
 

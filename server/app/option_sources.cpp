@@ -57,8 +57,8 @@ void give(CLI::Option& option, std::vector<std::string> values, const std::strin
     } catch (const CLI::ParseError& error) {
         std::string why = error.what();
         const std::string named = "--" + nameOf(option) + ": ";
-        throw CLI::ValidationError(
-            where, why.compare(0, named.size(), named) == 0 ? why.substr(named.size()) : why);
+        why = why.compare(0, named.size(), named) == 0 ? why.substr(named.size()) : why;
+        throw CLI::ValidationError(where, printable(why, 1000)); // the value is in it
     }
 }
 
@@ -133,7 +133,8 @@ Configuration applySources(const CommandBuilder& command, const Environment& env
             {nameOf(*option), is_default ? command.shownDefault(*option) : join(option->results()),
              source});
     }
-    for (const auto& [name, value] : environment) {
+    for (const auto& variable : environment) {
+        const std::string& name = variable.first;
         const bool ours = name.compare(0, kPrefix.size(), kPrefix) == 0;
         if (ours && std::none_of(options.begin(), options.end(), [&](const CLI::Option* option) {
                 return variableName(nameOf(*option)) == name;

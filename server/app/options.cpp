@@ -9,6 +9,7 @@
 #include "app/serve_arguments.h"
 #include "app/view_arguments.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "encode/image_file.h"
 #include "session/session_context.h"
 #include "view/ranges.h"
@@ -311,7 +312,7 @@ void checkBench(const BenchOptions& options) {
 std::string usageError(const CLI::App& app, const CLI::ParseError& error) {
     const auto given = app.get_subcommands();
     const std::string command = given.empty() ? "" : " " + given.front()->get_name();
-    return fmt::format("{} (see froxel{} --help)", error.what(), command);
+    return fmt::format("{} (see froxel{} --help)", printable(error.what(), 2000), command);
 }
 
 } // namespace

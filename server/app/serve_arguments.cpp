@@ -46,11 +46,16 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
         .text("--allow-origin", "ORIGIN", options.allowed_origins, "",
               "Another site whose pages may connect, such as https://example.org; repeatable")
         ->allow_extra_args(false);
-    command.text("--token-file", "FILE", options.token_file, "",
-                 "Lets in who sends one of its tokens, one a line; read again on SIGHUP");
+    command.text(
+        "--token-file", "FILE", options.token_file, "",
+        "Lets in who sends one of its tokens, one a line; read again on SIGHUP, and who has "
+        "none of them any more is sent away");
     command.text("--tls-cert", "FILE", options.tls_certificate, "",
                  "Certificate with its chain, PEM, for https and wss; read again on SIGHUP");
     command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM");
+    command.cli().add_flag("--agones", options.agones,
+                           "Tell Agones' SDK at $AGONES_SDK_HTTP_PORT of this host, 9358 by "
+                           "default, of readiness, health, sessions and the end");
 }
 
 void addServeLimits(CommandBuilder& command, ServeOptions& options) {

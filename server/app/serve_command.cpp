@@ -6,6 +6,7 @@
 #include "app/output_file.h"
 #include "app/scene_source.h"
 #include "app/serve_run.h"
+#include "app/value_parsers.h"
 #include "core/latest_slot.h"
 #include "core/text.h"
 #include "gpu/device.h"
@@ -96,6 +97,23 @@ fs::path webRootOf(const ServeOptions& options) {
     return root;
 }
 
+// Agones sets the variable for every container that has its SDK beside it.
+net::AgonesOptions agonesOptions(const ServeOptions& options) {
+    net::AgonesOptions agones;
+    agones.sessions_max = options.sessions_max;
+    constexpr const char* kVariable = "AGONES_SDK_HTTP_PORT";
+    if (const char* port = std::getenv(kVariable)) {
+        const auto number = parseNumber(port, kPortRange);
+        if (!number || *number == 0) {
+            throw StartupError({ErrorCode::kInvalidArgument,
+                                std::string(kVariable) + ": '" + printable(port) +
+                                    "' is no port; right is a number from 1 to 65535"});
+        }
+        agones.port = static_cast<uint16_t>(*number);
+    }
+    return agones;
+}
+
 ServeRunOptions runOptions(const ServeOptions& options) {
     const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
     ServeRunOptions run;
@@ -107,6 +125,9 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.resume_grace = milliseconds(options.resume_grace_s);
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
+    if (options.agones) {
+        run.server.agones = agonesOptions(options);
+    }
     run.sessions_max = options.sessions_max;
     run.encoder_count = std::clamp(cores / 2, 1U, 16U);
     run.open = [options](const auto& report) { return openScene(options, report); };
@@ -188,8 +209,14 @@ int runServe(const ServeOptions& options) {
     raiseDescriptorLimit(options.connections_max);
     const Secrets secrets(options);
     net::StopSignal stop;
-    stop.onHangup([&secrets] { secrets.reload(); });
     LatestSlot<Error> failure; // of the render thread
+    std::optional<ServeRun> run;
+    stop.onHangup([&] {
+        secrets.reload();
+        if (run) {
+            run->checkTokens();
+        }
+    });
     ServeRunOptions run_options = runOptions(options);
     run_options.server.gate = secrets.gate;
     run_options.server.tls = secrets.tls;
@@ -199,7 +226,7 @@ int runServe(const ServeOptions& options) {
         stop.request();
     };
     run_options.server.on_drain_request = [&stop] { stop.request(); };
-    std::optional<ServeRun> run(std::in_place, std::move(run_options));
+    run.emplace(std::move(run_options));
     printAddresses(options, *run);
 
     Result<void> moves;

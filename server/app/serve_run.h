@@ -49,6 +49,8 @@ class ServeRun {
     [[nodiscard]] bool opened() const { return server_->service().status().serving.has_value(); }
     // As net::Server.
     bool drain(std::chrono::milliseconds deadline) { return server_->drain(deadline); }
+    // Closes the connections whose token was taken away; after the gate has loaded.
+    void checkTokens() { server_->service().announce(); }
     void giveUp(const std::string& why) { server_->giveUp(why); }
     // Whether the render thread moves; an error says for how long it has not.
     [[nodiscard]] Result<void> rendersOn() const;

@@ -21,7 +21,7 @@ Response AdminSite::answer(const Request& request, std::string_view path) const 
         return makeResponse(http::status::ok, Metrics::kContentType, metrics_->text());
     }
     if (path == kLivePath) {
-        return verdict(isLive());
+        return verdict(isLive(service_->status(), hooks_.network_moves, Clock::now()));
     }
     if (path == kReadyPath) {
         return verdict(isReady(service_->status(), Clock::now()));
@@ -34,15 +34,6 @@ Response AdminSite::answer(const Request& request, std::string_view path) const 
     }
     return textResponse(http::status::not_found,
                         "not found; there are /metrics, /livez, /readyz, /startupz and /drain");
-}
-
-Result<void> AdminSite::isLive() const {
-    const ServiceStatus status = service_->status();
-    // Network threads end with the last viewer, while the process is about to end.
-    if (!status.draining && !hooks_.network_moves()) {
-        return Error{ErrorCode::kUnsupported, "the network threads take no work"};
-    }
-    return rendersOn(status, Clock::now());
 }
 
 // A page of any site can make a browser on this machine post here; none sends this without Origin.

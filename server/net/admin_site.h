@@ -35,7 +35,6 @@ class AdminSite final : public HttpSite {
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 
   private:
-    [[nodiscard]] Result<void> isLive() const;
     [[nodiscard]] Response drain(const Request& request) const;
 
     const std::shared_ptr<const Metrics> metrics_;

@@ -58,7 +58,8 @@ void Conversation::handle(const CommandMessage& message, TimePoint now) {
 
 void Conversation::greet(const CommandMessage& message, TimePoint now) {
     const auto& hello = std::get<session::Hello>(message.body);
-    if (gate_ && !gate_->lets(hello.token)) {
+    pass_ = gate_ ? gate_->admit(hello.token) : std::nullopt;
+    if (gate_ && !pass_) {
         const char* why = hello.token.empty() ? "token is missing" : "token is unknown";
         return reject({RejectCode::kToken, message.stamp.seq, "token", why}, now);
     }
@@ -188,7 +189,10 @@ void Conversation::onService(const ServiceStatus& status, TimePoint now) {
         return;
     }
     service_ = status;
-    if (status.lost) {
+    if (pass_ && !pass_->valid()) {
+        answer(session::makeError({RejectCode::kToken, 0, "token", "the token was taken away"}));
+        close(CloseCode::kToken, "the token was taken away");
+    } else if (status.lost) {
         answer(session::makeError({RejectCode::kDevice, 0, "", *status.lost}));
         close(CloseCode::kDeviceLost, "the device was lost");
     } else if (status.draining) {
@@ -258,12 +262,6 @@ void Conversation::onFrame(session::ReadyFrame frame) {
 void Conversation::mendVideo() {
     if (video_lost_ && seat_ && window_.open() && !outbox_.hasFrame() && !paused_) {
         seat_->session->requestKeyFrame(seat_->place);
-    }
-}
-
-void Conversation::onHelloTimeout() {
-    if (!closing_ && !greeted()) {
-        close(CloseCode::kPolicy, "no hello within 5 s");
     }
 }
 

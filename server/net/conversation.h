@@ -43,7 +43,11 @@ class Conversation {
     // The client closed the connection on purpose.
     void onGoodbye() { goodbye_ = true; }
     // No Hello came in time.
-    void onHelloTimeout();
+    void onHelloTimeout() {
+        if (!closing_ && !greeted()) {
+            close(protocol::CloseCode::kPolicy, "no hello within 5 s");
+        }
+    }
 
     // What to write next, when no write is under way.
     [[nodiscard]] std::optional<Outgoing> nextMessage(TimePoint now);
@@ -93,10 +97,11 @@ class Conversation {
     Outbox outbox_;
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
-    session::Hello hello_;         // its secrets are forgotten when they have served
-    std::optional<Seat> seat_;     // from Welcome on
-    session::CommandStamp newest_; // of this connection's commands that set state
-    session::CommandStamp shown_;  // the newest of them that a picture has shown
+    session::Hello hello_;                // its secrets are forgotten when they have served
+    std::optional<TokenGate::Pass> pass_; // of who had to show a token
+    std::optional<Seat> seat_;            // from Welcome on
+    session::CommandStamp newest_;        // of this connection's commands that set state
+    session::CommandStamp shown_;         // the newest of them that a picture has shown
     std::shared_ptr<const FrameDetails> told_details_;
     view::PlacedLights told_placed_;
     uint64_t delivered_ = 0; // pictures that came from the session

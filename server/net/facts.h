@@ -15,6 +15,10 @@ inline constexpr std::string_view kReadyPath = "/readyz";
 inline constexpr std::string_view kStartedPath = "/startupz";
 inline constexpr std::string_view kDrainPath = "/drain";
 
+// What a Fleet of Agones must have: a counter of this name, and patience for pings as far apart.
+inline constexpr std::string_view kAgonesCounter = "sessions";
+inline constexpr std::chrono::seconds kAgonesHealthPeriod{2};
+
 // Silence of this length ends a WebSocket; a ping goes out at half of it.
 inline constexpr std::chrono::seconds kIdleTimeout{20};
 

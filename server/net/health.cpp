@@ -47,6 +47,15 @@ Result<void> isReady(const ServiceStatus& status, TimePoint now) {
     return status.serving->port != nullptr ? status.serving->port->admits(now) : Result<void>();
 }
 
+Result<void>
+isLive(const ServiceStatus& status, const std::function<bool()>& network_moves, TimePoint now) {
+    // Network threads end with the last viewer, while the process is about to end.
+    if (!status.draining && !network_moves()) {
+        return Error{ErrorCode::kUnsupported, "the network threads take no work"};
+    }
+    return rendersOn(status, now);
+}
+
 Result<void> rendersOn(const ServiceStatus& status, TimePoint now) {
     return status.serving ? stepsWithin(status, status.serving->step_limit, now) : Result<void>();
 }

@@ -3,6 +3,8 @@
 
 #include "net/service.h"
 
+#include <functional>
+
 namespace froxel::net {
 
 // A step of the render thread that takes longer than this makes a server unready: frames do not.
@@ -12,6 +14,9 @@ inline constexpr Seconds kUnreadyStep{10};
 [[nodiscard]] Result<void> hasStarted(const ServiceStatus& status);
 // Whether a new viewer would get a session and pictures.
 [[nodiscard]] Result<void> isReady(const ServiceStatus& status, TimePoint now);
+// Whether the process moves at all. `network_moves` may wait, and is asked while connections live.
+[[nodiscard]] Result<void>
+isLive(const ServiceStatus& status, const std::function<bool()>& network_moves, TimePoint now);
 // Whether the render thread still moves, as far as its limit tells.
 [[nodiscard]] Result<void> rendersOn(const ServiceStatus& status, TimePoint now);
 

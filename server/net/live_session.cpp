@@ -14,9 +14,9 @@ using session::Rejection;
 using session::SessionState;
 
 Mail::~Mail() {
-    for (auto& [viewer, notice] : letters_) {
+    for (auto& letter : letters_) {
         // Only memory can fail; the viewer misses this one.
-        static_cast<void>(guarded("mail", [&] { viewer->tell(std::move(notice)); }));
+        static_cast<void>(guarded("mail", [&] { letter.first->tell(std::move(letter.second)); }));
     }
 }
 

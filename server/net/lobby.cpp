@@ -3,6 +3,7 @@
 #include "session/resume_token.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace froxel::net {
@@ -127,6 +128,15 @@ bool Lobby::waitUntilEmpty(TimePoint deadline) const {
 size_t Lobby::awayCount() const {
     const std::lock_guard lock(mutex_);
     return countAway();
+}
+
+size_t Lobby::sessionCount() const {
+    const std::lock_guard lock(mutex_);
+    std::set<const LiveSession*> sessions;
+    for (const auto& [member, entry] : entries_) {
+        sessions.insert(entry.session.get());
+    }
+    return sessions.size();
 }
 
 size_t Lobby::countAway() const {

@@ -56,6 +56,8 @@ class Lobby {
     [[nodiscard]] std::chrono::milliseconds resumeGrace() const { return grace_; }
     // Places of lost connections.
     [[nodiscard]] size_t awayCount() const;
+    // With somebody in them, or waited for; a room is one.
+    [[nodiscard]] size_t sessionCount() const;
 
   private:
     struct Entry {

@@ -2,6 +2,7 @@
 
 #include "net/admin_site.h"
 #include "net/guard.h"
+#include "net/health.h"
 #include "net/listener.h"
 #include "net/public_site.h"
 
@@ -25,6 +26,7 @@ constexpr uint32_t kAdminConnectionsMax = 32;
 constexpr std::chrono::seconds kNetworkAnswer{1};
 // Of a deadline, for closing who is still there: a fifth of it, and at most this.
 constexpr std::chrono::milliseconds kClosingTime{1000};
+constexpr std::chrono::milliseconds kLeastClosingTime{500};
 constexpr std::chrono::seconds kLastWords{1};
 
 std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
@@ -84,6 +86,9 @@ struct Server::Impl {
         site->lobby->setAlarm([this](TimePoint due) {
             asio::post(grace_timer.get_executor(), [this, due] { expireAt(due); });
         });
+        if (options.agones) {
+            agones.emplace(*options.agones, hooksForAgones());
+        }
         listener->start();
         for (uint32_t i = 0; i < options.thread_count; ++i) {
             std::packaged_task<void()> task([this] { work(io); });
@@ -92,9 +97,20 @@ struct Server::Impl {
         }
     }
     ~Impl() {
+        agones.reset();
         io.stop();
         threads.clear();
         site->lobby->close(); // connections that end with `io` set off no alarm
+    }
+
+    AgonesHooks hooksForAgones() {
+        return {[this] { return site->service->status(); },
+                [this] {
+                    return isLive(
+                               site->service->status(), [this] { return moves(); }, Clock::now())
+                        .has_value();
+                },
+                [this] { return site->lobby->sessionCount(); }};
     }
 
     // Whether a network thread takes work that it is given now.
@@ -136,6 +152,7 @@ struct Server::Impl {
     asio::steady_timer grace_timer; // on a strand of its own
     bool grace_timer_set = false;
     std::optional<Admin> admin;
+    std::optional<Agones> agones;
     std::vector<std::future<void>> done;
     std::vector<std::jthread> threads; // last: they end before what they use
 };
@@ -172,9 +189,15 @@ bool Server::drain(std::chrono::milliseconds deadline) {
     draining.over = true;
     impl_->site->service->setDraining(std::move(draining));
     // The threads end by themselves when no connection is left.
-    return std::all_of(impl_->done.begin(), impl_->done.end(), [&](const auto& done) {
-        return done.wait_until(end) == std::future_status::ready;
-    });
+    const TimePoint closed_by = std::max(end, Clock::now() + kLeastClosingTime);
+    const bool all_closed =
+        std::all_of(impl_->done.begin(), impl_->done.end(), [&](const auto& done) {
+            return done.wait_until(closed_by) == std::future_status::ready;
+        });
+    if (impl_->agones) {
+        impl_->agones->shutDown();
+    }
+    return all_closed;
 }
 
 void Server::giveUp(const std::string& why) {

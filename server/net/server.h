@@ -1,6 +1,7 @@
 // The network room's door: the listeners, their threads, and what all connections share.
 #pragma once
 
+#include "net/agones.h"
 #include "net/bind_address.h"
 #include "net/service.h"
 
@@ -31,6 +32,7 @@ struct ServerOptions {
     std::vector<std::string> allowed_origins;
     std::shared_ptr<const TokenGate> gate; // null: everybody is let in
     std::shared_ptr<const Tls> tls;        // of the viewers' address; null: without encryption
+    std::optional<AgonesOptions> agones;   // whose SDK is told of this server; none: nobody's
     std::string reconnect_url;             // where pages are sent when this server drains, or empty
 };
 
@@ -52,8 +54,9 @@ class Server {
 
     // From now on no session begins: who asks for one is told to come back. Viewers are told when
     // it ends and where to go meanwhile; a part of the deadline is left to close those that stay.
-    // Returns when the last one has closed, at the deadline at the latest; whether all had. The
-    // admin address answers to the end.
+    // Returns when the last one has closed, at the deadline at the latest, though never before
+    // those that stay can have heard of it; whether all had. The admin address answers to the end.
+    // Agones is told after it, which may take 2 s more.
     bool drain(std::chrono::milliseconds deadline);
     // Tells every viewer that no picture comes any more, and waits for at most a second until they
     // have heard it.

@@ -41,6 +41,10 @@ void Service::setLost(std::string why) {
     change([&](ServiceStatus& status) { status.lost = std::move(why); });
 }
 
+void Service::announce() {
+    change([](ServiceStatus& /*status*/) {});
+}
+
 void Service::subscribe(std::weak_ptr<ServiceListener> listener) {
     const std::lock_guard lock(mutex_);
     // The departed go now, so that the list is never longer than the connections were.

@@ -57,6 +57,8 @@ class Service {
     void setServing(Serving serving);
     void setDraining(Draining draining);
     void setLost(std::string why);
+    // Has everyone look again, as when tokens were taken away.
+    void announce();
 
     void subscribe(std::weak_ptr<ServiceListener> listener);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <utility>
 
 namespace froxel::net {
@@ -51,18 +52,33 @@ Result<void> TokenGate::load(const std::filesystem::path& path) {
                      name +
                          " has no token: nobody could come in; without --token-file everybody can"};
     }
+    // A token that stays is the same object, so that its passes stay valid.
     const std::lock_guard lock(mutex_);
-    tokens_ = std::move(tokens);
+    std::map<std::string_view, Token> before;
+    for (const Token& token : tokens_) {
+        before.emplace(*token, token);
+    }
+    std::vector<Token> now;
+    for (std::string& token : tokens) {
+        const auto found = before.find(token);
+        now.push_back(found != before.end()
+                          ? found->second
+                          : std::make_shared<const std::string>(std::move(token)));
+    }
+    tokens_ = std::move(now);
+    everybody_.reset();
     return {};
 }
 
-bool TokenGate::lets(std::string_view token) const {
+std::optional<TokenGate::Pass> TokenGate::admit(std::string_view token) const {
     const std::lock_guard lock(mutex_);
-    bool known = tokens_.empty();
-    for (const std::string& valid : tokens_) {
-        known = session::sameToken(valid, token) || known;
+    Token known = everybody_;
+    for (const Token& valid : tokens_) {
+        if (session::sameToken(*valid, token)) {
+            known = valid;
+        }
     }
-    return known;
+    return known ? std::optional(Pass(known)) : std::nullopt;
 }
 
 } // namespace froxel::net

@@ -4,7 +4,9 @@
 #include "core/error.h"
 
 #include <filesystem>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,16 +18,31 @@ class TokenGate {
     static constexpr size_t kMinTokenBytes = 16; // fewer can be guessed
 
     // One token a line, of printable ASCII without spaces; blank lines and those that begin with #
-    // are left out. Takes the place of the tokens before; sessions that are there go on. An error
+    // are left out. Takes the place of the tokens before. An error
     // (kInvalidArgument, kIo) names file and line, never a token, and changes nothing.
     [[nodiscard]] Result<void> load(const std::filesystem::path& path);
 
-    // Everybody before the first load(). In a time that depends on the lengths alone.
-    [[nodiscard]] bool lets(std::string_view token) const;
+    // Lasts as long as the token is in the file.
+    class Pass {
+      public:
+        [[nodiscard]] bool valid() const { return !token_.expired(); }
+
+      private:
+        friend class TokenGate;
+        explicit Pass(std::weak_ptr<const std::string> token) : token_(std::move(token)) {}
+        std::weak_ptr<const std::string> token_;
+    };
+    // For everybody before the first load(), until it. None for a token that is not there. In a
+    // time that depends on the lengths alone.
+    [[nodiscard]] std::optional<Pass> admit(std::string_view token) const;
+    [[nodiscard]] bool lets(std::string_view token) const { return admit(token).has_value(); }
 
   private:
+    using Token = std::shared_ptr<const std::string>;
+
     mutable std::mutex mutex_;
-    std::vector<std::string> tokens_;
+    Token everybody_ = std::make_shared<const std::string>(); // null from the first load() on
+    std::vector<Token> tokens_;
 };
 
 } // namespace froxel::net

@@ -180,7 +180,7 @@ CommandResult<void> parseJson(protocol::ByteSpan text, google::protobuf::Message
     if (!status.ok()) {
         auto fault = reject(RejectCode::kMalformed, "",
                             "not a " + message.GetDescriptor()->name() + ": " +
-                                printable(status.ToString(), 200));
+                                printable(status.ToString(), 100));
         fault.ref_seq = seq;
         return fault;
     }

@@ -42,10 +42,10 @@ class Files(unittest.TestCase):
     def assert_variables(self, names):
         self.assertLessEqual({name for name in names if name.startswith("FROXEL_")}, self.variables)
 
-    def manifests(self, overlay):
+    def manifests(self, folder):
         if not shutil.which("kubectl"):
             self.skipTest("kubectl is not here (Debian: kubernetes-client)")
-        text = run("kubectl", "kustomize", DEPLOY / "kubernetes/overlays" / overlay)
+        text = run("kubectl", "kustomize", DEPLOY / "kubernetes" / folder)
         documents = {}
         for document in yaml.safe_load_all(text):
             documents.setdefault(document["kind"], []).append(document)
@@ -54,7 +54,7 @@ class Files(unittest.TestCase):
     def test_overlays_agree_with_the_binary_and_with_themselves(self):
         for overlay in ("cpu", "nvidia"):
             with self.subTest(overlay):
-                self.check_manifests(self.manifests(overlay))
+                self.check_manifests(self.manifests("overlays/" + overlay))
 
     def check_manifests(self, kinds):
         service = self.service
@@ -77,19 +77,9 @@ class Files(unittest.TestCase):
         # Unready after one failure, and heard of before SIGTERM.
         self.assertGreater(wait, container["readinessProbe"]["periodSeconds"])
 
-        self.assertTrue(pod["securityContext"]["runAsNonRoot"])
-        self.assertEqual(pod["securityContext"]["seccompProfile"]["type"], "RuntimeDefault")
-        self.assertEqual(container["securityContext"],
-                         {"allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True,
-                          "capabilities": {"drop": ["ALL"]}})
-        self.assertFalse(pod["enableServiceLinks"], "FROXEL_PORT would be a URL")
+        self.check_pod(pod, config_map)
         self.assertEqual(deployment["spec"]["strategy"]["rollingUpdate"],
                          {"maxUnavailable": 0, "maxSurge": 1})
-        mounts = {mount["name"] for mount in container["volumeMounts"]}
-        self.assertEqual(mounts, {volume["name"] for volume in pod["volumes"]})
-        volumes = {volume["name"]: volume for volume in pod["volumes"]}
-        self.assertEqual(volumes["config"]["configMap"]["name"], config_map["metadata"]["name"])
-
         labels = deployment["spec"]["template"]["metadata"]["labels"]
         selectors = [deployment["spec"]["selector"]["matchLabels"],
                      kinds["PodDisruptionBudget"][0]["spec"]["selector"]["matchLabels"],
@@ -118,6 +108,72 @@ class Files(unittest.TestCase):
         public, = [entry for entry in kinds["Service"]
                    if entry["metadata"]["name"] == backend["name"]]
         self.assertEqual(public["spec"]["ports"][0]["name"], backend["port"]["name"])
+
+    def check_pod(self, pod, config_map):
+        """What every pod of ours has: nothing that it could misuse, and its configuration."""
+        container, = pod["containers"]
+        self.assertTrue(pod["securityContext"]["runAsNonRoot"])
+        self.assertEqual(pod["securityContext"]["seccompProfile"]["type"], "RuntimeDefault")
+        self.assertEqual(container["securityContext"],
+                         {"allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True,
+                          "capabilities": {"drop": ["ALL"]}})
+        self.assertFalse(pod["enableServiceLinks"], "FROXEL_PORT would be a URL")
+        mounts = {mount["name"] for mount in container["volumeMounts"]}
+        self.assertEqual(mounts, {volume["name"] for volume in pod["volumes"]})
+        volumes = {volume["name"]: volume for volume in pod["volumes"]}
+        self.assertEqual(volumes["config"]["configMap"]["name"], config_map["metadata"]["name"])
+
+    def test_fleet_agrees_with_the_binary_and_with_the_deployment(self):
+        kinds = self.manifests("agones")
+        fleet, = kinds["Fleet"]
+        server = fleet["spec"]["template"]["spec"]
+        pod = server["template"]["spec"]
+        container, = pod["containers"]
+        config_map, = kinds["ConfigMap"]
+        self.check_pod(pod, config_map)
+        config = tomllib.loads(config_map["data"]["froxel.toml"])
+        self.assertLessEqual(set(config), self.options)
+        self.assertTrue(config["agones"])
+        env = {entry["name"]: entry["value"] for entry in container["env"]}
+        self.assert_variables(env)
+        self.assertGreater(pod["terminationGracePeriodSeconds"], config["drain-seconds"])
+
+        port, = server["ports"]
+        self.assertEqual((str(port["containerPort"]), port["protocol"]), (env["FROXEL_PORT"], "TCP"))
+        self.assertNotEqual(port["containerPort"], 8080, "Agones' container listens there")
+        self.assertEqual(container["ports"],
+                         [{"name": "admin", "containerPort": self.service["admin_port"]}])
+        # The rest as in the Deployment, but for liveness, which Agones asks its own container for.
+        deployment, = self.manifests("overlays/cpu")["Deployment"]
+        other = deployment["spec"]["template"]["spec"]["containers"][0]
+        for name in ("startupProbe", "readinessProbe", "resources", "volumeMounts", "image", "args"):
+            self.assertEqual(container[name], other[name], name)
+        self.assertNotIn("livenessProbe", container)
+        self.assertGreaterEqual(server["health"]["periodSeconds"],
+                                2 * self.service["agones_health_seconds"])
+
+        counter = self.service["agones_counter"]
+        self.assertEqual(server["counters"],
+                         {counter: {"count": 0, "capacity": config["max-sessions"]}})
+        autoscaler, = kinds["FleetAutoscaler"]
+        self.assertEqual(autoscaler["spec"]["fleetName"], fleet["metadata"]["name"])
+        policy = autoscaler["spec"]["policy"]
+        self.assertEqual((policy["type"], policy["counter"]["key"]), ("Counter", counter))
+        allocation = yaml.safe_load((DEPLOY / "kubernetes/agones/allocation.yaml").read_text())
+        for selector in allocation["spec"]["selectors"]:
+            self.assertEqual(selector["matchLabels"], {"agones.dev/fleet": fleet["metadata"]["name"]})
+            self.assertEqual(list(selector["counters"]), [counter])
+        self.assertEqual(allocation["metadata"]["namespace"], fleet["metadata"]["namespace"])
+
+        labels = server["template"]["metadata"]["labels"].items()
+        policy, = kinds["NetworkPolicy"]
+        self.assertLessEqual(policy["spec"]["podSelector"]["matchLabels"].items(), labels)
+        self.assertEqual([rule["ports"][0]["port"] for rule in policy["spec"]["ingress"]],
+                         [port["containerPort"], "admin"])
+        monitor, = kinds["PodMonitor"]
+        self.assertLessEqual(monitor["spec"]["selector"]["matchLabels"].items(), labels)
+        self.assertEqual(monitor["spec"]["podMetricsEndpoints"][0]["path"],
+                         self.service["metrics_path"])
 
     def test_image_agrees_with_the_binary(self):
         text = (DEPLOY / "Dockerfile").read_text()

@@ -126,9 +126,21 @@ class Access(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(answer.status, 200)
 
     async def test_4_hangup_reads_tokens_and_certificate_again(self):
+        self.tokens.write_text(f"{OLD}\n{NEW}\n")
+        await self.hang_up("event=reloaded what=tokens")
+        (revoked, _), (kept, answer) = await self.greet(token=OLD), await self.greet(token=NEW)
+        self.assertIn("welcome", answer)
         self.tokens.write_text(f"{NEW}\n")
         make_certificate(self.folder, "second")
         await self.hang_up("event=reloaded what=certificate")
+        with self.assertRaises(websockets.exceptions.ConnectionClosed):
+            while True:
+                await asyncio.wait_for(revoked.recv(), 10)
+        self.assertEqual((revoked.close_code, revoked.close_reason),
+                         (4003, "the token was taken away"))
+        await asyncio.wait_for(await kept.ping(), 10)
+        self.assertTrue(kept.open)
+        await kept.close()
         await self.assert_welcome(NEW)
         await self.assert_refused(token=OLD)
 

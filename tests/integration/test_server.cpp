@@ -30,6 +30,7 @@ TestServer::TestServer(const TestServerOptions& options) : opened_(options.open_
     run.server.allowed_origins = options.allowed_origins;
     run.server.resume_grace = options.resume_grace;
     run.server.web_root = options.web_root;
+    run.server.agones = options.agones;
     run.server.thread_count = 2;
     run.sessions_max = options.sessions_max;
     run.encoder_count = 2;

@@ -19,6 +19,7 @@ struct TestServerOptions {
     bool open_at_once = true; // false: the scene keeps loading until open()
     std::vector<std::string> allowed_origins{};
     std::filesystem::path web_root{};
+    std::optional<net::AgonesOptions> agones{};
 };
 
 class TestServer {

@@ -329,6 +329,15 @@ TEST(Drain, LastViewerLeaves_EndsAtOnce) {
     EXPECT_TRUE(drained.get());
 }
 
+TEST(Drain, NoTimeAtAll_ViewersAreToldNevertheless) {
+    TestServer server;
+    WsClient client(server.port());
+    client.join();
+    auto drained = std::async(std::launch::async, [&] { return server.run().drain(0ms); });
+    EXPECT_EQ(client.expectClosed().code, 4010);
+    EXPECT_TRUE(drained.get());
+}
+
 TEST(Drain, ViewerNeverAnswers_EndsAtTheDeadline) {
     TestServer server;
     WsClient client(server.port());

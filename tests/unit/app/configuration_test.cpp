@@ -81,12 +81,14 @@ TEST_F(ConfigurationTest, EveryKindOfOption_IsTakenFromTheFile) {
         parse({"--config", file("# a comment\n"
                                 "scene = \"/a b/#1.glb\"\n"
                                 "validation = true\n"
+                                "agones = true\n"
                                 "lens-shift = '0.5,-1'\n"
                                 "allow-origin = ['https://a.example', 'https://b.example']\n"
                                 "renderer = \"naive\"\n"
                                 "log-format = \"json\"\n")});
     EXPECT_EQ(serve(options).scene, "/a b/#1.glb");
     EXPECT_TRUE(serve(options).validation);
+    EXPECT_TRUE(serve(options).agones);
     EXPECT_EQ(serve(options).lens_shift, glm::dvec2(0.5, -1));
     EXPECT_THAT(serve(options).allowed_origins,
                 ElementsAre("https://a.example", "https://b.example"));
@@ -99,9 +101,11 @@ TEST_F(ConfigurationTest, EnvironmentNamesTheFile_AndListsAreSplitAtCommas) {
     const Options options =
         parse({}, {{"FROXEL_CONFIG", path},
                    {"FROXEL_VALIDATION", "false"},
+                   {"FROXEL_AGONES", "true"},
                    {"FROXEL_ALLOW_ORIGIN", "https://a.example,https://b.example"}});
     EXPECT_EQ(serve(options).port, 7);
     EXPECT_FALSE(serve(options).validation);
+    EXPECT_TRUE(serve(options).agones);
     EXPECT_THAT(serve(options).allowed_origins,
                 ElementsAre("https://a.example", "https://b.example"));
 }
@@ -113,6 +117,12 @@ TEST_F(ConfigurationTest, BadValue_NamesWhereItCameFrom) {
                 AllOf(HasSubstr(path_ + ": quality: '101'"), HasSubstr("1 to 100")));
     EXPECT_THAT(refusal({"--config", file("port = [1, 2]\n")}), HasSubstr("has 2 values"));
     EXPECT_THAT(refusal({"--config", file("port = {a = 1}\n")}), HasSubstr("line 1: port must be"));
+}
+
+TEST_F(ConfigurationTest, ValueOfSeveralLines_IsRefusedInOne) {
+    EXPECT_THAT(refusal({"--config", file("quality = \"1\\n2\"\n")}), HasSubstr("'1\\x0a2'"));
+    EXPECT_THAT(refusal({"--quality", "1\n2"}), HasSubstr("'1\\x0a2'"));
+    EXPECT_THAT(refusal({"--no-such\noption"}), HasSubstr("--no-such\\x0aoption"));
 }
 
 TEST_F(ConfigurationTest, UnknownKey_IsRefused) {

@@ -1,10 +1,10 @@
 // A file that uses everything, broken in every single place: always a scene or one error line.
 // Meant for the sanitizers above all.
+#include "support/scene_promises.h"
 #include "unit/gltf/scene_file.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 namespace froxel::gltf::test {
@@ -85,37 +85,7 @@ SceneFile richFile() {
 }
 
 void expectSceneOrLine(const Result<scene::Scene>& result, const std::string& what) {
-    if (!result.has_value()) {
-        const std::string& message = result.error().message;
-        ASSERT_EQ(result.error().code, ErrorCode::kScene) << what;
-        ASSERT_TRUE(message.starts_with("scene.gl")) << what << ": " << message;
-        ASSERT_EQ(message.find('\n'), std::string::npos) << what << ": " << message;
-        ASSERT_LT(message.size(), 1000U) << what;
-        return;
-    }
-    for (const scene::Mesh& mesh : result->meshes) {
-        for (const scene::Primitive& primitive : mesh.primitives) {
-            ASSERT_EQ(primitive.normals.size(), primitive.positions.size()) << what;
-            ASSERT_LT(primitive.material, result->materials.size()) << what;
-            for (const uint32_t index : primitive.indices) {
-                ASSERT_LT(index, primitive.positions.size()) << what;
-            }
-        }
-    }
-    for (const scene::Instance& instance : result->instances) {
-        ASSERT_LT(instance.mesh, result->meshes.size()) << what;
-    }
-    for (const scene::Texture& texture : result->textures) {
-        ASSERT_LT(texture.image, result->images.size()) << what;
-    }
-    for (const scene::Material& material : result->materials) {
-        const glm::vec3 sum = material.emissive + glm::vec3(material.base_color) +
-                              material.normal_scale + material.alpha_cutoff;
-        ASSERT_TRUE(std::isfinite(sum.x)) << what;
-    }
-    for (const scene::PunctualLight& light : result->lights) {
-        ASSERT_TRUE(std::isfinite(light.intensity) && std::isfinite(light.range_m)) << what;
-    }
+    ASSERT_EQ(froxel::test::faultOf(result, "scene.gl"), "") << what;
 }
 
 void collect(const Json& value,

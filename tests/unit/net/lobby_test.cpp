@@ -117,6 +117,22 @@ TEST_F(LobbyTest, Room_IsOneSession_DrawnForWhoHasMostRoom_AndToldToAllByTheSame
     EXPECT_EQ(port_.session().granted, 4U);
 }
 
+TEST_F(LobbyTest, SessionCount_HasARoomOnce_AndWhoIsWaitedFor) {
+    EXPECT_EQ(lobby_.sessionCount(), 0U);
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    const Guest alone = enter();
+    EXPECT_EQ(lobby_.sessionCount(), 2U);
+    leave(first);
+    lose(alone);
+    EXPECT_EQ(lobby_.sessionCount(), 2U);
+    leave(second);
+    EXPECT_EQ(lobby_.sessionCount(), 1U);
+    now_ += 11s;
+    lobby_.expire(now_);
+    EXPECT_EQ(lobby_.sessionCount(), 0U);
+}
+
 TEST_F(LobbyTest, LateJoiner_GetsTheNewestPictureAtOnce) {
     const Guest first = enter("hall");
     EXPECT_FALSE(first.seat.picture);

@@ -59,20 +59,55 @@ TEST_F(TokenGateTest, BrokenFile_NamesTheLineAndNoToken_AndChangesNothing) {
     EXPECT_FALSE(gate_->lets(""));
 }
 
-TEST_F(TokenGateTest, Conversation_WithoutTheToken_GetsNoSession) {
-    ASSERT_TRUE(load(kToken + "\n"));
-    for (const std::string& token : {std::string(), std::string("wrong-horse-battery"), kToken}) {
-        FakePort port;
-        Conversation talk{{}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>(), gate_};
-        ServiceStatus status;
+TEST_F(TokenGateTest, Pass_LastsAsLongAsItsTokenIsInTheFile) {
+    ASSERT_TRUE(load(kToken + "\nanother-token-0123\n"));
+    const auto stays = gate_->admit(kToken);
+    const auto goes = gate_->admit("another-token-0123");
+    ASSERT_TRUE(stays && goes);
+    EXPECT_TRUE(stays->valid() && goes->valid());
+    ASSERT_TRUE(load("a-third-token-0123\n" + kToken + "\n"));
+    EXPECT_TRUE(stays->valid());
+    EXPECT_FALSE(goes->valid());
+    EXPECT_FALSE(load("short\n"));
+    EXPECT_TRUE(stays->valid()) << "a broken file changes nothing";
+}
+
+// One that says Hello with a token to a server that serves.
+struct Talk {
+    Talk(std::shared_ptr<const TokenGate> gate, const std::string& token)
+        : conversation({}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>(), gate) {
         status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
-        talk.onService(status, TimePoint());
+        conversation.onService(status, TimePoint());
         v1::ClientMessage hello;
         hello.set_seq(1);
         hello.mutable_hello()->set_protocol_major(protocol::kMajor);
         hello.mutable_hello()->set_token(token);
-        talk.onMessage(protocol::bytesOf(hello.SerializeAsString()), WireFormat::kBinary,
-                       TimePoint());
+        conversation.onMessage(protocol::bytesOf(hello.SerializeAsString()), WireFormat::kBinary,
+                               TimePoint());
+    }
+    FakePort port;
+    ServiceStatus status;
+    Conversation conversation;
+};
+
+TEST_F(TokenGateTest, Conversation_WhoseTokenIsTakenAway_EndsAtTheNextWord) {
+    ASSERT_TRUE(load(kToken + "\nanother-token-0123\n"));
+    Talk stays(gate_, kToken);
+    Talk goes(gate_, "another-token-0123");
+    ASSERT_TRUE(load(kToken + "\n"));
+    for (Talk* talk : {&stays, &goes}) {
+        talk->conversation.onService(talk->status, TimePoint());
+    }
+    EXPECT_FALSE(stays.conversation.closing());
+    ASSERT_TRUE(goes.conversation.closing());
+    EXPECT_EQ(goes.conversation.closing()->code, protocol::CloseCode::kToken);
+}
+
+TEST_F(TokenGateTest, Conversation_WithoutTheToken_GetsNoSession) {
+    ASSERT_TRUE(load(kToken + "\n"));
+    for (const std::string& token : {std::string(), std::string("wrong-horse-battery"), kToken}) {
+        const Talk talker(gate_, token);
+        const auto& [port, status, talk] = talker;
         EXPECT_EQ(port.sessions.size(), token == kToken ? 1U : 0U) << token;
         EXPECT_EQ(talk.closing().has_value(), token != kToken);
         if (talk.closing()) {

@@ -120,6 +120,13 @@ TEST(ServerMessage, Garbage_IsAnError) {
                                      WireFormat::kBinary, back));
 }
 
+TEST(ServerMessage, BrokenJson_IsRefusedInOneLine) {
+    v1::ServerMessage back;
+    const auto read = decodeServerMessage(bytesOf("{\n\"pong\" 1}"), WireFormat::kText, back);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().message.find('\n'), std::string::npos) << read.error().message;
+}
+
 TEST(ClientMessage, BothFormats_AreBare) {
     v1::ClientMessage message;
     message.set_seq(5);

@@ -1,0 +1,96 @@
+// What command.h promises of every command that was let in: renderers rely on it.
+#pragma once
+
+#include "core/text.h"
+#include "session/command.h"
+#include "session/rejection.h"
+#include "view/ranges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+
+namespace froxel::test {
+
+struct PromiseKept {
+    static bool finite(const glm::dvec3& value) {
+        return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
+    }
+    bool operator()(const session::SetCamera& c) const {
+        return finite(c.eye_world) && finite(c.target_world) && finite(c.up_world) &&
+               c.eye_world != c.target_world && glm::length(c.up_world) > 0 &&
+               (!c.yfov_rad || (*c.yfov_rad > 0 && *c.yfov_rad < 3.1));
+    }
+    bool operator()(const session::SetLights& c) const {
+        return (!c.count || view::kLightCountRange.contains(*c.count)) &&
+               (!c.radius_m || view::kLightRadiusRange.contains(*c.radius_m)) &&
+               (!c.box || (finite(c.box->min) && finite(c.box->max) && !c.box->empty()));
+    }
+    bool operator()(const session::SetPlacedLights& c) const {
+        return std::all_of(
+            c.lights.begin(), c.lights.end(), [](const session::PlacedLightChange& light) {
+                return light.id > 0 && (!light.position_world || finite(*light.position_world)) &&
+                       (!light.direction_world || glm::length(*light.direction_world) > 0) &&
+                       (!light.radius_m || view::kLightRadiusRange.contains(*light.radius_m));
+            });
+    }
+    bool operator()(const session::SetGrid& c) const {
+        return (!c.size || (c.size->x > 0 && c.size->y > 0 && c.size->z > 0 && c.size->x <= 128)) &&
+               !(c.size && c.automatic.value_or(false)) &&
+               (!c.law || static_cast<size_t>(*c.law) < view::kGridLawNames.size());
+    }
+    bool operator()(const session::SetDebugView& c) const {
+        return (!c.view || static_cast<size_t>(*c.view) < view::kDebugViewNames.size()) &&
+               (!c.scale_max || view::kDebugScaleRange.contains(*c.scale_max));
+    }
+    bool operator()(const session::SetSize& c) const {
+        return view::kWidthRange.contains(c.size.width_px) &&
+               view::kHeightRange.contains(c.size.height_px);
+    }
+    bool operator()(const session::SetRenderer& c) const {
+        return static_cast<size_t>(c.renderer) < view::kRendererNames.size();
+    }
+    bool operator()(const session::SetToon& c) const {
+        return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2);
+    }
+    bool operator()(const session::SetShadows& c) const {
+        return (!c.lights || view::kShadowLightsRange.contains(*c.lights)) &&
+               (!c.size_px || view::kShadowSizeRange.contains(*c.size_px));
+    }
+    bool operator()(const session::SetPost& c) const {
+        return (!c.bloom || static_cast<size_t>(*c.bloom) < view::kBloomKindNames.size()) &&
+               (!c.bloom_radius || view::kBloomRadiusRange.contains(*c.bloom_radius)) &&
+               (!c.antialiasing ||
+                static_cast<size_t>(*c.antialiasing) < view::kAntialiasingNames.size());
+    }
+    bool operator()(const session::SetTransparency& c) const {
+        return (!c.transparency ||
+                static_cast<size_t>(*c.transparency) < view::kTransparencyNames.size()) &&
+               (!c.peel_layers || view::kPeelLayersRange.contains(*c.peel_layers));
+    }
+    bool operator()(const session::SetFog& c) const {
+        return (!c.density || view::kFogDensityRange.contains(*c.density)) &&
+               (!c.albedo || finite(*c.albedo)) &&
+               (!c.tile_px || view::kFogTileRange.contains(*c.tile_px)) &&
+               (!c.slice_count || view::kFogSlicesRange.contains(*c.slice_count));
+    }
+    template <class Other>
+    bool operator()(const Other& /*command*/) const {
+        return true;
+    }
+};
+
+// What is wrong with an answer to a client's message; empty where it is as promised.
+inline std::string faultOf(const session::CommandResult<session::CommandMessage>& result) {
+    if (result) {
+        const bool kept = result->stamp.seq > 0 && std::visit(PromiseKept{}, result->body);
+        return kept ? "" : "command " + numberText(result->body.index()) + " breaks a promise";
+    }
+    const std::string& line = result.error().message;
+    return !line.empty() && line.size() < 500 && printable(line, 500) == line
+               ? ""
+               : "not one short line: " + line;
+}
+
+} // namespace froxel::test
