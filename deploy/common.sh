@@ -43,6 +43,7 @@ add_unless_on_path test_packages promtool prometheus
 add_unless_on_path test_packages kubectl kubernetes-client
 add_unless_on_path test_packages /usr/sbin/nginx nginx-light
 add_unless_on_path test_packages /usr/sbin/haproxy haproxy
+add_unless_on_path test_packages slowhttptest slowhttptest
 
 is_debian_12() {
     [[ -r /etc/os-release ]] || return 1

@@ -14,12 +14,12 @@ export interface Server {
 }
 
 /** Port 0: any free one. Rejects with what the binary said when it gives no URL. */
-export async function startServer(port = 0): Promise<Server> {
+export async function startServer(port = 0, more: readonly string[] = []): Promise<Server> {
   const binary = process.env.FROXEL_BINARY;
   if (!binary) throw new Error('FROXEL_BINARY is not set: the path of a froxel binary');
   // However slow the machine, several pages are let in.
   const options = ['--port', String(port), '--admin-bind', 'none', '--min-fps', '0'];
-  options.push('--drain-seconds', '1');
+  options.push('--drain-seconds', '1', ...more);
   const child = spawn(binary, ['serve', ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });

@@ -21,6 +21,7 @@ socket.on('message', (message, isBinary) => {
     return;
   }
   frames += 1;
+  if (frames === 1) setTimeout(() => socket.close(), 3000);
   say({ ack: { frameId: frameId(message) } });
   const angle = process.uptime();
   const eye = { x: 8 * Math.cos(angle), y: 3, z: 8 * Math.sin(angle) };
@@ -28,4 +29,3 @@ socket.on('message', (message, isBinary) => {
 });
 socket.on('error', (error) => console.error(error.message));
 socket.on('close', () => console.log(`${frames} frames`));
-setTimeout(() => socket.close(), 3000);

@@ -5,7 +5,13 @@
 // when nothing newer is under way, so that a slider never jumps back to where it was a round trip
 // ago. A refusal takes the settings back to the confirmed ones.
 
-import type { FieldRange, FrameDetails, SceneInfo, ServerMessage } from './gen/froxel/v1/server_pb';
+import {
+  ErrorCode,
+  type FieldRange,
+  type FrameDetails,
+  type SceneInfo,
+  type ServerMessage,
+} from './gen/froxel/v1/server_pb';
 import { Refine } from './gen/froxel/v1/common_pb';
 import { placedAfter } from './placed_lights';
 import { mayControl, roomOf, type Room } from './room';
@@ -151,6 +157,7 @@ function received(state: AppState, message: ServerMessage): AppState {
         : { ...state, confirmed, settings: confirmed, sent: confirmed };
     }
     case 'error':
+      if (body.value.code === ErrorCode.TOKEN) return state; // the question for one says it
       return {
         ...state,
         ...(body.value.refSeq > 0n && { settings: state.confirmed, sent: state.confirmed }),

@@ -72,6 +72,8 @@ export class Connection {
   private attempt = 0;
   private openedAtMs = 0;
   private heardAtMs = 0;
+  private at = ''; // the newest socket's URL
+  private refuge = ''; // another server's, if that was the last one to answer
   private cancelTimer: () => void = () => undefined;
   private cancelLeave: () => void = () => undefined;
 
@@ -81,9 +83,10 @@ export class Connection {
     private readonly env: Environment,
   ) {}
 
-  open(url = this.url): void {
+  open(url = this.refuge || this.url): void {
     this.cancelTimer();
     this.cancelLeave();
+    this.at = url;
     this.events.link({ phase: 'connecting' });
     const socket = this.env.openSocket(url, kSubprotocol);
     socket.binaryType = 'arraybuffer';
@@ -101,7 +104,7 @@ export class Connection {
     this.cancelLeave();
     this.cancelLeave = this.env.after((this.env.random() * deadlineMs) / 2, () => {
       const before = this.socket;
-      this.open(url === '' ? this.url : url);
+      this.open(url || undefined);
       before?.close();
     });
   }
@@ -123,6 +126,7 @@ export class Connection {
   private opened(socket: Socket): void {
     if (socket !== this.socket) return;
     this.seq = 0n;
+    this.refuge = this.at === this.url ? '' : this.at;
     this.openedAtMs = this.heardAtMs = this.env.nowMs();
     this.events.link({ phase: 'greeting' });
     const hello = { protocolMajor: kProtocolMajor, protocolMinor: kProtocolMinor };
@@ -177,6 +181,8 @@ export class Connection {
     this.attempt += 1;
     const text = kRetryReasons[code] ?? 'No connection to the server.';
     this.events.link({ phase: 'waiting', reason: text, retryAtMs: now + delay });
-    this.cancelTimer = this.env.after(delay, () => this.open());
+    // This page's own server may be gone for good, or be the only one that comes back: in turns.
+    const next = this.attempt % 2 === 1 ? undefined : this.url;
+    this.cancelTimer = this.env.after(delay, () => this.open(next));
   }
 }

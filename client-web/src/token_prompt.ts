@@ -8,6 +8,7 @@ const kKey = 'froxel.token';
 
 export class TokenPrompt {
   private readonly dialog = element('token', HTMLDialogElement);
+  private readonly said = element('token-said', HTMLElement);
   private readonly input = element('token-input', HTMLInputElement);
   private kept: string;
 
@@ -31,6 +32,7 @@ export class TokenPrompt {
 
   /** The one that is kept, if any, was refused. */
   ask(): void {
+    this.said.textContent = this.kept === '' ? '' : 'The server does not know this token.';
     this.keep('');
     if (!this.dialog.open) this.dialog.showModal();
   }

@@ -128,6 +128,12 @@ describe('errors', () => {
     expect(run(before, error(0n)).settings?.lights).toBe(5);
   });
 
+  it('OfTheToken_ChangeNothing', () => {
+    const before = run(live, edit(5));
+    const value = { code: ErrorCode.TOKEN, refSeq: 1n, message: 'token is unknown' };
+    expect(run(before, received({ case: 'error', value }))).toEqual(before);
+  });
+
   it('Dismiss_TakesTheNoticeAway', () => {
     expect(run(live, error(0n), { type: 'dismiss' }).notice).toBeNull();
   });

@@ -154,7 +154,7 @@ describe('Connection', () => {
     expect(messages).toEqual(['pong']);
   });
 
-  it('Leave_GoesElsewhereWithinHalfTheDeadline_AndLaterComesBackHere', () => {
+  it('Leave_GoesElsewhereWithinHalfTheDeadline_LaterThereAndHereInTurns', () => {
     env.socket.accept();
     const first = env.socket;
     env.randomValue = 0.5;
@@ -165,6 +165,26 @@ describe('Connection', () => {
     expect(env.socket.url).toBe('wss://other/ws');
     expect(first.closedByPage).toBe(true);
     env.socket.accept();
+    const tried: string[] = [];
+    for (let i = 0; i < 3; i += 1) {
+      env.socket.drop(1006);
+      env.pass(10_000);
+      tried.push(env.socket.url);
+    }
+    expect(tried).toEqual(['wss://other/ws', 'ws://host/ws', 'wss://other/ws']);
+    env.socket.drop(1006);
+    env.pass(10_000);
+    env.socket.accept();
+    env.socket.drop(1006);
+    env.pass(10_000);
+    expect(env.socket.url).toBe('ws://host/ws'); // back home
+  });
+
+  it('Leave_ToAnAddressThatDoesNotAnswer_ComesBack', () => {
+    env.socket.accept();
+    connection.leave(0, 'wss://other/ws');
+    env.pass(0);
+    expect(env.socket.url).toBe('wss://other/ws');
     env.socket.drop(1006);
     env.pass(10_000);
     expect(env.socket.url).toBe('ws://host/ws');

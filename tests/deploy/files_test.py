@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """What deploy/ says against what the binary says: files_test.py PATH_OF_FROXEL.
 
-Manifests are those that `kubectl kustomize` renders, where there is a kubectl; what only a cluster
-knows (whether its API takes them) is not tested.
+Manifests are those that `kubectl kustomize` renders, where there is a kubectl, held against the types of
+Kubernetes' API; what only a cluster knows is not tested.
 """
 
+import copy
 import json
 import os
 import re
@@ -16,6 +17,8 @@ import unittest
 from pathlib import Path
 
 import yaml
+
+import manifest_types
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
 ROOT = Path(__file__).resolve().parents[2]
@@ -46,15 +49,68 @@ class Files(unittest.TestCase):
         if not shutil.which("kubectl"):
             self.skipTest("kubectl is not here (Debian: kubernetes-client)")
         text = run("kubectl", "kustomize", DEPLOY / "kubernetes" / folder)
-        documents = {}
-        for document in yaml.safe_load_all(text):
-            documents.setdefault(document["kind"], []).append(document)
-        return documents
+        return list(yaml.safe_load_all(text))
+
+    def kinds_of(self, folder):
+        kinds = {}
+        for document in self.manifests(folder):
+            kinds.setdefault(document["kind"], []).append(document)
+        return kinds
 
     def test_overlays_agree_with_the_binary_and_with_themselves(self):
         for overlay in ("cpu", "nvidia"):
             with self.subTest(overlay):
-                self.check_manifests(self.manifests("overlays/" + overlay))
+                self.check_manifests(self.kinds_of("overlays/" + overlay))
+
+    def require_types(self):
+        if not manifest_types.available():
+            self.skipTest("npm's typescript and kubernetes-types are not in client-web/node_modules")
+
+    def test_manifests_are_of_the_types_of_the_api(self):
+        self.require_types()
+        documents = self.manifests("overlays/cpu") + self.manifests("overlays/nvidia")
+        for block in re.findall("```yaml\n(.*?)```", (DEPLOY / "README.md").read_text(), re.S):
+            documents += [entry for entry in [yaml.safe_load(block)] if "apiVersion" in entry]
+        self.assertIn("ScaledObject", {document["kind"] for document in documents})
+        self.assertEqual(manifest_types.complaints(documents), [])
+
+    def test_what_the_api_would_not_take_is_found(self):
+        self.require_types()
+        by_kind = {document["kind"]: document for document in self.manifests("overlays/cpu")}
+
+        def broken(kind, path, value):
+            """A copy with another value (None: without it) at the path, keys with dots between."""
+            document = copy.deepcopy(by_kind[kind])
+            *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
+            place = document
+            for key in parents:
+                place = place[key]
+            place[last] = value
+            if value is None:
+                del place[last]
+            return document
+
+        pod = "spec.template.spec"
+        cases = [
+            ("replica", broken("Deployment", "spec.replica", 2)),
+            ("livenesProbe", broken("Deployment", f"{pod}.containers.0.livenesProbe", {})),
+            ("capability", broken("Deployment", f"{pod}.containers.0.securityContext.capability", {})),
+            ("'string' is not assignable to type 'number'",
+             broken("Deployment", "spec.replicas", "two")),
+            ("'number' is not assignable to type 'string'",
+             broken("Deployment", f"{pod}.containers.0.env.0.value", 1)),
+            ("'boolean' is not assignable to type 'string'",
+             broken("Ingress", "metadata.annotations.flag", True)),
+            ("selector", broken("Deployment", "spec.selector", None)),
+            ("maxReplicas", broken("HorizontalPodAutoscaler", "spec.maxReplicas", None)),
+            ("endpoint", broken("ServiceMonitor", "spec.endpoint", [])),
+            ("autoscaling/v3", broken("HorizontalPodAutoscaler", "apiVersion", "autoscaling/v3")),
+            ("Deploymint", broken("Deployment", "kind", "Deploymint")),
+        ]
+        told = manifest_types.complaints([document for _, document in cases])
+        self.assertEqual(sum(line.startswith(("manifests.ts", "document ")) for line in told), len(cases), told)
+        for words, _ in cases:
+            self.assertTrue(any(words in line for line in told), (words, told))
 
     def check_manifests(self, kinds):
         service = self.service
@@ -124,7 +180,7 @@ class Files(unittest.TestCase):
         self.assertEqual(volumes["config"]["configMap"]["name"], config_map["metadata"]["name"])
 
     def test_fleet_agrees_with_the_binary_and_with_the_deployment(self):
-        kinds = self.manifests("agones")
+        kinds = self.kinds_of("agones")
         fleet, = kinds["Fleet"]
         server = fleet["spec"]["template"]["spec"]
         pod = server["template"]["spec"]
@@ -144,7 +200,7 @@ class Files(unittest.TestCase):
         self.assertEqual(container["ports"],
                          [{"name": "admin", "containerPort": self.service["admin_port"]}])
         # The rest as in the Deployment, but for liveness, which Agones asks its own container for.
-        deployment, = self.manifests("overlays/cpu")["Deployment"]
+        deployment, = self.kinds_of("overlays/cpu")["Deployment"]
         other = deployment["spec"]["template"]["spec"]["containers"][0]
         for name in ("startupProbe", "readinessProbe", "resources", "volumeMounts", "image", "args"):
             self.assertEqual(container[name], other[name], name)
