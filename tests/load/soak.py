@@ -9,8 +9,8 @@ anew. Reads the server's /metrics every two seconds. The first fifth of the time
 that is less than half) is warm-up. Passes if after it
 
   - what is allocated of the heap at rest rises by less than 8 MB from the first to the last third of
-    the rounds, by their medians (a rise of 1 MB in an hour is below what half an hour can tell from
-    noise);
+    the rounds, by their medians; with storms by less than a tenth: which variants of pipelines are
+    kept, 4 MB each, changes with each, by more than 50 MB from round to round;
   - resident memory at rest rises by less than a tenth, likewise: it has holes besides, which come and
     go by the order in which things end;
   - descriptors and sessions are back where they were before the first viewer, once all have left;
@@ -32,7 +32,7 @@ import urllib.request
 
 SCRIPTS = ("orbit", "idle", "storm")
 HEAP_RISE_BYTES = 8e6
-RESIDENT_RISE = 0.1
+NOISY_RISE = 0.1
 SAMPLE_EVERY_S = 2.0
 ROUND_S = 45.0
 GRACE_S = 2
@@ -166,7 +166,7 @@ def soak(server, viewers, device_bytes, minutes, joins_per_minute):
     return busy, rests
 
 
-def judge(busy, rests, before, after, device, viewers):
+def judge(busy, rests, before, after, device, viewers, scripts):
     """Lines that say what broke the rule."""
     first, last = thirds(rests, "process_resident_memory_bytes")
     heap = thirds(rests, "process_heap_used_bytes")
@@ -185,9 +185,9 @@ def judge(busy, rests, before, after, device, viewers):
         f"longest {scrapes[-1] * 1000:.1f} ms"
     )
     broken = []
-    if heap[1] - heap[0] >= HEAP_RISE_BYTES:
+    if heap[1] - heap[0] >= (NOISY_RISE * heap[0] if "storm" in scripts else HEAP_RISE_BYTES):
         broken.append(f"what is allocated of the heap rose by {(heap[1] - heap[0]) / 1e6:.1f} MB")
-    if last - first >= RESIDENT_RISE * first:
+    if last - first >= NOISY_RISE * first:
         broken.append(f"resident memory rose by {(last - first) / 1e6:.1f} MB")
     if after["process_open_fds"] > before["process_open_fds"]:
         broken.append("descriptors were left open")
@@ -237,7 +237,7 @@ def main():
         print("failed: sessions or device memory stay though all viewers left")
         return 1
     device = [values["froxel_device_memory_bytes"] for values in (before, after)]
-    broken = judge(busy, rests, before, after, device, viewers)
+    broken = judge(busy, rests, before, after, device, viewers, scripts)
     if code != 0:
         broken.append(f"the server ended with {code}")
     print(f"{viewers.started} viewers")
