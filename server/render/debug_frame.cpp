@@ -26,10 +26,10 @@ double powerOfTwoFrom(double value) {
     return std::exp2(std::ceil(std::log2(std::max(value, 1e-3))));
 }
 
-// From twice what is expected: longer lists are few.
+// From four times what is expected, since pixels are taken to be near, where lists are short.
 double lightScale(DebugView view, const DebugFacts& facts) {
     if (facts.lists || view == DebugView::kListedLights) {
-        return powerOfTwoFrom(std::max(2 * facts.list_length, kShortestListScale));
+        return powerOfTwoFrom(std::max(4 * facts.list_length, kShortestListScale));
     }
     return std::max(1.0, static_cast<double>(facts.light_count));
 }

@@ -38,7 +38,7 @@ TEST(HeatMap, Counts_AtTheTopAndBeyond_AreTheTop) {
 TEST(DebugLegend, Scales_AreChosenOrGiven) {
     const DebugFacts lists{
         .light_count = 900, .lists = true, .list_length = 20, .slice_count = 24, .farthest_m = 37};
-    EXPECT_EQ(legendOf(DebugView::kListedLights, lists).max, 64); // twice 20, rounded up
+    EXPECT_EQ(legendOf(DebugView::kListedLights, lists).max, 128); // four times 20, rounded up
     EXPECT_EQ(legendOf(DebugView::kListedLights, lists, 50).max, 50);
     EXPECT_EQ(legendOf(DebugView::kListedLights, lists, 50.5).max, 51);
     EXPECT_EQ(legendOf(DebugView::kClusterSlices, lists).max, 23);
