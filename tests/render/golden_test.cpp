@@ -141,4 +141,33 @@ TEST_F(Golden, Transparency_BuiltinScene_LooksAsCommitted) {
     }
 }
 
+// Nothing else shines but the scene's lanterns.
+TEST_F(Golden, AreaLights_BuiltinScene_LookAsCommitted) {
+    const auto scene = hall::makeHall();
+    render::Renderer renderer(device(), scene);
+    auto inputs = inputsFor(scene);
+    inputs.settings.lights.count = 0;
+    view::PlacedLight strip;
+    strip.id = 1;
+    strip.kind = view::LightKind::kArea;
+    inputs.settings.exposure = 2;
+    strip.position_world = {-9, 2.5, 1.5};
+    strip.direction_world = {0.2, -1, -0.6};
+    strip.color = {1, 0.85F, 0.6F};
+    strip.intensity = 40;
+    strip.radius_m = 9;
+    strip.width_m = 3;
+    strip.height_m = 0.3;
+    view::PlacedLight panel = strip;
+    panel.id = 2;
+    panel.position_world = {-7, 1.6, -3.2};
+    panel.direction_world = {0, -0.2, 1};
+    panel.color = {0.3F, 0.5F, 1};
+    panel.width_m = 1.2;
+    panel.height_m = 1.8;
+    panel.roll_deg = 20;
+    inputs.settings.lights.placed = view::PlacedLights({strip, panel});
+    expectAsCommitted(draw(renderer, inputs), "area_lights");
+}
+
 } // namespace froxel::test
