@@ -143,6 +143,7 @@ export class Viewer {
 
   /** Waits until all that was asked for is in the picture, and gives that one's thumbnail. */
   async settled(): Promise<number[]> {
+    await this.commandsSent();
     await until('a picture of the newest settings', () => {
       const asked = this.sent.filter(({ body }) => /^(set|select)/.test(body.case ?? '')).at(-1);
       const shown = this.sent.filter(({ body }) => body.case === 'ack').at(-1)?.body;
@@ -156,6 +157,13 @@ export class Viewer {
       );
     });
     return this.thumbnail();
+  }
+
+  /** The page sends what was chosen at the next animation frame. */
+  private commandsSent(): Promise<number> {
+    return this.page.evaluate(
+      () => new Promise<number>((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+    );
   }
 
   /** Waits for a picture that differs from `before` by more than JPEG noise. */
