@@ -87,7 +87,11 @@ export class LightEditor {
       actions.addLight(),
     );
     this.chooser = this.addChooser([]);
-    const kind = folder.add(this.model, 'kind', kLightKinds);
+    const kind = folder.add(
+      this.model,
+      'kind',
+      Object.fromEntries(kLightKinds.map(({ name, value }) => [name, value])),
+    );
     this.value(kind, 'kind', 'Kind', 'A spot’s cone costs a little in each pixel, an area light’s rectangle as much as ten points', () => ({
       kind: this.model.kind,
     }));

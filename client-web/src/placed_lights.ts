@@ -4,10 +4,12 @@ import { create, fromJsonString, toJsonString } from '@bufbuild/protobuf';
 
 import {
   LightKind,
+  LightKindSchema,
   PlacedLightsSchema,
   type PlacedLight as PlacedLightMessage,
   type PlacedLights as PlacedLightsMessage,
 } from './gen/froxel/v1/common_pb';
+import { choicesOf } from './schema_names';
 import { equal, vec, type Vec } from './vec3';
 
 export interface PlacedLight {
@@ -25,14 +27,10 @@ export interface PlacedLight {
   readonly rollDeg: number;
 }
 
-export const kLightKinds = {
-  point: LightKind.POINT,
-  spot: LightKind.SPOT,
-  area: LightKind.AREA,
-};
+export const kLightKinds = choicesOf(LightKindSchema);
 
-export const kindName = (kind: LightKind): string =>
-  Object.entries(kLightKinds).find(([, value]) => value === kind)?.[0] ?? 'light';
+export const kindName = (kind: number): string =>
+  kLightKinds.find(({ value }) => value === kind)?.name ?? 'light';
 
 /** Ids ascend. */
 export type PlacedLights = readonly PlacedLight[];
