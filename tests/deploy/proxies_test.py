@@ -25,6 +25,9 @@ from pathlib import Path
 
 import websockets
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from viewer_protocol import frame_id, make_certificate
+
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
 
 
@@ -58,16 +61,6 @@ def free_port():
 def listens(port):
     with socket.socket() as caller:
         return caller.connect_ex(("127.0.0.1", port)) == 0
-
-
-def frame_id(message):
-    """The first field of the FrameHeader, a varint."""
-    value, shift, at = 0, 0, 5
-    while True:
-        value |= (message[at] & 0x7F) << shift
-        if message[at] < 0x80:
-            return value
-        shift, at = shift + 7, at + 1
 
 
 class Server:
@@ -173,10 +166,7 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
-                        "ec_paramgen_curve:P-256", "-nodes", "-days", "2", "-subj", "/CN=localhost",
-                        "-keyout", cls.folder / "tls.key", "-out", cls.folder / "tls.crt"],
-                       check=True, capture_output=True)
+        make_certificate(cls.folder / "tls.crt", cls.folder / "tls.key", "localhost")
         key, certificate = ((cls.folder / name).read_text() for name in ("tls.key", "tls.crt"))
         (cls.folder / "tls.pem").write_text(certificate + key)
         cls.servers = [Server(), Server()]

@@ -19,15 +19,11 @@ from pathlib import Path
 
 import websockets
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from viewer_protocol import make_certificate
+
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
 OLD, NEW = "old-token-0123456789", "new-token-0123456789"
-
-
-def make_certificate(folder, name):
-    subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256",
-                    "-nodes", "-days", "2", "-subj", f"/CN={name}", "-addext",
-                    "subjectAltName=IP:127.0.0.1", "-keyout", folder / "key.pem",
-                    "-out", folder / "cert.pem"], check=True, capture_output=True)
 
 
 class Access(unittest.IsolatedAsyncioTestCase):
@@ -36,7 +32,7 @@ class Access(unittest.IsolatedAsyncioTestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
-        make_certificate(cls.folder, "first")
+        make_certificate(cls.folder / "cert.pem", cls.folder / "key.pem", "first")
         cls.tokens = cls.folder / "tokens"
         cls.tokens.write_text(f"# viewers\n{OLD}\n")
         config = cls.folder / "froxel.toml"
@@ -131,7 +127,7 @@ class Access(unittest.IsolatedAsyncioTestCase):
         (revoked, _), (kept, answer) = await self.greet(token=OLD), await self.greet(token=NEW)
         self.assertIn("welcome", answer)
         self.tokens.write_text(f"{NEW}\n")
-        make_certificate(self.folder, "second")
+        make_certificate(self.folder / "cert.pem", self.folder / "key.pem", "second")
         await self.hang_up("event=reloaded what=certificate")
         with self.assertRaises(websockets.exceptions.ConnectionClosed):
             while True:

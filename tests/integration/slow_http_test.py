@@ -20,20 +20,13 @@ from pathlib import Path
 
 import websockets
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from viewer_protocol import frame_id
+
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
 CONNECTIONS = 50
 # Of the tool, at most; the server gives a request 10 s, and its answer 10 s.
 SECONDS = 40
-
-
-def frame_id(message):
-    """The first field of the FrameHeader, a varint."""
-    value, shift, at = 0, 0, 5
-    while True:
-        value |= (message[at] & 0x7F) << shift
-        if message[at] < 0x80:
-            return value
-        shift, at = shift + 7, at + 1
 
 
 class Viewer:
