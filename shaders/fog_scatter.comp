@@ -76,18 +76,13 @@ vec3 scatteredByArea(Stretch s, LocalLight light, AreaRect rect) {
     return scattered;
 }
 
-vec3 scatteredByAreas(Stretch s, bool all_lights, uint cluster) {
+vec3 scatteredByAreas(Stretch s, bool all_lights, ClusterList list) {
     precise vec3 sum = vec3(0.0);
-    ClusterList list = wholeList(all_lights, cluster);
-    for (uint left = list.count; left > 0u; --left) {
-        uint index = all_lights ? left - 1u : fetchIndex(list.offset + left - 1u);
-        if (index < frame.first_area) {
-            break;
-        }
-        uint area = areaOf(index);
-        if (area != kNoArea) {
-            sum += scatteredByArea(s, fetchWhole(index), fetchArea(area));
-        }
+    uint left = list.count;
+    LocalLight light;
+    AreaRect rect;
+    while (nextArea(list, all_lights, left, light, rect)) {
+        sum += scatteredByArea(s, light, rect);
     }
     return sum;
 }
@@ -112,8 +107,8 @@ vec3 scatteredByAll(Stretch s, uvec2 pixel, float distance) {
             }
         }
     }
-    if (hasLight(kLightAreas) && (all_lights || cluster != kNoCluster)) {
-        sum += scatteredByAreas(s, all_lights, cluster);
+    if (hasLight(kLightAreas)) {
+        sum += scatteredByAreas(s, all_lights, list);
     }
     return sum;
 }

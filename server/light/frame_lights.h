@@ -6,7 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <vector>
 
 namespace froxel::light {
@@ -27,6 +26,7 @@ struct FrameLights {
     std::vector<io::Spot> spots;      // named by io::Light::spot
     std::vector<SpotCone> cones;      // of spots
     std::vector<io::AreaLight> areas; // named by io::Spot::area
+    uint32_t first_area = 0;          // of lights; where there are areas
     std::vector<io::DirectionalLight> directionals;
 };
 
@@ -37,22 +37,6 @@ struct FrameLights {
 [[nodiscard]] inline float extentOf(const FrameLights& lights, const io::Light& light) {
     const uint32_t area = light.spot == io::kNoSpot ? io::kNoArea : lights.spots[light.spot].area;
     return area < lights.areas.size() ? extentOf(lights.areas[area]) : 0.0F;
-}
-
-// The first light that shines from a rectangle; their number where none does.
-[[nodiscard]] inline uint32_t firstArea(const FrameLights& lights) {
-    const auto count = static_cast<uint32_t>(lights.lights.size());
-    if (lights.areas.empty()) {
-        return count;
-    }
-    // Their spots are in the order of the lights.
-    const auto spot = std::find_if(lights.spots.begin(), lights.spots.end(),
-                                   [](const io::Spot& s) { return s.area == 0; });
-    const auto first = static_cast<uint32_t>(spot - lights.spots.begin());
-    return static_cast<uint32_t>(
-        std::find_if(lights.lights.begin(), lights.lights.end(),
-                     [&](const io::Light& light) { return light.spot == first; }) -
-        lights.lights.begin());
 }
 
 } // namespace froxel::light

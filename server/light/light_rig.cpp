@@ -87,6 +87,9 @@ addSpot(const scene::PunctualLight& light, const glm::dmat3& view_from_world, Fr
     if (light.rectangle) {
         spot.scale = kStep;
         spot.offset = 0;
+        if (out.areas.empty()) {
+            out.first_area = static_cast<uint32_t>(out.lights.size()); // the light's own place
+        }
         spot.area = addArea(*light.rectangle, view_from_world, out);
     }
     out.spots.push_back(spot);

@@ -19,12 +19,11 @@ namespace froxel::reference {
 
 class Medium {
   public:
-    // All live as long as this.
-    // `open` is asked for shadowed lights.
+    // All live as long as this. `open` is asked for shadowed lights.
     Medium(const view::Fog& fog,
            const view::Camera& camera,
            const Lights& lights,
-           const Open& open = {});
+           const Open& open);
 
     // In the world's axes, relative to the eye, metres.
     [[nodiscard]] double densityAt(const glm::dvec3& point) const;

@@ -215,7 +215,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
-    uniforms_.first_area = light::firstArea(lights_);
+    uniforms_.first_area = lights_.first_area;
     fogged_ = plan.fog;
     if (plan.fog) {
         fog_ = makeFog(

@@ -16,27 +16,40 @@ LocalLight fetchWhole(uint index) {
     return light;
 }
 
-ClusterList wholeList(bool all_lights, uint cluster) {
+// The next rectangle of a list, from its end; `left`: how many lights are still to be looked at. False:
+// there is none.
+bool nextArea(ClusterList list, bool all_lights, inout uint left, out LocalLight light,
+              out AreaRect rect) {
+    light = darkLight();
+    rect = AreaRect(vec3(0.0), vec3(0.0), 0.0);
+    while (left > 0u) {
+        --left;
+        uint index = all_lights ? left : fetchIndex(list.offset + left);
+        if (index < frame.first_area) {
+            left = 0u;
+            return false;
+        }
+        uint area = areaOf(index);
+        if (area != kNoArea) {
+            light = fetchWhole(index);
+            rect = fetchArea(area);
+            return true;
+        }
+    }
+    return false;
+}
+
+void addAreas(Surface s, bool all_lights, uint cluster, inout LightSum sum) {
     ClusterList list = ClusterList(0u, frame.light_count);
     if (!all_lights) {
         list = fetchList(cluster);
     }
-    return list;
-}
-
-void addAreas(Surface s, bool all_lights, uint cluster, inout LightSum sum) {
-    ClusterList list = wholeList(all_lights, cluster);
-    for (uint left = list.count; left > 0u; --left) {
-        uint index = all_lights ? left - 1u : fetchIndex(list.offset + left - 1u);
-        if (index < frame.first_area) {
-            break;
-        }
-        uint area = areaOf(index);
-        if (area != kNoArea) {
-            LocalLight light = fetchWhole(index);
-            vec3 to_light = light.position_view - s.position_view;
-            addAreaLight(s, fetchArea(area), to_light, light.inv_radius2, light.color,
-                         coneShare(light, to_light), sum);
-        }
+    uint left = list.count;
+    LocalLight light;
+    AreaRect rect;
+    while (nextArea(list, all_lights, left, light, rect)) {
+        vec3 to_light = light.position_view - s.position_view;
+        addAreaLight(s, rect, to_light, light.inv_radius2, light.color, coneShare(light, to_light),
+                     sum);
     }
 }

@@ -73,6 +73,7 @@ TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
             ASSERT_EQ(lights.areas.size(), 1U);
             ASSERT_EQ(lights.spots.size(), 1U);
             EXPECT_EQ(lights.spots[0].area, 0U);
+            EXPECT_EQ(lights.first_area, 0U);
             const io::AreaLight& rectangle = lights.areas[0];
             const glm::vec3 right = rectangle.half_right_view;
             const glm::vec3 up = rectangle.half_up_view;

@@ -10,6 +10,7 @@ namespace froxel::reference {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+const Open kNothingBetween = [](const glm::dvec3&, const glm::dvec3&) { return true; };
 
 view::Camera eyeAt(double height_m) {
     view::Camera camera;
@@ -47,7 +48,7 @@ TEST(ReferenceFog, OpticalDepth_IsTheDensitysIntegral) {
     for (const float falloff : {0.0F, 0.01F, 0.5F, 8.0F}) {
         for (const double eye_m : {-3.0, 0.0, 2.0}) {
             const view::Fog fog{.density = 0.25F, .height_falloff = falloff, .base_height_m = 0.5};
-            const Medium medium(fog, eyeAt(eye_m), lights);
+            const Medium medium(fog, eyeAt(eye_m), lights, kNothingBetween);
             for (const glm::dvec3& to : {glm::dvec3(3, 5, -4), glm::dvec3(1, -6, 2),
                                          glm::dvec3(4, 0, 1), glm::dvec3(0, 9, 0)}) {
                 EXPECT_NEAR(medium.opticalDepth({0, -1, 0}, to),
@@ -60,7 +61,7 @@ TEST(ReferenceFog, OpticalDepth_IsTheDensitysIntegral) {
 TEST(ReferenceFog, Light_IsTheSumOfManySteps) {
     const Lights none;
     const view::Fog fog{.density = 0.2F, .height_falloff = 0.3F, .anisotropy = 0.6F};
-    const Medium medium(fog, eyeAt(1), none);
+    const Medium medium(fog, eyeAt(1), none, kNothingBetween);
     PointLight light{.position = {0.4, 0.3, -5}, .radius2 = 9, .color = {2, 1, 0}};
     PointLight spot = light;
     spot.direction = glm::normalize(glm::dvec3(-0.2, -0.3, -1));
@@ -98,7 +99,7 @@ TEST(ReferenceFog, Light_IsTheSumOfManySteps) {
 TEST(ReferenceFog, LightAtTheRay_IsFiniteAndLarge) {
     const Lights none;
     const view::Fog fog{.density = 1e-4F};
-    const Medium medium(fog, eyeAt(0), none);
+    const Medium medium(fog, eyeAt(0), none, kNothingBetween);
     const PointLight light{.position = {0, 0, -5}, .color = {1, 1, 1}};
     const double sum = medium.scattered(light, {{}, {0, 0, -1}}, 1e9).x;
     // 1 / (4 pi) * (2 * 1 cm / (1 cm)^2 + the two tails of 1 / d^2 from 1 cm on)
@@ -111,7 +112,7 @@ TEST(ReferenceFog, Furnace_OfAlbedoOne_ShowsNothing) {
     lights.sky = lights.ground = glm::dvec3(0.25);
     for (const float falloff : {0.0F, 0.4F}) {
         const view::Fog fog{.density = 0.3F, .height_falloff = falloff};
-        const Medium medium(fog, eyeAt(1), lights);
+        const Medium medium(fog, eyeAt(1), lights, kNothingBetween);
         for (const double distance : {0.1, 3.0, 1e3, std::numeric_limits<double>::infinity()}) {
             const glm::dvec3 seen =
                 medium.seenThrough(glm::dvec3(0.25), {{}, {0.1, 0.2, -1}}, distance);
@@ -123,7 +124,7 @@ TEST(ReferenceFog, Furnace_OfAlbedoOne_ShowsNothing) {
 TEST(ReferenceFog, NoDensity_IsTransparent) {
     const Lights lights;
     const view::Fog fog;
-    const Medium medium(fog, eyeAt(1), lights);
+    const Medium medium(fog, eyeAt(1), lights, kNothingBetween);
     EXPECT_EQ(medium.seenThrough({1, 2, 3}, {{}, {0, 0, -1}}, 1e300), glm::dvec3(1, 2, 3));
 }
 
