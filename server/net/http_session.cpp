@@ -49,7 +49,8 @@ void HttpSession::start() {
 
 void HttpSession::shakeHands() {
     stream_.next_layer().expires_after(kDeadline);
-    stream_.async_handshake([self = shared_from_this()](beast::error_code error) {
+    stream_.async_handshake(boost::asio::ssl::stream_base::server, [self = shared_from_this()](
+                                                                       beast::error_code error) {
         if (error) {
             spdlog::info("event=tls_handshake_failed reason={}", logValue(error.message()));
         }

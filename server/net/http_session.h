@@ -3,7 +3,6 @@
 #pragma once
 
 #include "net/http_site.h"
-#include "net/peer_stream.h"
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>

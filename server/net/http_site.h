@@ -2,8 +2,8 @@
 // the one for operators (admin_site.h). Immutable; any thread.
 #pragma once
 
-#include "net/peer_stream.h"
 #include "net/service.h"
+#include "transport/peer_stream.h"
 
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
@@ -16,6 +16,7 @@
 
 namespace froxel::net {
 
+using PeerStream = transport::PeerStream<boost::beast::tcp_stream>;
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 

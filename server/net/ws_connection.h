@@ -4,7 +4,6 @@
 
 #include "net/conversation.h"
 #include "net/http_site.h"
-#include "net/peer_stream.h"
 #include "net/site.h"
 
 #include <boost/asio/steady_timer.hpp>

@@ -29,8 +29,9 @@ MAY_INCLUDE = {
     "protocol": {"core"},
     "session": {"core", "view", "scene", "protocol"},
     "stream": {"core", "view", "scene", "protocol", "session", "render", "encode", "gpu"},
-    "net": {"core", "protocol", "session"},
-    "load": {"core", "protocol", "session"},
+    "transport": set(),
+    "net": {"core", "protocol", "session", "transport"},
+    "load": {"core", "protocol", "session", "transport"},
 }
 EVERY_LAYER = set(MAY_INCLUDE) | {"interface", "shaders"}
 MAY_INCLUDE["app"] = EVERY_LAYER - {"interface", "shaders"}
@@ -41,9 +42,10 @@ LAYER_OF_FILE = {"embedded.h": "shaders"}
 
 # (pattern, layers that may, reason)
 RESTRICTED = [
-    (re.compile(r"#include <boost/beast"), {"net", "load"}, "HTTP and WebSocket belong to net and load"),
-    (re.compile(r"#include <boost/asio"), {"net", "load", "app"},
-     "sockets belong to net and load, signals to app"),
+    (re.compile(r"#include <boost/beast"), {"transport", "net", "load"},
+     "HTTP and WebSocket belong to transport, net and load"),
+    (re.compile(r"#include <boost/asio"), {"transport", "net", "load", "app"},
+     "sockets belong to transport, net and load, signals to app"),
     (re.compile(r'#include (<vulkan/|"gpu/vulkan\.h")'), {"gpu", "render"},
      "Vulkan belongs to gpu and render"),
     (re.compile(r"#include <(tiny_gltf|stb_)"), {"gltf"}, "file formats belong to gltf"),

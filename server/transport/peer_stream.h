@@ -1,7 +1,7 @@
-// The bytes of one connection, with or without TLS; a WebSocket on it ends so that the other side
-// hears why. Beast 1.81's own teardown reads at most 2 KiB before it closes (it takes the count of
-// bytes read for 0); what is unread then makes the kernel reset the connection, and the close frame
-// is lost on the way.
+// The bytes of one connection, with or without TLS, on either side; a WebSocket on it ends so that
+// the other side hears why. Beast 1.81's own teardown reads at most 2 KiB before it closes (it
+// takes the count of bytes read for 0); what is unread then makes the kernel reset the connection,
+// and the close frame is lost on the way.
 #pragma once
 
 #include <boost/asio/compose.hpp>
@@ -18,22 +18,26 @@
 #include <optional>
 #include <utility>
 
-namespace froxel::net {
+namespace froxel::transport {
 
+// Tcp: a boost::beast::basic_stream, whose policy sees TLS's own bytes too.
+template <class Tcp>
 class PeerStream {
   public:
-    using next_layer_type = boost::beast::tcp_stream;
-    using executor_type = next_layer_type::executor_type;
+    using next_layer_type = Tcp;
+    using executor_type = typename Tcp::executor_type;
     // How long, and how much, the other side may still send after the close frame.
     static constexpr std::chrono::seconds kLinger{2};
     static constexpr size_t kMaxBytes = size_t{16} * 1024 * 1024;
 
-    // Without `tls` bytes go as they are. `tls` lives on in the stream.
-    PeerStream(boost::asio::ip::tcp::socket socket, boost::asio::ssl::context* tls) {
+    // Without `tls` bytes go as they are. `tls` lives on in the stream. `from`: what Tcp is made
+    // of.
+    template <class From>
+    PeerStream(From&& from, boost::asio::ssl::context* tls) {
         if (tls != nullptr) {
-            tls_.emplace(next_layer_type(std::move(socket)), *tls);
+            tls_.emplace(Tcp(std::forward<From>(from)), *tls);
         } else {
-            plain_.emplace(std::move(socket));
+            plain_.emplace(std::forward<From>(from));
         }
     }
 
@@ -47,10 +51,11 @@ class PeerStream {
 
     // With TLS, before anything else. `handler`: void(error_code).
     template <class Handler>
-    void async_handshake(Handler&& handler) {
-        tls_->async_handshake(boost::asio::ssl::stream_base::server,
-                              std::forward<Handler>(handler));
+    void async_handshake(boost::asio::ssl::stream_base::handshake_type side, Handler&& handler) {
+        tls_->async_handshake(side, std::forward<Handler>(handler));
     }
+    // With TLS.
+    [[nodiscard]] SSL* tls() { return tls_->native_handle(); }
     // Says that nothing more will be sent, and waits for the other side to say so.
     template <class Handler>
     void async_shutdown(Handler&& handler) {
@@ -82,8 +87,9 @@ class PeerStream {
 namespace detail {
 
 // Reads until the other side closes, too. With TLS what comes then is not looked at.
+template <class Tcp>
 struct Drain {
-    PeerStream& stream;
+    PeerStream<Tcp>& stream;
     bool shut = false;
     std::unique_ptr<std::array<std::byte, 4096>> scratch =
         std::make_unique<std::array<std::byte, 4096>>();
@@ -99,7 +105,7 @@ struct Drain {
     }
     template <class Self>
     void operator()(Self& self, boost::beast::error_code error, size_t bytes = 0) {
-        boost::beast::tcp_stream& tcp = stream.next_layer();
+        Tcp& tcp = stream.next_layer();
         if (!shut) { // whether TLS ended well matters no more
             shut = true;
             error = {};
@@ -107,7 +113,7 @@ struct Drain {
             tcp.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
         }
         read_bytes += bytes;
-        if (error || read_bytes > PeerStream::kMaxBytes) {
+        if (error || read_bytes > PeerStream<Tcp>::kMaxBytes) {
             tcp.close();
             self.complete(error == boost::asio::error::eof ? boost::beast::error_code() : error);
             return;
@@ -120,11 +126,11 @@ struct Drain {
 } // namespace detail
 
 // Found by Beast through its argument.
-template <class Handler>
-void async_teardown(boost::beast::role_type /*role*/, PeerStream& stream, Handler&& handler) {
-    stream.next_layer().expires_after(PeerStream::kLinger);
+template <class Tcp, class Handler>
+void async_teardown(boost::beast::role_type /*role*/, PeerStream<Tcp>& stream, Handler&& handler) {
+    stream.next_layer().expires_after(PeerStream<Tcp>::kLinger);
     boost::asio::async_compose<Handler, void(boost::beast::error_code)>(
-        detail::Drain{stream}, handler, stream.next_layer());
+        detail::Drain<Tcp>{stream}, handler, stream.next_layer());
 }
 
-} // namespace froxel::net
+} // namespace froxel::transport
