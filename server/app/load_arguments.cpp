@@ -49,18 +49,22 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
         return load::parseTarget(text);
     };
     command
-        .value("URL", "ws://HOST:PORT/ws", options.target, target, "",
-               "The server, or the http:// URL that serve prints")
+        .value("URL", "ws[s]://HOST:PORT/ws", options.target, target, "",
+               "The server, or the http[s]:// URL that serve prints")
         ->required();
     command.number("--viewers", options.viewer_count, kViewersRange, "Viewers at once");
     command.number("--seconds", options.seconds, kSecondsRange, "How long to measure");
     command.value("--script", "NAME|FILE", options.script, parseScript, options.script,
                   "orbit: the camera circles, 60 commands a second; idle: nothing; storm: every "
-                  "command there is, 200 a second; or a FILE.jsonl");
+                  "setting there is, 200 a second; or a FILE.jsonl");
     command.number("--ramp", options.ramp_s, kRampRange, "Seconds over which viewers join");
     command.value("--room", "NAME", options.room, parseRoom, "a session each",
                   "Room that all viewers share; the first one there controls, the others watch "
                   "and send nothing of the script");
+    command.text("--token-file", "FILE", options.token_file, "",
+                 "Tokens of a server that asks for one, a line each; viewers show them in turn");
+    command.text("--tls-authorities", "FILE", options.tls_authorities, "the system's",
+                 "Certificates to trust with wss://, in PEM");
     command.value("--size", "WxH", options.size, parseSize, "the server's", "Picture in pixels");
     command.number("--lights", options.light_count, view::kLightCountRange, "the server's",
                    "Seeded lights");

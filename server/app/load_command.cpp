@@ -2,9 +2,11 @@
 
 #include "app/load_report.h"
 #include "app/output_file.h"
+#include "load/client_tls.h"
 #include "load/load_run.h"
 #include "load/script_file.h"
 #include "net/stop_signal.h"
+#include "net/token_file.h"
 #include "session/proto_enums.h"
 
 #include <nlohmann/json.hpp>
@@ -56,6 +58,12 @@ load::RunOptions runOptions(const LoadOptions& options) {
         }
     }
     run.viewer.room = options.room;
+    if (!options.token_file.empty()) {
+        run.viewer.tokens = net::readTokenFile(options.token_file).value();
+    }
+    if (options.target.tls) {
+        run.viewer.tls = load::clientTls(options.tls_authorities).value();
+    }
     run.viewer_count = options.viewer_count;
     run.ramp = Seconds(options.ramp_s);
     run.seconds = Seconds(options.seconds);

@@ -23,15 +23,17 @@ struct LoadOptions {
     std::optional<view::Size> size;       // absent: the server's
     std::optional<uint32_t> light_count;  // likewise
     view::Codec codec = view::Codec::kJpeg;
-    std::optional<uint32_t> video_kbps;   // of a video codec; absent: the server's
-    std::string room;                     // shared by all viewers; empty: none
-    std::filesystem::path json;           // empty: none
+    std::optional<uint32_t> video_kbps;    // of a video codec; absent: the server's
+    std::string room;                      // shared by all viewers; empty: none
+    std::filesystem::path token_file;      // empty: no token is shown
+    std::filesystem::path tls_authorities; // empty: the system's
+    std::filesystem::path json;            // empty: none
 };
 
 // Prints a table to stdout, progress to stderr where that is a terminal. SIGINT or SIGTERM ends it
 // early, with what was measured so far; a second one ends the process at once. Returns 0, or 130
-// when stopped. Throws StartupError: kInvalidArgument (script), kIo (a viewer failed or a bound is
-// broken, said in one line after the table; a file).
+// when stopped. Throws StartupError: kInvalidArgument (script, tokens), kIo (a viewer failed or a
+// bound is broken, said in one line after the table; a file).
 [[nodiscard]] int runLoad(const LoadOptions& options);
 
 } // namespace froxel::app

@@ -1,6 +1,7 @@
 #include "app/probe_command.h"
 
 #include "core/clock.h"
+#include "core/text.h"
 #include "load/http_probe.h"
 
 #include <cstdio>
@@ -11,6 +12,12 @@ int runProbe(const ProbeOptions& options) {
     const auto timeout =
         std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(options.timeout_s));
     const load::Target target = load::parseTarget(options.url).value();
+    if (target.tls) {
+        throw StartupError({ErrorCode::kInvalidArgument,
+                            "'" + printable(options.url, 200) +
+                                "' asks for TLS, which a probe does not speak: the admin address "
+                                "has none"});
+    }
     const load::ProbeAnswer answer = load::probe(target, timeout).value();
     std::printf("%u %s\n", answer.status, answer.line.c_str());
     return answer.status >= 200 && answer.status < 300 ? 0 : 1;

@@ -2,11 +2,7 @@
 
 #include "core/text.h"
 
-// The library's compiled half is no dependency of ours: this is its header-only form.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#include <boost/url/src.hpp>
-#pragma GCC diagnostic pop
+#include <boost/url/parse.hpp>
 
 #include <string>
 
@@ -24,11 +20,9 @@ Result<Target> parseTarget(std::string_view text) {
         return refuse("is no URL");
     }
     const urls::url_view& url = *parsed;
-    if (url.scheme() == "wss" || url.scheme() == "https") {
-        return refuse("asks for TLS, which this tool does not speak");
-    }
-    if (url.scheme() != "ws" && url.scheme() != "http") {
-        return refuse("is not of ws://");
+    const bool tls = url.scheme() == "wss" || url.scheme() == "https";
+    if (!tls && url.scheme() != "ws" && url.scheme() != "http") {
+        return refuse("is not of ws:// or wss://");
     }
     if (url.encoded_host().empty() || url.has_userinfo() || url.has_fragment()) {
         return refuse("has no host, or a user or fragment");
@@ -37,10 +31,11 @@ Result<Target> parseTarget(std::string_view text) {
         return refuse("has no port from 1 to 65535");
     }
     Target target;
+    target.tls = tls;
     target.host = url.host_type() == urls::host_type::ipv6
                       ? std::string(url.host_ipv6_address().to_string())
                       : std::string(url.host());
-    target.port = url.has_port() ? std::string(url.port()) : "80";
+    target.port = url.has_port() ? std::string(url.port()) : tls ? "443" : "80";
     target.authority = std::string(url.encoded_host_and_port());
     const std::string path(url.encoded_path());
     target.resource = path.empty() || path == "/" ? "/ws" : path;

@@ -13,11 +13,13 @@ struct Target {
     std::string port;      // digits
     std::string authority; // host and port as the Host header has them
     std::string resource;  // path and query, "/ws?room=a"
+    bool tls = false;
 
     bool operator==(const Target&) const = default;
 };
 
-// ws://HOST[:PORT][/PATH], or the http:// URL that `froxel serve` prints; without a path /ws.
+// ws://HOST[:PORT][/PATH] or wss://, or the http:// or https:// URL that `froxel serve` prints;
+// without a path /ws.
 // Pure. Errors: kInvalidArgument, quoting the text.
 [[nodiscard]] Result<Target> parseTarget(std::string_view url);
 

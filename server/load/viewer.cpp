@@ -5,9 +5,6 @@
 #include "protocol/framing.h"
 #include "protocol/limits.h"
 
-#include <boost/asio/connect.hpp>
-#include <boost/beast/http/field.hpp>
-
 #include <utility>
 
 namespace froxel::load {
@@ -20,9 +17,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kConnectTimeout = 10s;
-// Between the server's pings and ours a silent connection is found broken within this.
-constexpr auto kIdleTimeout = 30s;
 // Of the display that frames are painted on.
 constexpr auto kRefresh = std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / 60));
 // As in the page: a camera on its way out behind this much would be old when it arrives.
@@ -38,108 +32,10 @@ Viewer::Viewer(asio::any_io_executor executor,
                LiveCounters& counters,
                std::function<void(Event)> report)
     : options_(options), number_(number), counters_(counters), report_(std::move(report)),
-      resolver_(executor), stream_(executor), deadline_(executor), refresh_(executor),
-      step_timer_(executor) {}
+      resolver_(executor), stream_(executor, options.target.tls ? options.tls.get() : nullptr),
+      deadline_(executor), refresh_(executor), step_timer_(executor) {}
 
 Viewer::~Viewer() = default;
-
-// A handler that does nothing once the viewer has ended, and fails it on an error.
-template <class Work>
-auto Viewer::guarded(Work work) {
-    return [self = shared_from_this(), work](Code failure, auto&&...) {
-        if (self->ended_ || failure == asio::error::operation_aborted) {
-            return;
-        }
-        if (failure) {
-            self->fail(failure.message());
-        } else {
-            work(*self);
-        }
-    };
-}
-
-void Viewer::connectAt(TimePoint when) {
-    deadline_.expires_at(when);
-    deadline_.async_wait(guarded([](Viewer& self) { self.connect(); }));
-}
-
-void Viewer::connect() {
-    connecting_since_ = Clock::now();
-    deadline_.expires_after(kFirstFrameTimeout);
-    deadline_.async_wait(guarded([](Viewer& self) {
-        if (!self.result_.first_frame_ms) {
-            self.fail("no frame within " + numberText(kFirstFrameTimeout.count()) + " s");
-        }
-    }));
-    const auto where = [this](const std::string& why) {
-        return "cannot connect to " + printable(options_.target.authority) + ": " + why;
-    };
-    resolver_.async_resolve(
-        options_.target.host, options_.target.port,
-        [self = shared_from_this(), where](Code failure, const auto& addresses) {
-            if (self->ended_) {
-                return;
-            }
-            if (failure) {
-                self->fail(where(failure.message()));
-                return;
-            }
-            auto& socket = self->stream_.next_layer();
-            socket.expires_after(kConnectTimeout);
-            socket.async_connect(addresses, [self, where](Code broken, const auto& /*address*/) {
-                if (self->ended_) {
-                    return;
-                }
-                if (broken) {
-                    self->fail(where(broken.message()));
-                } else {
-                    self->onConnected();
-                }
-            });
-        });
-}
-
-void Viewer::onConnected() {
-    auto& layer = stream_.next_layer();
-    layer.expires_never();
-    Code ignored; // a socket that closed meanwhile fails at its first read
-    layer.socket().set_option(asio::ip::tcp::no_delay(true), ignored);
-    stream_.set_option(websocket::stream_base::timeout{kConnectTimeout, kIdleTimeout,
-                                                       /*keep_alive_pings=*/true});
-    stream_.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
-        request.set(
-            beast::http::field::sec_websocket_protocol,
-            beast::string_view(protocol::kSubprotocol.data(), protocol::kSubprotocol.size()));
-    }));
-    stream_.read_message_max(protocol::kMaxFrameBytes);
-    stream_.binary(true);
-    stream_.async_handshake(
-        response_, options_.target.authority, options_.target.resource,
-        [self = shared_from_this()](Code failure) {
-            if (self->ended_) {
-                return;
-            }
-            if (failure == websocket::error::upgrade_declined) {
-                self->fail("no WebSocket at " + printable(self->options_.target.resource) +
-                           ": HTTP " + numberText(self->response_.result_int()));
-            } else if (failure) {
-                self->fail("the WebSocket handshake failed: " + failure.message());
-            } else {
-                self->onUpgraded();
-            }
-        });
-}
-
-void Viewer::onUpgraded() {
-    v1::ClientMessage message;
-    message.mutable_hello()->set_protocol_major(protocol::kMajor);
-    message.mutable_hello()->set_protocol_minor(protocol::kMinor);
-    message.mutable_hello()->set_client_name("froxel load " + numberText(number_));
-    message.mutable_hello()->add_codecs(v1::CODEC_VP9);
-    message.mutable_hello()->set_room(options_.room);
-    send(std::move(message), Clock::now());
-    read();
-}
 
 void Viewer::read() {
     stream_.async_read(buffer_, [self = shared_from_this()](Code failure, size_t) {
@@ -375,7 +271,7 @@ void Viewer::finish() {
     refresh_.cancel();
     step_timer_.cancel();
     resolver_.cancel();
-    stream_.next_layer().close();
+    tcp().close();
     if (!result_.first_frame_ms) {
         report_(Event::kJoined);
     }

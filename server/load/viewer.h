@@ -8,6 +8,7 @@
 #include "load/target.h"
 #include "load/viewer_meter.h"
 #include "protocol/framing.h"
+#include "transport/peer_stream.h"
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -22,6 +23,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace froxel::load {
 
@@ -53,7 +56,9 @@ struct ViewerOptions {
     std::optional<v1::SetSize> size;
     std::optional<uint32_t> light_count;
     std::optional<v1::SetEncoding> encoding;
-    std::string room; // shared by all; empty: each has a session of its own
+    std::string room;                // shared by all; empty: each has a session of its own
+    std::vector<std::string> tokens; // shown in turn; none: none
+    std::shared_ptr<boost::asio::ssl::context> tls; // for a target that asks for it
 };
 
 // Shared by all viewers, for whoever watches the run. Any thread.
@@ -109,15 +114,28 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
         }
     };
     using Code = boost::system::error_code;
-    using Stream =
-        boost::beast::websocket::stream<boost::beast::basic_stream<boost::asio::ip::tcp,
-                                                                   boost::asio::any_io_executor,
-                                                                   ByteCounter>>;
+    using CountedTcp =
+        boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor, ByteCounter>;
+    using Stream = boost::beast::websocket::stream<transport::PeerStream<CountedTcp>>;
 
+    // A handler that does nothing once the viewer has ended, and fails it on an error.
     template <class Work>
-    auto guarded(Work work);
+    auto guarded(Work work) {
+        return [self = shared_from_this(), work](Code failure, auto&&...) {
+            if (self->ended_ || failure == boost::asio::error::operation_aborted) {
+                return;
+            }
+            if (failure) {
+                self->fail(failure.message());
+            } else {
+                work(*self);
+            }
+        };
+    }
     void connect();
     void onConnected();
+    void secure();
+    void upgrade();
     void onUpgraded();
     void read();
     void onRead(Code failure);
@@ -133,7 +151,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     void endMeasuring(TimePoint now);
     void fail(const std::string& why);
     void finish();
-    [[nodiscard]] ByteCounter& traffic() { return stream_.next_layer().rate_policy(); }
+    [[nodiscard]] CountedTcp& tcp() { return stream_.next_layer().next_layer(); }
+    [[nodiscard]] ByteCounter& traffic() { return tcp().rate_policy(); }
 
     // Whether this one may say what its script says: in a room only who controls it.
     [[nodiscard]] bool controls() const;

@@ -15,11 +15,7 @@ namespace froxel::net {
 
 class TokenGate {
   public:
-    static constexpr size_t kMinTokenBytes = 16; // fewer can be guessed
-
-    // One token a line, of printable ASCII without spaces; blank lines and those that begin with #
-    // are left out. Takes the place of the tokens before. An error
-    // (kInvalidArgument, kIo) names file and line, never a token, and changes nothing.
+    // The file's tokens (token_file.h) take the place of those before. An error changes nothing.
     [[nodiscard]] Result<void> load(const std::filesystem::path& path);
 
     // Lasts as long as the token is in the file.

@@ -102,6 +102,26 @@ class Access(unittest.IsolatedAsyncioTestCase):
         await self.assert_refused(resumeToken="00" * 32)
         await self.assert_welcome(OLD)
 
+    def load(self, *options, url=None):
+        """`froxel load` of two viewers who trust the server's certificate."""
+        return subprocess.run(
+            [FROXEL, "load", url or self.url, "--viewers", "2", "--seconds", "1", *options],
+            capture_output=True, text=True, timeout=90)
+
+    def test_1_load_speaks_tls_and_shows_a_token(self):
+        trusting = ("--tls-authorities", self.folder / "cert.pem")
+        run = self.load("--token-file", self.tokens, *trusting)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn("viewers: 2", run.stdout)
+        for options, url, why in (
+                (trusting, None, "token is missing"),
+                (("--token-file", self.tokens), None, "self-signed certificate"),
+                (trusting, self.url.replace("127.0.0.1", "localhost"), "hostname mismatch")):
+            run = self.load(*options, url=url)
+            self.assertEqual(run.returncode, 1, why)
+            self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+            self.assertIn(why, run.stderr)
+
     async def test_2_page_has_its_policy_and_asks_nobody(self):
         page = await asyncio.to_thread(urllib.request.urlopen, self.url + "healthz",
                                        context=self.context(), timeout=10)

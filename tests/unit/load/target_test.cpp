@@ -16,8 +16,18 @@ TEST(Target, Url_OfTheServer_GetsItsPath) {
     EXPECT_EQ(parseTarget("ws://127.0.0.1:8080").value(), expected);
 }
 
-TEST(Target, Port_Absent_Is80) {
+TEST(Target, Port_Absent_IsTheSchemes) {
     EXPECT_EQ(parseTarget("ws://server").value().port, "80");
+    EXPECT_EQ(parseTarget("wss://server").value().port, "443");
+}
+
+TEST(Target, Scheme_SaysWhetherTls) {
+    for (const char* text : {"wss://a/ws", "https://a/"}) {
+        EXPECT_TRUE(parseTarget(text).value().tls) << text;
+    }
+    for (const char* text : {"ws://a/ws", "http://a/"}) {
+        EXPECT_FALSE(parseTarget(text).value().tls) << text;
+    }
 }
 
 TEST(Target, Address_OfVersion6_LosesItsBrackets) {
@@ -27,9 +37,9 @@ TEST(Target, Address_OfVersion6_LosesItsBrackets) {
 }
 
 TEST(Target, Url_NotOne_IsRefusedWithItsText) {
-    for (const char* text : {"", "127.0.0.1:8080", "ftp://a/", "wss://a/", "https://a/", "ws://",
-                             "ws:///ws", "ws://user@a/", "ws://a:0/", "ws://a:65536/", "ws://a:x/",
-                             "ws://a b/", "ws://a/#part", "ws://[::1/"}) {
+    for (const char* text :
+         {"", "127.0.0.1:8080", "ftp://a/", "ws://", "ws:///ws", "ws://user@a/", "ws://a:0/",
+          "ws://a:65536/", "ws://a:x/", "ws://a b/", "ws://a/#part", "ws://[::1/"}) {
         const auto target = parseTarget(text);
         ASSERT_FALSE(target) << text;
         EXPECT_EQ(target.error().code, ErrorCode::kInvalidArgument);

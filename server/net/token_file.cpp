@@ -1,0 +1,55 @@
+#include "net/token_file.h"
+
+#include "core/text.h"
+#include "protocol/limits.h"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+namespace froxel::net {
+namespace {
+
+constexpr size_t kMaxTokens = 10'000;
+
+bool isToken(std::string_view text) {
+    return text.size() >= kMinTokenBytes && text.size() <= protocol::kMaxTokenBytes &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7F; });
+}
+
+} // namespace
+
+Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path) {
+    const std::string name = printable(path.string(), 200);
+    std::ifstream in(path);
+    std::vector<std::string> tokens;
+    size_t number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        if (!line.empty() && line.back() == '\r') {
+            line.pop_back();
+        }
+        if (line.empty() || line.front() == '#') {
+            continue;
+        }
+        if (!isToken(line) || tokens.size() == kMaxTokens) {
+            return Error{ErrorCode::kInvalidArgument,
+                         name + " line " + numberText(number) + ": a token has " +
+                             numberText(kMinTokenBytes) + " to " +
+                             numberText(protocol::kMaxTokenBytes) +
+                             " bytes of printable ASCII without spaces, and a file at most " +
+                             numberText(kMaxTokens) + " of them"};
+        }
+        tokens.push_back(line);
+    }
+    if (!in.eof()) {
+        return Error{ErrorCode::kIo, name + " cannot be read"};
+    }
+    if (tokens.empty()) {
+        return Error{ErrorCode::kInvalidArgument,
+                     name + " has no token; leave --token-file out where none is asked for"};
+    }
+    return tokens;
+}
+
+} // namespace froxel::net

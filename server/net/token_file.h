@@ -1,0 +1,18 @@
+// A file of bearer tokens.
+#pragma once
+
+#include "core/error.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace froxel::net {
+
+constexpr size_t kMinTokenBytes = 16; // fewer can be guessed
+
+// At least one. One a line, of printable ASCII without spaces; blank lines and those that begin
+// with # are left out. Errors (kInvalidArgument, kIo) name file and line, never a token.
+[[nodiscard]] Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path);
+
+} // namespace froxel::net
