@@ -4,9 +4,10 @@ import { readFileSync } from 'node:fs';
 
 import { expect, it } from 'vitest';
 
+import { LightKind } from '../src/gen/froxel/v1/common_pb';
 import { placedAfter, type PlacedLights } from '../src/placed_lights';
 import { usePages } from './pages';
-import { until, type Viewer } from './viewer';
+import { difference, until, type Viewer } from './viewer';
 
 const kStill = '#size=640x360&lights=0&refine=none&renderer=forward_plus';
 
@@ -109,6 +110,42 @@ it('PlacedLight_ColourAndKind_AreTheServers', async () => {
   await viewer.type('placed_light.widthM', 2.5);
   await until('a wider rectangle', () => told(viewer)[0]?.widthM === 2.5);
   expect(await viewer.control('placed_light.outerConeDeg').isVisible()).toBe(false);
+});
+
+it('SeededLight_DoubleClicked_IsPlaced_Changed_AndGivenBack', async () => {
+  const viewer = await open('#size=640x360&lights=1000&light_animate=0&scene_lights=0&refine=lossless');
+  const before = await viewer.settled();
+  const canvas = await viewer.page.locator('canvas#view').boundingBox();
+  if (!canvas) throw new Error('no canvas');
+  const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
+  await viewer.page.mouse.dblclick(x, y);
+  await count(viewer, 1);
+  const [light] = told(viewer);
+  expect(light?.replacesSeeded).toBeGreaterThanOrEqual(0);
+  expect(difference(await viewer.settled(), before)).toBe(0);
+  const handle = viewer.page.locator('#handles .handle');
+  expect(await handle.getAttribute('class')).toContain('chosen');
+  const box = await handle.boundingBox();
+  const reach = 0.06 * (canvas.height / 2);
+  expect(Math.abs((box?.x ?? 0) + (box?.width ?? 0) / 2 - x)).toBeLessThan(reach);
+  expect(Math.abs((box?.y ?? 0) + (box?.height ?? 0) / 2 - y)).toBeLessThan(reach);
+
+  await viewer.type('placed_light.intensity', 500);
+  await viewer.changed('its intensity', before);
+  await viewer.choose('placed_light.kind', 'area');
+  await until('a rectangle', () => told(viewer)[0]?.kind === LightKind.AREA);
+  await press(viewer, 'remove');
+  await count(viewer, 0);
+  expect(difference(await viewer.settled(), before)).toBe(0);
+
+  // Where nothing is: refused in words, and nothing is placed.
+  await viewer.type('lights', 0);
+  await viewer.stateWith('no lights', ({ lightCount }) => lightCount === 0);
+  await viewer.page.mouse.dblclick(x, y);
+  await until('a refusal', async () =>
+    ((await viewer.page.locator('#banner-text').textContent()) ?? '').includes('is at no light'),
+  );
+  expect(told(viewer)).toEqual([]);
 });
 
 it('LightSet_SavedAndLoaded_IsTheSame_AndNoSetIsRefusedByName', async () => {

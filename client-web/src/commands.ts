@@ -74,6 +74,17 @@ export class Commands implements PanelActions, InputTarget, RoomActions {
     this.chooseLight(id);
   }
 
+  /** Of the moving and the scene's own lights, the one nearest there; from then on it is placed. */
+  pickLight({ x, y }: { x: number; y: number }): void {
+    const { settings, sent } = this.store.state;
+    if (!settings || !this.allowed()) return;
+    const id = freeId(settings.placedLights);
+    const seq = this.connection.send({ case: 'pickLight', value: { id, x, y } });
+    if (seq === null || !sent) return;
+    this.store.dispatch({ type: 'sent', seq, settings: sent });
+    this.chooseLight(id);
+  }
+
   editLight(id: number, patch: Partial<PlacedLight>): void {
     const { placedLights } = this.store.state.settings ?? { placedLights: [] };
     const light = findLight(placedLights, id);

@@ -44,6 +44,12 @@ export function peelText({ peel }: FrameHeader): string {
   return peel ? `${peel.layers} · ${count(peel.overflowPixels)} px` : '–';
 }
 
+/** Lights with shadow maps, their maps, and the triangles drawn into these. */
+export function shadowText({ shadows }: FrameHeader): string {
+  if (!shadows) return '–';
+  return `${shadows.lights} · ${shadows.maps} · ${count(shadows.triangles)}`;
+}
+
 /** The cluster grid of a frame; none without lights in clusters. */
 export function gridRows({ grid }: FrameHeader): Row[] {
   if (!grid) return [];

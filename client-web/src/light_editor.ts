@@ -83,7 +83,7 @@ export class LightEditor {
   ) {
     this.folder = parent.addFolder('Placed lights');
     const folder = this.folder;
-    this.button('add', 'Add a light', 'A new light before the camera; each costs as a moving one does', () =>
+    this.button('add', 'Add a light', 'A new light before the camera; each costs as a moving one does. A double click in the picture picks the light there', () =>
       actions.addLight(),
     );
     this.chooser = this.addChooser([]);
@@ -132,7 +132,7 @@ export class LightEditor {
     ] as const) {
       this.number(key, label, tip, () => ({ [key]: this.model[key] }));
     }
-    this.remove = this.button('remove', 'Delete this light', 'Also the Delete key at its handle', () => {
+    this.remove = this.button('remove', 'Delete this light', 'Also the Delete key at its handle; a picked one goes back to what it was', () => {
       if (this.shown) actions.removeLight(this.shown.id);
     });
     const handles = folder.add(this.model, 'handles').name('Handles');

@@ -1,4 +1,5 @@
-// Handles of the placed lights over the picture: to choose one, drag it, delete it.
+// Handles of the placed lights over the picture: to choose one, drag it, delete it. A double click
+// on the picture places the light that is there.
 //
 //   drag moves in the view's plane · shift drag nearer and farther · arrows move · Delete removes
 
@@ -14,6 +15,7 @@ export interface HandleActions {
   chooseLight(id: number | null): void;
   editLight(id: number, patch: Partial<PlacedLight>): void;
   removeLight(id: number): void;
+  pickLight(at: { x: number; y: number }): void;
 }
 
 /** Share of half the picture's height that an arrow key moves a light by. */
@@ -56,6 +58,10 @@ export class LightHandles {
     private readonly actions: HandleActions,
   ) {
     new ResizeObserver(() => this.place()).observe(canvas);
+    canvas.addEventListener('dblclick', (event) => {
+      const at = this.pointerAt(event);
+      if (this.settings && Math.abs(at.x) <= 1 && Math.abs(at.y) <= 1) this.actions.pickLight(at);
+    });
   }
 
   /** Who only watches a room has none. */
@@ -161,7 +167,7 @@ export class LightHandles {
       : null;
   }
 
-  private pointerAt(event: PointerEvent): { x: number; y: number } {
+  private pointerAt(event: MouseEvent): { x: number; y: number } {
     const rect = this.rect();
     return {
       x: ((event.clientX - rect.left) / rect.width) * 2 - 1,

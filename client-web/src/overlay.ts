@@ -1,7 +1,7 @@
 // The statistics card.
 
 import { deliveryRows } from './delivery';
-import { Details, peelText } from './details';
+import { Details, peelText, shadowText } from './details';
 import { element, make } from './dom';
 import { bits, bytes, count, gridText, ms } from './format';
 import { Graph } from './graph';
@@ -88,6 +88,7 @@ export class Overlay {
     this.value('Largest list', '', lists ? count(last.listLargest) : '–');
     this.value('Grid', '', last.grid ? gridText(last.grid) : '–');
     this.value('Peeled layers · more', '', peelText(last));
+    this.value('Shadowed · maps · triangles', '', shadowText(last));
     const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
     this.value('Dropped server · here', '', dropped);
   }

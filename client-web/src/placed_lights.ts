@@ -25,6 +25,8 @@ export interface PlacedLight {
   readonly widthM: number; // of an area light's rectangle
   readonly heightM: number;
   readonly rollDeg: number;
+  readonly replacesSeeded: number | undefined; // stands for the seeded light of that index
+  readonly replacesScene: number | undefined; // or for the scene's
 }
 
 export const kLightKinds = choicesOf(LightKindSchema);
@@ -47,6 +49,8 @@ export const kNewLight: Omit<PlacedLight, 'id' | 'position'> = {
   widthM: 1,
   heightM: 1,
   rollDeg: 0,
+  replacesSeeded: undefined,
+  replacesScene: undefined,
 };
 
 /** A message of the server or of a file is not to grow past what a server takes: 64 KiB. */
@@ -65,7 +69,9 @@ export function sameLight(a: PlacedLight, b: PlacedLight): boolean {
     a.outerConeDeg === b.outerConeDeg &&
     a.widthM === b.widthM &&
     a.heightM === b.heightM &&
-    a.rollDeg === b.rollDeg
+    a.rollDeg === b.rollDeg &&
+    a.replacesSeeded === b.replacesSeeded &&
+    a.replacesScene === b.replacesScene
   );
 }
 
@@ -112,10 +118,17 @@ function lightOf(told: PlacedLightMessage, before: PlacedLight | undefined): Pla
     widthM: told.widthM ?? kept.widthM,
     heightM: told.heightM ?? kept.heightM,
     rollDeg: told.rollDeg ?? kept.rollDeg,
+    replacesSeeded: told.replacesSeeded ?? kept.replacesSeeded,
+    replacesScene: told.replacesScene ?? kept.replacesScene,
   };
 }
 
-const messageOf = ({ radius: radiusM, ...light }: PlacedLight) => ({ ...light, radiusM });
+const messageOf = ({ radius: radiusM, replacesSeeded, replacesScene, ...light }: PlacedLight) => ({
+  ...light,
+  radiusM,
+  ...(replacesSeeded !== undefined && { replacesSeeded }),
+  ...(replacesScene !== undefined && { replacesScene }),
+});
 export type LightMessage = ReturnType<typeof messageOf>;
 
 export interface PlacedLightsChange {

@@ -1,7 +1,7 @@
 import { create } from '@bufbuild/protobuf';
 import { describe, expect, it } from 'vitest';
 
-import { gridRows, listRows, memoryRows, peelText } from '../src/details';
+import { gridRows, listRows, memoryRows, peelText, shadowText } from '../src/details';
 import { FrameDetailsSchema } from '../src/gen/froxel/v1/server_pb';
 import { frameHeader } from './fakes';
 
@@ -42,6 +42,13 @@ describe('details', () => {
     expect(peelText(frameHeader({}))).toBe('–');
     expect(peelText(frameHeader({ peel: { layers: 4, overflowPixels: 1200n } }))).toBe(
       '4 · 1\u2009200 px',
+    );
+  });
+
+  it('ShadowMaps_AreToldWithTheirTriangles', () => {
+    expect(shadowText(frameHeader({}))).toBe('–');
+    expect(shadowText(frameHeader({ shadows: { lights: 2, maps: 7, triangles: 1200 } }))).toBe(
+      '2 · 7 · 1\u2009200',
     );
   });
 

@@ -31,6 +31,15 @@ function told(from: PlacedLights, to: PlacedLights): PlacedLights {
   );
 }
 
+describe('a light that stands for another', () => {
+  it('Index_GoesToTheServerAndIntoAFileAndBack', () => {
+    const lights = [light(1, { replacesSeeded: 0 }), light(2, { replacesScene: 7 }), light(3)];
+    expect(told([], lights)).toEqual(lights);
+    expect(lightSetOf(lightSetText(lights))).toEqual(lights);
+    expect(placedChanges([], [light(3)])[0]?.lights?.[0]).not.toHaveProperty('replacesSeeded');
+  });
+});
+
 describe('placedChanges', () => {
   it('NothingChanged_IsNoCommand', () => {
     const lights = [light(1)];

@@ -10,6 +10,7 @@
 #include "core/latest_slot.h"
 #include "core/text.h"
 #include "gpu/device.h"
+#include "light/light_rig.h"
 #include "net/stop_signal.h"
 #include "net/tls.h"
 #include "net/token_gate.h"
@@ -74,8 +75,9 @@ OpenedScene openScene(const ServeOptions& options,
     for (const std::string& warning : scene.warnings) {
         spdlog::warn("event=scene_warning text={}", logValue(warning, 400));
     }
-    session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
-                                    FROXEL_VERSION, traits.name};
+    session::SessionContext context{
+        session::summarize(scene), defaultsOf(options, traits.is_cpu), FROXEL_VERSION, traits.name,
+        [rig = light::LightRig(scene)](const auto&... where) { return rig.pick(where...); }};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());

@@ -75,8 +75,11 @@ scene::LightRectangle rectangleOf(const view::PlacedLight& placed) {
     return {right * (placed.width_m / 2), glm::cross(right, direction) * (placed.height_m / 2)};
 }
 
-uint32_t
-addSpot(const scene::PunctualLight& light, const glm::dmat3& view_from_world, FrameLights& out) {
+// `index` is the light's own.
+uint32_t addSpot(const scene::PunctualLight& light,
+                 const glm::dmat3& view_from_world,
+                 uint32_t index,
+                 FrameLights& out) {
     const double cos_outer = std::cos(light.outer_cone_rad);
     const double scale = 1.0 / std::max(1e-3, std::cos(light.inner_cone_rad) - cos_outer);
     io::Spot spot{};
@@ -87,9 +90,7 @@ addSpot(const scene::PunctualLight& light, const glm::dmat3& view_from_world, Fr
     if (light.rectangle) {
         spot.scale = kStep;
         spot.offset = 0;
-        if (out.areas.empty()) {
-            out.first_area = static_cast<uint32_t>(out.lights.size()); // the light's own place
-        }
+        out.first_area = out.areas.empty() ? index : std::min(out.first_area, index);
         spot.area = addArea(*light.rectangle, view_from_world, out);
     }
     out.spots.push_back(spot);
@@ -97,9 +98,10 @@ addSpot(const scene::PunctualLight& light, const glm::dmat3& view_from_world, Fr
     return static_cast<uint32_t>(out.spots.size() - 1);
 }
 
-void addLocal(const scene::PunctualLight& light,
+void putLocal(const scene::PunctualLight& light,
               const view::Camera& camera,
               const glm::dmat3& view_from_world,
+              uint32_t index,
               FrameLights& out) {
     glm::dvec3 position = view_from_world * (light.position_world - camera.eye_world);
     const double distance = glm::length(position / kFarthest_m);
@@ -107,14 +109,13 @@ void addLocal(const scene::PunctualLight& light,
         position /= distance;
     }
     const bool limited = light.range_m > 0;
-    io::Light local{};
+    io::Light& local = out.lights[index];
     local.position_view = glm::vec3(position);
     local.inv_radius2 = limited ? inverseRadius2(static_cast<double>(light.range_m)) : 0.0F;
     local.color = scaledColor(light);
-    local.spot =
-        light.type == scene::LightType::kSpot ? addSpot(light, view_from_world, out) : io::kNoSpot;
-    out.lights.push_back(local);
-    out.radii_m.push_back(limited ? light.range_m : std::numeric_limits<float>::infinity());
+    local.spot = light.type == scene::LightType::kSpot ? addSpot(light, view_from_world, index, out)
+                                                       : io::kNoSpot;
+    out.radii_m[index] = limited ? light.range_m : std::numeric_limits<float>::infinity();
 }
 
 } // namespace
@@ -143,6 +144,16 @@ LightRig::LightRig(const scene::Scene& scene) : scene_bounds_world_(scene.bounds
                  usable);
 }
 
+bool LightRig::standsIn(const view::Lights& settings, const view::PlacedLight& light) const {
+    if (!light.replaces) {
+        return false;
+    }
+    const bool seeded = light.replaces->of == view::LightRef::Of::kSeed;
+    const size_t there =
+        seeded ? settings.count : (settings.scene_lights ? scene_lights_.size() : size_t{0});
+    return light.replaces->index < there;
+}
+
 BoundsD3 LightRig::seededBox(const view::Lights& settings) const {
     if (settings.box) {
         return *settings.box;
@@ -159,20 +170,28 @@ BoundsD3 LightRig::seededBox(const view::Lights& settings) const {
 
 LightRig::Place
 LightRig::placeOf(const view::Lights& settings, double time_s, uint32_t index) const {
-    if (index < settings.count) {
-        return {.position_world =
-                    seededLight(settings, seededBox(settings), time_s, index).position_world};
-    }
-    uint32_t at = settings.count;
     std::optional<Place> found;
-    eachFixed(settings, [&](const scene::PunctualLight& light) {
-        if (light.type == scene::LightType::kDirectional || at++ != index) {
-            return;
-        }
+    const auto take = [&found](const scene::PunctualLight& light) {
         found.emplace().position_world = light.position_world;
         if (light.type == scene::LightType::kSpot) {
             found->direction_world = glm::normalize(light.direction_world);
             found->outer_cone_rad = light.outer_cone_rad;
+        }
+    };
+    if (index < settings.count) {
+        eachSeededStandIn(settings, [&](uint32_t of, const scene::PunctualLight& light) {
+            if (of == index) {
+                take(light);
+            }
+        });
+        return found.value_or(
+            Place{.position_world =
+                      seededLight(settings, seededBox(settings), time_s, index).position_world});
+    }
+    uint32_t at = settings.count;
+    eachFixed(settings, [&](const scene::PunctualLight& light) {
+        if (light.type != scene::LightType::kDirectional && at++ == index) {
+            take(light);
         }
     });
     FROXEL_ASSERT(found, "no local light has this index");
@@ -191,12 +210,18 @@ void LightRig::evaluate(const view::Lights& settings,
     out.directionals.clear();
     fillSeededLights(settings, camera, seededBox(settings), time_s, out.lights);
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
+    eachSeededStandIn(settings, [&](uint32_t index, const scene::PunctualLight& light) {
+        putLocal(light, camera, view_from_world, index, out);
+    });
     eachFixed(settings, [&](const scene::PunctualLight& light) {
         if (light.type == scene::LightType::kDirectional) {
             addDirectional(light, view_from_world, out);
-        } else {
-            addLocal(light, camera, view_from_world, out);
+            return;
         }
+        const auto index = static_cast<uint32_t>(out.lights.size());
+        out.lights.emplace_back();
+        out.radii_m.emplace_back();
+        putLocal(light, camera, view_from_world, index, out);
     });
     if (settings.cutoff > 0) {
         cutLights(out, static_cast<double>(settings.cutoff), settings.cutoff_compensated);

@@ -1,6 +1,7 @@
 // The lights of a frame, as a pure function of scene, settings, camera and time.
 #pragma once
 
+#include "core/error.h"
 #include "core/math.h"
 #include "light/frame_lights.h"
 #include "scene/scene.h"
@@ -41,25 +42,60 @@ class LightRig {
     };
     [[nodiscard]] Place placeOf(const view::Lights& settings, double time_s, uint32_t index) const;
 
+    // The seeded or scene light with the middle nearest to `at`, right and up of the picture's own
+    // in half pictures, as a placed light that stands for it. Errors: kInvalidArgument, the end of
+    // a sentence: none within kPickReach, one that cannot be placed, more than kMostPickable.
+    [[nodiscard]] Result<view::PlacedLight>
+    pick(const view::ViewSettings& settings, double time_s, const glm::dvec2& at) const;
+    static constexpr double kPickReach = 0.05; // of half the picture's height
+    static constexpr uint32_t kMostPickable = 100'000;
+
     // The box that seeded lights move in, metres in world space: the settings' own, or the scene's
     // bounds less kShrink of their size on every side.
     [[nodiscard]] BoundsD3 seededBox(const view::Lights& settings) const;
 
     // Calls visit(const scene::PunctualLight&) for the lights of a frame that are not seeded, in
-    // their order: the scene's, as its file has them, then those that viewers placed, by id.
+    // their order: the scene's, as its file has them, or who stands for them, then the others that
+    // viewers placed, by id.
     template <class Visit>
     void eachFixed(const view::Lights& settings, const Visit& visit) const {
-        if (settings.scene_lights) {
-            std::for_each(scene_lights_.begin(), scene_lights_.end(), visit);
+        const auto placed = settings.placed.lights();
+        for (uint32_t i = 0; settings.scene_lights && i < scene_lights_.size(); ++i) {
+            const auto stand_in =
+                std::find_if(placed.begin(), placed.end(), [i](const auto& light) {
+                    return light.replaces == view::LightRef{view::LightRef::Of::kScene, i};
+                });
+            if (stand_in == placed.end()) {
+                visit(scene_lights_[i]);
+            } else {
+                visit(asPunctual(*stand_in));
+            }
         }
-        for (const view::PlacedLight& placed : settings.placed.lights()) {
-            visit(asPunctual(placed));
+        for (const view::PlacedLight& light : placed) {
+            if (!standsIn(settings, light)) {
+                visit(asPunctual(light));
+            }
+        }
+    }
+
+    // Calls visit(index, const scene::PunctualLight&) for the seeded lights that a placed one
+    // stands for.
+    template <class Visit>
+    static void eachSeededStandIn(const view::Lights& settings, const Visit& visit) {
+        for (const view::PlacedLight& light : settings.placed.lights()) {
+            if (light.replaces && light.replaces->of == view::LightRef::Of::kSeed &&
+                light.replaces->index < settings.count) {
+                visit(light.replaces->index, asPunctual(light));
+            }
         }
     }
 
     static constexpr double kShrink = 0.04;
 
   private:
+    // Whether what it replaces is there.
+    [[nodiscard]] bool standsIn(const view::Lights& settings, const view::PlacedLight& light) const;
+
     std::vector<scene::PunctualLight> scene_lights_;
     BoundsD3 scene_bounds_world_;
 };

@@ -23,6 +23,26 @@ void addCone(const scene::PunctualLight& light, PointLight& out) {
     out.cone_offset = -cos_outer * out.cone_scale;
 }
 
+glm::dvec3 colorOf(const scene::PunctualLight& light) {
+    return glm::dvec3(light.color) * static_cast<double>(light.intensity);
+}
+
+PointLight pointOf(const scene::PunctualLight& light, const glm::dvec3& eye) {
+    PointLight point{.position = light.position_world - eye, .color = colorOf(light)};
+    if (light.range_m > 0) {
+        point.radius2 = squared(static_cast<double>(light.range_m));
+    }
+    if (light.type == scene::LightType::kSpot) {
+        addCone(light, point);
+        if (light.rectangle) {
+            point.rectangle = {light.rectangle->half_right_world, light.rectangle->half_up_world};
+            point.cone_scale = 1e30;
+            point.cone_offset = 0;
+        }
+    }
+    return point;
+}
+
 void addShadows(const light::LightRig& rig,
                 const BoundsD3& bounds_world,
                 const view::ViewSettings& settings,
@@ -47,29 +67,19 @@ Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings
                                  .radius2 = squared(seeded_radius),
                                  .color = glm::dvec3(seeded.color)});
     }
+    light::LightRig::eachSeededStandIn(settings.lights,
+                                       [&](uint32_t index, const scene::PunctualLight& light) {
+                                           lights.points[index] = pointOf(light, eye);
+                                       });
     const double ambient = static_cast<double>(settings.lights.ambient);
     lights.sky = glm::dvec3(view::kAmbientSky) * ambient;
     lights.ground = glm::dvec3(view::kAmbientGround) * ambient;
     rig.eachFixed(settings.lights, [&](const scene::PunctualLight& light) {
-        const glm::dvec3 color = glm::dvec3(light.color) * static_cast<double>(light.intensity);
         if (light.type == scene::LightType::kDirectional) {
-            lights.directionals.push_back({glm::normalize(light.direction_world), color});
+            lights.directionals.push_back({glm::normalize(light.direction_world), colorOf(light)});
             return;
         }
-        PointLight point{.position = light.position_world - eye, .color = color};
-        if (light.range_m > 0) {
-            point.radius2 = squared(static_cast<double>(light.range_m));
-        }
-        if (light.type == scene::LightType::kSpot) {
-            addCone(light, point);
-            if (light.rectangle) {
-                point.rectangle = {light.rectangle->half_right_world,
-                                   light.rectangle->half_up_world};
-                point.cone_scale = 1e30;
-                point.cone_offset = 0;
-            }
-        }
-        lights.points.push_back(point);
+        lights.points.push_back(pointOf(light, eye));
     });
     return lights;
 }

@@ -1,5 +1,7 @@
 #include "render/frame_facts.h"
 
+#include "light/light_rig.h"
+
 #include <algorithm>
 
 namespace froxel::render {
@@ -18,8 +20,10 @@ double farthestDepth(const view::Camera& camera, const BoundsD3& bounds) {
 
 bool equalRadii(const light::FrameLights& lights, const view::Lights& settings) {
     const auto& radii = lights.radii_m;
-    const uint32_t seeded_count =
-        settings.cutoff > 0 ? 0 : settings.count; // equal among themselves
+    bool seeded_alike = settings.cutoff <= 0;
+    light::LightRig::eachSeededStandIn(
+        settings, [&](uint32_t, const scene::PunctualLight&) { seeded_alike = false; });
+    const uint32_t seeded_count = seeded_alike ? settings.count : 0;
     const size_t first = std::min<size_t>(seeded_count > 0 ? seeded_count - 1 : 0, radii.size());
     return std::all_of(radii.begin() + static_cast<std::ptrdiff_t>(first), radii.end(),
                        [&](float radius) { return radius == radii[first]; });

@@ -76,6 +76,7 @@ struct PlacedLightChange {
     std::optional<double> width_m;
     std::optional<double> height_m;
     std::optional<double> roll_deg;
+    std::optional<view::LightRef> replaces;
 };
 
 // Done in the order of the fields.
@@ -83,6 +84,12 @@ struct SetPlacedLights {
     bool clear = false;
     std::vector<uint32_t> remove;
     std::vector<PlacedLightChange> lights; // no id twice
+};
+
+// A placed light of this id for the seeded or scene light that is nearest there.
+struct PickLight {
+    uint32_t id = 0;
+    glm::dvec2 at{0}; // right and up of the picture's middle, in half pictures
 };
 
 struct SetGrid {
@@ -186,6 +193,7 @@ using Command = std::variant<Hello,
                              SetRenderer,
                              SetLights,
                              SetPlacedLights,
+                             PickLight,
                              SetGrid,
                              SetExposure,
                              SetToon,

@@ -186,6 +186,14 @@ Command decode(const v1::SetLights& lights, FieldValidator& fields) {
     return command;
 }
 
+Command decode(const v1::PickLight& pick, FieldValidator& fields) {
+    PickLight command;
+    command.id = fields.number("id", view::kPlacedIdRange, pick.id());
+    command.at = {fields.number("x", view::kPickRange, pick.x()),
+                  fields.number("y", view::kPickRange, pick.y())};
+    return command;
+}
+
 Command decode(const v1::SetGrid& set, FieldValidator& fields) {
     fields.require(set.has_grid() || set.has_automatic() || set.has_law(), "grid");
     SetGrid command;
@@ -285,6 +293,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_lights(), fields);
     case v1::ClientMessage::kSetPlacedLights:
         return decodePlacedLights(message.set_placed_lights(), fields);
+    case v1::ClientMessage::kPickLight:
+        return decode(message.pick_light(), fields);
     case v1::ClientMessage::kSetGrid:
         return decode(message.set_grid(), fields);
     case v1::ClientMessage::kSetExposure:

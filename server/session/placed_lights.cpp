@@ -20,6 +20,26 @@ std::string element(const char* list, int index) {
     return std::string(list) + "[" + numberText(index) + "]";
 }
 
+std::optional<view::LightRef>
+replacedBy(const std::string& field, const v1::PlacedLight& light, FieldValidator& fields) {
+    using Of = view::LightRef::Of;
+    if (light.has_replaces_seeded() && light.has_replaces_scene()) {
+        fields.fail(RejectCode::kOutOfRange, field + ".replaces_scene",
+                    "is there beside replaces_seeded; a light stands for one");
+    }
+    if (light.has_replaces_seeded()) {
+        return view::LightRef{Of::kSeed,
+                              fields.number(field + ".replaces_seeded", view::kReplacedRange,
+                                            light.replaces_seeded())};
+    }
+    if (light.has_replaces_scene()) {
+        return view::LightRef{
+            Of::kScene,
+            fields.number(field + ".replaces_scene", view::kReplacedRange, light.replaces_scene())};
+    }
+    return std::nullopt;
+}
+
 PlacedLightChange
 decodeLight(const std::string& field, const v1::PlacedLight& light, FieldValidator& fields) {
     PlacedLightChange change;
@@ -67,6 +87,7 @@ decodeLight(const std::string& field, const v1::PlacedLight& light, FieldValidat
     if (light.has_roll_deg()) {
         change.roll_deg = fields.number(field + ".roll_deg", view::kRollRange, light.roll_deg());
     }
+    change.replaces = replacedBy(field, light, fields);
     return change;
 }
 
@@ -85,6 +106,7 @@ void apply(const PlacedLightChange& change, view::PlacedLight& light) {
     light.width_m = change.width_m.value_or(light.width_m);
     light.height_m = change.height_m.value_or(light.height_m);
     light.roll_deg = change.roll_deg.value_or(light.roll_deg);
+    light.replaces = change.replaces ? change.replaces : light.replaces;
 }
 
 void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
@@ -100,6 +122,26 @@ void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
     out.set_width_m(light.width_m);
     out.set_height_m(light.height_m);
     out.set_roll_deg(light.roll_deg);
+    if (light.replaces && light.replaces->of == view::LightRef::Of::kSeed) {
+        out.set_replaces_seeded(light.replaces->index);
+    } else if (light.replaces) {
+        out.set_replaces_scene(light.replaces->index);
+    }
+}
+
+// The ids of two lights that stand for the same.
+std::optional<std::pair<uint32_t, uint32_t>>
+rivals(const std::map<uint32_t, view::PlacedLight>& lights) {
+    std::map<view::LightRef, uint32_t> ids;
+    for (const auto& [id, light] : lights) {
+        if (light.replaces) {
+            const auto [known, first] = ids.emplace(*light.replaces, id);
+            if (!first) {
+                return std::pair(known->second, id);
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -159,6 +201,10 @@ CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
                                   numberText(light->second.outer_cone_deg));
         }
     }
+    if (const auto both = rivals(by_id)) {
+        return outOfRange("lights", numberText(both->first) + " and " + numberText(both->second) +
+                                        " would stand for the same light; only one can");
+    }
     if (by_id.size() > view::kPlacedCountRange.max) {
         return outOfRange("lights", "would be " + numberText(by_id.size()) + "; at most " +
                                         numberText(view::kPlacedCountRange.max) + " are kept");
@@ -204,6 +250,28 @@ v1::PlacedLights changeOf(const view::PlacedLights& told, const view::PlacedLigh
         }
     }
     return change;
+}
+
+CommandResult<view::PlacedLights> withPicked(const view::PlacedLights& lights,
+                                             const view::PlacedLight& picked) {
+    if (lights.find(picked.id) != nullptr) {
+        return outOfRange("id", "is " + numberText(picked.id) + "; another light has it");
+    }
+    SetPlacedLights change;
+    change.lights.push_back({.id = picked.id,
+                             .kind = picked.kind,
+                             .position_world = picked.position_world,
+                             .direction_world = picked.direction_world,
+                             .color = picked.color,
+                             .intensity = static_cast<double>(picked.intensity),
+                             .radius_m = static_cast<double>(picked.radius_m),
+                             .inner_cone_deg = picked.inner_cone_deg,
+                             .outer_cone_deg = picked.outer_cone_deg,
+                             .width_m = std::nullopt,
+                             .height_m = std::nullopt,
+                             .roll_deg = std::nullopt,
+                             .replaces = picked.replaces});
+    return changed(lights, change);
 }
 
 std::string lightSetJson(const view::PlacedLights& lights) {

@@ -15,9 +15,14 @@ namespace froxel::session {
                                                  FieldValidator& fields);
 
 // `lights` after the change. Refused, kOutOfRange: an id to be removed that is not there, a new
-// light without a position, a cone inside out, more than view::kPlacedCountRange.
+// light without a position, a cone inside out, two that stand for the same light, more than
+// view::kPlacedCountRange.
 [[nodiscard]] CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
                                                         const SetPlacedLights& change);
+
+// `lights` and one more. Refused: an id that is in use, and as `changed`.
+[[nodiscard]] CommandResult<view::PlacedLights> withPicked(const view::PlacedLights& lights,
+                                                           const view::PlacedLight& picked);
 
 // The canonical JSON of a v1::PlacedLights that has `lights` alone, untrusted. Refused: as
 // parseJson, decodePlacedLights and changed, and a set that clears or removes.

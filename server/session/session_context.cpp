@@ -19,6 +19,11 @@ SceneSummary summarize(const scene::Scene& scene) {
     return summary;
 }
 
+Result<view::PlacedLight>
+pickNone(const view::ViewSettings& /*settings*/, double /*time_s*/, const glm::dvec2& /*at*/) {
+    return Error{ErrorCode::kInvalidArgument, "is at no light"};
+}
+
 SessionDefaults defaultsFor(DeviceKind kind) {
     SessionDefaults defaults;
     defaults.delivery.refine = view::Refine::kHigh;

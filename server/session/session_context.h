@@ -2,11 +2,13 @@
 // the names that Welcome tells.
 #pragma once
 
+#include "core/error.h"
 #include "scene/scene.h"
 #include "session/delivery.h"
 #include "view/settings.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,11 +48,21 @@ struct SessionDefaults {
 
 [[nodiscard]] SessionDefaults defaultsFor(DeviceKind kind);
 
+// The light at a place of the picture (PickLight::at) as a placed one, without an id. Pure, any
+// thread. Errors: kInvalidArgument, the end of a sentence about the place.
+using LightPicker = std::function<Result<view::PlacedLight>(
+    const view::ViewSettings& settings, double time_s, const glm::dvec2& at)>;
+
+// Of a scene whose lights nobody knows.
+[[nodiscard]] Result<view::PlacedLight>
+pickNone(const view::ViewSettings& settings, double time_s, const glm::dvec2& at);
+
 struct SessionContext {
     SceneSummary scene;
     SessionDefaults defaults;
     std::string server_version;
     std::string device_name;
+    LightPicker pick_light = pickNone;
 };
 
 } // namespace froxel::session

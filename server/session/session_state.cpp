@@ -111,6 +111,21 @@ struct Reducer {
         return {};
     }
 
+    Outcome operator()(const PickLight& command) const {
+        auto picked =
+            context.pick_light(state.settings, state.light_clock.secondsAt(now), command.at);
+        if (!picked) {
+            return outOfRange("x", picked.error().message);
+        }
+        picked->id = command.id;
+        const auto placed = withPicked(state.settings.lights.placed, *picked);
+        if (!placed) {
+            return placed.error();
+        }
+        state.settings.lights.placed = *placed;
+        return {};
+    }
+
     Outcome operator()(const SetGrid& command) const {
         view::Grid& grid = state.settings.grid;
         assignIfGiven(grid.size, command.size);

@@ -299,6 +299,11 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
         header.mutable_pairs()->set_evaluated(record.stats.pairs.evaluated);
         header.mutable_pairs()->set_contributing(record.stats.pairs.contributing);
     }
+    if (const ShadowStats& shadows = record.stats.shadows; shadows.light_count > 0) {
+        header.mutable_shadows()->set_lights(shadows.light_count);
+        header.mutable_shadows()->set_maps(shadows.map_count);
+        header.mutable_shadows()->set_triangles(shadows.triangle_count);
+    }
     if (const PeelStats& peel = record.stats.peel; peel.layer_count > 0) {
         header.mutable_peel()->set_layers(peel.layer_count);
         header.mutable_peel()->set_overflow_pixels(peel.overflow_count);

@@ -5,8 +5,10 @@
 #include "core/math.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,14 @@ namespace froxel::view {
 enum class LightKind : uint8_t { kPoint, kSpot, kArea };
 inline constexpr std::array kLightKindNames = {std::string_view("point"), std::string_view("spot"),
                                                std::string_view("area")};
+
+// A light that is there without viewers: of the seed, or of the scene.
+struct LightRef {
+    enum class Of : uint8_t { kSeed, kScene };
+    Of of = Of::kSeed;
+    uint32_t index = 0;
+    auto operator<=>(const LightRef&) const = default;
+};
 
 struct PlacedLight {
     uint32_t id = 0; // of who placed it; not 0
@@ -30,7 +40,8 @@ struct PlacedLight {
     double outer_cone_deg = 45;
     double width_m = 1; // of an area light's rectangle, whose radiance is intensity / area
     double height_m = 1;
-    double roll_deg = 0; // about the direction, from a level width
+    double roll_deg = 0;                             // about the direction, from a level width
+    std::optional<LightRef> replaces = std::nullopt; // stands for it while it is there
     bool operator==(const PlacedLight&) const = default;
 };
 

@@ -57,6 +57,8 @@ inline constexpr Range<double> kPlacedColorRange{"lights.color", 0.0, 1.0};
 inline constexpr Range<double> kConeRange{"lights.cone_deg", 0.0, 90.0};     // half angles
 inline constexpr Range<double> kAreaSideRange{"lights.side_m", 0.01, 100.0}; // of a rectangle
 inline constexpr Range<double> kRollRange{"lights.roll_deg", -360.0, 360.0};
+inline constexpr Range<uint32_t> kReplacedRange{"lights.replaces", 0, 999'999};
+inline constexpr Range<double> kPickRange{"pick", -1.0, 1.0};
 inline constexpr Range<double> kFogDensityRange{"fog_density", 0.0, 100.0};
 inline constexpr Range<double> kFogHeightFalloffRange{"fog_height_falloff", 0.0, 100.0};
 inline constexpr Range<double> kFogBaseHeightRange{"fog_base_height", -1e7, 1e7};
@@ -116,6 +118,8 @@ inline constexpr std::tuple kCommandRanges{kWidthRange,
                                            kShadowLightsRange,
                                            kShadowSizeRange,
                                            kAreaSideRange,
-                                           kRollRange};
+                                           kRollRange,
+                                           kReplacedRange,
+                                           kPickRange};
 
 } // namespace froxel::view

@@ -1,6 +1,6 @@
 // The rectangles among the lights of a list. Apart from the loop over the others: their code within
 // it, though a constant turns it off, cost frames without any a tenth of their lighting on an H200.
-// They are placed, so they come last: lists are walked from their ends.
+// They are placed, so most come last: lists are walked from their ends to the first of the frame.
 #include "lib/area.glsl"
 
 // kNoArea: the light is a point or a spot.

@@ -168,6 +168,34 @@ TEST_F(HardAreas, AmongOthers_ListsAreExact) {
     }
 }
 
+// Rectangles and spots in the places of seeded lights and of the scene's, before and behind others.
+TEST_F(HardAreas, InOthersPlaces_ListsAreExact) {
+    SceneMaker maker = wallAhead(static_cast<float>(kWall_m));
+    maker.point({0.5, 0.4, -2.5}, 2).point({-0.5, 0.4, -2.5}, 2);
+    auto inputs = hardInputs();
+    inputs.settings.lights.count = 9;
+    inputs.settings.lights.box = BoundsD3{{-2, -1, -3.4}, {2, 1, -2}};
+    inputs.settings.shading = view::ShadingModel::kLambert;
+    using Of = view::LightRef::Of;
+    std::vector<view::PlacedLight> placed;
+    for (const view::LightRef& replaced :
+         {view::LightRef{Of::kSeed, 6}, view::LightRef{Of::kSeed, 2},
+          view::LightRef{Of::kScene, 0}}) {
+        const auto i = static_cast<double>(placed.size());
+        auto light = rectangle({i - 1, 0.3 * i, -2.2}, {0.2, 0.1 * i, -1}, 0.6, 0.4);
+        light.id = static_cast<uint32_t>(placed.size()) + 1;
+        light.kind = placed.size() == 1 ? view::LightKind::kSpot : view::LightKind::kArea;
+        light.radius_m = 3;
+        light.replaces = replaced;
+        placed.push_back(light);
+    }
+    render::Renderer renderer(device(), maker.scene);
+    const auto before = expectExact(renderer, inputs);
+    inputs.settings.lights.placed = view::PlacedLights(placed);
+    const auto pictures = expectExact(renderer, inputs);
+    EXPECT_GT(differingFloats(pictures.naive, before.naive), 500U);
+}
+
 // A rectangle far smaller than its distance is the spot that shines ahead of it.
 TEST_F(HardAreas, FromAfar_IsThePointsLight) {
     const auto maker = wallAhead(static_cast<float>(kWall_m));

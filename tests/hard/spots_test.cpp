@@ -87,6 +87,34 @@ TEST_F(HardSpots, Placed_AreTheScenesOwn) {
     EXPECT_EQ(differingFloats(pictures.deferred, wanted.deferred), 0U);
 }
 
+// In the places of seeded lights and of the scene's.
+TEST_F(HardSpots, StandingForOthers_AreAsDoublePrecisionHasThem) {
+    auto maker = wallAhead(static_cast<float>(kWall_m));
+    maker.point({0.5, 0.4, -2.5}, 2).point({-0.5, 0.4, -2.5}, 2);
+    auto inputs = hardInputs();
+    inputs.settings.lights.count = 9;
+    inputs.settings.lights.box = BoundsD3{{-2, -1, -3.4}, {2, 1, -2}};
+    render::Renderer renderer(device(), maker.scene);
+    const auto before = expectExact(renderer, inputs);
+    using Of = view::LightRef::Of;
+    std::vector<view::PlacedLight> placed;
+    for (const auto& replaced : {view::LightRef{Of::kSeed, 6}, view::LightRef{Of::kSeed, 2},
+                                 view::LightRef{Of::kScene, 0}}) {
+        view::PlacedLight light;
+        light.id = static_cast<uint32_t>(placed.size()) + 1;
+        light.kind = placed.size() == 1 ? view::LightKind::kPoint : view::LightKind::kSpot;
+        light.position_world = {static_cast<double>(placed.size()) - 1, 0.3, -2.2};
+        light.direction_world = {0.2, 0.1, -1};
+        light.radius_m = 2.5;
+        light.replaces = replaced;
+        placed.push_back(light);
+    }
+    inputs.settings.lights.placed = view::PlacedLights(placed);
+    const auto pictures = expectExact(renderer, inputs);
+    EXPECT_GT(differingFloats(pictures.naive, before.naive), 500U);
+    expectLikeReference(renderer, maker.scene, inputs, pictures.naive);
+}
+
 // Case 26. Each is aimed at a pixel's own point, since the narrowest light less than a pixel.
 TEST_F(HardSpots, AnyHalfAngle_IsAsDoublePrecisionHasIt) {
     for (const double inner_share : {0.0, 0.9}) {

@@ -35,6 +35,9 @@ struct PromiseKept {
                        (!light.radius_m || view::kLightRadiusRange.contains(*light.radius_m));
             });
     }
+    bool operator()(const session::PickLight& c) const {
+        return c.id > 0 && std::abs(c.at.x) <= 1 && std::abs(c.at.y) <= 1;
+    }
     bool operator()(const session::SetGrid& c) const {
         return (!c.size || (c.size->x > 0 && c.size->y > 0 && c.size->z > 0 && c.size->x <= 128)) &&
                !(c.size && c.automatic.value_or(false)) &&

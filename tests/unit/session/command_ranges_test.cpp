@@ -53,6 +53,11 @@ v1::SetCamera& camera(v1::ClientMessage& message) {
     return set;
 }
 
+v1::PickLight& picked(v1::ClientMessage& message) {
+    message.mutable_pick_light()->set_id(1);
+    return *message.mutable_pick_light();
+}
+
 v1::PlacedLight& placed(v1::ClientMessage& message) {
     auto& light = *message.mutable_set_placed_lights()->add_lights();
     light.set_id(1);
@@ -171,6 +176,13 @@ const std::vector<RangedField>& fields() {
         ranged(
             view::kRollRange, [](M& m, double v) { placed(m).set_roll_deg(v); },
             "lights[0].roll_deg"),
+        ranged(
+            view::kReplacedRange, [](M& m, double v) { placed(m).set_replaces_scene(u32(v)); },
+            "lights[0].replaces_scene"),
+        ranged(
+            view::kPickRange, [](M& m, double v) { picked(m).set_x(v); }, "x"),
+        ranged(
+            view::kPickRange, [](M& m, double v) { picked(m).set_y(v); }, "y"),
         ranged(
             view::kPositionRange, [](M& m, double v) { placed(m).mutable_position()->set_x(v); },
             "lights[0].position.x"),

@@ -76,8 +76,34 @@ TEST(PlacedLights, WhatCannotBe_IsRefusedByName) {
     EXPECT_EQ(refusal(before, R"("lights":[{"id":2,"innerConeDeg":60}])"),
               "lights[0].inner_cone_deg is 60; it must be at most outer_cone_deg, 45");
     EXPECT_EQ(
+        refusal(before, R"("lights":[{"id":2,"replacesScene":3},{"id":9,"replacesScene":3}])"),
+        "lights 2 and 9 would stand for the same light; only one can");
+    EXPECT_EQ(
         refusal(before, R"("lights":[{"id":2,"kind":"LIGHT_KIND_AREA","widthM":6,"heightM":8}])"),
         "lights[0].radius_m is 2; a rectangle's corners must lie within it, here 5");
+}
+
+TEST(PlacedLights, WhatALightStandsFor_IsKeptAndTold) {
+    const auto before = after({}, R"("lights":[{"id":3,"position":{},"replacesSeeded":7}])");
+    const auto placed = after(before, R"("lights":[{"id":3,"intensity":4}])");
+    const view::LightRef seventh{view::LightRef::Of::kSeed, 7};
+    EXPECT_EQ(placed.find(3)->replaces, seventh);
+    EXPECT_EQ(changeOf({}, placed).lights(0).replaces_seeded(), 7U);
+    EXPECT_FALSE(changeOf({}, placed).lights(0).has_replaces_scene());
+    EXPECT_EQ(parseLightSet(lightSetJson(placed)).value(), placed);
+}
+
+TEST(PlacedLights, Picked_IsOneMore_UnlessItsIdIsInUse) {
+    const auto before = after({}, kTwo);
+    view::PlacedLight picked;
+    picked.id = 5;
+    picked.position_world = {1, 2, 3};
+    picked.replaces = view::LightRef{view::LightRef::Of::kScene, 0};
+    const auto placed = withPicked(before, picked).value();
+    EXPECT_EQ(placed.lights().size(), 3U);
+    EXPECT_EQ(*placed.find(5), picked);
+    picked.id = 9;
+    EXPECT_EQ(withPicked(before, picked).error().message, "id is 9; another light has it");
 }
 
 TEST(PlacedLights, Fields_AreCheckedWhenDecoded) {
@@ -92,6 +118,8 @@ TEST(PlacedLights, Fields_AreCheckedWhenDecoded) {
                 HasSubstr("lights[0].direction is 0"));
     EXPECT_THAT(message(R"("lights":[{"id":1,"intensity":-1}])"),
                 HasSubstr("lights[0].intensity is -1"));
+    EXPECT_THAT(message(R"("lights":[{"id":1,"replacesScene":1,"replacesSeeded":1}])"),
+                HasSubstr("lights[0].replaces_scene is there beside replaces_seeded"));
     EXPECT_THAT(message(R"("lights":[{"id":1,"kind":9}])"),
                 HasSubstr("known are LIGHT_KIND_POINT"));
 }

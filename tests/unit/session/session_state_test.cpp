@@ -196,6 +196,24 @@ TEST_F(State, SetLights_LoopAndPairs_AreSetAndKept) {
     EXPECT_EQ(applied(state, SetLights{}).settings, state.settings);
 }
 
+TEST_F(State, PickLight_PlacesWhatIsThere_UnlessNothingIs) {
+    context.pick_light = [](const view::ViewSettings&, double, const glm::dvec2& at) {
+        view::PlacedLight light;
+        light.position_world = {at.x, at.y, 4};
+        light.replaces = view::LightRef{view::LightRef::Of::kSeed, 11};
+        return light;
+    };
+    const SessionState state = applied(initial, PickLight{3, {0.5, -0.25}});
+    const view::PlacedLight* light = state.settings.lights.placed.find(3);
+    ASSERT_NE(light, nullptr);
+    EXPECT_EQ(light->position_world, glm::dvec3(0.5, -0.25, 4));
+    EXPECT_EQ(light->replaces->index, 11U);
+    context.pick_light = pickNone;
+    const auto none = apply(state, {{9, 90}, PickLight{4, {}}}, context, kStart);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().message, "x is at no light");
+}
+
 TEST_F(State, TheOtherCommands_SetTheirFields) {
     view::ToonRamp ramp;
     ramp.count = 2;

@@ -337,6 +337,17 @@ TEST(FrameHeader, PeeledLayers_AreThereOnlyWhereSomethingWasPeeled) {
     EXPECT_EQ(makeFrameHeader(frame).peel().overflow_pixels(), 5'000'000'000U);
 }
 
+TEST(FrameHeader, ShadowMaps_AreThereOnlyWhereALightHasOne) {
+    FrameRecord frame = record();
+    frame.stats.shadows = {};
+    EXPECT_FALSE(makeFrameHeader(frame).has_shadows());
+    frame.stats.shadows = {
+        .light_count = 2, .map_count = 7, .draw_count = 90, .triangle_count = 1200};
+    EXPECT_EQ(makeFrameHeader(frame).shadows().lights(), 2U);
+    EXPECT_EQ(makeFrameHeader(frame).shadows().maps(), 7U);
+    EXPECT_EQ(makeFrameHeader(frame).shadows().triangles(), 1200U);
+}
+
 TEST(FrameDetails, Legend_IsThereWithADebugView) {
     FrameDetails details;
     EXPECT_FALSE(makeFrameDetails(details).details().has_legend());

@@ -1,0 +1,133 @@
+#include "core/text.h"
+#include "light/falloff.h"
+#include "light/light_rig.h"
+#include "light/seeded_lights.h"
+#include "view/ranges.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace froxel::light {
+namespace {
+
+// Where a point is in the picture: right and up of the middle, in half heights; infinity behind the
+// eye.
+class Finder {
+  public:
+    Finder(const view::ViewSettings& settings, const glm::dvec2& at)
+        : camera_(settings.camera),
+          view_from_world_(glm::transpose(settings.camera.world_from_view)),
+          aspect_(static_cast<double>(settings.size.width_px) / settings.size.height_px),
+          at_((at + settings.camera.lens_shift) * glm::dvec2(aspect_, 1)) {}
+
+    // From the place that was asked for.
+    [[nodiscard]] double distanceTo(const glm::dvec3& position_world) const {
+        const glm::dvec3 position = view_from_world_ * (position_world - camera_.eye_world);
+        const double ahead_m = -position.z;
+        if (!(ahead_m > camera_.near_m)) {
+            return std::numeric_limits<double>::infinity();
+        }
+        const double half_height_m = camera_.projection == view::Projection::kPerspective
+                                         ? ahead_m * std::tan(camera_.yfov_rad / 2)
+                                         : camera_.half_height_m;
+        return glm::distance(glm::dvec2(position) / half_height_m, at_);
+    }
+
+  private:
+    const view::Camera& camera_;
+    const glm::dmat3 view_from_world_;
+    const double aspect_;
+    const glm::dvec2 at_;
+};
+
+Result<view::PlacedLight> placedOf(const scene::PunctualLight& light) {
+    view::PlacedLight placed;
+    placed.kind =
+        light.type == scene::LightType::kSpot ? view::LightKind::kSpot : view::LightKind::kPoint;
+    placed.position_world = light.position_world;
+    if (placed.kind == view::LightKind::kSpot) {
+        placed.direction_world = light.direction_world;
+        placed.inner_cone_deg = glm::degrees(light.inner_cone_rad);
+        placed.outer_cone_deg = glm::degrees(light.outer_cone_rad);
+    }
+    const float brightest = static_cast<float>(strongestChannel(light.color));
+    if (brightest > 0) {
+        placed.color = light.color / brightest;
+    }
+    placed.intensity = light.intensity * brightest;
+    placed.radius_m = light.range_m;
+    const auto refuse = [](const char* what, double value, const view::Range<double>& range) {
+        return Error{ErrorCode::kInvalidArgument,
+                     std::string("is at a light whose ") + what + " is " + numberText(value) +
+                         "; a placed one's is from " + numberText(range.min) + " to " +
+                         numberText(range.max)};
+    };
+    if (const double radius_m = static_cast<double>(placed.radius_m);
+        !view::kLightRadiusRange.contains(radius_m)) {
+        return refuse("range", radius_m, view::kLightRadiusRange);
+    }
+    if (const double intensity = static_cast<double>(placed.intensity);
+        !view::kLightIntensityRange.contains(intensity)) {
+        return refuse("intensity", intensity, view::kLightIntensityRange);
+    }
+    return placed;
+}
+
+} // namespace
+
+Result<view::PlacedLight>
+LightRig::pick(const view::ViewSettings& settings, double time_s, const glm::dvec2& at) const {
+    using Of = view::LightRef::Of;
+    const view::Lights& lights = settings.lights;
+    if (lights.count > kMostPickable) {
+        return Error{ErrorCode::kInvalidArgument, "is in a picture of " + numberText(lights.count) +
+                                                      " seeded lights; one is picked of at most " +
+                                                      numberText(kMostPickable)};
+    }
+    std::set<view::LightRef> replaced;
+    for (const view::PlacedLight& light : lights.placed.lights()) {
+        if (light.replaces) {
+            replaced.insert(*light.replaces);
+        }
+    }
+    const Finder finder(settings, at);
+    double nearest = kPickReach;
+    std::optional<view::LightRef> found;
+    const auto offer = [&](const view::LightRef& light, const glm::dvec3& position_world) {
+        const double distance = finder.distanceTo(position_world);
+        if (distance <= nearest && !replaced.contains(light)) {
+            nearest = distance;
+            found = light;
+        }
+    };
+    const auto seeded = seededLights(lights, seededBox(lights), time_s);
+    for (uint32_t i = 0; i < seeded.size(); ++i) {
+        offer({Of::kSeed, i}, seeded[i].position_world);
+    }
+    for (uint32_t i = 0; lights.scene_lights && i < scene_lights_.size(); ++i) {
+        if (scene_lights_[i].type != scene::LightType::kDirectional) {
+            offer({Of::kScene, i}, scene_lights_[i].position_world);
+        }
+    }
+    if (!found) {
+        return Error{ErrorCode::kInvalidArgument,
+                     "is at no light: the middle of one must be within " + numberText(kPickReach) +
+                         " of half the picture's height"};
+    }
+    scene::PunctualLight light;
+    if (found->of == Of::kSeed) {
+        light.position_world = seeded[found->index].position_world;
+        light.color = seeded[found->index].color;
+        light.range_m = lights.radius_m;
+    } else {
+        light = scene_lights_[found->index];
+    }
+    auto placed = placedOf(light);
+    if (placed) {
+        placed->replaces = found;
+    }
+    return placed;
+}
+
+} // namespace froxel::light
