@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace froxel::app {
@@ -32,12 +34,48 @@ std::string nameOf(const Json& sweep, const Json& row) {
                        row.at("series").get<std::string>(), row.at("label").get<std::string>());
 }
 
-// By everything that makes a row what it is.
-std::map<std::string, Row> rowsOf(const Json& report) {
+// Values by their paths, "lights.count"; a list is a value.
+using Leaves = std::map<std::string, Json>;
+
+void addLeaves(const Json& value, const std::string& path, Leaves& leaves) {
+    if (!value.is_object()) {
+        leaves.emplace(path, value);
+        return;
+    }
+    for (const auto& [name, part] : value.items()) {
+        addLeaves(part, path.empty() ? name : path + "." + name, leaves);
+    }
+}
+
+Leaves settingsOf(const Json& row) {
+    Leaves leaves;
+    addLeaves(row.at("settings"), "", leaves);
+    return leaves;
+}
+
+// The settings that any row tells.
+std::set<std::string> toldBy(const Json& report) {
+    std::set<std::string> told;
+    for (const auto& sweep : report.at("sweeps")) {
+        for (const auto& row : sweep.at("rows")) {
+            for (const auto& [path, value] : settingsOf(row)) {
+                told.insert(path);
+            }
+        }
+    }
+    return told;
+}
+
+// By everything that makes a row what it is and that both reports tell: a newer one knows settings
+// that were not there.
+std::map<std::string, Row> rowsOf(const Json& report, const std::set<std::string>& told) {
     std::map<std::string, Row> rows;
     for (const auto& sweep : report.at("sweeps")) {
         for (const auto& row : sweep.at("rows")) {
-            auto key = nameOf(sweep, row) + row.at("settings").dump() + row.at("scaled_to").dump();
+            auto key = nameOf(sweep, row) + row.at("scaled_to").dump();
+            for (const auto& [path, value] : settingsOf(row)) {
+                key += told.contains(path) ? path + value.dump() : "";
+            }
             if (const auto& stream = row.at("stream"); !stream.is_null()) {
                 key += stream.at("quality").dump() + stream.at("chroma").dump();
             }
@@ -114,8 +152,20 @@ BenchComparison compareValid(const Json& a, const Json& b) {
     const bool is_cpu = a.at("device").at("kind") == "cpu" || b.at("device").at("kind") == "cpu";
     comparison.measure = is_cpu ? "cpu_us" : "gpu_us";
     comparison.warnings = warningsOf(a, b);
-    const auto rows_a = rowsOf(a);
-    const auto rows_b = rowsOf(b);
+    const auto told_a = toldBy(a);
+    const auto told_b = toldBy(b);
+    std::set<std::string> both;
+    std::ranges::set_intersection(told_a, told_b, std::inserter(both, both.end()));
+    for (const auto& [told, name] : {std::pair(&told_a, "a"), std::pair(&told_b, "b")}) {
+        std::vector<std::string> alone;
+        std::ranges::set_difference(*told, both, std::back_inserter(alone));
+        if (!alone.empty()) {
+            comparison.warnings.push_back(
+                fmt::format("only {} tells {}: rows match without", name, fmt::join(alone, ", ")));
+        }
+    }
+    const auto rows_a = rowsOf(a, both);
+    const auto rows_b = rowsOf(b, both);
     for (const auto& [key, row] : rows_a) {
         const auto other = rows_b.find(key);
         if (other == rows_b.end()) {

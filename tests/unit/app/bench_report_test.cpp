@@ -188,6 +188,22 @@ TEST(CompareReports, OtherSettings_AreRowsOfOneSideAndOtherDevicesAWarning) {
     EXPECT_THAT(toText(comparison), HasSubstr("only in a: smoke: naive, naive"));
 }
 
+// An older report knows less of the same frames.
+TEST(CompareReports, SettingsThatOneDoesNotTell_AreAWarningNotAnotherRow) {
+    const auto newer = benchReport(result(100));
+    auto older = newer;
+    for (auto& row : older["sweeps"][0]["rows"]) {
+        row["settings"].erase("debug_view");
+        row["settings"]["lights"].erase("speed");
+    }
+    const auto comparison = compareReports(older, newer).value();
+    EXPECT_TRUE(comparison.only_a.empty());
+    EXPECT_TRUE(comparison.only_b.empty());
+    EXPECT_EQ(comparison.rows.size(), newer["sweeps"][0]["rows"].size());
+    ASSERT_EQ(comparison.warnings.size(), 1U);
+    EXPECT_EQ(comparison.warnings[0], "only b tells debug_view, lights.speed: rows match without");
+}
+
 TEST(CompareReports, OtherFiles_AreRefused) {
     const auto report = benchReport(result(100));
     EXPECT_THAT(compareReports(report, Json::array()).error().message, HasSubstr("second"));
