@@ -4,6 +4,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace froxel::app {
@@ -45,11 +46,21 @@ std::string join(const std::vector<std::string>& items) {
     return list;
 }
 
+// Of an option without a value; CLI11 takes every number and what follows it.
+bool isSwitch(const std::string& value) {
+    constexpr std::array kWords = {"true", "false", "on", "off", "yes", "no", "1", "0"};
+    return std::ranges::find(kWords, value) != kWords.end();
+}
+
 // `where` is what a person has to mend: the variable, or file and key.
 void give(CLI::Option& option, std::vector<std::string> values, const std::string& where) {
     if (values.empty() || (values.size() > 1 && !takesSeveral(option))) {
         throw CLI::ValidationError(where,
                                    "has " + numberText(values.size()) + " values; it takes one");
+    }
+    if (option.get_items_expected_max() == 0 && !isSwitch(values.front())) {
+        throw CLI::ValidationError(where, "'" + printable(values.front(), 200) +
+                                              "' is neither true nor false");
     }
     try {
         option.add_result(std::move(values));

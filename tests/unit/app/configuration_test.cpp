@@ -119,6 +119,19 @@ TEST_F(ConfigurationTest, BadValue_NamesWhereItCameFrom) {
     EXPECT_THAT(refusal({"--config", file("port = {a = 1}\n")}), HasSubstr("line 1: port must be"));
 }
 
+TEST_F(ConfigurationTest, Switch_IsTrueOrFalseAndNothingElse) {
+    for (const char* value : {"1\\n2", "2", "-1", "1x", "TRUE ", ""}) {
+        const std::string line = std::string("validation = \"") + value + "\"\n";
+        EXPECT_THAT(refusal({"--config", file(line.c_str())}),
+                    HasSubstr("is neither true nor false"))
+            << value;
+    }
+    EXPECT_THAT(refusal({}, {{"FROXEL_AGONES", "2"}}), HasSubstr("FROXEL_AGONES: '2'"));
+    for (const char* value : {"true", "on", "yes", "1"}) {
+        EXPECT_TRUE(serve(parse({}, {{"FROXEL_VALIDATION", value}})).validation) << value;
+    }
+}
+
 TEST_F(ConfigurationTest, ValueOfSeveralLines_IsRefusedInOne) {
     EXPECT_THAT(refusal({"--config", file("quality = \"1\\n2\"\n")}), HasSubstr("'1\\x0a2'"));
     EXPECT_THAT(refusal({"--quality", "1\n2"}), HasSubstr("'1\\x0a2'"));
