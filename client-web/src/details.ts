@@ -44,10 +44,9 @@ export function peelText({ peel }: FrameHeader): string {
   return peel ? `${peel.layers} · ${count(peel.overflowPixels)} px` : '–';
 }
 
-/** Lights with shadow maps, their maps, and the triangles drawn into these. */
+/** Lights with shadow maps, and their maps. */
 export function shadowText({ shadows }: FrameHeader): string {
-  if (!shadows) return '–';
-  return `${shadows.lights} · ${shadows.maps} · ${count(shadows.triangles)}`;
+  return shadows ? `${shadows.lights} · ${shadows.maps}` : '–';
 }
 
 /** The cluster grid of a frame; none without lights in clusters. */

@@ -88,7 +88,7 @@ export class Overlay {
     this.value('Largest list', '', lists ? count(last.listLargest) : '–');
     this.value('Grid', '', last.grid ? gridText(last.grid) : '–');
     this.value('Peeled layers · more', '', peelText(last));
-    this.value('Shadowed · maps · triangles', '', shadowText(last));
+    this.value('Shadowed · maps', '', shadowText(last));
     const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
     this.value('Dropped server · here', '', dropped);
   }
