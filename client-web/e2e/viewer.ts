@@ -159,7 +159,7 @@ export class Viewer {
     return this.thumbnail();
   }
 
-  /** The page sends what was chosen at the next animation frame. */
+  /** Lets what was chosen leave the page: a camera does at the next frame, and Chromium tells of a message once it is sent. */
   private commandsSent(): Promise<number> {
     return this.page.evaluate(
       () => new Promise<number>((done) => requestAnimationFrame(() => requestAnimationFrame(done))),

@@ -13,7 +13,7 @@ import {
   type ServerMessage,
 } from './gen/froxel/v1/server_pb';
 import { Refine } from './gen/froxel/v1/common_pb';
-import { placedAfter } from './placed_lights';
+import { findLight, placedAfter, type PlacedLights } from './placed_lights';
 import { mayControl, roomOf, type Room } from './room';
 import { cameraOf, settingsOf, type Bounds, type Settings } from './settings';
 import type { SizeMode } from './url_state';
@@ -46,6 +46,12 @@ export interface Notice {
   readonly tone: 'error' | 'info';
 }
 
+/** Of a PickLight: its seq, and the id that the light is to have. */
+export interface Pick {
+  readonly seq: bigint;
+  readonly id: number;
+}
+
 export interface AppState {
   readonly link: Link;
   readonly server: ServerInfo | null;
@@ -61,6 +67,7 @@ export interface AppState {
   readonly details: FrameDetails | null; // of the frames from now on
   readonly room: Room | null; // null: a session of one's own
   readonly chosenLight: number | null; // id of the placed light that is being edited
+  readonly pick: Pick | null; // a light asked for, and not answered yet
   readonly handles: boolean; // whether placed lights have handles over the picture
 }
 
@@ -69,6 +76,7 @@ export type Action =
   | { readonly type: 'received'; readonly message: ServerMessage }
   | { readonly type: 'edit'; readonly patch: Partial<Settings> }
   | { readonly type: 'choose_light'; readonly id: number | null }
+  | { readonly type: 'picking'; readonly pick: Pick }
   | { readonly type: 'show_handles'; readonly visible: boolean }
   | { readonly type: 'size_mode'; readonly mode: SizeMode }
   | { readonly type: 'sent'; readonly seq: bigint; readonly settings: Settings }
@@ -90,6 +98,7 @@ export const kInitialState: AppState = {
   details: null,
   room: null,
   chosenLight: null,
+  pick: null,
   handles: true,
 };
 
@@ -106,6 +115,8 @@ export function reduce(state: AppState, action: Action): AppState {
         : { ...state, wanted: { ...state.wanted, ...action.patch } };
     case 'choose_light':
       return { ...state, chosenLight: action.id };
+    case 'picking':
+      return { ...state, pick: action.pick, sentSeq: action.pick.seq };
     case 'show_handles':
       return { ...state, handles: action.visible };
     case 'size_mode':
@@ -123,7 +134,8 @@ export function reduce(state: AppState, action: Action): AppState {
 
 function linked(state: AppState, link: Link): AppState {
   // A new connection knows nothing of what the last one was told.
-  const forget = link.phase === 'live' ? {} : { sent: null, sentSeq: 0n, loading: null };
+  const forget =
+    link.phase === 'live' ? {} : { sent: null, sentSeq: 0n, loading: null, pick: null };
   return { ...state, ...forget, link };
 }
 
@@ -152,12 +164,15 @@ function received(state: AppState, message: ServerMessage): AppState {
       const stale =
         mayControl(state.room) &&
         (state.settings !== state.sent || answer.refSeq < state.sentSeq);
-      return stale
-        ? { ...state, confirmed }
-        : { ...state, confirmed, settings: confirmed, sent: confirmed };
+      const told = { ...state, confirmed, ...picked(state, answer.refSeq, placed) };
+      return stale ? told : { ...told, settings: confirmed, sent: confirmed };
     }
     case 'error':
       if (body.value.code === ErrorCode.TOKEN) return state; // the question for one says it
+      if (body.value.refSeq > 0n && body.value.refSeq === state.pick?.seq) {
+        // Nothing was wished for in the settings that would have to be taken back.
+        return { ...state, pick: null, notice: { text: body.value.message, tone: 'error' } };
+      }
       return {
         ...state,
         ...(body.value.refSeq > 0n && { settings: state.confirmed, sent: state.confirmed }),
@@ -174,6 +189,12 @@ function received(state: AppState, message: ServerMessage): AppState {
     default:
       return state;
   }
+}
+
+/** What the answer to a pick changes: the light is chosen. */
+function picked({ pick }: AppState, refSeq: bigint, placed: PlacedLights): Partial<AppState> {
+  if (!pick || refSeq < pick.seq) return {};
+  return { pick: null, ...(findLight(placed, pick.id) && { chosenLight: pick.id }) };
 }
 
 type Welcome = Extract<ServerMessage['body'], { case: 'welcome' }>['value'];

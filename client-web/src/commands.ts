@@ -64,9 +64,9 @@ export class Commands implements PanelActions, InputTarget, RoomActions {
 
   /** A little before where the view looks. */
   addLight(): void {
-    const { settings } = this.store.state;
+    const { settings, pick } = this.store.state;
     if (!settings || !this.allowed()) return;
-    const id = freeId(settings.placedLights);
+    const id = Math.max(freeId(settings.placedLights), (pick?.id ?? 0) + 1);
     const ahead = sub(settings.target, settings.eye);
     const distance = Math.min(kAheadM, length(ahead));
     const position = add(settings.eye, scale(normalize(ahead, ahead), distance));
@@ -76,13 +76,11 @@ export class Commands implements PanelActions, InputTarget, RoomActions {
 
   /** Of the moving and the scene's own lights, the one nearest there; from then on it is placed. */
   pickLight({ x, y }: { x: number; y: number }): void {
-    const { settings, sent } = this.store.state;
-    if (!settings || !this.allowed()) return;
+    const { settings, pick } = this.store.state;
+    if (!settings || pick || !this.allowed()) return;
     const id = freeId(settings.placedLights);
     const seq = this.connection.send({ case: 'pickLight', value: { id, x, y } });
-    if (seq === null || !sent) return;
-    this.store.dispatch({ type: 'sent', seq, settings: sent });
-    this.chooseLight(id);
+    if (seq !== null) this.store.dispatch({ type: 'picking', pick: { seq, id } });
   }
 
   editLight(id: number, patch: Partial<PlacedLight>): void {

@@ -48,7 +48,8 @@ export function containedIn(box: Rect, picture: { width: number; height: number 
 
 export class LightHandles {
   private readonly handles = new Map<number, HTMLButtonElement>();
-  private settings: Settings | null = null;
+  private settings: Settings | null = null; // null: no handles
+  private picture: Settings | null = null; // null: nothing to pick in
   private chosen: number | null = null;
   private readonly grabbed = new Map<number, { dx: number; dy: number }>(); // by light id
 
@@ -60,13 +61,14 @@ export class LightHandles {
     new ResizeObserver(() => this.place()).observe(canvas);
     canvas.addEventListener('dblclick', (event) => {
       const at = this.pointerAt(event);
-      if (this.settings && Math.abs(at.x) <= 1 && Math.abs(at.y) <= 1) this.actions.pickLight(at);
+      if (this.picture && Math.abs(at.x) <= 1 && Math.abs(at.y) <= 1) this.actions.pickLight(at);
     });
   }
 
   /** Who only watches a room has none. */
   show({ settings, chosenLight, handles, room }: AppState): void {
-    const shown = handles && mayControl(room) ? settings : null;
+    this.picture = mayControl(room) ? settings : null;
+    const shown = handles ? this.picture : null;
     if (shown === this.settings && chosenLight === this.chosen) return;
     this.settings = shown;
     this.chosen = chosenLight;
@@ -84,7 +86,7 @@ export class LightHandles {
   }
 
   private rect(): Rect {
-    const { width, height } = this.settings ?? { width: 1, height: 1 };
+    const { width, height } = this.picture ?? { width: 1, height: 1 };
     return containedIn(this.canvas.getBoundingClientRect(), { width, height });
   }
 

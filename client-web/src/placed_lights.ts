@@ -12,7 +12,13 @@ import {
 import { choicesOf } from './schema_names';
 import { equal, vec, type Vec } from './vec3';
 
-export interface PlacedLight {
+/** The light that another one stands for, by its index: at most one of them. */
+interface Replaced {
+  readonly replacesSeeded?: number | undefined;
+  readonly replacesScene?: number | undefined;
+}
+
+export interface PlacedLight extends Replaced {
   readonly id: number;
   readonly kind: LightKind;
   readonly position: Vec; // metres, world
@@ -25,8 +31,6 @@ export interface PlacedLight {
   readonly widthM: number; // of an area light's rectangle
   readonly heightM: number;
   readonly rollDeg: number;
-  readonly replacesSeeded: number | undefined; // stands for the seeded light of that index
-  readonly replacesScene: number | undefined; // or for the scene's
 }
 
 export const kLightKinds = choicesOf(LightKindSchema);
@@ -70,8 +74,7 @@ export function sameLight(a: PlacedLight, b: PlacedLight): boolean {
     a.widthM === b.widthM &&
     a.heightM === b.heightM &&
     a.rollDeg === b.rollDeg &&
-    a.replacesSeeded === b.replacesSeeded &&
-    a.replacesScene === b.replacesScene
+    sameReplaced(a, b)
   );
 }
 
@@ -102,6 +105,11 @@ export function placedAfter(
 
 const vecOf = (v: Vec | undefined, before: Vec): Vec => (v ? vec(v.x, v.y, v.z) : before);
 
+const replacedBy = ({ replacesSeeded, replacesScene }: Replaced): Replaced => ({
+  replacesSeeded,
+  replacesScene,
+});
+
 /** Fields that are absent are `before`'s, or a new light's. */
 function lightOf(told: PlacedLightMessage, before: PlacedLight | undefined): PlacedLight {
   const kept = before ?? { ...kNewLight, position: vec(0, 0, 0) };
@@ -118,8 +126,7 @@ function lightOf(told: PlacedLightMessage, before: PlacedLight | undefined): Pla
     widthM: told.widthM ?? kept.widthM,
     heightM: told.heightM ?? kept.heightM,
     rollDeg: told.rollDeg ?? kept.rollDeg,
-    replacesSeeded: told.replacesSeeded ?? kept.replacesSeeded,
-    replacesScene: told.replacesScene ?? kept.replacesScene,
+    ...replacedBy(told.replacesSeeded === undefined && told.replacesScene === undefined ? kept : told),
   };
 }
 
@@ -137,12 +144,21 @@ export interface PlacedLightsChange {
   lights?: LightMessage[];
 }
 
+/** Whether a change can say so: what a light stands for is not taken back by a field that is absent. */
+function continues(light: PlacedLight, now: PlacedLight | undefined): boolean {
+  const free = light.replacesSeeded === undefined && light.replacesScene === undefined;
+  return now !== undefined && (free || sameReplaced(light, now));
+}
+
+const sameReplaced = (a: PlacedLight, b: PlacedLight): boolean =>
+  a.replacesSeeded === b.replacesSeeded && a.replacesScene === b.replacesScene;
+
 /** The commands that take `from` to `to`: one, but for large sets. */
 export function placedChanges(from: PlacedLights, to: PlacedLights): PlacedLightsChange[] {
   if (from === to) return [];
   const before = new Map(from.map((light) => [light.id, light]));
-  const after = new Set(to.map(({ id }) => id));
-  const remove = from.filter(({ id }) => !after.has(id)).map(({ id }) => id);
+  const after = new Map(to.map((light) => [light.id, light]));
+  const remove = from.filter((light) => !continues(light, after.get(light.id))).map(({ id }) => id);
   const changed = to.filter((light) => {
     const old = before.get(light.id);
     return !old || !sameLight(old, light);

@@ -36,6 +36,9 @@ describe('a light that stands for another', () => {
     const lights = [light(1, { replacesSeeded: 0 }), light(2, { replacesScene: 7 }), light(3)];
     expect(told([], lights)).toEqual(lights);
     expect(lightSetOf(lightSetText(lights))).toEqual(lights);
+    for (const now of [[light(1)], [light(1, { replacesScene: 3 })], [light(1), light(2)]]) {
+      expect(told(lights, now)).toEqual(now);
+    }
     expect(placedChanges([], [light(3)])[0]?.lights?.[0]).not.toHaveProperty('replacesSeeded');
   });
 });

@@ -1,6 +1,7 @@
 #include "app/bench_compare.h"
 
 #include "app/bench_json.h"
+#include "app/timings_report.h"
 #include "core/text.h"
 #include "measure/statistics.h"
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -66,15 +66,25 @@ std::set<std::string> toldBy(const Json& report) {
     return told;
 }
 
-// By everything that makes a row what it is and that both reports tell: a newer one knows settings
-// that were not there.
-std::map<std::string, Row> rowsOf(const Json& report, const std::set<std::string>& told) {
+// By everything that makes a row what it is, but for settings at their defaults that the other
+// report does not tell: it may be from before they came in. Those are added to `left_out`.
+std::map<std::string, Row> rowsOf(const Json& report,
+                                  const std::set<std::string>& told_by_other,
+                                  std::set<std::string>& left_out) {
+    Leaves defaults;
+    addLeaves(settingsReport({}), "", defaults);
     std::map<std::string, Row> rows;
     for (const auto& sweep : report.at("sweeps")) {
         for (const auto& row : sweep.at("rows")) {
             auto key = nameOf(sweep, row) + row.at("scaled_to").dump();
             for (const auto& [path, value] : settingsOf(row)) {
-                key += told.contains(path) ? path + value.dump() : "";
+                const auto usual = defaults.find(path);
+                if (!told_by_other.contains(path) && usual != defaults.end() &&
+                    usual->second == value) {
+                    left_out.insert(path);
+                } else {
+                    key += path + value.dump();
+                }
             }
             if (const auto& stream = row.at("stream"); !stream.is_null()) {
                 key += stream.at("quality").dump() + stream.at("chroma").dump();
@@ -152,20 +162,13 @@ BenchComparison compareValid(const Json& a, const Json& b) {
     const bool is_cpu = a.at("device").at("kind") == "cpu" || b.at("device").at("kind") == "cpu";
     comparison.measure = is_cpu ? "cpu_us" : "gpu_us";
     comparison.warnings = warningsOf(a, b);
-    const auto told_a = toldBy(a);
-    const auto told_b = toldBy(b);
-    std::set<std::string> both;
-    std::ranges::set_intersection(told_a, told_b, std::inserter(both, both.end()));
-    for (const auto& [told, name] : {std::pair(&told_a, "a"), std::pair(&told_b, "b")}) {
-        std::vector<std::string> alone;
-        std::ranges::set_difference(*told, both, std::back_inserter(alone));
-        if (!alone.empty()) {
-            comparison.warnings.push_back(
-                fmt::format("only {} tells {}: rows match without", name, fmt::join(alone, ", ")));
-        }
+    std::set<std::string> left_out;
+    const auto rows_a = rowsOf(a, toldBy(b), left_out);
+    const auto rows_b = rowsOf(b, toldBy(a), left_out);
+    if (!left_out.empty()) {
+        comparison.warnings.push_back(
+            fmt::format("told by one alone, and at its default: {}", fmt::join(left_out, ", ")));
     }
-    const auto rows_a = rowsOf(a, both);
-    const auto rows_b = rowsOf(b, both);
     for (const auto& [key, row] : rows_a) {
         const auto other = rows_b.find(key);
         if (other == rows_b.end()) {

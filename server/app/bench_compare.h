@@ -34,8 +34,9 @@ struct BenchComparison {
     [[nodiscard]] bool worse() const;
 };
 
-// Rows match by sweep, series, label, scaled_to, stream and the settings that both results tell.
-// Errors: kInvalidArgument where one is not a result of this schema.
+// Rows match by sweep, series, label, scaled_to, stream and settings, but for those at their
+// defaults that only one result tells. Errors: kInvalidArgument where one is not a result of this
+// schema.
 [[nodiscard]] Result<BenchComparison> compareReports(const nlohmann::ordered_json& a,
                                                      const nlohmann::ordered_json& b);
 

@@ -2,6 +2,7 @@
 
 #include "app/load_report.h"
 #include "app/output_file.h"
+#include "core/text.h"
 #include "load/client_tls.h"
 #include "load/load_run.h"
 #include "load/script_file.h"
@@ -60,6 +61,11 @@ load::RunOptions runOptions(const LoadOptions& options) {
     run.viewer.room = options.room;
     if (!options.token_file.empty()) {
         run.viewer.tokens = net::readTokenFile(options.token_file).value();
+    }
+    if (!options.tls_authorities.empty() && !options.target.tls) {
+        throw StartupError({ErrorCode::kInvalidArgument, "--tls-authorities is for wss://, and " +
+                                                             printable(options.url, 200) +
+                                                             " is without TLS"});
     }
     if (options.target.tls) {
         run.viewer.tls = load::clientTls(options.tls_authorities).value();

@@ -47,8 +47,11 @@ std::string join(const std::vector<std::string>& items) {
 }
 
 // Of an option without a value; CLI11 takes every number and what follows it.
-bool isSwitch(const std::string& value) {
+bool isSwitch(std::string value) {
     constexpr std::array kWords = {"true", "false", "on", "off", "yes", "no", "1", "0"};
+    std::ranges::transform(value, value.begin(), [](char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
     return std::ranges::find(kWords, value) != kWords.end();
 }
 
@@ -60,7 +63,7 @@ void give(CLI::Option& option, std::vector<std::string> values, const std::strin
     }
     if (option.get_items_expected_max() == 0 && !isSwitch(values.front())) {
         throw CLI::ValidationError(where, "'" + printable(values.front(), 200) +
-                                              "' is neither true nor false");
+                                              "' is none of true, false, on, off, yes, no, 1, 0");
     }
     try {
         option.add_result(std::move(values));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace froxel::light {
 namespace {
@@ -19,6 +20,9 @@ class Finder {
         : camera_(settings.camera),
           view_from_world_(glm::transpose(settings.camera.world_from_view)),
           aspect_(static_cast<double>(settings.size.width_px) / settings.size.height_px),
+          half_height_(settings.camera.projection == view::Projection::kPerspective
+                           ? std::tan(settings.camera.yfov_rad / 2)
+                           : settings.camera.half_height_m),
           at_((at + settings.camera.lens_shift) * glm::dvec2(aspect_, 1)) {}
 
     // From the place that was asked for.
@@ -28,9 +32,8 @@ class Finder {
         if (!(ahead_m > camera_.near_m)) {
             return std::numeric_limits<double>::infinity();
         }
-        const double half_height_m = camera_.projection == view::Projection::kPerspective
-                                         ? ahead_m * std::tan(camera_.yfov_rad / 2)
-                                         : camera_.half_height_m;
+        const bool perspective = camera_.projection == view::Projection::kPerspective;
+        const double half_height_m = perspective ? ahead_m * half_height_ : half_height_;
         return glm::distance(glm::dvec2(position) / half_height_m, at_);
     }
 
@@ -38,6 +41,7 @@ class Finder {
     const view::Camera& camera_;
     const glm::dmat3 view_from_world_;
     const double aspect_;
+    const double half_height_; // a metre ahead; metres of an orthographic one
     const glm::dvec2 at_;
 };
 
@@ -67,6 +71,12 @@ Result<view::PlacedLight> placedOf(const scene::PunctualLight& light) {
         !view::kLightRadiusRange.contains(radius_m)) {
         return refuse("range", radius_m, view::kLightRadiusRange);
     }
+    for (const double coordinate :
+         {placed.position_world.x, placed.position_world.y, placed.position_world.z}) {
+        if (!view::kPositionRange.contains(coordinate)) {
+            return refuse("coordinate", coordinate, view::kPositionRange);
+        }
+    }
     if (const double intensity = static_cast<double>(placed.intensity);
         !view::kLightIntensityRange.contains(intensity)) {
         return refuse("intensity", intensity, view::kLightIntensityRange);
@@ -80,9 +90,10 @@ Result<view::PlacedLight>
 LightRig::pick(const view::ViewSettings& settings, double time_s, const glm::dvec2& at) const {
     using Of = view::LightRef::Of;
     const view::Lights& lights = settings.lights;
-    if (lights.count > kMostPickable) {
-        return Error{ErrorCode::kInvalidArgument, "is in a picture of " + numberText(lights.count) +
-                                                      " seeded lights; one is picked of at most " +
+    const size_t light_count = lights.count + (lights.scene_lights ? scene_lights_.size() : 0);
+    if (light_count > kMostPickable) {
+        return Error{ErrorCode::kInvalidArgument, "is in a picture of " + numberText(light_count) +
+                                                      " lights; one is picked of at most " +
                                                       numberText(kMostPickable)};
     }
     std::set<view::LightRef> replaced;
@@ -93,41 +104,38 @@ LightRig::pick(const view::ViewSettings& settings, double time_s, const glm::dve
     }
     const Finder finder(settings, at);
     double nearest = kPickReach;
-    std::optional<view::LightRef> found;
-    const auto offer = [&](const view::LightRef& light, const glm::dvec3& position_world) {
-        const double distance = finder.distanceTo(position_world);
-        if (distance <= nearest && !replaced.contains(light)) {
+    Result<view::PlacedLight> found = Error{
+        ErrorCode::kInvalidArgument, "is at no light: the middle of one must be within " +
+                                         numberText(kPickReach) + " of half the picture's height"};
+    // One that cannot be placed is told only where no other is.
+    const auto offer = [&](const view::LightRef& ref, const scene::PunctualLight& light) {
+        const double distance = finder.distanceTo(light.position_world);
+        if (distance > kPickReach || (found && distance > nearest) || replaced.contains(ref)) {
+            return;
+        }
+        auto placed = placedOf(light);
+        if (placed) {
+            placed->replaces = ref;
             nearest = distance;
-            found = light;
+        }
+        if (placed || !found) {
+            found = std::move(placed);
         }
     };
     const auto seeded = seededLights(lights, seededBox(lights), time_s);
     for (uint32_t i = 0; i < seeded.size(); ++i) {
-        offer({Of::kSeed, i}, seeded[i].position_world);
+        scene::PunctualLight light;
+        light.position_world = seeded[i].position_world;
+        light.color = seeded[i].color;
+        light.range_m = lights.radius_m;
+        offer({Of::kSeed, i}, light);
     }
     for (uint32_t i = 0; lights.scene_lights && i < scene_lights_.size(); ++i) {
         if (scene_lights_[i].type != scene::LightType::kDirectional) {
-            offer({Of::kScene, i}, scene_lights_[i].position_world);
+            offer({Of::kScene, i}, scene_lights_[i]);
         }
     }
-    if (!found) {
-        return Error{ErrorCode::kInvalidArgument,
-                     "is at no light: the middle of one must be within " + numberText(kPickReach) +
-                         " of half the picture's height"};
-    }
-    scene::PunctualLight light;
-    if (found->of == Of::kSeed) {
-        light.position_world = seeded[found->index].position_world;
-        light.color = seeded[found->index].color;
-        light.range_m = lights.radius_m;
-    } else {
-        light = scene_lights_[found->index];
-    }
-    auto placed = placedOf(light);
-    if (placed) {
-        placed->replaces = found;
-    }
-    return placed;
+    return found;
 }
 
 } // namespace froxel::light

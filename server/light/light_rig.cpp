@@ -148,10 +148,24 @@ bool LightRig::standsIn(const view::Lights& settings, const view::PlacedLight& l
     if (!light.replaces) {
         return false;
     }
-    const bool seeded = light.replaces->of == view::LightRef::Of::kSeed;
-    const size_t there =
-        seeded ? settings.count : (settings.scene_lights ? scene_lights_.size() : size_t{0});
-    return light.replaces->index < there;
+    const uint32_t index = light.replaces->index;
+    if (light.replaces->of == view::LightRef::Of::kSeed) {
+        return index < settings.count;
+    }
+    return settings.scene_lights && index < scene_lights_.size() &&
+           scene_lights_[index].type != scene::LightType::kDirectional;
+}
+
+std::map<uint32_t, const view::PlacedLight*>
+LightRig::sceneStandIns(const view::Lights& settings) const {
+    std::map<uint32_t, const view::PlacedLight*> stand_ins;
+    for (const view::PlacedLight& light : settings.placed.lights()) {
+        if (light.replaces && light.replaces->of == view::LightRef::Of::kScene &&
+            standsIn(settings, light)) {
+            stand_ins.emplace(light.replaces->index, &light);
+        }
+    }
+    return stand_ins;
 }
 
 BoundsD3 LightRig::seededBox(const view::Lights& settings) const {

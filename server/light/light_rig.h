@@ -8,8 +8,8 @@
 #include "view/camera.h"
 #include "view/settings.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -48,7 +48,7 @@ class LightRig {
     [[nodiscard]] Result<view::PlacedLight>
     pick(const view::ViewSettings& settings, double time_s, const glm::dvec2& at) const;
     static constexpr double kPickReach = 0.05; // of half the picture's height
-    static constexpr uint32_t kMostPickable = 100'000;
+    static constexpr uint32_t kMostPickable = 20'000;
 
     // The box that seeded lights move in, metres in world space: the settings' own, or the scene's
     // bounds less kShrink of their size on every side.
@@ -59,19 +59,17 @@ class LightRig {
     // viewers placed, by id.
     template <class Visit>
     void eachFixed(const view::Lights& settings, const Visit& visit) const {
-        const auto placed = settings.placed.lights();
+        const auto stand_ins = sceneStandIns(settings);
+        auto next = stand_ins.begin();
         for (uint32_t i = 0; settings.scene_lights && i < scene_lights_.size(); ++i) {
-            const auto stand_in =
-                std::find_if(placed.begin(), placed.end(), [i](const auto& light) {
-                    return light.replaces == view::LightRef{view::LightRef::Of::kScene, i};
-                });
-            if (stand_in == placed.end()) {
-                visit(scene_lights_[i]);
+            if (next != stand_ins.end() && next->first == i) {
+                visit(asPunctual(*next->second));
+                ++next;
             } else {
-                visit(asPunctual(*stand_in));
+                visit(scene_lights_[i]);
             }
         }
-        for (const view::PlacedLight& light : placed) {
+        for (const view::PlacedLight& light : settings.placed.lights()) {
             if (!standsIn(settings, light)) {
                 visit(asPunctual(light));
             }
@@ -95,6 +93,9 @@ class LightRig {
   private:
     // Whether what it replaces is there.
     [[nodiscard]] bool standsIn(const view::Lights& settings, const view::PlacedLight& light) const;
+    // For scene lights, by their index; alive as long as the settings.
+    [[nodiscard]] std::map<uint32_t, const view::PlacedLight*>
+    sceneStandIns(const view::Lights& settings) const;
 
     std::vector<scene::PunctualLight> scene_lights_;
     BoundsD3 scene_bounds_world_;

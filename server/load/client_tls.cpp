@@ -27,16 +27,15 @@ Result<std::shared_ptr<ssl::context>> clientTls(const std::filesystem::path& aut
     return context;
 }
 
-void expectHost(SSL* tls, const std::string& host) {
+bool expectHost(SSL* tls, const std::string& host) {
     boost::system::error_code is_name;
     (void)boost::asio::ip::make_address(host, is_name);
-    if (is_name) {
-        SSL_ctrl(tls, SSL_CTRL_SET_TLSEXT_HOSTNAME, TLSEXT_NAMETYPE_host_name,
-                 const_cast<char*>(host.c_str()));
-        SSL_set1_host(tls, host.c_str());
-    } else {
-        X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(tls), host.c_str());
+    if (!is_name) {
+        return X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(tls), host.c_str()) == 1;
     }
+    return SSL_ctrl(tls, SSL_CTRL_SET_TLSEXT_HOSTNAME, TLSEXT_NAMETYPE_host_name,
+                    const_cast<char*>(host.c_str())) == 1 &&
+           SSL_set1_host(tls, host.c_str()) == 1;
 }
 
 std::string whyRefused(SSL* tls, const boost::system::error_code& failure) {

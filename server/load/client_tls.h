@@ -16,8 +16,9 @@ namespace froxel::load {
 [[nodiscard]] Result<std::shared_ptr<boost::asio::ssl::context>>
 clientTls(const std::filesystem::path& authorities);
 
-// Before the handshake: the server is to prove that it is `host`, a name or an address.
-void expectHost(SSL* tls, const std::string& host);
+// Before the handshake: the server is to prove that it is `host`, a name or an address. False: this
+// cannot be checked, and the connection must not be used.
+[[nodiscard]] bool expectHost(SSL* tls, const std::string& host);
 
 // After a handshake that failed, in one line.
 [[nodiscard]] std::string whyRefused(SSL* tls, const boost::system::error_code& failure);

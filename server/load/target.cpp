@@ -27,6 +27,10 @@ Result<Target> parseTarget(std::string_view text) {
     if (url.encoded_host().empty() || url.has_userinfo() || url.has_fragment()) {
         return refuse("has no host, or a user or fragment");
     }
+    if (const std::string host = url.host();
+        host.starts_with('.') || host.find('\0') != std::string::npos) {
+        return refuse("has a host that is no name");
+    }
     if (url.has_port() && url.port_number() == 0) {
         return refuse("has no port from 1 to 65535");
     }

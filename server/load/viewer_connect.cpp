@@ -78,7 +78,10 @@ void Viewer::onConnected() {
 
 void Viewer::secure() {
     SSL* const tls = stream_.next_layer().tls();
-    expectHost(tls, options_.target.host);
+    if (!expectHost(tls, options_.target.host)) {
+        fail("TLS: no server can prove to be " + printable(options_.target.host, 200));
+        return;
+    }
     tcp().expires_after(kConnectTimeout);
     stream_.next_layer().async_handshake(
         asio::ssl::stream_base::client, [self = shared_from_this(), tls](Code failure) {

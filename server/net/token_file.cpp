@@ -46,8 +46,7 @@ Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path
         return Error{ErrorCode::kIo, name + " cannot be read"};
     }
     if (tokens.empty()) {
-        return Error{ErrorCode::kInvalidArgument,
-                     name + " has no token; leave --token-file out where none is asked for"};
+        return Error{ErrorCode::kInvalidArgument, name + " has no token, so nobody could come in"};
     }
     return tokens;
 }

@@ -239,7 +239,9 @@ CommandResult<view::PlacedLights> parseLightSet(std::string_view json) {
 v1::PlacedLights changeOf(const view::PlacedLights& told, const view::PlacedLights& now) {
     v1::PlacedLights change;
     for (const view::PlacedLight& light : told.lights()) {
-        if (now.find(light.id) == nullptr) {
+        const view::PlacedLight* after = now.find(light.id);
+        // What a light stands for cannot be taken back by a field that is absent.
+        if (after == nullptr || (light.replaces && light.replaces != after->replaces)) {
             change.add_remove(light.id);
         }
     }

@@ -19,7 +19,8 @@ namespace {
 namespace beast = boost::beast;
 namespace http = beast::http;
 
-constexpr std::string_view kOutside = "a file beside the page's folder";
+// Of several lines: no request can carry it into a refusal, which quotes an origin.
+constexpr std::string_view kOutside = "a file beside\nthe page's folder";
 constexpr std::string_view kListedOrigin = "https://listed.example";
 
 std::string_view viewOf(beast::string_view text) {

@@ -184,7 +184,7 @@ TEST_F(HardAreas, InOthersPlaces_ListsAreExact) {
         const auto i = static_cast<double>(placed.size());
         auto light = rectangle({i - 1, 0.3 * i, -2.2}, {0.2, 0.1 * i, -1}, 0.6, 0.4);
         light.id = static_cast<uint32_t>(placed.size()) + 1;
-        light.kind = placed.size() == 1 ? view::LightKind::kSpot : view::LightKind::kArea;
+        light.kind = placed.size() == 2 ? view::LightKind::kSpot : view::LightKind::kArea;
         light.radius_m = 3;
         light.replaces = replaced;
         placed.push_back(light);

@@ -116,9 +116,10 @@ class Access(unittest.IsolatedAsyncioTestCase):
         for options, url, why in (
                 (trusting, None, "token is missing"),
                 (("--token-file", self.tokens), None, "self-signed certificate"),
-                (trusting, self.url.replace("127.0.0.1", "localhost"), "hostname mismatch")):
+                (trusting, self.url.replace("127.0.0.1", "localhost"), "hostname mismatch"),
+                (trusting, "ws://127.0.0.1:9/", "--tls-authorities is for wss://")):
             run = self.load(*options, url=url)
-            self.assertEqual(run.returncode, 1, why)
+            self.assertEqual(run.returncode, 2 if "is for" in why else 1, why)
             self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
             self.assertIn(why, run.stderr)
 

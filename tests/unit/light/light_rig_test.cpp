@@ -57,7 +57,7 @@ TEST(LightRig, Order_IsSeededThenSceneLights) {
 // Whatever its direction and roll, and through any camera.
 TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
     view::PlacedLight area;
-    area.id = 1;
+    area.id = 2;
     area.kind = view::LightKind::kArea;
     area.position_world = {1, 2, 3};
     area.width_m = 3;
@@ -68,12 +68,15 @@ TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
             area.direction_world = direction;
             area.roll_deg = roll;
             view::Lights settings = noSeeded();
-            settings.placed = view::PlacedLights({area});
+            view::PlacedLight before = area;
+            before.id = 1;
+            before.kind = view::LightKind::kPoint;
+            settings.placed = view::PlacedLights({before, area});
             const FrameLights lights = evaluated({}, settings);
             ASSERT_EQ(lights.areas.size(), 1U);
             ASSERT_EQ(lights.spots.size(), 1U);
             EXPECT_EQ(lights.spots[0].area, 0U);
-            EXPECT_EQ(lights.first_area, 0U);
+            EXPECT_EQ(lights.first_area, 1U);
             const io::AreaLight& rectangle = lights.areas[0];
             const glm::vec3 right = rectangle.half_right_view;
             const glm::vec3 up = rectangle.half_up_view;
@@ -85,7 +88,7 @@ TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
             if (roll == 0) { // a level width; the camera is level too
                 EXPECT_NEAR(right.y, 0, 1e-6F);
             }
-            EXPECT_NEAR(extentOf(lights, lights.lights[0]), std::hypot(1.5F, 0.25F), 1e-6F);
+            EXPECT_NEAR(extentOf(lights, lights.lights[1]), std::hypot(1.5F, 0.25F), 1e-6F);
         }
     }
 }

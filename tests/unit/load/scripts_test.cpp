@@ -63,7 +63,7 @@ TEST(Scripts, Orbit_OfTwoViewers_LooksFromTwoSides) {
         0.1);
 }
 
-TEST(Scripts, Storm_SaysEveryCommand_AllAccepted) {
+TEST(Scripts, Storm_SaysEverySetting_AllAccepted) {
     const auto script = makeScript(Storm{}, welcome(), 3);
     std::set<int> kinds;
     std::set<int> renderers;

@@ -37,9 +37,9 @@ TEST(Target, Address_OfVersion6_LosesItsBrackets) {
 }
 
 TEST(Target, Url_NotOne_IsRefusedWithItsText) {
-    for (const char* text :
-         {"", "127.0.0.1:8080", "ftp://a/", "ws://", "ws:///ws", "ws://user@a/", "ws://a:0/",
-          "ws://a:65536/", "ws://a:x/", "ws://a b/", "ws://a/#part", "ws://[::1/"}) {
+    for (const char* text : {"", "127.0.0.1:8080", "ftp://a/", "ws://", "ws:///ws", "ws://user@a/",
+                             "ws://a:0/", "ws://a:65536/", "ws://a:x/", "ws://a b/", "wss://.a/",
+                             "wss://a%00b/", "ws://a/#part", "ws://[::1/"}) {
         const auto target = parseTarget(text);
         ASSERT_FALSE(target) << text;
         EXPECT_EQ(target.error().code, ErrorCode::kInvalidArgument);

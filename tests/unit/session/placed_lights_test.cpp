@@ -93,6 +93,19 @@ TEST(PlacedLights, WhatALightStandsFor_IsKeptAndTold) {
     EXPECT_EQ(parseLightSet(lightSetJson(placed)).value(), placed);
 }
 
+// The light of an id anew, with another light's place or with none.
+TEST(PlacedLights, WhatALightNoLongerStandsFor_IsTold) {
+    const auto before = after({}, R"("lights":[{"id":3,"position":{},"replacesSeeded":7}])");
+    for (const char* anew :
+         {R"({"id":3,"position":{"x":1}})", R"({"id":3,"position":{},"replacesScene":2})"}) {
+        const auto now = after(before, std::string(R"("clear":true,"lights":[)") + anew + "]");
+        FieldValidator fields;
+        const auto told = decodePlacedLights(changeOf(before, now), fields);
+        ASSERT_FALSE(fields.rejection());
+        EXPECT_EQ(changed(before, told).value(), now) << anew;
+    }
+}
+
 TEST(PlacedLights, Picked_IsOneMore_UnlessItsIdIsInUse) {
     const auto before = after({}, kTwo);
     view::PlacedLight picked;
