@@ -19,9 +19,12 @@ builder() {
     buildah --root "$work/storage" --runroot "$work/run" --storage-driver vfs "$@"
 }
 
-# Chroot isolation gives a container this host's /proc and /sys as they are, which is enough here.
+# Chroot isolation gives a container this host's /proc and /sys as they are, which is enough here. What
+# this host trusts, npm does there too.
 build() {
-    builder bud --isolation chroot --pull=never --format docker --file "$root/deploy/Dockerfile" --tag froxel "$@" "$root"
+    builder bud --isolation chroot --pull=never --format docker --file "$root/deploy/Dockerfile" --tag froxel \
+        --volume /etc/ssl/certs/ca-certificates.crt:/opt/authorities.crt:ro \
+        --build-arg NODE_EXTRA_CA_CERTS=/opt/authorities.crt "$@" "$root"
 }
 
 require_packages buildah debootstrap
