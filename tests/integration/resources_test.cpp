@@ -10,8 +10,10 @@
 
 #include <csignal>
 #include <deque>
+#include <fstream>
 #include <sstream>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace froxel::test {
 namespace {
@@ -87,6 +89,43 @@ TEST(Descriptors, UsedUp_ViewersStreamOnAndLaterOnesGetIn) {
     const double pauses = timesOf("accepting_pauses", end.errors);
     EXPECT_GT(pauses, 0) << end.errors;
     EXPECT_LE(pauses, took.count() / 0.1 + 1) << "it backs off for 0.1 s instead of spinning";
+}
+
+// Of the process, bytes.
+rlim_t addressSpaceOf(pid_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/statm");
+    rlim_t pages = 0;
+    file >> pages;
+    return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+// A CPU device's memory is the host's: allocating a large picture's targets fails for real.
+TEST(Memory, UsedUp_TheLargePictureIsRefusedAndTheOthersGoOn) {
+    ServerProcess server(kSmall);
+    const uint16_t port = server.port().value();
+    WsClient viewer(port);
+    viewer.join();
+    viewer.expectFrame();
+    WsClient greedy(port);
+    greedy.join();
+    greedy.expectFrame();
+    constexpr rlim_t kLeft = 64U << 20U;
+    const rlim_t limit = addressSpaceOf(server.pid()) + kLeft;
+    const rlimit tight{limit, limit};
+    ASSERT_EQ(prlimit(server.pid(), RLIMIT_AS, &tight, nullptr), 0);
+    v1::ClientMessage message;
+    message.mutable_set_size()->set_width(4096);
+    message.mutable_set_size()->set_height(4096);
+    const uint64_t seq = greedy.send(message);
+    const v1::Error error = greedy.expectError();
+    EXPECT_EQ(error.code(), v1::ERROR_CODE_CAPACITY) << error.message();
+    EXPECT_EQ(error.ref_seq(), seq);
+    for (int i = 0; i < 3; ++i) {
+        greedy.expectFrame([](const auto& header) { return header.width() <= 160; });
+        viewer.expectFrame();
+    }
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(20s).exit_code, 0);
 }
 
 TEST(Renderers, Flapping_LastOneWinsAndNothingIsLeftBehind) {
