@@ -24,6 +24,37 @@ function sent(state: AppState, seq: bigint): AppState {
 
 const live = run(kInitialState, welcomed());
 
+describe('a pick', () => {
+  const asked = run(sent(live, 3n), { type: 'picking', pick: { seq: 4n, id: 2 } });
+  const placed = (refSeq: bigint): Action =>
+    received({
+      case: 'state',
+      value: { refSeq, state: viewState(), placedLights: { lights: [{ id: 2, position: {} }] } },
+    });
+
+  it('Answered_IsTheChosenLight', () => {
+    const state = run(asked, placed(4n));
+    expect(state.chosenLight).toBe(2);
+    expect(state.pick).toBeNull();
+    expect(state.settings?.placedLights.map(({ id }) => id)).toContain(2);
+  });
+
+  it('AnsweredBeforeItWasHeard_IsWaitedFor', () => {
+    const state = run(asked, answer(3n, 5));
+    expect(state.pick?.id).toBe(2);
+    expect(state.settings?.lights).toBe(1000); // a newer answer is to come
+  });
+
+  it('Missed_TakesNoEditBack', () => {
+    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, message: 'x is at no light' };
+    const state = run(asked, edit(7), received({ case: 'error', value }));
+    expect(state.settings?.lights).toBe(7);
+    expect(state.pick).toBeNull();
+    expect(state.chosenLight).toBe(live.chosenLight);
+    expect(state.notice?.text).toBe('x is at no light');
+  });
+});
+
 describe('details', () => {
   it('HoldUntilTheNextOnes', () => {
     expect(live.details).toBeNull();
