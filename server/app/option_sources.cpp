@@ -47,12 +47,9 @@ std::string join(const std::vector<std::string>& items) {
 }
 
 // Of an option without a value; CLI11 takes every number and what follows it.
-bool isSwitch(std::string value) {
+bool isSwitch(const std::string& value) {
     constexpr std::array kWords = {"true", "false", "on", "off", "yes", "no", "1", "0"};
-    std::ranges::transform(value, value.begin(), [](char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return std::ranges::find(kWords, value) != kWords.end();
+    return std::ranges::find(kWords, CLI::ignore_case(value)) != kWords.end();
 }
 
 // `where` is what a person has to mend: the variable, or file and key.

@@ -19,8 +19,7 @@ struct SpotCone {
 // Everything is relative to the eye, in right-handed view space (the camera looks along -Z).
 // An index into `lights` is THE light index: seeded points first, then the scene's point and spot
 // lights in file order, then the placed ones by id, but that one which stands for another has its
-// index. Keep one FrameLights and evaluate into it
-// again: its buffers are reused.
+// index. Keep one FrameLights and evaluate into it again: its buffers are reused.
 struct FrameLights {
     std::vector<io::Light> lights;
     std::vector<float> radii_m;       // of lights; infinity: no range limit

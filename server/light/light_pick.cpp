@@ -19,11 +19,12 @@ class Finder {
     Finder(const view::ViewSettings& settings, const glm::dvec2& at)
         : camera_(settings.camera),
           view_from_world_(glm::transpose(settings.camera.world_from_view)),
-          aspect_(static_cast<double>(settings.size.width_px) / settings.size.height_px),
           half_height_(settings.camera.projection == view::Projection::kPerspective
                            ? std::tan(settings.camera.yfov_rad / 2)
                            : settings.camera.half_height_m),
-          at_((at + settings.camera.lens_shift) * glm::dvec2(aspect_, 1)) {}
+          at_((at + settings.camera.lens_shift) *
+              glm::dvec2(static_cast<double>(settings.size.width_px) / settings.size.height_px,
+                         1)) {}
 
     // From the place that was asked for.
     [[nodiscard]] double distanceTo(const glm::dvec3& position_world) const {
@@ -40,7 +41,6 @@ class Finder {
   private:
     const view::Camera& camera_;
     const glm::dmat3 view_from_world_;
-    const double aspect_;
     const double half_height_; // a metre ahead; metres of an orthographic one
     const glm::dvec2 at_;
 };

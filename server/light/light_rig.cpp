@@ -139,29 +139,28 @@ scene::PunctualLight asPunctual(const view::PlacedLight& placed) {
     return light;
 }
 
+bool standsForSeeded(const view::Lights& settings, const view::PlacedLight& placed) {
+    return placed.replaces && placed.replaces->of == view::LightRef::Of::kSeed &&
+           placed.replaces->index < settings.count;
+}
+
 LightRig::LightRig(const scene::Scene& scene) : scene_bounds_world_(scene.bounds_world) {
     std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(scene_lights_),
                  usable);
 }
 
-bool LightRig::standsIn(const view::Lights& settings, const view::PlacedLight& light) const {
-    if (!light.replaces) {
-        return false;
-    }
-    const uint32_t index = light.replaces->index;
-    if (light.replaces->of == view::LightRef::Of::kSeed) {
-        return index < settings.count;
-    }
-    return settings.scene_lights && index < scene_lights_.size() &&
-           scene_lights_[index].type != scene::LightType::kDirectional;
+bool LightRig::standsForScene(const view::Lights& settings, const view::PlacedLight& placed) const {
+    return settings.scene_lights && placed.replaces &&
+           placed.replaces->of == view::LightRef::Of::kScene &&
+           placed.replaces->index < scene_lights_.size() &&
+           scene_lights_[placed.replaces->index].type != scene::LightType::kDirectional;
 }
 
 std::map<uint32_t, const view::PlacedLight*>
 LightRig::sceneStandIns(const view::Lights& settings) const {
     std::map<uint32_t, const view::PlacedLight*> stand_ins;
     for (const view::PlacedLight& light : settings.placed.lights()) {
-        if (light.replaces && light.replaces->of == view::LightRef::Of::kScene &&
-            standsIn(settings, light)) {
+        if (standsForScene(settings, light)) {
             stand_ins.emplace(light.replaces->index, &light);
         }
     }

@@ -17,6 +17,9 @@ namespace froxel::light {
 
 [[nodiscard]] scene::PunctualLight asPunctual(const view::PlacedLight& placed);
 
+// Whether it takes the place of a seeded light that is there.
+[[nodiscard]] bool standsForSeeded(const view::Lights& settings, const view::PlacedLight& placed);
+
 // Immutable after construction: any number of threads may evaluate at once, each into its own
 // FrameLights.
 class LightRig {
@@ -70,7 +73,7 @@ class LightRig {
             }
         }
         for (const view::PlacedLight& light : settings.placed.lights()) {
-            if (!standsIn(settings, light)) {
+            if (!standsForSeeded(settings, light) && !standsForScene(settings, light)) {
                 visit(asPunctual(light));
             }
         }
@@ -81,8 +84,7 @@ class LightRig {
     template <class Visit>
     static void eachSeededStandIn(const view::Lights& settings, const Visit& visit) {
         for (const view::PlacedLight& light : settings.placed.lights()) {
-            if (light.replaces && light.replaces->of == view::LightRef::Of::kSeed &&
-                light.replaces->index < settings.count) {
+            if (standsForSeeded(settings, light)) {
                 visit(light.replaces->index, asPunctual(light));
             }
         }
@@ -91,8 +93,9 @@ class LightRig {
     static constexpr double kShrink = 0.04;
 
   private:
-    // Whether what it replaces is there.
-    [[nodiscard]] bool standsIn(const view::Lights& settings, const view::PlacedLight& light) const;
+    // The same of a scene light.
+    [[nodiscard]] bool standsForScene(const view::Lights& settings,
+                                      const view::PlacedLight& placed) const;
     // For scene lights, by their index; alive as long as the settings.
     [[nodiscard]] std::map<uint32_t, const view::PlacedLight*>
     sceneStandIns(const view::Lights& settings) const;

@@ -10,8 +10,7 @@
 namespace froxel::load {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace websocket = beast::websocket;
+namespace websocket = boost::beast::websocket;
 
 namespace {
 

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <utility>
 
 namespace froxel::net {
 namespace {
 
 constexpr size_t kMaxTokens = 10'000;
+constexpr size_t kMinTokenBytes = 16; // fewer can be guessed
 
 bool isToken(std::string_view text) {
     return text.size() >= kMinTokenBytes && text.size() <= protocol::kMaxTokenBytes &&

@@ -9,8 +9,6 @@
 
 namespace froxel::net {
 
-constexpr size_t kMinTokenBytes = 16; // fewer can be guessed
-
 // At least one. One a line, of printable ASCII without spaces; blank lines and those that begin
 // with # are left out. Errors (kInvalidArgument, kIo) name file and line, never a token.
 [[nodiscard]] Result<std::vector<std::string>> readTokenFile(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace froxel::net {
+
 Result<void> TokenGate::load(const std::filesystem::path& path) {
     auto read = readTokenFile(path);
     if (!read) {

@@ -20,9 +20,11 @@ double farthestDepth(const view::Camera& camera, const BoundsD3& bounds) {
 
 bool equalRadii(const light::FrameLights& lights, const view::Lights& settings) {
     const auto& radii = lights.radii_m;
-    bool seeded_alike = settings.cutoff <= 0;
-    light::LightRig::eachSeededStandIn(
-        settings, [&](uint32_t, const scene::PunctualLight&) { seeded_alike = false; });
+    const bool seeded_alike =
+        settings.cutoff <= 0 &&
+        std::ranges::none_of(settings.placed.lights(), [&](const view::PlacedLight& placed) {
+            return light::standsForSeeded(settings, placed);
+        });
     const uint32_t seeded_count = seeded_alike ? settings.count : 0;
     const size_t first = std::min<size_t>(seeded_count > 0 ? seeded_count - 1 : 0, radii.size());
     return std::all_of(radii.begin() + static_cast<std::ptrdiff_t>(first), radii.end(),

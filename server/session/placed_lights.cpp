@@ -129,9 +129,36 @@ void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
     }
 }
 
+using LightsById = std::map<uint32_t, view::PlacedLight>;
+
+LightsById byId(const view::PlacedLights& lights) {
+    LightsById by_id;
+    for (const view::PlacedLight& light : lights.lights()) {
+        by_id.emplace(light.id, light);
+    }
+    return by_id;
+}
+
+// What is wrong with a light whose values are all in their ranges.
+std::optional<Rejection> faultOf(const std::string& field, const view::PlacedLight& light) {
+    const double corner_m = 0.5 * std::hypot(light.width_m, light.height_m);
+    const auto radius_m = static_cast<double>(light.radius_m);
+    if (light.kind == view::LightKind::kArea && radius_m < corner_m) {
+        return outOfRange(field + ".radius_m",
+                          "is " + numberText(radius_m) +
+                              "; a rectangle's corners must lie within it, here " +
+                              numberText(corner_m));
+    }
+    if (light.inner_cone_deg > light.outer_cone_deg) {
+        return outOfRange(field + ".inner_cone_deg", "is " + numberText(light.inner_cone_deg) +
+                                                         "; it must be at most outer_cone_deg, " +
+                                                         numberText(light.outer_cone_deg));
+    }
+    return std::nullopt;
+}
+
 // The ids of two lights that stand for the same.
-std::optional<std::pair<uint32_t, uint32_t>>
-rivals(const std::map<uint32_t, view::PlacedLight>& lights) {
+std::optional<std::pair<uint32_t, uint32_t>> rivals(const LightsById& lights) {
     std::map<view::LightRef, uint32_t> ids;
     for (const auto& [id, light] : lights) {
         if (light.replaces) {
@@ -142,6 +169,24 @@ rivals(const std::map<uint32_t, view::PlacedLight>& lights) {
         }
     }
     return std::nullopt;
+}
+
+// If they can be together.
+CommandResult<view::PlacedLights> kept(const LightsById& by_id) {
+    if (const auto both = rivals(by_id)) {
+        return outOfRange("lights", numberText(both->first) + " and " + numberText(both->second) +
+                                        " would stand for the same light; only one can");
+    }
+    if (by_id.size() > view::kPlacedCountRange.max) {
+        return outOfRange("lights", "would be " + numberText(by_id.size()) + "; at most " +
+                                        numberText(view::kPlacedCountRange.max) + " are kept");
+    }
+    std::vector<view::PlacedLight> ordered;
+    ordered.reserve(by_id.size());
+    for (const auto& [id, light] : by_id) {
+        ordered.push_back(light);
+    }
+    return view::PlacedLights(std::move(ordered));
 }
 
 } // namespace
@@ -165,12 +210,7 @@ SetPlacedLights decodePlacedLights(const v1::PlacedLights& set, FieldValidator& 
 
 CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
                                           const SetPlacedLights& change) {
-    std::map<uint32_t, view::PlacedLight> by_id;
-    if (!change.clear) {
-        for (const view::PlacedLight& light : lights.lights()) {
-            by_id.emplace(light.id, light);
-        }
-    }
+    LightsById by_id = change.clear ? LightsById() : byId(lights);
     for (size_t i = 0; i < change.remove.size(); ++i) {
         if (by_id.erase(change.remove[i]) == 0) {
             return outOfRange(element("remove", static_cast<int>(i)),
@@ -186,35 +226,11 @@ CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
                               "is missing; light " + numberText(wanted.id) + " is not there yet");
         }
         apply(wanted, light->second);
-        const double corner_m = 0.5 * std::hypot(light->second.width_m, light->second.height_m);
-        if (light->second.kind == view::LightKind::kArea &&
-            static_cast<double>(light->second.radius_m) < corner_m) {
-            return outOfRange(field + ".radius_m",
-                              "is " + numberText(static_cast<double>(light->second.radius_m)) +
-                                  "; a rectangle's corners must lie within it, here " +
-                                  numberText(corner_m));
-        }
-        if (light->second.inner_cone_deg > light->second.outer_cone_deg) {
-            return outOfRange(field + ".inner_cone_deg",
-                              "is " + numberText(light->second.inner_cone_deg) +
-                                  "; it must be at most outer_cone_deg, " +
-                                  numberText(light->second.outer_cone_deg));
+        if (auto fault = faultOf(field, light->second)) {
+            return *fault;
         }
     }
-    if (const auto both = rivals(by_id)) {
-        return outOfRange("lights", numberText(both->first) + " and " + numberText(both->second) +
-                                        " would stand for the same light; only one can");
-    }
-    if (by_id.size() > view::kPlacedCountRange.max) {
-        return outOfRange("lights", "would be " + numberText(by_id.size()) + "; at most " +
-                                        numberText(view::kPlacedCountRange.max) + " are kept");
-    }
-    std::vector<view::PlacedLight> ordered;
-    ordered.reserve(by_id.size());
-    for (const auto& [id, light] : by_id) {
-        ordered.push_back(light);
-    }
-    return view::PlacedLights(std::move(ordered));
+    return kept(by_id);
 }
 
 CommandResult<view::PlacedLights> parseLightSet(std::string_view json) {
@@ -259,21 +275,12 @@ CommandResult<view::PlacedLights> withPicked(const view::PlacedLights& lights,
     if (lights.find(picked.id) != nullptr) {
         return outOfRange("id", "is " + numberText(picked.id) + "; another light has it");
     }
-    SetPlacedLights change;
-    change.lights.push_back({.id = picked.id,
-                             .kind = picked.kind,
-                             .position_world = picked.position_world,
-                             .direction_world = picked.direction_world,
-                             .color = picked.color,
-                             .intensity = static_cast<double>(picked.intensity),
-                             .radius_m = static_cast<double>(picked.radius_m),
-                             .inner_cone_deg = picked.inner_cone_deg,
-                             .outer_cone_deg = picked.outer_cone_deg,
-                             .width_m = std::nullopt,
-                             .height_m = std::nullopt,
-                             .roll_deg = std::nullopt,
-                             .replaces = picked.replaces});
-    return changed(lights, change);
+    if (auto fault = faultOf(element("lights", 0), picked)) {
+        return *fault;
+    }
+    LightsById by_id = byId(lights);
+    by_id.emplace(picked.id, picked);
+    return kept(by_id);
 }
 
 std::string lightSetJson(const view::PlacedLights& lights) {

@@ -103,7 +103,7 @@ class Access(unittest.IsolatedAsyncioTestCase):
         await self.assert_welcome(OLD)
 
     def load(self, *options, url=None):
-        """`froxel load` of two viewers who trust the server's certificate."""
+        """`froxel load` of two viewers."""
         return subprocess.run(
             [FROXEL, "load", url or self.url, "--viewers", "2", "--seconds", "1", *options],
             capture_output=True, text=True, timeout=90)
