@@ -18,7 +18,11 @@ constexpr const char* kFooter =
     "Latency is from sending a command to having the last byte of the first frame that shows it, "
     "by the frame's echo of that command, one sample for each frame that shows a new one; "
     "decoding is not in it. Reaction is the same of every command, also of those that a newer one "
-    "overtook. Age is latency without the wait on the server before drawing began. "
+    "overtook; one that no frame has shown at the end counts with its wait so far. Age is latency "
+    "without the wait on the server before drawing began; of frames that show no new command, as a "
+    "room's watchers get, it is told by the lights' clock and may be a lower bound. A stall is how "
+    "long a frame had been due for more than 5 % of the measured time: always while lights move or "
+    "the script is orbit or storm, else while a command waits. "
     "Measuring begins when every viewer has its first frame. Frames are acknowledged as the page "
     "does, at the next refresh of a 60 Hz display. A FILE.jsonl has a ClientMessage in the "
     "protocol's JSON on each line and, optionally, \"at_ms\" since the start.";
@@ -71,8 +75,10 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
     command.name("--codec", options.codec, view::kCodecNames, "How pictures are encoded");
     command.number("--video-kbps", options.video_kbps, view::kVideoKbpsRange, "the server's",
                    "Of a video codec: 1000 bits a second");
-    command.number("--max-latency-ms", options.max_latency_ms, kLatencyRange, "",
-                   "Exit 1 where a viewer's 95th percentile is above");
+    command.number(
+        "--max-latency-ms", options.max_latency_ms, kLatencyRange, "",
+        "Exit 1 where a viewer's 95th percentile of latency or reaction, or its stall, is "
+        "above");
     command.number("--min-fps", options.min_fps, kRateRange, "",
                    "Exit 1 where a viewer has fewer frames a second");
     command.text("--json", "FILE", options.json, "", "Every figure");

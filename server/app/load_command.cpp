@@ -1,6 +1,7 @@
 #include "app/load_command.h"
 
 #include "app/load_report.h"
+#include "app/load_verdict.h"
 #include "app/output_file.h"
 #include "core/text.h"
 #include "load/client_tls.h"

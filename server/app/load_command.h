@@ -18,7 +18,7 @@ struct LoadOptions {
     double seconds = 10;
     std::string script = "orbit"; // or idle, storm, a .jsonl file
     double ramp_s = 0;
-    std::optional<double> max_latency_ms; // of each viewer's 95th percentile
+    std::optional<double> max_latency_ms; // of each viewer, see load_verdict.h
     std::optional<double> min_fps;        // of each viewer
     std::optional<view::Size> size;       // absent: the server's
     std::optional<uint32_t> light_count;  // likewise

@@ -1,13 +1,15 @@
 #include "app/load_report.h"
 
+#include "app/load_verdict.h"
 #include "measure/statistics.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <iterator>
+#include <filesystem>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace froxel::app {
@@ -23,6 +25,15 @@ constexpr size_t kListedViewers = 16;
 
 void append(std::vector<double>& to, const std::vector<double>& from) {
     to.insert(to.end(), from.begin(), from.end());
+}
+
+void widen(Measured& sum, const Measured& one) {
+    if (one.smallest && (!sum.smallest || one.smallest->area() < sum.smallest->area())) {
+        sum.smallest = one.smallest;
+    }
+    if (one.largest && (!sum.largest || one.largest->area() > sum.largest->area())) {
+        sum.largest = one.largest;
+    }
 }
 
 // `seconds` becomes the run's.
@@ -47,6 +58,8 @@ ViewerResult pool(const RunResult& result) {
         sum.client_dropped += one.client_dropped;
         sum.commands += one.commands;
         sum.commands_skipped += one.commands_skipped;
+        sum.commands_unshown += one.commands_unshown;
+        widen(sum, one);
         sum.refusals += one.refusals;
         sum.refusal = sum.refusal ? sum.refusal : one.refusal;
         all.received_bytes += viewer.received_bytes;
@@ -58,10 +71,6 @@ ViewerResult pool(const RunResult& result) {
 
 double perSecond(double amount, double seconds) {
     return seconds > 0 ? amount / seconds : 0;
-}
-
-double frameRate(const Measured& measured) {
-    return perSecond(static_cast<double>(measured.frames), measured.seconds);
 }
 
 double byteRate(const ViewerResult& viewer) {
@@ -83,6 +92,45 @@ Json orNull(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
+Json sizeOf(const std::optional<load::PictureSize>& size) {
+    return size ? Json{{"width_px", size->width_px}, {"height_px", size->height_px}}
+                : Json(nullptr);
+}
+
+// What was measured, each different one once, with the viewers that were served so.
+Json servedOf(const RunResult& result) {
+    std::vector<std::pair<load::Served, size_t>> kinds;
+    for (const ViewerResult& viewer : result.viewers) {
+        if (!viewer.served) {
+            continue;
+        }
+        const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) {
+            return kind.first == *viewer.served;
+        });
+        if (known != kinds.end()) {
+            ++known->second;
+        } else {
+            kinds.emplace_back(*viewer.served, 1);
+        }
+    }
+    Json all = Json::array();
+    for (const auto& [served, count] : kinds) {
+        all.push_back({{"viewers", count},
+                       {"server_version", served.server_version},
+                       {"device", served.device},
+                       {"scene", served.scene},
+                       {"triangles", served.triangle_count},
+                       {"size", sizeOf(load::PictureSize{served.width_px, served.height_px})},
+                       {"lights", served.light_count},
+                       {"lights_move", served.lights_move},
+                       {"renderer", served.renderer},
+                       {"codec", served.codec},
+                       {"quality", served.quality},
+                       {"video_kbps", served.video_kbps}});
+    }
+    return all;
+}
+
 Json figuresOf(const ViewerResult& viewer) {
     const Measured& measured = viewer.measured;
     const load::Samples& samples = measured.samples;
@@ -92,7 +140,7 @@ Json figuresOf(const ViewerResult& viewer) {
     }
     const Json intervals = summaryOf(samples.interval_ms);
     return {{"frames", measured.frames},
-            {"frames_per_s", frameRate(measured)},
+            {"frames_per_s", measured.framesPerSecond()},
             {"latency_ms", summaryOf(samples.latency_ms)},
             {"reaction_ms", summaryOf(samples.reaction_ms)},
             {"age_ms", summaryOf(samples.age_ms)},
@@ -108,10 +156,13 @@ Json figuresOf(const ViewerResult& viewer) {
             {"key_frames", viewer.key_frames},
             {"received_bytes_per_s", byteRate(viewer)},
             {"frame_bytes", measured.frame_bytes},
+            {"smallest_picture", sizeOf(measured.smallest)},
+            {"largest_picture", sizeOf(measured.largest)},
             {"server_dropped", measured.server_dropped},
             {"client_dropped", measured.client_dropped},
             {"commands", measured.commands},
             {"commands_skipped", measured.commands_skipped},
+            {"commands_unshown", measured.commands_unshown},
             {"refusals", measured.refusals},
             {"refusal", orNull(measured.refusal)}};
 }
@@ -132,7 +183,7 @@ std::string rowOf(const std::string& name, const ViewerResult& viewer) {
     }
     return fmt::format(
         "{:>6} {:>9.1f} {:>9} {:>7} {:>7} {:>9} {:>7} {:>8} {:>8} {:>9.3f} {:>8} {:>8}\n", name,
-        frameRate(measured), shown(samples.latency_ms, &Summary::median),
+        measured.framesPerSecond(), shown(samples.latency_ms, &Summary::median),
         shown(samples.latency_ms, &Summary::p95), shown(samples.latency_ms, &Summary::p99),
         shown(samples.reaction_ms, &Summary::median), shown(samples.reaction_ms, &Summary::p95),
         shown(samples.age_ms, &Summary::p99), jitter, byteRate(viewer) * 8 / 1e6,
@@ -149,72 +200,14 @@ std::string stagesLine(const ViewerResult& all) {
     return line + fmt::format("  (gpu {})\n", shown(samples.gpu_ms, &measure::Summary::median));
 }
 
-// How many break one bound, and the worst of them.
-struct Breach {
-    size_t count = 0;
-    size_t number = 0; // of the worst viewer, from 1
-    std::string words;
-};
-
-std::string breachText(const Breach& breach, size_t viewer_count, const std::string& bound) {
-    return fmt::format("{} of {} viewers broke {}: viewer {} {}", breach.count, viewer_count, bound,
-                       breach.number, breach.words);
-}
-
-std::optional<std::string> latencyBreach(const RunResult& result, double limit_ms) {
-    Breach breach;
-    double worst_ms = limit_ms;
-    for (size_t index = 0; index < result.viewers.size(); ++index) {
-        const auto& samples = result.viewers[index].measured.samples.latency_ms;
-        if (!result.viewers[index].controlled) {
-            continue; // it sent no command whose latency could be told
-        }
-        const bool none = samples.empty();
-        const double p95_ms = none ? 0 : measure::summarize(samples).p95;
-        if (!none && p95_ms <= limit_ms) {
-            continue;
-        }
-        ++breach.count;
-        if (none ? breach.number == 0 : p95_ms > worst_ms) {
-            breach.number = index + 1;
-            breach.words = none ? "measured no latency" : fmt::format("has p95 {:.1f} ms", p95_ms);
-            worst_ms = none ? limit_ms : p95_ms;
-        }
-    }
-    if (breach.count == 0) {
-        return std::nullopt;
-    }
-    return breachText(breach, result.viewers.size(), fmt::format("--max-latency-ms {}", limit_ms));
-}
-
-std::optional<std::string> rateBreach(const RunResult& result, double limit) {
-    Breach breach;
-    double worst = limit;
-    for (size_t index = 0; index < result.viewers.size(); ++index) {
-        const double rate = frameRate(result.viewers[index].measured);
-        if (rate >= limit) {
-            continue;
-        }
-        ++breach.count;
-        if (rate < worst) {
-            worst = rate;
-            breach.number = index + 1;
-            breach.words = fmt::format("has {:.1f} frames/s", rate);
-        }
-    }
-    if (breach.count == 0) {
-        return std::nullopt;
-    }
-    return breachText(breach, result.viewers.size(), fmt::format("--min-fps {}", limit));
-}
-
 } // namespace
 
 Json loadReport(const LoadOptions& options, const RunResult& result) {
     Json each = Json::array();
     for (const ViewerResult& viewer : result.viewers) {
         Json figures = {{"failure", orNull(viewer.failure)},
-                        {"first_frame_ms", orNull(viewer.first_frame_ms)}};
+                        {"first_frame_ms", orNull(viewer.first_frame_ms)},
+                        {"stall_ms", stallMs(viewer.measured)}};
         figures.update(figuresOf(viewer));
         each.push_back(std::move(figures));
     }
@@ -222,7 +215,7 @@ Json loadReport(const LoadOptions& options, const RunResult& result) {
     return {{"schema", "froxel.load.v1"},
             {"froxel", FROXEL_VERSION},
             {"url", options.url},
-            {"script", options.script},
+            {"script", std::filesystem::path(options.script).filename().string()},
             {"room", options.room.empty() ? Json(nullptr) : Json(options.room)},
             {"viewers", options.viewer_count},
             {"seconds", options.seconds},
@@ -232,6 +225,7 @@ Json loadReport(const LoadOptions& options, const RunResult& result) {
             {"lights", orNull(options.light_count)},
             {"codec", view::kCodecNames[static_cast<size_t>(options.codec)]},
             {"video_kbps", orNull(options.video_kbps)},
+            {"served", servedOf(result)},
             {"host", {{"threads", std::thread::hardware_concurrency()}}},
             {"measured_s", result.seconds},
             {"stopped", result.stopped},
@@ -263,32 +257,13 @@ std::string loadTable(const RunResult& result) {
         }
     }
     table += stagesLine(all);
+    table += fmt::format("longest wait for a due frame: {} ms; commands that none showed: {}\n",
+                         shown(all.measured.samples.interval_ms, &measure::Summary::max),
+                         all.measured.commands_unshown);
     if (all.measured.refusal) {
         table += fmt::format("first refusal: {}\n", *all.measured.refusal);
     }
     return table;
-}
-
-std::optional<std::string> loadVerdict(const LoadOptions& options, const RunResult& result) {
-    std::vector<std::string> faults;
-    const auto failed = [](const ViewerResult& viewer) { return viewer.failure.has_value(); };
-    const auto first = std::find_if(result.viewers.begin(), result.viewers.end(), failed);
-    if (first != result.viewers.end()) {
-        faults.push_back(
-            fmt::format("{} of {} viewers failed: viewer {}: {}",
-                        std::count_if(result.viewers.begin(), result.viewers.end(), failed),
-                        result.viewers.size(), std::distance(result.viewers.begin(), first) + 1,
-                        *first->failure));
-    }
-    const auto add = [&faults](std::optional<std::string> fault) {
-        if (fault) {
-            faults.push_back(std::move(*fault));
-        }
-    };
-    add(options.max_latency_ms ? latencyBreach(result, *options.max_latency_ms) : std::nullopt);
-    add(options.min_fps ? rateBreach(result, *options.min_fps) : std::nullopt);
-    return faults.empty() ? std::nullopt
-                          : std::optional(fmt::format("{}", fmt::join(faults, "; ")));
 }
 
 std::string loadProgress(const LoadOptions& options,

@@ -2,8 +2,12 @@
 //
 //   schema            "froxel.load.v1"
 //   froxel            this build's version
-//   url, script, viewers, seconds, ramp_s       as given
+//   url, script, viewers, seconds, ramp_s       as given; of a script's file the name alone
 //   size              {width_px, height_px}, lights: as given; null: the server's own
+//   served            [{viewers, server_version, device, scene, triangles, size, lights,
+//                     lights_move, renderer, codec, quality, video_kbps}, ...]: what the server
+//                     said as measuring began, each different answer once, with how many viewers
+//                     got it; the scene by its name, size as asked for
 //   host              threads (hardware threads of this machine, not of the server's)
 //   measured_s        how long all viewers measured
 //   stopped           whether a signal ended it early
@@ -13,10 +17,14 @@
 //   each              [...]: the same of every viewer, in their order, and
 //     failure         one line, or null
 //     first_frame_ms  from connecting to the first frame's last byte; null: there was none
+//     stall_ms        95 % of the measured time no frame had been due for longer (load_verdict.h)
 //
 // all and each[]:
 //   frames, frames_per_s
 //   latency_ms, reaction_ms, age_ms, interval_ms   load/viewer_meter.h says what they are
+//                     latency_ms.count frames show a new command; the ages of the others in
+//                     age_ms may be lower bounds. Commands that no frame showed are in reaction_ms
+//                     with their wait so far
 //   jitter_ms         interval_ms.p99 - interval_ms.median
 //   stages_ms         {queue, render, encode_wait, encode, send_wait, network}: as in FrameHeader,
 //                     of frames in the measured time; queue and network of those that show a new
@@ -26,9 +34,11 @@
 //                     runs the viewers was too slow to measure
 //   received_bytes, sent_bytes, received_bytes_per_s   of the TCP connection, framing and pings too
 //   frame_bytes       headers and pictures
+//   smallest_picture, largest_picture   {width_px, height_px} of the frames, or null
 //   server_dropped    frames that a newer one replaced before sending
 //   client_dropped    frames that a newer one overtook before they were painted
 //   commands, commands_skipped   skipped: cameras not sent, since others waited for the socket
+//   commands_unshown  of both, those that no frame showed until the end
 //   refusals, refusal            Error messages; the first one's text or null
 //
 // Each *_ms is {count, min, median, p95, p99, max, mean} in milliseconds, nearest ranks
@@ -51,10 +61,6 @@ namespace froxel::app {
 // For a person: all viewers together, then one by one where they are few. Empty where none came
 // to measure.
 [[nodiscard]] std::string loadTable(const load::RunResult& result);
-
-// One line where a viewer failed or a bound is broken. A viewer without a latency breaks any.
-[[nodiscard]] std::optional<std::string> loadVerdict(const LoadOptions& options,
-                                                     const load::RunResult& result);
 
 // "12 of 30 s, 16 viewers, 512 frames/s, 81.2 Mbit/s"; rates since `before`.
 [[nodiscard]] std::string loadProgress(const LoadOptions& options,

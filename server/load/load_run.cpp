@@ -1,6 +1,7 @@
 #include "load/load_run.h"
 
 #include "core/assert.h"
+#include "core/thread_name.h"
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -74,7 +75,10 @@ class Run {
             crew.viewers[place]->connectAt(start +
                                            std::chrono::duration_cast<Clock::duration>(wait));
         }
-        crew.thread = std::jthread([&crew] { crew.io.run(); });
+        crew.thread = std::jthread([&crew] {
+            nameThread("viewers");
+            crew.io.run();
+        });
     }
 
     void onEvent(Viewer::Event event) {

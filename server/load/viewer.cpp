@@ -6,6 +6,7 @@
 #include "protocol/limits.h"
 
 #include <utility>
+#include <variant>
 
 namespace froxel::load {
 
@@ -71,7 +72,7 @@ void Viewer::onRead(Code failure) {
         const auto parsed =
             protocol::decodeServerMessage(message, protocol::WireFormat::kBinary, decoded);
         if (parsed) {
-            onMessage(decoded);
+            onMessage(decoded, now);
         } else {
             fail(parsed.error().message);
         }
@@ -111,9 +112,11 @@ void Viewer::onFrame(protocol::ByteSpan message, TimePoint now) {
     paintLater(header.frame_id(), now);
 }
 
-void Viewer::onMessage(const v1::ServerMessage& message) {
+void Viewer::onMessage(const v1::ServerMessage& message, TimePoint now) {
     if (message.has_welcome()) {
-        onWelcome(message.welcome());
+        onWelcome(message.welcome(), now);
+    } else if (message.has_state()) {
+        onState(message.state().state(), now);
     } else if (message.has_error()) {
         meter_.onRefusal(message.error());
         if (!result_.first_frame_ms) { // refused before it saw anything: capacity, or its size
@@ -122,12 +125,20 @@ void Viewer::onMessage(const v1::ServerMessage& message) {
     }
 }
 
-void Viewer::onWelcome(const v1::Welcome& welcome) {
+void Viewer::onState(const v1::ViewState& state, TimePoint now) {
+    meter_.onState(state, now);
+    if (!meter_.counting()) {
+        state_ = state;
+    }
+}
+
+void Viewer::onWelcome(const v1::Welcome& welcome, TimePoint now) {
     if (welcome_) {
         fail("Welcome came twice");
         return;
     }
     welcome_ = welcome;
+    onState(welcome.state(), now);
     result_.controlled = controls();
     if (controls()) {
         for (v1::ClientMessage& message : openingOf(options_, *welcome_->mutable_state())) {
@@ -167,7 +178,10 @@ void Viewer::begin(TimePoint now) {
     if (ended_ || !result_.first_frame_ms) {
         return;
     }
-    meter_.begin(now);
+    const bool endless = std::holds_alternative<Orbit>(options_.script) ||
+                         std::holds_alternative<Storm>(options_.script);
+    meter_.begin(now, endless);
+    result_.served = servedOf(*welcome_, state_);
     received_before_ = traffic().receivedBytes();
     sent_before_ = traffic().sentBytes();
     script_ = makeScript(controls() ? options_.script : ScriptChoice(Idle{}), *welcome_, number_);
@@ -188,11 +202,11 @@ void Viewer::onStepDue() {
         return;
     }
     const TimePoint now = Clock::now();
+    const TimePoint due = script_start_ + step_->at;
     if (step_->message.has_set_camera() && outgoing_bytes_ > kMaxBacklogBytes) {
-        meter_.onCommandSkipped();
+        meter_.onCommandSkipped(sent_seq_ + 1, due);
     } else {
-        const bool shows = !step_->message.has_ping();
-        meter_.onCommand(sent_seq_ + 1, shows, script_start_ + step_->at, now);
+        meter_.onCommand(sent_seq_ + 1, step_->message, due, now);
         send(std::move(step_->message), now);
     }
     playNext();

@@ -5,6 +5,7 @@
 
 #include "load/picture_check.h"
 #include "load/script.h"
+#include "load/served.h"
 #include "load/target.h"
 #include "load/viewer_meter.h"
 #include "protocol/framing.h"
@@ -69,6 +70,7 @@ struct LiveCounters {
 
 struct ViewerResult {
     Measured measured;
+    std::optional<Served> served;       // as measuring began; none: it never did
     bool controlled = true;             // false: watched in a room, and said nothing of the script
     std::optional<std::string> failure; // one line; none: all went well
     std::optional<double> first_frame_ms; // from connecting; with --size and --lights applied
@@ -140,8 +142,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     void read();
     void onRead(Code failure);
     void onFrame(protocol::ByteSpan message, TimePoint now);
-    void onMessage(const v1::ServerMessage& message);
-    void onWelcome(const v1::Welcome& welcome);
+    void onMessage(const v1::ServerMessage& message, TimePoint now);
+    void onWelcome(const v1::Welcome& welcome, TimePoint now);
     void paintLater(uint64_t frame_id, TimePoint now);
     void acknowledge(const Unpainted& frame);
     void playNext();
@@ -154,6 +156,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     [[nodiscard]] CountedTcp& tcp() { return stream_.next_layer().next_layer(); }
     [[nodiscard]] ByteCounter& traffic() { return tcp().rate_policy(); }
 
+    void onState(const v1::ViewState& state, TimePoint now);
     // Whether this one may say what its script says: in a room only who controls it.
     [[nodiscard]] bool controls() const;
 
@@ -171,6 +174,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
     TimePoint connecting_since_;
     std::optional<v1::Welcome> welcome_;
+    v1::ViewState state_; // as told last before measuring
     std::unique_ptr<Script> script_;
     TimePoint script_start_;
     std::optional<Step> step_;

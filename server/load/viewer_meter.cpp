@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace froxel::load {
@@ -15,6 +16,26 @@ double msOfUs(uint64_t time_us) {
     return static_cast<double>(time_us) / 1000;
 }
 
+// Whether frames show what it did: the session answers the others by itself.
+bool shows(const v1::ClientMessage& said) {
+    using Said = v1::ClientMessage;
+    switch (said.body_case()) {
+    case Said::kPing:
+    case Said::kPause:
+    case Said::kRequestControl:
+    case Said::kReleaseControl:
+    case Said::kGiveControl:
+    case Said::kRequestKeyFrame:
+        return false;
+    default:
+        return true;
+    }
+}
+
+bool setsClock(const v1::SetLights& lights) {
+    return lights.has_time_s() || lights.has_speed() || lights.has_animate();
+}
+
 } // namespace
 
 uint64_t ViewerMeter::stampOf(TimePoint now) {
@@ -22,10 +43,12 @@ uint64_t ViewerMeter::stampOf(TimePoint now) {
     return static_cast<uint64_t>(time.count());
 }
 
-void ViewerMeter::begin(TimePoint now) {
+void ViewerMeter::begin(TimePoint now, bool restless) {
     counting_ = true;
+    restless_ = restless;
     began_ = now;
-    last_frame_.reset();
+    last_frame_ = now;
+    ages_ = FrameAges(clock_rate_);
     unseen_.clear();
     dropped_before_ = dropped_now_;
     measured_ = {};
@@ -35,20 +58,76 @@ void ViewerMeter::end(TimePoint now) {
     counting_ = false;
     measured_.seconds = Seconds(now - began_).count();
     measured_.server_dropped = dropped_now_ - dropped_before_;
+    if (const auto since = dueSince()) {
+        measured_.samples.interval_ms.push_back(msOf(now - *since));
+    }
+    measured_.commands_unshown = unseen_.size();
+    for (const auto& [seq, sent] : unseen_) {
+        measured_.samples.reaction_ms.push_back(msOf(now - sent));
+    }
+    measured_.samples.age_ms = ages_.all();
 }
 
-void ViewerMeter::onCommand(uint64_t seq, bool shows, TimePoint due, TimePoint now) {
-    if (counting_) {
-        if (shows) {
-            unseen_.emplace_back(seq, now);
-        }
-        ++measured_.commands;
-        measured_.samples.timer_lag_ms.push_back(msOf(now - due));
+std::optional<TimePoint> ViewerMeter::dueSince() const {
+    if (paused_) {
+        return std::nullopt;
+    }
+    if (restless_ || lights_move_) {
+        return last_frame_;
+    }
+    if (unseen_.empty()) {
+        return std::nullopt;
+    }
+    return std::max(last_frame_, unseen_.front().second);
+}
+
+void ViewerMeter::setPaused(bool paused, TimePoint now) {
+    paused_ = paused;
+    last_frame_ = now;
+    unseen_.clear(); // what waited is shown on resuming, whenever that is
+}
+
+void ViewerMeter::onState(const v1::ViewState& state, TimePoint now) {
+    const bool clock_runs = !state.has_light_time_s();
+    const double rate = clock_runs ? state.light_speed() : 0;
+    if (rate != clock_rate_) {
+        clock_rate_ = rate;
+        ages_.forgetClock();
+    }
+    const bool move = clock_runs && state.light_count() > 0;
+    if (move && !lights_move_) {
+        last_frame_ = dueSince().value_or(now);
+    }
+    lights_move_ = move;
+}
+
+void ViewerMeter::onCommand(uint64_t seq,
+                            const v1::ClientMessage& said,
+                            TimePoint due,
+                            TimePoint now) {
+    if (!counting_) {
+        return;
+    }
+    ++measured_.commands;
+    measured_.samples.timer_lag_ms.push_back(msOf(now - due));
+    if (said.has_pause() && said.pause().paused() != paused_) {
+        setPaused(said.pause().paused(), now);
+    }
+    if (said.has_set_lights() && setsClock(said.set_lights())) {
+        ages_.forgetClock();
+    }
+    if (shows(said) && !paused_) {
+        unseen_.emplace_back(seq, now);
     }
 }
 
-void ViewerMeter::onCommandSkipped() {
-    measured_.commands_skipped += counting_ ? 1 : 0;
+void ViewerMeter::onCommandSkipped(uint64_t seq, TimePoint due) {
+    if (counting_) {
+        ++measured_.commands_skipped;
+        if (!paused_) {
+            unseen_.emplace_back(seq, due);
+        }
+    }
 }
 
 Result<void> ViewerMeter::onFrame(const v1::FrameHeader& header,
@@ -80,16 +159,19 @@ Result<void> ViewerMeter::onFrame(const v1::FrameHeader& header,
     }
     ++measured_.frames;
     measured_.frame_bytes += bytes;
-    if (last_frame_) {
-        measured_.samples.interval_ms.push_back(msOf(now - *last_frame_));
+    addSize(header);
+    if (const auto since = dueSince()) {
+        measured_.samples.interval_ms.push_back(msOf(now - *since));
     }
     last_frame_ = now;
     std::optional<double> latency_ms;
+    std::optional<double> age_ms;
     if (shows_new) {
         latency_ms = msOfUs(stampOf(now) - stamp_us);
+        age_ms = *latency_ms - msOfUs(header.queue_us());
         measured_.samples.latency_ms.push_back(*latency_ms);
-        measured_.samples.age_ms.push_back(*latency_ms - msOfUs(header.queue_us()));
     }
+    ages_.onFrame(header, now, age_ms);
     while (!unseen_.empty() && unseen_.front().first <= shown_seq_) {
         measured_.samples.reaction_ms.push_back(msOf(now - unseen_.front().second));
         unseen_.pop_front();
@@ -102,8 +184,6 @@ void ViewerMeter::addStages(const v1::FrameHeader& header, std::optional<double>
     const auto add = [this](Stage stage, double time_ms) {
         measured_.samples.stage_ms[static_cast<size_t>(stage)].push_back(time_ms);
     };
-    const uint64_t after_queue_us = uint64_t{header.render_us()} + header.encode_wait_us() +
-                                    header.encode_us() + header.send_wait_us();
     add(Stage::kRender, msOfUs(header.render_us()));
     add(Stage::kEncodeWait, msOfUs(header.encode_wait_us()));
     add(Stage::kEncode, msOfUs(header.encode_us()));
@@ -111,7 +191,17 @@ void ViewerMeter::addStages(const v1::FrameHeader& header, std::optional<double>
     measured_.samples.gpu_ms.push_back(msOfUs(header.gpu_us()));
     if (latency_ms) {
         add(Stage::kQueue, msOfUs(header.queue_us()));
-        add(Stage::kNetwork, *latency_ms - msOfUs(header.queue_us() + after_queue_us));
+        add(Stage::kNetwork, *latency_ms - msOfUs(header.queue_us()) - stagesMs(header));
+    }
+}
+
+void ViewerMeter::addSize(const v1::FrameHeader& header) {
+    const PictureSize size{header.width(), header.height()};
+    if (!measured_.smallest || size.area() < measured_.smallest->area()) {
+        measured_.smallest = size;
+    }
+    if (!measured_.largest || size.area() > measured_.largest->area()) {
+        measured_.largest = size;
     }
 }
 
@@ -120,6 +210,7 @@ void ViewerMeter::onFrameDropped() {
 }
 
 void ViewerMeter::onRefusal(const v1::Error& error) {
+    std::erase_if(unseen_, [&](const auto& one) { return one.first == error.ref_seq(); });
     if (counting_) {
         ++measured_.refusals;
         if (!measured_.refusal) {

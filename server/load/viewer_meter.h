@@ -3,19 +3,31 @@
 //   latency   from sending a command to having the last byte of the first frame that shows it, by
 //             the frame's echo of that command's seq and client time; the newest one that a frame
 //             shows, as the page has it. Decoding is not in it.
-//   reaction  as latency, but of every command: also of those that newer ones overtook on the way.
-//             Where commands come faster than frames, a command's mean wait for the next frame is
-//             in this one only.
+//   reaction  as latency, but of every command: also of those that newer ones overtook on the way,
+//             and of cameras that were not sent since others waited for the socket, from when they
+//             should have been. A command that no frame has shown at the end counts with its wait
+//             so far. Where commands come faster than frames, a command's mean wait for the next
+//             frame is in this one only.
 //   age       of a picture when its last byte is there: latency without queue_us, the wait on the
-//             server before drawing began. The command's way up is still in it. Known for frames
-//             that show a new command.
+//             server before drawing began. The command's way up is still in it. Of frames that show
+//             no new command, and so of a room's watchers, by load/frame_ages.h: there it may be a
+//             lower bound.
 //   network   latency without the server's stages: the ways up and down, and this process.
-//   interval  from one frame's last byte to the next one's.
+//   interval  from one frame's last byte to the next one's, as far as a frame was due: always while
+//             lights move or the script never rests, else from the oldest command that no frame
+//             has shown. From begin() to the first frame and from the last one to end() too, so
+//             that no stall is left out. None is due to a viewer that pauses, nor, while lights
+//             rest, to one whose script is idle or over. To a watcher one is always due of a
+//             script that never rests, since its room's controller is taken to play that. A command
+//             that changes nothing of a resting picture is shown by no frame, and counts as one
+//             that waits.
 #pragma once
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "froxel/v1/client.pb.h"
 #include "froxel/v1/server.pb.h"
+#include "load/frame_ages.h"
 
 #include <array>
 #include <cstddef>
@@ -35,7 +47,7 @@ inline constexpr std::array kStageNames = {
     std::string_view("queue"),  std::string_view("render"),    std::string_view("encode_wait"),
     std::string_view("encode"), std::string_view("send_wait"), std::string_view("network")};
 
-// Samples of one viewer, in the order of its frames.
+// Samples of one viewer, in the order of its frames; what frames did not end comes last.
 struct Samples {
     std::vector<double> latency_ms;
     std::vector<double> reaction_ms;
@@ -46,33 +58,50 @@ struct Samples {
     std::vector<double> timer_lag_ms; // how late this process sent a command
 };
 
+struct PictureSize {
+    uint32_t width_px = 0;
+    uint32_t height_px = 0;
+    [[nodiscard]] uint64_t area() const { return uint64_t{width_px} * height_px; }
+    bool operator==(const PictureSize&) const = default;
+};
+
 struct Measured {
-    Samples samples;
+    Samples samples; // age_ms from end() on
     double seconds = 0;
     uint64_t frames = 0;
-    uint64_t frame_bytes = 0;           // encoded pictures and their headers
-    uint64_t server_dropped = 0;        // replaced by newer ones before sending
-    uint64_t client_dropped = 0;        // arrived, and never painted
-    uint64_t commands = 0;              // sent, but acknowledgements
-    uint64_t commands_skipped = 0;      // cameras not sent since others waited for the socket
-    uint64_t refusals = 0;              // Error messages
-    std::optional<std::string> refusal; // the first one's text, made printable
+    uint64_t frame_bytes = 0;            // encoded pictures and their headers
+    uint64_t server_dropped = 0;         // replaced by newer ones before sending
+    uint64_t client_dropped = 0;         // arrived, and never painted
+    uint64_t commands = 0;               // sent, but acknowledgements
+    uint64_t commands_skipped = 0;       // cameras not sent since others waited for the socket
+    uint64_t commands_unshown = 0;       // sent or skipped, and shown by no frame until the end
+    uint64_t refusals = 0;               // Error messages
+    std::optional<std::string> refusal;  // the first one's text, made printable
+    std::optional<PictureSize> smallest; // of the frames
+    std::optional<PictureSize> largest;
+
+    [[nodiscard]] double framesPerSecond() const {
+        return seconds > 0 ? static_cast<double>(frames) / seconds : 0;
+    }
 };
 
 class ViewerMeter {
   public:
-    // From now on counts; what was shown so far is not new.
-    void begin(TimePoint now);
+    // From now on counts; what was shown so far is not new. `restless`: the script never rests.
+    void begin(TimePoint now, bool restless = false);
     // After begin().
     void end(TimePoint now);
     [[nodiscard]] bool counting() const { return counting_; }
 
     // Its client_time_us: the clock's own microseconds.
     [[nodiscard]] static uint64_t stampOf(TimePoint now);
-    // A command of the script is handed to the socket; `due` is when it should have been, `shows`
-    // whether it has any effect on frames.
-    void onCommand(uint64_t seq, bool shows, TimePoint due, TimePoint now);
-    void onCommandSkipped();
+    // A command of the script is handed to the socket; `due` is when it should have been.
+    void onCommand(uint64_t seq, const v1::ClientMessage& said, TimePoint due, TimePoint now);
+    // A camera is not sent, and the next command shows where it would have been; `seq` is that of
+    // the next message.
+    void onCommandSkipped(uint64_t seq, TimePoint due);
+    // As Welcome and every StateChanged tell it.
+    void onState(const v1::ViewState& state, TimePoint now);
     // Its last byte is here; `sent_seq` is the newest command sent. Errors: kInvalidArgument for
     // an echo of what was never sent.
     [[nodiscard]] Result<void>
@@ -84,11 +113,20 @@ class ViewerMeter {
     [[nodiscard]] const Measured& measured() const { return measured_; }
 
   private:
+    // Since when a frame should have come; none: none is due.
+    [[nodiscard]] std::optional<TimePoint> dueSince() const;
+    void setPaused(bool paused, TimePoint now);
     void addStages(const v1::FrameHeader& header, std::optional<double> latency_ms);
+    void addSize(const v1::FrameHeader& header);
 
     bool counting_ = false;
+    bool restless_ = false;
+    bool paused_ = false;
+    bool lights_move_ = false;
+    double clock_rate_ = 0; // the lights' seconds in one of ours
     TimePoint began_;
-    std::optional<TimePoint> last_frame_;
+    TimePoint last_frame_; // or where frames began to be due after it
+    FrameAges ages_;
     uint64_t shown_seq_ = 0;
     std::deque<std::pair<uint64_t, TimePoint>> unseen_; // seq and time sent, oldest first
     uint64_t last_id_ = 0;

@@ -76,6 +76,9 @@ TEST_F(Load, ThreeViewers_Orbit_GetFramesAndLatencies) {
         EXPECT_GT(viewer["latency_ms"]["median"], 0);
         EXPECT_LT(viewer["latency_ms"]["p99"], 1000);
         EXPECT_GE(viewer["reaction_ms"]["count"], viewer["latency_ms"]["count"]);
+        EXPECT_EQ(viewer["age_ms"]["count"], viewer["frames"]);
+        EXPECT_EQ(viewer["interval_ms"]["count"], viewer["frames"].get<uint64_t>() + 1)
+            << "to the end, too";
         EXPECT_LE(viewer["age_ms"]["median"], viewer["latency_ms"]["median"]);
         EXPECT_GE(viewer["received_bytes"], viewer["frame_bytes"]);
         EXPECT_EQ(viewer["refusals"], 0);
@@ -83,6 +86,25 @@ TEST_F(Load, ThreeViewers_Orbit_GetFramesAndLatencies) {
     }
     EXPECT_EQ(report["all"]["frames"], frames);
     EXPECT_GT(report["all"]["stages_ms"]["render"]["count"], 0);
+    ASSERT_EQ(report["served"].size(), 1U);
+    EXPECT_EQ(report["served"][0]["viewers"], 3);
+    EXPECT_EQ(report["served"][0]["scene"], "fake");
+    EXPECT_EQ(report["served"][0]["lights"], 100);
+    EXPECT_EQ(report["all"]["largest_picture"]["width_px"], 64);
+}
+
+TEST_F(Load, Server_ThatFreezes_BreaksTheLatencyBound) {
+    TestServer server;
+    const Relay relay({.port = server.port()});
+    auto run = startLoad(relay.port(), {"--seconds", "4", "--max-latency-ms", "1000"});
+    ASSERT_TRUE(relay.waitForDown(20'000, 20s)) << "pictures flow";
+    server.device().setGate(false);
+    const auto end = run.wait(20s);
+    server.device().setGate(true);
+    EXPECT_EQ(end.exit_code, 1);
+    EXPECT_NE(end.errors.find("1 of 1 viewers broke --max-latency-ms 1000: viewer 1 "),
+              std::string::npos)
+        << end.errors;
 }
 
 TEST_F(Load, Room_FirstControls_OthersWatchTheSame) {
@@ -96,6 +118,7 @@ TEST_F(Load, Room_FirstControls_OthersWatchTheSame) {
     for (const Json& viewer : report["each"]) {
         EXPECT_EQ(viewer["refusals"], 0);
         EXPECT_GT(viewer["frames"], 0);
+        EXPECT_EQ(viewer["age_ms"]["count"], viewer["frames"]) << "of who watches, too";
         talking += viewer["commands"] > 0;
         EXPECT_EQ(viewer["latency_ms"] == nullptr, viewer["commands"] == 0);
     }
@@ -108,6 +131,7 @@ TEST_F(Load, Idle_NothingMoves_NoFrameAndFewBytes) {
     EXPECT_EQ(report["all"]["frames"], 0);
     EXPECT_LT(report["all"]["received_bytes_per_s"], 200);
     EXPECT_EQ(report["all"]["commands"], 0);
+    EXPECT_EQ(report["all"]["interval_ms"], nullptr) << "no frame was due";
 }
 
 TEST_F(Load, Storm_IsAcceptedWhole) {
@@ -141,7 +165,10 @@ TEST_F(Load, Script_FromAFile_IsPlayed) {
     const Json report = measure(server.port(), {"--script", file, "--seconds", "1"});
     EXPECT_EQ(report["all"]["commands"], 2);
     EXPECT_EQ(report["all"]["latency_ms"]["count"], 2);
-    EXPECT_NEAR(report["all"]["interval_ms"]["max"], 300, 150);
+    EXPECT_EQ(report["all"]["interval_ms"]["count"], 2);
+    EXPECT_LT(report["all"]["interval_ms"]["max"], 300) << "nothing was due between them";
+    EXPECT_EQ(report["all"]["commands_unshown"], 0);
+    EXPECT_EQ(report["script"], "script.jsonl");
 }
 
 // client-web/test/recorder.test.ts holds the page to this very file.
@@ -228,9 +255,11 @@ TEST_F(Load, SlowLink_FrameAgeStaysBounded) {
     EXPECT_LT(rate, 110'000);
     EXPECT_GT(rate, 50'000) << "the link is not made use of";
     RecordProperty("age_p99_ms", static_cast<int>(all["age_ms"]["p99"].get<double>()));
-    // The worst is one of the first pictures, before quality has come down: seen 400 ms. What follows
-    // is adaptation_test's.
-    EXPECT_LT(all["age_ms"]["p99"].get<double>(), 1000) << all.dump(1);
+    // Of some 40 pictures the 99th percentile is the worst, and that is one of the first three,
+    // sent before quality has come down: 420 to 450 ms. After that it is below 250 ms, which is
+    // adaptation_test's.
+    EXPECT_LT(all["age_ms"]["median"].get<double>(), 250) << all.dump(1);
+    EXPECT_LT(all["age_ms"]["max"].get<double>(), 600) << all.dump(1);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include "app/load_report.h"
+#include "app/load_verdict.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,6 +56,36 @@ TEST(LoadReport, NoSample_IsNull) {
     EXPECT_EQ(report["each"][0]["first_frame_ms"], nullptr);
 }
 
+TEST(LoadReport, Served_SaysWhatWasMeasured_EachOnce) {
+    auto one = viewer(0);
+    one.served = load::Served{"1.2.3", "NVIDIA H200", "Sponza",       262'267, 1280, 720,
+                              1000,    true,          "forward_plus", "jpeg",  85,   4000};
+    one.measured.smallest = load::PictureSize{512, 288};
+    one.measured.largest = load::PictureSize{1280, 720};
+    one.measured.commands_unshown = 3;
+    auto other = one;
+    other.served->device = "llvmpipe";
+    other.measured.smallest = load::PictureSize{640, 360};
+    LoadOptions options;
+    options.script = "/home/someone/drag.jsonl";
+    const auto report = loadReport(options, run({one, other, one, failed("it broke")}));
+    ASSERT_EQ(report["served"].size(), 2U);
+    const auto& served = report["served"][0];
+    EXPECT_EQ(served["viewers"], 2);
+    EXPECT_EQ(served["device"], "NVIDIA H200");
+    EXPECT_EQ(served["scene"], "Sponza");
+    EXPECT_EQ(served["size"]["width_px"], 1280);
+    EXPECT_EQ(served["lights"], 1000);
+    EXPECT_EQ(served["codec"], "jpeg");
+    EXPECT_EQ(report["served"][1]["device"], "llvmpipe");
+    EXPECT_EQ(report["all"]["smallest_picture"]["width_px"], 512);
+    EXPECT_EQ(report["all"]["largest_picture"]["height_px"], 720);
+    EXPECT_EQ(report["all"]["commands_unshown"], 9);
+    EXPECT_EQ(report["each"][3]["largest_picture"], nullptr);
+    EXPECT_EQ(report["script"], "drag.jsonl");
+    EXPECT_EQ(report.dump().find("/home"), std::string::npos);
+}
+
 TEST(LoadVerdict, WithinBounds_IsNone) {
     LoadOptions options;
     options.max_latency_ms = 94;
@@ -82,6 +113,48 @@ TEST(LoadVerdict, NoLatency_BreaksAnyBound) {
     still.measured.samples.latency_ms.clear();
     EXPECT_EQ(loadVerdict(options, run({viewer(0), still})),
               "1 of 2 viewers broke --max-latency-ms 1000: viewer 2 measured no latency");
+}
+
+// 60 frames a second for 10 s, then none for 20 s.
+load::ViewerResult frozen() {
+    load::ViewerResult result;
+    load::Measured& measured = result.measured;
+    measured.seconds = 30;
+    measured.frames = 600;
+    measured.samples.latency_ms.assign(600, 5);
+    measured.samples.interval_ms.assign(600, 1000.0 / 60);
+    measured.samples.interval_ms.push_back(20'000);
+    return result;
+}
+
+TEST(LoadVerdict, Stall_IsHowLongMoreThanATwentiethOfTheTimeWaited) {
+    EXPECT_NEAR(stallMs(frozen().measured), 18'500, 1e-6);
+    EXPECT_NEAR(stallMs(viewer(0).measured), 19.6, 1e-9) << "0.1 of 2 s lies beyond it";
+    EXPECT_EQ(stallMs({}), 0);
+}
+
+TEST(LoadVerdict, ServerThatFreezes_BreaksTheBound_ThoughItsLatenciesWereShort) {
+    LoadOptions options;
+    options.max_latency_ms = 1000;
+    EXPECT_EQ(loadVerdict(options, run({viewer(0), frozen()})),
+              "1 of 2 viewers broke --max-latency-ms 1000: viewer 2 stalled for 18500.0 ms");
+    auto watcher = frozen();
+    watcher.controlled = false;
+    watcher.measured.samples.latency_ms.clear();
+    EXPECT_NE(loadVerdict(options, run({watcher})), std::nullopt) << "a watcher as well";
+    watcher.measured.samples.interval_ms.pop_back();
+    EXPECT_EQ(loadVerdict(options, run({watcher})), std::nullopt);
+}
+
+TEST(LoadVerdict, Commands_ThatWait_BreakTheBound) {
+    LoadOptions options;
+    options.max_latency_ms = 1000;
+    auto slow = viewer(0);
+    slow.measured.samples.reaction_ms.assign(90, 40);
+    slow.measured.samples.reaction_ms.insert(slow.measured.samples.reaction_ms.end(), 10, 1500);
+    EXPECT_EQ(loadVerdict(options, run({slow})),
+              "1 of 1 viewers broke --max-latency-ms 1000: viewer 1 has a p95 reaction of "
+              "1500.0 ms");
 }
 
 TEST(LoadVerdict, Failures_AreCountedAndTheFirstNamed) {

@@ -17,6 +17,25 @@ v1::FrameHeader frame(uint64_t id, uint64_t seq, TimePoint commanded) {
     return header;
 }
 
+v1::ClientMessage camera() {
+    v1::ClientMessage message;
+    message.mutable_set_camera();
+    return message;
+}
+
+v1::ViewState movingLights() {
+    v1::ViewState state;
+    state.set_light_count(100);
+    state.set_light_speed(1);
+    return state;
+}
+
+v1::ViewState restingLights() {
+    v1::ViewState state = movingLights();
+    state.set_light_time_s(7);
+    return state;
+}
+
 const std::vector<double>& stage(const ViewerMeter& meter, Stage which) {
     return meter.measured().samples.stage_ms[static_cast<size_t>(which)];
 }
@@ -55,16 +74,18 @@ TEST(ViewerMeter, Frame_ShowingNothingNew_CountsButHasNoLatency) {
     EXPECT_TRUE(meter.measured().samples.latency_ms.empty());
     EXPECT_TRUE(stage(meter, Stage::kQueue).empty());
     EXPECT_EQ(stage(meter, Stage::kRender).size(), 2U);
-    EXPECT_EQ(meter.measured().samples.interval_ms, std::vector{7.0});
+    EXPECT_TRUE(meter.measured().samples.interval_ms.empty()) << "none was due";
 }
 
 TEST(ViewerMeter, Reaction_IsOfEveryCommand_AlsoOvertakenOnes) {
     ViewerMeter meter;
     meter.begin(kStart);
-    meter.onCommand(2, true, kStart, kStart);
-    meter.onCommand(3, false, kStart, kStart + 5ms); // a Ping
-    meter.onCommand(4, true, kStart, kStart + 10ms);
-    meter.onCommand(5, true, kStart, kStart + 20ms);
+    v1::ClientMessage ping;
+    ping.mutable_ping();
+    meter.onCommand(2, camera(), kStart, kStart);
+    meter.onCommand(3, ping, kStart, kStart + 5ms);
+    meter.onCommand(4, camera(), kStart, kStart + 10ms);
+    meter.onCommand(5, camera(), kStart, kStart + 20ms);
     ASSERT_TRUE(meter.onFrame(frame(1, 4, kStart + 10ms), 10, 5, kStart + 30ms));
     EXPECT_EQ(meter.measured().samples.reaction_ms, (std::vector{30.0, 20.0}));
     EXPECT_EQ(meter.measured().samples.latency_ms, std::vector{20.0});
@@ -103,8 +124,8 @@ TEST(ViewerMeter, Frame_ThatCannotBe_IsRefused) {
 TEST(ViewerMeter, Commands_TellHowLateTheyWere_RefusalsTheirFirstText) {
     ViewerMeter meter;
     meter.begin(kStart);
-    meter.onCommand(1, true, kStart, kStart + 3ms);
-    meter.onCommandSkipped();
+    meter.onCommand(1, camera(), kStart, kStart + 3ms);
+    meter.onCommandSkipped(2, kStart);
     v1::Error error;
     error.set_message("first\n");
     meter.onRefusal(error);
@@ -116,6 +137,127 @@ TEST(ViewerMeter, Commands_TellHowLateTheyWere_RefusalsTheirFirstText) {
     EXPECT_EQ(measured.commands_skipped, 1U);
     EXPECT_EQ(measured.refusals, 2U);
     EXPECT_EQ(measured.refusal, "first\\x0a");
+}
+
+TEST(ViewerMeter, Begin_WhileLightsMove_IsWhereTheFirstIntervalBegins) {
+    ViewerMeter meter;
+    meter.onState(movingLights(), kStart - 1s);
+    meter.begin(kStart);
+    ASSERT_TRUE(meter.onFrame(frame(1, 0, kStart), 10, 0, kStart + 900ms));
+    ASSERT_TRUE(meter.onFrame(frame(2, 0, kStart), 10, 0, kStart + 950ms));
+    meter.end(kStart + 1s);
+    EXPECT_EQ(meter.measured().samples.interval_ms, (std::vector{900.0, 50.0, 50.0}));
+}
+
+TEST(ViewerMeter, End_DuringAStall_CountsTheWaitOfFrameAndCommands) {
+    ViewerMeter meter;
+    meter.onState(restingLights(), kStart);
+    meter.begin(kStart);
+    meter.onCommand(1, camera(), kStart, kStart);
+    ASSERT_TRUE(meter.onFrame(frame(1, 1, kStart), 10, 1, kStart + 10ms));
+    meter.onCommand(2, camera(), kStart, kStart + 1s);
+    meter.onCommand(3, camera(), kStart, kStart + 2s);
+    meter.end(kStart + 21s);
+    const Measured& measured = meter.measured();
+    EXPECT_EQ(measured.commands_unshown, 2U);
+    EXPECT_EQ(measured.samples.reaction_ms, (std::vector{10.0, 20'000.0, 19'000.0}));
+    EXPECT_EQ(measured.samples.interval_ms, (std::vector{10.0, 20'000.0}))
+        << "from the first command that waited: before it nothing was due";
+}
+
+TEST(ViewerMeter, Script_ThatNeverRests_MakesFramesDueOfAWatcherToo) {
+    ViewerMeter meter;
+    meter.onState(restingLights(), kStart);
+    meter.begin(kStart, /*restless=*/true);
+    meter.end(kStart + 3s);
+    EXPECT_EQ(meter.measured().samples.interval_ms, std::vector{3000.0});
+}
+
+TEST(ViewerMeter, Idle_WhileLightsRest_HasNothingDue) {
+    ViewerMeter meter;
+    meter.onState(restingLights(), kStart);
+    meter.begin(kStart);
+    meter.end(kStart + 30s);
+    EXPECT_TRUE(meter.measured().samples.interval_ms.empty());
+    EXPECT_EQ(meter.measured().commands_unshown, 0U);
+}
+
+TEST(ViewerMeter, Lights_ThatBeginToMove_MakeFramesDueFromThenOn) {
+    ViewerMeter meter;
+    meter.onState(restingLights(), kStart);
+    meter.begin(kStart);
+    meter.onState(movingLights(), kStart + 5s);
+    meter.end(kStart + 7s);
+    EXPECT_EQ(meter.measured().samples.interval_ms, std::vector{2000.0});
+}
+
+TEST(ViewerMeter, Camera_Skipped_ReactsWithTheNextCommandShown) {
+    ViewerMeter meter;
+    meter.begin(kStart);
+    meter.onCommandSkipped(4, kStart + 10ms);
+    meter.onCommand(4, camera(), kStart + 20ms, kStart + 20ms);
+    ASSERT_TRUE(meter.onFrame(frame(1, 4, kStart + 20ms), 10, 4, kStart + 50ms));
+    EXPECT_EQ(meter.measured().samples.reaction_ms, (std::vector{40.0, 30.0}));
+}
+
+TEST(ViewerMeter, Command_Refused_WaitsNoMore) {
+    ViewerMeter meter;
+    meter.begin(kStart);
+    meter.onCommand(3, camera(), kStart, kStart);
+    v1::Error error;
+    error.set_ref_seq(3);
+    meter.onRefusal(error);
+    meter.end(kStart + 9s);
+    EXPECT_EQ(meter.measured().commands_unshown, 0U);
+    EXPECT_TRUE(meter.measured().samples.interval_ms.empty());
+}
+
+TEST(ViewerMeter, Pause_UntilItEnds_MakesNothingDue) {
+    ViewerMeter meter;
+    meter.onState(movingLights(), kStart);
+    meter.begin(kStart);
+    v1::ClientMessage pause;
+    pause.mutable_pause()->set_paused(true);
+    meter.onCommand(1, pause, kStart, kStart);
+    meter.onCommand(2, camera(), kStart, kStart + 1s);
+    pause.mutable_pause()->set_paused(false);
+    meter.onCommand(3, pause, kStart, kStart + 5s);
+    ASSERT_TRUE(meter.onFrame(frame(1, 2, kStart + 1s), 10, 3, kStart + 5s + 20ms));
+    EXPECT_EQ(meter.measured().samples.interval_ms, std::vector{20.0});
+    EXPECT_TRUE(meter.measured().samples.reaction_ms.empty());
+}
+
+// A watcher of a room: no command, and a clock that is 3 s off.
+TEST(ViewerMeter, Watcher_HasAnAgeForEveryFrame) {
+    ViewerMeter meter;
+    meter.onState(movingLights(), kStart);
+    meter.begin(kStart);
+    v1::FrameHeader header = frame(1, 0, kStart);
+    header.set_render_us(8'000);
+    header.set_time_s(3.1);
+    ASSERT_TRUE(meter.onFrame(header, 10, 0, kStart + 110ms));
+    header.set_frame_id(2);
+    header.set_time_s(3.2);
+    ASSERT_TRUE(meter.onFrame(header, 10, 0, kStart + 450ms)); // 240 ms later on its way
+    meter.end(kStart + 1s);
+    const auto& ages_ms = meter.measured().samples.age_ms;
+    ASSERT_EQ(ages_ms.size(), 2U);
+    EXPECT_NEAR(ages_ms[0], 8, 1e-3);
+    EXPECT_NEAR(ages_ms[1], 248, 1e-3);
+}
+
+TEST(ViewerMeter, Pictures_SmallestAndLargest_AreKept) {
+    ViewerMeter meter;
+    meter.begin(kStart);
+    uint64_t id = 0;
+    for (const uint32_t width : {640U, 256U, 320U}) {
+        v1::FrameHeader header = frame(++id, 0, kStart);
+        header.set_width(width);
+        header.set_height(100);
+        ASSERT_TRUE(meter.onFrame(header, 10, 0, kStart + 1ms));
+    }
+    EXPECT_EQ(meter.measured().smallest, (PictureSize{256, 100}));
+    EXPECT_EQ(meter.measured().largest, (PictureSize{640, 100}));
 }
 
 } // namespace
