@@ -39,6 +39,7 @@ struct Stage {
     double (*micros)(const FrameRecord&);
 };
 constexpr std::array kStages = {
+    // First, since frameSent() leaves it out where no new command is shown.
     Stage{"queue", [](const FrameRecord& r) { return r.queue_us; }},
     Stage{"render", [](const FrameRecord& r) { return r.render_us; }},
     Stage{"host", [](const FrameRecord& r) { return r.stats.host_us; }},
@@ -47,6 +48,11 @@ constexpr std::array kStages = {
     Stage{"encode", [](const FrameRecord& r) { return r.encode_us; }},
     Stage{"send_wait", [](const FrameRecord& r) { return r.send_wait_us; }},
 };
+
+// The other pictures have waited for nothing that somebody asked for.
+bool showsNewCommand(const FrameRecord& record) {
+    return record.applied.seq > 0 && record.queue_us > 0;
+}
 
 struct ListGauge {
     const char* name;
@@ -82,6 +88,8 @@ bool isKnown(uint16_t code) {
 } // namespace
 
 struct Metrics::Impl {
+    explicit Impl(std::function<size_t()> count) : session_count(std::move(count)) {}
+
     prometheus::Registry registry;
 
     Counter& counter(const char* name, const char* help) {
@@ -100,17 +108,21 @@ struct Metrics::Impl {
                                                                                          bounds);
     }
     void noteDelivery(const FrameRecord& record);
+    [[nodiscard]] prometheus::MetricFamily sessionFamily() const;
     [[nodiscard]] prometheus::MetricFamily memoryFamily() const;
 
-    Gauge& sessions = gauge("froxel_sessions", "Viewers now.");
+    const std::function<size_t()> session_count;
+    Gauge& viewers = gauge("froxel_viewers", "Viewers connected now.");
     Gauge& capacity = gauge("froxel_session_capacity", "Sessions that the server takes at once.");
-    Counter& opened = counter("froxel_sessions_opened_total", "Viewers since the start.");
+    Counter& joined =
+        counter("froxel_viewers_joined_total", "Times that a viewer came in since the start.");
     Counter& sent = counter("froxel_frames_sent_total", "Pictures sent.");
     std::atomic<uint64_t> replaced{0};
-    std::shared_ptr<const FrameFates> fates = std::make_shared<const FrameFates>();
+    const std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
     Counter& bytes = counter("froxel_sent_bytes_total", "Bytes of pictures and messages sent.");
     Counter& redraws = counter("froxel_light_list_redraws_total",
-                               "Times that a picture was drawn again since its lists had to grow.");
+                               "Times that the pictures sent were drawn again since their lists "
+                               "had to grow.");
     Counter& peel_overflow =
         counter("froxel_peel_overflow_pixels_total",
                 "Pixels of the pictures sent that have more blended layers than were peeled.");
@@ -141,7 +153,8 @@ struct Metrics::Impl {
     std::function<std::vector<MemoryUse>()> memory;
 };
 
-Metrics::Metrics(const std::string& version) : impl_(std::make_unique<Impl>()) {
+Metrics::Metrics(const std::string& version, std::function<size_t()> session_count)
+    : impl_(std::make_unique<Impl>(std::move(session_count))) {
     prometheus::BuildGauge()
         .Name("froxel_build_info")
         .Help("1; the labels say what this server is.")
@@ -159,7 +172,8 @@ Metrics::Metrics(const std::string& version) : impl_(std::make_unique<Impl>()) {
     impl_->upgrades.Add({{"status", "403"}});
     auto& stages = prometheus::BuildHistogram()
                        .Name("froxel_stage_duration_seconds")
-                       .Help("What a picture spends in each stage from command to socket.")
+                       .Help("What the pictures sent took in each stage from command to socket, "
+                             "once for each viewer; queue: of those that show a new command.")
                        .Register(impl_->registry);
     for (size_t i = 0; i < kStages.size(); ++i) {
         impl_->stages[i] = &stages.Add({{"stage", kStages[i].name}}, kSeconds);
@@ -190,19 +204,19 @@ void Metrics::setSessionCapacity(uint32_t sessions_max) {
 }
 
 void Metrics::sessionOpened() {
-    impl_->sessions.Increment();
-    impl_->opened.Increment();
+    impl_->viewers.Increment();
+    impl_->joined.Increment();
 }
 
 void Metrics::sessionClosed() {
-    impl_->sessions.Decrement();
+    impl_->viewers.Decrement();
 }
 
 void Metrics::frameSent(const FrameRecord& record) {
     impl_->sent.Increment();
     impl_->redraws.Increment(static_cast<double>(record.stats.lists.redraw_count));
     impl_->peel_overflow.Increment(static_cast<double>(record.stats.peel.overflow_count));
-    for (size_t i = 0; i < kStages.size(); ++i) {
+    for (size_t i = showsNewCommand(record) ? 0 : 1; i < kStages.size(); ++i) {
         impl_->stages[i]->Observe(kStages[i].micros(record) / 1e6);
     }
     for (size_t i = 0; i < kListGauges.size(); ++i) {
@@ -251,13 +265,20 @@ void Metrics::connectionRefused() {
     impl_->refused_connections.Increment();
 }
 
-void Metrics::watch(std::shared_ptr<const FrameFates> fates) {
-    impl_->fates = std::move(fates);
+std::shared_ptr<FrameFates> Metrics::fates() const {
+    return impl_->fates;
 }
 
 void Metrics::watchMemory(std::function<std::vector<MemoryUse>()> memory) {
     const std::lock_guard lock(impl_->memory_mutex);
     impl_->memory = std::move(memory);
+}
+
+prometheus::MetricFamily Metrics::Impl::sessionFamily() const {
+    return metricFamily(
+        prometheus::MetricType::Gauge, "froxel_sessions",
+        "Sessions with a viewer, or whose lost viewer is waited for; a room is one.", "",
+        {{"", static_cast<double>(session_count())}});
 }
 
 prometheus::MetricFamily Metrics::Impl::memoryFamily() const {
@@ -295,6 +316,7 @@ std::string Metrics::text() const {
     for (auto more : {impl_->frameFamilies(), processMetrics()}) {
         std::move(more.begin(), more.end(), std::back_inserter(families));
     }
+    families.push_back(impl_->sessionFamily());
     families.push_back(impl_->memoryFamily());
     return prometheus::TextSerializer().Serialize(families);
 }

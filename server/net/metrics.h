@@ -23,14 +23,18 @@ class Metrics {
   public:
     static constexpr const char* kContentType = "text/plain; version=0.0.4; charset=utf-8";
 
-    // `version` is the server's.
-    explicit Metrics(const std::string& version = "unknown");
+    // `version` is the server's. `session_count` gives the places taken at that moment; called by
+    // text(), on its thread.
+    explicit Metrics(
+        const std::string& version = "unknown",
+        std::function<size_t()> session_count = [] { return size_t{0}; });
     ~Metrics();
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
     // Sessions that the server takes at once; once.
     void setSessionCapacity(uint32_t sessions_max);
+    // A viewer came in, and left: of a room each one.
     void sessionOpened();
     void sessionClosed();
     // A picture on its way to the socket, all stages known.
@@ -48,8 +52,8 @@ class Metrics {
     // Nothing is counted for kNone.
     void rateStepped(session::RateStep step);
 
-    // Where pictures that never reach a connection are counted; once, before the first text().
-    void watch(std::shared_ptr<const FrameFates> fates);
+    // Where pictures are counted on their way to a connection; text() reads it.
+    [[nodiscard]] std::shared_ptr<FrameFates> fates() const;
     // Tells what the device's memory is used for at that moment; called by text(), on its thread.
     // Until it is set nothing is told of memory.
     void watchMemory(std::function<std::vector<MemoryUse>()> memory);

@@ -1,5 +1,6 @@
 #include "net/server.h"
 
+#include "core/thread_name.h"
 #include "net/admin_site.h"
 #include "net/guard.h"
 #include "net/health.h"
@@ -39,7 +40,8 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     site->content_policy = contentPolicy(options.reconnect_url);
     site->service = std::make_shared<Service>();
     site->lobby = std::make_shared<Lobby>(options.resume_grace);
-    site->metrics = std::make_shared<Metrics>(options.version);
+    site->metrics = std::make_shared<Metrics>(
+        options.version, [lobby = site->lobby] { return lobby->sessionCount(); });
     return site;
 }
 
@@ -55,7 +57,10 @@ struct Admin {
         : listener(std::make_shared<Listener>(
               io, bind, "--admin-bind", kAdminConnectionsMax, std::move(site))) {
         listener->start();
-        thread = std::jthread([this] { work(io); });
+        thread = std::jthread([this] {
+            nameThread("admin");
+            work(io);
+        });
     }
     ~Admin() { io.stop(); }
 
@@ -91,7 +96,10 @@ struct Server::Impl {
         }
         listener->start();
         for (uint32_t i = 0; i < options.thread_count; ++i) {
-            std::packaged_task<void()> task([this] { work(io); });
+            std::packaged_task<void()> task([this] {
+                nameThread("network");
+                work(io);
+            });
             done.push_back(task.get_future());
             threads.emplace_back(std::move(task));
         }

@@ -19,6 +19,7 @@ from pathlib import Path
 import yaml
 
 import manifest_types
+import told_skips
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
 ROOT = Path(__file__).resolve().parents[2]
@@ -315,4 +316,4 @@ class Files(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    told_skips.main()

@@ -1,4 +1,5 @@
 // The admin address, and what a scrape of it says.
+#include "integration/eventually.h"
 #include "integration/http_exchange.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
@@ -40,14 +41,32 @@ TEST(Admin, Scrape_WithAViewer_Counts) {
     viewer.expectFrame();
     const std::string text = scrape(server);
     EXPECT_EQ(sampleOf(text, "froxel_sessions"), 1);
+    EXPECT_EQ(sampleOf(text, "froxel_viewers"), 1);
     EXPECT_GE(sampleOf(text, "froxel_frames_sent_total"), 2);
     EXPECT_GT(sampleOf(text, "froxel_sent_bytes_total"), 100);
     EXPECT_EQ(sampleOf(text, "froxel_light_list_p95_entries"), 9);
     EXPECT_EQ(sampleOf(text, "froxel_device_memory_bytes{purpose=\"pixels\"}"), 4096);
-    for (const char* stage : {"queue", "render", "gpu", "encode_wait", "encode", "send_wait"}) {
+    for (const char* stage : {"render", "gpu", "encode_wait", "encode", "send_wait"}) {
         const std::string label = std::string("{stage=\"") + stage;
         EXPECT_GE(sampleOf(text, "froxel_stage_duration_seconds_count" + label + "\"}"), 2);
     }
+}
+
+// What is compared with the capacity: a room takes one place, and a lost viewer keeps its own.
+TEST(Admin, Scrape_SessionsAreThePlacesTaken) {
+    TestServer server({.sessions_max = 3, .resume_grace = std::chrono::seconds(60)});
+    WsClient first(server.port());
+    WsClient second(server.port());
+    WsClient lost(server.port());
+    first.join("hall");
+    second.join("hall");
+    lost.join();
+    lost.abort();
+    EXPECT_TRUE(eventually([&] { return sampleOf(scrape(server), "froxel_viewers") == 2; }));
+    const std::string text = scrape(server);
+    EXPECT_EQ(sampleOf(text, "froxel_sessions"), 2);
+    EXPECT_EQ(sampleOf(text, "froxel_session_capacity"), 3);
+    EXPECT_EQ(sampleOf(text, "froxel_viewers_joined_total"), 3);
 }
 
 // Prometheus' own judgement of names, types, help texts and format.

@@ -58,7 +58,7 @@ TEST(AdminSite, Metrics_AreTheMetrics_AnythingElseIsNotFound) {
     const auto response = respond(request(http::verb::get, "/metrics?x=1"), site);
     EXPECT_EQ(response.result(), http::status::ok);
     EXPECT_EQ(response[http::field::content_type], Metrics::kContentType);
-    EXPECT_NE(response.body().find("\nfroxel_sessions 1\n"), std::string::npos);
+    EXPECT_NE(response.body().find("\nfroxel_viewers 1\n"), std::string::npos);
     for (const char* target : {"/", "/healthz", "/ws", "/metrics/", "//metrics", "/index.html"}) {
         EXPECT_EQ(respond(request(http::verb::get, target), site).result(), http::status::not_found)
             << target;

@@ -24,13 +24,21 @@ TEST(Metrics, AtFirst_CountersAreThereAndZero) {
     EXPECT_THAT(text, HasSubstr("froxel_light_pairs_total{kind=\"contributing\"} 0\n"));
 }
 
-TEST(Metrics, Sessions_ComeAndGo) {
+TEST(Metrics, Viewers_ComeAndGo) {
     Metrics metrics;
     metrics.sessionOpened();
     metrics.sessionOpened();
     metrics.sessionClosed();
+    EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_viewers 1\n"));
+    EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_viewers_joined_total 2\n"));
+}
+
+TEST(Metrics, Sessions_AreCountedWhenScraped) {
+    size_t count = 2;
+    const Metrics metrics("1.2.3", [&count] { return count; });
+    EXPECT_THAT(metrics.text(), HasSubstr("# TYPE froxel_sessions gauge\nfroxel_sessions 2\n"));
+    count = 1;
     EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_sessions 1\n"));
-    EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_sessions_opened_total 2\n"));
 }
 
 TEST(Metrics, FrameSent_FillsHistogramsAndGauges) {
@@ -48,10 +56,24 @@ TEST(Metrics, FrameSent_FillsHistogramsAndGauges) {
     EXPECT_THAT(text, HasSubstr("\nfroxel_sent_bytes_total 1000\n"));
 }
 
-TEST(Metrics, Fates_AreReadWhenScraped) {
+TEST(Metrics, Queue_OnlyOfFramesThatShowANewCommand) {
     Metrics metrics;
-    const auto fates = std::make_shared<FrameFates>();
-    metrics.watch(fates);
+    auto record = aRecord();
+    record.queue_us = 5'000; // of a first picture: since the viewer came
+    metrics.frameSent(record);
+    record.applied.seq = 7;
+    metrics.frameSent(record);
+    record.queue_us = 0;
+    metrics.frameSent(record);
+    const std::string text = metrics.text();
+    EXPECT_THAT(text, HasSubstr("froxel_stage_duration_seconds_count{stage=\"queue\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("froxel_stage_duration_seconds_sum{stage=\"queue\"} 0.005\n"));
+    EXPECT_THAT(text, HasSubstr("froxel_stage_duration_seconds_count{stage=\"render\"} 3\n"));
+}
+
+TEST(Metrics, Fates_AreReadWhenScraped) {
+    const Metrics metrics;
+    const auto fates = metrics.fates();
     fates->rendered = 5;
     fates->encoded = 3;
     fates->viewer_gone = 1;
