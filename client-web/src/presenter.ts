@@ -1,7 +1,7 @@
 // Frames on their way to the canvas: at most two are being decoded, the newest wins everywhere (of
 // video each is decoded, in order, and the newest painted), and each one is acknowledged when it was
-// painted or given up. A hidden page neither decodes nor
-// acknowledges, so that the server pauses.
+// painted or given up. A hidden page begins no decoding and acknowledges only frames that fail, so
+// that the server pauses.
 
 import { needsOthers, type Decode } from './decoder';
 import type { Frame } from './framing';
@@ -104,7 +104,9 @@ export class Presenter {
       (error: unknown) => {
         this.decodes -= 1;
         if (generation === this.generation) {
-          this.drop(header, receivedMs);
+          this.droppedCount += 1;
+          // Even while hidden: there may be no later picture to cover it, and the window would stay shut.
+          this.acknowledge(header, receivedMs, 0);
           if (error instanceof LostSync) this.env.lostSync(error);
           else this.env.problem(error instanceof Error ? error.message : String(error));
         }
@@ -147,6 +149,7 @@ export class Presenter {
     this.env.painted(ready.header, ready.decodeMs);
   }
 
+  /** A newer one is there; of a hidden page its acknowledgement covers this one. */
   private drop(header: FrameHeader, receivedMs: number, decodeMs = 0): void {
     this.droppedCount += 1;
     if (this.visible) this.acknowledge(header, receivedMs, decodeMs);

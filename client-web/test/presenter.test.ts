@@ -196,6 +196,13 @@ describe('Presenter', () => {
     expect(painted).toEqual([1n]);
   });
 
+  it('HiddenWhileDecoding_ABadPictureIsAcknowledged', async () => {
+    presenter.offer(frame(1));
+    presenter.setVisible(false);
+    await decodes[0]?.fail();
+    expect(acks).toEqual([1n]); // nothing else would open the window again
+  });
+
   it('Restart_IgnoresWhatTheOldConnectionLeft', async () => {
     presenter.offer(frame(8));
     presenter.offer(frame(9));
