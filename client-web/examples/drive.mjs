@@ -16,10 +16,8 @@ function frameId(message) {
 
 socket.on('open', () => say({ hello: { protocolMajor: 1, clientName: 'drive.mjs' } }));
 socket.on('message', (message, isBinary) => {
-  if (!isBinary) {
-    console.log(...Object.keys(JSON.parse(message.toString()))); // welcome, state, error
-    return;
-  }
+  // "welcome", "state", "error"
+  if (!isBinary) return console.log(...Object.keys(JSON.parse(message.toString())));
   frames += 1;
   if (frames === 1) setTimeout(() => socket.close(), 3000);
   say({ ack: { frameId: frameId(message) } });
