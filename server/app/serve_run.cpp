@@ -2,10 +2,33 @@
 
 #include "net/health.h"
 #include "net/metrics.h"
+#include "session/session_state.h"
+#include "stream/frame_cost.h"
+
+#include <spdlog/spdlog.h>
 
 #include <utility>
 
 namespace froxel::app {
+namespace {
+
+// So that a crowd that waits for the scene is let in as far as the device goes. None where the
+// first picture cannot be made, which each viewer is told.
+std::optional<Seconds> frameCost(stream::FrameSource& source,
+                                 const session::SessionContext& context) {
+    const auto first = session::initialState(context, Clock::now());
+    const auto cost = stream::measureFrameCost(source, first.settings);
+    if (!cost) {
+        if (cost.error().code == ErrorCode::kDevice) {
+            throw StartupError(cost.error());
+        }
+        return {};
+    }
+    spdlog::info("event=frame_priced ms={:.2f}", cost->count() * 1e3);
+    return *cost;
+}
+
+} // namespace
 
 // A viewer has at most one picture in the encoders, so the queue never refuses one.
 ServeRun::ServeRun(ServeRunOptions options)
@@ -25,7 +48,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
     stream::RenderLoopOptions loop;
     loop.sessions_max = options_.sessions_max;
     loop.on_failure = options_.on_failure;
-    server_->metrics().watch(loop.fates);
+    loop.fates = server_->metrics().fates();
     server_->metrics().setSessionCapacity(options_.sessions_max);
     loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
@@ -33,7 +56,9 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
             [&service](net::LoadingProgress progress) { service.setLoading(std::move(progress)); });
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
         server_->metrics().watchMemory(std::move(opened.memory));
-        loop_.setMinRate(context->defaults.min_rate_hz);
+        if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {
+            loop_.setMinRate(rate_hz, frameCost(*opened.source, *context));
+        }
         service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit});
         return std::move(opened.source);
     };

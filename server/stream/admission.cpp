@@ -8,10 +8,14 @@
 namespace froxel::stream {
 namespace {
 
-// Weight of the newest frame in a session's smoothed cost.
+// Weight of the newest frame in a smoothed cost.
 constexpr double kCostWeight = 0.125;
 // What a rate is told from at least; a lone frame then counts as 100 a second.
 constexpr Seconds kShortest{0.01};
+
+void smooth(std::optional<Seconds>& mean, Seconds cost) {
+    mean = mean ? *mean + (cost - *mean) * kCostWeight : cost;
+}
 
 std::string rounded(double value) {
     return numberText(std::round(value * 100) / 100);
@@ -19,8 +23,9 @@ std::string rounded(double value) {
 
 } // namespace
 
-void Admission::setMinRate(double min_rate_hz) {
+void Admission::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost) {
     min_rate_hz_ = min_rate_hz;
+    typical_cost_ = frame_cost;
 }
 
 void Admission::add(uint64_t session) {
@@ -37,7 +42,8 @@ void Admission::onFrame(uint64_t session, Seconds cost, TimePoint now) {
         return;
     }
     Entry& entry = found->second;
-    entry.cost = entry.cost ? *entry.cost + (cost - *entry.cost) * kCostWeight : cost;
+    smooth(entry.cost, cost);
+    smooth(typical_cost_, cost);
     const Seconds age = now - entry.window_begin;
     if (age >= kWindow) {
         entry.before_count = age < 2 * kWindow ? entry.window_count : 0;
@@ -80,10 +86,11 @@ Result<void> Admission::check(TimePoint now) const {
             busy += entry.cost->count() * std::min(rate_hz, min_rate_hz_);
         }
     }
-    if (active == 0 || min_rate_hz_ <= 0) {
+    const bool known = active > 0 || typical_cost_;
+    if (active + unknown == 0 || !known || min_rate_hz_ <= 0) {
         return {};
     }
-    const double mean_s = cost_sum_s / active;
+    const double mean_s = active > 0 ? cost_sum_s / active : typical_cost_->count();
     busy += unknown * mean_s * min_rate_hz_;
     if (busy + mean_s * min_rate_hz_ <= 1) {
         return {};

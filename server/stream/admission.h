@@ -4,7 +4,8 @@
 // more at their mean cost, must not pass the device's time. A session that draws less than the
 // floor by itself (its lights stand, its link is slow) counts with what it draws, an idle one as
 // nothing, and one that has not drawn yet as another at the mean cost, so that a crowd that comes
-// at once is not let in on the word of the few. Where nobody draws, one is always let in.
+// at once is not let in on the word of the few. Where nobody draws, that mean is of the frames
+// before, at first of one that was drawn for it; one session is always let in.
 #pragma once
 
 #include "core/clock.h"
@@ -23,7 +24,8 @@ class Admission {
 
     // Frames a second that every active session must keep; 0: everyone is let in.
     explicit Admission(double min_rate_hz = 0) : min_rate_hz_(min_rate_hz) {}
-    void setMinRate(double min_rate_hz);
+    // And the device time of a frame, until sessions have drawn some; none: unknown.
+    void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
 
     void add(uint64_t session);
     void remove(uint64_t session);
@@ -44,6 +46,7 @@ class Admission {
     [[nodiscard]] static double rateOf(const Entry& entry, TimePoint now);
 
     double min_rate_hz_;
+    std::optional<Seconds> typical_cost_; // of frames of late, whoever's
     std::map<uint64_t, Entry> sessions_;
 };
 

@@ -1,6 +1,7 @@
 #include "stream/render_loop.h"
 
 #include "core/text.h"
+#include "core/thread_name.h"
 #include "session/refinement.h"
 #include "session/render_scale.h"
 
@@ -83,8 +84,10 @@ struct RenderLoop::Viewer {
 RenderLoop::RenderLoop(encode::EncodePool& pool, RenderLoopOptions options)
     : options_(std::move(options)), pool_(pool),
       mailbox_(std::make_shared<ViewerMailbox>(options_.sessions_max)),
-      scheduler_(options_.min_frame_interval),
-      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+      scheduler_(options_.min_frame_interval), thread_([this](const std::stop_token& stop) {
+          nameThread("render");
+          run(stop);
+      }) {}
 
 RenderLoop::~RenderLoop() {
     stop();
@@ -118,9 +121,9 @@ Result<void> RenderLoop::admits(TimePoint now) const {
     return mailbox_->check();
 }
 
-void RenderLoop::setMinRate(double min_rate_hz) {
+void RenderLoop::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost) {
     const std::lock_guard lock(admission_mutex_);
-    admission_.setMinRate(min_rate_hz);
+    admission_.setMinRate(min_rate_hz, frame_cost);
 }
 
 void RenderLoop::update(SessionId id, const SessionState& state, TimePoint arrived) {

@@ -51,9 +51,10 @@ class RenderLoop final : public session::StreamPort {
     RenderLoop(const RenderLoop&) = delete;
     RenderLoop& operator=(const RenderLoop&) = delete;
 
-    // Frames a second that active sessions must keep when another one joins, see Admission; 0, as
-    // it is first: no matter. Any thread.
-    void setMinRate(double min_rate_hz);
+    // Frames a second that active sessions must keep when another one joins, and the device time of
+    // a frame until some were drawn for them: see Admission. 0, as it is first: no matter. Any
+    // thread.
+    void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
 
     // Waits for the frames under way; no sink is called after it. The port still answers.
     void stop();

@@ -88,6 +88,32 @@ TEST_F(AdmissionTest, CrowdThatHasNotDrawnYet_CountsAtTheMeanCost) {
     EXPECT_TRUE(admits());
 }
 
+// As while the scene was loading: by the frame that was drawn for its cost.
+TEST_F(AdmissionTest, CrowdBeforeTheFirstPicture_CountsAtTheTypicalCost) {
+    add({1, 2, 3, 4});
+    EXPECT_TRUE(admits()) << "nothing is known";
+    for (const uint64_t session : {1U, 2U, 3U, 4U}) {
+        admission_.remove(session);
+    }
+    admission_.setMinRate(30, 10ms);
+    EXPECT_TRUE(admits());
+    add({1, 2});
+    EXPECT_TRUE(admits()) << "0.3 each";
+    add({3});
+    const auto refused = admission_.check(now_);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("3 active sessions need 0.9 "));
+}
+
+TEST_F(AdmissionTest, CrowdWhereAllRest_CountsAtTheCostOfBefore) {
+    add({1});
+    draw({1}, 30, 40ms, 5);
+    now_ += 1h;
+    EXPECT_TRUE(admits()) << "one always gets in";
+    add({2});
+    EXPECT_FALSE(admits()) << "1.2 each";
+}
+
 TEST_F(AdmissionTest, SessionLeaves_MakesRoom) {
     add({1, 2, 3});
     draw({1, 2, 3}, 30, 10ms, 5);
