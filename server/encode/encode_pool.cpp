@@ -1,6 +1,7 @@
 #include "encode/encode_pool.h"
 
 #include "core/assert.h"
+#include "core/thread_name.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/jpeg_stripes.h"
 #include "encode/png_encoder.h"
@@ -8,9 +9,25 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
+#include <type_traits>
 #include <utility>
 
 namespace froxel::encode {
+
+namespace {
+
+// A picture that memory does not suffice for is this viewer's loss alone.
+template <class Make>
+std::invoke_result_t<Make> withinMemory(const Make& make) {
+    try {
+        return make();
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::kCapacity, "no memory for the encoded picture"};
+    }
+}
+
+} // namespace
 
 // One picture in the pool. Stripes are taken under the pool's mutex; whoever finishes the last one
 // joins them.
@@ -25,16 +42,20 @@ struct EncodePool::Work {
         parts.resize(stripes.size());
     }
     void encode(JpegEncoder& encoder, size_t stripe) {
-        auto part = job.video      ? encodeVideo()
-                    : job.lossless ? encodePng(stripes[stripe])
-                                   : encoder.encode(stripes[stripe], job.encoding);
+        auto part = withinMemory([&] {
+            return job.video      ? encodeVideo()
+                   : job.lossless ? encodePng(stripes[stripe])
+                                  : encoder.encode(stripes[stripe], job.encoding);
+        });
         if (part) {
             parts[stripe] = std::move(*part);
         } else if (!failed.exchange(true)) {
             error = part.error();
         }
         if (finished.fetch_add(1) + 1 == stripes.size()) {
-            finish();
+            auto frame = withinMemory([this] { return join(); });
+            job.pixels.end();
+            job.done(std::move(frame));
         }
     }
     Result<std::vector<std::byte>> encodeVideo() {
@@ -47,15 +68,13 @@ struct EncodePool::Work {
         key = frame->key;
         return std::move(frame->bytes);
     }
-    void finish() {
+    Result<EncodedFrame> join() {
         const PixelView pixels = job.pixels.view();
         auto picture = failed              ? Result<std::vector<std::byte>>(error)
                        : parts.size() == 1 ? std::move(parts.front())
                                            : joinStripes(parts, pixels.height_px);
-        job.pixels.end();
         if (!picture) {
-            job.done(picture.error());
-            return;
+            return picture.error();
         }
         EncodedFrame frame;
         frame.width_px = pixels.width_px;
@@ -64,7 +83,7 @@ struct EncodePool::Work {
         frame.key = key;
         frame.wait_us = Microseconds(started_at - queued_at).count();
         frame.encode_us = Microseconds(Clock::now() - started_at).count();
-        job.done(std::move(frame));
+        return frame;
     }
 
     EncodeJob job;
@@ -85,6 +104,7 @@ EncodePool::EncodePool(size_t thread_count, size_t queue_limit) : queue_limit_(q
     for (size_t i = 0; i < thread_count; ++i) {
         // Made here, where a failure can still be thrown.
         threads_.emplace_back([this, encoder = JpegEncoder()](const std::stop_token& stop) mutable {
+            nameThread("encode");
             run(stop, encoder);
         });
     }
@@ -113,6 +133,20 @@ bool EncodePool::submit(EncodeJob&& job) {
         queue_.insert(place, std::make_shared<Work>(std::move(job), Clock::now()));
     }
     wake_.notify_one();
+    return true;
+}
+
+bool EncodePool::withdrawLossless(const void* owner) {
+    std::shared_ptr<Work> withdrawn; // ends without the mutex
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find_if(queue_.begin(), queue_.end(), [owner](const auto& work) {
+        return work->job.lossless && work->job.owner == owner;
+    });
+    if (found == queue_.end()) {
+        return false;
+    }
+    withdrawn = std::move(*found);
+    queue_.erase(found);
     return true;
 }
 

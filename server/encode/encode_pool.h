@@ -39,7 +39,8 @@ struct EncodeJob {
     // may finish out of order when several are queued.
     std::function<void(Result<EncodedFrame>)> done;
     std::optional<VideoJob> video = std::nullopt; // with a video codec
-    bool lossless = false; // PNG instead of JPEG; waits behind those, whose viewers move
+    bool lossless = false;       // PNG instead of JPEG; waits behind those, whose viewers move
+    const void* owner = nullptr; // whoever may withdraw it
 };
 
 class EncodePool {
@@ -53,6 +54,8 @@ class EncodePool {
     // Takes the job (moved from) and returns true, or leaves it untouched and returns false when
     // queue_limit jobs are waiting. Any thread.
     [[nodiscard]] bool submit(EncodeJob&& job);
+    // Takes the owner's lossless job back, unless it was begun; `done` is not called. Any thread.
+    [[nodiscard]] bool withdrawLossless(const void* owner);
     [[nodiscard]] size_t threadCount() const { return threads_.size(); }
 
   private:

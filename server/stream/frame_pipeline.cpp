@@ -31,16 +31,22 @@ FramePipeline::Losses FramePipeline::takeLosses() {
 }
 
 void FramePipeline::push(DrawnFrame frame) {
+    bool waits = false;
     {
         const std::lock_guard lock(mutex_);
         if (encoding_) {
             FROXEL_ASSERT(!waiting_, "more pictures pushed than the pipeline holds");
             waiting_ = std::move(frame);
-            return;
+        } else {
+            encoding_ = std::move(frame);
         }
-        encoding_ = std::move(frame);
+        waits = waiting_.has_value();
     }
-    startEncoding();
+    if (!waits) {
+        startEncoding();
+    } else if (pool_.withdrawLossless(this)) {
+        finish({1, false}); // the view moves on: nobody wants that picture any more
+    }
 }
 
 void FramePipeline::startEncoding() {
@@ -49,11 +55,14 @@ void FramePipeline::startEncoding() {
     {
         const session::Delivered& with = encoding_->record.delivered;
         const bool lossless = with.refinement == session::Refinement::kLossless;
-        encode::EncodeJob job{std::move(encoding_->pixels), with.encoding,
+        encode::EncodeJob job{std::move(encoding_->pixels),
+                              with.encoding,
                               [self = shared_from_this()](Result<EncodedFrame> result) {
                                   self->onEncoded(std::move(result));
                               },
-                              videoJob(*encoding_), lossless};
+                              videoJob(*encoding_),
+                              lossless,
+                              this};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here
     if (!taken) {

@@ -38,7 +38,8 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
                   std::shared_ptr<FrameFates> fates,
                   std::function<void()> on_progress);
 
-    // At most kCapacity at a time. Render thread.
+    // At most kCapacity at a time; a lossless one that waits for an encoder gives way. Render
+    // thread.
     void push(DrawnFrame frame);
     // Pictures here, in the encoder or before it. Any thread.
     [[nodiscard]] uint32_t size() const;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <thread>
 
 namespace froxel::encode {
 namespace {
@@ -144,6 +145,33 @@ TEST(EncodePool, OneThread_KeepsTheOrder) {
     }
     EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
     EXPECT_EQ(order.size(), 10U);
+}
+
+TEST(EncodePool, WithdrawLossless_TakesBackTheOwnersThatWaits_AndNothingElse) {
+    const Picture picture = makePicture(16, 16);
+    EncodePool pool(1, 4);
+    HeldThread held(pool);
+    std::atomic<int> done = 0;
+    std::atomic<int> leases = 0;
+    const auto submit = [&](const void* owner, bool lossless) {
+        EncodeJob next =
+            job({picture.view(), [&] { ++leases; }}, [&](Result<EncodedFrame>) { ++done; });
+        next.lossless = lossless;
+        next.owner = owner;
+        ASSERT_TRUE(pool.submit(std::move(next)));
+    };
+    submit(&done, false);
+    submit(&done, true);
+    submit(&leases, true);
+    EXPECT_TRUE(pool.withdrawLossless(&done));
+    EXPECT_EQ(leases, 1) << "its pixels are free at once";
+    EXPECT_FALSE(pool.withdrawLossless(&done)) << "the JPEG stays";
+    EXPECT_FALSE(pool.withdrawLossless(nullptr));
+    held.release();
+    while (leases < 3 || done < 2) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(done, 2);
 }
 
 TEST(EncodePool, Lossless_IsAPngBehindWhatMoves) {

@@ -84,6 +84,27 @@ TEST_F(FramePipelineTest, Push_TwoFrames_ArriveInOrderAndEndTheirLeases) {
     EXPECT_EQ(ended_leases_, 2);
 }
 
+// The view rested, and moves again before anything was done for the rest.
+TEST_F(FramePipelineTest, Push_BehindALosslessThatWaits_TakesItsPlace) {
+    encode::EncodePool pool(1, 4);
+    std::latch release(1);
+    occupy(pool, release);
+    const auto pipeline = makePipeline(pool);
+    DrawnFrame rest = frame(1);
+    rest.record.delivered.refinement = session::Refinement::kLossless;
+    pipeline->push(std::move(rest));
+    EXPECT_EQ(pipeline->size(), 1U);
+    pipeline->push(frame(2));
+    EXPECT_EQ(pipeline->size(), 1U);
+    EXPECT_EQ(ended_leases_, 1);
+    const auto losses = pipeline->takeLosses();
+    EXPECT_EQ(losses.count, 1U);
+    EXPECT_FALSE(losses.retry) << "a newer picture shows what it would";
+    release.count_down();
+    ASSERT_TRUE(sink_->waitForFrames(1));
+    EXPECT_EQ(sink_->frames()[0].record.frame_id, 2U);
+}
+
 TEST_F(FramePipelineTest, Size_EncoderIsBusy_CountsBothPictures) {
     encode::EncodePool pool(1, 4);
     std::latch release(1);
