@@ -23,12 +23,12 @@ Prints a line every half minute and the verdict last. Exit code 0: passed; 1: fa
 
 import argparse
 import random
-import re
 import statistics
 import subprocess
 import sys
 import time
-import urllib.request
+
+from server import Server
 
 SCRIPTS = ("orbit", "idle", "storm")
 HEAP_RISE_BYTES = 8e6
@@ -36,46 +36,23 @@ NOISY_RISE = 0.1
 SAMPLE_EVERY_S = 2.0
 ROUND_S = 45.0
 GRACE_S = 2
+SAMPLES_AT_REST = 3  # a second apart: the render thread frees what a session held after it has ended
 
 
-class Server:
-    def __init__(self, froxel, options):
-        command = [froxel, "serve", "--port", "0", "--admin-bind", "127.0.0.1:0"]
-        # However slow the device: viewers are let in.
-        command += ["--log-level", "error", "--min-fps", "0", "--resume-grace", str(GRACE_S), *options]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-        self.url = self.process.stdout.readline().strip()
-        self.metrics_url = self.process.stdout.readline().strip()
-        if not self.metrics_url:
-            sys.exit("the server did not start")
-
-    def sample(self):
-        start = time.monotonic()
-        with urllib.request.urlopen(self.metrics_url, timeout=5) as answer:
-            text = answer.read().decode()
-        values = {}
-        for name, value in re.findall(r"^([a-z_]+)(?:\{[^}]*\})? (\S+)$", text, re.MULTILINE):
-            values[name] = values.get(name, 0) + float(value)
-        values["at_s"] = start
-        values["scrape_s"] = time.monotonic() - start
-        return values
-
-    def settle(self, device_bytes=None):
-        """Waits until no viewer is left and the sessions of lost ones have ended; with device_bytes
-        also until the device's memory is that again, within 1 %. None when it never happens."""
-        end = time.monotonic() + 60
-        alone_since = None
-        while time.monotonic() < end:
-            values = self.sample()
-            device = values["froxel_device_memory_bytes"] if device_bytes else 0
-            if values["froxel_sessions"] > 0 or abs(device - (device_bytes or 0)) > 0.01 * device:
-                alone_since = None
-            elif alone_since is None:
-                alone_since = time.monotonic()
-            elif time.monotonic() - alone_since > GRACE_S + 1:
-                return values
-            time.sleep(1)
-        return None
+def settle(server, device_bytes=None):
+    """Waits until no session is left; with device_bytes also until the device's memory is that
+    again, within 1 %. None when it never happens."""
+    end = time.monotonic() + 60
+    at_rest = 0
+    while time.monotonic() < end:
+        values = server.sample()
+        device = values["froxel_device_memory_bytes"] if device_bytes else 0
+        alone = values["froxel_sessions"] == 0
+        at_rest = at_rest + 1 if alone and abs(device - (device_bytes or 0)) <= 0.01 * device else 0
+        if at_rest == SAMPLES_AT_REST:
+            return values
+        time.sleep(1)
+    return None
 
 
 class Viewers:
@@ -121,7 +98,7 @@ def thirds(samples, name):
 def line(seconds, started, sample):
     print(
         f"{seconds:.0f} s: {started} joined, "
-        f"{sample['froxel_sessions']:.0f} there, "
+        f"{sample['froxel_viewers']:.0f} there, "
         f"{sample['process_resident_memory_bytes'] / 1e6:.1f} MB, "
         f"{sample['process_heap_used_bytes'] / 1e6:.1f} MB of the heap, "
         f"{sample['process_open_fds']:.0f} descriptors, "
@@ -156,7 +133,7 @@ def soak(server, viewers, device_bytes, minutes, joins_per_minute):
         samples = busy_round(server, viewers, min(end, now + ROUND_S), joins_per_minute)
         line(time.monotonic() - begin, viewers.started, samples[-1])
         viewers.reap(wait=True)
-        rest = server.settle(device_bytes)
+        rest = settle(server, device_bytes)
         if rest is None:
             return [], []
         line(time.monotonic() - begin, viewers.started, rest)
@@ -216,23 +193,24 @@ def main():
     if not set(scripts) <= set(SCRIPTS):
         parser.error(f"--scripts '{options.scripts}' must be a list of {', '.join(SCRIPTS)}")
 
-    server = Server(options.froxel, ["--max-sessions", "32", *serve_options])
+    # However slow the device: viewers are let in.
+    fixed = ["--min-fps", "0", "--resume-grace", str(GRACE_S), "--max-sessions", "32"]
+    server = Server(options.froxel, *fixed, *serve_options)
     viewers = Viewers(options.froxel, server.url, scripts, options.seed)
     try:
         # One viewer of each kind first, so that what is opened or made once is there.
         for script in scripts:
             viewers.run(script, 2)
             viewers.reap(wait=True)
-        before = server.settle()
+        before = settle(server)
         device = before["froxel_device_memory_bytes"] if before else 0
         busy, rests = soak(server, viewers, device, options.minutes, options.joins_per_minute)
         for script in scripts:
             viewers.run(script, 2)
             viewers.reap(wait=True)
-        after = server.settle(device)
+        after = settle(server, device)
     finally:
-        server.process.terminate()
-        code = server.process.wait(60)
+        code = server.stop()
     if before is None or after is None or not rests:
         print("failed: sessions or device memory stay though all viewers left")
         return 1

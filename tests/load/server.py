@@ -1,0 +1,43 @@
+"""A `froxel serve` of its own ports, and what its /metrics say: for the tools of this folder."""
+
+import re
+import subprocess
+import sys
+import time
+import urllib.request
+
+
+class Server:
+    """Runs until stop(), or the end of a `with`."""
+
+    def __init__(self, froxel, *options):
+        command = [froxel, "serve", "--port", "0", "--admin-bind", "127.0.0.1:0"]
+        command += ["--log-level", "error", *options]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        self.url = self.process.stdout.readline().strip()
+        self.metrics_url = self.process.stdout.readline().strip()
+        if not self.metrics_url:
+            sys.exit(f"the server did not start: {' '.join(command)}")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+
+    def stop(self):
+        """Its exit code."""
+        self.process.terminate()
+        return self.process.wait(60)
+
+    def sample(self):
+        """Every metric's value, summed over its labels; "at_s" and "scrape_s" besides."""
+        start = time.monotonic()
+        with urllib.request.urlopen(self.metrics_url, timeout=5) as answer:
+            text = answer.read().decode()
+        values = {}
+        for name, value in re.findall(r"^([a-z_]+)(?:\{[^}]*\})? (\S+)$", text, re.MULTILINE):
+            values[name] = values.get(name, 0) + float(value)
+        values["at_s"] = start
+        values["scrape_s"] = time.monotonic() - start
+        return values
