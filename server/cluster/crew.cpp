@@ -1,6 +1,7 @@
 #include "cluster/crew.h"
 
 #include "core/assert.h"
+#include "core/thread_name.h"
 
 namespace froxel::cluster {
 
@@ -8,7 +9,10 @@ Crew::Crew(unsigned members) {
     FROXEL_ASSERT(members > 0, "a crew needs a member");
     threads_.reserve(members - 1);
     for (unsigned member = 1; member < members; ++member) {
-        threads_.emplace_back([this, member] { work(member); });
+        threads_.emplace_back([this, member] {
+            nameThread("crew");
+            work(member);
+        });
     }
 }
 

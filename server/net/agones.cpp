@@ -1,6 +1,7 @@
 #include "net/agones.h"
 
 #include "core/text.h"
+#include "core/thread_name.h"
 #include "net/agones_plan.h"
 #include "net/guard.h"
 #include "net/sdk_request.h"
@@ -31,6 +32,7 @@ struct Agones::Impl {
         : options(from), hooks(std::move(asked)), plan(options.sessions_max) {
         look();
         thread = std::jthread([this] {
+            nameThread("agones");
             while (!guarded("agones thread", [this] { io.run(); })) {
             }
         });
