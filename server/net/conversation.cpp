@@ -104,9 +104,9 @@ void Conversation::sayWelcome() {
 
 void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
     if (const auto* pause = std::get_if<session::Pause>(&message.body)) {
-        setPaused(pause->paused);
+        setPaused(pause->paused, now);
     } else if (std::holds_alternative<session::RequestKeyFrame>(message.body)) {
-        seat_->session->requestKeyFrame(seat_->place);
+        requestKeyFrame(now);
     } else if (session::setsState(message.body)) {
         applyCommand(message, now);
     } else {
@@ -131,46 +131,64 @@ void Conversation::changeControl(const CommandMessage& message, TimePoint now) {
     }
 }
 
-// Pictures that come while it is paused, in a room, replace one another in the slot.
-void Conversation::setPaused(bool paused) {
+// Pictures that come while it is paused, in a room, replace one another in the slot; video goes on
+// with a key frame.
+void Conversation::setPaused(bool paused, TimePoint now) {
     paused_ = paused;
+    if (paused) {
+        video_lost_ = outbox_.interruptVideo() || video_lost_;
+        told_delivery_.reset();
+        seat_->session->setDelivery(seat_->place, std::nullopt);
+    }
     grantCredits();
-    mendVideo();
+    mendVideo(now);
+}
+
+void Conversation::requestKeyFrame(TimePoint now) {
+    key_at_ = seat_->session->requestKeyFrame(seat_->place, now);
 }
 
 void Conversation::onAck(const session::CommandStamp& stamp,
                          const session::Ack& ack,
                          TimePoint now) {
     const Seconds client = Microseconds(ack.receive_to_paint_us);
-    switch (window_.onAck(ack.frame_id, now, client)) {
+    switch (window_.onAck(ack.frame_id, now, client, Microseconds(ack.decode_us))) {
     case session::AckOutcome::kUnknown:
         reject({RejectCode::kOutOfRange, stamp.seq, "frame_id",
                 "frame_id is " + numberText(ack.frame_id) + "; no such frame was sent"},
                now);
         return;
     case session::AckOutcome::kFresh:
+        if (std::exchange(seat_->resumed, false)) {
+            lobby_->settle(*seat_); // it saw a picture, and so Welcome before
+        }
         followLink(now);
         break;
     case session::AckOutcome::kStale:
         break;
     }
     grantCredits();
-    mendVideo();
+    mendVideo(now);
 }
 
 // Before a picture was sent nothing is acknowledged, so there is a session.
 void Conversation::followLink(TimePoint now) {
     const session::SessionState state = seat_->session->state();
     rate_.setWanted(state.encoding, state.delivery);
-    const session::RateStep step = rate_.onTrip(*window_.lastTrip(), now);
+    const session::Trip& trip = *window_.lastTrip();
+    const session::RateStep step = rate_.onTrip(trip, now);
     metrics_->rateStepped(step);
     if (rate_.takeProbe()) {
         window_.probe();
     }
-    window_.setFloor(state.delivery.adaptive && !rate_.alone() ? 2 : 1);
-
     session::Delivery delivery = rate_.delivery();
-    delivery.link_rate = told_delivery_.link_rate;
+    // In a room pictures may be more than this link takes, as others' links take them: then fewer
+    // come, as fresh as they can be.
+    const bool bits_give =
+        state.delivery.adaptive && !rate_.alone() && trip.as.rung >= delivery.rung;
+    window_.setFloor(bits_give ? 2 : 1);
+
+    delivery.link_rate = told_delivery_ ? told_delivery_->link_rate : std::nullopt;
     // In steps: the last digits of a rate are news to nobody.
     constexpr double kNews = 1.2;
     const auto rate = rate_.linkRate();
@@ -178,7 +196,7 @@ void Conversation::followLink(TimePoint now) {
     if (rate && (*rate > kNews * told || *rate * kNews < told)) {
         delivery.link_rate = rate;
     }
-    if (delivery != told_delivery_) {
+    if (told_delivery_ != delivery) {
         told_delivery_ = delivery;
         seat_->session->setDelivery(seat_->place, delivery);
     }
@@ -249,19 +267,23 @@ void Conversation::onFrame(session::ReadyFrame frame) {
         rate_.onProduced(frame.cost, with.scale);
     }
     const uint32_t dropped_before = outbox_.droppedCount();
+    const TimePoint now = frame.ready_at;
+    if (frame.record.key) {
+        key_at_.reset();
+    }
     video_lost_ = outbox_.putFrame(std::move(frame)) == Outbox::Put::kLost;
     for (uint32_t i = dropped_before; i < outbox_.droppedCount(); ++i) {
         metrics_->frameDropped();
     }
     grantCredits();
-    mendVideo();
+    mendVideo(now);
 }
 
 // Not before there is room for a key frame: a slow viewer of a room asks no more often than it
 // can take one.
-void Conversation::mendVideo() {
+void Conversation::mendVideo(TimePoint now) {
     if (video_lost_ && seat_ && window_.open() && !outbox_.hasFrame() && !paused_) {
-        seat_->session->requestKeyFrame(seat_->place);
+        requestKeyFrame(now);
     }
 }
 
@@ -311,88 +333,6 @@ void Conversation::grantCredits() {
         granted_ = delivered_ + room;
         seat_->session->grant(seat_->place, granted_);
     }
-}
-
-std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
-    switch (outbox_.next(window_.open() && !paused_)) {
-    case Outbox::Next::kNothing:
-        return {};
-    case Outbox::Next::kAnswer:
-        return outbox_.takeAnswer();
-    case Outbox::Next::kRoom:
-        outbox_.takeRoom();
-        return inReply(seat_->session->roomState(seat_->place.member));
-    case Outbox::Next::kState:
-        outbox_.takeState();
-        return stateMessage();
-    case Outbox::Next::kFrame:
-        if (auto details = detailsMessage()) {
-            return details;
-        }
-        return frameMessage(now);
-    }
-    return {};
-}
-
-Outgoing Conversation::inReply(const v1::ServerMessage& message) const {
-    const auto format = reader_.replyFormat();
-    return {protocol::encodeServerMessage(message, format), nullptr, format};
-}
-
-// Of several viewers each is answered by the number of its own command.
-Outgoing Conversation::stateMessage() {
-    session::SessionState state = seat_->session->state();
-    state.applied = newest_;
-    const auto told = std::exchange(told_placed_, state.settings.lights.placed);
-    return inReply(makeStateChanged(seat_->session->context(), state, told));
-}
-
-// What the next picture's details say, where that is news: decided now, since pictures before it
-// may have been replaced unsent.
-std::optional<Outgoing> Conversation::detailsMessage() {
-    const auto& details = outbox_.frame().record.stats.details;
-    if (!details || details == told_details_) {
-        return {};
-    }
-    told_details_ = details;
-    return inReply(session::makeFrameDetails(*details));
-}
-
-// A picture echoes the newest of this connection's own commands that it shows: the one behind it,
-// or, where that was another viewer's, the last one before control went.
-void Conversation::signRecord(session::FrameRecord& record) {
-    if (record.applied.author == seat_->place.connection) {
-        shown_ = record.applied;
-        return;
-    }
-    if (!seat_->session->controls(seat_->place)) {
-        shown_ = newest_;
-    }
-    if (record.applied.author != 0) {
-        record.queue_us = 0; // waited for by someone else
-    }
-    record.applied = shown_;
-}
-
-Outgoing Conversation::frameMessage(TimePoint now) {
-    session::ReadyFrame frame = outbox_.takeFrame();
-    frame.record.send_wait_us = Microseconds(now - frame.ready_at).count();
-    frame.record.dropped_count = outbox_.droppedCount();
-    signRecord(frame.record);
-    const session::Delivered& with = frame.record.delivered;
-    window_.onSent(
-        frame.record.frame_id, now,
-        {frame.bytes->size(), with.rung, with.refinement != session::Refinement::kInteractive});
-    frame.record.queue_delay_us = Microseconds(rate_.queueDelay()).count();
-    frame.record.link_bits_per_s = rate_.linkRate().value_or(0);
-    grantCredits();
-    metrics_->frameSent(frame.record);
-    spdlog::debug("event=frame_sent session={} frame={} bytes={} render_us={:.0f} encode_us={:.0f} "
-                  "send_wait_us={:.0f}",
-                  id(), frame.record.frame_id, frame.record.encoded_bytes, frame.record.render_us,
-                  frame.record.encode_us, frame.record.send_wait_us);
-    return {protocol::encodeFramePrefix(session::makeFrameHeader(frame.record)),
-            std::move(frame.bytes), protocol::WireFormat::kBinary};
 }
 
 } // namespace froxel::net

@@ -2,6 +2,7 @@
 // when the connection must close. One strand; never blocks.
 #pragma once
 
+#include "core/allowance.h"
 #include "net/lobby.h"
 #include "net/metrics.h"
 #include "net/outbox.h"
@@ -23,6 +24,10 @@ class Conversation {
   public:
     // Commands that wait while the scene is loading.
     static constexpr size_t kMaxEarlyCommands = 64;
+    // States sent at once, and a second: one says all that commands before it set, and a flood of
+    // them must not take a slow link from the pictures.
+    static constexpr double kStatesAtOnce = 16;
+    static constexpr double kStatesPerSecond = 5;
 
     // `viewer` is what the session tells; whatever it is told goes to onNotice().
     // Without a `gate` everybody is let in.
@@ -51,6 +56,8 @@ class Conversation {
 
     // What to write next, when no write is under way.
     [[nodiscard]] std::optional<Outgoing> nextMessage(TimePoint now);
+    // When nextMessage() may have something though nothing happens; none: it will not.
+    [[nodiscard]] std::optional<TimePoint> wakeAt(TimePoint now) const;
     // Set for good: nothing more is read, and the connection closes when nextMessage() gives none.
     [[nodiscard]] const std::optional<Closing>& closing() const { return closing_; }
 
@@ -68,7 +75,8 @@ class Conversation {
     void onCommand(const session::CommandMessage& message, TimePoint now);
     void applyCommand(const session::CommandMessage& message, TimePoint now);
     void changeControl(const session::CommandMessage& message, TimePoint now);
-    void setPaused(bool paused);
+    void setPaused(bool paused, TimePoint now);
+    void requestKeyFrame(TimePoint now);
     void onFrame(session::ReadyFrame frame);
     void onAck(const session::CommandStamp& stamp, const session::Ack& ack, TimePoint now);
     void followLink(TimePoint now);
@@ -80,7 +88,7 @@ class Conversation {
     void grantCredits();
     [[nodiscard]] Outgoing inReply(const v1::ServerMessage& message) const;
     [[nodiscard]] Outgoing stateMessage();
-    void mendVideo();
+    void mendVideo(TimePoint now);
     [[nodiscard]] std::optional<Outgoing> detailsMessage();
     void signRecord(session::FrameRecord& record);
     [[nodiscard]] Outgoing frameMessage(TimePoint now);
@@ -93,8 +101,9 @@ class Conversation {
     session::RejectBudget rejects_;
     session::CreditWindow window_;
     session::RateController rate_;
-    session::Delivery told_delivery_;
+    std::optional<session::Delivery> told_delivery_; // since pictures come, as far as acknowledged
     Outbox outbox_;
+    Allowance states_{kStatesAtOnce, kStatesPerSecond};
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
     session::Hello hello_;                // its secrets are forgotten when they have served
@@ -108,6 +117,7 @@ class Conversation {
     uint64_t granted_ = 0;
     bool paused_ = false;
     bool video_lost_ = false; // a frame of video was dropped, and no key frame has come since
+    std::optional<TimePoint> key_at_; // one is asked for then, since it was too early
     bool goodbye_ = false;
     bool told_draining_ = false;
     std::optional<Closing> closing_;

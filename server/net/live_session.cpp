@@ -2,10 +2,29 @@
 
 #include "froxel/v1/server.pb.h"
 #include "net/guard.h"
+#include "session/refinement.h"
 
 #include <algorithm>
 
 namespace froxel::net {
+
+namespace {
+
+// Longer than the refinement's own estimate: that is of bits that a picture is expected to have.
+constexpr double kSlack = 2;
+
+bool refined(const session::ReadyFrame& frame) {
+    return frame.record.delivered.refinement >= session::Refinement::kHigh;
+}
+
+// Whether a link takes a refined picture in bearable time, or nothing is known of it.
+bool carries(const session::Delivery& delivery, const session::ReadyFrame& frame) {
+    const double bits = 8.0 * static_cast<double>(frame.bytes->size());
+    const Seconds most = kSlack * session::RefinementSchedule::kMostOfTheLink;
+    return !delivery.link_rate || bits <= *delivery.link_rate * most.count();
+}
+
+} // namespace
 
 using session::CommandResult;
 using session::MemberId;
@@ -81,7 +100,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         room_.setAway(place.member, false);
         tellAll(mail, RoomNews{});
     }
-    member = {place.connection, std::move(viewer), 0, 0, codecs, {}};
+    member = {place.connection, std::move(viewer), 0, 0, codecs, {}, 0};
     updateCodecs(now, mail);
     updateGrant();
     updateDelivery();
@@ -89,9 +108,11 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         wantKeyFrame(now);
         return {};
     }
-    auto picture = picture_;
+    const bool plain = picture_ && refined(*picture_) && plain_ && plain_->record.key;
+    auto picture = plain ? plain_ : picture_;
     if (picture) {
         picture->ready_at = now; // it waited for nobody until now
+        member.told_frame = picture->record.frame_id;
     }
     return picture;
 }
@@ -222,11 +243,16 @@ void LiveSession::keepDecodable() {
     }
 }
 
-void LiveSession::requestKeyFrame(const Place& place) {
+std::optional<TimePoint> LiveSession::requestKeyFrame(const Place& place, TimePoint now) {
     const std::lock_guard lock(mutex_);
-    if (find(place) != nullptr) {
-        wantKeyFrame(Clock::now());
+    if (find(place) == nullptr || !view::isVideo(state_.encoding.codec) || key_wanted_) {
+        return {};
     }
+    if (!keys_.take(now)) {
+        return keys_.nextAt(now);
+    }
+    wantKeyFrame(now);
+    return {};
 }
 
 // A new version, so that a picture is drawn where nothing moves.
@@ -238,20 +264,35 @@ void LiveSession::wantKeyFrame(TimePoint now) {
     }
 }
 
-void LiveSession::setDelivery(const Place& place, const session::Delivery& delivery) {
+void LiveSession::setDelivery(const Place& place,
+                              const std::optional<session::Delivery>& delivery) {
+    Mail mail;
     const std::lock_guard lock(mutex_);
-    if (Member* member = find(place)) {
-        member->delivery = delivery;
-        updateDelivery();
+    Member* member = find(place);
+    if (member == nullptr) {
+        return;
+    }
+    const bool first = !member->delivery && delivery;
+    member->delivery = delivery;
+    updateDelivery();
+    if (first && picture_ && refined(*picture_) && carries(*delivery, *picture_)) {
+        tellFrame(*member, *picture_, mail);
+    }
+}
+
+void LiveSession::tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail) {
+    if (frame.record.frame_id > member.told_frame) {
+        member.told_frame = frame.record.frame_id;
+        ++member.delivered;
+        mail.add(member.viewer, frame);
     }
 }
 
 void LiveSession::updateDelivery() {
     const session::Delivery* best = nullptr;
     for (const auto& [id, member] : members_) {
-        const bool here = member.connection != 0;
-        if (here && (best == nullptr || member.delivery.rung < best->rung)) {
-            best = &member.delivery;
+        if (member.delivery && (best == nullptr || member.delivery->rung < best->rung)) {
+            best = &*member.delivery;
         }
     }
     if (!ended_ && best != nullptr && *best != delivery_) {
@@ -296,10 +337,14 @@ void LiveSession::deliver(session::ReadyFrame frame) {
     const std::lock_guard lock(mutex_);
     ++delivered_;
     for (auto& [id, member] : members_) {
-        ++member.delivered;
-        mail.add(member.viewer, frame);
+        if (!refined(frame) || !member.delivery || carries(*member.delivery, frame)) {
+            tellFrame(member, frame, mail);
+        }
     }
     key_wanted_ = key_wanted_ && !frame.record.key;
+    if (!refined(frame)) {
+        plain_ = frame;
+    }
     picture_ = std::move(frame);
     updateGrant();
 }

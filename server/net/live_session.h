@@ -4,6 +4,7 @@
 // nobody. Any thread; a lock inside is held for moments, never while a viewer is told something.
 #pragma once
 
+#include "core/allowance.h"
 #include "net/closing.h"
 #include "net/service.h"
 #include "session/room.h"
@@ -68,7 +69,8 @@ class LiveSession final : public session::FrameSink,
     // The places' keeper calls these, under its own lock; so it posts their mail.
     void addMember(session::MemberId member, std::string name, Mail& mail);
     // The member's connection from now on, which decodes `codecs`; an older one is told to close.
-    // Gives the newest picture, if there is one that decodes by itself.
+    // Gives the newest picture that decodes by itself, before one that was refined: that one
+    // follows when the link is known to carry it.
     [[nodiscard]] std::optional<session::ReadyFrame> attach(const Place& place,
                                                             std::weak_ptr<SessionViewer> viewer,
                                                             view::CodecSet codecs,
@@ -85,14 +87,19 @@ class LiveSession final : public session::FrameSink,
     // RequestControl, ReleaseControl or GiveControl. Refused: outside a room, and Room's.
     [[nodiscard]] session::CommandResult<void> changeControl(const Place& place,
                                                              const session::Command& command);
+    // Key frames that viewers get at once, and a second: each costs all of them some pictures'
+    // bits.
+    static constexpr double kKeysAtOnce = 3;
+    static constexpr double kKeysPerSecond = 1;
     // The viewer can go on with video only from a key frame; nothing while pictures are JPEG. Those
-    // who ask before it is there share one.
-    void requestKeyFrame(const Place& place);
+    // who ask before it is there share one. Too early: not done, and when to ask again.
+    [[nodiscard]] std::optional<TimePoint> requestKeyFrame(const Place& place, TimePoint now);
     // As StreamPort::grant, in pictures that this connection was told of.
     void grant(const Place& place, uint64_t frame_total);
-    // What this connection's link allows. The session is delivered as to its best one: a slow
-    // viewer takes fewer pictures, and lowers nobody's.
-    void setDelivery(const Place& place, const session::Delivery& delivery);
+    // What this connection's link allows, from its first acknowledgement on; none: no pictures go
+    // there. The session is delivered as to its best one: a slow viewer takes fewer pictures, and
+    // lowers nobody's.
+    void setDelivery(const Place& place, const std::optional<session::Delivery>& delivery);
 
     [[nodiscard]] session::SessionId id() const { return id_; }
     [[nodiscard]] const session::SessionContext& context() const { return *serving_.context; }
@@ -117,11 +124,13 @@ class LiveSession final : public session::FrameSink,
         uint64_t delivered = 0;              // pictures told to this connection
         uint64_t granted = 0;
         view::CodecSet codecs = view::CodecSet().set(); // all while away
-        session::Delivery delivery;
+        std::optional<session::Delivery> delivery;      // none: nothing acknowledged yet, or paused
+        uint64_t told_frame = 0; // the newest picture told to this connection
     };
     LiveSession(Serving serving, std::string room, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
     void tellAll(Mail& mail, const Notice& notice) const;
+    void tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail);
     void updateGrant();
     void updateCodecs(TimePoint now, Mail& mail);
     void keepDecodable();
@@ -140,9 +149,11 @@ class LiveSession final : public session::FrameSink,
     std::map<session::MemberId, Member> members_;
     session::SessionState state_;
     std::optional<session::ReadyFrame> picture_; // newest
+    std::optional<session::ReadyFrame> plain_;   // newest that is not refined
     uint64_t delivered_ = 0;                     // pictures that came from the stream
     uint64_t granted_ = 0;
-    bool key_wanted_ = false;    // and none has come yet
+    bool key_wanted_ = false; // and none has come yet
+    Allowance keys_{kKeysAtOnce, kKeysPerSecond};
     session::Delivery delivery_; // as the stream knows it
     bool ended_ = false;
 };

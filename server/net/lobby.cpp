@@ -22,6 +22,9 @@ Result<Seat> Lobby::enter(const Serving& serving,
             return added.error();
         }
         entry = *added;
+    } else {
+        entry->second.token_before = hello.resume_token;
+        entry->second.token = session::makeResumeToken();
     }
     entry->second.connection = ++last_connection_;
     entry->second.away_until.reset();
@@ -38,7 +41,8 @@ Lobby::Entries::iterator Lobby::findToken(const session::Hello& hello) {
     }
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
         const bool same = session::sameToken(entry->second.token, hello.resume_token);
-        if (same && (hello.room.empty() || hello.room == entry->second.room)) {
+        const bool before = session::sameToken(entry->second.token_before, hello.resume_token);
+        if ((same || before) && (hello.room.empty() || hello.room == entry->second.room)) {
             found = entry;
         }
     }
@@ -57,12 +61,20 @@ Lobby::addMember(const Serving& serving, const session::Hello& hello, TimePoint 
         session = *opened;
     }
     const bool keep = grace_.count() > 0 && !closed_;
-    Entry entry{session, hello.room, keep ? session::makeResumeToken() : std::string(), 0, {}};
+    Entry entry{session, hello.room, keep ? session::makeResumeToken() : std::string(), "", 0, {}};
     session->addMember(++last_member_, hello.client_name, mail);
     if (!hello.room.empty()) {
         rooms_[hello.room] = session;
     }
     return entries_.emplace(last_member_, std::move(entry)).first;
+}
+
+void Lobby::settle(const Seat& seat) {
+    const std::lock_guard lock(mutex_);
+    const auto entry = entries_.find(seat.place.member);
+    if (entry != entries_.end() && entry->second.connection == seat.place.connection) {
+        entry->second.token_before.clear();
+    }
 }
 
 void Lobby::depart(const Seat& seat, Departure how, TimePoint now) {

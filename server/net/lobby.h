@@ -20,7 +20,7 @@ namespace froxel::net {
 struct Seat {
     std::shared_ptr<LiveSession> session;
     Place place;
-    std::string resume_token; // empty: a lost connection is not waited for
+    std::string resume_token; // of this connection; empty: when lost it is not waited for
     bool resumed = false;
     std::optional<session::ReadyFrame> picture; // the newest, to be shown at once
 };
@@ -44,6 +44,9 @@ class Lobby {
                                      const session::Hello& hello,
                                      std::weak_ptr<SessionViewer> viewer,
                                      TimePoint now);
+    // The client has heard of the seat's token: the one that it came with is worth nothing any
+    // more.
+    void settle(const Seat& seat);
     // Once for each Seat.
     void depart(const Seat& seat, Departure how, TimePoint now);
     // Ends what was waited for in vain. When the next one is due.
@@ -64,6 +67,7 @@ class Lobby {
         std::shared_ptr<LiveSession> session;
         std::string room;
         std::string token;
+        std::string token_before; // that the newest connection came with, until it has the new one
         uint64_t connection = 0;
         std::optional<TimePoint> away_until; // none: it is here
     };

@@ -25,13 +25,28 @@ Outbox::Put Outbox::putFrame(session::ReadyFrame frame) {
         decodable_ = video || (decodable_ && !breaks);
         drop(frames_.size());
         frames_.clear();
-    } else if (!decodable_ || frames_.size() >= kMaxFrames) {
-        decodable_ = false;
+    } else if (!decodable_) {
         drop(1);
+        return Put::kLost;
+    } else if (frames_.size() >= kMaxFrames ||
+               (!frames_.empty() && frame.ready_at - frames_.front().ready_at > kMaxWait)) {
+        decodable_ = false;
+        drop(frames_.size() + 1);
+        frames_.clear();
         return Put::kLost;
     }
     frames_.push_back(std::move(frame));
     return Put::kKept;
+}
+
+bool Outbox::interruptVideo() {
+    const bool waits =
+        !frames_.empty() && view::isVideo(frames_.back().record.delivered.encoding.codec);
+    if (waits) {
+        drop(frames_.size());
+        frames_.clear();
+    }
+    return std::exchange(decodable_, false);
 }
 
 void Outbox::keepAnswersOnly() {
@@ -40,18 +55,17 @@ void Outbox::keepAnswersOnly() {
     frames_.clear();
 }
 
-Outbox::Next Outbox::next(bool frame_allowed) const {
+Outbox::Next Outbox::next(bool state_allowed, bool frame_allowed) const {
     if (!answers_.empty()) {
         return Next::kAnswer;
     }
     if (room_due_) {
         return Next::kRoom;
     }
-    const bool frame_due = !frames_.empty() && frame_allowed;
-    if (state_due_ && !(frame_due && state_was_last_)) {
+    if (state_due_ && state_allowed) {
         return Next::kState;
     }
-    return frame_due ? Next::kFrame : Next::kNothing;
+    return !frames_.empty() && frame_allowed ? Next::kFrame : Next::kNothing;
 }
 
 Outgoing Outbox::takeAnswer() {
@@ -61,11 +75,6 @@ Outgoing Outbox::takeAnswer() {
     return answer;
 }
 
-void Outbox::takeState() {
-    state_due_ = false;
-    state_was_last_ = true;
-}
-
 const session::ReadyFrame& Outbox::frame() const {
     FROXEL_ASSERT(!frames_.empty(), "no picture waits");
     return frames_.front();
@@ -73,7 +82,6 @@ const session::ReadyFrame& Outbox::frame() const {
 
 session::ReadyFrame Outbox::takeFrame() {
     FROXEL_ASSERT(!frames_.empty(), "no picture waits");
-    state_was_last_ = false;
     session::ReadyFrame frame = std::move(frames_.front());
     frames_.pop_front();
     return frame;

@@ -1,7 +1,7 @@
 // What waits to be written to one connection, bounded: answers in a short queue, room and state in
 // a slot each, pictures in a short queue. Newer ones replace older ones, but for frames of video
-// that need those before them: they wait in their order, and where one is lost, all are that follow
-// it, up to the next key frame. One strand.
+// that need those before them: they wait in their order, not for long, and where one is lost, all
+// are that follow it, up to the next key frame. One strand.
 #pragma once
 
 #include "core/encoded_frame.h"
@@ -27,8 +27,10 @@ struct Outgoing {
 class Outbox {
   public:
     static constexpr size_t kMaxAnswers = 64;
-    // Frames of video that wait; credits let no more come, but those of a window and one.
+    // Frames of video that wait: those of a window and one, and of a room's viewer not for longer
+    // than this, counted from when they were ready.
     static constexpr size_t kMaxFrames = 9;
+    static constexpr Seconds kMaxWait{0.25};
 
     // False, and nothing kept, when kMaxAnswers are waiting: the client does not read.
     [[nodiscard]] bool putAnswer(Outgoing answer);
@@ -37,18 +39,21 @@ class Outbox {
     enum class Put { kKept, kLost };
     // kLost: this one cannot be decoded without one that was dropped; a key frame is needed.
     [[nodiscard]] Put putFrame(session::ReadyFrame frame);
+    // Frames of video are not wanted from here to the next key frame; whether any is missed.
+    [[nodiscard]] bool interruptVideo();
     // Pictures and states are not wanted any more.
     void keepAnswersOnly();
 
     enum class Next { kNothing, kAnswer, kRoom, kState, kFrame };
-    // Answers first, then who is in the room; states and pictures take turns, so that neither a
-    // flood of commands nor a flood of pictures starves the other.
-    [[nodiscard]] Next next(bool frame_allowed) const;
+    // Answers first, then who is in the room, then the state, which the caller allows seldom enough
+    // for pictures.
+    [[nodiscard]] Next next(bool state_allowed, bool frame_allowed) const;
     [[nodiscard]] Outgoing takeAnswer();
-    void takeState();
+    void takeState() { state_due_ = false; }
     void takeRoom() { room_due_ = false; }
     [[nodiscard]] session::ReadyFrame takeFrame();
 
+    [[nodiscard]] bool hasState() const { return state_due_; }
     [[nodiscard]] bool hasFrame() const { return !frames_.empty(); }
     // The picture that takeFrame() gives next.
     [[nodiscard]] const session::ReadyFrame& frame() const;
@@ -63,7 +68,6 @@ class Outbox {
     bool decodable_ = false; // whether the last frame of video put here was kept, and all before it
     bool room_due_ = false;
     bool state_due_ = false;
-    bool state_was_last_ = false;
     uint32_t dropped_count_ = 0;
 };
 

@@ -62,7 +62,7 @@ WsConnection::WsConnection(PeerStream stream,
                            ConnectionTicket ticket)
     : stream_(std::move(stream)), site_(std::move(site)), ticket_(std::move(ticket)),
       peer_(peerName(stream_.next_layer())), hello_deadline_(stream_.get_executor()),
-      write_deadline_(stream_.get_executor()) {}
+      write_deadline_(stream_.get_executor()), later_(stream_.get_executor()) {}
 
 WsConnection::~WsConnection() = default;
 
@@ -184,6 +184,8 @@ void WsConnection::write() {
     if (!writing_) {
         if (conversation_->closing()) {
             closeSocket();
+        } else {
+            writeLater();
         }
         return;
     }
@@ -194,6 +196,20 @@ void WsConnection::write() {
         writing_->body ? asio::buffer(*writing_->body) : asio::const_buffer()};
     stream_.async_write(buffers, [self = shared_from_this()](ErrorCode error, size_t) {
         self->run([&] { self->onWritten(error); });
+    });
+}
+
+// What waits only for its time.
+void WsConnection::writeLater() {
+    const auto at = conversation_->wakeAt(Clock::now());
+    if (!at) {
+        return;
+    }
+    later_.expires_at(*at);
+    later_.async_wait([self = shared_from_this()](ErrorCode error) {
+        if (!error) {
+            self->run([&] { self->write(); });
+        }
     });
 }
 
@@ -270,6 +286,7 @@ void WsConnection::abandon(const std::string& why, uint16_t code) {
     conversation_.reset();
     hello_deadline_.cancel();
     write_deadline_.cancel();
+    later_.cancel();
     beast::get_lowest_layer(stream_).close();
 }
 

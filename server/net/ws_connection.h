@@ -47,6 +47,7 @@ class WsConnection final : public SessionViewer,
     void onRead(ErrorCode error);
     void write();
     void onWritten(ErrorCode error);
+    void writeLater();
     void armWriteDeadline(size_t bytes);
     void linger();
     void closeSocket();
@@ -61,6 +62,7 @@ class WsConnection final : public SessionViewer,
     std::optional<Conversation> conversation_; // from start() until the connection ends
     boost::asio::steady_timer hello_deadline_;
     boost::asio::steady_timer write_deadline_;
+    boost::asio::steady_timer later_; // what waits for its time is written then
     boost::beast::flat_buffer buffer_;
     std::optional<Outgoing> writing_;
     bool closing_ = false;   // the close handshake was begun

@@ -34,6 +34,7 @@ struct Delivery {
     double scale = 1; // of each side
     uint32_t quality_max = 100;
     view::Chroma chroma_max = view::Chroma::k444;
+    double video_share = 1;  // of a video's bits a second that were asked for
     Seconds min_interval{0}; // between frames
     uint32_t rung = 0;       // steps below what was asked for, by the link
     // What the link carries, in bits a second; none: unknown, or fast enough not to matter.
@@ -67,6 +68,10 @@ inline constexpr view::Encoding kRefinedEncoding{92, view::Chroma::k444};
 [[nodiscard]] inline view::Encoding limited(view::Encoding asked, const Delivery& delivery) {
     asked.quality = std::min(asked.quality, delivery.quality_max);
     asked.chroma = std::min(asked.chroma, delivery.chroma_max);
+    if (delivery.video_share < 1) {
+        asked.video_kbps = std::max(view::kVideoKbpsRange.min,
+                                    static_cast<uint32_t>(asked.video_kbps * delivery.video_share));
+    }
     if (delivery.rung > 0 && delivery.link_rate) {
         asked.video_kbps = std::min(asked.video_kbps, carriedKbps(*delivery.link_rate));
     }

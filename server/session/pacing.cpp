@@ -26,7 +26,7 @@ constexpr double kQueueing = 0.75;
 // between one frame and two.
 constexpr Seconds kMinHold = 2s;
 constexpr double kHoldRoundTrips = 8;
-// Weight of the newest frame in the smoothed cost.
+// Weight of the newest frame in the smoothed cost and decoding time.
 constexpr double kCostWeight = 0.125;
 
 bool isNear(Seconds round_trip, Seconds base) {
@@ -57,7 +57,7 @@ double CreditWindow::takeHeld(TimePoint now) {
     return since.count() > 0 ? std::min(1.0, shut / since) : 0;
 }
 
-AckOutcome CreditWindow::onAck(uint64_t frame_id, TimePoint now, Seconds client) {
+AckOutcome CreditWindow::onAck(uint64_t frame_id, TimePoint now, Seconds client, Seconds decode) {
     if (frame_id == 0 || frame_id > last_sent_id_) {
         return AckOutcome::kUnknown;
     }
@@ -73,6 +73,7 @@ AckOutcome CreditWindow::onAck(uint64_t frame_id, TimePoint now, Seconds client)
     }
     const Seconds whole = now - acknowledged->at;
     const Seconds round_trip = client < whole ? whole - client : whole;
+    decode_ += (std::min(decode, client) - decode_) * kCostWeight;
     if (acknowledged->measured) {
         takeSample(*acknowledged, round_trip, now);
     }
@@ -100,10 +101,6 @@ void CreditWindow::setFloor(uint32_t floor) {
 void CreditWindow::probe() {
     probing_ = true;
     window_ = 1;
-}
-
-Seconds CreditWindow::stalledFor(TimePoint now) const {
-    return sent_.empty() ? Seconds(0) : Seconds(now - sent_.front().at);
 }
 
 void CreditWindow::takeSample(const Sent& frame, Seconds round_trip, TimePoint now) {
@@ -166,7 +163,7 @@ uint32_t CreditWindow::target() const {
     if (!cost_ || !base_ || cost_->count() <= 0) {
         return kInitial;
     }
-    const double frames = std::ceil(*base_ / *cost_) + 1;
+    const double frames = std::ceil((*base_ + decode_) / *cost_) + 1;
     return static_cast<uint32_t>(std::clamp(frames, double{kInitial}, double{kMax}));
 }
 

@@ -2,10 +2,10 @@
 // never reads a clock.
 //
 // A frame may be sent while fewer than window() are unacknowledged. The window is what fills the
-// pipe and no more: ceil(base round trip / frame cost) + 1, reached one step per round trip and
-// only while round trips stay near the base one. A round trip that grows means that frames queue
-// on the way, and the window shrinks (the idea of TCP Vegas): a slow link gets fewer, fresher
-// frames instead of old ones.
+// pipe and no more: ceil((base round trip + the client's decoding) / frame cost) + 1, reached one
+// step per round trip and only while round trips stay near the base one. A round trip that grows
+// means that frames queue on the way, and the window shrinks (the idea of TCP Vegas): a slow link
+// gets fewer, fresher frames instead of old ones.
 #pragma once
 
 #include "core/clock.h"
@@ -62,8 +62,12 @@ class CreditWindow {
     // When the frame's write begins; ids grow.
     void onSent(uint64_t frame_id, TimePoint now, const SentAs& as = {});
     // Acknowledges this frame and all before it. `client` is what the client says that it took from
-    // receiving to painting; more than the round trip counts as none.
-    AckOutcome onAck(uint64_t frame_id, TimePoint now, Seconds client = Seconds(0));
+    // receiving to painting, more than the round trip counts as none; `decode` is what decoding
+    // took of that.
+    AckOutcome onAck(uint64_t frame_id,
+                     TimePoint now,
+                     Seconds client = Seconds(0),
+                     Seconds decode = Seconds(0));
     // Of the last fresh acknowledgement; none before the first.
     [[nodiscard]] const std::optional<Trip>& lastTrip() const { return trip_; }
     // Queues do not shrink the window below this, 1 or 2: at 2 the link is never idle, and bits a
@@ -74,8 +78,6 @@ class CreditWindow {
 
     // Lowest believable time from send to acknowledgement; none before the first.
     [[nodiscard]] std::optional<Seconds> baseRoundTrip() const { return base_; }
-    // How long the oldest unacknowledged frame has been out; 0 when there is none.
-    [[nodiscard]] Seconds stalledFor(TimePoint now) const;
 
   private:
     struct Sent {
@@ -104,6 +106,7 @@ class CreditWindow {
     TimePoint base_confirmed_at_;
     bool probing_ = false; // window 1 until a frame has travelled alone
     std::optional<Seconds> cost_;
+    Seconds decode_{0}; // smoothed
     std::optional<Trip> trip_;
     TimePoint sent_at_;  // the last frame
     TimePoint acked_at_; // the last fresh acknowledgement

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace froxel::session {
 namespace {
@@ -46,8 +47,11 @@ constexpr Seconds kSure = 10s;
 constexpr double kFastWeight = 1.0 / 3;
 constexpr double kSlowWeight = 1.0 / 16;
 constexpr double kCostWeight = 1.0 / 8;
-// A rate that was seen is believed for so long when less is asked of the link.
+// A rate that was seen is believed for so long where frames wait though less gets through.
 constexpr Seconds kRateLifetime = 10s;
+// What the rate of frames in company is taken over: acknowledgements come in bunches, as a display
+// refreshes.
+constexpr Seconds kRateSpan = 50ms;
 
 void smooth(std::optional<Seconds>& mean, Seconds value, double weight) {
     mean = mean ? *mean + (value - *mean) * weight : value;
@@ -70,7 +74,8 @@ void RateController::setWanted(const view::Encoding& encoding, const DeliverySet
     }
     const Delivery before = delivery();
     const view::Encoding as = limited(asked_, before);
-    const bool stay = rung_ > 0 && settings.adaptive;
+    // Bits of one codec say nothing about those of another.
+    const bool stay = rung_ > 0 && settings.adaptive && encoding.codec == asked_.codec;
     restart(encoding, settings);
     if (!stay) {
         return;
@@ -79,7 +84,8 @@ void RateController::setWanted(const view::Encoding& encoding, const DeliverySet
     const auto no_more = [&](const Rung& rung) {
         const view::Encoding now = limited(encoding, rung.delivery);
         return rung.delivery.scale <= before.scale && now.quality <= as.quality &&
-               now.chroma <= as.chroma && rung.delivery.min_interval >= before.min_interval;
+               now.chroma <= as.chroma && now.video_kbps <= as.video_kbps &&
+               rung.delivery.min_interval >= before.min_interval;
     };
     const auto found = std::find_if(ladder_.begin(), ladder_.end(), no_more);
     rung_ =
@@ -158,13 +164,21 @@ RateStep RateController::onTrip(const Trip& trip, TimePoint now) {
 // Frames in company show what the link takes for each; a lone one shows it with the way added,
 // which is less than the link's rate and all that is known.
 void RateController::noteRate(const Trip& trip, TimePoint now) {
-    const Seconds took = trip.ahead > 0 ? trip.interval : trip.round_trip;
-    if (took.count() <= 0) {
+    const bool company = trip.ahead > 0;
+    if (!company) {
+        rate_bits_ = 0;
+        rate_took_ = Seconds(0);
+    }
+    rate_bits_ += 8.0 * static_cast<double>(trip.as.bytes);
+    rate_took_ += company ? trip.interval : trip.round_trip;
+    if (rate_took_ < (company ? kRateSpan : Seconds(1us))) {
         return;
     }
-    const double rate = 8.0 * static_cast<double>(trip.as.bytes) / took.count();
-    const bool bottleneck = trip.ahead > 0 && trip.held > kHeld && !trip.growing;
-    const bool old = now - link_rate_at_ > kRateLifetime;
+    const double rate = std::exchange(rate_bits_, 0) / std::exchange(rate_took_, 0s).count();
+    const bool bottleneck = company && trip.held > kHeld && !trip.growing;
+    // Frames that wait for nothing say only what was asked of the link.
+    const bool waits = bottleneck || trip.queue > kWaiting * trip.round_trip;
+    const bool old = waits && now - link_rate_at_ > kRateLifetime;
     if (!link_rate_ || old || rate >= *link_rate_) {
         link_rate_ = rate;
         link_rate_at_ = now;

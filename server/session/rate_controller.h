@@ -99,6 +99,9 @@ class RateController {
     Seconds queue_{0};
     std::optional<double> link_rate_;
     TimePoint link_rate_at_;
+    // Of frames in company since the last rate was taken.
+    double rate_bits_ = 0;
+    Seconds rate_took_{0};
     bool probe_ = false;
     // A step down that a lone frame has yet to confirm: from where, and how long frames travelled.
     struct Doubt {

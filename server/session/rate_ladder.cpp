@@ -1,12 +1,18 @@
 #include "session/rate_ladder.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace froxel::session {
 namespace {
 
 constexpr std::array kQualities = {90U, 75U, 65U, 55U, 45U};
 constexpr std::array kScales = {0.75, 0.5};
+// Of a video's rate: first at full size, since another size begins the stream anew by a key frame.
+constexpr std::array kShares = {0.7, 0.5, 0.35};
+constexpr std::array kShareAtScales = {0.25, 0.15};
+constexpr std::array kShareAtIntervals = {0.1, 0.06};
 constexpr std::array kIntervals = {Seconds(0.1), Seconds(0.2)};
 
 // libjpeg's scale of its quantisation tables, in percent.
@@ -27,10 +33,29 @@ class Builder {
 
     void add() {
         next_.rung = static_cast<uint32_t>(ladder_.size());
-        const double all = bitsOf(asked_, 1);
-        ladder_.push_back({next_, bitsOf(limited(asked_, next_), next_.scale) / all, alone_});
+        const double bits =
+            video_ ? videoBits() : bitsOf(limited(asked_, next_), next_.scale) / bitsOf(asked_, 1);
+        ladder_.push_back({next_, bits, alone_});
     }
     std::vector<Rung> build() {
+        video_ ? addShares() : addQualities();
+        for (size_t i = 0; i < kScales.size(); ++i) {
+            next_.scale = kScales[i];
+            next_.video_share = video_ ? kShareAtScales[i] : 1;
+            add();
+        }
+        alone_ = true;
+        add();
+        for (size_t i = 0; i < kIntervals.size(); ++i) {
+            next_.min_interval = kIntervals[i];
+            next_.video_share = video_ ? kShareAtIntervals[i] : 1;
+            add();
+        }
+        return std::move(ladder_);
+    }
+
+  private:
+    void addQualities() {
         for (const uint32_t quality : kQualities) {
             next_.quality_max = quality;
             if (quality < asked_.quality) {
@@ -41,21 +66,21 @@ class Builder {
         if (asked_.chroma != view::Chroma::k420) {
             add();
         }
-        for (const double scale : kScales) {
-            next_.scale = scale;
+    }
+    // Fewer frames of a video have more bits each.
+    [[nodiscard]] double videoBits() const {
+        constexpr double kUsualFps = 30;
+        return next_.video_share * std::max(1.0, next_.min_interval.count() * kUsualFps);
+    }
+    void addShares() {
+        for (const double share : kShares) {
+            next_.video_share = share;
             add();
         }
-        alone_ = true;
-        add();
-        for (const Seconds interval : kIntervals) {
-            next_.min_interval = interval;
-            add();
-        }
-        return std::move(ladder_);
     }
 
-  private:
     const view::Encoding asked_;
+    const bool video_ = view::isVideo(asked_.codec);
     Delivery next_;
     bool alone_ = false;
     std::vector<Rung> ladder_;

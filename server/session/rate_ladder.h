@@ -1,5 +1,5 @@
-// The steps that a slow link leads down: fewer bits a frame (quality, then chroma), then fewer
-// pixels, then fewer frames. Pure.
+// The steps that a slow link leads down: fewer bits a frame (quality, then chroma; of video its
+// rate), then fewer pixels, then fewer frames. Pure.
 #pragma once
 
 #include "session/delivery.h"

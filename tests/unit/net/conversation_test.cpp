@@ -62,6 +62,35 @@ TEST_F(ConversationTest, Commands_BeforeTheAnswerIsWritten_AreAnsweredOnce) {
     EXPECT_EQ(port_.session().states.size(), 4U);
 }
 
+// A camera that is dragged says 60 commands a second; a state answers all that came before it.
+TEST_F(ConversationTest, States_OfAFloodOfCommands_AreFewAndTheLastSaysAll) {
+    join();
+    const auto due_in_a_second = [this] {
+        int states = 0;
+        for (int i = 0; i < 60; ++i, now_ += 16667us) {
+            setExposure(1 + i / 100.0);
+            for (auto answer = nextAnswer(); answer; answer = nextAnswer()) {
+                states += answer->has_state() ? 1 : 0;
+            }
+        }
+        return states;
+    };
+    EXPECT_LE(due_in_a_second(), Conversation::kStatesAtOnce + Conversation::kStatesPerSecond);
+    EXPECT_LE(due_in_a_second(), Conversation::kStatesPerSecond + 1);
+    uint64_t last = setExposure(7);
+    while (nextAnswer()) {
+        last = setExposure(7);
+    }
+    const auto wake = talk_.wakeAt(now_);
+    ASSERT_TRUE(wake);
+    EXPECT_LE(*wake - now_, 200ms);
+    now_ = *wake;
+    const v1::StateChanged state = nextAnswer().value().state();
+    EXPECT_EQ(state.ref_seq(), last);
+    EXPECT_DOUBLE_EQ(state.state().exposure(), 7);
+    EXPECT_FALSE(talk_.wakeAt(now_)) << "nothing waits";
+}
+
 TEST_F(ConversationTest, PlacedLights_AreToldByChanges) {
     join();
     const auto place = [this](uint32_t id) {

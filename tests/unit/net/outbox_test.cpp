@@ -29,7 +29,7 @@ std::vector<uint64_t> takeAll(Outbox& outbox) {
 }
 
 TEST(Outbox, Next_Empty_IsNothing) {
-    EXPECT_EQ(Outbox().next(true), Outbox::Next::kNothing);
+    EXPECT_EQ(Outbox().next(true, true), Outbox::Next::kNothing);
 }
 
 TEST(Outbox, PutFrame_OneWaits_IsReplacedAndCounted) {
@@ -45,8 +45,8 @@ TEST(Outbox, PutFrame_OneWaits_IsReplacedAndCounted) {
 TEST(Outbox, Next_FrameNotAllowed_StaysInItsSlot) {
     Outbox outbox;
     (void)outbox.putFrame(frame(1));
-    EXPECT_EQ(outbox.next(false), Outbox::Next::kNothing);
-    EXPECT_EQ(outbox.next(true), Outbox::Next::kFrame);
+    EXPECT_EQ(outbox.next(true, false), Outbox::Next::kNothing);
+    EXPECT_EQ(outbox.next(true, true), Outbox::Next::kFrame);
 }
 
 TEST(Outbox, PutAnswer_QueueFull_IsRefused) {
@@ -63,21 +63,20 @@ TEST(Outbox, Next_AnswerWaits_ComesFirst) {
     (void)outbox.putFrame(frame(1));
     outbox.putState();
     ASSERT_TRUE(outbox.putAnswer({"answer", nullptr, {}}));
-    EXPECT_EQ(outbox.next(true), Outbox::Next::kAnswer);
+    EXPECT_EQ(outbox.next(true, true), Outbox::Next::kAnswer);
 }
 
-TEST(Outbox, Next_StatesAndFramesKeepComing_TakeTurns) {
+TEST(Outbox, Next_StateNotAllowed_LeavesTheWayToFrames) {
     Outbox outbox;
     outbox.putState();
     (void)outbox.putFrame(frame(1));
-    for (int i = 0; i < 3; ++i) {
-        ASSERT_EQ(outbox.next(true), Outbox::Next::kState);
-        outbox.takeState();
-        outbox.putState();
-        ASSERT_EQ(outbox.next(true), Outbox::Next::kFrame);
-        EXPECT_EQ(outbox.takeFrame().record.frame_id, 1U);
-        (void)outbox.putFrame(frame(1));
-    }
+    EXPECT_EQ(outbox.next(true, true), Outbox::Next::kState);
+    EXPECT_EQ(outbox.next(false, true), Outbox::Next::kFrame);
+    EXPECT_EQ(outbox.next(false, false), Outbox::Next::kNothing);
+    EXPECT_TRUE(outbox.hasState());
+    outbox.takeState();
+    EXPECT_FALSE(outbox.hasState());
+    EXPECT_EQ(outbox.next(true, true), Outbox::Next::kFrame);
 }
 
 TEST(Outbox, KeepAnswersOnly_Closing_LeavesNothingElse) {
@@ -87,7 +86,7 @@ TEST(Outbox, KeepAnswersOnly_Closing_LeavesNothingElse) {
     ASSERT_TRUE(outbox.putAnswer({"last words", nullptr, {}}));
     outbox.keepAnswersOnly();
     EXPECT_EQ(outbox.takeAnswer().head, "last words");
-    EXPECT_EQ(outbox.next(true), Outbox::Next::kNothing);
+    EXPECT_EQ(outbox.next(true, true), Outbox::Next::kNothing);
 }
 
 TEST(Outbox, Video_WaitsInItsOrder) {
@@ -124,11 +123,38 @@ TEST(Outbox, Video_QueueFull_IsLostUpToTheNextKeyFrame) {
         ASSERT_EQ(outbox.putFrame(video(id)), Outbox::Put::kKept);
     }
     EXPECT_EQ(outbox.putFrame(video(50)), Outbox::Put::kLost);
-    EXPECT_EQ(takeAll(outbox).size(), Outbox::kMaxFrames) << "those before it are good";
+    EXPECT_FALSE(outbox.hasFrame()) << "late, and a key frame is to come";
     EXPECT_EQ(outbox.putFrame(video(51)), Outbox::Put::kLost) << "refers to the lost one";
     EXPECT_EQ(outbox.putFrame(video(52, true)), Outbox::Put::kKept);
     EXPECT_EQ(outbox.putFrame(video(53)), Outbox::Put::kKept);
-    EXPECT_EQ(outbox.droppedCount(), 2U);
+    EXPECT_EQ(outbox.droppedCount(), Outbox::kMaxFrames + 2);
+}
+
+// As of a room's viewer whose link takes fewer frames than the others'.
+TEST(Outbox, Video_WaitsTooLong_IsDroppedUpToTheNextKeyFrame) {
+    Outbox outbox;
+    const auto at = [](session::ReadyFrame ready, Seconds time) {
+        ready.ready_at = TimePoint() + std::chrono::duration_cast<Clock::duration>(time);
+        return ready;
+    };
+    EXPECT_EQ(outbox.putFrame(at(video(1, true), Seconds(1))), Outbox::Put::kKept);
+    EXPECT_EQ(outbox.putFrame(at(video(2), Seconds(1) + Outbox::kMaxWait)), Outbox::Put::kKept);
+    EXPECT_EQ(outbox.putFrame(at(video(3), Seconds(1.1) + Outbox::kMaxWait)), Outbox::Put::kLost);
+    EXPECT_FALSE(outbox.hasFrame());
+    EXPECT_EQ(outbox.droppedCount(), 3U);
+}
+
+TEST(Outbox, InterruptVideo_LeavesImagesAndWaitsForAKeyFrame) {
+    Outbox outbox;
+    EXPECT_FALSE(outbox.interruptVideo()) << "there is none";
+    (void)outbox.putFrame(frame(1));
+    EXPECT_FALSE(outbox.interruptVideo());
+    EXPECT_EQ(takeAll(outbox), (std::vector<uint64_t>{1}));
+    (void)outbox.putFrame(video(2, true));
+    EXPECT_TRUE(outbox.interruptVideo());
+    EXPECT_FALSE(outbox.hasFrame());
+    EXPECT_EQ(outbox.putFrame(video(3)), Outbox::Put::kLost);
+    EXPECT_EQ(outbox.putFrame(video(4, true)), Outbox::Put::kKept);
 }
 
 TEST(Outbox, Video_AfterAJpeg_GoesOnOnlyWhereNoFrameWasReplaced) {

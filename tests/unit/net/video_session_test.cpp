@@ -84,16 +84,34 @@ TEST_F(VideoSessionTest, KeyFrames_AreSharedByThoseWhoAskMeanwhile) {
     EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
     deliver(1, true);
     const session::SessionState before = state();
-    first.session->requestKeyFrame(second.place); // watches, and may
-    first.session->requestKeyFrame(first.place);
+    EXPECT_FALSE(first.session->requestKeyFrame(second.place, kNow)); // watches, and may
+    EXPECT_FALSE(first.session->requestKeyFrame(first.place, kNow));
     EXPECT_EQ(state().key_requests, before.key_requests + 1);
     EXPECT_GT(state().version, before.version);
     deliver(2, false); // was under way
-    first.session->requestKeyFrame(second.place);
+    EXPECT_FALSE(first.session->requestKeyFrame(second.place, kNow));
     EXPECT_EQ(state().key_requests, before.key_requests + 1);
     deliver(3, true);
-    first.session->requestKeyFrame(second.place);
+    EXPECT_FALSE(first.session->requestKeyFrame(second.place, kNow));
     EXPECT_EQ(state().key_requests, before.key_requests + 2);
+}
+
+TEST_F(VideoSessionTest, KeyFrames_AskedForAgainAndAgain_AreLeftOutAndToldWhen) {
+    const Seat first = enter(first_, true);
+    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    deliver(1, true);
+    const uint64_t before = state().key_requests;
+    for (uint64_t id = 2; id < 12; ++id) {
+        const auto later = first.session->requestKeyFrame(first.place, kNow);
+        EXPECT_EQ(later.has_value(), id >= 5) << id;
+        deliver(id, true);
+    }
+    EXPECT_EQ(state().key_requests, before + 3);
+    const auto later = first.session->requestKeyFrame(first.place, kNow);
+    ASSERT_TRUE(later);
+    EXPECT_EQ(*later, kNow + 1s);
+    EXPECT_FALSE(first.session->requestKeyFrame(first.place, *later));
+    EXPECT_EQ(state().key_requests, before + 4);
 }
 
 } // namespace

@@ -37,16 +37,39 @@ TEST(CreditWindow, Ack_CoversAllBeforeIt) {
     EXPECT_EQ(window.onAck(0, now + 2ms), AckOutcome::kUnknown);
 }
 
-TEST(CreditWindow, NoAck_StaysShutAndCountsTheStall) {
+TEST(CreditWindow, NoAck_StaysShut) {
     CreditWindow window;
     const TimePoint now{1s};
-    EXPECT_EQ(window.stalledFor(now), Seconds(0));
     window.onSent(1, now);
+    EXPECT_TRUE(window.open());
     window.onSent(2, now + 1s);
     EXPECT_FALSE(window.open());
-    EXPECT_EQ(window.stalledFor(now + 5s), Seconds(5));
     window.onAck(1, now + 5s);
-    EXPECT_EQ(window.stalledFor(now + 5s), Seconds(4));
+    EXPECT_TRUE(window.open());
+}
+
+// Frames that a client decodes are on their way too.
+TEST(CreditWindow, SlowDecoder_GetsAsManyAsItTakesAtOnce) {
+    for (const auto& [decode, frames] : {std::pair{0ms, 2U}, {10ms, 2U}, {40ms, 4U}}) {
+        CreditWindow window;
+        TimePoint now{1s};
+        uint64_t sent = 0;
+        uint64_t acked = 0;
+        std::deque<TimePoint> painted; // of those under way: 2 ms there and back, then decoding
+        for (int step = 0; step < 4000; ++step, now += 1ms) {
+            while (!painted.empty() && painted.front() <= now) {
+                painted.pop_front();
+                window.onAck(++acked, now, decode, decode);
+            }
+            if (step % 16 == 0 && window.open()) {
+                window.onProduced(16ms);
+                window.onSent(++sent, now);
+                painted.push_back(now + 2ms + decode);
+            }
+        }
+        EXPECT_EQ(window.window(), frames) << decode.count();
+        EXPECT_GE(sent, 4000U / 16 * 9 / 10) << "every frame leaves, however long decoding takes";
+    }
 }
 
 TEST(CreditWindow, IdsNearTheEnd_StillWork) {

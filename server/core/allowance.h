@@ -1,0 +1,44 @@
+// How often something may happen: so often at once, then so often a second. Pure: time is passed
+// in.
+#pragma once
+
+#include "core/clock.h"
+
+#include <algorithm>
+
+namespace froxel {
+
+class Allowance {
+  public:
+    Allowance(double at_once, double per_second) : most_(at_once), per_second_(per_second) {}
+
+    // Whether it may happen now; counts it if so.
+    [[nodiscard]] bool take(TimePoint now) {
+        left_ = leftAt(now);
+        at_ = std::max(at_, now);
+        if (left_ < 1) {
+            return false;
+        }
+        --left_;
+        return true;
+    }
+    // When take() will do; `now` if it does already.
+    [[nodiscard]] TimePoint nextAt(TimePoint now) const {
+        const Seconds wait((1 - leftAt(now)) / per_second_);
+        return wait.count() > 0 ? now + std::chrono::ceil<Clock::duration>(wait) : now;
+    }
+
+  private:
+    // Times that it may happen at once; all before the first.
+    [[nodiscard]] double leftAt(TimePoint now) const {
+        const Seconds since = std::max(Seconds(0), Seconds(now - at_));
+        return std::min(most_, left_ + per_second_ * since.count());
+    }
+
+    double most_;
+    double per_second_;
+    double left_ = most_;
+    TimePoint at_{};
+};
+
+} // namespace froxel
