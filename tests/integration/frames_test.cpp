@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
 
 namespace froxel::test {
 namespace {
@@ -171,6 +174,38 @@ TEST(Handshakes, CloseIsNeverAnswered_TheServerLetsGo) {
     EXPECT_TRUE(silent.ends()); // and it says nothing
     EXPECT_LT(Clock::now() - begin, 8s);
     EXPECT_TRUE(eventually([&] { return closesOf(server, "4001") == 1; }));
+}
+
+// What bounds a connection's queue is the kernel's affair too. Read back from the accepted socket,
+// which is in this process.
+TEST(Sockets, OfViewers_SendAtOnceHoldLittleUnsentAndGiveUpOnTheDead) {
+    TestServer server({.still = true});
+    WsClient client(server.port());
+    client.join();
+    int accepted = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        const int descriptor = std::stoi(entry.path().filename());
+        sockaddr_in here{};
+        sockaddr_in there{};
+        socklen_t size = sizeof here;
+        if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&here), &size) != 0 ||
+            here.sin_family != AF_INET || ntohs(here.sin_port) != server.port() ||
+            getpeername(descriptor, reinterpret_cast<sockaddr*>(&there), &(size = sizeof there)) !=
+                0) {
+            continue;
+        }
+        const auto option = [descriptor](int name) {
+            int value = 0;
+            socklen_t length = sizeof value;
+            EXPECT_EQ(getsockopt(descriptor, IPPROTO_TCP, name, &value, &length), 0);
+            return value;
+        };
+        ++accepted;
+        EXPECT_NE(option(TCP_NODELAY), 0);
+        EXPECT_EQ(option(TCP_NOTSENT_LOWAT), 128 * 1024);
+        EXPECT_EQ(option(TCP_USER_TIMEOUT), 10'000);
+    }
+    EXPECT_EQ(accepted, 1);
 }
 
 // Nagle's algorithm or a delayed acknowledgement would show as 40 ms.

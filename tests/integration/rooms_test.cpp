@@ -1,5 +1,6 @@
 // Several viewers of one session, lost connections that come back, and crowds.
 #include "integration/eventually.h"
+#include "integration/http_exchange.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
 
@@ -120,20 +121,31 @@ TEST(Rooms, BadName_IsRefusedWithTheRule) {
     EXPECT_NE(error.message().find("1 to 64"), std::string::npos) << error.message();
 }
 
-// It takes nothing at all; the room goes on at its pace, and ends the stuck one in time.
-TEST(Rooms, OneReadsNothing_OthersStream) {
-    TestServer server;
+// It takes nothing at all of pictures that no buffer holds; the room goes on at its pace, and the
+// stuck one is let go.
+TEST(Rooms, OneReadsNothing_OthersStreamAndItIsLetGo) {
+    TestServer server({.size = {640, 360}});
+    server.device().noisy = true;
     WsClient quick(server.port());
     quick.join("hall");
+    const auto rate = [&quick](Seconds time) {
+        const auto begin = Clock::now();
+        int frames = 0;
+        for (; Clock::now() - begin < time; ++frames) {
+            quick.expectFrame();
+        }
+        return frames / time.count();
+    };
+    const double alone = rate(2s);
     WsClient stuck(server.port(), {.auto_ack = false, .receive_buffer_bytes = 4096});
     stuck.join("hall");
-    const auto begin = std::chrono::steady_clock::now();
-    uint64_t frames = 0;
-    while (std::chrono::steady_clock::now() - begin < 2s) {
+    EXPECT_GT(rate(2s), alone / 2);
+    const auto begin = Clock::now();
+    EXPECT_TRUE(eventually([&] {
         quick.expectFrame();
-        ++frames;
-    }
-    EXPECT_GT(frames, 10U);
+        return sampleOf(httpGet(server.adminPort(), "/metrics"), "froxel_viewers") == 1;
+    }));
+    EXPECT_LT(Clock::now() - begin, 15s);
     EXPECT_EQ(server.device().live_views, 1);
 }
 
@@ -356,9 +368,20 @@ TEST(AdmissionByCost, DeviceIsBusy_RefusesClearly_ExistingOnesKeepTheirRate) {
     server.device().frame_time = 30ms;
     WsClient first(server.port());
     first.join("hall");
-    for (int i = 0; i < 20; ++i) {
-        first.expectFrame();
+    const auto twenty = [&first] {
+        const auto begin = Clock::now();
+        for (int i = 0; i < 20; ++i) {
+            first.expectFrame();
+        }
+        return Seconds(Clock::now() - begin);
+    };
+    const Seconds alone = twenty();
+    for (int i = 0; i < 10; ++i) {
+        WsClient refused(server.port());
+        refused.hello();
+        EXPECT_EQ(refused.expectError().code(), v1::ERROR_CODE_CAPACITY);
     }
+    EXPECT_LT(twenty(), 2 * alone);
     WsClient second(server.port());
     second.hello();
     const v1::Error error = second.expectError();
