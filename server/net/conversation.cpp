@@ -182,12 +182,6 @@ void Conversation::followLink(TimePoint now) {
         window_.probe();
     }
     session::Delivery delivery = rate_.delivery();
-    // In a room pictures may be more than this link takes, as others' links take them: then fewer
-    // come, as fresh as they can be.
-    const bool bits_give =
-        state.delivery.adaptive && !rate_.alone() && trip.as.rung >= delivery.rung;
-    window_.setFloor(bits_give ? 2 : 1);
-
     delivery.link_rate = told_delivery_ ? told_delivery_->link_rate : std::nullopt;
     // In steps: the last digits of a rate are news to nobody.
     constexpr double kNews = 1.2;
@@ -200,6 +194,11 @@ void Conversation::followLink(TimePoint now) {
         told_delivery_ = delivery;
         seat_->session->setDelivery(seat_->place, delivery);
     }
+    // In a room pictures may be more than this link takes, as others' links take them: then fewer
+    // come, as fresh as they can be.
+    const bool bits_give = state.delivery.adaptive && !rate_.alone() &&
+                           seat_->session->deliveredRung() >= delivery.rung;
+    window_.setFloor(bits_give ? 2 : 1);
 }
 
 void Conversation::onService(const ServiceStatus& status, TimePoint now) {

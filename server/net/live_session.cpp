@@ -301,6 +301,11 @@ void LiveSession::updateDelivery() {
     }
 }
 
+uint32_t LiveSession::deliveredRung() const {
+    const std::lock_guard lock(mutex_);
+    return delivery_.rung;
+}
+
 SessionState LiveSession::state() const {
     const std::lock_guard lock(mutex_);
     return state_;

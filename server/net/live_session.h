@@ -100,6 +100,8 @@ class LiveSession final : public session::FrameSink,
     // there. The session is delivered as to its best one: a slow viewer takes fewer pictures, and
     // lowers nobody's.
     void setDelivery(const Place& place, const std::optional<session::Delivery>& delivery);
+    // How far below what was asked for its pictures are made now, see Delivery.
+    [[nodiscard]] uint32_t deliveredRung() const;
 
     [[nodiscard]] session::SessionId id() const { return id_; }
     [[nodiscard]] const session::SessionContext& context() const { return *serving_.context; }

@@ -26,8 +26,8 @@ constexpr double kQueueing = 0.75;
 // between one frame and two.
 constexpr Seconds kMinHold = 2s;
 constexpr double kHoldRoundTrips = 8;
-// Weight of the newest frame in the smoothed cost and decoding time.
-constexpr double kCostWeight = 0.125;
+// Weight of the newest frame in the smoothed decoding time.
+constexpr double kDecodeWeight = 0.125;
 
 bool isNear(Seconds round_trip, Seconds base) {
     return round_trip <= base * kNear || round_trip <= base + kJitter;
@@ -36,7 +36,7 @@ bool isNear(Seconds round_trip, Seconds base) {
 } // namespace
 
 void CreditWindow::onProduced(Seconds cost) {
-    cost_ = cost_ ? *cost_ + (cost - *cost_) * kCostWeight : cost;
+    cost_.add(cost);
 }
 
 void CreditWindow::onSent(uint64_t frame_id, TimePoint now, const SentAs& as) {
@@ -73,7 +73,7 @@ AckOutcome CreditWindow::onAck(uint64_t frame_id, TimePoint now, Seconds client,
     }
     const Seconds whole = now - acknowledged->at;
     const Seconds round_trip = client < whole ? whole - client : whole;
-    decode_ += (std::min(decode, client) - decode_) * kCostWeight;
+    decode_ += (std::min(decode, client) - decode_) * kDecodeWeight;
     if (acknowledged->measured) {
         takeSample(*acknowledged, round_trip, now);
     }
@@ -160,10 +160,11 @@ void CreditWindow::adjust(Seconds round_trip, const Sent& frame, TimePoint now) 
 }
 
 uint32_t CreditWindow::target() const {
-    if (!cost_ || !base_ || cost_->count() <= 0) {
+    const Seconds cost = cost_.value().value_or(Seconds(0));
+    if (!base_ || cost.count() <= 0) {
         return kInitial;
     }
-    const double frames = std::ceil((*base_ + decode_) / *cost_) + 1;
+    const double frames = std::ceil((*base_ + decode_) / cost) + 1;
     return static_cast<uint32_t>(std::clamp(frames, double{kInitial}, double{kMax}));
 }
 

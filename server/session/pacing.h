@@ -8,7 +8,7 @@
 // gets fewer, fresher frames instead of old ones.
 #pragma once
 
-#include "core/clock.h"
+#include "session/steady_cost.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -105,7 +105,7 @@ class CreditWindow {
     size_t base_bytes_ = 1; // of the frame that took it
     TimePoint base_confirmed_at_;
     bool probing_ = false; // window 1 until a frame has travelled alone
-    std::optional<Seconds> cost_;
+    SteadyCost cost_;
     Seconds decode_{0}; // smoothed
     std::optional<Trip> trip_;
     TimePoint sent_at_;  // the last frame

@@ -24,10 +24,12 @@ constexpr double kBusy = 0.9;
 // A trip this late is believed by itself where frames are this much further apart than wanted.
 constexpr Seconds kAlarm = 250ms;
 constexpr double kAlarmRatio = 3;
-// Between two steps up, so that frames of the last one are there to judge by.
+// Between two steps up, so that frames of the last one are there to judge by; to a rung that failed
+// before, once the one below has held for a while.
 constexpr Seconds kClimb = 200ms;
+constexpr Seconds kClimbAgain = 2s;
 // How long a rung that failed is not tried again, at first and at most; doubled in between.
-constexpr Seconds kFirstHold = 4s;
+constexpr Seconds kFirstHold = 8s;
 constexpr Seconds kLongestHold = 128s;
 // After this long without a step down, failures at this rung and below are forgotten.
 constexpr Seconds kStable = 20s;
@@ -46,16 +48,11 @@ constexpr Seconds kDoubtful = 2s; // a lone frame later than this proves nothing
 constexpr Seconds kSure = 10s;
 constexpr double kFastWeight = 1.0 / 3;
 constexpr double kSlowWeight = 1.0 / 16;
-constexpr double kCostWeight = 1.0 / 8;
 // A rate that was seen is believed for so long where frames wait though less gets through.
 constexpr Seconds kRateLifetime = 10s;
 // What the rate of frames in company is taken over: acknowledgements come in bunches, as a display
 // refreshes.
 constexpr Seconds kRateSpan = 50ms;
-
-void smooth(std::optional<Seconds>& mean, Seconds value, double weight) {
-    mean = mean ? *mean + (value - *mean) * weight : value;
-}
 
 } // namespace
 
@@ -93,9 +90,9 @@ void RateController::setWanted(const view::Encoding& encoding, const DeliverySet
 }
 
 void RateController::onProduced(Seconds cost, double scale) {
-    smooth(cost_, cost, kCostWeight);
+    cost_.add(cost);
     if (scale >= 1) {
-        smooth(full_cost_, cost, kCostWeight);
+        full_cost_.add(cost);
     }
 }
 
@@ -103,8 +100,8 @@ Seconds RateController::wantedInterval() const {
     const double fps = settings_.target_fps > 0 ? settings_.target_fps : kEnoughFps;
     Seconds interval = std::max(Seconds(1 / fps), delivery().min_interval);
     // A smaller picture is no reason to ask for more frames than the full one would have.
-    for (const auto& cost : {cost_, full_cost_}) {
-        interval = std::max(interval, cost.value_or(Seconds(0)));
+    for (const SteadyCost& cost : {cost_, full_cost_}) {
+        interval = std::max(interval, cost.value().value_or(Seconds(0)));
     }
     return interval;
 }
@@ -129,7 +126,7 @@ RateStep RateController::onTrip(const Trip& trip, TimePoint now) {
     if (doubt_ && trip.ahead == 0 && now - moved_at_ < kDoubtful) {
         const Doubt doubt = *std::exchange(doubt_, std::nullopt);
         if (trip.round_trip > kAsLong * doubt.round_trip) {
-            failures_[doubt.rung] = {};
+            std::fill(failures_.begin(), failures_.begin() + rung_, Failure{});
             sure_until_ = now + std::chrono::duration_cast<Clock::duration>(kSure);
             moveTo(doubt.rung, now);
             return RateStep::kUndone;
@@ -277,8 +274,12 @@ Seconds RateController::companysRoundTrip() const {
 }
 
 bool RateController::roomAbove(TimePoint now) const {
-    if (rung_ == 0 || seen_ < kEvidence || now - moved_at_ < kClimb ||
-        now < failures_[rung_ - 1].held_until) {
+    if (rung_ == 0 || seen_ < kEvidence) {
+        return false;
+    }
+    const Failure& above = failures_[rung_ - 1];
+    const Seconds dwell = above.held_until == TimePoint() ? kClimb : kClimbAgain;
+    if (now - moved_at_ < dwell || now < above.held_until) {
         return false;
     }
     const Seconds wanted = wantedInterval();
@@ -305,6 +306,12 @@ void RateController::stepDown(Seconds link_interval, TimePoint now) {
     const Seconds hold = std::min(kLongestHold, kFirstHold * doubled);
     failure.link_rate = carried();
     failure.held_until = now + std::chrono::duration_cast<Clock::duration>(hold);
+    // What asks for more, or was left out on the way down, is not to be tried sooner.
+    for (uint32_t above = 0; above < next; ++above) {
+        Failure& held = failures_[above];
+        held.held_until = std::max(held.held_until, failure.held_until);
+        held.link_rate = held.count > 0 ? held.link_rate : failure.link_rate;
+    }
     if (!alone() && now >= sure_until_) {
         doubt_ = Doubt{rung_, companysRoundTrip()};
         probe_ = true;

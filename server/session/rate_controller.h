@@ -7,8 +7,8 @@
 // makes frames. Then, at once, down the ladder as far as the ratio of the two asks for; a step that
 // leaves the round trip of a lone frame as long as it was before was a mistake, a longer route, and
 // is taken back. Up goes one rung at a time, while credit holds nothing back. A rung that failed is
-// held for longer each time; that is forgotten once frames travel clearly faster than they did, or
-// after a stable time.
+// held for longer each time, and those above it as long; that is forgotten once frames travel
+// clearly faster than they did, or after a stable time.
 #pragma once
 
 #include "session/pacing.h"
@@ -84,8 +84,8 @@ class RateController {
     std::vector<Failure> failures_; // by rung
     uint32_t rung_ = 0;
     TimePoint moved_at_;
-    std::optional<Seconds> full_cost_; // of a frame at full scale
-    std::optional<Seconds> cost_;      // at the present one
+    SteadyCost full_cost_; // of a frame at full scale
+    SteadyCost cost_;      // at the present one
 
     // At this rung.
     std::deque<Trip> recent_; // the last few

@@ -12,7 +12,7 @@ constexpr double kWeight = 1.0 / 4;
 // device may still be about to make the same step.
 constexpr uint32_t kEvidence = 4;
 constexpr uint32_t kSettling = 1;
-constexpr double kOver = 1.05;    // of the time for a frame
+constexpr double kOver = 1.05; // of the time for a frame
 constexpr double kUnder = 0.9;
 constexpr Seconds kFirstHold = 1s;
 constexpr Seconds kLongestHold = 30s;

@@ -164,12 +164,13 @@ class Figures:
         """What a viewer costs while nothing moves and its picture is refined, above what the server
         takes without viewers: a driver's own threads do not rest."""
         with self.server("--no-animate") as server:
-            _, _, alone = rates(server, seconds)
             run = self.viewers(server.url, script="idle", seconds=seconds + 12)
             time.sleep(8)
             frames, sent, cpu = rates(server, seconds)
             there = server.sample()["froxel_viewers"] == 1
             run.communicate()
+            time.sleep(3)
+            _, _, alone = rates(server, seconds)
         if not there or run.returncode != 0:
             sys.exit(f"{name}: the viewer was not there")
         text = f"{frames:.2f} frames/s, {sent:.1f} bytes/s, {(cpu - alone) * 100:.3f} % of a core"

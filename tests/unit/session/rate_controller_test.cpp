@@ -79,7 +79,7 @@ TEST(RateController, HalfTheBandwidth_SettlesAtOnceAndStaysFresh) {
         const auto shown = simulation.run(with(kCpu, 208e3), 60s);
         EXPECT_LT(ageAt(shown, 0.99), 220ms) << seed; // with 60 ms of making and 60 of the link
         EXPECT_GT(shown.size(), 60U * 12) << "the rate is the last to give";
-        EXPECT_LE(simulation.count(RateStep::kCongested), 6) << "failed rungs are held";
+        EXPECT_LE(simulation.count(RateStep::kCongested), 4) << "failed rungs are held";
         EXPECT_NEAR(*simulation.rate().linkRate(), 208e3 * 8, 208e3 * 8 * 0.2);
     }
 }
@@ -92,7 +92,7 @@ TEST(RateController, HalfOfWhatAGpuNeeds_SettlesFresh) {
     const auto shown = simulation.run(with(gpu(), 0.9e6), 60s);
     EXPECT_LT(ageAt(shown, 0.99), 120ms);
     EXPECT_GT(shown.size(), 60U * 30);
-    EXPECT_LE(simulation.count(RateStep::kCongested), 6);
+    EXPECT_LE(simulation.count(RateStep::kCongested), 4);
 }
 
 TEST(RateController, LinkRecovers_FullQualityWithinThreeSeconds) {
@@ -142,9 +142,36 @@ TEST(RateController, NoiseOnASlowLink_ChangesLittle) {
     simulation.run(link, 20s);
     simulation.forgetSteps();
     const auto shown = simulation.run(link, 60s);
-    EXPECT_LE(simulation.steps().size(), 30U);
+    EXPECT_LE(simulation.steps().size(), 16U);
     EXPECT_LT(ageAt(shown, 0.99), 200ms);
     EXPECT_LE(rungsOf(shown), 5U);
+}
+
+// A camera that circles, acknowledged by a display: what frames hold comes and goes, and is no news
+// of the link.
+TEST(RateController, WanderingContent_OnASlowLink_StepsSeldom) {
+    for (const uint32_t seed : {1U, 2U, 3U, 4U, 5U}) {
+        SimulatedLink link = with(kCpu, 318e3); // half of 42 kB, 15 times a second
+        link.frame_bytes = 42'000;
+        link.travel = Seconds(0.02);
+        link.wander = 0.3;
+        link.refresh = Seconds(1.0 / 60);
+        Simulation simulation({75, view::Chroma::k420}, seed);
+        const auto shown = simulation.run(link, 60s);
+        EXPECT_LE(simulation.count(RateStep::kCongested), 8) << seed;
+        EXPECT_LE(simulation.steps().size(), 16U) << seed;
+        EXPECT_LT(ageAt(shown, 0.99), 250ms) << seed;
+        EXPECT_GT(shown.size(), 60U * 12) << seed;
+    }
+}
+
+// The first frame takes a second; the link is no faster for it.
+TEST(RateController, FirstFrameThatCompiles_HidesNoSlowLink) {
+    SimulatedLink link = with(kCpu, 208e3);
+    link.first_cost = Seconds(1);
+    Simulation simulation;
+    simulation.run(link, 2s);
+    EXPECT_GT(simulation.rate().delivery().rung, 0U);
 }
 
 // Frames take longer on their way, and not because of each other.

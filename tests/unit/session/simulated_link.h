@@ -26,6 +26,9 @@ struct SimulatedLink {
     bool client_tells = true;    // its acknowledgements say so
     double frame_bytes = 25'000; // of a full frame
     double noise = 0.1;          // of its size, either way
+    double wander = 0;           // likewise, slowly: by what is seen as a camera circles
+    Seconds first_cost{0};       // of the very first frame, which compiles
+    Seconds refresh{0};          // acknowledgements wait for the next of these; 0: for nothing
 };
 
 class Simulation {
@@ -87,8 +90,9 @@ class Simulation {
         }
         if (making_ && making_->done <= now_) {
             const double scale = scaleOf(*making_);
-            window_.onProduced(link.cost * scale * scale);
-            rate_.onProduced(link.cost * scale * scale, scale);
+            const Seconds cost = making_->done - making_->begun;
+            window_.onProduced(cost);
+            rate_.onProduced(cost, scale);
             slot_ = *std::exchange(making_, std::nullopt);
         }
         send(link);
@@ -121,9 +125,12 @@ class Simulation {
             return;
         }
         const Delivery& delivery = rate_.delivery();
-        const double size = link.frame_bytes * bits() * uniform(1 - link.noise, 1 + link.noise);
+        const double seen = 1 + link.wander * std::sin(now_.count());
+        const double size =
+            link.frame_bytes * bits() * seen * uniform(1 - link.noise, 1 + link.noise);
         making_ = Frame{++id_, now_, now_, delivery.rung, static_cast<size_t>(size)};
-        making_->done = now_ + link.cost * delivery.scale * delivery.scale;
+        const Seconds cost = link.cost * delivery.scale * delivery.scale;
+        making_->done = now_ + (id_ == 1 ? std::max(cost, link.first_cost) : cost);
         scales_[id_ % 64] = delivery.scale;
         next_due_ = now_ + delivery.min_interval;
     }
@@ -137,8 +144,11 @@ class Simulation {
                      Seconds(static_cast<double>(frame.bytes) / link.bytes_per_s);
         const Seconds last = travelling_.empty() ? Seconds(0) : travelling_.back().acked;
         const Seconds jitter = link.jitter * uniform(0, 1);
-        travelling_.push_back(
-            {frame, std::max(last, link_free_ + link.travel + link.client + jitter), link.client});
+        Seconds acked = link_free_ + link.travel + link.client + jitter;
+        if (link.refresh.count() > 0) {
+            acked = std::ceil(acked / link.refresh) * link.refresh;
+        }
+        travelling_.push_back({frame, std::max(last, acked), link.client});
     }
     [[nodiscard]] double scaleOf(const Frame& frame) const { return scales_[frame.id % 64]; }
     [[nodiscard]] double bits() const { return ladder_[rate_.delivery().rung].bits; }
