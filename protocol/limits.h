@@ -37,7 +37,7 @@ enum class CloseCode : uint16_t {
     kTooBig = 1009,       // a message over the cap; do not retry
     kVersion = 4001,      // protocol_major differs; do not retry
     kToken = 4003,        // no valid token; retry with another
-    kSlowConsumer = 4008, // a write was stuck for too long; retry
+    kSlowConsumer = 4008, // answers are not read, or a write was stuck; retry
     kReplaced = 4009,     // a newer connection took the session up; do not retry
     kDraining = 4010,     // the server is going down; retry elsewhere or later
     kCapacity = 4029,     // no session left; retry with back-off
