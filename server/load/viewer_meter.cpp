@@ -210,7 +210,13 @@ void ViewerMeter::onFrameDropped() {
 }
 
 void ViewerMeter::onRefusal(const v1::Error& error) {
-    std::erase_if(unseen_, [&](const auto& one) { return one.first == error.ref_seq(); });
+    // The last of this number: cameras that were skipped have that of the next one sent.
+    const auto refused = std::find_if(unseen_.rbegin(), unseen_.rend(), [&](const auto& one) {
+        return one.first == error.ref_seq();
+    });
+    if (refused != unseen_.rend()) {
+        unseen_.erase(std::next(refused).base());
+    }
     if (counting_) {
         ++measured_.refusals;
         if (!measured_.refusal) {

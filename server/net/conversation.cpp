@@ -87,8 +87,11 @@ void Conversation::begin(TimePoint now) {
     sayWelcome();
     if (auto& picture = seat_->picture) {
         static_cast<void>(outbox_.putFrame(*std::exchange(picture, std::nullopt)));
+    } else {
+        video_lost_ = true; // if it is video: it begins with a key frame
     }
     grantCredits();
+    mendVideo(now);
     for (const CommandMessage& message : std::exchange(early_, {})) {
         onCommand(message, now);
     }
@@ -136,10 +139,12 @@ void Conversation::changeControl(const CommandMessage& message, TimePoint now) {
 void Conversation::setPaused(bool paused, TimePoint now) {
     paused_ = paused;
     if (paused) {
+        const uint32_t dropped_before = outbox_.droppedCount();
         video_lost_ = outbox_.interruptVideo() || video_lost_;
-        told_delivery_.reset();
-        seat_->session->setDelivery(seat_->place, std::nullopt);
+        countDrops(dropped_before);
+        key_at_.reset();
     }
+    seat_->session->setPaused(seat_->place, paused);
     grantCredits();
     mendVideo(now);
 }
@@ -267,15 +272,19 @@ void Conversation::onFrame(session::ReadyFrame frame) {
     }
     const uint32_t dropped_before = outbox_.droppedCount();
     const TimePoint now = frame.ready_at;
-    if (frame.record.key) {
+    if (frame.record.key && view::isVideo(frame.record.delivered.encoding.codec)) {
         key_at_.reset();
     }
     video_lost_ = outbox_.putFrame(std::move(frame)) == Outbox::Put::kLost;
-    for (uint32_t i = dropped_before; i < outbox_.droppedCount(); ++i) {
-        metrics_->frameDropped();
-    }
+    countDrops(dropped_before);
     grantCredits();
     mendVideo(now);
+}
+
+void Conversation::countDrops(uint32_t before) {
+    for (uint32_t i = before; i < outbox_.droppedCount(); ++i) {
+        metrics_->frameDropped();
+    }
 }
 
 // Not before there is room for a key frame: a slow viewer of a room asks no more often than it

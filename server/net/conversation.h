@@ -77,6 +77,7 @@ class Conversation {
     void changeControl(const session::CommandMessage& message, TimePoint now);
     void setPaused(bool paused, TimePoint now);
     void requestKeyFrame(TimePoint now);
+    void countDrops(uint32_t before);
     void onFrame(session::ReadyFrame frame);
     void onAck(const session::CommandStamp& stamp, const session::Ack& ack, TimePoint now);
     void followLink(TimePoint now);
@@ -101,7 +102,7 @@ class Conversation {
     session::RejectBudget rejects_;
     session::CreditWindow window_;
     session::RateController rate_;
-    std::optional<session::Delivery> told_delivery_; // since pictures come, as far as acknowledged
+    std::optional<session::Delivery> told_delivery_; // none before the first acknowledgement
     Outbox outbox_;
     Allowance states_{kStatesAtOnce, kStatesPerSecond};
     ServiceStatus service_;

@@ -12,7 +12,8 @@ namespace froxel::net {
 
 std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
     if (key_at_ && *key_at_ <= now) {
-        requestKeyFrame(now);
+        key_at_.reset();
+        video_lost_ ? mendVideo(now) : requestKeyFrame(now);
     }
     switch (outbox_.next(states_.nextAt(now) <= now, window_.open() && !paused_)) {
     case Outbox::Next::kNothing:

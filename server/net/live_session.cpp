@@ -2,29 +2,9 @@
 
 #include "froxel/v1/server.pb.h"
 #include "net/guard.h"
-#include "session/refinement.h"
 
-#include <algorithm>
 
 namespace froxel::net {
-
-namespace {
-
-// Longer than the refinement's own estimate: that is of bits that a picture is expected to have.
-constexpr double kSlack = 2;
-
-bool refined(const session::ReadyFrame& frame) {
-    return frame.record.delivered.refinement >= session::Refinement::kHigh;
-}
-
-// Whether a link takes a refined picture in bearable time, or nothing is known of it.
-bool carries(const session::Delivery& delivery, const session::ReadyFrame& frame) {
-    const double bits = 8.0 * static_cast<double>(frame.bytes->size());
-    const Seconds most = kSlack * session::RefinementSchedule::kMostOfTheLink;
-    return !delivery.link_rate || bits <= *delivery.link_rate * most.count();
-}
-
-} // namespace
 
 using session::CommandResult;
 using session::MemberId;
@@ -100,20 +80,20 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         room_.setAway(place.member, false);
         tellAll(mail, RoomNews{});
     }
-    member = {place.connection, std::move(viewer), 0, 0, codecs, {}, 0};
+    member = {place.connection, std::move(viewer), 0, 0, codecs, {}, false, 0};
     updateCodecs(now, mail);
     updateGrant();
     updateDelivery();
-    if (picture_ && !picture_->record.key) {
-        wantKeyFrame(now);
+    auto picture = standsAlone() ? plain_ : picture_;
+    const auto decodes = [&codecs](const session::ReadyFrame& frame) {
+        return frame.record.key &&
+               codecs.test(static_cast<size_t>(frame.record.delivered.encoding.codec));
+    };
+    if (!picture || !decodes(*picture)) {
         return {};
     }
-    const bool plain = picture_ && refined(*picture_) && plain_ && plain_->record.key;
-    auto picture = plain ? plain_ : picture_;
-    if (picture) {
-        picture->ready_at = now; // it waited for nobody until now
-        member.told_frame = picture->record.frame_id;
-    }
+    picture->ready_at = now; // it waited for nobody until now
+    member.told_frame = picture->record.frame_id;
     return picture;
 }
 
@@ -202,26 +182,6 @@ CommandResult<void> LiveSession::changeControl(const Place& place,
     return {};
 }
 
-void LiveSession::grant(const Place& place, uint64_t frame_total) {
-    const std::lock_guard lock(mutex_);
-    if (Member* member = find(place)) {
-        member->granted = frame_total;
-        updateGrant();
-    }
-}
-
-// As many as the viewer with the most room takes; the others' slots keep the newest.
-void LiveSession::updateGrant() {
-    uint64_t room = 0;
-    for (const auto& [id, member] : members_) {
-        room = std::max(room, member.granted - std::min(member.granted, member.delivered));
-    }
-    if (!ended_ && delivered_ + room != granted_) {
-        granted_ = delivered_ + room;
-        serving_.port->grant(id_, granted_);
-    }
-}
-
 // A room has video only while all who are here decode it.
 void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
     state_.decodable.set();
@@ -264,48 +224,6 @@ void LiveSession::wantKeyFrame(TimePoint now) {
     }
 }
 
-void LiveSession::setDelivery(const Place& place,
-                              const std::optional<session::Delivery>& delivery) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    Member* member = find(place);
-    if (member == nullptr) {
-        return;
-    }
-    const bool first = !member->delivery && delivery;
-    member->delivery = delivery;
-    updateDelivery();
-    if (first && picture_ && refined(*picture_) && carries(*delivery, *picture_)) {
-        tellFrame(*member, *picture_, mail);
-    }
-}
-
-void LiveSession::tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail) {
-    if (frame.record.frame_id > member.told_frame) {
-        member.told_frame = frame.record.frame_id;
-        ++member.delivered;
-        mail.add(member.viewer, frame);
-    }
-}
-
-void LiveSession::updateDelivery() {
-    const session::Delivery* best = nullptr;
-    for (const auto& [id, member] : members_) {
-        if (member.delivery && (best == nullptr || member.delivery->rung < best->rung)) {
-            best = &*member.delivery;
-        }
-    }
-    if (!ended_ && best != nullptr && *best != delivery_) {
-        delivery_ = *best;
-        serving_.port->setDelivery(id_, delivery_);
-    }
-}
-
-uint32_t LiveSession::deliveredRung() const {
-    const std::lock_guard lock(mutex_);
-    return delivery_.rung;
-}
-
 SessionState LiveSession::state() const {
     const std::lock_guard lock(mutex_);
     return state_;
@@ -335,23 +253,6 @@ LiveSession::welcome(MemberId you, session::WelcomePlace place, view::PlacedLigh
     v1::ServerMessage message = session::makeWelcome(id_, context(), state_);
     session::addPlace(message, context(), place);
     return message;
-}
-
-void LiveSession::deliver(session::ReadyFrame frame) {
-    Mail mail;
-    const std::lock_guard lock(mutex_);
-    ++delivered_;
-    for (auto& [id, member] : members_) {
-        if (!refined(frame) || !member.delivery || carries(*member.delivery, frame)) {
-            tellFrame(member, frame, mail);
-        }
-    }
-    key_wanted_ = key_wanted_ && !frame.record.key;
-    if (!refined(frame)) {
-        plain_ = frame;
-    }
-    picture_ = std::move(frame);
-    updateGrant();
 }
 
 void LiveSession::refuse(Error error, SessionState refused, std::optional<SessionState> drawn) {

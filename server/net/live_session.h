@@ -69,8 +69,8 @@ class LiveSession final : public session::FrameSink,
     // The places' keeper calls these, under its own lock; so it posts their mail.
     void addMember(session::MemberId member, std::string name, Mail& mail);
     // The member's connection from now on, which decodes `codecs`; an older one is told to close.
-    // Gives the newest picture that decodes by itself, before one that was refined: that one
-    // follows when the link is known to carry it.
+    // Gives the newest picture, if the client decodes it by itself. Before a refined one the plain
+    // one if that is as asked for: the refined one follows when the link is known to carry it.
     [[nodiscard]] std::optional<session::ReadyFrame> attach(const Place& place,
                                                             std::weak_ptr<SessionViewer> viewer,
                                                             view::CodecSet codecs,
@@ -96,10 +96,11 @@ class LiveSession final : public session::FrameSink,
     [[nodiscard]] std::optional<TimePoint> requestKeyFrame(const Place& place, TimePoint now);
     // As StreamPort::grant, in pictures that this connection was told of.
     void grant(const Place& place, uint64_t frame_total);
-    // What this connection's link allows, from its first acknowledgement on; none: no pictures go
-    // there. The session is delivered as to its best one: a slow viewer takes fewer pictures, and
+    // What this connection's link allows, from its first acknowledgement on. The session is
+    // delivered as to its best one that is not paused: a slow viewer takes fewer pictures, and
     // lowers nobody's.
-    void setDelivery(const Place& place, const std::optional<session::Delivery>& delivery);
+    void setDelivery(const Place& place, const session::Delivery& delivery);
+    void setPaused(const Place& place, bool paused);
     // How far below what was asked for its pictures are made now, see Delivery.
     [[nodiscard]] uint32_t deliveredRung() const;
 
@@ -126,12 +127,14 @@ class LiveSession final : public session::FrameSink,
         uint64_t delivered = 0;              // pictures told to this connection
         uint64_t granted = 0;
         view::CodecSet codecs = view::CodecSet().set(); // all while away
-        std::optional<session::Delivery> delivery;      // none: nothing acknowledged yet, or paused
+        std::optional<session::Delivery> delivery;      // none: nothing acknowledged yet
+        bool paused = false;
         uint64_t told_frame = 0; // the newest picture told to this connection
     };
     LiveSession(Serving serving, std::string room, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
     void tellAll(Mail& mail, const Notice& notice) const;
+    [[nodiscard]] bool standsAlone() const;
     void tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail);
     void updateGrant();
     void updateCodecs(TimePoint now, Mail& mail);

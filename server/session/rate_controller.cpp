@@ -126,7 +126,8 @@ RateStep RateController::onTrip(const Trip& trip, TimePoint now) {
     if (doubt_ && trip.ahead == 0 && now - moved_at_ < kDoubtful) {
         const Doubt doubt = *std::exchange(doubt_, std::nullopt);
         if (trip.round_trip > kAsLong * doubt.round_trip) {
-            std::fill(failures_.begin(), failures_.begin() + rung_, Failure{});
+            failures_ = doubt.failures;
+            failures_[doubt.rung] = {};
             sure_until_ = now + std::chrono::duration_cast<Clock::duration>(kSure);
             moveTo(doubt.rung, now);
             return RateStep::kUndone;
@@ -300,6 +301,10 @@ void RateController::stepDown(Seconds link_interval, TimePoint now) {
     while (next < last && demand(next) > bearable) {
         ++next;
     }
+    if (!alone() && now >= sure_until_) {
+        doubt_ = Doubt{rung_, companysRoundTrip(), failures_};
+        probe_ = true;
+    }
     Failure& failure = failures_[rung_];
     const double doubled = std::exp2(std::min(failure.count, 8U));
     ++failure.count;
@@ -311,10 +316,6 @@ void RateController::stepDown(Seconds link_interval, TimePoint now) {
         Failure& held = failures_[above];
         held.held_until = std::max(held.held_until, failure.held_until);
         held.link_rate = held.count > 0 ? held.link_rate : failure.link_rate;
-    }
-    if (!alone() && now >= sure_until_) {
-        doubt_ = Doubt{rung_, companysRoundTrip()};
-        probe_ = true;
     }
     moveTo(next, now);
 }

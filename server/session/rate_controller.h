@@ -107,6 +107,7 @@ class RateController {
     struct Doubt {
         uint32_t rung;
         Seconds round_trip;
+        std::vector<Failure> failures; // as they were
     };
     std::optional<Doubt> doubt_;
     TimePoint sure_until_;

@@ -8,14 +8,8 @@
 namespace froxel::stream {
 namespace {
 
-// Weight of the newest frame in a smoothed cost.
-constexpr double kCostWeight = 0.125;
 // What a rate is told from at least; a lone frame then counts as 100 a second.
 constexpr Seconds kShortest{0.01};
-
-void smooth(std::optional<Seconds>& mean, Seconds cost) {
-    mean = mean ? *mean + (cost - *mean) * kCostWeight : cost;
-}
 
 std::string rounded(double value) {
     return numberText(std::round(value * 100) / 100);
@@ -25,11 +19,13 @@ std::string rounded(double value) {
 
 void Admission::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost) {
     min_rate_hz_ = min_rate_hz;
-    typical_cost_ = frame_cost;
+    if (frame_cost) {
+        typical_cost_.add(*frame_cost);
+    }
 }
 
-void Admission::add(uint64_t session) {
-    sessions_[session];
+void Admission::add(uint64_t session, TimePoint now) {
+    sessions_[session].added_at = now;
 }
 
 void Admission::remove(uint64_t session) {
@@ -42,8 +38,8 @@ void Admission::onFrame(uint64_t session, Seconds cost, TimePoint now) {
         return;
     }
     Entry& entry = found->second;
-    smooth(entry.cost, cost);
-    smooth(typical_cost_, cost);
+    entry.cost.add(cost);
+    typical_cost_.add(cost);
     const Seconds age = now - entry.window_begin;
     if (age >= kWindow) {
         entry.before_count = age < 2 * kWindow ? entry.window_count : 0;
@@ -75,22 +71,24 @@ Result<void> Admission::check(TimePoint now) const {
     uint32_t active = 0;
     uint32_t unknown = 0;
     for (const auto& [id, entry] : sessions_) {
-        if (!entry.cost) {
-            ++unknown;
+        const auto cost = entry.cost.value();
+        if (!cost) {
+            unknown += now - entry.added_at < kPatience ? 1U : 0U;
             continue;
         }
         const double rate_hz = rateOf(entry, now);
         if (rate_hz > 0) {
             ++active;
-            cost_sum_s += entry.cost->count();
-            busy += entry.cost->count() * std::min(rate_hz, min_rate_hz_);
+            cost_sum_s += cost->count();
+            busy += cost->count() * std::min(rate_hz, min_rate_hz_);
         }
     }
-    const bool known = active > 0 || typical_cost_;
+    const auto typical = typical_cost_.value();
+    const bool known = active > 0 || typical;
     if (active + unknown == 0 || !known || min_rate_hz_ <= 0) {
         return {};
     }
-    const double mean_s = active > 0 ? cost_sum_s / active : typical_cost_->count();
+    const double mean_s = active > 0 ? cost_sum_s / active : typical->count();
     busy += unknown * mean_s * min_rate_hz_;
     if (busy + mean_s * min_rate_hz_ <= 1) {
         return {};

@@ -8,8 +8,8 @@
 // before, at first of one that was drawn for it; one session is always let in.
 #pragma once
 
-#include "core/clock.h"
 #include "core/error.h"
+#include "session/steady_cost.h"
 
 #include <cstdint>
 #include <map>
@@ -21,13 +21,15 @@ class Admission {
   public:
     // What rates are measured over; a session that drew nothing for so long is idle.
     static constexpr Seconds kWindow{2};
+    // How long one that has not drawn yet is expected to.
+    static constexpr Seconds kPatience{10};
 
     // Frames a second that every active session must keep; 0: everyone is let in.
     explicit Admission(double min_rate_hz = 0) : min_rate_hz_(min_rate_hz) {}
     // And the device time of a frame, until sessions have drawn some; none: unknown.
     void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
 
-    void add(uint64_t session);
+    void add(uint64_t session, TimePoint now);
     void remove(uint64_t session);
     // Device time that one frame of this session took.
     void onFrame(uint64_t session, Seconds cost, TimePoint now);
@@ -37,7 +39,8 @@ class Admission {
 
   private:
     struct Entry {
-        std::optional<Seconds> cost; // smoothed; none before the first frame
+        TimePoint added_at{};
+        session::SteadyCost cost;
         // Frames of the present window and of the one before it.
         TimePoint window_begin{};
         uint32_t window_count = 0;
@@ -46,7 +49,7 @@ class Admission {
     [[nodiscard]] static double rateOf(const Entry& entry, TimePoint now);
 
     double min_rate_hz_;
-    std::optional<Seconds> typical_cost_; // of frames of late, whoever's
+    session::SteadyCost typical_cost_; // of frames of late, whoever's
     std::map<uint64_t, Entry> sessions_;
 };
 

@@ -31,6 +31,7 @@ FramePipeline::Losses FramePipeline::takeLosses() {
 }
 
 void FramePipeline::push(DrawnFrame frame) {
+    const bool lossless = frame.record.delivered.refinement == session::Refinement::kLossless;
     bool waits = false;
     {
         const std::lock_guard lock(mutex_);
@@ -44,7 +45,7 @@ void FramePipeline::push(DrawnFrame frame) {
     }
     if (!waits) {
         startEncoding();
-    } else if (pool_.withdrawLossless(this)) {
+    } else if (!lossless && pool_.withdrawLossless(this)) {
         finish({1, false}); // the view moves on: nobody wants that picture any more
     }
 }

@@ -108,7 +108,7 @@ RenderLoop::join(std::weak_ptr<session::FrameSink> sink, const SessionState& sta
     }
     auto id = mailbox_->join(std::move(sink), state, now);
     if (id) {
-        admission_.add(*id);
+        admission_.add(*id, now);
     }
     return id;
 }

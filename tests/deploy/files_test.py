@@ -19,6 +19,8 @@ from pathlib import Path
 import yaml
 
 import manifest_types
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 import told_skips
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"

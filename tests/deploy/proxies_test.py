@@ -25,9 +25,8 @@ from pathlib import Path
 
 import websockets
 
-import told_skips
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import told_skips
 from viewer_protocol import frame_id, make_certificate
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"

@@ -21,6 +21,7 @@ from pathlib import Path
 import websockets
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import told_skips
 from viewer_protocol import frame_id
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
@@ -132,4 +133,4 @@ class SlowHttp(unittest.IsolatedAsyncioTestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    told_skips.main()

@@ -30,9 +30,11 @@ TEST_F(LobbyTest, Room_IsDeliveredAsToTheBestLinkThatPicturesGoTo) {
     EXPECT_EQ(port_.session().delivery.rung, 4U) << "the other has acknowledged nothing yet";
     quick.seat.session->setDelivery(quick.seat.place, at(0));
     EXPECT_EQ(port_.session().delivery.rung, 0U);
-    quick.seat.session->setDelivery(quick.seat.place, std::nullopt); // paused
+    quick.seat.session->setPaused(quick.seat.place, true);
     EXPECT_EQ(port_.session().delivery.rung, 4U);
     quick.seat.session->setDelivery(quick.seat.place, at(1));
+    EXPECT_EQ(port_.session().delivery.rung, 4U) << "of what it acknowledged late";
+    quick.seat.session->setPaused(quick.seat.place, false);
     EXPECT_EQ(port_.session().delivery.rung, 1U);
     lose(quick);
     EXPECT_EQ(port_.session().delivery.rung, 4U);

@@ -24,7 +24,7 @@ class AdmissionTest : public testing::Test {
     }
     void add(const std::vector<uint64_t>& sessions) {
         for (const uint64_t session : sessions) {
-            admission_.add(session);
+            admission_.add(session, now_);
         }
     }
     [[nodiscard]] bool admits() const { return admission_.check(now_).has_value(); }
@@ -105,6 +105,27 @@ TEST_F(AdmissionTest, CrowdBeforeTheFirstPicture_CountsAtTheTypicalCost) {
     EXPECT_THAT(refused.error().message, HasSubstr("3 active sessions need 0.9 "));
 }
 
+// As one that is paused from the start.
+TEST_F(AdmissionTest, SessionThatNeverDraws_IsExpectedToForAWhile) {
+    admission_.setMinRate(30, 20ms);
+    add({1});
+    EXPECT_FALSE(admits()) << "0.6 each";
+    now_ += 10s;
+    EXPECT_TRUE(admits());
+}
+
+TEST_F(AdmissionTest, FrameThatCompiled_PricesNobody) {
+    add({1});
+    draw({1}, 30, 2ms, 1);
+    admission_.onFrame(1, 1s, now_);
+    admission_.onFrame(1, 2ms, now_ += 1s);
+    add({2, 3, 4});
+    EXPECT_TRUE(admits());
+    now_ += 9s;
+    add({5, 6, 7});
+    EXPECT_TRUE(admits());
+}
+
 TEST_F(AdmissionTest, CrowdWhereAllRest_CountsAtTheCostOfBefore) {
     add({1});
     draw({1}, 30, 40ms, 5);
@@ -124,7 +145,7 @@ TEST_F(AdmissionTest, SessionLeaves_MakesRoom) {
 
 TEST_F(AdmissionTest, FloorOfZero_AdmitsEveryone) {
     Admission off(0);
-    off.add(1);
+    off.add(1, now_);
     for (int frame = 0; frame < 10; ++frame) {
         off.onFrame(1, 10s, now_ += 1s);
     }
@@ -146,7 +167,7 @@ TEST_F(AdmissionTest, MixedCosts_FillTheDeviceAndNotMore) {
         std::vector<double> costs_s;
         while (costs_s.size() < 500 && admission.check(now)) {
             costs_s.push_back(std::uniform_real_distribution<double>(0.0005, 0.004)(random));
-            admission.add(costs_s.size());
+            admission.add(costs_s.size(), now);
             for (int frame = 0; frame < 150; ++frame) { // 5 s at 30 a second
                 now += std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / 30));
                 for (size_t i = 0; i < costs_s.size(); ++i) {
