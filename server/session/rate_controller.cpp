@@ -19,8 +19,10 @@ constexpr size_t kTelling = 2; // of which that show what the link takes for a f
 constexpr double kHeld = 0.1;
 // Frames wait on the link for at least this share of what it takes for one.
 constexpr double kWaiting = 0.25;
-// How much of the wanted interval the link may need for a frame after a step.
+// How much of the wanted interval the link may need for a frame, where frames wait; and after a
+// step up.
 constexpr double kBusy = 0.9;
+constexpr double kRoomy = 0.75;
 // A trip this late is believed by itself where frames are this much further apart than wanted.
 constexpr Seconds kAlarm = 250ms;
 constexpr double kAlarmRatio = 3;
@@ -257,8 +259,8 @@ std::optional<Seconds> RateController::overload() const {
         }
     }
     const bool enough = recent_.size() == kEvidence && count >= kTelling && heldBack();
-    return enough && least > wanted && waited > kWaiting * least ? std::optional(least)
-                                                                 : std::nullopt;
+    return enough && least > kBusy * wanted && waited > kWaiting * least ? std::optional(least)
+                                                                         : std::nullopt;
 }
 
 // Mean of the frames that others were ahead of.
@@ -290,7 +292,7 @@ bool RateController::roomAbove(TimePoint now) const {
     // Where credit holds frames back, what the link takes for one is known.
     const Trip& last = recent_.back();
     const double more = demand(rung_ - 1) / demand(rung_);
-    return !heldBack() || (last.ahead > 0 && last.interval * more < kBusy * wanted);
+    return !heldBack() || (last.ahead > 0 && last.interval * more < kRoomy * wanted);
 }
 
 void RateController::stepDown(Seconds link_interval, TimePoint now) {
