@@ -27,15 +27,6 @@ void append(std::vector<double>& to, const std::vector<double>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-void widen(Measured& sum, const Measured& one) {
-    if (one.smallest && (!sum.smallest || one.smallest->area() < sum.smallest->area())) {
-        sum.smallest = one.smallest;
-    }
-    if (one.largest && (!sum.largest || one.largest->area() > sum.largest->area())) {
-        sum.largest = one.largest;
-    }
-}
-
 // `seconds` becomes the run's.
 ViewerResult pool(const RunResult& result) {
     ViewerResult all;
@@ -59,7 +50,11 @@ ViewerResult pool(const RunResult& result) {
         sum.commands += one.commands;
         sum.commands_skipped += one.commands_skipped;
         sum.commands_unshown += one.commands_unshown;
-        widen(sum, one);
+        for (const auto& size : {one.smallest, one.largest}) {
+            if (size) {
+                sum.addSize(*size);
+            }
+        }
         sum.refusals += one.refusals;
         sum.refusal = sum.refusal ? sum.refusal : one.refusal;
         all.received_bytes += viewer.received_bytes;

@@ -159,7 +159,7 @@ Result<void> ViewerMeter::onFrame(const v1::FrameHeader& header,
     }
     ++measured_.frames;
     measured_.frame_bytes += bytes;
-    addSize(header);
+    measured_.addSize({header.width(), header.height()});
     if (const auto since = dueSince()) {
         measured_.samples.interval_ms.push_back(msOf(now - *since));
     }
@@ -195,13 +195,12 @@ void ViewerMeter::addStages(const v1::FrameHeader& header, std::optional<double>
     }
 }
 
-void ViewerMeter::addSize(const v1::FrameHeader& header) {
-    const PictureSize size{header.width(), header.height()};
-    if (!measured_.smallest || size.area() < measured_.smallest->area()) {
-        measured_.smallest = size;
+void Measured::addSize(const PictureSize& size) {
+    if (!smallest || size.area() < smallest->area()) {
+        smallest = size;
     }
-    if (!measured_.largest || size.area() > measured_.largest->area()) {
-        measured_.largest = size;
+    if (!largest || size.area() > largest->area()) {
+        largest = size;
     }
 }
 

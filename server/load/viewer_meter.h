@@ -80,6 +80,8 @@ struct Measured {
     std::optional<PictureSize> smallest; // of the frames
     std::optional<PictureSize> largest;
 
+    // Of a frame.
+    void addSize(const PictureSize& size);
     [[nodiscard]] double framesPerSecond() const {
         return seconds > 0 ? static_cast<double>(frames) / seconds : 0;
     }
@@ -117,7 +119,6 @@ class ViewerMeter {
     [[nodiscard]] std::optional<TimePoint> dueSince() const;
     void setPaused(bool paused, TimePoint now);
     void addStages(const v1::FrameHeader& header, std::optional<double> latency_ms);
-    void addSize(const v1::FrameHeader& header);
 
     bool counting_ = false;
     bool restless_ = false;

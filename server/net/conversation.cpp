@@ -272,7 +272,7 @@ void Conversation::onFrame(session::ReadyFrame frame) {
     }
     const uint32_t dropped_before = outbox_.droppedCount();
     const TimePoint now = frame.ready_at;
-    if (frame.record.key && view::isVideo(frame.record.delivered.encoding.codec)) {
+    if (frame.record.key && frame.isVideo()) {
         key_at_.reset();
     }
     video_lost_ = outbox_.putFrame(std::move(frame)) == Outbox::Put::kLost;

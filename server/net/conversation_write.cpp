@@ -37,8 +37,11 @@ std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
 }
 
 std::optional<TimePoint> Conversation::wakeAt(TimePoint now) const {
-    if (closing_ || !outbox_.hasState()) {
-        return closing_ ? std::nullopt : key_at_;
+    if (closing_) {
+        return {};
+    }
+    if (!outbox_.hasState()) {
+        return key_at_;
     }
     const TimePoint state_at = states_.nextAt(now);
     return key_at_ ? std::min(*key_at_, state_at) : state_at;

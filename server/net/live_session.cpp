@@ -3,7 +3,6 @@
 #include "froxel/v1/server.pb.h"
 #include "net/guard.h"
 
-
 namespace froxel::net {
 
 using session::CommandResult;
@@ -84,7 +83,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
     updateCodecs(now, mail);
     updateGrant();
     updateDelivery();
-    auto picture = standsAlone() ? plain_ : picture_;
+    auto picture = plainSuffices() ? plain_ : picture_;
     const auto decodes = [&codecs](const session::ReadyFrame& frame) {
         return frame.record.key &&
                codecs.test(static_cast<size_t>(frame.record.delivered.encoding.codec));
@@ -211,17 +210,11 @@ std::optional<TimePoint> LiveSession::requestKeyFrame(const Place& place, TimePo
     if (!keys_.take(now)) {
         return keys_.nextAt(now);
     }
-    wantKeyFrame(now);
+    key_wanted_ = true;
+    ++state_.key_requests;
+    ++state_.version; // so that a picture is drawn where nothing moves
+    serving_.port->update(id_, state_, now);
     return {};
-}
-
-// A new version, so that a picture is drawn where nothing moves.
-void LiveSession::wantKeyFrame(TimePoint now) {
-    if (view::isVideo(state_.encoding.codec) && !std::exchange(key_wanted_, true)) {
-        ++state_.key_requests;
-        ++state_.version;
-        serving_.port->update(id_, state_, now);
-    }
 }
 
 SessionState LiveSession::state() const {

@@ -134,12 +134,11 @@ class LiveSession final : public session::FrameSink,
     LiveSession(Serving serving, std::string room, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
     void tellAll(Mail& mail, const Notice& notice) const;
-    [[nodiscard]] bool standsAlone() const;
+    [[nodiscard]] bool plainSuffices() const;
     void tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail);
     void updateGrant();
     void updateCodecs(TimePoint now, Mail& mail);
     void keepDecodable();
-    void wantKeyFrame(TimePoint now);
     void updateDelivery();
     void takeBack(const session::SessionState& refused,
                   const std::optional<session::SessionState>& drawn,

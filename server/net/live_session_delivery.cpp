@@ -22,10 +22,6 @@ bool carries(const session::Delivery& delivery, const session::ReadyFrame& frame
     return !delivery.link_rate || bits <= *delivery.link_rate * most.count();
 }
 
-bool isVideo(const session::ReadyFrame& frame) {
-    return view::isVideo(frame.record.delivered.encoding.codec);
-}
-
 } // namespace
 
 void LiveSession::grant(const Place& place, uint64_t frame_total) {
@@ -71,7 +67,7 @@ void LiveSession::setPaused(const Place& place, bool paused) {
 }
 
 // Whether the newest picture is a refined one, and the one before it is all that was asked for.
-bool LiveSession::standsAlone() const {
+bool LiveSession::plainSuffices() const {
     return picture_ && refined(*picture_) && plain_ && plain_->record.key &&
            plain_->record.delivered.scale == 1 && plain_->record.delivered.rung == 0;
 }
@@ -108,13 +104,13 @@ void LiveSession::deliver(session::ReadyFrame frame) {
     const std::lock_guard lock(mutex_);
     ++delivered_;
     key_wanted_ = key_wanted_ && view::isVideo(state_.encoding.codec) &&
-                  !(frame.record.key && isVideo(frame));
+                  !(frame.record.key && frame.isVideo());
     if (!refined(frame)) {
         plain_ = frame;
     }
     picture_ = std::move(frame);
     // In a room, whose refined pictures are for its best link.
-    const bool may_wait = members_.size() > 1 && standsAlone();
+    const bool may_wait = members_.size() > 1 && plainSuffices();
     for (auto& [id, member] : members_) {
         if (!may_wait || !member.delivery || carries(*member.delivery, *picture_)) {
             tellFrame(member, *picture_, mail);

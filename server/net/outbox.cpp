@@ -16,12 +16,10 @@ bool Outbox::putAnswer(Outgoing answer) {
 }
 
 Outbox::Put Outbox::putFrame(session::ReadyFrame frame) {
-    const bool video = view::isVideo(frame.record.delivered.encoding.codec);
+    const bool video = frame.isVideo();
     if (!video || frame.record.key) {
-        const bool breaks =
-            !video && std::any_of(frames_.begin(), frames_.end(), [](const auto& f) {
-                return view::isVideo(f.record.delivered.encoding.codec);
-            });
+        const bool breaks = !video && std::any_of(frames_.begin(), frames_.end(),
+                                                  [](const auto& f) { return f.isVideo(); });
         decodable_ = video || (decodable_ && !breaks);
         drop(frames_.size());
         frames_.clear();
@@ -40,8 +38,7 @@ Outbox::Put Outbox::putFrame(session::ReadyFrame frame) {
 }
 
 bool Outbox::interruptVideo() {
-    const bool waits =
-        !frames_.empty() && view::isVideo(frames_.back().record.delivered.encoding.codec);
+    const bool waits = !frames_.empty() && frames_.back().isVideo();
     if (waits) {
         drop(frames_.size());
         frames_.clear();

@@ -23,6 +23,8 @@ struct ReadyFrame {
     SharedBytes bytes;    // one picture, as record.delivered says
     Seconds cost{0};      // what a frame costs where the server is slowest, for CreditWindow
     TimePoint ready_at{}; // when it left the encoder
+
+    [[nodiscard]] bool isVideo() const { return view::isVideo(record.delivered.encoding.codec); }
 };
 
 // One viewer's connection, as the stream sees it.

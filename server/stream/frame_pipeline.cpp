@@ -10,6 +10,13 @@
 #include <utility>
 
 namespace froxel::stream {
+namespace {
+
+bool isLossless(const DrawnFrame& frame) {
+    return frame.record.delivered.refinement == session::Refinement::kLossless;
+}
+
+} // namespace
 
 FramePipeline::FramePipeline(encode::EncodePool& pool,
                              session::SessionId session,
@@ -31,17 +38,13 @@ FramePipeline::Losses FramePipeline::takeLosses() {
 }
 
 void FramePipeline::push(DrawnFrame frame) {
-    const bool lossless = frame.record.delivered.refinement == session::Refinement::kLossless;
+    const bool lossless = isLossless(frame);
     bool waits = false;
     {
         const std::lock_guard lock(mutex_);
-        if (encoding_) {
-            FROXEL_ASSERT(!waiting_, "more pictures pushed than the pipeline holds");
-            waiting_ = std::move(frame);
-        } else {
-            encoding_ = std::move(frame);
-        }
-        waits = waiting_.has_value();
+        FROXEL_ASSERT(!waiting_, "more pictures pushed than the pipeline holds");
+        waits = encoding_.has_value();
+        (waits ? waiting_ : encoding_) = std::move(frame);
     }
     if (!waits) {
         startEncoding();
@@ -55,14 +58,13 @@ void FramePipeline::startEncoding() {
     bool taken = false;
     {
         const session::Delivered& with = encoding_->record.delivered;
-        const bool lossless = with.refinement == session::Refinement::kLossless;
         encode::EncodeJob job{std::move(encoding_->pixels),
                               with.encoding,
                               [self = shared_from_this()](Result<EncodedFrame> result) {
                                   self->onEncoded(std::move(result));
                               },
                               videoJob(*encoding_),
-                              lossless,
+                              isLossless(*encoding_),
                               this};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here

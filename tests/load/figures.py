@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from server import Server
+from server import Server, split_arguments
 
 ROWS = {
     "gpu": ["v1", "v1vp9", "v16", "v50", "v100_target30", "room200", "rest"],
@@ -209,23 +209,26 @@ def words(result):
     )
 
 
+def growth(server, seconds):
+    """By how much each metric grows in the next seconds."""
+    before = server.sample()
+    time.sleep(seconds)
+    return {name: value - before.get(name, 0) for name, value in server.sample().items()}
+
+
 def rates(server, seconds):
     """Frames, bytes and seconds of processor time, of each second of the next ones."""
     names = ("froxel_frames_rendered_total", "froxel_sent_bytes_total", "process_cpu_seconds_total")
-    before = server.sample()
-    time.sleep(seconds)
-    after = server.sample()
-    return [(after[name] - before[name]) / (after["at_s"] - before["at_s"]) for name in names]
+    more = growth(server, seconds)
+    return [more[name] / more["at_s"] for name in names]
 
 
 def shown(server, seconds=1.0):
     """Mean quality and scale of the pictures sent in the next seconds; None where there was none."""
-    before = server.sample()
-    time.sleep(seconds)
-    after = server.sample()
-    frames = after["froxel_frame_quality_count"] - before["froxel_frame_quality_count"]
+    more = growth(server, seconds)
+    frames = more["froxel_frame_quality_count"]
     names = ("froxel_frame_quality_sum", "froxel_frame_scale_sum")
-    return tuple((after[name] - before[name]) / frames for name in names) if frames else None
+    return tuple(more[name] / frames for name in names) if frames else None
 
 
 def whole(now, asked):
@@ -234,10 +237,7 @@ def whole(now, asked):
 
 
 def main():
-    arguments, serve = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, serve = arguments[:at], arguments[at + 1 :]
+    arguments, serve = split_arguments()
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("froxel")
     parser.add_argument("out", type=Path)

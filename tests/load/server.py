@@ -7,6 +7,15 @@ import time
 import urllib.request
 
 
+def split_arguments():
+    """What the command line has for the tool itself, and after "--" for froxel serve."""
+    own, serve = sys.argv[1:], []
+    if "--" in own:
+        at = own.index("--")
+        own, serve = own[:at], own[at + 1 :]
+    return own, serve
+
+
 class Server:
     """Runs until stop(), or the end of a `with`."""
 

@@ -28,7 +28,7 @@ import subprocess
 import sys
 import time
 
-from server import Server
+from server import Server, split_arguments
 
 SCRIPTS = ("orbit", "idle", "storm")
 HEAP_RISE_BYTES = 8e6
@@ -176,10 +176,7 @@ def judge(busy, rests, before, after, device, viewers, scripts):
 
 
 def main():
-    arguments, serve_options = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, serve_options = arguments[:at], arguments[at + 1 :]
+    arguments, serve_options = split_arguments()
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("froxel")
     parser.add_argument("--minutes", type=float, default=30)
