@@ -3,7 +3,8 @@
 # Draws every renderer on the built-in scene (and SCENE), requires forward_plus to equal naive bit for
 # bit, and writes pictures and timings to OUT. Needs only the froxel binary and a Vulkan driver.
 # FROXEL_ASSIGNMENT_TEST=render_gpu_assignment_test also compares the light lists that the GPU makes with
-# the host's, entry by entry.
+# the host's, entry by entry. FROXEL_HOSTILE_PYTHON=python3, one that has the module websockets, also plays
+# tests/hostile, an honest viewer beside hostile ones.
 set -euo pipefail
 froxel=$1
 out=$2
@@ -53,4 +54,8 @@ for entry in "${scenes[@]}"; do
     done
     measure "$scene" "$name" 5000 clustered_deferred 1920x1080 "${options[@]}"
 done
+if [ -n "${FROXEL_HOSTILE_PYTHON:-}" ]; then
+    "$FROXEL_HOSTILE_PYTHON" "$(dirname "$0")/../hostile/hostile.py" "$froxel" --out "$out/hostile.json" \
+        -- --device gpu || failures=$((failures + 1))
+fi
 exit "$((failures > 0))"

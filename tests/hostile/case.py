@@ -1,0 +1,213 @@
+"""What a hostile case is, and how it is played."""
+
+import asyncio
+import collections
+import dataclasses
+import importlib.util
+import multiprocessing
+import os
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import websockets
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[0] / "load"))
+from server import Server
+from viewer import Viewer, Victim
+
+HONEST, HOSTILE, NEWCOMER = "127.0.0.1", "127.0.0.66", "127.0.0.3"
+SETTLED_FRAMES = 20
+# A hostile viewer that was sent away comes back.
+COMES_BACK_S = 0.05
+NEVER = 60.0
+
+LEAST = {"kept": 0.4}
+MOST = {"gap_s": 0.5}
+
+
+@dataclasses.dataclass
+class Case:
+    attack: Callable
+    clients: int = 1  # how many of it at once
+    seconds: float = 6  # alone, and again beside the hostile ones
+    serve: tuple = ()  # options of froxel serve
+    room: str = ""  # that the honest viewer is in; it came first
+    newcomer: bool = False  # whether another honest viewer comes at the end: newcomer_s
+    least: dict = dataclasses.field(default_factory=dict)  # bounds of figures, besides LEAST and MOST
+    most: dict = dataclasses.field(default_factory=dict)
+    name: str = ""
+    group: str = ""
+
+    def missed(self, figures):
+        """The bounds that figures break, in words."""
+        most = {**MOST, **self.most}
+        if "ping_p99_ms" in most:  # where the machine itself takes longer, twice what it takes
+            most["ping_p99_ms"] = max(most["ping_p99_ms"], 2 * figures["alone_ping_p99_ms"])
+        for name, bound in {**LEAST, **self.least}.items():
+            if figures[name] < bound:
+                yield f"{name} {figures[name]:.3g}, at least {bound:.3g}"
+        for name, bound in most.items():
+            if figures[name] > bound:
+                yield f"{name} {figures[name]:.3g}, at most {bound:.3g}"
+
+
+CASES = {}
+
+
+def case(**settings):
+    """Decorates `async def NAME(arena)`, which behaves badly until it is cancelled."""
+
+    def add(attack):
+        CASES[attack.__name__] = Case(
+            attack, name=attack.__name__, group=Path(attack.__code__.co_filename).stem, **settings)
+        return attack
+
+    return add
+
+
+def load_cases():
+    for file in sorted((HERE / "cases").glob("*.py")):
+        spec = importlib.util.spec_from_file_location(f"hostile_{file.stem}", file)
+        spec.loader.exec_module(importlib.util.module_from_spec(spec))
+
+
+@dataclasses.dataclass
+class Arena:
+    """What a hostile viewer knows: the server's URL, and which of its kind it is."""
+
+    url: str
+    index: int
+    heard: collections.Counter
+
+    def viewer(self, **hello):
+        return Viewer(self.url, HOSTILE, self.heard, **hello)
+
+
+async def attack_for_ever(attack, arena):
+    while True:
+        try:
+            await attack(arena)
+        except websockets.exceptions.ConnectionClosed as closed:
+            arena.heard[f"closed {closed.rcvd.code if closed.rcvd else 1006}"] += 1
+        except websockets.exceptions.InvalidStatusCode as refused:
+            arena.heard[f"HTTP {refused.status_code}"] += 1
+        except (OSError, asyncio.TimeoutError, websockets.exceptions.WebSocketException) as error:
+            arena.heard[type(error).__name__] += 1
+        await asyncio.sleep(COMES_BACK_S)
+
+
+def play_hostile(name, url, ready, begin, pipe):
+    """In a process of its own, so that it does not slow the honest viewer's clock."""
+    load_cases()
+    case = CASES[name]
+    heard = collections.Counter()
+
+    async def play():
+        arenas = (Arena(url, index, heard) for index in range(case.clients))
+        tasks = [asyncio.create_task(attack_for_ever(case.attack, arena)) for arena in arenas]
+        over = asyncio.get_running_loop().run_in_executor(None, pipe.recv)
+        done, _ = await asyncio.wait([over, *tasks], return_when=asyncio.FIRST_COMPLETED)
+        if over not in done:
+            await done.pop()  # raises what is wrong with the case
+        pipe.send(heard)
+        os._exit(0)  # nobody is owed a good-bye
+
+    ready.set()
+    begin.wait()
+    asyncio.run(play())
+
+
+class Memory:
+    """Most that the server held, read from its metrics meanwhile."""
+
+    def __init__(self, server):
+        self.server, self.rss, self.device, self.task = server, 0.0, 0.0, None
+
+    async def __aenter__(self):
+        self.task = asyncio.create_task(self.watch())
+        return self
+
+    async def __aexit__(self, *_):
+        self.task.cancel()
+
+    async def watch(self):
+        while True:
+            try:
+                now = await asyncio.to_thread(self.server.sample)
+                self.rss = max(self.rss, now["process_resident_memory_bytes"] / 1e6)
+                self.device = max(self.device, now["froxel_device_memory_bytes"] / 1e6)
+            except OSError:
+                pass  # too busy to answer, or gone: the honest viewer tells
+            await asyncio.sleep(0.5)
+
+
+async def newcomer(url):
+    """Seconds until an honest viewer that comes now has its first picture; it tries again and again."""
+    begin = time.monotonic()
+    while time.monotonic() < begin + NEVER:
+        try:
+            async with Victim(url, NEWCOMER) as viewer:
+                while (await viewer.hear())[0] != "frame":
+                    pass
+                return time.monotonic() - begin
+        except (OSError, asyncio.TimeoutError, websockets.exceptions.WebSocketException):
+            await asyncio.sleep(0.5)
+    return NEVER
+
+
+async def measure(case, server, begin, fellow):
+    async with Victim(server.url, HONEST, room=case.room) as victim, Memory(server) as memory:
+        running = asyncio.create_task(victim.run())
+        await asyncio.sleep(0)
+        while len(victim.frames) < SETTLED_FRAMES and not running.done():
+            await asyncio.sleep(0.05)
+        times, heard = [time.monotonic()], [collections.Counter(victim.heard)]
+        for start in (None, begin):
+            if start:
+                start.set()
+            await asyncio.wait([running], timeout=case.seconds)
+            times.append(time.monotonic())
+            heard.append(collections.Counter(victim.heard))
+        joined = {"newcomer_s": await newcomer(server.url)} if case.newcomer else {}
+        if running.done():
+            await running  # raises what ended it
+        running.cancel()
+    alone, beside = victim.figures(times[0], times[1]), victim.figures(times[1], times[2])
+    room_states = (heard[2] - heard[1])["roomState"] / (times[2] - times[1])
+    return {**{f"alone_{name}": value for name, value in alone.items()}, **beside, **joined,
+            "kept": beside["fps"] / max(alone["fps"], 1e-9), "room_states_per_s": room_states,
+            "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
+
+
+def play(case, froxel, options):
+    """(figures, what is wrong) of one run with a server of its own."""
+    spawn = multiprocessing.get_context("spawn")
+    ready, begin = spawn.Event(), spawn.Event()
+    ours, theirs = spawn.Pipe()
+    figures, wrong = {}, []
+    with Server(froxel, "--drain-seconds", "1", *options, *case.serve) as server:
+        fellow = spawn.Process(target=play_hostile,
+                               args=(case.name, server.url, ready, begin, theirs), daemon=True)
+        fellow.start()
+        ready.wait(30)
+        try:
+            figures = asyncio.run(measure(case, server, begin, fellow))
+            wrong += case.missed(figures)
+            if not figures.pop("fellow_alive"):
+                wrong.append("the hostile viewers ended by themselves")
+        except (OSError, asyncio.TimeoutError, websockets.exceptions.WebSocketException) as error:
+            wrong.append(f"the honest viewer was lost: {type(error).__name__} {error}")
+        if server.process.poll() is not None:
+            wrong.append(f"the server ended: {server.process.returncode}")
+        if fellow.is_alive():
+            ours.send("over")
+            figures["heard"] = dict(ours.recv()) if ours.poll(10) else {}
+            fellow.terminate()
+        fellow.join()
+        code = server.stop()
+        if code != 0 and not wrong:
+            wrong.append(f"the server's exit code is {code}")
+    return figures, wrong

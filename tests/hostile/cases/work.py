@@ -1,0 +1,113 @@
+"""Viewers that ask for as much drawing as they are let."""
+
+import asyncio
+import itertools
+
+from case import case
+from viewer import together
+
+HUGE_LIGHT = {"id": 1, "position": {"y": 2}, "radiusM": 10_000, "intensity": 1}
+
+
+@case()
+async def long_lists(arena):
+    """A million tiny lights in a grid of one column: what most pixels loop over is in few lists."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 640, "height": 360})
+        await viewer.say(setGrid={"grid": {"x": 1, "y": 1, "z": 256}})
+        await viewer.say(setPlacedLights={"lights": [HUGE_LIGHT]})
+        await viewer.say(setLights={"count": 1_000_000, "radiusM": 0.01, "lightLoop": "LIGHT_LOOP_LISTS"})
+        await viewer.watch()
+
+
+@case()
+async def all_lights(arena):
+    """Naive shading with as many lights as are taken, found by halving."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 1280, "height": 720})
+        await viewer.say(setRenderer={"renderer": "RENDERER_NAIVE"})
+        count = 1_000_000
+        while True:
+            await viewer.say(setLights={"count": count, "radiusM": 1000})
+            while (heard := await viewer.hear())[0] not in ("error", "frame"):
+                pass
+            if heard[0] == "frame":
+                await viewer.acknowledge(heard[1])
+            else:
+                count = max(count // 2, 1)
+
+
+@case()
+async def huge_pictures(arena):
+    """The largest picture, with every map of shadows, bloom and four samples a pixel."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 4096, "height": 4096})
+        await viewer.say(setShadows={"lights": 32, "size": 512})
+        await viewer.say(setPost={"bloom": "BLOOM_KIND_SEPARABLE", "bloomRadius": 0.05,
+                                  "antialiasing": "ANTIALIASING_SSAA4"})
+        await viewer.watch()
+
+
+@case()
+async def fog_and_layers(arena):
+    """The finest volume of fog, and sixteen layers of what is blended."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 1280, "height": 720})
+        await viewer.say(setFog={"fog": {"density": 0.1, "tile": 4, "slices": 256}})
+        await viewer.say(setTransparency={"transparency": "TRANSPARENCY_PEELED", "peelLayers": 16})
+        await viewer.watch()
+
+
+@case()
+async def a_frame_a_connection(arena):
+    """One large picture, then a new connection, which owes nothing yet."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 1920, "height": 1080})
+        await viewer.say(setLights={"count": 5000, "radiusM": 2})
+        while True:
+            name, _ = await viewer.hear()
+            if name == "frame" and viewer.heard["frame"] % 2 == 0:
+                return
+
+
+@case(clients=4)
+async def leaves_at_once(arena):
+    """Asks for a large picture and is gone before it is there."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 2048, "height": 2048})
+        await viewer.say(setLights={"count": 20_000, "radiusM": 2})
+        while (await viewer.hear())[0] not in ("state", "error"):
+            pass
+        await asyncio.sleep(0.05)
+
+
+@case()
+async def shader_storm(arena):
+    """Ever other variants of the renderer, each to be compiled."""
+    variants = itertools.product(
+        ("NAIVE", "FORWARD_PLUS", "CLUSTERED_DEFERRED", "TOON_FRAGMENT", "TOON_COMPUTE"),
+        ("PBR", "LAMBERT", "BLINN_PHONG"), ("COMPUTE", "FRAGMENT"), ("NONE", "FXAA", "SSAA4"),
+        ("SORTED", "WEIGHTED", "PEELED"))
+
+    async def ask(viewer):
+        for renderer, shading, lighting, antialiasing, transparency in itertools.cycle(variants):
+            await viewer.say(setRenderer={"renderer": f"RENDERER_{renderer}",
+                                          "shading": f"SHADING_MODEL_{shading}",
+                                          "lighting": f"LIGHTING_STAGE_{lighting}"})
+            await viewer.say(setPost={"antialiasing": f"ANTIALIASING_{antialiasing}"})
+            await viewer.say(setTransparency={"transparency": f"TRANSPARENCY_{transparency}"})
+            await asyncio.sleep(0.1)
+
+    async with arena.viewer() as viewer:
+        await together(ask(viewer), viewer.watch())
+
+
+@case()
+async def sizes_storm(arena):
+    """Another size with every picture, so that targets are made anew."""
+    async with arena.viewer() as viewer:
+        for step in itertools.count():
+            await viewer.say(setSize={"width": 1024 + step * 13 % 1024, "height": 1024 + step * 7 % 512})
+            while (heard := await viewer.hear())[0] != "frame":
+                pass
+            await viewer.acknowledge(heard[1])
