@@ -1,6 +1,7 @@
 #include "app/serve_arguments.h"
 
 #include "app/bind_option.h"
+#include "net/client_address.h"
 
 namespace froxel::app {
 namespace {
@@ -46,6 +47,16 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
         .text("--allow-origin", "ORIGIN", options.allowed_origins, "",
               "Another site whose pages may connect, such as https://example.org; repeatable")
         ->allow_extra_args(false);
+    command
+        .text("--trusted-proxies", "NETWORK", options.trusted_proxies, "",
+              "Proxies whose X-Forwarded-For says from where a viewer comes, such as 10.0.0.0/8; "
+              "several with commas, or repeatable")
+        ->allow_extra_args(false)
+        ->delimiter(',')
+        ->check([](const std::string& network) {
+            const auto parsed = net::TrustedProxies::parse({network});
+            return parsed ? std::string() : parsed.error().message;
+        });
     command.text(
         "--token-file", "FILE", options.token_file, "",
         "Lets in who sends one of its tokens, one a line; read again on SIGHUP, and who has "

@@ -127,6 +127,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.resume_grace = milliseconds(options.resume_grace_s);
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
+    run.server.trusted_proxies = options.trusted_proxies;
     if (options.agones) {
         run.server.agones = agonesOptions(options);
     }

@@ -63,6 +63,9 @@ void Conversation::greet(const CommandMessage& message, TimePoint now) {
         const char* why = hello.token.empty() ? "token is missing" : "token is unknown";
         return reject({RejectCode::kToken, message.stamp.seq, "token", why}, now);
     }
+    if (pass_ && pass_->account()) {
+        caller_ = {Caller::Kind::kToken, *pass_->account()};
+    }
     hello_ = hello;
     hello_.token.clear();
     if (service_.serving) {
@@ -73,7 +76,7 @@ void Conversation::greet(const CommandMessage& message, TimePoint now) {
 }
 
 void Conversation::begin(TimePoint now) {
-    auto seat = lobby_->enter(*service_.serving, hello_, viewer_, now);
+    auto seat = lobby_->enter(*service_.serving, hello_, caller_, viewer_, now);
     hello_.resume_token.clear();
     if (!seat) {
         const bool full = seat.error().code == ErrorCode::kCapacity;

@@ -29,14 +29,15 @@ class Conversation {
     static constexpr double kStatesAtOnce = 16;
     static constexpr double kStatesPerSecond = 5;
 
-    // `viewer` is what the session tells; whatever it is told goes to onNotice().
-    // Without a `gate` everybody is let in.
+    // `viewer` is what the session tells; whatever it is told goes to onNotice(). `caller` is who
+    // connected, by address. Without a `gate` everybody is let in.
     Conversation(std::weak_ptr<SessionViewer> viewer,
                  std::shared_ptr<Lobby> lobby,
                  std::shared_ptr<Metrics> metrics,
+                 Caller caller = {},
                  std::shared_ptr<const TokenGate> gate = nullptr)
         : viewer_(std::move(viewer)), lobby_(std::move(lobby)), metrics_(std::move(metrics)),
-          gate_(std::move(gate)) {}
+          caller_(std::move(caller)), gate_(std::move(gate)) {}
     // Its session is kept for the grace time, unless either side has said good-bye.
     ~Conversation();
     Conversation(const Conversation&) = delete;
@@ -97,6 +98,7 @@ class Conversation {
     const std::weak_ptr<SessionViewer> viewer_;
     const std::shared_ptr<Lobby> lobby_;
     const std::shared_ptr<Metrics> metrics_;
+    Caller caller_; // by its token, once that is known
     const std::shared_ptr<const TokenGate> gate_;
     session::CommandReader reader_;
     session::RejectBudget rejects_;

@@ -41,10 +41,7 @@ Result<void> isReady(const ServiceStatus& status, TimePoint now) {
     if (auto started = hasStarted(status); !started) {
         return started;
     }
-    if (auto steps = stepsWithin(status, kUnreadyStep, now); !steps) {
-        return steps;
-    }
-    return status.serving->port != nullptr ? status.serving->port->admits(now) : Result<void>();
+    return stepsWithin(status, kUnreadyStep, now);
 }
 
 Result<void>

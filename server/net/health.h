@@ -12,7 +12,8 @@ inline constexpr Seconds kUnreadyStep{10};
 
 // Whether the scene is there: from then on for good.
 [[nodiscard]] Result<void> hasStarted(const ServiceStatus& status);
-// Whether a new viewer would get a session and pictures.
+// Whether it serves. Being full is no part of it: a proxy would take the server from its viewers,
+// who then could not come back to it.
 [[nodiscard]] Result<void> isReady(const ServiceStatus& status, TimePoint now);
 // Whether the process moves at all. `network_moves` may wait, and is asked while connections live.
 [[nodiscard]] Result<void>

@@ -24,11 +24,13 @@ void Mail::add(const std::weak_ptr<SessionViewer>& viewer, Notice notice) {
     }
 }
 
-Result<std::shared_ptr<LiveSession>>
-LiveSession::open(const Serving& serving, std::string room, TimePoint now) {
+Result<std::shared_ptr<LiveSession>> LiveSession::open(const Serving& serving,
+                                                       std::string room,
+                                                       const session::Account& account,
+                                                       TimePoint now) {
     // The constructor is private.
     std::shared_ptr<LiveSession> live(new LiveSession(serving, std::move(room), now));
-    const auto id = serving.port->join(live, live->first_, now);
+    const auto id = serving.port->join(live, live->first_, account, now);
     if (!id) {
         live->ended_ = true;
         return id.error();

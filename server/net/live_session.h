@@ -59,9 +59,10 @@ struct Place {
 class LiveSession final : public session::FrameSink,
                           public std::enable_shared_from_this<LiveSession> {
   public:
-    // Joins the stream; `room` is empty for a session of one's own. Errors: StreamPort::join's.
+    // Joins the stream; `room` is empty for a session of one's own. Charged to who opens it.
+    // Errors: StreamPort::join's.
     [[nodiscard]] static Result<std::shared_ptr<LiveSession>>
-    open(const Serving& serving, std::string room, TimePoint now);
+    open(const Serving& serving, std::string room, const session::Account& account, TimePoint now);
     ~LiveSession() override;
     LiveSession(const LiveSession&) = delete;
     LiveSession& operator=(const LiveSession&) = delete;

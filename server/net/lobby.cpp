@@ -10,6 +10,7 @@ namespace froxel::net {
 
 Result<Seat> Lobby::enter(const Serving& serving,
                           const session::Hello& hello,
+                          const Caller& caller,
                           std::weak_ptr<SessionViewer> viewer,
                           TimePoint now) {
     Mail mail;
@@ -17,7 +18,7 @@ Result<Seat> Lobby::enter(const Serving& serving,
     auto entry = findToken(hello);
     const bool resumed = entry != entries_.end();
     if (!resumed) {
-        auto added = addMember(serving, hello, now, mail);
+        auto added = addMember(serving, hello, caller, now, mail);
         if (!added) {
             return added.error();
         }
@@ -49,12 +50,15 @@ Lobby::Entries::iterator Lobby::findToken(const session::Hello& hello) {
     return found;
 }
 
-Result<Lobby::Entries::iterator>
-Lobby::addMember(const Serving& serving, const session::Hello& hello, TimePoint now, Mail& mail) {
+Result<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
+                                                  const session::Hello& hello,
+                                                  const Caller& caller,
+                                                  TimePoint now,
+                                                  Mail& mail) {
     const auto known = rooms_.find(hello.room);
     std::shared_ptr<LiveSession> session = known == rooms_.end() ? nullptr : known->second;
     if (!session) {
-        auto opened = LiveSession::open(serving, hello.room, now);
+        auto opened = LiveSession::open(serving, hello.room, caller.account, now);
         if (!opened) {
             return opened.error();
         }

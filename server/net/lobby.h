@@ -3,6 +3,7 @@
 // reads no clock.
 #pragma once
 
+#include "net/caller.h"
 #include "net/live_session.h"
 
 #include <chrono>
@@ -42,6 +43,7 @@ class Lobby {
     // into a session of its own. Errors: StreamPort::join's.
     [[nodiscard]] Result<Seat> enter(const Serving& serving,
                                      const session::Hello& hello,
+                                     const Caller& caller,
                                      std::weak_ptr<SessionViewer> viewer,
                                      TimePoint now);
     // The client has heard of the seat's token: the one that it came with is worth nothing any
@@ -74,8 +76,11 @@ class Lobby {
     using Entries = std::map<session::MemberId, Entry>;
 
     [[nodiscard]] Entries::iterator findToken(const session::Hello& hello);
-    [[nodiscard]] Result<Entries::iterator>
-    addMember(const Serving& serving, const session::Hello& hello, TimePoint now, Mail& mail);
+    [[nodiscard]] Result<Entries::iterator> addMember(const Serving& serving,
+                                                      const session::Hello& hello,
+                                                      const Caller& caller,
+                                                      TimePoint now,
+                                                      Mail& mail);
     [[nodiscard]] size_t countAway() const;
     Entries::iterator remove(Entries::iterator entry, Mail& mail);
 

@@ -37,6 +37,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     }
     site->allowed_origins = options.allowed_origins;
     site->gate = options.gate;
+    site->trusted_proxies = TrustedProxies::parse(options.trusted_proxies).value();
     site->content_policy = contentPolicy(options.reconnect_url);
     site->service = std::make_shared<Service>();
     site->lobby = std::make_shared<Lobby>(options.resume_grace);

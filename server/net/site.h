@@ -2,6 +2,7 @@
 // metrics, which any thread may use.
 #pragma once
 
+#include "net/client_address.h"
 #include "net/lobby.h"
 #include "net/metrics.h"
 #include "net/service.h"
@@ -18,7 +19,8 @@ struct Site {
     StaticFiles files;
     std::vector<std::string> allowed_origins; // besides the server's own
     std::shared_ptr<const TokenGate> gate;    // null: everybody is let in
-    std::string content_policy;               // of the page
+    TrustedProxies trusted_proxies;
+    std::string content_policy; // of the page
     std::shared_ptr<Service> service;
     std::shared_ptr<Lobby> lobby;
     std::shared_ptr<Metrics> metrics;

@@ -1,5 +1,6 @@
 #include "net/token_gate.h"
 
+#include "core/text.h"
 #include "net/token_file.h"
 #include "session/resume_token.h"
 
@@ -15,16 +16,16 @@ Result<void> TokenGate::load(const std::filesystem::path& path) {
     }
     // A token that stays is the same object, so that its passes stay valid.
     const std::lock_guard lock(mutex_);
-    std::map<std::string_view, Token> before;
-    for (const Token& token : tokens_) {
-        before.emplace(*token, token);
+    std::map<std::string_view, std::shared_ptr<const Token>> before;
+    for (const auto& token : tokens_) {
+        before.emplace(token->secret, token);
     }
-    std::vector<Token> now;
-    for (std::string& token : *read) {
-        const auto found = before.find(token);
-        now.push_back(found != before.end()
-                          ? found->second
-                          : std::make_shared<const std::string>(std::move(token)));
+    std::vector<std::shared_ptr<const Token>> now;
+    for (std::string& secret : *read) {
+        const auto found = before.find(secret);
+        now.push_back(found != before.end() ? found->second
+                                            : std::make_shared<const Token>(
+                                                  Token{std::move(secret), ++last_number_}));
     }
     tokens_ = std::move(now);
     everybody_.reset();
@@ -33,13 +34,21 @@ Result<void> TokenGate::load(const std::filesystem::path& path) {
 
 std::optional<TokenGate::Pass> TokenGate::admit(std::string_view token) const {
     const std::lock_guard lock(mutex_);
-    Token known = everybody_;
-    for (const Token& valid : tokens_) {
-        if (session::sameToken(*valid, token)) {
+    std::shared_ptr<const Token> known = everybody_;
+    for (const auto& valid : tokens_) {
+        if (session::sameToken(valid->secret, token)) {
             known = valid;
         }
     }
-    return known ? std::optional(Pass(known)) : std::nullopt;
+    if (!known) {
+        return {};
+    }
+    Pass pass;
+    pass.token_ = known;
+    if (known != everybody_) {
+        pass.account_ = session::Account{"token " + numberText(known->number)};
+    }
+    return pass;
 }
 
 } // namespace froxel::net

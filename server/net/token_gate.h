@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/error.h"
+#include "session/account.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -14,6 +16,12 @@
 namespace froxel::net {
 
 class TokenGate {
+    // Numbered as they first came, which is what they are called by.
+    struct Token {
+        std::string secret;
+        uint64_t number = 0;
+    };
+
   public:
     // The file's tokens (token_file.h) take the place of those before. An error changes nothing.
     [[nodiscard]] Result<void> load(const std::filesystem::path& path);
@@ -22,11 +30,13 @@ class TokenGate {
     class Pass {
       public:
         [[nodiscard]] bool valid() const { return !token_.expired(); }
+        // None where no token was needed.
+        [[nodiscard]] const std::optional<session::Account>& account() const { return account_; }
 
       private:
         friend class TokenGate;
-        explicit Pass(std::weak_ptr<const std::string> token) : token_(std::move(token)) {}
-        std::weak_ptr<const std::string> token_;
+        std::weak_ptr<const Token> token_;
+        std::optional<session::Account> account_;
     };
     // For everybody before the first load(), until it. None for a token that is not there. In a
     // time that depends on the lengths alone.
@@ -34,11 +44,11 @@ class TokenGate {
     [[nodiscard]] bool lets(std::string_view token) const { return admit(token).has_value(); }
 
   private:
-    using Token = std::shared_ptr<const std::string>;
-
     mutable std::mutex mutex_;
-    Token everybody_ = std::make_shared<const std::string>(); // null from the first load() on
-    std::vector<Token> tokens_;
+    // Null from the first load() on.
+    std::shared_ptr<const Token> everybody_ = std::make_shared<const Token>();
+    std::vector<std::shared_ptr<const Token>> tokens_;
+    uint64_t last_number_ = 0;
 };
 
 } // namespace froxel::net

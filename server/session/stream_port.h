@@ -5,6 +5,7 @@
 
 #include "core/encoded_frame.h"
 #include "core/error.h"
+#include "session/account.h"
 #include "session/session_state.h"
 #include "session/state_message.h"
 
@@ -45,10 +46,12 @@ class StreamPort {
   public:
     virtual ~StreamPort() = default;
     // Errors: kCapacity when as many sessions as allowed are there; kDevice when it was lost.
-    [[nodiscard]] virtual Result<SessionId>
-    join(std::weak_ptr<FrameSink> sink, const SessionState& state, TimePoint now) = 0;
-    // Whether join() would take one more session now; its errors.
-    [[nodiscard]] virtual Result<void> admits(TimePoint now) const = 0;
+    [[nodiscard]] virtual Result<SessionId> join(std::weak_ptr<FrameSink> sink,
+                                                 const SessionState& state,
+                                                 const Account& account,
+                                                 TimePoint now) = 0;
+    // Whether join() would take one more session of this account now; its errors.
+    [[nodiscard]] virtual Result<void> admits(const Account& account, TimePoint now) const = 0;
     // Replaces the state to draw; `arrived` is when the command behind it came in.
     virtual void update(SessionId id, const SessionState& state, TimePoint arrived) = 0;
     // How many frames the connection takes in all since it joined: those delivered to it so far

@@ -17,12 +17,12 @@ using session::SessionId;
 using session::SessionState;
 
 struct RenderLoop::Viewer {
-    Viewer(std::weak_ptr<session::FrameSink> its_sink,
-           std::shared_ptr<FramePipeline> its_pipeline,
-           const SessionState& first_state)
-        : sink(std::move(its_sink)), pipeline(std::move(its_pipeline)), state(first_state) {}
+    Viewer(const ViewerNews& first, std::shared_ptr<FramePipeline> its_pipeline)
+        : sink(first.sink), account(first.account), pipeline(std::move(its_pipeline)),
+          state(*first.state) {}
 
     std::weak_ptr<session::FrameSink> sink;
+    session::Account account;
     std::shared_ptr<FramePipeline> pipeline;
     std::unique_ptr<ViewSource> source; // made with the first frame
     SessionState state;
@@ -100,20 +100,22 @@ void RenderLoop::stop() {
     }
 }
 
-Result<SessionId>
-RenderLoop::join(std::weak_ptr<session::FrameSink> sink, const SessionState& state, TimePoint now) {
+Result<SessionId> RenderLoop::join(std::weak_ptr<session::FrameSink> sink,
+                                   const SessionState& state,
+                                   const session::Account& account,
+                                   TimePoint now) {
     const std::lock_guard lock(admission_mutex_);
     if (auto fits = admission_.check(now); !fits) {
         return fits.error();
     }
-    auto id = mailbox_->join(std::move(sink), state, now);
+    auto id = mailbox_->join(std::move(sink), state, account, now);
     if (id) {
         admission_.add(*id, now);
     }
     return id;
 }
 
-Result<void> RenderLoop::admits(TimePoint now) const {
+Result<void> RenderLoop::admits(const session::Account& /*account*/, TimePoint now) const {
     const std::lock_guard lock(admission_mutex_);
     if (auto fits = admission_.check(now); !fits) {
         return fits;
@@ -200,7 +202,7 @@ void RenderLoop::takeNews() {
             auto pipeline =
                 std::make_shared<FramePipeline>(pool_, news.id, news.sink, options_.fates,
                                                 [mailbox = mailbox_] { mailbox->wake(); });
-            entry = std::make_unique<Viewer>(news.sink, std::move(pipeline), *news.state);
+            entry = std::make_unique<Viewer>(news, std::move(pipeline));
             entry->refinement.onChange(news.arrived);
             scheduler_.add(news.id);
         }

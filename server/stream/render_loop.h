@@ -61,8 +61,10 @@ class RenderLoop final : public session::StreamPort {
 
     [[nodiscard]] Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
                                                   const session::SessionState& state,
+                                                  const session::Account& account,
                                                   TimePoint now) override;
-    [[nodiscard]] Result<void> admits(TimePoint now) const override;
+    [[nodiscard]] Result<void> admits(const session::Account& account,
+                                      TimePoint now) const override;
     void
     update(session::SessionId id, const session::SessionState& state, TimePoint arrived) override;
     void grant(session::SessionId id, uint64_t frame_total) override;

@@ -14,6 +14,7 @@ void ViewerMailbox::publish(Slot& slot) {
 
 Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink> sink,
                                                const session::SessionState& state,
+                                               const session::Account& account,
                                                TimePoint now) {
     const std::lock_guard lock(mutex_);
     if (auto room = hasRoom(); !room) {
@@ -22,7 +23,7 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
     ++present_;
     const session::SessionId id = ++last_id_;
     Slot& slot = slots_[id];
-    slot.news = {id, std::move(sink), state, now, 0, {}, false};
+    slot.news = {id, std::move(sink), account, state, now, 0, {}, false};
     publish(slot);
     return id;
 }

@@ -20,6 +20,7 @@ namespace froxel::stream {
 struct ViewerNews {
     session::SessionId id = 0;
     std::weak_ptr<session::FrameSink> sink;
+    session::Account account;
     std::optional<session::SessionState> state; // none: as before
     TimePoint arrived{};                        // of the command behind `state`
     uint64_t granted = 0;                       // as StreamPort::grant
@@ -32,8 +33,10 @@ class ViewerMailbox {
     explicit ViewerMailbox(uint32_t sessions_max) : sessions_max_(sessions_max) {}
 
     // Any thread; as StreamPort.
-    [[nodiscard]] Result<session::SessionId>
-    join(std::weak_ptr<session::FrameSink> sink, const session::SessionState& state, TimePoint now);
+    [[nodiscard]] Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
+                                                  const session::SessionState& state,
+                                                  const session::Account& account,
+                                                  TimePoint now);
     // Whether join() would succeed now; its errors.
     [[nodiscard]] Result<void> check() const;
     void update(session::SessionId id, const session::SessionState& state, TimePoint arrived);

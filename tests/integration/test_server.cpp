@@ -28,6 +28,7 @@ TestServer::TestServer(const TestServerOptions& options) : opened_(options.open_
     run.server.admin = {"127.0.0.1", 0};
     run.server.connections_max = options.connections_max;
     run.server.allowed_origins = options.allowed_origins;
+    run.server.trusted_proxies = options.trusted_proxies;
     run.server.resume_grace = options.resume_grace;
     run.server.web_root = options.web_root;
     run.server.agones = options.agones;

@@ -18,6 +18,7 @@ struct TestServerOptions {
     double min_rate_hz = 0;
     bool open_at_once = true; // false: the scene keeps loading until open()
     std::vector<std::string> allowed_origins{};
+    std::vector<std::string> trusted_proxies{};
     std::filesystem::path web_root{};
     std::optional<net::AgonesOptions> agones{};
 };

@@ -19,19 +19,21 @@ class FakePort final : public session::StreamPort {
         uint64_t granted = 0;
         bool left = false;
         session::Delivery delivery{};
+        session::Account account{};
     };
 
     Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
                                     const session::SessionState& state,
+                                    const session::Account& account,
                                     TimePoint /*now*/) override {
         if (full) {
             return Error{ErrorCode::kCapacity, "full"};
         }
         const session::SessionId id = kFirstId + sessions.size();
-        sessions[id] = {std::move(sink), {state}, 0, false, {}};
+        sessions[id] = {std::move(sink), {state}, 0, false, {}, account};
         return id;
     }
-    Result<void> admits(TimePoint /*now*/) const override {
+    Result<void> admits(const session::Account& /*account*/, TimePoint /*now*/) const override {
         return full ? Result<void>(Error{ErrorCode::kCapacity, "full"}) : Result<void>();
     }
     void update(session::SessionId id,

@@ -185,6 +185,8 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "https://a.example",
                                 "--allow-origin",
                                 "https://b.example",
+                                "--trusted-proxies",
+                                "10.0.0.0/8,fd00::/8",
                                 "--log-level",
                                 "debug",
                                 "--device",
@@ -215,6 +217,7 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.web_root, "page");
     EXPECT_THAT(serve.allowed_origins,
                 testing::ElementsAre("https://a.example", "https://b.example"));
+    EXPECT_THAT(serve.trusted_proxies, testing::ElementsAre("10.0.0.0/8", "fd00::/8"));
     EXPECT_EQ(serve.device, gpu::DeviceChoice::kGpu);
     EXPECT_EQ(options.log_level, LogLevel::kDebug);
 }

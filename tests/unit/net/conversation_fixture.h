@@ -115,7 +115,7 @@ class ConversationTest : public testing::Test {
     };
     std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
     std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>(10s);
-    Conversation talk_{viewer_, lobby_, metrics_};
+    Conversation talk_{viewer_, lobby_, metrics_, Caller{Caller::Kind::kAddress, {"192.0.2.7"}}};
     uint64_t seq_ = 0;
 
     ConversationTest() { viewer_->talk = &talk_; }

@@ -71,7 +71,7 @@ TEST_F(ConversationTest, ControlRefusals_NeverCloseTheConnection) {
     message.mutable_hello()->set_protocol_major(protocol::kMajor);
     message.mutable_hello()->set_room("hall");
     auto first = lobby_->enter({std::make_shared<const session::SessionContext>(), &port_},
-                               {1, 0, "", "hall", ""}, {}, now_);
+                               {1, 0, "", "hall", ""}, {}, {}, now_);
     say(message);
     drainAnswers();
     for (uint32_t i = 0; i < 10 * protocol::kMaxRejects; ++i) {
@@ -89,7 +89,7 @@ TEST_F(ConversationTest, TakenOver_IsToldWithItsCode) {
     const std::string token = nextAnswer()->welcome().resume_token();
     ASSERT_EQ(token.size(), 64U);
     const auto newer = lobby_->enter({std::make_shared<const session::SessionContext>(), &port_},
-                                     {1, 0, "", "", token}, {}, now_);
+                                     {1, 0, "", "", token}, {}, {}, now_);
     EXPECT_TRUE(newer->resumed);
     EXPECT_EQ(talk_.closing()->code, CloseCode::kReplaced);
 }

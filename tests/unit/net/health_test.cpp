@@ -46,19 +46,21 @@ TEST_F(HealthTest, Loading_IsLiveAndSaysHowFarItIs) {
     expectNo(kReadyPath, "loading the scene, 25 %");
 }
 
-TEST_F(HealthTest, Serving_IsWell_UntilFullOrDraining) {
+TEST_F(HealthTest, Serving_IsWell_UntilDraining) {
     serve();
     for (const auto path : {kLivePath, kStartedPath, kReadyPath}) {
         expectYes(path);
     }
-    port_.full = true;
-    expectNo(kReadyPath, "full");
-    expectYes(kLivePath);
-    port_.full = false;
     service_->setDraining({});
     expectNo(kReadyPath, "draining");
     expectYes(kStartedPath);
     expectYes(kLivePath);
+}
+
+TEST_F(HealthTest, Full_IsReady) {
+    serve();
+    port_.full = true;
+    expectYes(kReadyPath);
 }
 
 TEST_F(HealthTest, RenderThreadAtOneStep_IsUnreadyFirstAndDeadLater) {

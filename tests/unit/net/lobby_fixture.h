@@ -53,7 +53,7 @@ class LobbyTest : public testing::Test {
   protected:
     Result<Guest> tryEnter(const std::string& room = "", const std::string& token = "") {
         Guest guest;
-        auto seat = lobby_.enter(serving_, {1, 0, "guest", room, token}, guest.ear, now_);
+        auto seat = lobby_.enter(serving_, {1, 0, "guest", room, token}, caller_, guest.ear, now_);
         if (!seat) {
             return seat.error();
         }
@@ -82,6 +82,7 @@ class LobbyTest : public testing::Test {
     test::FakePort port_;
     Serving serving_{std::make_shared<const session::SessionContext>(), &port_};
     TimePoint now_ = TimePoint() + 1h;
+    Caller caller_{Caller::Kind::kAddress, {"192.0.2.7"}};
     std::vector<TimePoint> alarms_;
     Lobby lobby_{10s};
 

@@ -222,7 +222,7 @@ TEST_F(LobbyTest, ControllerLost_KeepsControlForTheGrace_ThenItGoesToWhoAsked) {
 
 TEST_F(LobbyTest, GraceOfZero_KeepsNothingAndGivesNoToken) {
     Lobby strict(0ms);
-    auto seat = strict.enter(serving_, {1, 0, "", "", ""}, {}, now_).value();
+    auto seat = strict.enter(serving_, {1, 0, "", "", ""}, {}, {}, now_).value();
     EXPECT_EQ(seat.resume_token, "");
     strict.depart(seat, Departure::kLost, now_);
     EXPECT_TRUE(port_.session().left);

@@ -75,7 +75,7 @@ TEST_F(TokenGateTest, Pass_LastsAsLongAsItsTokenIsInTheFile) {
 // One that says Hello with a token to a server that serves.
 struct Talk {
     Talk(std::shared_ptr<const TokenGate> gate, const std::string& token)
-        : conversation({}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>(), gate) {
+        : conversation({}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>(), {}, gate) {
         status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
         conversation.onService(status, TimePoint());
         v1::ClientMessage hello;
@@ -101,6 +101,17 @@ TEST_F(TokenGateTest, Conversation_WhoseTokenIsTakenAway_EndsAtTheNextWord) {
     EXPECT_FALSE(stays.conversation.closing());
     ASSERT_TRUE(goes.conversation.closing());
     EXPECT_EQ(goes.conversation.closing()->code, protocol::CloseCode::kToken);
+}
+
+TEST_F(TokenGateTest, Conversation_WithAToken_IsChargedToItByANameThatIsNoSecret) {
+    ASSERT_TRUE(load("another-token-0123\n" + kToken + "\n"));
+    const auto chargedTo = [this](const std::string& token) {
+        return Talk(gate_, token).port.session().account.key;
+    };
+    EXPECT_EQ(chargedTo(kToken), "token 2");
+    ASSERT_TRUE(load(kToken + "\na-third-token-0123\n"));
+    EXPECT_EQ(chargedTo(kToken), "token 2") << "as before";
+    EXPECT_EQ(chargedTo("a-third-token-0123"), "token 3");
 }
 
 TEST_F(TokenGateTest, Conversation_WithoutTheToken_GetsNoSession) {

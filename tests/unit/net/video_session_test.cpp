@@ -30,7 +30,7 @@ class VideoSessionTest : public testing::Test {
         session::Hello hello;
         hello.room = "hall";
         hello.codecs.set(kVp9, decodes_video);
-        return lobby_.enter(serving_, hello, viewer, kNow).value();
+        return lobby_.enter(serving_, hello, {}, viewer, kNow).value();
     }
     static bool setCodec(const Seat& seat, view::Codec codec) {
         session::SetEncoding set;

@@ -41,7 +41,7 @@ class RenderLoopTest : public testing::Test {
     session::SessionId join(const std::shared_ptr<RecordingSink>& sink,
                             const session::SessionState& state,
                             uint64_t credits) {
-        const auto id = loop_->join(sink, state, Clock::now()).value();
+        const auto id = loop_->join(sink, state, {"a"}, Clock::now()).value();
         loop_->grant(id, credits);
         return id;
     }
@@ -226,7 +226,7 @@ TEST_F(RenderLoopTest, Lost_WhileDrawing_TellsEveryoneAndRefusesNewcomers) {
     EXPECT_TRUE(first->waitFor(told));
     EXPECT_TRUE(second->waitFor(told));
     EXPECT_EQ(failure_.get_future().get().code, ErrorCode::kDevice);
-    EXPECT_FALSE(loop_->join(makeSink(), still(), Clock::now()));
+    EXPECT_FALSE(loop_->join(makeSink(), still(), {"a"}, Clock::now()));
 }
 
 TEST_F(RenderLoopTest, MakeSource_Throws_ReportsIt) {
@@ -264,7 +264,7 @@ TEST_F(RenderLoopTest, Stop_DeviceBusy_WaitsForItAndCallsNoSinkAfterwards) {
     const size_t count = sink->frames().size();
     EXPECT_EQ(device_->live_leases, 0);
     EXPECT_EQ(sink->frames().size(), count);
-    EXPECT_TRUE(loop_->join(makeSink(), still(), Clock::now())) << "the port still answers";
+    EXPECT_TRUE(loop_->join(makeSink(), still(), {"a"}, Clock::now())) << "the port still answers";
 }
 
 // Frame N is in the encoder while N + 1 is on the device.

@@ -17,12 +17,13 @@ class ViewerMailboxTest : public testing::Test {
 
     session::SessionContext context_;
     TimePoint now_{};
+    session::Account account_{"192.0.2.7"};
     std::shared_ptr<test::RecordingSink> sink_ = std::make_shared<test::RecordingSink>();
     ViewerMailbox mailbox_{2};
 };
 
 TEST_F(ViewerMailboxTest, Take_AfterSeveralUpdates_HasTheNewestState) {
-    const auto id = mailbox_.join(sink_, state(1), now_).value();
+    const auto id = mailbox_.join(sink_, state(1), account_, now_).value();
     mailbox_.update(id, state(2), now_);
     mailbox_.update(id, state(3), now_);
     mailbox_.grant(id, 5);
@@ -30,11 +31,12 @@ TEST_F(ViewerMailboxTest, Take_AfterSeveralUpdates_HasTheNewestState) {
     ASSERT_EQ(news.size(), 1U);
     EXPECT_EQ(news[0].state->version, 3U);
     EXPECT_EQ(news[0].granted, 5U);
+    EXPECT_EQ(news[0].account, account_);
     EXPECT_TRUE(mailbox_.take().empty());
 }
 
 TEST_F(ViewerMailboxTest, Take_OnlyCreditIsNew_HasNoState) {
-    const auto id = mailbox_.join(sink_, state(1), now_).value();
+    const auto id = mailbox_.join(sink_, state(1), account_, now_).value();
     EXPECT_EQ(mailbox_.take().size(), 1U);
     mailbox_.grant(id, 1);
     const auto news = mailbox_.take();
@@ -43,26 +45,26 @@ TEST_F(ViewerMailboxTest, Take_OnlyCreditIsNew_HasNoState) {
 }
 
 TEST_F(ViewerMailboxTest, Join_BeyondTheLimit_IsRefusedUntilOneLeaves) {
-    const auto first = mailbox_.join(sink_, state(1), now_).value();
-    ASSERT_TRUE(mailbox_.join(sink_, state(1), now_));
-    const auto third = mailbox_.join(sink_, state(1), now_);
+    const auto first = mailbox_.join(sink_, state(1), account_, now_).value();
+    ASSERT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
+    const auto third = mailbox_.join(sink_, state(1), account_, now_);
     ASSERT_FALSE(third);
     EXPECT_EQ(third.error().code, ErrorCode::kCapacity);
     mailbox_.leave(first);
-    EXPECT_TRUE(mailbox_.join(sink_, state(1), now_));
+    EXPECT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
 }
 
 TEST_F(ViewerMailboxTest, Leave_Twice_FreesOnePlaceOnly) {
-    const auto first = mailbox_.join(sink_, state(1), now_).value();
-    ASSERT_TRUE(mailbox_.join(sink_, state(1), now_));
+    const auto first = mailbox_.join(sink_, state(1), account_, now_).value();
+    ASSERT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
     mailbox_.leave(first);
     mailbox_.leave(first);
-    ASSERT_TRUE(mailbox_.join(sink_, state(1), now_));
-    EXPECT_FALSE(mailbox_.join(sink_, state(1), now_));
+    ASSERT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
+    EXPECT_FALSE(mailbox_.join(sink_, state(1), account_, now_));
 }
 
 TEST_F(ViewerMailboxTest, Update_AfterLeaving_ChangesNothing) {
-    const auto id = mailbox_.join(sink_, state(1), now_).value();
+    const auto id = mailbox_.join(sink_, state(1), account_, now_).value();
     mailbox_.leave(id);
     mailbox_.update(id, state(2), now_);
     const auto news = mailbox_.take();
@@ -75,7 +77,7 @@ TEST_F(ViewerMailboxTest, Update_AfterLeaving_ChangesNothing) {
 
 TEST_F(ViewerMailboxTest, Join_AfterClose_GivesTheReason) {
     mailbox_.close({ErrorCode::kDevice, "lost"});
-    const auto joined = mailbox_.join(sink_, state(1), now_);
+    const auto joined = mailbox_.join(sink_, state(1), account_, now_);
     ASSERT_FALSE(joined);
     EXPECT_EQ(joined.error().code, ErrorCode::kDevice);
 }

@@ -1,0 +1,98 @@
+#include "net/client_address.h"
+
+#include "core/text.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace froxel::net {
+
+namespace ip = boost::asio::ip;
+
+namespace {
+
+constexpr unsigned short kAccountBits = 64; // of an IPv6 address
+
+ip::address plain(const ip::address& address) {
+    return address.is_v6() && address.to_v6().is_v4_mapped()
+               ? ip::address(ip::make_address_v4(ip::v4_mapped, address.to_v6()))
+               : address;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kSpace = " \t";
+    const size_t begin = text.find_first_not_of(kSpace);
+    return begin == std::string_view::npos
+               ? std::string_view()
+               : text.substr(begin, text.find_last_not_of(kSpace) + 1 - begin);
+}
+
+std::optional<ip::address> parsed(std::string_view text) {
+    boost::system::error_code failure;
+    const ip::address address = ip::make_address(std::string(text), failure);
+    return failure ? std::nullopt : std::optional(plain(address));
+}
+
+} // namespace
+
+Result<TrustedProxies> TrustedProxies::parse(const std::vector<std::string>& networks) {
+    TrustedProxies proxies;
+    for (const std::string& text : networks) {
+        const bool whole = text.find('/') == std::string::npos;
+        boost::system::error_code failure;
+        const auto v4 = ip::make_network_v4(whole ? text + "/32" : text, failure);
+        if (!failure) {
+            proxies.networks_.emplace_back(v4.canonical());
+            continue;
+        }
+        const auto v6 = ip::make_network_v6(whole ? text + "/128" : text, failure);
+        if (failure) {
+            return Error{ErrorCode::kInvalidArgument,
+                         "'" + printable(text) +
+                             "' is no address or network, such as 10.0.0.0/8 or fd00::/8"};
+        }
+        proxies.networks_.emplace_back(v6.canonical());
+    }
+    return proxies;
+}
+
+bool TrustedProxies::contains(const ip::address& address) const {
+    return std::any_of(networks_.begin(), networks_.end(), [&](const Network& network) {
+        if (const auto* v4 = std::get_if<ip::network_v4>(&network)) {
+            return address.is_v4() &&
+                   ip::network_v4(address.to_v4(), v4->prefix_length()).canonical() == *v4;
+        }
+        const auto& v6 = std::get<ip::network_v6>(network);
+        return address.is_v6() &&
+               ip::network_v6(address.to_v6(), v6.prefix_length()).canonical() == v6;
+    });
+}
+
+ip::address
+clientAddress(ip::address peer, std::string_view forwarded_for, const TrustedProxies& proxies) {
+    ip::address client = plain(peer);
+    while (!forwarded_for.empty() && proxies.contains(client)) {
+        const size_t comma = forwarded_for.rfind(',');
+        const auto hop = parsed(trimmed(
+            comma == std::string_view::npos ? forwarded_for : forwarded_for.substr(comma + 1)));
+        if (!hop) {
+            break; // what a trusted proxy wrote is no address: it answers for its viewers itself
+        }
+        client = *hop;
+        forwarded_for = forwarded_for.substr(0, comma == std::string_view::npos ? 0 : comma);
+    }
+    return client;
+}
+
+Caller callerAt(const ip::address& address) {
+    const ip::address where = plain(address);
+    const auto kind = where.is_loopback() ? Caller::Kind::kLocal : Caller::Kind::kAddress;
+    if (where.is_v4() || where.is_loopback()) {
+        return {kind, {where.to_string()}};
+    }
+    ip::address_v6 host = where.to_v6();
+    host.scope_id(0);
+    return {kind, {ip::network_v6(host, kAccountBits).canonical().to_string()}};
+}
+
+} // namespace froxel::net

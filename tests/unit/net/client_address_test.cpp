@@ -1,0 +1,68 @@
+#include "net/client_address.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace froxel::net {
+namespace {
+
+using boost::asio::ip::make_address;
+
+std::string clientOf(const std::string& peer,
+                     const std::string& forwarded_for,
+                     const std::vector<std::string>& proxies) {
+    return clientAddress(make_address(peer), forwarded_for, TrustedProxies::parse(proxies).value())
+        .to_string();
+}
+
+std::string accountOf(const std::string& address) {
+    return callerAt(make_address(address)).account.key;
+}
+
+TEST(ClientAddress, NoProxyTrusted_IsThePeerWhateverItSays) {
+    EXPECT_EQ(clientOf("192.0.2.7", "198.51.100.1", {}), "192.0.2.7");
+    EXPECT_EQ(clientOf("192.0.2.7", "198.51.100.1", {"10.0.0.0/8"}), "192.0.2.7");
+}
+
+TEST(ClientAddress, BehindTrustedProxies_IsTheLastHopThatIsNoneOfThem) {
+    const std::vector<std::string> proxies{"10.0.0.0/8", "fd00::/8", "203.0.113.9"};
+    EXPECT_EQ(clientOf("10.1.2.3", "198.51.100.1", proxies), "198.51.100.1");
+    EXPECT_EQ(clientOf("10.1.2.3", "1.1.1.1, 198.51.100.1 ,10.9.9.9", proxies), "198.51.100.1")
+        << "what a client wrote itself stands first";
+    EXPECT_EQ(clientOf("203.0.113.9", "2001:db8::1,fd12::4", proxies), "2001:db8::1");
+    EXPECT_EQ(clientOf("::ffff:10.1.2.3", "198.51.100.1", proxies), "198.51.100.1");
+}
+
+TEST(ClientAddress, TrustedProxySaysNoAddress_IsTheProxy) {
+    const std::vector<std::string> proxies{"10.0.0.0/8"};
+    for (const char* said : {"", "unknown", ",", "198.51.100.1, who", "198.51.100.1:80"}) {
+        EXPECT_EQ(clientOf("10.1.2.3", said, proxies), "10.1.2.3") << said;
+    }
+}
+
+TEST(ClientAddress, Account_IsAnIpv4AddressOrAnIpv6NetworkOf64Bits) {
+    EXPECT_EQ(accountOf("192.0.2.7"), "192.0.2.7");
+    EXPECT_EQ(accountOf("::ffff:192.0.2.7"), "192.0.2.7");
+    EXPECT_EQ(accountOf("2001:db8:1:2:3:4:5:6"), "2001:db8:1:2::/64");
+    EXPECT_EQ(accountOf("2001:db8:1:2::1"), accountOf("2001:db8:1:2:ffff::"));
+    EXPECT_NE(accountOf("2001:db8:1:2::1"), accountOf("2001:db8:1:3::1"));
+}
+
+TEST(ClientAddress, Loopback_IsLocal) {
+    for (const char* local : {"127.0.0.1", "127.8.9.10", "::1", "::ffff:127.0.0.1"}) {
+        EXPECT_EQ(callerAt(make_address(local)).kind, Caller::Kind::kLocal) << local;
+    }
+    EXPECT_EQ(callerAt(make_address("192.168.0.1")).kind, Caller::Kind::kAddress);
+}
+
+TEST(TrustedProxies, NoNetwork_IsRefusedAndQuoted) {
+    for (const char* wrong : {"", "10.0.0.0/33", "10.0.0/8", "host", "fd00::/129", "10.0.0.0/-1"}) {
+        const auto parsed = TrustedProxies::parse({"10.0.0.1", wrong});
+        ASSERT_FALSE(parsed) << wrong;
+        EXPECT_THAT(parsed.error().message, testing::HasSubstr("'" + std::string(wrong) + "'"));
+    }
+}
+
+} // namespace
+} // namespace froxel::net
