@@ -13,6 +13,7 @@ struct FrameFates {
     // Never reached a connection:
     std::atomic<uint64_t> viewer_gone{0}; // drawn for a viewer that had left
     std::atomic<uint64_t> not_encoded{0}; // the encoder was full or failed
+    std::atomic<uint64_t> given_up{0};    // nobody wanted it any more before it was drawn
 };
 
 } // namespace froxel

@@ -301,10 +301,11 @@ std::vector<prometheus::MetricFamily> Metrics::Impl::frameFamilies() const {
             metricFamily(MetricType::Counter, "froxel_frames_encoded_total",
                          "Pictures that left an encoder.", "", {{"", count(fates->encoded)}}),
             metricFamily(MetricType::Counter, "froxel_frames_dropped_total",
-                         "Pictures made and not sent.", "reason",
+                         "Pictures begun and not sent.", "reason",
                          {{"replaced", count(replaced)},
                           {"not_encoded", count(fates->not_encoded)},
-                          {"viewer_gone", count(fates->viewer_gone)}})};
+                          {"viewer_gone", count(fates->viewer_gone)},
+                          {"given_up", count(fates->given_up)}})};
 }
 
 void Metrics::bytesSent(size_t count) {

@@ -8,18 +8,35 @@ constexpr uint32_t kRounds = 2;
 
 Result<void>
 draw(ViewSource& view, const view::ViewSettings& settings, uint32_t frames, uint32_t depth) {
-    for (uint32_t submitted = 0, collected = 0; collected < frames;) {
-        if (submitted < frames && submitted - collected < depth && view.canSubmit()) {
-            if (auto begun = view.submit(settings, 0); !begun) {
-                return begun;
+    uint32_t waiting = 0; // pieces of the frame begun last
+    uint32_t on_device = 0;
+    for (uint32_t begun = 0, done = 0; done < frames;) {
+        if (waiting == 0 && begun < frames && on_device < depth && view.canBegin()) {
+            const auto work = view.begin(settings, 0);
+            if (!work) {
+                return work.error();
             }
-            ++submitted;
+            waiting = work->piece_count;
+            ++begun;
+        }
+        if (waiting > 0 && on_device < depth) {
+            if (auto submitted = view.submitPiece(); !submitted) {
+                return submitted;
+            }
+            --waiting;
+            ++on_device;
             continue;
         }
-        if (auto frame = view.collect(); !frame) {
-            return frame.error();
+        const auto collected = view.collect();
+        if (!collected) {
+            return collected.error();
         }
-        ++collected;
+        --on_device;
+        done += collected->outcome == Collected::Outcome::kFrame ? 1U : 0U;
+        if (collected->outcome == Collected::Outcome::kAgain) {
+            waiting = 0;
+            --begun;
+        }
     }
     return {};
 }

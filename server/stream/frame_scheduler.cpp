@@ -21,13 +21,13 @@ void FrameScheduler::remove(uint64_t viewer) {
     viewers_.erase(viewer);
 }
 
-void FrameScheduler::setReady(uint64_t viewer, bool ready) {
+void FrameScheduler::setReady(uint64_t viewer, Ready ready) {
     const auto found = viewers_.find(viewer);
     if (found == viewers_.end()) {
         return;
     }
     Entry& entry = found->second;
-    if (ready && !entry.ready) {
+    if (ready != Ready::kNo && entry.ready == Ready::kNo) {
         entry.virtual_time = std::max(entry.virtual_time, virtual_now_);
     }
     entry.ready = ready;
@@ -54,7 +54,7 @@ std::optional<uint64_t> FrameScheduler::next(TimePoint now) const {
     std::optional<uint64_t> chosen;
     const Entry* best = nullptr;
     for (const auto& [viewer, entry] : viewers_) {
-        if (!entry.ready || entry.due > now) {
+        if (entry.ready == Ready::kNo || entry.readyAt() > now) {
             continue;
         }
         // Among equals the one that waits longest.
@@ -70,14 +70,21 @@ std::optional<uint64_t> FrameScheduler::next(TimePoint now) const {
 std::optional<TimePoint> FrameScheduler::nextDue() const {
     std::optional<TimePoint> earliest;
     for (const auto& [viewer, entry] : viewers_) {
-        if (entry.ready && (!earliest || entry.due < *earliest)) {
-            earliest = entry.due;
+        if (entry.ready != Ready::kNo && (!earliest || entry.readyAt() < *earliest)) {
+            earliest = entry.readyAt();
         }
     }
     return earliest;
 }
 
-void FrameScheduler::onStarted(uint64_t viewer, TimePoint now) {
+void FrameScheduler::onStarted(uint64_t viewer) {
+    const auto found = viewers_.find(viewer);
+    if (found != viewers_.end()) {
+        virtual_now_ = std::max(virtual_now_, found->second.virtual_time);
+    }
+}
+
+void FrameScheduler::onFrame(uint64_t viewer, TimePoint now) {
     const auto found = viewers_.find(viewer);
     if (found == viewers_.end()) {
         return;
@@ -86,10 +93,9 @@ void FrameScheduler::onStarted(uint64_t viewer, TimePoint now) {
     const auto interval = std::chrono::duration_cast<Clock::duration>(min_interval_);
     const bool kept_up = now - entry.due < interval;
     entry.due = (kept_up ? entry.due : now) + interval;
-    virtual_now_ = std::max(virtual_now_, entry.virtual_time);
 }
 
-void FrameScheduler::onFinished(uint64_t viewer, Seconds cost) {
+void FrameScheduler::charge(uint64_t viewer, Seconds cost) {
     const auto found = viewers_.find(viewer);
     if (found != viewers_.end()) {
         found->second.virtual_time += cost;

@@ -21,8 +21,12 @@ class FrameScheduler {
 
     void add(uint64_t viewer);
     void remove(uint64_t viewer);
-    // Whether the viewer has something new to show and room for it.
-    void setReady(uint64_t viewer, bool ready);
+    enum class Ready : uint8_t {
+        kNo,
+        kFrame, // has something new to show and room for it, at its pace
+        kPiece, // has begun a frame of which pieces wait
+    };
+    void setReady(uint64_t viewer, Ready ready);
 
     // A command has come in. Where commands come as evenly as frames, each would wait the same
     // share of an interval for its frame; the viewer's pace is moved so that frames begin just
@@ -35,13 +39,20 @@ class FrameScheduler {
     // When the first ready viewer becomes due; may be past.
     [[nodiscard]] std::optional<TimePoint> nextDue() const;
 
-    void onStarted(uint64_t viewer, TimePoint now);
-    // Device time that one frame of this viewer took.
-    void onFinished(uint64_t viewer, Seconds cost);
+    // The device now works for this viewer.
+    void onStarted(uint64_t viewer);
+    // On a new frame, which counts for its pace.
+    void onFrame(uint64_t viewer, TimePoint now);
+    // Device time that this viewer took, or is about to take; negative: took less than that.
+    void charge(uint64_t viewer, Seconds cost);
 
   private:
     struct Entry {
-        bool ready = false;
+        [[nodiscard]] TimePoint readyAt() const {
+            return ready == Ready::kPiece ? TimePoint{} : due;
+        }
+
+        Ready ready = Ready::kNo;
         Seconds virtual_time{0};
         TimePoint due{};     // the grid of an even pace; a viewer that kept up stays on it
         Seconds movable{0};  // how much earlier it may yet become,

@@ -2,6 +2,7 @@
 // tests bring their own. Used by the render thread only; a PixelLease may end on any thread.
 #pragma once
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/frame_stats.h"
 #include "core/pixel_view.h"
@@ -9,34 +10,62 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace froxel::stream {
+
+// What a frame will ask of the device, known when it begins.
+struct FrameWork {
+    Seconds estimate{0};      // device time of all its pieces; 0: unknown
+    uint32_t piece_count = 1; // at least 1
+};
 
 struct SourceFrame {
     PixelLease pixels;
     FrameStats stats;
 };
 
-// One viewer's targets. Frames complete in the order of submission.
+// What became of the oldest piece on the device.
+struct Collected {
+    enum class Outcome : uint8_t {
+        kPiece, // done; more of its frame follow, or it was given up
+        kFrame, // the last one: the picture is there
+        kAgain, // the frame needs more than it was given; the view's next one will be given it
+    };
+    Outcome outcome = Outcome::kPiece;
+    std::optional<SourceFrame> frame = std::nullopt; // with kFrame
+};
+
+// One viewer's targets. Frames complete in the order in which they begin.
+//
+// A frame runs as pieces, one after another, between which the device may run those of other
+// views: a long frame holds it for no longer than one piece takes.
 class ViewSource {
   public:
     virtual ~ViewSource() = default;
-    // Whether a readback slot is free.
-    [[nodiscard]] virtual bool canSubmit() const = 0;
-    // Starts one frame at `time_s` of the lights' clock. Errors: kCapacity when this size does not
-    // fit and kUnsupported when the device cannot do what the settings ask for (earlier ones still
-    // work), kDevice when the device is lost.
-    [[nodiscard]] virtual Result<void> submit(const view::ViewSettings& settings,
-                                              double time_s) = 0;
-    // Waits for the oldest frame submitted. Errors: kDevice.
-    [[nodiscard]] virtual Result<SourceFrame> collect() = 0;
+    // Whether begin() may be called: a readback slot is free, and no frame has pieces that wait.
+    [[nodiscard]] virtual bool canBegin() const = 0;
+    // Builds and records a frame at `time_s` of the lights' clock; nothing runs yet. Errors:
+    // kCapacity when this size does not fit or the frame would take too long, and kUnsupported when
+    // the device cannot do what the settings ask for (earlier ones still work), kDevice when the
+    // device is lost.
+    [[nodiscard]] virtual Result<FrameWork> begin(const view::ViewSettings& settings,
+                                                  double time_s) = 0;
+    // Gives the device the next piece of the frame begun last. Errors: kDevice.
+    [[nodiscard]] virtual Result<void> submitPiece() = 0;
+    // Gives up the pieces that wait of the frame begun last. Those on the device are still to be
+    // collected; with none there, the frame is gone at once.
+    virtual void abandon() = 0;
+    // Waits for the oldest piece on the device. kAgain and kCapacity (what its lists hold does not
+    // fit) end its frame as abandon() does. Errors: kCapacity, kDevice.
+    [[nodiscard]] virtual Result<Collected> collect() = 0;
 };
 
 // A scene on a device.
 class FrameSource {
   public:
     virtual ~FrameSource() = default;
-    // Frames submitted at once that keep the device busy: 1 where the host is the device.
+    // Pieces on the device at once that keep it busy: 1 where the host is the device.
     [[nodiscard]] virtual uint32_t depth() const = 0;
     // Errors: kCapacity, kDevice.
     [[nodiscard]] virtual Result<std::unique_ptr<ViewSource>> makeView() = 0;

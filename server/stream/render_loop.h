@@ -2,9 +2,11 @@
 // pictures to the encoders.
 //
 // 1. Takes the mailbox's news: states, credits, departures.
-// 2. Starts a frame for the session that the scheduler names: something changed or moves, its
+// 2. Gives the device a piece of a frame of the session that the scheduler names: the next one of
+//    the frame begun last, or the first of a new one, where something changed or moves, its
 //    connection granted a credit, and its pipeline has room.
-// 3. With enough frames on the device, waits for the oldest and pushes it into its pipeline.
+// 3. With enough on the device, waits for the oldest piece; the last one's picture goes into its
+//    session's pipeline. The pieces that wait of a frame that nobody wants any more are given up.
 // 4. With nothing to do, sleeps until there is news, a session becomes due, or one that rests is to
 //    be refined. A refined picture is drawn anew: its size may differ, and it costs one frame a
 //    rest. Idle costs nothing.
@@ -18,6 +20,7 @@
 #include "stream/frame_pipeline.h"
 #include "stream/frame_scheduler.h"
 #include "stream/frame_source.h"
+#include "stream/viewer.h"
 #include "stream/viewer_mailbox.h"
 
 #include <deque>
@@ -38,8 +41,9 @@ struct RenderLoopOptions {
     // Makes device and scene; runs on the render thread, which then owns them. May take long and
     // may throw.
     std::function<std::unique_ptr<FrameSource>()> make_source;
-    // The source could not be made or the device was lost; the loop has ended by itself and its
-    // sessions know. Runs on the render thread.
+    // The source could not be made or the device was lost: the loop ends by itself and tells its
+    // sessions. What the device may still use is never freed, so that the process should end by
+    // quick_exit. Runs on the render thread.
     std::function<void(const Error&)> on_failure;
 };
 
@@ -72,29 +76,37 @@ class RenderLoop final : public session::StreamPort {
     void leave(session::SessionId id) override;
 
   private:
-    struct Viewer;
-    struct Submitted {
-        session::SessionId id = 0;
-        session::FrameRecord record;
-        session::SessionState state;
-        TimePoint started{};
+    struct Piece {
+        std::shared_ptr<BegunFrame> frame;
+        Seconds charged{0}; // to its viewer so far
+        TimePoint submitted{};
     };
 
     void run(const std::stop_token& stop);
     void serve(const std::stop_token& stop);
     void takeNews();
+    void readNews();
     void takeState(Viewer& viewer, const ViewerNews& news);
     void updateReadiness(session::SessionId id, Viewer& viewer, TimePoint now);
-    [[nodiscard]] bool startNext();
-    [[nodiscard]] Result<void>
-    submit(Viewer& viewer, const session::Delivered& with, TimePoint now);
     [[nodiscard]] std::optional<TimePoint> nextWake() const;
-    void finishOldest();
-    // A submitted frame turned out not to fit the device. Throws where the device was lost.
-    void giveUp(Viewer& viewer, const Submitted& frame, const Error& error);
-    static void refuse(session::SessionId id, Viewer& viewer, const Error& error);
     void fail(const Error& error);
     void drain();
+    void finishPictures();
+
+    // In render_loop_frames.cpp. Whatever ends the device's work throws StartupError.
+    [[nodiscard]] bool deviceTakesMore() const;
+    [[nodiscard]] Seconds spentSince(TimePoint begin);
+    [[nodiscard]] bool startNext();
+    [[nodiscard]] bool beginFrame(session::SessionId id, Viewer& viewer, TimePoint now);
+    [[nodiscard]] Result<FrameWork>
+    beginWork(Viewer& viewer, const session::Delivered& with, TimePoint now);
+    void submitPiece(Viewer& viewer);
+    void abandon(Viewer& viewer);
+    static void end(Viewer& viewer, BegunFrame& frame);
+    static void refuse(session::SessionId id, Viewer& viewer, const Error& error);
+    void finishOldest();
+    void finishPiece(Viewer& viewer, BegunFrame& frame, Result<Collected> collected);
+    void finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn);
 
     const RenderLoopOptions options_;
     encode::EncodePool& pool_;
@@ -107,10 +119,10 @@ class RenderLoop final : public session::StreamPort {
     std::optional<TimePoint> refine_at_; // the first viewer's that rests
     std::unique_ptr<FrameSource> source_;
     std::map<session::SessionId, std::unique_ptr<Viewer>> viewers_;
-    std::deque<Submitted> submitted_; // oldest first
-    TimePoint last_finish_{};
-    bool failed_ = false;
-    std::jthread thread_; // last: ends before what it uses
+    std::deque<Piece> submitted_;      // oldest first
+    session::SteadyCost typical_cost_; // of whole frames, whoever's
+    TimePoint accounted_{};            // until then this thread's time is charged
+    std::jthread thread_;              // last: ends before what it uses
 };
 
 } // namespace froxel::stream

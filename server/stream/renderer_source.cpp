@@ -11,18 +11,26 @@ class RendererView final : public ViewSource {
   public:
     explicit RendererView(render::Renderer& renderer) : view_(renderer) {}
 
-    [[nodiscard]] bool canSubmit() const override { return view_.canSubmit(); }
+    [[nodiscard]] bool canBegin() const override { return view_.canSubmit(); }
 
-    [[nodiscard]] Result<void> submit(const view::ViewSettings& settings, double time_s) override {
-        return view_.submit({.settings = settings, .time_s = time_s});
+    // A frame is one piece, which the renderer submits when it begins.
+    [[nodiscard]] Result<FrameWork> begin(const view::ViewSettings& settings,
+                                          double time_s) override {
+        if (auto submitted = view_.submit({.settings = settings, .time_s = time_s}); !submitted) {
+            return submitted.error();
+        }
+        return FrameWork{};
     }
+    [[nodiscard]] Result<void> submitPiece() override { return {}; }
+    void abandon() override {}
 
-    [[nodiscard]] Result<SourceFrame> collect() override {
+    [[nodiscard]] Result<Collected> collect() override {
         auto frame = view_.collect();
         if (!frame) {
             return frame.error();
         }
-        return SourceFrame{std::move(frame->pixels), std::move(frame->stats)};
+        return Collected{Collected::Outcome::kFrame,
+                         SourceFrame{std::move(frame->pixels), std::move(frame->stats)}};
     }
 
   private:

@@ -18,9 +18,9 @@ void FakeDevice::passGate() {
     changed_.wait(lock, [this] { return open_; });
 }
 
-void FakeDevice::passTime() {
+void FakeDevice::passTime(uint32_t pieces) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, frame_time.load(), [] { return false; });
+    changed_.wait_for(lock, Seconds(frame_time.load()) / pieces, [] { return false; });
 }
 
 namespace {
@@ -60,12 +60,12 @@ class FakeView final : public stream::ViewSource {
     }
     ~FakeView() override { --device_->live_views; }
 
-    [[nodiscard]] bool canSubmit() const override {
-        return static_cast<int>(queue_.size()) + *own_leases_ < kReadbackSlots;
+    [[nodiscard]] bool canBegin() const override {
+        return waiting_ == 0 && static_cast<int>(frames_.size()) + *own_leases_ < kReadbackSlots;
     }
 
-    [[nodiscard]] Result<void> submit(const view::ViewSettings& settings,
-                                      double /*time_s*/) override {
+    [[nodiscard]] Result<stream::FrameWork> begin(const view::ViewSettings& settings,
+                                                  double /*time_s*/) override {
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
@@ -75,22 +75,65 @@ class FakeView final : public stream::ViewSource {
         if (!device_->computes && settings.lighting == view::LightingStage::kCompute) {
             return Error{ErrorCode::kUnsupported, "the fake device has no compute stage"};
         }
+        ++device_->begun_count;
+        waiting_ = device_->piece_count;
+        frames_.push_back({settings, waiting_});
+        return stream::FrameWork{device_->frame_time.load(), waiting_};
+    }
+
+    [[nodiscard]] Result<void> submitPiece() override {
         ++device_->submitted_count;
-        queue_.push_back(settings);
+        --waiting_;
+        ++frames_.back().on_device;
         return {};
     }
 
-    [[nodiscard]] Result<stream::SourceFrame> collect() override {
+    void abandon() override {
+        ++device_->abandoned_count;
+        waiting_ = 0;
+        frames_.back().abandoned = true;
+        if (frames_.back().on_device == 0) {
+            frames_.pop_back();
+        }
+    }
+
+    [[nodiscard]] Result<stream::Collected> collect() override {
+        Frame& frame = frames_.front();
         device_->passGate();
-        device_->passTime();
-        const view::ViewSettings settings = queue_.front();
-        queue_.pop_front();
+        device_->passTime(frame.piece_count);
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
+        --frame.on_device;
+        ++frame.done;
+        if (frame.done < frame.piece_count) {
+            if (frame.abandoned && frame.on_device == 0) {
+                frames_.pop_front();
+            }
+            return stream::Collected{};
+        }
+        const view::ViewSettings settings = frame.settings;
+        frames_.pop_front();
         if (settings.lights.count > device_->max_lights) {
             return Error{ErrorCode::kCapacity, "the lists do not fit the fake device"};
         }
+        if (device_->again_count > 0) {
+            --device_->again_count;
+            return stream::Collected{stream::Collected::Outcome::kAgain};
+        }
+        return stream::Collected{stream::Collected::Outcome::kFrame, picture(settings)};
+    }
+
+  private:
+    struct Frame {
+        view::ViewSettings settings;
+        uint32_t piece_count = 1;
+        uint32_t on_device = 0;
+        uint32_t done = 0;
+        bool abandoned = false;
+    };
+
+    [[nodiscard]] stream::SourceFrame picture(const view::ViewSettings& settings) {
         const view::Size size = settings.size;
         auto pixels = std::make_shared<std::vector<std::byte>>(
             size_t{4} * size.width_px * size.height_px, shadeOf(settings));
@@ -115,10 +158,10 @@ class FakeView final : public stream::ViewSource {
         return frame;
     }
 
-  private:
     std::shared_ptr<FakeDevice> device_;
     std::shared_ptr<std::atomic<int>> own_leases_ = std::make_shared<std::atomic<int>>(0);
-    std::deque<view::ViewSettings> queue_;
+    std::deque<Frame> frames_; // oldest first
+    uint32_t waiting_ = 0;     // pieces of the newest
     uint32_t noise_ = 1;
 };
 

@@ -20,10 +20,14 @@ class FakeDevice {
     std::atomic<uint64_t> max_area_px = uint64_t{4096} * 4096; // larger pictures do not fit
     std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
     std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
+    std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
+    std::atomic<uint32_t> again_count = 0; // that many frames need more than they were given
     std::atomic<bool> lost = false;
     std::atomic<bool> noisy = false; // pictures of noise, whose encoded size goes with all settings
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage
-    std::atomic<uint64_t> submitted_count = 0;
+    std::atomic<uint64_t> begun_count = 0;
+    std::atomic<uint64_t> submitted_count = 0; // pieces
+    std::atomic<uint64_t> abandoned_count = 0; // frames
     std::atomic<int> live_views = 0;
     std::atomic<int> made_views = 0;
     std::atomic<int> live_leases = 0;
@@ -31,8 +35,8 @@ class FakeDevice {
     // While closed, collect() waits: the device is busy.
     void setGate(bool open);
     void passGate();
-    // Takes frame_time.
-    void passTime();
+    // Takes a piece's part of frame_time.
+    void passTime(uint32_t pieces);
 
   private:
     std::mutex mutex_;

@@ -11,6 +11,7 @@ namespace froxel::stream {
 namespace {
 
 using namespace std::chrono_literals;
+using Ready = FrameScheduler::Ready;
 
 const TimePoint kStart = TimePoint() + 1h;
 
@@ -26,12 +27,13 @@ TEST(FrameScheduler, Next_EqualCosts_TakesTurns) {
     std::map<uint64_t, int> drawn;
     for (const uint64_t viewer : {1U, 2U, 3U}) {
         scheduler.add(viewer);
-        scheduler.setReady(viewer, true);
+        scheduler.setReady(viewer, Ready::kFrame);
     }
     for (int i = 0; i < 30; ++i) {
         const uint64_t viewer = scheduler.next(kStart + i * 1ms).value();
-        scheduler.onStarted(viewer, kStart + i * 1ms);
-        scheduler.onFinished(viewer, 5ms);
+        scheduler.onStarted(viewer);
+        scheduler.onFrame(viewer, kStart + i * 1ms);
+        scheduler.charge(viewer, 5ms);
         ++drawn[viewer];
     }
     EXPECT_EQ(drawn, (std::map<uint64_t, int>{{1, 10}, {2, 10}, {3, 10}}));
@@ -43,12 +45,13 @@ TEST(FrameScheduler, Next_OneViewerCostsTenTimesAsMuch_SharesTimeNotFrames) {
     std::map<uint64_t, Seconds> used;
     for (const auto& [viewer, cost] : costs) {
         scheduler.add(viewer);
-        scheduler.setReady(viewer, true);
+        scheduler.setReady(viewer, Ready::kFrame);
     }
     for (int i = 0; i < 220; ++i) {
         const uint64_t viewer = scheduler.next(kStart).value();
-        scheduler.onStarted(viewer, kStart);
-        scheduler.onFinished(viewer, costs.at(viewer));
+        scheduler.onStarted(viewer);
+        scheduler.onFrame(viewer, kStart);
+        scheduler.charge(viewer, costs.at(viewer));
         used[viewer] += costs.at(viewer);
     }
     EXPECT_NEAR(used[1].count(), used[2].count(), 0.2);
@@ -58,16 +61,18 @@ TEST(FrameScheduler, Next_ViewerWasIdle_GetsNoCreditForIt) {
     FrameScheduler scheduler(0s);
     scheduler.add(1);
     scheduler.add(2);
-    scheduler.setReady(1, true);
+    scheduler.setReady(1, Ready::kFrame);
     for (int i = 0; i < 100; ++i) {
-        scheduler.onStarted(1, kStart);
-        scheduler.onFinished(1, 10ms);
+        scheduler.onStarted(1);
+        scheduler.onFrame(1, kStart);
+        scheduler.charge(1, 10ms);
     }
-    scheduler.setReady(2, true);
+    scheduler.setReady(2, Ready::kFrame);
     int in_a_row = 0;
     while (scheduler.next(kStart) == 2U && in_a_row < 50) {
-        scheduler.onStarted(2, kStart);
-        scheduler.onFinished(2, 10ms);
+        scheduler.onStarted(2);
+        scheduler.onFrame(2, kStart);
+        scheduler.charge(2, 10ms);
         ++in_a_row;
     }
     EXPECT_LE(in_a_row, 2);
@@ -76,8 +81,9 @@ TEST(FrameScheduler, Next_ViewerWasIdle_GetsNoCreditForIt) {
 TEST(FrameScheduler, Next_WithinTheInterval_WaitsUntilDue) {
     FrameScheduler scheduler(10ms);
     scheduler.add(1);
-    scheduler.setReady(1, true);
-    scheduler.onStarted(1, kStart);
+    scheduler.setReady(1, Ready::kFrame);
+    scheduler.onStarted(1);
+    scheduler.onFrame(1, kStart);
     EXPECT_FALSE(scheduler.next(kStart + 9ms));
     ASSERT_EQ(scheduler.nextDue(), kStart + 10ms);
     EXPECT_EQ(scheduler.next(kStart + 10ms), 1U);
@@ -86,18 +92,22 @@ TEST(FrameScheduler, Next_WithinTheInterval_WaitsUntilDue) {
 TEST(FrameScheduler, OnStarted_SlightlyLate_KeepsTheAveragePace) {
     FrameScheduler scheduler(10ms);
     scheduler.add(1);
-    scheduler.setReady(1, true);
-    scheduler.onStarted(1, kStart);
-    scheduler.onStarted(1, kStart + 13ms);
+    scheduler.setReady(1, Ready::kFrame);
+    scheduler.onStarted(1);
+    scheduler.onFrame(1, kStart);
+    scheduler.onStarted(1);
+    scheduler.onFrame(1, kStart + 13ms);
     EXPECT_EQ(scheduler.nextDue(), kStart + 20ms);
 }
 
 TEST(FrameScheduler, OnStarted_AfterALongPause_DoesNotCatchUp) {
     FrameScheduler scheduler(10ms);
     scheduler.add(1);
-    scheduler.setReady(1, true);
-    scheduler.onStarted(1, kStart);
-    scheduler.onStarted(1, kStart + 1s);
+    scheduler.setReady(1, Ready::kFrame);
+    scheduler.onStarted(1);
+    scheduler.onFrame(1, kStart);
+    scheduler.onStarted(1);
+    scheduler.onFrame(1, kStart + 1s);
     EXPECT_EQ(scheduler.nextDue(), kStart + 1s + 10ms);
 }
 
@@ -117,7 +127,8 @@ Played play(FrameScheduler& scheduler, const std::vector<TimePoint>& commands, T
             ++command;
         }
         if (scheduler.next(now)) {
-            scheduler.onStarted(1, now);
+            scheduler.onStarted(1);
+            scheduler.onFrame(1, now);
             ++played.frames;
             if (waiting) {
                 played.last_wait = now - *waiting;
@@ -133,7 +144,7 @@ TEST(FrameScheduler, OnInput_CommandsAsEvenAsFrames_SoonWaitLittle) {
     for (const auto offset : {1ms, 6ms, 12ms, 16ms}) {
         FrameScheduler scheduler(interval);
         scheduler.add(1);
-        scheduler.setReady(1, true);
+        scheduler.setReady(1, Ready::kFrame);
         std::vector<TimePoint> commands;
         for (int i = 0; i < 60; ++i) {
             commands.push_back(kStart + offset + i * interval);
@@ -147,7 +158,7 @@ TEST(FrameScheduler, OnInput_CommandsAsEvenAsFrames_SoonWaitLittle) {
 TEST(FrameScheduler, OnInput_AFloodOfCommands_AddsAFrameASecondAtMost) {
     FrameScheduler scheduler(10ms);
     scheduler.add(1);
-    scheduler.setReady(1, true);
+    scheduler.setReady(1, Ready::kFrame);
     std::mt19937 random(7);
     std::vector<TimePoint> commands{kStart};
     while (commands.back() < kStart + 10s) {
@@ -160,7 +171,7 @@ TEST(FrameScheduler, OnInput_AnUnknownViewerOrNothingDue_ChangesNothing) {
     FrameScheduler scheduler(10ms);
     scheduler.onInput(7, kStart);
     scheduler.add(1);
-    scheduler.setReady(1, true);
+    scheduler.setReady(1, Ready::kFrame);
     scheduler.onInput(1, kStart);
     EXPECT_EQ(scheduler.next(kStart), 1U);
 }
@@ -168,10 +179,10 @@ TEST(FrameScheduler, OnInput_AnUnknownViewerOrNothingDue_ChangesNothing) {
 TEST(FrameScheduler, Remove_ReadyViewer_IsNeverNamedAgain) {
     FrameScheduler scheduler(0s);
     scheduler.add(1);
-    scheduler.setReady(1, true);
+    scheduler.setReady(1, Ready::kFrame);
     scheduler.remove(1);
-    scheduler.setReady(1, true);
-    scheduler.onFinished(1, 1s);
+    scheduler.setReady(1, Ready::kFrame);
+    scheduler.charge(1, 1s);
     EXPECT_FALSE(scheduler.next(kStart));
 }
 
@@ -184,7 +195,7 @@ std::map<uint64_t, double> ratesOf(const std::vector<Simulated>& viewers, Second
     std::map<uint64_t, double> drawn;
     for (uint64_t id = 0; id < viewers.size(); ++id) {
         scheduler.add(id);
-        scheduler.setReady(id, true);
+        scheduler.setReady(id, Ready::kFrame);
         drawn[id] = 0;
     }
     constexpr double kSeconds = 60;
@@ -195,9 +206,10 @@ std::map<uint64_t, double> ratesOf(const std::vector<Simulated>& viewers, Second
             now = std::max(now + 1us, scheduler.nextDue().value());
             continue;
         }
-        scheduler.onStarted(*id, now);
+        scheduler.onStarted(*id);
+        scheduler.onFrame(*id, now);
         now += std::chrono::duration_cast<Clock::duration>(viewers[*id].cost);
-        scheduler.onFinished(*id, viewers[*id].cost);
+        scheduler.charge(*id, viewers[*id].cost);
         drawn[*id] += 1 / kSeconds;
     }
     return drawn;
@@ -242,14 +254,15 @@ TEST(FrameScheduler, MixedCosts_OneComesLate_GetsItsShareAndNoMore) {
     std::map<uint64_t, Seconds> used;
     const auto add = [&](uint64_t id) {
         scheduler.add(id);
-        scheduler.setReady(id, true);
+        scheduler.setReady(id, Ready::kFrame);
     };
     const auto draw = [&](Seconds time) {
         used.clear();
         for (Seconds now{0}; now < time;) {
             const uint64_t id = scheduler.next(kStart).value();
-            scheduler.onStarted(id, kStart);
-            scheduler.onFinished(id, costs.at(id));
+            scheduler.onStarted(id);
+            scheduler.onFrame(id, kStart);
+            scheduler.charge(id, costs.at(id));
             used[id] += costs.at(id);
             now += costs.at(id);
         }

@@ -288,6 +288,28 @@ TEST_F(RenderLoopTest, Draw_WhileEncoding_DoesNotWaitForTheEncoder) {
     ASSERT_TRUE(sink->waitForFrames(2));
 }
 
+TEST_F(RenderLoopTest, Pieces_OfAFrame_MakeOnePicture) {
+    device_->piece_count = 3;
+    start();
+    const auto sink = makeSink();
+    join(sink, moving(), 4);
+    ASSERT_TRUE(sink->waitForFrames(4));
+    settle();
+    EXPECT_EQ(sink->frames().size(), 4U);
+    EXPECT_EQ(device_->submitted_count, 3U * 5);
+}
+
+TEST_F(RenderLoopTest, Pieces_FrameNeedsMore_IsDrawnAgain) {
+    device_->again_count = 2;
+    start();
+    const auto sink = makeSink();
+    join(sink, still(), 1);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    settle();
+    EXPECT_EQ(sink->frames().size(), 1U);
+    EXPECT_EQ(device_->begun_count, 4U);
+}
+
 bool isAt(const session::ReadyFrame& frame, session::Refinement stage) {
     return frame.record.delivered.refinement == stage;
 }

@@ -1,0 +1,77 @@
+// What the render thread knows of one session: what it wants, what it was given and what is under
+// way for it. Render thread only.
+#pragma once
+
+#include "session/refinement.h"
+#include "session/render_scale.h"
+#include "session/steady_cost.h"
+#include "session/stream_port.h"
+#include "stream/frame_pipeline.h"
+#include "stream/frame_source.h"
+#include "stream/viewer_mailbox.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace froxel::stream {
+
+// A frame from its beginning until its last piece on the device was collected.
+struct BegunFrame {
+    session::SessionId id = 0;
+    session::FrameRecord record;
+    session::SessionState state;
+    TimePoint started{};
+    uint32_t piece_count = 1;
+    uint32_t submitted_count = 0;
+    uint32_t on_device = 0;    // pieces
+    Seconds piece_estimate{0}; // what a piece is expected to take of the device
+    Seconds longest_piece{0};  // of those collected
+    Seconds cost{0};           // so far, with the host's part
+    bool over = false;         // nothing more of it will be submitted
+};
+
+struct Viewer {
+    Viewer(const ViewerNews& first, std::shared_ptr<FramePipeline> its_pipeline);
+
+    std::weak_ptr<session::FrameSink> sink;
+    std::shared_ptr<FramePipeline> pipeline;
+    std::unique_ptr<ViewSource> source; // made with the first frame
+    session::SessionState state;
+    TimePoint arrived{};
+    std::optional<session::SessionState> submitted; // what the device was last given
+    std::optional<session::SessionState> drawn;     // what it last made a picture of
+    std::shared_ptr<BegunFrame> waiting;            // begun last, while pieces of it wait
+    uint64_t last_frame_id = 0;
+    uint64_t started = 0; // frames, without those lost on the way
+    uint64_t granted = 0;
+    uint32_t under_way = 0; // frames on the device or waiting for it
+    session::Delivery delivery;
+    session::RenderScale render_scale;
+    session::RefinementSchedule refinement;
+    session::SteadyCost frame_cost;
+    Seconds piece_cost{0};   // the longest of the last frame; 0 before it
+    TimePoint paced_until{}; // by the delivery's interval
+    bool changed = true;
+    bool blocked = false; // this state was refused; waits for another
+    bool leaving = false;
+    bool gave_up = false; // the last frame, because of what the viewer asked for meanwhile
+
+    [[nodiscard]] bool idle() const { return under_way == 0 && pipeline->size() == 0; }
+    [[nodiscard]] bool moves() const { return changed || state.animating(); }
+    // When the next frame is due, as far as that is up to this viewer; none: nothing is to be
+    // drawn.
+    [[nodiscard]] std::optional<TimePoint> wantsFrameAt() const;
+    [[nodiscard]] session::Delivered nextDelivered() const;
+    void noteBegun(const session::Delivered& with, TimePoint now);
+    [[nodiscard]] bool hasRoom() const;
+    // Whether nobody wants the rest of the frame that waits. Where the one before it was given up
+    // because of a change, the next change does not end this one: a camera that never rests gets
+    // pictures too.
+    [[nodiscard]] bool waitsInVain() const;
+
+  private:
+    [[nodiscard]] std::optional<session::RefinementSchedule::Due> refineNext() const;
+};
+
+} // namespace froxel::stream
