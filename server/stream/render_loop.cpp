@@ -14,6 +14,9 @@ using session::SessionState;
 
 namespace {
 
+// Of a viewer that has not drawn yet: long enough that others are waited for.
+constexpr Seconds kUnknownPiece{0.1};
+
 // Reachable until the process ends, so that nobody takes it for a leak.
 void keepForGood(std::unique_ptr<ViewSource> view) {
     static auto* const kept = new std::vector<std::unique_ptr<ViewSource>>;
@@ -118,7 +121,9 @@ void RenderLoop::serve(const std::stop_token& stop) {
             continue;
         }
         options_.heartbeat->rest();
+        const TimePoint idle_since = Clock::now();
         mailbox_->wait(stop, nextWake());
+        scheduler_.onIdle(spentSince(idle_since));
     }
 }
 
@@ -148,7 +153,7 @@ void RenderLoop::readNews() {
                                                 [mailbox = mailbox_] { mailbox->wake(); });
             entry = std::make_unique<Viewer>(news, std::move(pipeline));
             entry->refinement.onChange(news.arrived);
-            scheduler_.add(news.id);
+            scheduler_.add(news.id, news.account);
         }
         Viewer& viewer = *entry;
         viewer.granted = news.granted;
@@ -191,13 +196,15 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
     const FramePipeline::Losses losses = viewer.pipeline->takeLosses();
     viewer.started -= losses.count;
     viewer.changed = viewer.changed || losses.retry;
+    using Ready = FrameScheduler::Ready;
     if (viewer.waiting) {
-        scheduler_.setReady(id, FrameScheduler::Ready::kPiece);
+        scheduler_.setReady(id, Ready::kPiece, viewer.waiting->piece_estimate, now);
         return;
     }
     const auto due = viewer.hasRoom() ? viewer.wantsFrameAt() : std::nullopt;
     const bool ready = due && *due <= now;
-    scheduler_.setReady(id, ready ? FrameScheduler::Ready::kFrame : FrameScheduler::Ready::kNo);
+    const Seconds piece = viewer.drawn ? viewer.piece_cost : kUnknownPiece;
+    scheduler_.setReady(id, ready ? Ready::kFrame : Ready::kNo, piece, now);
     if (due && *due > now) {
         refine_at_ = refine_at_ ? std::min(*refine_at_, *due) : *due;
     }

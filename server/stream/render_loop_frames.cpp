@@ -152,7 +152,7 @@ void RenderLoop::finishOldest() {
         throw StartupError(collected.error());
     }
     const Seconds cost = spentSince(piece.submitted);
-    scheduler_.charge(frame.id, cost - piece.charged);
+    scheduler_.onFinished(frame.id, cost - piece.charged, accounted_);
     frame.cost += cost;
     frame.longest_piece = std::max(frame.longest_piece, cost);
     --frame.on_device;

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace froxel::stream {
@@ -15,9 +16,17 @@ using Ready = FrameScheduler::Ready;
 
 const TimePoint kStart = TimePoint() + 1h;
 
+// With an account of its own.
+void addAlone(FrameScheduler& scheduler, uint64_t viewer) {
+    scheduler.add(viewer, {std::to_string(viewer)});
+}
+void setReady(FrameScheduler& scheduler, uint64_t viewer) {
+    scheduler.setReady(viewer, Ready::kFrame, 0s, kStart);
+}
+
 TEST(FrameScheduler, Next_NobodyReady_IsNone) {
     FrameScheduler scheduler(0s);
-    scheduler.add(1);
+    addAlone(scheduler, 1);
     EXPECT_FALSE(scheduler.next(kStart));
     EXPECT_FALSE(scheduler.nextDue());
 }
@@ -26,8 +35,8 @@ TEST(FrameScheduler, Next_EqualCosts_TakesTurns) {
     FrameScheduler scheduler(0s);
     std::map<uint64_t, int> drawn;
     for (const uint64_t viewer : {1U, 2U, 3U}) {
-        scheduler.add(viewer);
-        scheduler.setReady(viewer, Ready::kFrame);
+        addAlone(scheduler, viewer);
+        setReady(scheduler, viewer);
     }
     for (int i = 0; i < 30; ++i) {
         const uint64_t viewer = scheduler.next(kStart + i * 1ms).value();
@@ -44,8 +53,8 @@ TEST(FrameScheduler, Next_OneViewerCostsTenTimesAsMuch_SharesTimeNotFrames) {
     const std::map<uint64_t, Seconds> costs = {{1, 100ms}, {2, 10ms}};
     std::map<uint64_t, Seconds> used;
     for (const auto& [viewer, cost] : costs) {
-        scheduler.add(viewer);
-        scheduler.setReady(viewer, Ready::kFrame);
+        addAlone(scheduler, viewer);
+        setReady(scheduler, viewer);
     }
     for (int i = 0; i < 220; ++i) {
         const uint64_t viewer = scheduler.next(kStart).value();
@@ -59,15 +68,15 @@ TEST(FrameScheduler, Next_OneViewerCostsTenTimesAsMuch_SharesTimeNotFrames) {
 
 TEST(FrameScheduler, Next_ViewerWasIdle_GetsNoCreditForIt) {
     FrameScheduler scheduler(0s);
-    scheduler.add(1);
-    scheduler.add(2);
-    scheduler.setReady(1, Ready::kFrame);
+    addAlone(scheduler, 1);
+    addAlone(scheduler, 2);
+    setReady(scheduler, 1);
     for (int i = 0; i < 100; ++i) {
         scheduler.onStarted(1);
         scheduler.onFrame(1, kStart);
         scheduler.charge(1, 10ms);
     }
-    scheduler.setReady(2, Ready::kFrame);
+    setReady(scheduler, 2);
     int in_a_row = 0;
     while (scheduler.next(kStart) == 2U && in_a_row < 50) {
         scheduler.onStarted(2);
@@ -80,8 +89,8 @@ TEST(FrameScheduler, Next_ViewerWasIdle_GetsNoCreditForIt) {
 
 TEST(FrameScheduler, Next_WithinTheInterval_WaitsUntilDue) {
     FrameScheduler scheduler(10ms);
-    scheduler.add(1);
-    scheduler.setReady(1, Ready::kFrame);
+    addAlone(scheduler, 1);
+    setReady(scheduler, 1);
     scheduler.onStarted(1);
     scheduler.onFrame(1, kStart);
     EXPECT_FALSE(scheduler.next(kStart + 9ms));
@@ -91,8 +100,8 @@ TEST(FrameScheduler, Next_WithinTheInterval_WaitsUntilDue) {
 
 TEST(FrameScheduler, OnStarted_SlightlyLate_KeepsTheAveragePace) {
     FrameScheduler scheduler(10ms);
-    scheduler.add(1);
-    scheduler.setReady(1, Ready::kFrame);
+    addAlone(scheduler, 1);
+    setReady(scheduler, 1);
     scheduler.onStarted(1);
     scheduler.onFrame(1, kStart);
     scheduler.onStarted(1);
@@ -102,8 +111,8 @@ TEST(FrameScheduler, OnStarted_SlightlyLate_KeepsTheAveragePace) {
 
 TEST(FrameScheduler, OnStarted_AfterALongPause_DoesNotCatchUp) {
     FrameScheduler scheduler(10ms);
-    scheduler.add(1);
-    scheduler.setReady(1, Ready::kFrame);
+    addAlone(scheduler, 1);
+    setReady(scheduler, 1);
     scheduler.onStarted(1);
     scheduler.onFrame(1, kStart);
     scheduler.onStarted(1);
@@ -143,8 +152,8 @@ TEST(FrameScheduler, OnInput_CommandsAsEvenAsFrames_SoonWaitLittle) {
     const auto interval = std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / 60));
     for (const auto offset : {1ms, 6ms, 12ms, 16ms}) {
         FrameScheduler scheduler(interval);
-        scheduler.add(1);
-        scheduler.setReady(1, Ready::kFrame);
+        addAlone(scheduler, 1);
+        setReady(scheduler, 1);
         std::vector<TimePoint> commands;
         for (int i = 0; i < 60; ++i) {
             commands.push_back(kStart + offset + i * interval);
@@ -157,8 +166,8 @@ TEST(FrameScheduler, OnInput_CommandsAsEvenAsFrames_SoonWaitLittle) {
 
 TEST(FrameScheduler, OnInput_AFloodOfCommands_AddsAFrameASecondAtMost) {
     FrameScheduler scheduler(10ms);
-    scheduler.add(1);
-    scheduler.setReady(1, Ready::kFrame);
+    addAlone(scheduler, 1);
+    setReady(scheduler, 1);
     std::mt19937 random(7);
     std::vector<TimePoint> commands{kStart};
     while (commands.back() < kStart + 10s) {
@@ -170,18 +179,18 @@ TEST(FrameScheduler, OnInput_AFloodOfCommands_AddsAFrameASecondAtMost) {
 TEST(FrameScheduler, OnInput_AnUnknownViewerOrNothingDue_ChangesNothing) {
     FrameScheduler scheduler(10ms);
     scheduler.onInput(7, kStart);
-    scheduler.add(1);
-    scheduler.setReady(1, Ready::kFrame);
+    addAlone(scheduler, 1);
+    setReady(scheduler, 1);
     scheduler.onInput(1, kStart);
     EXPECT_EQ(scheduler.next(kStart), 1U);
 }
 
 TEST(FrameScheduler, Remove_ReadyViewer_IsNeverNamedAgain) {
     FrameScheduler scheduler(0s);
-    scheduler.add(1);
-    scheduler.setReady(1, Ready::kFrame);
+    addAlone(scheduler, 1);
+    setReady(scheduler, 1);
     scheduler.remove(1);
-    scheduler.setReady(1, Ready::kFrame);
+    setReady(scheduler, 1);
     scheduler.charge(1, 1s);
     EXPECT_FALSE(scheduler.next(kStart));
 }
@@ -194,8 +203,8 @@ std::map<uint64_t, double> ratesOf(const std::vector<Simulated>& viewers, Second
     FrameScheduler scheduler(interval);
     std::map<uint64_t, double> drawn;
     for (uint64_t id = 0; id < viewers.size(); ++id) {
-        scheduler.add(id);
-        scheduler.setReady(id, Ready::kFrame);
+        addAlone(scheduler, id);
+        setReady(scheduler, id);
         drawn[id] = 0;
     }
     constexpr double kSeconds = 60;
@@ -253,8 +262,8 @@ TEST(FrameScheduler, MixedCosts_OneComesLate_GetsItsShareAndNoMore) {
     std::map<uint64_t, Seconds> costs = {{1, 30ms}, {2, 5ms}};
     std::map<uint64_t, Seconds> used;
     const auto add = [&](uint64_t id) {
-        scheduler.add(id);
-        scheduler.setReady(id, Ready::kFrame);
+        addAlone(scheduler, id);
+        setReady(scheduler, id);
     };
     const auto draw = [&](Seconds time) {
         used.clear();

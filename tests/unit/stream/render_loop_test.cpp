@@ -1,66 +1,13 @@
+#include "render_loop_fixture.h"
 #include "session/refinement.h"
-#include "stream/render_loop.h"
-#include "support/fake_frame_source.h"
-#include "support/recording_sink.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <future>
 #include <vector>
 
 namespace froxel::stream {
 namespace {
 
 using namespace std::chrono_literals;
-using test::RecordingSink;
-
-constexpr uint64_t kPlenty = 1000;
-
-class RenderLoopTest : public testing::Test {
-  protected:
-    void start() {
-        RenderLoopOptions options;
-        options.sessions_max = 4;
-        options.min_frame_interval = 0s;
-        options.make_source = [this] { return test::makeFakeSource(device_); };
-        options.on_failure = [this](const Error& error) { failure_.set_value(error); };
-        loop_ = std::make_unique<RenderLoop>(pool_, std::move(options));
-    }
-    session::SessionState still() {
-        auto state = session::initialState(context_, Clock::now());
-        state.settings.size = {32, 16};
-        state.light_clock = state.light_clock.withRate(Clock::now(), 1, false);
-        return state;
-    }
-    session::SessionState moving() {
-        auto state = still();
-        state.light_clock = state.light_clock.withRate(Clock::now(), 1, true);
-        return state;
-    }
-    session::SessionId join(const std::shared_ptr<RecordingSink>& sink,
-                            const session::SessionState& state,
-                            uint64_t credits) {
-        const auto id = loop_->join(sink, state, {"a"}, Clock::now()).value();
-        loop_->grant(id, credits);
-        return id;
-    }
-    static std::shared_ptr<RecordingSink> makeSink() { return std::make_shared<RecordingSink>(); }
-
-    // Everything that was said before has been heard: a viewer that joins now gets its picture.
-    void settle() {
-        const auto sink = makeSink();
-        const auto id = join(sink, still(), 1);
-        ASSERT_TRUE(sink->waitForFrames(1));
-        loop_->leave(id);
-    }
-
-    session::SessionContext context_;
-    std::shared_ptr<test::FakeDevice> device_ = std::make_shared<test::FakeDevice>();
-    std::promise<Error> failure_;
-    encode::EncodePool pool_{2, 8};
-    std::unique_ptr<RenderLoop> loop_;
-};
 
 TEST_F(RenderLoopTest, Draw_StillState_IsDrawnOnce) {
     start();
@@ -286,28 +233,6 @@ TEST_F(RenderLoopTest, Draw_WhileEncoding_DoesNotWaitForTheEncoder) {
     EXPECT_TRUE(sink->frames().empty());
     release.set_value();
     ASSERT_TRUE(sink->waitForFrames(2));
-}
-
-TEST_F(RenderLoopTest, Pieces_OfAFrame_MakeOnePicture) {
-    device_->piece_count = 3;
-    start();
-    const auto sink = makeSink();
-    join(sink, moving(), 4);
-    ASSERT_TRUE(sink->waitForFrames(4));
-    settle();
-    EXPECT_EQ(sink->frames().size(), 4U);
-    EXPECT_EQ(device_->submitted_count, 3U * 5);
-}
-
-TEST_F(RenderLoopTest, Pieces_FrameNeedsMore_IsDrawnAgain) {
-    device_->again_count = 2;
-    start();
-    const auto sink = makeSink();
-    join(sink, still(), 1);
-    ASSERT_TRUE(sink->waitForFrames(1));
-    settle();
-    EXPECT_EQ(sink->frames().size(), 1U);
-    EXPECT_EQ(device_->begun_count, 4U);
 }
 
 bool isAt(const session::ReadyFrame& frame, session::Refinement stage) {

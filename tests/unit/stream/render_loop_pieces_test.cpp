@@ -1,0 +1,125 @@
+// Frames in pieces: how they come together, and who is given up.
+#include "render_loop_fixture.h"
+
+#include <chrono>
+#include <thread>
+
+namespace froxel::stream {
+namespace {
+
+using namespace std::chrono_literals;
+
+class RenderLoopPiecesTest : public RenderLoopTest {
+  protected:
+    void SetUp() override {
+        device_->piece_count = 4;
+        start();
+    }
+    // Joins, and waits until the first piece of its frame is on the device, which keeps it.
+    session::SessionId joinAndBegin(const std::shared_ptr<RecordingSink>& sink,
+                                    const session::SessionState& state) {
+        device_->setGate(false);
+        const auto id = join(sink, state, kPlenty);
+        while (device_->submitted_count < 1) {
+            std::this_thread::yield();
+        }
+        return id;
+    }
+};
+
+TEST_F(RenderLoopPiecesTest, AllOfAFrame_MakeOnePicture) {
+    const auto sink = makeSink();
+    join(sink, moving(), 4);
+    ASSERT_TRUE(sink->waitForFrames(4));
+    settle();
+    EXPECT_EQ(sink->frames().size(), 4U);
+    EXPECT_EQ(device_->submitted_count, 4U * 5);
+}
+
+TEST_F(RenderLoopPiecesTest, FrameNeedsMore_IsDrawnAgain) {
+    device_->again_count = 2;
+    const auto sink = makeSink();
+    join(sink, still(), 1);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    settle();
+    EXPECT_EQ(sink->frames().size(), 1U);
+    EXPECT_EQ(device_->begun_count, 4U);
+}
+
+TEST_F(RenderLoopPiecesTest, OfTwoViewers_AreMixed) {
+    device_->frame_time = 20ms;
+    const auto first = makeSink();
+    joinAndBegin(first, moving());
+    device_->piece_count = 1;
+    device_->frame_time = 1ms;
+    const auto second = makeSink();
+    join(second, still(), 1);
+    device_->setGate(true);
+    ASSERT_TRUE(second->waitForFrames(1));
+    EXPECT_TRUE(first->frames().empty());
+}
+
+TEST_F(RenderLoopPiecesTest, ViewerLeft_AreGivenUp) {
+    const auto id = joinAndBegin(makeSink(), still());
+    loop_->leave(id);
+    device_->setGate(true);
+    settle();
+    EXPECT_EQ(device_->abandoned_count, 1U);
+    EXPECT_EQ(device_->submitted_count, 1U + 4);
+    EXPECT_EQ(fates_->given_up, 1U);
+    loop_->stop();
+    EXPECT_EQ(device_->live_views, 0);
+}
+
+TEST_F(RenderLoopPiecesTest, ViewerPaused_AreGivenUpAndDrawnOnceItGoesOn) {
+    const auto sink = makeSink();
+    const auto id = joinAndBegin(sink, still());
+    loop_->grant(id, 0);
+    device_->setGate(true);
+    settle();
+    EXPECT_EQ(device_->abandoned_count, 1U);
+    EXPECT_TRUE(sink->frames().empty());
+    loop_->grant(id, 1);
+    ASSERT_TRUE(sink->waitForFrames(1));
+}
+
+TEST_F(RenderLoopPiecesTest, SomethingElseIsAskedFor_DrawsThatInstead) {
+    const auto sink = makeSink();
+    auto state = still();
+    const auto id = joinAndBegin(sink, state);
+    ++state.version;
+    state.applied = {9, 99};
+    loop_->update(id, state, Clock::now());
+    device_->setGate(true);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    EXPECT_EQ(sink->frames()[0].record.applied, (session::CommandStamp{9, 99}));
+    EXPECT_GT(sink->frames()[0].record.queue_us, 0);
+    EXPECT_EQ(device_->submitted_count, 1U + 4);
+}
+
+// A camera that never rests gets pictures too.
+TEST_F(RenderLoopPiecesTest, SomethingElseIsAlwaysAskedFor_EverySecondFrameIsFinished) {
+    device_->frame_time = 8ms;
+    const auto sink = makeSink();
+    auto state = still();
+    const auto id = join(sink, state, kPlenty);
+    while (sink->frames().size() < 5) {
+        ++state.version;
+        loop_->update(id, state, Clock::now());
+        std::this_thread::yield();
+    }
+    EXPECT_GE(device_->abandoned_count, 1U);
+    EXPECT_LE(device_->abandoned_count, device_->begun_count / 2 + 1);
+}
+
+TEST_F(RenderLoopPiecesTest, StoppedInBetween_GivesUpTheRest) {
+    joinAndBegin(makeSink(), still());
+    auto stopped = std::async(std::launch::async, [this] { loop_->stop(); });
+    device_->setGate(true);
+    stopped.get();
+    EXPECT_EQ(device_->live_views, 0);
+    EXPECT_EQ(device_->live_leases, 0);
+}
+
+} // namespace
+} // namespace froxel::stream
