@@ -1,10 +1,9 @@
 #include "app/serve_command.h"
 
 #include "app/bind_option.h"
-#include "app/exit_codes.h"
-#include "app/last_resort.h"
 #include "app/output_file.h"
 #include "app/scene_source.h"
+#include "app/serve_end.h"
 #include "app/serve_run.h"
 #include "app/value_parsers.h"
 #include "core/latest_slot.h"
@@ -34,11 +33,6 @@ namespace froxel::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// How often the render thread is looked at.
-constexpr std::chrono::milliseconds kWatchPeriod{500};
-// For the frames under way when everybody has gone.
-constexpr std::chrono::seconds kLastFrame{3};
 
 std::chrono::milliseconds milliseconds(double seconds) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(seconds));
@@ -186,13 +180,6 @@ struct Secrets {
     std::shared_ptr<net::Tls> tls;
 };
 
-[[noreturn]] void giveUp(ServeRun& run, const std::string& why) {
-    spdlog::error("event=device_stuck reason={}", logValue(why));
-    run.giveUp(why);
-    spdlog::shutdown();
-    std::quick_exit(kExitDeviceLost);
-}
-
 void printAddresses(const ServeOptions& options, const ServeRun& run) {
     const std::string scheme = options.tls_key.empty() ? "http" : "https";
     std::printf("%s\n", urlOf(options.address, run.port(), scheme).c_str());
@@ -232,30 +219,7 @@ int runServe(const ServeOptions& options) {
     run.emplace(std::move(run_options));
     printAddresses(options, *run);
 
-    Result<void> moves;
-    const int signal = stop.wait(kWatchPeriod, [&] {
-        moves = run->rendersOn();
-        return moves.has_value();
-    });
-    if (!moves) {
-        giveUp(*run, moves.error().message);
-    }
-    auto error = failure.take();
-    const bool opened = run->opened();
-    if (error && !opened) {
-        throw StartupError(std::move(*error));
-    }
-    if (error) {
-        spdlog::error("event=device_lost reason={}", logValue(error->message));
-    }
-    spdlog::info("event=draining signal={} seconds={}", signal, options.drain_s);
-    const bool all_closed = run->drain(milliseconds(options.drain_s));
-    spdlog::info("event=drained all_closed={}", all_closed);
-    const int exit_code = error ? kExitDeviceLost : EXIT_SUCCESS;
-    // A scene that is still being loaded cannot be interrupted, and nobody has anything to lose.
-    const LastResort last_resort(opened ? kLastFrame : std::chrono::seconds(0), exit_code);
-    run.reset();
-    return exit_code;
+    return serveUntilEnd(run, stop, failure, milliseconds(options.drain_s));
 }
 
 } // namespace froxel::app

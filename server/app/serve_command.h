@@ -55,16 +55,16 @@ struct ServeOptions {
     std::filesystem::path tls_key;
 };
 
-// By the device's kind. A CPU device may take minutes for a picture that a viewer may ask for, and
-// gives up by itself after two.
-inline constexpr double kCpuWatchdog_s = 180;
-inline constexpr double kGpuWatchdog_s = 30;
+// By the device's kind: far longer than a piece of a frame takes, with the pipelines that it needs,
+// and shorter than the device's wait (gpu/command_context).
+inline constexpr double kCpuWatchdog_s = 60;
+inline constexpr double kGpuWatchdog_s = 20;
 
 // Prints its URL, and on a second line that of its metrics, to stdout once it listens; logs to
 // stderr. Blocks until SIGTERM, SIGINT or POST /drain has drained every session and returns 0; a
-// second signal ends the process at once. Returns kExitDeviceLost when the device was lost while
-// serving, and ends the process with it when the render thread never came back. Throws
-// StartupError: kAddressInUse, kIo (address, page), kScene, kDevice.
+// second signal ends the process at once. Ends it with kExitDeviceLost when the device was lost
+// while serving or the render thread did not come back. Throws StartupError: kAddressInUse, kIo
+// (address, page), kScene, kDevice.
 [[nodiscard]] int runServe(const ServeOptions& options);
 
 } // namespace froxel::app

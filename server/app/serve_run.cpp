@@ -1,5 +1,6 @@
 #include "app/serve_run.h"
 
+#include "core/keep_for_good.h"
 #include "net/health.h"
 #include "net/metrics.h"
 #include "session/session_state.h"
@@ -14,12 +15,13 @@ namespace {
 
 // So that a crowd that waits for the scene is let in as far as the device goes. None where the
 // first picture cannot be made, which each viewer is told.
-std::optional<Seconds> frameCost(stream::FrameSource& source,
+std::optional<Seconds> frameCost(std::unique_ptr<stream::FrameSource>& source,
                                  const session::SessionContext& context) {
     const auto first = session::initialState(context, Clock::now());
-    const auto cost = stream::measureFrameCost(source, first.settings);
+    const auto cost = stream::measureFrameCost(*source, first.settings);
     if (!cost) {
         if (cost.error().code == ErrorCode::kDevice) {
+            keepForGood(std::move(source));
             throw StartupError(cost.error());
         }
         return {};
@@ -57,7 +59,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
         server_->metrics().watchMemory(std::move(opened.memory));
         if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {
-            loop_.setMinRate(rate_hz, frameCost(*opened.source, *context));
+            loop_.setMinRate(rate_hz, frameCost(opened.source, *context));
         }
         service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit});
         return std::move(opened.source);

@@ -46,6 +46,9 @@ Result<void> isReady(const ServiceStatus& status, TimePoint now) {
 
 Result<void>
 isLive(const ServiceStatus& status, const std::function<bool()>& network_moves, TimePoint now) {
+    if (status.lost) {
+        return Error{ErrorCode::kDevice, *status.lost};
+    }
     // Network threads end with the last viewer, while the process is about to end.
     if (!status.draining && !network_moves()) {
         return Error{ErrorCode::kUnsupported, "the network threads take no work"};

@@ -1,5 +1,7 @@
 #include "stream/frame_cost.h"
 
+#include "core/keep_for_good.h"
+
 namespace froxel::stream {
 namespace {
 
@@ -44,17 +46,22 @@ draw(ViewSource& view, const view::ViewSettings& settings, uint32_t frames, uint
 } // namespace
 
 Result<Seconds> measureFrameCost(FrameSource& source, const view::ViewSettings& settings) {
-    const auto view = source.makeView();
+    auto view = source.makeView();
     if (!view) {
         return view.error();
     }
-    if (auto first = draw(**view, settings, 1, 1); !first) {
-        return first.error();
-    }
     const uint32_t frames = kRounds * source.depth();
-    const TimePoint begin = Clock::now();
-    if (auto measured = draw(**view, settings, frames, source.depth()); !measured) {
-        return measured.error();
+    TimePoint begin{};
+    auto drawn = draw(**view, settings, 1, 1);
+    if (drawn) {
+        begin = Clock::now();
+        drawn = draw(**view, settings, frames, source.depth());
+    }
+    if (!drawn) {
+        if (drawn.error().code == ErrorCode::kDevice) {
+            keepForGood(std::move(*view));
+        }
+        return drawn.error();
     }
     return Seconds(Clock::now() - begin) / frames;
 }

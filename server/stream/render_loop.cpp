@@ -1,11 +1,11 @@
 #include "stream/render_loop.h"
 
+#include "core/keep_for_good.h"
 #include "core/thread_name.h"
 
 #include <algorithm>
 #include <malloc.h>
 #include <utility>
-#include <vector>
 
 namespace froxel::stream {
 
@@ -16,16 +16,6 @@ namespace {
 
 // Of a viewer that has not drawn yet: long enough that others are waited for.
 constexpr Seconds kUnknownPiece{0.1};
-
-// Reachable until the process ends, so that nobody takes it for a leak.
-void keepForGood(std::unique_ptr<ViewSource> view) {
-    static auto* const kept = new std::vector<std::unique_ptr<ViewSource>>;
-    kept->push_back(std::move(view));
-}
-void keepForGood(std::unique_ptr<FrameSource> source) {
-    static auto* const kept = new std::vector<std::unique_ptr<FrameSource>>;
-    kept->push_back(std::move(source));
-}
 
 } // namespace
 

@@ -98,6 +98,7 @@ class FakeView final : public stream::ViewSource {
     }
 
     [[nodiscard]] Result<stream::Collected> collect() override {
+        ++device_->collect_count;
         Frame& frame = frames_.front();
         device_->passGate();
         device_->passTime(frame.piece_count);

@@ -28,6 +28,7 @@ class FakeDevice {
     std::atomic<uint64_t> begun_count = 0;
     std::atomic<uint64_t> submitted_count = 0; // pieces
     std::atomic<uint64_t> abandoned_count = 0; // frames
+    std::atomic<uint64_t> collect_count = 0;   // calls
     std::atomic<int> live_views = 0;
     std::atomic<int> made_views = 0;
     std::atomic<int> live_leases = 0;

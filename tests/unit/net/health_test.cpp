@@ -57,6 +57,13 @@ TEST_F(HealthTest, Serving_IsWell_UntilDraining) {
     expectYes(kLivePath);
 }
 
+TEST_F(HealthTest, DeviceLost_IsNeitherLiveNorReady) {
+    serve();
+    service_->setLost("the device did not finish");
+    expectNo(kLivePath, "did not finish");
+    expectNo(kReadyPath, "did not finish");
+}
+
 TEST_F(HealthTest, Full_IsReady) {
     serve();
     port_.full = true;
@@ -78,12 +85,6 @@ TEST_F(HealthTest, RenderThreadAtOneStep_IsUnreadyFirstAndDeadLater) {
 TEST_F(HealthTest, NetworkStandsStill_IsDead) {
     network_moves_ = false;
     expectNo(kLivePath, "network threads");
-}
-
-TEST_F(HealthTest, Lost_IsUnready) {
-    serve();
-    service_->setLost("the device was lost");
-    expectNo(kReadyPath, "the device was lost");
 }
 
 TEST_F(HealthTest, Drain_ByPostOnly) {

@@ -176,6 +176,29 @@ TEST_F(RenderLoopTest, Lost_WhileDrawing_TellsEveryoneAndRefusesNewcomers) {
     EXPECT_FALSE(loop_->join(makeSink(), still(), {"a"}, Clock::now()));
 }
 
+// After a wait that ended in vain the device may still use all of it.
+TEST_F(RenderLoopTest, Lost_WithFramesOnTheDevice_WaitsNoMoreAndFreesNothing) {
+    device_->depth = 2;
+    device_->setGate(false);
+    start();
+    const auto sinks = {makeSink(), makeSink()};
+    for (const auto& sink : sinks) {
+        join(sink, still(), 1);
+    }
+    while (device_->submitted_count < 2) {
+        std::this_thread::yield();
+    }
+    device_->lost = true;
+    device_->setGate(true);
+    EXPECT_EQ(failure_.get_future().get().code, ErrorCode::kDevice);
+    loop_.reset();
+    for (const auto& sink : sinks) {
+        EXPECT_TRUE(sink->record().lost);
+    }
+    EXPECT_EQ(device_->collect_count, 1U);
+    EXPECT_EQ(device_->live_views, 2);
+}
+
 TEST_F(RenderLoopTest, MakeSource_Throws_ReportsIt) {
     RenderLoopOptions options;
     options.make_source = []() -> std::unique_ptr<FrameSource> {
