@@ -12,6 +12,7 @@ import {
 } from './framing';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { ServerMessage } from './gen/froxel/v1/server_pb';
+import { announced, type Refusal } from './refusal';
 import type { ClientBody } from './setting_commands';
 import type { Link } from './app_state';
 
@@ -39,6 +40,8 @@ export interface Environment {
   random(): number; // [0, 1)
   /** What Hello says besides the version: which room, which lost session to take up, who asks. */
   hello(): { readonly room: string; readonly resumeToken: string; readonly token: string };
+  /** Why the server declines a socket at this URL; null: it does not, or nobody knows. */
+  askRefusal(url: string): Promise<Refusal | null>;
   after(delayMs: number, action: () => void): () => void; // returns how to cancel
   readonly codecs: readonly Codec[]; // that the page decodes
 }
@@ -50,12 +53,14 @@ const kPingEveryMs = 5_000;
 const kSilenceMs = 15_000;
 const kOpen = 1;
 const kTokenRefused = 4003;
+const kResting = 4011;
 
 const kNoRetryReasons: Readonly<Record<number, string>> = {
   1008: 'The server closed the connection: too many refused messages.',
   1009: 'The server closed the connection: a message was too big.',
   4003: 'The server asks for a token.',
   4009: 'This view is open in another tab or window now.',
+  4011: 'Nobody watched this view for a while, and the place was given away. Move it to have one again.',
   4001: 'This page speaks another protocol version than the server. Reload it.',
 };
 
@@ -74,6 +79,8 @@ export class Connection {
   private heardAtMs = 0;
   private at = ''; // the newest socket's URL
   private refuge = ''; // another server's, if that was the last one to answer
+  private lostToken = ''; // a session that no server has any more
+  private resting = false; // the server took the place back since nobody watched
   private cancelTimer: () => void = () => undefined;
   private cancelLeave: () => void = () => undefined;
 
@@ -86,14 +93,28 @@ export class Connection {
   open(url = this.refuge || this.url): void {
     this.cancelTimer();
     this.cancelLeave();
+    this.resting = false;
+    this.openedAtMs = 0;
     this.at = url;
     this.events.link({ phase: 'connecting' });
-    const socket = this.env.openSocket(url, kSubprotocol);
+    const { room, resumeToken } = this.env.hello();
+    const resumable = resumeToken === this.lostToken ? '' : resumeToken;
+    const target = announced(url, room, resumable);
+    const socket = this.env.openSocket(target, kSubprotocol);
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => this.opened(socket);
     socket.onmessage = (event: MessageEvent) => this.received(event.data);
-    socket.onclose = (event) => this.closed(socket, event.code, event.reason);
+    socket.onclose = (event) => {
+      const declined = socket === this.socket && this.openedAtMs === 0;
+      this.closed(socket, event.code, event.reason);
+      if (declined) void this.explain(target, resumable);
+    };
     this.socket = socket;
+  }
+
+  /** Somebody is here again: a view whose place was given away comes back. */
+  wake(): void {
+    if (this.resting) this.open();
   }
 
   /**
@@ -173,16 +194,36 @@ export class Connection {
     if (final !== undefined) {
       this.events.link({ phase: 'refused', reason: reason ? `${final} (${reason})` : final });
       if (code === kTokenRefused) this.events.tokenWanted();
+      this.resting = code === kResting;
+      this.openedAtMs = 0;
       return;
     }
     if (this.openedAtMs > 0 && now - this.openedAtMs >= kStableMs) this.attempt = 0;
     this.openedAtMs = 0;
     const delay = backoffMs(this.attempt, () => this.env.random());
     this.attempt += 1;
-    const text = kRetryReasons[code] ?? 'No connection to the server.';
-    this.events.link({ phase: 'waiting', reason: text, retryAtMs: now + delay });
+    this.wait(delay, kRetryReasons[code] ?? 'No connection to the server.');
+  }
+
+  private wait(delayMs: number, reason: string): void {
+    this.cancelTimer();
+    this.events.link({ phase: 'waiting', reason, retryAtMs: this.env.nowMs() + delayMs });
     // This page's own server may be gone for good, or be the only one that comes back: in turns.
     const next = this.attempt % 2 === 1 ? undefined : this.url;
-    this.cancelTimer = this.env.after(delay, () => this.open(next));
+    this.cancelTimer = this.env.after(delayMs, () => this.open(next));
+  }
+
+  /** A socket was declined: says why, and waits for as long as it is told to. */
+  private async explain(target: string, resumable: string): Promise<void> {
+    const attempt = this.attempt;
+    const refusal = await this.env.askRefusal(target);
+    if (!refusal || this.socket !== null || this.attempt !== attempt) return;
+    if (resumable !== '') {
+      this.lostToken = resumable; // no server has that session any more: a new one
+      this.open(this.at);
+      return;
+    }
+    const delay = refusal.retryAfterMs * (1 + this.env.random());
+    this.wait(delay, `The server has no place: ${refusal.reason}.`);
   }
 }

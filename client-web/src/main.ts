@@ -14,6 +14,7 @@ import { Panel } from './panel';
 import { Picture } from './picture';
 import { Presenter } from './presenter';
 import { Recorder } from './recorder';
+import { askRefusal } from './refusal';
 import { Resume, tabShelf } from './resume';
 import { mayControl, roomFromAddress } from './room';
 import { RoomCard } from './room_card';
@@ -76,6 +77,7 @@ const connection = new Connection(
       const { body } = message;
       if (body.case === 'welcome') resume.keep(body.value.resumeToken);
       if (body.case === 'draining') {
+        resume.keep(''); // a session does not move
         connection.leave(body.value.deadlineMs, body.value.reconnectUrl);
       }
       store.dispatch({ type: 'received', message });
@@ -92,6 +94,7 @@ const connection = new Connection(
     openSocket: (url, subprotocol) => new WebSocket(url, subprotocol),
     nowMs,
     random: Math.random,
+    askRefusal,
     hello: () => ({ room: roomName, resumeToken: resume.token, token: token.value }),
     after: (delayMs, action) => {
       const timer = setTimeout(action, delayMs);
@@ -190,6 +193,7 @@ async function toggleFullscreen(): Promise<void> {
 
 const input = new CanvasInput(canvas, commands, nextFrame);
 window.addEventListener('keydown', (event) => {
+  connection.wake();
   if (isForControl(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
   if (!event.repeat && runShortcut(event.key, shortcuts)) event.preventDefault();
   else input.keyDown(event);
@@ -197,12 +201,14 @@ window.addEventListener('keydown', (event) => {
 window.addEventListener('keyup', (event) => input.keyUp(event));
 window.addEventListener('blur', () => input.releaseAll());
 document.addEventListener('visibilitychange', () => tellVisibility(false));
+canvas.addEventListener('pointerdown', () => connection.wake());
 presenter.setVisible(!document.hidden);
 
 /** A hidden page paints nothing, so the server need not draw. A new connection knows of no pause. */
 function tellVisibility(newConnection: boolean): void {
   const { hidden } = document;
   presenter.setVisible(!hidden);
+  if (!hidden) connection.wake();
   const { link, server } = store.state;
   const understood = link.phase === 'live' && (server?.protocolMinor ?? 0) >= kMinorOfPause;
   if (understood && (hidden || !newConnection)) {

@@ -213,4 +213,63 @@ describe('Connection', () => {
     env.socket.accept();
     expect(env.socket.sent[0]?.body).toMatchObject({ value: { token: 'correct-horse-battery' } });
   });
+
+  it('Declined_WhileFull_SaysWhyAndWaitsAsTold', async () => {
+    env.refusal = { reason: 'all 4 sessions of this server are taken', retryAfterMs: 5_000 };
+    env.randomValue = 0.5;
+    env.socket.drop(1006);
+    await Promise.resolve();
+    expect(links.at(-1)).toEqual({
+      phase: 'waiting',
+      reason: 'The server has no place: all 4 sessions of this server are taken.',
+      retryAtMs: env.now + 7_500,
+    });
+    env.pass(7_499);
+    expect(env.sockets.length).toBe(1);
+    env.pass(1);
+    expect(env.sockets.length).toBe(2);
+  });
+
+  it('Declined_ThoughItWouldBeLetInNow_IsTriedAgainSoon', async () => {
+    env.socket.drop(1006);
+    await Promise.resolve();
+    env.pass(500);
+    expect(env.sockets.length).toBe(2);
+  });
+
+  it('Lost_AfterItWasOpen_AsksNobodyWhy', () => {
+    env.socket.accept();
+    env.socket.drop(4029);
+    expect(env.asked).toEqual([]);
+  });
+
+  it('Url_AnnouncesTheRoomAndTheTokensPublicPart_UntilNoServerHasThatSession', async () => {
+    env.room = 'hall';
+    env.token = '0123456789abcdef'.repeat(4);
+    env.socket.accept();
+    env.socket.drop(1006);
+    env.pass(500);
+    const announcing = 'ws://host/ws?room=hall&resume=0123456789abcdef';
+    expect(env.socket.url).toBe(announcing);
+    env.refusal = { reason: 'full', retryAfterMs: 60_000 };
+    env.socket.drop(1006);
+    await Promise.resolve();
+    expect(env.asked).toEqual([announcing]);
+    // At once, as a new one.
+    expect(env.socket.url).toBe('ws://host/ws?room=hall');
+    env.socket.accept();
+    expect(env.socket.sent[0]?.body).toMatchObject({ value: { resumeToken: env.token } });
+  });
+
+  it('Close_With4011_ComesBackWhenSomebodyDoes', () => {
+    env.socket.accept();
+    env.socket.drop(4011);
+    expect(links.at(-1)).toMatchObject({ phase: 'refused' });
+    env.pass(60_000);
+    expect(env.sockets.length).toBe(1);
+    connection.wake();
+    expect(env.sockets.length).toBe(2);
+    connection.wake();
+    expect(env.sockets.length).toBe(2);
+  });
 });

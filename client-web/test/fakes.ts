@@ -3,6 +3,7 @@
 import { create, fromBinary, toBinary, type MessageInitShape } from '@bufbuild/protobuf';
 
 import type { Environment, Socket } from '../src/connection';
+import type { Refusal } from '../src/refusal';
 import { Codec } from '../src/gen/froxel/v1/common_pb';
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
 import {
@@ -70,6 +71,8 @@ export class FakeEnvironment implements Environment {
   room = '';
   token = '';
   accessToken = '';
+  refusal: Refusal | null = null;
+  readonly asked: string[] = [];
   private timers: { at: number; action: () => void }[] = [];
 
   get socket(): FakeSocket {
@@ -94,6 +97,11 @@ export class FakeEnvironment implements Environment {
 
   hello(): { room: string; resumeToken: string; token: string } {
     return { room: this.room, resumeToken: this.token, token: this.accessToken };
+  }
+
+  askRefusal(url: string): Promise<Refusal | null> {
+    this.asked.push(url);
+    return Promise.resolve(this.refusal);
   }
 
   after(delayMs: number, action: () => void): () => void {
