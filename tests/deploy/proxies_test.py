@@ -67,15 +67,16 @@ def listens(port):
 class Server:
     """One `froxel serve`, on ports that stay the same when it is started anew."""
 
-    def __init__(self):
+    def __init__(self, *options):
         self.port, self.admin = free_port(), free_port()
+        self.options = options
         self.start()
 
     def start(self):
         self.process = subprocess.Popen(
             [FROXEL, "serve", "--device", "cpu", "--size", "32x32", "--lights", "1", "--min-fps", "0",
              "--port", str(self.port), "--admin-bind", f"127.0.0.1:{self.admin}",
-             "--drain-seconds", "3", "--log-level", "error"], stdout=subprocess.DEVNULL)
+             "--drain-seconds", "3", "--log-level", "error", *self.options], stdout=subprocess.DEVNULL)
 
     def wait_ready(self):
         for _ in range(600):
@@ -113,8 +114,7 @@ class Viewer:
     async def run(self):
         trust = None
         if self.url.startswith("wss:"):
-            trust = ssl.create_default_context()
-            trust.check_hostname, trust.verify_mode = False, ssl.CERT_NONE
+            trust = trusting()
         attempt = 0
         while True:
             try:
@@ -154,6 +154,37 @@ class Viewer:
         return False
 
 
+def trusting():
+    """Of the test's own certificate."""
+    trust = ssl.create_default_context()
+    trust.check_hostname, trust.verify_mode = False, ssl.CERT_NONE
+    return trust
+
+
+class Session:
+    """One connection that holds a session, without looking at it."""
+
+    async def open(self, url, before=None):
+        """Comes back to the session of `before`, if it is given."""
+        query = f"?resume={before.token[:16]}" if before else ""
+        headers = {"Cookie": before.cookie} if before and before.cookie else {}
+        self.connection = await websockets.connect(
+            url + query, ssl=trusting() if url.startswith("wss:") else None, extra_headers=headers,
+            subprotocols=["froxel.v1"], max_size=2**26)
+        given = self.connection.response_headers.get("Set-Cookie")
+        self.cookie = given.split(";")[0] if given else before.cookie if before else ""
+        token = {"resumeToken": before.token} if before else {}
+        await self.connection.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1, **token}}))
+        while "welcome" not in (message := await self.connection.recv()):
+            pass
+        self.welcome = json.loads(message)["welcome"]
+        self.token = self.welcome["resumeToken"]
+        return self
+
+    def cut(self):
+        self.connection.transport.abort()
+
+
 async def eventually(condition, seconds=20):
     end = time.monotonic() + seconds
     while not condition():
@@ -176,12 +207,12 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         for server in cls.servers:
             server.wait_ready()
 
-    def start_proxy(self, name, command):
+    def start_proxy(self, name, command, servers=None):
         """The file of deploy/ with our addresses; the proxy's URL."""
         port = free_port()
         text = (DEPLOY / name).read_text().replace("/etc/froxel", str(self.folder))
         text = text.replace("/run/nginx.pid", str(self.folder / "nginx.pid")).replace("8443", str(port))
-        first, second = self.servers
+        first, second = servers or self.servers
         for label, server in (("a", first), ("b", second)):
             text = text.replace(f"froxel-{label}:8080", f"127.0.0.1:{server.port}")
         # Two servers on one address: each has an admin port of its own.
@@ -213,6 +244,43 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
                 await self.kill(second, first, viewers)
         finally:
             await self.leave(viewers)
+
+    async def check_full(self, name, command):
+        """One server is full, the other empty: who is new gets in, who was cut comes back to its own."""
+        # Nobody here looks at pictures; that must not make room.
+        full = Server("--max-sessions", "3", "--paused-seconds", "1000")
+        empty = Server("--max-sessions", "12", "--paused-seconds", "1000")
+        for server in (full, empty):
+            self.addCleanup(server.end)
+        for server in (full, empty):
+            await asyncio.to_thread(server.wait_ready)
+        url, port = self.start_proxy(name, command, (full, empty))
+        await eventually(lambda: listens(port))
+        await asyncio.sleep(2.5)  # HAProxy knows who is well
+        held = []
+        while full.metric("froxel_viewers") == 0:
+            self.assertLess(len(held), 10, "the proxy sends nobody to the first server")
+            held.append(await Session().open(url))
+        cut = held[-1]
+        while full.metric("froxel_sessions") < 3:
+            held.append(await Session().open(f"ws://127.0.0.1:{full.port}/ws"))
+
+        before = empty.metric("froxel_viewers")
+        for _ in range(8):
+            held.append(await Session().open(url))
+        self.assertEqual(empty.metric("froxel_viewers"), before + 8)
+        self.assertEqual(full.metric("froxel_sessions"), 3)
+
+        cut.cut()
+        await eventually(lambda: full.metric("froxel_viewers") == 2)
+        back = await Session().open(url, cut)
+        self.assertTrue(back.welcome.get("resumed"))
+        self.assertEqual(full.metric("froxel_viewers"), 3)
+        # Who sits at the second server by way of the first one's refusal comes back there, too.
+        last = held[-1]
+        last.cut()
+        await eventually(lambda: empty.metric("froxel_viewers") == before + 7)
+        self.assertTrue((await Session().open(url, last)).welcome.get("resumed"))
 
     async def leave(self, viewers):
         for viewer in viewers:
@@ -273,6 +341,16 @@ class Proxies(unittest.IsolatedAsyncioTestCase):
         if not shutil.which("nginx"):
             self.skipTest("nginx is not here (Debian: nginx-light)")
         await self.check(*self.start_proxy("nginx.conf", ["nginx", "-g", "daemon off;", "-c"]))
+
+    async def test_nginx_full_server(self):
+        if not shutil.which("nginx"):
+            self.skipTest("nginx is not here (Debian: nginx-light)")
+        await self.check_full("nginx.conf", ["nginx", "-g", "daemon off;", "-c"])
+
+    async def test_haproxy_full_server(self):
+        if not shutil.which("haproxy"):
+            self.skipTest("haproxy is not here (Debian: haproxy)")
+        await self.check_full("haproxy.cfg", ["haproxy", "-db", "-f"])
 
     async def test_haproxy(self):
         if not shutil.which("haproxy"):
