@@ -9,6 +9,8 @@ namespace {
 constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
 constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
 constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
+constexpr view::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
+constexpr view::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
 constexpr view::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
 constexpr view::Range<double> kDrainRange{"drain_seconds", 0.0, 86'400.0};
 constexpr view::Range<double> kWatchdogRange{"watchdog_seconds", 0.0, 86'400.0};
@@ -79,6 +81,21 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
         "Refuse a session that would take active ones below these frames a second; 0: none");
     command.number("--resume-grace", options.resume_grace_s, kGraceRange,
                    "Seconds that a lost connection's session waits for it");
+    command.number("--max-sessions-per-address", options.sessions_per_address, kAccountRange,
+                   "half of --max-sessions",
+                   "Sessions opened from one address (IPv6: a /64), which 127.0.0.1 and ::1 are "
+                   "exempt from; 0: no matter");
+    command.number("--max-sessions-per-token", options.sessions_per_token, kAccountRange,
+                   "Sessions opened with one token; 0: no matter");
+    command.number("--paused-seconds", options.paused_s, kRestRange,
+                   "A session whose viewers are all paused, or take no pictures, for so long ends "
+                   "when another needs its place");
+    command.number("--idle-seconds", options.idle_s, kRestRange,
+                   "The same where they do nothing and their picture stands");
+    command.number("--forget-seconds", options.forget_s, kRestRange,
+                   "A session that rests in either way for so long ends anyway; 0: never");
+    command.number("--control-idle-seconds", options.control_idle_s, kRestRange,
+                   "Control of a room that is not used for so long goes to who asks; 0: never");
     command.number("--max-connections", options.connections_max, kConnectionsRange,
                    "Connections of any kind at once");
     command.number("--drain-seconds", options.drain_s, kDrainRange,

@@ -110,6 +110,19 @@ net::AgonesOptions agonesOptions(const ServeOptions& options) {
     return agones;
 }
 
+net::LobbyRules lobbyRules(const ServeOptions& options) {
+    net::LobbyRules rules;
+    rules.resume_grace = milliseconds(options.resume_grace_s);
+    rules.sessions_max = options.sessions_max;
+    rules.sessions_per_address =
+        options.sessions_per_address.value_or(std::max(1U, options.sessions_max / 2));
+    rules.sessions_per_token = options.sessions_per_token;
+    rules.rest = {Seconds(options.paused_s), Seconds(options.idle_s)};
+    rules.forget = Seconds(options.forget_s);
+    rules.control_idle = Seconds(options.control_idle_s);
+    return rules;
+}
+
 ServeRunOptions runOptions(const ServeOptions& options) {
     const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
     ServeRunOptions run;
@@ -118,14 +131,13 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.admin = options.admin;
     run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
     run.server.connections_max = options.connections_max;
-    run.server.resume_grace = milliseconds(options.resume_grace_s);
+    run.server.lobby = lobbyRules(options);
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
     run.server.trusted_proxies = options.trusted_proxies;
     if (options.agones) {
         run.server.agones = agonesOptions(options);
     }
-    run.sessions_max = options.sessions_max;
     run.encoder_count = std::clamp(cores / 2, 1U, 16U);
     run.open = [options](const auto& report) { return openScene(options, report); };
     return run;

@@ -28,8 +28,15 @@ struct ServeOptions {
     // That active sessions must keep when another one joins; absent: by the device's kind.
     std::optional<double> min_rate_hz;
     double resume_grace_s = 10; // how long a lost connection's session waits for it; 0: not at all
-    double drain_s = 5;         // from SIGTERM to the end, for viewers to go elsewhere
-    std::string advertise;      // URL of the WebSocket where they go; empty: the same address
+    // net::LobbyRules; absent: half of sessions_max.
+    std::optional<uint32_t> sessions_per_address;
+    uint32_t sessions_per_token = 0;
+    double paused_s = 30;
+    double idle_s = 300;
+    double forget_s = 3600;
+    double control_idle_s = 60;
+    double drain_s = 5;    // from SIGTERM to the end, for viewers to go elsewhere
+    std::string advertise; // URL of the WebSocket where they go; empty: the same address
     // The process ends when the render thread has been at one step for so long; 0: never; absent:
     // by the device's kind.
     std::optional<double> watchdog_s;

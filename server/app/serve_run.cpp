@@ -34,7 +34,8 @@ std::optional<Seconds> frameCost(std::unique_ptr<stream::FrameSource>& source,
 
 // A viewer has at most one picture in the encoders, so the queue never refuses one.
 ServeRun::ServeRun(ServeRunOptions options)
-    : options_(std::move(options)), pool_(options_.encoder_count, options_.sessions_max),
+    : options_(std::move(options)),
+      pool_(options_.encoder_count, options_.server.lobby.sessions_max),
       server_(std::make_unique<net::Server>(options_.server)), loop_(pool_, loopOptions()) {}
 
 ServeRun::~ServeRun() {
@@ -48,10 +49,9 @@ Result<void> ServeRun::rendersOn() const {
 
 stream::RenderLoopOptions ServeRun::loopOptions() {
     stream::RenderLoopOptions loop;
-    loop.sessions_max = options_.sessions_max;
     loop.on_failure = options_.on_failure;
     loop.fates = server_->metrics().fates();
-    server_->metrics().setSessionCapacity(options_.sessions_max);
+    server_->metrics().setSessionCapacity(options_.server.lobby.sessions_max);
     loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
         OpenedScene opened = options_.open(

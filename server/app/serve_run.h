@@ -25,7 +25,6 @@ struct OpenedScene {
 
 struct ServeRunOptions {
     net::ServerOptions server;
-    uint32_t sessions_max = 16;
     uint32_t encoder_count = 1;
     // Runs on the render thread while the server already listens. May throw.
     std::function<OpenedScene(const std::function<void(net::LoadingProgress)>& report)> open;

@@ -23,6 +23,12 @@ constexpr auto kConnectTimeout = 10s;
 // Between the server's pings and ours a silent connection is found broken within this.
 constexpr auto kIdleTimeout = 30s;
 
+// A full server declines whoever does not say that a room of its own is meant.
+std::string resourceFor(const Target& target, const std::string& room) {
+    const char* separator = target.resource.find('?') == std::string::npos ? "?" : "&";
+    return room.empty() ? target.resource : target.resource + separator + "room=" + room;
+}
+
 } // namespace
 
 void Viewer::connectAt(TimePoint when) {
@@ -109,14 +115,17 @@ void Viewer::upgrade() {
     stream_.read_message_max(protocol::kMaxFrameBytes);
     stream_.binary(true);
     stream_.async_handshake(
-        response_, options_.target.authority, options_.target.resource,
+        response_, options_.target.authority, resourceFor(options_.target, options_.room),
         [self = shared_from_this()](Code failure) {
             if (self->ended_) {
                 return;
             }
             if (failure == websocket::error::upgrade_declined) {
+                const bool full =
+                    self->response_.result() == beast::http::status::service_unavailable;
                 self->fail("no WebSocket at " + printable(self->options_.target.resource) +
-                           ": HTTP " + numberText(self->response_.result_int()));
+                           ": HTTP " + numberText(self->response_.result_int()) +
+                           (full ? ", the server is full or going down" : ""));
             } else if (failure) {
                 self->fail("the WebSocket handshake failed: " + failure.message());
             } else {

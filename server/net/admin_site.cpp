@@ -2,12 +2,15 @@
 
 #include "core/assert.h"
 #include "net/health.h"
+#include "session/room.h"
 
 namespace froxel::net {
 
 namespace http = boost::beast::http;
 
 namespace {
+
+constexpr std::string_view kTakeControl = "/take-control";
 
 Response verdict(const Result<void>& well) {
     return well ? textResponse(http::status::ok, "ok")
@@ -32,8 +35,31 @@ Response AdminSite::answer(const Request& request, std::string_view path) const 
     if (path == kDrainPath) {
         return drain(request);
     }
+    if (const auto room = roomIn(path)) {
+        return takeControl(request, *room);
+    }
     return textResponse(http::status::not_found,
-                        "not found; there are /metrics, /livez, /readyz, /startupz and /drain");
+                        "not found; there are /metrics, /livez, /readyz, /startupz, /drain and "
+                        "/rooms/NAME/take-control");
+}
+
+std::optional<std::string> AdminSite::roomIn(std::string_view path) {
+    if (path.size() <= kRoomsPath.size() + kTakeControl.size() || !path.starts_with(kRoomsPath) ||
+        !path.ends_with(kTakeControl)) {
+        return {};
+    }
+    path.remove_prefix(kRoomsPath.size());
+    path.remove_suffix(kTakeControl.size());
+    return session::isRoomName(path) ? std::optional(std::string(path)) : std::nullopt;
+}
+
+Response AdminSite::takeControl(const Request& request, const std::string& room) const {
+    if (request.count(http::field::origin) > 0) {
+        return textResponse(http::status::forbidden, "a browser may not take control of a room");
+    }
+    return hooks_.take_control(room)
+               ? textResponse(http::status::ok, "the control of room " + room + " was taken")
+               : textResponse(http::status::not_found, "nobody is in room " + room);
 }
 
 // A page of any site can make a browser on this machine post here; none sends this without Origin.
@@ -45,7 +71,8 @@ Response AdminSite::drain(const Request& request) const {
     return textResponse(http::status::accepted, "draining");
 }
 
-std::optional<Response> AdminSite::refuseUpgrade(const Request& /*request*/) const {
+std::optional<Response> AdminSite::refuseUpgrade(const Request& /*request*/,
+                                                 const boost::asio::ip::address& /*peer*/) const {
     return refusal(http::status::not_found, "no WebSocket at the admin address");
 }
 

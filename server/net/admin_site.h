@@ -7,6 +7,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace froxel::net {
 
@@ -15,6 +17,8 @@ struct AdminHooks {
     std::function<bool()> network_moves = [] { return true; };
     // As SIGTERM does; must not block.
     std::function<void()> drain = [] {};
+    // As Lobby::takeControl.
+    std::function<bool(const std::string&)> take_control = [](const std::string&) { return false; };
 };
 
 class AdminSite final : public HttpSite {
@@ -26,15 +30,19 @@ class AdminSite final : public HttpSite {
 
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
     [[nodiscard]] bool takesPost(std::string_view path) const override {
-        return path == kDrainPath;
+        return path == kDrainPath || roomIn(path);
     }
-    [[nodiscard]] std::optional<Response> refuseUpgrade(const Request& request) const override;
+    [[nodiscard]] std::optional<Response>
+    refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;
     void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const override;
     void onConnectionRefused() const override {}
     // A scrape may come while viewers are being told to go.
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 
   private:
+    // Of "/rooms/NAME/take-control".
+    [[nodiscard]] static std::optional<std::string> roomIn(std::string_view path);
+    [[nodiscard]] Response takeControl(const Request& request, const std::string& room) const;
     [[nodiscard]] Response drain(const Request& request) const;
 
     const std::shared_ptr<const Metrics> metrics_;

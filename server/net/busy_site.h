@@ -12,7 +12,9 @@ class BusySite final : public HttpSite {
                                   std::string_view /*path*/) const override {
         return refused();
     }
-    [[nodiscard]] std::optional<Response> refuseUpgrade(const Request& /*request*/) const override {
+    [[nodiscard]] std::optional<Response>
+    refuseUpgrade(const Request& /*request*/,
+                  const boost::asio::ip::address& /*peer*/) const override {
         return refused();
     }
     void upgrade(PeerStream /*stream*/,

@@ -3,19 +3,18 @@
 
 #include "session/account.h"
 
-#include <cstdint>
+#include <optional>
 
 namespace froxel::net {
 
 struct Caller {
-    enum class Kind : uint8_t {
-        kLocal, // on this host: a proxy that is not named as trusted, or a test; no limit is its
-                // own
-        kAddress,
-        kToken,
-    };
-    Kind kind = Kind::kLocal;
-    session::Account account;
+    session::Account address;
+    // The address is 127.0.0.1 or ::1: a proxy on this host that is not named as trusted, or its
+    // user. Whoever else is behind it cannot be told apart, so it has no limit of its own.
+    bool local = false;
+    std::optional<session::Account> token; // that it has shown
+
+    [[nodiscard]] const session::Account& account() const { return token ? *token : address; }
 };
 
 } // namespace froxel::net

@@ -86,13 +86,13 @@ clientAddress(ip::address peer, std::string_view forwarded_for, const TrustedPro
 
 Caller callerAt(const ip::address& address) {
     const ip::address where = plain(address);
-    const auto kind = where.is_loopback() ? Caller::Kind::kLocal : Caller::Kind::kAddress;
-    if (where.is_v4() || where.is_loopback()) {
-        return {kind, {where.to_string()}};
+    const bool local = where == ip::address_v4::loopback() || where == ip::address_v6::loopback();
+    if (where.is_v4() || local) {
+        return {{where.to_string()}, local, {}};
     }
     ip::address_v6 host = where.to_v6();
     host.scope_id(0);
-    return {kind, {ip::network_v6(host, kAccountBits).canonical().to_string()}};
+    return {{ip::network_v6(host, kAccountBits).canonical().to_string()}, false, {}};
 }
 
 } // namespace froxel::net

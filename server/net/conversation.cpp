@@ -64,7 +64,7 @@ void Conversation::greet(const CommandMessage& message, TimePoint now) {
         return reject({RejectCode::kToken, message.stamp.seq, "token", why}, now);
     }
     if (pass_ && pass_->account()) {
-        caller_ = {Caller::Kind::kToken, *pass_->account()};
+        caller_.token = pass_->account();
     }
     hello_ = hello;
     hello_.token.clear();
@@ -134,6 +134,8 @@ void Conversation::changeControl(const CommandMessage& message, TimePoint now) {
         Rejection rejection = changed.error();
         rejection.ref_seq = message.stamp.seq;
         reject(rejection, now);
+    } else {
+        lobby_->expire(now); // control that rests goes to who asks
     }
 }
 
@@ -147,7 +149,7 @@ void Conversation::setPaused(bool paused, TimePoint now) {
         countDrops(dropped_before);
         key_at_.reset();
     }
-    seat_->session->setPaused(seat_->place, paused);
+    seat_->session->setPaused(seat_->place, paused, now);
     grantCredits();
     mendVideo(now);
 }
@@ -170,6 +172,7 @@ void Conversation::onAck(const session::CommandStamp& stamp,
         if (std::exchange(seat_->resumed, false)) {
             lobby_->settle(*seat_); // it saw a picture, and so Welcome before
         }
+        seat_->session->noteAck(seat_->place, ack.frame_id, now);
         followLink(now);
         break;
     case session::AckOutcome::kStale:

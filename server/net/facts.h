@@ -14,6 +14,7 @@ inline constexpr std::string_view kLivePath = "/livez";
 inline constexpr std::string_view kReadyPath = "/readyz";
 inline constexpr std::string_view kStartedPath = "/startupz";
 inline constexpr std::string_view kDrainPath = "/drain";
+inline constexpr std::string_view kRoomsPath = "/rooms/";
 
 // What a Fleet of Agones must have: a counter of this name, and patience for pings as far apart.
 inline constexpr std::string_view kAgonesCounter = "sessions";

@@ -1,6 +1,7 @@
 #include "net/http_session.h"
 
 #include "core/text.h"
+#include "net/facts.h"
 #include "net/guard.h"
 
 #include <boost/asio/dispatch.hpp>
@@ -135,13 +136,15 @@ void HttpSession::onRequest() {
     parser_.reset();
     if (wants_socket) {
         upgrade(std::move(request));
-    } else {
-        write(respond(request, *site_));
+        return;
     }
+    const bool asks = request.method() == http::verb::get && pathOf(request) == kSocketPath;
+    auto refused = asks ? site_->refuseUpgrade(request, peerAddress(stream_)) : std::nullopt;
+    write(refused ? std::move(*refused) : respond(request, *site_));
 }
 
 void HttpSession::upgrade(Request request) {
-    if (auto refused = site_->refuseUpgrade(request)) {
+    if (auto refused = site_->refuseUpgrade(request, peerAddress(stream_))) {
         write(std::move(*refused));
     } else if (buffer_.size() > 0) {
         write(refusal(http::status::bad_request, "bytes before the answer to the upgrade"));

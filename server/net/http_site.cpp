@@ -31,6 +31,11 @@ std::string contentPolicy(std::string_view reconnect_url) {
            "frame-ancestors 'none'";
 }
 
+boost::asio::ip::address peerAddress(const PeerStream& stream) {
+    boost::beast::error_code gone;
+    return stream.next_layer().socket().remote_endpoint(gone).address();
+}
+
 std::string_view pathOf(const Request& request) {
     const std::string_view target{request.target().data(), request.target().size()};
     return target.substr(0, target.find('?'));

@@ -9,6 +9,8 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,8 +32,14 @@ class HttpSite {
     // A GET or HEAD, or a POST where takesPost(); `path` is without the query.
     [[nodiscard]] virtual Response answer(const Request& request, std::string_view path) const = 0;
     [[nodiscard]] virtual bool takesPost(std::string_view /*path*/) const { return false; }
-    // Why this request may not become a WebSocket; none when it may.
-    [[nodiscard]] virtual std::optional<Response> refuseUpgrade(const Request& request) const = 0;
+    // Why this request of `peer` may not become a WebSocket; none when it may. Asked of a plain GET
+    // of its path, too: a browser's page is told no status of a WebSocket that was refused.
+    [[nodiscard]] virtual std::optional<Response>
+    refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const = 0;
+    // Connections that `peer` may have at once.
+    [[nodiscard]] virtual uint32_t connectionsMax(const boost::asio::ip::address& /*peer*/) const {
+        return std::numeric_limits<uint32_t>::max();
+    }
     // Takes the connection over; only after refuseUpgrade() gave none.
     virtual void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const = 0;
     // One over the limit was closed unanswered.
@@ -39,6 +47,9 @@ class HttpSite {
     // Connections close when this drains; null: they are answered until the process ends.
     [[nodiscard]] virtual Service* drainsWith() const = 0;
 };
+
+// Of the other end; unspecified where that is gone.
+[[nodiscard]] boost::asio::ip::address peerAddress(const PeerStream& stream);
 
 // The path of a request's target, without the query.
 [[nodiscard]] std::string_view pathOf(const Request& request);

@@ -9,6 +9,8 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/strand.hpp>
 
+#include <map>
+#include <mutex>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <utility>
@@ -57,6 +59,13 @@ void tune(tcp::socket& socket) {
 
 } // namespace
 
+// Any thread, as tickets go where their connections end.
+struct Listener::Peers {
+    std::mutex mutex;
+    std::map<asio::ip::address, uint32_t> counts;
+    uint32_t total = 0;
+};
+
 Listener::Listener(asio::io_context& io,
                    const BindAddress& bind,
                    const char* option,
@@ -65,7 +74,8 @@ Listener::Listener(asio::io_context& io,
                    std::shared_ptr<const Tls> tls)
     : io_(io), acceptor_(asio::make_strand(io)), back_off_(acceptor_.get_executor()),
       connections_max_(connections_max), site_(std::move(site)),
-      busy_site_(std::make_shared<BusySite>()), tls_(std::move(tls)) {
+      busy_site_(std::make_shared<BusySite>()), tls_(std::move(tls)),
+      peers_(std::make_shared<Peers>()) {
     Failure failure;
     const auto ip = asio::ip::make_address(bind.address, failure);
     if (failure) {
@@ -124,23 +134,48 @@ void Listener::onAccepted(Failure failure, tcp::socket socket) {
         back_off_.async_wait([self = shared_from_this()](Failure) { self->accept(); });
         return;
     }
-    if (!failure && connection_count_->load() < connections_max_) {
-        serve(std::move(socket), site_, connection_count_);
+    Failure gone; // it has no address then, and its first read fails
+    const asio::ip::address peer = socket.remote_endpoint(gone).address();
+    if (!failure && hasRoomFor(peer)) {
+        serve(std::move(socket), site_, ticketOf(peers_, peer));
     } else if (!failure) {
-        spdlog::warn("event=connection_refused port={} limit={}", port_, connections_max_);
+        spdlog::warn("event=connection_refused port={} peer={} limit={}", port_, peer.to_string(),
+                     connections_max_);
         site_->onConnectionRefused();
         if (refused_count_->load() < kRefusedMax) {
-            serve(std::move(socket), busy_site_, refused_count_);
+            ++*refused_count_;
+            const auto done = [count = refused_count_](const void*) { --*count; };
+            serve(std::move(socket), busy_site_, ConnectionTicket(nullptr, done));
         } // else the socket closes here: a refusal would take what is short
     }
     accept();
 }
 
+bool Listener::hasRoomFor(const asio::ip::address& peer) const {
+    const std::lock_guard lock(peers_->mutex);
+    const auto found = peers_->counts.find(peer);
+    const uint32_t here = found == peers_->counts.end() ? 0 : found->second;
+    return peers_->total < connections_max_ && here < site_->connectionsMax(peer);
+}
+
+ConnectionTicket Listener::ticketOf(const std::shared_ptr<Peers>& peers,
+                                    const asio::ip::address& peer) {
+    const std::lock_guard lock(peers->mutex);
+    ++peers->total;
+    ++peers->counts[peer];
+    return {nullptr, [peers, peer](const void*) {
+                const std::lock_guard last_lock(peers->mutex);
+                --peers->total;
+                const auto found = peers->counts.find(peer);
+                if (--found->second == 0) {
+                    peers->counts.erase(found);
+                }
+            }};
+}
+
 void Listener::serve(tcp::socket socket,
                      std::shared_ptr<const HttpSite> site,
-                     const std::shared_ptr<Count>& count) {
-    ++*count;
-    ConnectionTicket ticket(nullptr, [count](const void*) { --*count; });
+                     ConnectionTicket ticket) {
     tune(socket);
     const auto tls = tls_ ? tls_->context() : nullptr; // OpenSSL keeps what a connection needs
     std::make_shared<HttpSession>(std::move(socket), tls.get(), std::move(site), std::move(ticket))

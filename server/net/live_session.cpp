@@ -3,6 +3,8 @@
 #include "froxel/v1/server.pb.h"
 #include "net/guard.h"
 
+#include <algorithm>
+
 namespace froxel::net {
 
 using session::CommandResult;
@@ -24,13 +26,12 @@ void Mail::add(const std::weak_ptr<SessionViewer>& viewer, Notice notice) {
     }
 }
 
-Result<std::shared_ptr<LiveSession>> LiveSession::open(const Serving& serving,
-                                                       std::string room,
-                                                       const session::Account& account,
-                                                       TimePoint now) {
+Result<std::shared_ptr<LiveSession>>
+LiveSession::open(const Serving& serving, std::string room, Caller opener, TimePoint now) {
     // The constructor is private.
-    std::shared_ptr<LiveSession> live(new LiveSession(serving, std::move(room), now));
-    const auto id = serving.port->join(live, live->first_, account, now);
+    std::shared_ptr<LiveSession> live(
+        new LiveSession(serving, std::move(room), std::move(opener), now));
+    const auto id = serving.port->join(live, live->first_, live->opener_.account(), now);
     if (!id) {
         live->ended_ = true;
         return id.error();
@@ -39,9 +40,10 @@ Result<std::shared_ptr<LiveSession>> LiveSession::open(const Serving& serving,
     return live;
 }
 
-LiveSession::LiveSession(Serving serving, std::string room, TimePoint now)
-    : serving_(std::move(serving)), first_(session::initialState(*serving_.context, now)),
-      room_(std::move(room)), state_(first_) {}
+LiveSession::LiveSession(Serving serving, std::string room, Caller opener, TimePoint now)
+    : serving_(std::move(serving)), opener_(std::move(opener)),
+      first_(session::initialState(*serving_.context, now)), room_(std::move(room)),
+      control_used_(now), state_(first_) {}
 
 LiveSession::~LiveSession() {
     if (!ended_) {
@@ -65,6 +67,7 @@ void LiveSession::addMember(MemberId member, std::string name, Mail& mail) {
     const std::lock_guard lock(mutex_);
     tellAll(mail, RoomNews{});
     room_.add(member, std::move(name));
+    used_by_ = used_by_ == 0 ? room_.controller() : used_by_;
     members_[member];
 }
 
@@ -81,7 +84,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         room_.setAway(place.member, false);
         tellAll(mail, RoomNews{});
     }
-    member = {place.connection, std::move(viewer), 0, 0, codecs, {}, false, 0};
+    member = {place.connection, std::move(viewer), 0, 0, codecs, {}, false, 0, 0, now};
     updateCodecs(now, mail);
     updateGrant();
     updateDelivery();
@@ -132,7 +135,8 @@ CommandResult<void>
 LiveSession::apply(const Place& place, const session::CommandMessage& message, TimePoint now) {
     Mail mail;
     const std::lock_guard lock(mutex_);
-    if (find(place) == nullptr) {
+    Member* member = find(place);
+    if (member == nullptr) {
         return {}; // a newer connection was sent word to close this one
     }
     if (auto allowed = room_.mayControl(place.member); !allowed) {
@@ -147,10 +151,12 @@ LiveSession::apply(const Place& place, const session::CommandMessage& message, T
         return next.error();
     }
     state_ = *next;
+    member->watched_at = control_used_ = now;
+    used_by_ = place.member;
     serving_.port->update(id_, state_, now);
-    for (const auto& [id, member] : members_) {
+    for (const auto& [id, other] : members_) {
         if (id != place.member) {
-            mail.add(member.viewer, StateNews{});
+            mail.add(other.viewer, StateNews{});
         }
     }
     return {};
@@ -181,6 +187,52 @@ CommandResult<void> LiveSession::changeControl(const Place& place,
         tellAll(mail, RoomNews{});
     }
     return {};
+}
+
+std::optional<TimePoint> LiveSession::passIdleControl(Seconds limit, TimePoint now, Mail& mail) {
+    const std::lock_guard lock(mutex_);
+    const auto noteHolder = [&] {
+        if (std::exchange(used_by_, room_.controller()) != room_.controller()) {
+            control_used_ = now;
+        }
+    };
+    noteHolder();
+    if (used_by_ == 0 || room_.heir() == 0) {
+        return {};
+    }
+    const auto length = std::chrono::duration_cast<Clock::duration>(limit);
+    if (control_used_ + length > now) {
+        return control_used_ + length;
+    }
+    room_.releaseControl(used_by_);
+    noteHolder();
+    tellAll(mail, RoomNews{});
+    return room_.heir() == 0 ? std::nullopt : std::optional(now + length);
+}
+
+void LiveSession::takeControl(Mail& mail) {
+    const std::lock_guard lock(mutex_);
+    room_.releaseControl(room_.controller());
+    tellAll(mail, RoomNews{});
+}
+
+void LiveSession::tellClosing(const Closing& closing, Mail& mail) const {
+    const std::lock_guard lock(mutex_);
+    tellAll(mail, closing);
+}
+
+TimePoint LiveSession::watchedUntil(const RestLimits& limits) const {
+    const std::lock_guard lock(mutex_);
+    TimePoint last{};
+    for (const auto& [id, member] : members_) {
+        if (room_.find(id)->away) {
+            return TimePoint::max(); // its grace time is another matter
+        }
+        const bool takes = !member.paused && member.acked_frame >= member.told_frame;
+        last = std::max(last, member.watched_at + std::chrono::duration_cast<Clock::duration>(
+                                                      takes ? limits.idle : limits.paused));
+    }
+    return last;
 }
 
 // A room has video only while all who are here decode it.

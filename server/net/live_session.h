@@ -5,7 +5,9 @@
 #pragma once
 
 #include "core/allowance.h"
+#include "net/caller.h"
 #include "net/closing.h"
+#include "net/lobby_rules.h"
 #include "net/service.h"
 #include "session/room.h"
 #include "session/state_message.h"
@@ -62,7 +64,7 @@ class LiveSession final : public session::FrameSink,
     // Joins the stream; `room` is empty for a session of one's own. Charged to who opens it.
     // Errors: StreamPort::join's.
     [[nodiscard]] static Result<std::shared_ptr<LiveSession>>
-    open(const Serving& serving, std::string room, const session::Account& account, TimePoint now);
+    open(const Serving& serving, std::string room, Caller opener, TimePoint now);
     ~LiveSession() override;
     LiveSession(const LiveSession&) = delete;
     LiveSession& operator=(const LiveSession&) = delete;
@@ -88,6 +90,11 @@ class LiveSession final : public session::FrameSink,
     // RequestControl, ReleaseControl or GiveControl. Refused: outside a room, and Room's.
     [[nodiscard]] session::CommandResult<void> changeControl(const Place& place,
                                                              const session::Command& command);
+    // Control that was not used for `limit` goes to who asks for it. When that is next, none: as
+    // long as nobody asks anew.
+    std::optional<TimePoint> passIdleControl(Seconds limit, TimePoint now, Mail& mail);
+    // Control goes from whoever has it to who has asked longest, or becomes free.
+    void takeControl(Mail& mail);
     // Key frames that viewers get at once, and a second: each costs all of them some pictures'
     // bits.
     static constexpr double kKeysAtOnce = 3;
@@ -101,11 +108,18 @@ class LiveSession final : public session::FrameSink,
     // delivered as to its best one that is not paused: a slow viewer takes fewer pictures, and
     // lowers nobody's.
     void setDelivery(const Place& place, const session::Delivery& delivery);
-    void setPaused(const Place& place, bool paused);
+    void setPaused(const Place& place, bool paused, TimePoint now);
+    // The viewer acknowledged a picture: it watches.
+    void noteAck(const Place& place, uint64_t frame_id, TimePoint now);
+    // Until when its viewers count as watching, unless they give another sign of it: an hour hence,
+    // say, while one that does nothing watches a picture that stands.
+    [[nodiscard]] TimePoint watchedUntil(const RestLimits& limits) const;
+    void tellClosing(const Closing& closing, Mail& mail) const;
     // How far below what was asked for its pictures are made now, see Delivery.
     [[nodiscard]] uint32_t deliveredRung() const;
 
     [[nodiscard]] session::SessionId id() const { return id_; }
+    [[nodiscard]] const Caller& opener() const { return opener_; } // whom it is charged to
     [[nodiscard]] const session::SessionContext& context() const { return *serving_.context; }
     [[nodiscard]] session::SessionState state() const;
     [[nodiscard]] bool controls(const Place& place) const;
@@ -131,8 +145,10 @@ class LiveSession final : public session::FrameSink,
         std::optional<session::Delivery> delivery;      // none: nothing acknowledged yet
         bool paused = false;
         uint64_t told_frame = 0; // the newest picture told to this connection
+        uint64_t acked_frame = 0;
+        TimePoint watched_at{}; // its last sign of watching
     };
-    LiveSession(Serving serving, std::string room, TimePoint now);
+    LiveSession(Serving serving, std::string room, Caller opener, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
     void tellAll(Mail& mail, const Notice& notice) const;
     [[nodiscard]] bool plainSuffices() const;
@@ -146,11 +162,14 @@ class LiveSession final : public session::FrameSink,
                   TimePoint now);
 
     const Serving serving_;
+    const Caller opener_;
     const session::SessionState first_;
     session::SessionId id_ = 0;
 
     mutable std::mutex mutex_;
     session::Room room_;
+    session::MemberId used_by_ = 0; // the controller, as far as is known
+    TimePoint control_used_{};      // when it last set state, or got control
     std::map<session::MemberId, Member> members_;
     session::SessionState state_;
     std::optional<session::ReadyFrame> picture_; // newest

@@ -58,11 +58,20 @@ void LiveSession::setDelivery(const Place& place, const session::Delivery& deliv
     }
 }
 
-void LiveSession::setPaused(const Place& place, bool paused) {
+void LiveSession::setPaused(const Place& place, bool paused, TimePoint now) {
+    const std::lock_guard lock(mutex_);
+    Member* member = find(place);
+    if (member != nullptr && std::exchange(member->paused, paused) != paused) {
+        member->watched_at = now;
+        updateDelivery();
+    }
+}
+
+void LiveSession::noteAck(const Place& place, uint64_t frame_id, TimePoint now) {
     const std::lock_guard lock(mutex_);
     if (Member* member = find(place)) {
-        member->paused = paused;
-        updateDelivery();
+        member->acked_frame = std::max(member->acked_frame, frame_id);
+        member->watched_at = now;
     }
 }
 

@@ -1,9 +1,9 @@
 #include "net/lobby.h"
 
+#include "core/text.h"
 #include "session/resume_token.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 namespace froxel::net {
@@ -29,6 +29,9 @@ Result<Seat> Lobby::enter(const Serving& serving,
     }
     entry->second.connection = ++last_connection_;
     entry->second.away_until.reset();
+    if (rules_.forget.count() > 0) {
+        alarm_(now + std::chrono::duration_cast<Clock::duration>(rules_.forget));
+    }
     const Place place{entry->first, last_connection_};
     auto picture = entry->second.session->attach(place, std::move(viewer), hello.codecs, now, mail);
     return Seat{entry->second.session, place, entry->second.token, resumed, std::move(picture)};
@@ -58,19 +61,116 @@ Result<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
     const auto known = rooms_.find(hello.room);
     std::shared_ptr<LiveSession> session = known == rooms_.end() ? nullptr : known->second;
     if (!session) {
-        auto opened = LiveSession::open(serving, hello.room, caller.account, now);
+        const auto gives_way = whoGivesWay(serving, caller, now);
+        if (!gives_way) {
+            return gives_way.error();
+        }
+        if (*gives_way) {
+            end(**gives_way, {protocol::CloseCode::kResting, "another viewer has the place"}, mail);
+        }
+        auto opened = LiveSession::open(serving, hello.room, caller, now);
         if (!opened) {
             return opened.error();
         }
         session = *opened;
     }
-    const bool keep = grace_.count() > 0 && !closed_;
+    const bool keep = rules_.resume_grace.count() > 0 && !closed_;
     Entry entry{session, hello.room, keep ? session::makeResumeToken() : std::string(), "", 0, {}};
     session->addMember(++last_member_, hello.client_name, mail);
     if (!hello.room.empty()) {
         rooms_[hello.room] = session;
     }
     return entries_.emplace(last_member_, std::move(entry)).first;
+}
+
+Result<void> Lobby::admits(const Serving& serving,
+                           const Announcement& announcement,
+                           const Caller& caller,
+                           TimePoint now) const {
+    const std::lock_guard lock(mutex_);
+    const auto returns = [&announcement](const auto& entry) {
+        return !announcement.resume.empty() &&
+               (session::resumeName(entry.second.token) == announcement.resume ||
+                session::resumeName(entry.second.token_before) == announcement.resume);
+    };
+    if (std::any_of(entries_.begin(), entries_.end(), returns)) {
+        return {};
+    }
+    if (!announcement.resume.empty()) { // a proxy may know the server that has it
+        return Error{ErrorCode::kCapacity, "this session is not here, or not any more"};
+    }
+    if (rooms_.count(announcement.room) > 0) {
+        return {};
+    }
+    const auto gives_way = whoGivesWay(serving, caller, now);
+    return gives_way ? Result<void>() : gives_way.error();
+}
+
+Result<std::shared_ptr<LiveSession>>
+Lobby::whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) const {
+    if (auto allowed = withinLimits(caller); !allowed) {
+        return allowed.error();
+    }
+    if (auto fits = serving.port->admits(caller.account(), now); !fits) {
+        return fits.error();
+    }
+    const auto all = sessions();
+    if (rules_.sessions_max == 0 || all.size() < rules_.sessions_max) {
+        return nullptr;
+    }
+    std::shared_ptr<LiveSession> longest;
+    TimePoint since = now;
+    for (const auto& session : all) {
+        if (const TimePoint until = session->watchedUntil(rules_.rest); until <= since) {
+            since = until;
+            longest = session;
+        }
+    }
+    if (!longest) {
+        return Error{ErrorCode::kCapacity, "all " + numberText(rules_.sessions_max) +
+                                               " sessions of this server are taken; try again "
+                                               "later"};
+    }
+    return longest;
+}
+
+Result<void> Lobby::withinLimits(const Caller& caller) const {
+    const auto check = [this](const std::string& of, uint32_t limit, const auto& counts) {
+        const auto all = sessions();
+        if (limit == 0 || std::count_if(all.begin(), all.end(), counts) < int64_t{limit}) {
+            return Result<void>();
+        }
+        return Result<void>(Error{ErrorCode::kCapacity, of + " has " + numberText(limit) +
+                                                            " sessions here, which is all that "
+                                                            "it may have; close one first"});
+    };
+    if (caller.token) {
+        auto allowed = check("this token", rules_.sessions_per_token, [&](const auto& session) {
+            return session->opener().token == caller.token;
+        });
+        if (!allowed) {
+            return allowed;
+        }
+    }
+    return check("this address", caller.local ? 0 : rules_.sessions_per_address,
+                 [&](const auto& session) { return session->opener().address == caller.address; });
+}
+
+void Lobby::end(const LiveSession& session, const Closing& closing, Mail& mail) {
+    session.tellClosing(closing, mail);
+    for (auto entry = entries_.begin(); entry != entries_.end();) {
+        entry = entry->second.session.get() == &session ? remove(entry, mail) : std::next(entry);
+    }
+}
+
+bool Lobby::takeControl(const std::string& room) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    const auto found = rooms_.find(room);
+    if (found != rooms_.end()) {
+        found->second->takeControl(mail);
+    }
+    return found != rooms_.end();
 }
 
 void Lobby::settle(const Seat& seat) {
@@ -93,7 +193,7 @@ void Lobby::depart(const Seat& seat, Departure how, TimePoint now) {
         remove(entry, mail);
         return;
     }
-    entry->second.away_until = now + grace_;
+    entry->second.away_until = now + rules_.resume_grace;
     entry->second.session->detach(seat.place, mail);
     alarm_(*entry->second.away_until);
 }
@@ -109,22 +209,40 @@ Lobby::Entries::iterator Lobby::remove(Entries::iterator entry, Mail& mail) {
     return next;
 }
 
-std::optional<TimePoint> Lobby::expire(TimePoint now) {
+void Lobby::expire(TimePoint now) {
     Mail mail;
     const std::lock_guard lock(mutex_);
     std::optional<TimePoint> next;
+    const auto isNext = [&next](TimePoint due) { next = next ? std::min(*next, due) : due; };
     for (auto entry = entries_.begin(); entry != entries_.end();) {
         const auto& until = entry->second.away_until;
         if (until && *until <= now) {
             entry = remove(entry, mail);
             continue;
         }
-        if (until && (!next || *until < *next)) {
-            next = until;
+        if (until) {
+            isNext(*until);
         }
         ++entry;
     }
-    return next;
+    for (const auto& session : sessions()) {
+        const TimePoint forgotten = session->watchedUntil({rules_.forget, rules_.forget});
+        if (rules_.forget.count() > 0 && forgotten <= now) {
+            end(*session, {protocol::CloseCode::kResting, "nobody watches"}, mail);
+            continue;
+        }
+        if (rules_.forget.count() > 0 && forgotten != TimePoint::max()) {
+            isNext(forgotten);
+        }
+        if (rules_.control_idle.count() > 0) {
+            if (const auto due = session->passIdleControl(rules_.control_idle, now, mail)) {
+                isNext(*due);
+            }
+        }
+    }
+    if (next) {
+        alarm_(*next);
+    }
 }
 
 void Lobby::close() {
@@ -148,11 +266,15 @@ size_t Lobby::awayCount() const {
 
 size_t Lobby::sessionCount() const {
     const std::lock_guard lock(mutex_);
-    std::set<const LiveSession*> sessions;
+    return sessions().size();
+}
+
+std::set<std::shared_ptr<LiveSession>> Lobby::sessions() const {
+    std::set<std::shared_ptr<LiveSession>> all;
     for (const auto& [member, entry] : entries_) {
-        sessions.insert(entry.session.get());
+        all.insert(entry.session);
     }
-    return sessions.size();
+    return all;
 }
 
 size_t Lobby::countAway() const {

@@ -5,6 +5,7 @@
 
 #include "net/caller.h"
 #include "net/live_session.h"
+#include "net/lobby_rules.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -13,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace froxel::net {
@@ -28,37 +30,51 @@ struct Seat {
 
 enum class Departure { kLeft, kLost };
 
+// What a client says of itself before its Hello.
+struct Announcement {
+    std::string room;
+    std::string resume; // session::resumeName of the token that it has
+};
+
 class Lobby {
   public:
     // Places of lost connections that are kept at most: a flood into a room must not fill memory.
     static constexpr size_t kMaxAway = 2000;
 
-    // No place is kept with a grace of 0.
-    explicit Lobby(std::chrono::milliseconds resume_grace) : grace_(resume_grace) {}
+    explicit Lobby(LobbyRules rules) : rules_(rules) {}
 
     // Told when expire() is due next; on any thread, must not block. Set before the first viewer.
     void setAlarm(std::function<void(TimePoint)> alarm) { alarm_ = std::move(alarm); }
 
     // By its token into the session that it left, whatever became of it; else into hello.room; else
-    // into a session of its own. Errors: StreamPort::join's.
+    // into a session of its own, for which one that rests may have to end. Errors: kCapacity, and
+    // StreamPort::join's.
     [[nodiscard]] Result<Seat> enter(const Serving& serving,
                                      const session::Hello& hello,
                                      const Caller& caller,
                                      std::weak_ptr<SessionViewer> viewer,
                                      TimePoint now);
+    // Whether enter() would let somebody in now who keeps to this; its errors.
+    [[nodiscard]] Result<void> admits(const Serving& serving,
+                                      const Announcement& announcement,
+                                      const Caller& caller,
+                                      TimePoint now) const;
+    // Takes the control of a room from whoever has it; whether there is such a room.
+    [[nodiscard]] bool takeControl(const std::string& room);
     // The client has heard of the seat's token: the one that it came with is worth nothing any
     // more.
     void settle(const Seat& seat);
     // Once for each Seat.
     void depart(const Seat& seat, Departure how, TimePoint now);
-    // Ends what was waited for in vain. When the next one is due.
-    std::optional<TimePoint> expire(TimePoint now);
+    // Ends what was waited for in vain or forgotten, and passes on control that rests. Sets off the
+    // alarm for when more is due.
+    void expire(TimePoint now);
     // Waits for nobody from now on.
     void close();
     // After close(): blocks until nobody is here any more; whether that was so before the deadline.
     [[nodiscard]] bool waitUntilEmpty(TimePoint deadline) const;
 
-    [[nodiscard]] std::chrono::milliseconds resumeGrace() const { return grace_; }
+    [[nodiscard]] std::chrono::milliseconds resumeGrace() const { return rules_.resume_grace; }
     // Places of lost connections.
     [[nodiscard]] size_t awayCount() const;
     // With somebody in them, or waited for; a room is one.
@@ -81,10 +97,17 @@ class Lobby {
                                                       const Caller& caller,
                                                       TimePoint now,
                                                       Mail& mail);
+    // Whose end would let one more session of this caller in: none needed, or the one that rests
+    // longest. Errors: kCapacity.
+    [[nodiscard]] Result<std::shared_ptr<LiveSession>>
+    whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) const;
+    [[nodiscard]] Result<void> withinLimits(const Caller& caller) const;
+    [[nodiscard]] std::set<std::shared_ptr<LiveSession>> sessions() const;
+    void end(const LiveSession& session, const Closing& closing, Mail& mail);
     [[nodiscard]] size_t countAway() const;
     Entries::iterator remove(Entries::iterator entry, Mail& mail);
 
-    const std::chrono::milliseconds grace_;
+    const LobbyRules rules_;
     std::function<void(TimePoint)> alarm_ = [](TimePoint) {};
 
     mutable std::mutex mutex_;

@@ -6,12 +6,15 @@
 #include "protocol/limits.h"
 
 #include <boost/beast/http/rfc7230.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <boost/url/parse.hpp>
 #include <spdlog/spdlog.h>
 
 #include <utility>
 
 namespace froxel::net {
 
+namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 
@@ -41,8 +44,53 @@ std::string_view viewOf(beast::string_view text) {
     return {text.data(), text.size()};
 }
 
+// What the socket's URL says: ?room=NAME, ?resume=NAME.
+Announcement announcementOf(const Request& request) {
+    Announcement announcement;
+    if (const auto target =
+            boost::urls::parse_origin_form({request.target().data(), request.target().size()})) {
+        for (const auto& said : target->params()) {
+            if (said.key == "room") {
+                announcement.room = said.value;
+            } else if (said.key == "resume") {
+                announcement.resume = said.value;
+            }
+        }
+    }
+    return announcement;
+}
+
+Caller callerOf(const Request& request, const asio::ip::address& peer, const Site& site) {
+    std::string forwarded_for; // one list, on however many lines
+    const auto lines = request.equal_range("X-Forwarded-For");
+    for (auto line = lines.first; line != lines.second; ++line) {
+        forwarded_for += forwarded_for.empty() ? "" : ",";
+        forwarded_for.append(line->value().data(), line->value().size());
+    }
+    return callerAt(clientAddress(peer, forwarded_for, site.trusted_proxies));
+}
+
+// None where its Hello would get a place, as far as can be told before.
+std::optional<Response>
+whyNoPlace(const Request& request, const asio::ip::address& peer, const Site& site) {
+    const ServiceStatus status = site.service->status();
+    if (status.draining) {
+        return refusal(http::status::service_unavailable, "the server is going down");
+    }
+    // While it loads nobody has a place, and who gets one is found out then.
+    if (!status.serving) {
+        return {};
+    }
+    const auto let_in = site.lobby->admits(*status.serving, announcementOf(request),
+                                           callerOf(request, peer, site), Clock::now());
+    return let_in
+               ? std::nullopt
+               : std::optional(refusal(http::status::service_unavailable, let_in.error().message));
+}
+
 // None where it may.
-std::optional<Response> whyNoUpgrade(const Request& request, const Site& site) {
+std::optional<Response>
+whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& site) {
     if (pathOf(request) != kSocketPath) {
         return refusal(http::status::not_found, "the WebSocket is at /ws");
     }
@@ -62,10 +110,7 @@ std::optional<Response> whyNoUpgrade(const Request& request, const Site& site) {
         return refusal(http::status::bad_request,
                        "this server speaks the subprotocol " + std::string(protocol::kSubprotocol));
     }
-    if (site.service->status().draining) {
-        return refusal(http::status::service_unavailable, "the server is going down");
-    }
-    return {};
+    return whyNoPlace(request, peer, site);
 }
 
 } // namespace
@@ -92,8 +137,12 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
                                     : "not found");
 }
 
-std::optional<Response> PublicSite::refuseUpgrade(const Request& request) const {
-    auto refused = whyNoUpgrade(request, *site_);
+std::optional<Response> PublicSite::refuseUpgrade(const Request& request,
+                                                  const asio::ip::address& peer) const {
+    if (!beast::websocket::is_upgrade(request)) {
+        return whyNoPlace(request, peer, *site_);
+    }
+    auto refused = whyNoUpgrade(request, peer, *site_);
     if (refused) {
         site_->metrics->upgradeRefused(refused->result_int());
         spdlog::warn("event=upgrade_refused status={} origin={} host={}", refused->result_int(),
@@ -103,13 +152,20 @@ std::optional<Response> PublicSite::refuseUpgrade(const Request& request) const 
     return refused;
 }
 
+uint32_t PublicSite::connectionsMax(const asio::ip::address& peer) const {
+    return callerAt(peer).local || site_->trusted_proxies.contains(peer)
+               ? std::numeric_limits<uint32_t>::max()
+               : site_->connections_per_address;
+}
+
 void PublicSite::onConnectionRefused() const {
     site_->metrics->connectionRefused();
 }
 
 void PublicSite::upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const {
+    Caller caller = callerOf(request, peerAddress(stream), *site_);
     std::make_shared<WsConnection>(std::move(stream), site_, std::move(ticket))
-        ->start(std::move(request));
+        ->start(std::move(request), std::move(caller));
 }
 
 } // namespace froxel::net

@@ -14,7 +14,9 @@ class PublicSite final : public HttpSite {
     explicit PublicSite(std::shared_ptr<const Site> site) : site_(std::move(site)) {}
 
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
-    [[nodiscard]] std::optional<Response> refuseUpgrade(const Request& request) const override;
+    [[nodiscard]] std::optional<Response>
+    refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;
+    [[nodiscard]] uint32_t connectionsMax(const boost::asio::ip::address& peer) const override;
     void upgrade(PeerStream stream, Request request, ConnectionTicket ticket) const override;
     void onConnectionRefused() const override;
     [[nodiscard]] Service* drainsWith() const override { return site_->service.get(); }

@@ -37,10 +37,11 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     }
     site->allowed_origins = options.allowed_origins;
     site->gate = options.gate;
+    site->connections_per_address = std::max(1U, options.connections_max / 2);
     site->trusted_proxies = TrustedProxies::parse(options.trusted_proxies).value();
     site->content_policy = contentPolicy(options.reconnect_url);
     site->service = std::make_shared<Service>();
-    site->lobby = std::make_shared<Lobby>(options.resume_grace);
+    site->lobby = std::make_shared<Lobby>(options.lobby);
     site->metrics = std::make_shared<Metrics>(
         options.version, [lobby = site->lobby] { return lobby->sessionCount(); });
     return site;
@@ -82,15 +83,18 @@ struct Server::Impl {
                                               options.connections_max,
                                               std::make_shared<PublicSite>(site),
                                               options.tls)),
-          grace_timer(asio::make_strand(io)) {
+          lobby_timer(asio::make_strand(io)) {
         if (!options.admin.address.empty()) {
             admin.emplace(options.admin,
                           std::make_shared<AdminSite>(
                               site->metrics, site->service,
-                              AdminHooks{[this] { return moves(); }, options.on_drain_request}));
+                              AdminHooks{[this] { return moves(); }, options.on_drain_request,
+                                         [lobby = site->lobby](const std::string& room) {
+                                             return lobby->takeControl(room);
+                                         }}));
         }
         site->lobby->setAlarm([this](TimePoint due) {
-            asio::post(grace_timer.get_executor(), [this, due] { expireAt(due); });
+            asio::post(lobby_timer.get_executor(), [this, due] { expireAt(due); });
         });
         if (options.agones) {
             agones.emplace(*options.agones, hooksForAgones());
@@ -130,20 +134,17 @@ struct Server::Impl {
         return answer.wait_for(kNetworkAnswer) == std::future_status::ready;
     }
 
-    // All places are kept for the same time, so an earlier expiry is never overtaken by a later
-    // one.
+    // On the timer's strand.
     void expireAt(TimePoint due) {
-        if (grace_timer_set || site->service->status().draining) {
+        if ((expires_at && *expires_at <= due) || site->service->status().draining) {
             return;
         }
-        grace_timer_set = true;
-        grace_timer.expires_at(due);
-        grace_timer.async_wait([this](const boost::system::error_code& error) {
-            grace_timer_set = false;
+        expires_at = due;
+        lobby_timer.expires_at(due);
+        lobby_timer.async_wait([this](const boost::system::error_code& error) {
             if (!error) {
-                if (const auto next = site->lobby->expire(Clock::now())) {
-                    expireAt(*next);
-                }
+                expires_at.reset();
+                site->lobby->expire(Clock::now());
             }
         });
     }
@@ -151,15 +152,15 @@ struct Server::Impl {
     // A timer that waits would keep the threads from ending.
     void stopWaiting() {
         site->lobby->close();
-        asio::post(grace_timer.get_executor(), [this] { grace_timer.cancel(); });
+        asio::post(lobby_timer.get_executor(), [this] { lobby_timer.cancel(); });
     }
 
     const std::string reconnect_url;
     asio::io_context io;
     const std::shared_ptr<const Site> site;
     const std::shared_ptr<Listener> listener;
-    asio::steady_timer grace_timer; // on a strand of its own
-    bool grace_timer_set = false;
+    asio::steady_timer lobby_timer; // on a strand of its own
+    std::optional<TimePoint> expires_at;
     std::optional<Admin> admin;
     std::optional<Agones> agones;
     std::vector<std::future<void>> done;

@@ -3,6 +3,7 @@
 
 #include "net/agones.h"
 #include "net/bind_address.h"
+#include "net/lobby_rules.h"
 #include "net/service.h"
 
 #include <chrono>
@@ -25,9 +26,9 @@ struct ServerOptions {
     BindAddress admin; // for operators: metrics and health; an empty address: none
     std::function<void()> on_drain_request = [] {}; // by an operator; any thread, must not block
     uint32_t thread_count = 1;
-    uint32_t connections_max = 512; // of any kind; sessions have a limit of their own
-    // How long the session of a lost connection waits for it; 0: not at all.
-    std::chrono::milliseconds resume_grace{0};
+    // Of any kind, half of them from one address, as LobbyRules; sessions have limits of their own.
+    uint32_t connections_max = 512;
+    LobbyRules lobby;
     std::filesystem::path web_root; // empty: no page
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies; // networks, as TrustedProxies::parse

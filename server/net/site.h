@@ -20,6 +20,7 @@ struct Site {
     std::vector<std::string> allowed_origins; // besides the server's own
     std::shared_ptr<const TokenGate> gate;    // null: everybody is let in
     TrustedProxies trusted_proxies;
+    uint32_t connections_per_address = 0;
     std::string content_policy; // of the page
     std::shared_ptr<Service> service;
     std::shared_ptr<Lobby> lobby;

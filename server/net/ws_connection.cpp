@@ -32,18 +32,6 @@ std::string peerName(const PeerStream& stream) {
     return error ? "unknown" : endpoint.address().to_string() + ":" + numberText(endpoint.port());
 }
 
-Caller callerOf(const Request& request, const asio::ip::tcp::socket& socket, const Site& site) {
-    std::string forwarded_for; // one list, on however many lines
-    const auto lines = request.equal_range("X-Forwarded-For");
-    for (auto line = lines.first; line != lines.second; ++line) {
-        forwarded_for += forwarded_for.empty() ? "" : ",";
-        forwarded_for.append(line->value().data(), line->value().size());
-    }
-    beast::error_code gone; // its account is nobody's then, and its first read fails
-    const auto peer = socket.remote_endpoint(gone).address();
-    return callerAt(clientAddress(peer, forwarded_for, site.trusted_proxies));
-}
-
 protocol::ByteSpan bytesOf(const beast::flat_buffer& buffer) {
     const auto data = buffer.data();
     return {static_cast<const std::byte*>(data.data()), data.size()};
@@ -99,11 +87,10 @@ void WsConnection::onStrand(Work work) {
                });
 }
 
-void WsConnection::start(Request upgrade) {
+void WsConnection::start(Request upgrade, Caller caller) {
     upgrade_ = std::move(upgrade);
     setOptions();
-    conversation_.emplace(weak_from_this(), site_->lobby, site_->metrics,
-                          callerOf(upgrade_, beast::get_lowest_layer(stream_).socket(), *site_),
+    conversation_.emplace(weak_from_this(), site_->lobby, site_->metrics, std::move(caller),
                           site_->gate);
     stream_.async_accept(upgrade_, [self = shared_from_this()](ErrorCode error) {
         if (error) {

@@ -25,8 +25,8 @@ class WsConnection final : public SessionViewer,
     WsConnection(const WsConnection&) = delete;
     WsConnection& operator=(const WsConnection&) = delete;
 
-    // `upgrade` is the request that asked for it. On the connection's strand.
-    void start(Request upgrade);
+    // `upgrade` is the request that asked for it, `caller` who sent it. On the connection's strand.
+    void start(Request upgrade, Caller caller);
 
     void tell(Notice notice) override;
     void onServiceChanged() override;

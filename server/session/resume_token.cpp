@@ -23,6 +23,11 @@ std::string makeResumeToken() {
     return token;
 }
 
+std::string_view resumeName(std::string_view token) {
+    constexpr size_t kNameDigits = 16;
+    return token.substr(0, kNameDigits);
+}
+
 bool sameToken(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) {
         return false;

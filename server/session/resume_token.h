@@ -10,6 +10,10 @@ namespace froxel::session {
 // std::system_error where the kernel has none. Never to be logged.
 [[nodiscard]] std::string makeResumeToken();
 
+// Its public part, by which a client says before Hello which session it comes back to. Tells
+// nothing of the rest, which still has 192 bits.
+[[nodiscard]] std::string_view resumeName(std::string_view token);
+
 // In a time that depends on the lengths alone, so that a guess cannot be bettered by its timing.
 [[nodiscard]] bool sameToken(std::string_view a, std::string_view b);
 

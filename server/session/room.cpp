@@ -54,11 +54,15 @@ void Room::remove(MemberId id) {
     ++version_;
 }
 
-// Not to one who is away: nobody would be there to use it.
-void Room::passOn() {
+// Not one who is away: nobody would be there to use it.
+MemberId Room::heir() const {
     const auto next = std::find_if(asking_.begin(), asking_.end(),
                                    [this](MemberId id) { return !find(id)->away; });
-    controller_ = next == asking_.end() ? 0 : *next;
+    return next == asking_.end() ? 0 : *next;
+}
+
+void Room::passOn() {
+    controller_ = heir();
     std::erase(asking_, controller_);
 }
 

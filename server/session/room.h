@@ -49,6 +49,8 @@ class Room {
     [[nodiscard]] const std::vector<Member>& members() const { return members_; }
     // Longest wait first.
     [[nodiscard]] const std::vector<MemberId>& asking() const { return asking_; }
+    // Who of them is here and gets control when its holder lets it go; 0: nobody.
+    [[nodiscard]] MemberId heir() const;
     [[nodiscard]] const Member* find(MemberId id) const;
     // Grows with every change that a RoomState would show.
     [[nodiscard]] uint64_t version() const { return version_; }

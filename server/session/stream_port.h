@@ -45,7 +45,7 @@ class FrameSink {
 class StreamPort {
   public:
     virtual ~StreamPort() = default;
-    // Errors: kCapacity when as many sessions as allowed are there; kDevice when it was lost.
+    // Errors: kCapacity when the device has no time for one more; kDevice when it was lost.
     [[nodiscard]] virtual Result<SessionId> join(std::weak_ptr<FrameSink> sink,
                                                  const SessionState& state,
                                                  const Account& account,

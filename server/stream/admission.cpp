@@ -25,7 +25,15 @@ void Admission::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost
 }
 
 void Admission::add(uint64_t session, TimePoint now) {
-    sessions_[session].added_at = now;
+    sessions_[session].expected_since = now;
+}
+
+void Admission::setTakesFrames(uint64_t session, bool takes, TimePoint now) {
+    const auto found = sessions_.find(session);
+    if (found != sessions_.end()) {
+        auto& since = found->second.expected_since;
+        since = !takes ? std::nullopt : since ? since : std::optional(now);
+    }
 }
 
 void Admission::remove(uint64_t session) {
@@ -73,7 +81,8 @@ Result<void> Admission::check(TimePoint now) const {
     for (const auto& [id, entry] : sessions_) {
         const auto cost = entry.cost.value();
         if (!cost) {
-            unknown += now - entry.added_at < kPatience ? 1U : 0U;
+            const bool expected = entry.expected_since && now - *entry.expected_since < kPatience;
+            unknown += expected ? 1U : 0U;
             continue;
         }
         const double rate_hz = rateOf(entry, now);

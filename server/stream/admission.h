@@ -3,9 +3,9 @@
 // What the active sessions need to have the floor rate, each at the cost of its own frames, and one
 // more at their mean cost, must not pass the device's time. A session that draws less than the
 // floor by itself (its lights stand, its link is slow) counts with what it draws, an idle one as
-// nothing, and one that has not drawn yet as another at the mean cost, so that a crowd that comes
-// at once is not let in on the word of the few. Where nobody draws, that mean is of the frames
-// before, at first of one that was drawn for it; one session is always let in.
+// nothing, and one that has not drawn yet but would as another at the mean cost, so that a crowd
+// that comes at once is not let in on the word of the few. Where nobody draws, that mean is of the
+// frames before, at first of one that was drawn for it; one session is always let in.
 #pragma once
 
 #include "core/error.h"
@@ -31,6 +31,9 @@ class Admission {
 
     void add(uint64_t session, TimePoint now);
     void remove(uint64_t session);
+    // A session of which nothing is known is expected to draw unless it takes no frames: paused
+    // from the start, it costs nothing.
+    void setTakesFrames(uint64_t session, bool takes, TimePoint now);
     // Device time that one frame of this session took.
     void onFrame(uint64_t session, Seconds cost, TimePoint now);
 
@@ -39,7 +42,7 @@ class Admission {
 
   private:
     struct Entry {
-        TimePoint added_at{};
+        std::optional<TimePoint> expected_since; // to draw
         session::SteadyCost cost;
         // Frames of the present window and of the one before it.
         TimePoint window_begin{};

@@ -20,8 +20,7 @@ constexpr Seconds kUnknownPiece{0.1};
 } // namespace
 
 RenderLoop::RenderLoop(encode::EncodePool& pool, RenderLoopOptions options)
-    : options_(std::move(options)), pool_(pool),
-      mailbox_(std::make_shared<ViewerMailbox>(options_.sessions_max)),
+    : options_(std::move(options)), pool_(pool), mailbox_(std::make_shared<ViewerMailbox>()),
       scheduler_(options_.min_frame_interval), thread_([this](const std::stop_token& stop) {
           nameThread("render");
           run(stop);
@@ -71,6 +70,10 @@ void RenderLoop::update(SessionId id, const SessionState& state, TimePoint arriv
 }
 
 void RenderLoop::grant(SessionId id, uint64_t frame_total) {
+    {
+        const std::lock_guard lock(admission_mutex_);
+        admission_.setTakesFrames(id, frame_total > 0, Clock::now());
+    }
     mailbox_->grant(id, frame_total);
 }
 

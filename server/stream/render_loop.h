@@ -33,7 +33,6 @@
 namespace froxel::stream {
 
 struct RenderLoopOptions {
-    uint32_t sessions_max = 16;
     Seconds min_frame_interval{1.0 / 60};
     std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
     // Of the render thread, from the first frame on.

@@ -1,7 +1,5 @@
 #include "stream/viewer_mailbox.h"
 
-#include "core/text.h"
-
 #include <utility>
 
 namespace froxel::stream {
@@ -17,10 +15,9 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
                                                const session::Account& account,
                                                TimePoint now) {
     const std::lock_guard lock(mutex_);
-    if (auto room = hasRoom(); !room) {
-        return room.error();
+    if (closed_) {
+        return *closed_;
     }
-    ++present_;
     const session::SessionId id = ++last_id_;
     Slot& slot = slots_[id];
     slot.news = {id, std::move(sink), account, state, now, 0, {}, false};
@@ -30,19 +27,7 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
 
 Result<void> ViewerMailbox::check() const {
     const std::lock_guard lock(mutex_);
-    return hasRoom();
-}
-
-Result<void> ViewerMailbox::hasRoom() const {
-    if (closed_) {
-        return *closed_;
-    }
-    if (present_ >= sessions_max_) {
-        return Error{ErrorCode::kCapacity, "all " + numberText(sessions_max_) +
-                                               " sessions of this server are taken; try again "
-                                               "later"};
-    }
-    return {};
+    return closed_ ? Result<void>(*closed_) : Result<void>();
 }
 
 template <class Change>
@@ -74,10 +59,7 @@ void ViewerMailbox::setDelivery(session::SessionId id, const session::Delivery& 
 }
 
 void ViewerMailbox::leave(session::SessionId id) {
-    change(id, [&](ViewerNews& news) {
-        --present_;
-        news.left = true;
-    });
+    change(id, [](ViewerNews& news) { news.left = true; });
 }
 
 void ViewerMailbox::wake() {

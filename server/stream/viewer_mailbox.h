@@ -1,6 +1,6 @@
 // What connections tell the render thread, between two of its frames. Bounded: one slot a session,
-// in which a newer state or credit replaces an older one, and as many sessions as allowed. States
-// are whole values that commands were reduced into before, so nothing is lost when one is replaced.
+// in which a newer state or credit replaces an older one. States are whole values that commands
+// were reduced into before, so nothing is lost when one is replaced.
 #pragma once
 
 #include "session/stream_port.h"
@@ -30,8 +30,6 @@ struct ViewerNews {
 
 class ViewerMailbox {
   public:
-    explicit ViewerMailbox(uint32_t sessions_max) : sessions_max_(sessions_max) {}
-
     // Any thread; as StreamPort.
     [[nodiscard]] Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
                                                   const session::SessionState& state,
@@ -58,21 +56,17 @@ class ViewerMailbox {
         ViewerNews news;
         bool fresh = false;
     };
-    // Under the lock.
-    [[nodiscard]] Result<void> hasRoom() const;
     // Of a session that is present; under the lock.
     template <class Change>
     void change(session::SessionId id, const Change& apply);
     void publish(Slot& slot);
 
-    const uint32_t sessions_max_;
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;
     bool awake_ = false;
     std::optional<Error> closed_;
     session::SessionId last_id_ = 0;
     std::map<session::SessionId, Slot> slots_; // present sessions, and departed ones until taken
-    uint32_t present_ = 0;
 };
 
 } // namespace froxel::stream

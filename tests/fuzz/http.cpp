@@ -112,8 +112,8 @@ void ask(const net::Request& request, const Sites& sites) {
         answer(request, *sites.admin);
         return;
     }
-    FROXEL_ASSERT(sites.admin->refuseUpgrade(request), "no WebSocket at the admin address");
-    if (const auto refused = sites.open->refuseUpgrade(request)) {
+    FROXEL_ASSERT(sites.admin->refuseUpgrade(request, {}), "no WebSocket at the admin address");
+    if (const auto refused = sites.open->refuseUpgrade(request, {})) {
         expectSound(*refused);
     } else {
         expectOwnOrigin(request);

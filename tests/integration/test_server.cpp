@@ -29,11 +29,12 @@ TestServer::TestServer(const TestServerOptions& options) : opened_(options.open_
     run.server.connections_max = options.connections_max;
     run.server.allowed_origins = options.allowed_origins;
     run.server.trusted_proxies = options.trusted_proxies;
-    run.server.resume_grace = options.resume_grace;
+    run.server.lobby = options.rules;
+    run.server.lobby.resume_grace = options.resume_grace;
+    run.server.lobby.sessions_max = options.sessions_max;
     run.server.web_root = options.web_root;
     run.server.agones = options.agones;
     run.server.thread_count = 2;
-    run.sessions_max = options.sessions_max;
     run.encoder_count = 2;
     run.open = [this, context = contextFor(options)](const auto& report) {
         report({"loading the scene", 0.25});

@@ -21,6 +21,7 @@ struct TestServerOptions {
     std::vector<std::string> trusted_proxies{};
     std::filesystem::path web_root{};
     std::optional<net::AgonesOptions> agones{};
+    net::LobbyRules rules{}; // but for what is said above
 };
 
 class TestServer {

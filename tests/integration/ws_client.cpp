@@ -27,12 +27,15 @@ WsClient::WsClient(uint16_t port, ClientOptions options) : options_(std::move(op
         if (!options_.origin.empty()) {
             request.set(beast::http::field::origin, options_.origin);
         }
+        if (!options_.forwarded_for.empty()) {
+            request.set("X-Forwarded-For", options_.forwarded_for);
+        }
         if (!options_.subprotocol.empty()) {
             request.set(beast::http::field::sec_websocket_protocol, options_.subprotocol);
         }
     }));
     websocket::response_type response;
-    stream_.handshake(response, "127.0.0.1:" + std::to_string(port), "/ws");
+    stream_.handshake(response, "127.0.0.1:" + std::to_string(port), options_.target);
     subprotocol_ = std::string(response[beast::http::field::sec_websocket_protocol]);
 }
 

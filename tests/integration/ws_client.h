@@ -25,6 +25,8 @@ struct ClientOptions {
     protocol::WireFormat format = protocol::WireFormat::kBinary;
     bool auto_ack = true;
     int receive_buffer_bytes = 0; // SO_RCVBUF; 0: the kernel's
+    std::string target = "/ws";
+    std::string forwarded_for{}; // as a proxy says it; empty: not at all
 };
 
 struct Frame {

@@ -185,6 +185,18 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "https://a.example",
                                 "--allow-origin",
                                 "https://b.example",
+                                "--max-sessions-per-address",
+                                "3",
+                                "--max-sessions-per-token",
+                                "4",
+                                "--paused-seconds",
+                                "10",
+                                "--idle-seconds",
+                                "20",
+                                "--forget-seconds",
+                                "30",
+                                "--control-idle-seconds",
+                                "0",
                                 "--trusted-proxies",
                                 "10.0.0.0/8,fd00::/8",
                                 "--log-level",
@@ -217,6 +229,12 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.web_root, "page");
     EXPECT_THAT(serve.allowed_origins,
                 testing::ElementsAre("https://a.example", "https://b.example"));
+    EXPECT_EQ(serve.sessions_per_address, 3U);
+    EXPECT_EQ(serve.sessions_per_token, 4U);
+    EXPECT_EQ(serve.paused_s, 10);
+    EXPECT_EQ(serve.idle_s, 20);
+    EXPECT_EQ(serve.forget_s, 30);
+    EXPECT_EQ(serve.control_idle_s, 0);
     EXPECT_THAT(serve.trusted_proxies, testing::ElementsAre("10.0.0.0/8", "fd00::/8"));
     EXPECT_EQ(serve.device, gpu::DeviceChoice::kGpu);
     EXPECT_EQ(options.log_level, LogLevel::kDebug);

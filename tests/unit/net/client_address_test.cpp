@@ -17,7 +17,7 @@ std::string clientOf(const std::string& peer,
 }
 
 std::string accountOf(const std::string& address) {
-    return callerAt(make_address(address)).account.key;
+    return callerAt(make_address(address)).address.key;
 }
 
 TEST(ClientAddress, NoProxyTrusted_IsThePeerWhateverItSays) {
@@ -49,11 +49,13 @@ TEST(ClientAddress, Account_IsAnIpv4AddressOrAnIpv6NetworkOf64Bits) {
     EXPECT_NE(accountOf("2001:db8:1:2::1"), accountOf("2001:db8:1:3::1"));
 }
 
-TEST(ClientAddress, Loopback_IsLocal) {
-    for (const char* local : {"127.0.0.1", "127.8.9.10", "::1", "::ffff:127.0.0.1"}) {
-        EXPECT_EQ(callerAt(make_address(local)).kind, Caller::Kind::kLocal) << local;
+TEST(ClientAddress, AProxyOnThisHost_IsLocal) {
+    for (const char* local : {"127.0.0.1", "::1", "::ffff:127.0.0.1"}) {
+        EXPECT_TRUE(callerAt(make_address(local)).local) << local;
     }
-    EXPECT_EQ(callerAt(make_address("192.168.0.1")).kind, Caller::Kind::kAddress);
+    for (const char* other : {"127.8.9.10", "192.168.0.1", "fe80::1"}) {
+        EXPECT_FALSE(callerAt(make_address(other)).local) << other;
+    }
 }
 
 TEST(TrustedProxies, NoNetwork_IsRefusedAndQuoted) {

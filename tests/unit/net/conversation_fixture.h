@@ -114,8 +114,8 @@ class ConversationTest : public testing::Test {
         Conversation* talk = nullptr;
     };
     std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>();
-    std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>(10s);
-    Conversation talk_{viewer_, lobby_, metrics_, Caller{Caller::Kind::kAddress, {"192.0.2.7"}}};
+    std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>(LobbyRules{.resume_grace = 10s});
+    Conversation talk_{viewer_, lobby_, metrics_, Caller{{"192.0.2.7"}, false, {}}};
     uint64_t seq_ = 0;
 
     ConversationTest() { viewer_->talk = &talk_; }

@@ -358,7 +358,7 @@ TEST_F(ConversationTest, HelloTimeout_Greeted_ChangesNothing) {
 TEST(ConversationEnd, AfterWelcome_LeavesTheStream) {
     FakePort port;
     {
-        Conversation talk{{}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>()};
+        Conversation talk{{}, std::make_shared<Lobby>(LobbyRules{}), std::make_shared<Metrics>()};
         ServiceStatus status;
         status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
         talk.onService(status, TimePoint());

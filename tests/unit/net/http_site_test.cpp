@@ -1,5 +1,7 @@
 #include "net/admin_site.h"
 #include "net/public_site.h"
+#include "session/resume_token.h"
+#include "support/fake_port.h"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +19,76 @@ struct PublicSiteTest : testing::Test {
         auto parts = std::make_shared<Site>();
         parts->service = service;
         parts->metrics = std::make_shared<Metrics>();
+        parts->lobby = lobby;
+        parts->connections_per_address = 5;
+        parts->trusted_proxies = TrustedProxies::parse({"10.0.0.0/8"}).value();
         site.emplace(std::move(parts));
     }
+    test::FakePort port;
+    const std::shared_ptr<Lobby> lobby =
+        std::make_shared<Lobby>(LobbyRules{.resume_grace = std::chrono::seconds(10)});
     const std::shared_ptr<Service> service = std::make_shared<Service>();
     std::optional<PublicSite> site;
 };
+
+TEST_F(PublicSiteTest, Upgrade_OfWhoWouldGetNoPlace_Is503WithRetryAfter) {
+    service->setServing({std::make_shared<const session::SessionContext>(), &port});
+    const auto ask = [&](std::string_view target) {
+        Request upgrade = request(http::verb::get, target);
+        upgrade.set(http::field::host, "localhost");
+        upgrade.set(http::field::connection, "upgrade");
+        upgrade.set(http::field::upgrade, "websocket");
+        upgrade.set(http::field::sec_websocket_protocol, "froxel.v1");
+        return site->refuseUpgrade(upgrade, {});
+    };
+    EXPECT_FALSE(ask("/ws"));
+    const auto seat = lobby->enter(service->status().serving.value(), {1, 0, "", "hall", ""}, {},
+                                   {}, Clock::now());
+    port.full = true;
+    for (const char* newcomer : {"/ws", "/ws?room=cellar", "/ws?resume=0123456789abcdef",
+                                 "/ws?room=%FF&resume", "/ws?resume=", "/ws?room=hall&resume=0"}) {
+        const auto refused = ask(newcomer);
+        ASSERT_TRUE(refused) << newcomer;
+        EXPECT_EQ(refused->result(), http::status::service_unavailable);
+        EXPECT_EQ((*refused)[http::field::retry_after], "5");
+    }
+    EXPECT_FALSE(ask("/ws?room=hall"));
+    const std::string name(session::resumeName(seat->resume_token));
+    EXPECT_FALSE(ask("/ws?resume=" + name));
+}
+
+TEST_F(PublicSiteTest, ManyConnections_OfOneAddressAreLimited_ButNotOfProxies) {
+    const auto most = [&](const char* peer) {
+        return site->connectionsMax(boost::asio::ip::make_address(peer));
+    };
+    EXPECT_EQ(most("192.0.2.7"), 5U);
+    EXPECT_GT(most("127.0.0.1"), 1'000'000U);
+    EXPECT_GT(most("10.1.2.3"), 1'000'000U);
+}
+
+TEST(AdminSite, TakeControl_ByPostOfARoomsName_AndOfNoBrowser) {
+    std::vector<std::string> asked;
+    AdminHooks hooks;
+    hooks.take_control = [&](const std::string& room) {
+        asked.push_back(room);
+        return room == "hall";
+    };
+    const AdminSite site(std::make_shared<Metrics>(), std::make_shared<Service>(), hooks);
+    const auto post = [&](std::string_view target) {
+        return respond(request(http::verb::post, target), site).result();
+    };
+    EXPECT_EQ(post("/rooms/hall/take-control"), http::status::ok);
+    EXPECT_EQ(post("/rooms/cellar/take-control"), http::status::not_found);
+    EXPECT_EQ(asked, (std::vector<std::string>{"hall", "cellar"}));
+    for (const char* other : {"/rooms//take-control", "/rooms/a%20b/take-control",
+                              "/rooms/take-control", "/rooms/hall", "/rooms/hall/take-control/"}) {
+        EXPECT_EQ(post(other), http::status::method_not_allowed) << other;
+    }
+    Request foreign = request(http::verb::post, "/rooms/hall/take-control");
+    foreign.set(http::field::origin, "https://evil.example");
+    EXPECT_EQ(respond(foreign, site).result(), http::status::forbidden);
+    EXPECT_EQ(asked.size(), 2U);
+}
 
 TEST(PathOf, Query_IsCutOff) {
     EXPECT_EQ(pathOf(request(http::verb::get, "/a/b?c=/d?e")), "/a/b");
@@ -67,7 +134,7 @@ TEST(AdminSite, Metrics_AreTheMetrics_AnythingElseIsNotFound) {
 
 TEST(AdminSite, Upgrade_Any_IsRefused) {
     const AdminSite site(std::make_shared<Metrics>(), std::make_shared<Service>(), {});
-    EXPECT_TRUE(site.refuseUpgrade(request(http::verb::get, "/ws")));
+    EXPECT_TRUE(site.refuseUpgrade(request(http::verb::get, "/ws"), {}));
 }
 
 TEST_F(PublicSiteTest, EveryAnswer_HasTheSecurityHeaders) {

@@ -30,11 +30,11 @@ TEST_F(LobbyTest, Room_IsDeliveredAsToTheBestLinkThatPicturesGoTo) {
     EXPECT_EQ(port_.session().delivery.rung, 4U) << "the other has acknowledged nothing yet";
     quick.seat.session->setDelivery(quick.seat.place, at(0));
     EXPECT_EQ(port_.session().delivery.rung, 0U);
-    quick.seat.session->setPaused(quick.seat.place, true);
+    quick.seat.session->setPaused(quick.seat.place, true, now_);
     EXPECT_EQ(port_.session().delivery.rung, 4U);
     quick.seat.session->setDelivery(quick.seat.place, at(1));
     EXPECT_EQ(port_.session().delivery.rung, 4U) << "of what it acknowledged late";
-    quick.seat.session->setPaused(quick.seat.place, false);
+    quick.seat.session->setPaused(quick.seat.place, false, now_);
     EXPECT_EQ(port_.session().delivery.rung, 1U);
     lose(quick);
     EXPECT_EQ(port_.session().delivery.rung, 4U);

@@ -82,9 +82,9 @@ class LobbyTest : public testing::Test {
     test::FakePort port_;
     Serving serving_{std::make_shared<const session::SessionContext>(), &port_};
     TimePoint now_ = TimePoint() + 1h;
-    Caller caller_{Caller::Kind::kAddress, {"192.0.2.7"}};
+    Caller caller_{{"192.0.2.7"}, false, {}};
     std::vector<TimePoint> alarms_;
-    Lobby lobby_{10s};
+    Lobby lobby_{LobbyRules{.resume_grace = 10s, .forget = 0s}};
 
     LobbyTest() {
         lobby_.setAlarm([this](TimePoint due) { alarms_.push_back(due); });

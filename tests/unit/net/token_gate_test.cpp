@@ -75,7 +75,8 @@ TEST_F(TokenGateTest, Pass_LastsAsLongAsItsTokenIsInTheFile) {
 // One that says Hello with a token to a server that serves.
 struct Talk {
     Talk(std::shared_ptr<const TokenGate> gate, const std::string& token)
-        : conversation({}, std::make_shared<Lobby>(0ms), std::make_shared<Metrics>(), {}, gate) {
+        : conversation(
+              {}, std::make_shared<Lobby>(LobbyRules{}), std::make_shared<Metrics>(), {}, gate) {
         status.serving = Serving{std::make_shared<const session::SessionContext>(), &port};
         conversation.onService(status, TimePoint());
         v1::ClientMessage hello;

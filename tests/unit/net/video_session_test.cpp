@@ -48,7 +48,7 @@ class VideoSessionTest : public testing::Test {
 
     test::FakePort port_;
     Serving serving_{std::make_shared<const session::SessionContext>(), &port_};
-    Lobby lobby_{10s};
+    Lobby lobby_{LobbyRules{.resume_grace = 10s}};
     std::shared_ptr<Viewer> first_ = std::make_shared<Viewer>();
     std::shared_ptr<Viewer> second_ = std::make_shared<Viewer>();
 };

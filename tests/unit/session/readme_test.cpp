@@ -48,7 +48,7 @@ TEST(ProtocolReadme, CloseCodes_AreListed) {
     for (const CloseCode code :
          {CloseCode::kNormal, CloseCode::kPolicy, CloseCode::kTooBig, CloseCode::kVersion,
           CloseCode::kToken, CloseCode::kSlowConsumer, CloseCode::kReplaced, CloseCode::kDraining,
-          CloseCode::kCapacity, CloseCode::kDeviceLost}) {
+          CloseCode::kResting, CloseCode::kCapacity, CloseCode::kDeviceLost}) {
         EXPECT_THAT(text, HasSubstr("\n| " + numberText(static_cast<uint16_t>(code)) + " |"));
     }
 }

@@ -27,6 +27,18 @@ TEST(RoomName, LettersDigitsAndThreeSigns_UpToTheCap) {
     EXPECT_FALSE(isRoomName(std::string_view("a\0b", 3)));
 }
 
+TEST(Room, Heir_IsWhoAskedLongestAndIsHere) {
+    Room room = roomOf({1, 2, 3});
+    EXPECT_EQ(room.heir(), 0U);
+    room.requestControl(2);
+    room.requestControl(3);
+    EXPECT_EQ(room.heir(), 2U);
+    room.setAway(2, true);
+    EXPECT_EQ(room.heir(), 3U);
+    room.setAway(3, true);
+    EXPECT_EQ(room.heir(), 0U);
+}
+
 TEST(Room, FirstMember_Controls_OthersDoNot) {
     const Room room = roomOf({1, 2});
     EXPECT_EQ(room.controller(), 1U);

@@ -105,7 +105,18 @@ TEST_F(AdmissionTest, CrowdBeforeTheFirstPicture_CountsAtTheTypicalCost) {
     EXPECT_THAT(refused.error().message, HasSubstr("3 active sessions need 0.9 "));
 }
 
-// As one that is paused from the start.
+TEST_F(AdmissionTest, SessionThatTakesNoFrames_CostsNothing_UntilItDoes) {
+    admission_.setMinRate(30, 20ms);
+    for (uint64_t paused = 1; paused <= 40; ++paused) {
+        add({paused});
+        admission_.setTakesFrames(paused, false, now_);
+    }
+    EXPECT_TRUE(admits());
+    now_ += 1h;
+    admission_.setTakesFrames(40, true, now_);
+    EXPECT_FALSE(admits()) << "0.6 each";
+}
+
 TEST_F(AdmissionTest, SessionThatNeverDraws_IsExpectedToForAWhile) {
     admission_.setMinRate(30, 20ms);
     add({1});

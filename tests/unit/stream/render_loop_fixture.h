@@ -20,7 +20,6 @@ class RenderLoopTest : public testing::Test {
   protected:
     void start() {
         RenderLoopOptions options;
-        options.sessions_max = 4;
         options.min_frame_interval = Seconds(0);
         options.fates = fates_;
         options.make_source = [this] { return test::makeFakeSource(device_); };

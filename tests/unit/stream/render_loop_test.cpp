@@ -199,6 +199,16 @@ TEST_F(RenderLoopTest, Lost_WithFramesOnTheDevice_WaitsNoMoreAndFreesNothing) {
     EXPECT_EQ(device_->live_views, 2);
 }
 
+TEST_F(RenderLoopTest, PausedBeforeItsFirstPicture_TakesNoTimeFromOthers) {
+    start();
+    loop_->setMinRate(30, 20ms);
+    const auto sink = makeSink();
+    const auto id = loop_->join(sink, still(), {"a"}, Clock::now()).value();
+    EXPECT_FALSE(loop_->admits({"b"}, Clock::now())) << "0.6 each";
+    loop_->grant(id, 0);
+    EXPECT_TRUE(loop_->admits({"b"}, Clock::now()));
+}
+
 TEST_F(RenderLoopTest, MakeSource_Throws_ReportsIt) {
     RenderLoopOptions options;
     options.make_source = []() -> std::unique_ptr<FrameSource> {

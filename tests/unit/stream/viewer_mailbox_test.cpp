@@ -19,7 +19,7 @@ class ViewerMailboxTest : public testing::Test {
     TimePoint now_{};
     session::Account account_{"192.0.2.7"};
     std::shared_ptr<test::RecordingSink> sink_ = std::make_shared<test::RecordingSink>();
-    ViewerMailbox mailbox_{2};
+    ViewerMailbox mailbox_;
 };
 
 TEST_F(ViewerMailboxTest, Take_AfterSeveralUpdates_HasTheNewestState) {
@@ -42,25 +42,6 @@ TEST_F(ViewerMailboxTest, Take_OnlyCreditIsNew_HasNoState) {
     const auto news = mailbox_.take();
     ASSERT_EQ(news.size(), 1U);
     EXPECT_FALSE(news[0].state);
-}
-
-TEST_F(ViewerMailboxTest, Join_BeyondTheLimit_IsRefusedUntilOneLeaves) {
-    const auto first = mailbox_.join(sink_, state(1), account_, now_).value();
-    ASSERT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
-    const auto third = mailbox_.join(sink_, state(1), account_, now_);
-    ASSERT_FALSE(third);
-    EXPECT_EQ(third.error().code, ErrorCode::kCapacity);
-    mailbox_.leave(first);
-    EXPECT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
-}
-
-TEST_F(ViewerMailboxTest, Leave_Twice_FreesOnePlaceOnly) {
-    const auto first = mailbox_.join(sink_, state(1), account_, now_).value();
-    ASSERT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
-    mailbox_.leave(first);
-    mailbox_.leave(first);
-    ASSERT_TRUE(mailbox_.join(sink_, state(1), account_, now_));
-    EXPECT_FALSE(mailbox_.join(sink_, state(1), account_, now_));
 }
 
 TEST_F(ViewerMailboxTest, Update_AfterLeaving_ChangesNothing) {
