@@ -18,6 +18,7 @@ struct EncodedFrame {
     uint32_t height_px = 0;
     double wait_us = 0;   // in the encoder's queue
     double encode_us = 0; // in the encoder
+    double busy_us = 0;   // that cores worked on it: of stripes the sum, of video the time
 };
 
 } // namespace froxel

@@ -1,180 +1,23 @@
 #include "encode/encode_pool.h"
 
-#include "core/assert.h"
-#include "core/thread_name.h"
-#include "encode/jpeg_encoder.h"
-#include "encode/jpeg_stripes.h"
-#include "encode/png_encoder.h"
-#include "encode/video_encoder.h"
-
-#include <algorithm>
-#include <atomic>
-#include <new>
-#include <type_traits>
 #include <utility>
 
 namespace froxel::encode {
-
 namespace {
 
-// A picture that memory does not suffice for is this viewer's loss alone.
-template <class Make>
-std::invoke_result_t<Make> withinMemory(const Make& make) {
-    try {
-        return make();
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::kCapacity, "no memory for the encoded picture"};
-    }
-}
+// Nine times less of a core than a thread of the usual priority (sched(7): 1.25 a step).
+constexpr int kPatient = 10;
 
 } // namespace
 
-// One picture in the pool. Stripes are taken under the pool's mutex; whoever finishes the last one
-// joins them.
-struct EncodePool::Work {
-    Work(EncodeJob its_job, TimePoint at) : job(std::move(its_job)), queued_at(at) {}
-
-    void begin(size_t thread_count) {
-        started_at = Clock::now();
-        stripes = job.video || job.lossless
-                      ? std::vector<PixelView>{job.pixels.view()}
-                      : cutStripes(job.pixels.view(), job.encoding.chroma, thread_count);
-        parts.resize(stripes.size());
-    }
-    void encode(JpegEncoder& encoder, size_t stripe) {
-        auto part = withinMemory([&] {
-            return job.video      ? encodeVideo()
-                   : job.lossless ? encodePng(stripes[stripe])
-                                  : encoder.encode(stripes[stripe], job.encoding);
-        });
-        if (part) {
-            parts[stripe] = std::move(*part);
-        } else if (!failed.exchange(true)) {
-            error = part.error();
-        }
-        if (finished.fetch_add(1) + 1 == stripes.size()) {
-            auto frame = withinMemory([this] { return join(); });
-            job.pixels.end();
-            job.done(std::move(frame));
-        }
-    }
-    Result<std::vector<std::byte>> encodeVideo() {
-        const VideoJob& video = *job.video;
-        auto frame =
-            video.encoder->encode(job.pixels.view(), job.encoding, video.key, video.drawn_at);
-        if (!frame) {
-            return frame.error();
-        }
-        key = frame->key;
-        return std::move(frame->bytes);
-    }
-    Result<EncodedFrame> join() {
-        const PixelView pixels = job.pixels.view();
-        auto picture = failed              ? Result<std::vector<std::byte>>(error)
-                       : parts.size() == 1 ? std::move(parts.front())
-                                           : joinStripes(parts, pixels.height_px);
-        if (!picture) {
-            return picture.error();
-        }
-        EncodedFrame frame;
-        frame.width_px = pixels.width_px;
-        frame.height_px = pixels.height_px;
-        frame.bytes = std::make_shared<const std::vector<std::byte>>(std::move(*picture));
-        frame.key = key;
-        frame.wait_us = Microseconds(started_at - queued_at).count();
-        frame.encode_us = Microseconds(Clock::now() - started_at).count();
-        return frame;
-    }
-
-    EncodeJob job;
-    TimePoint queued_at;
-    TimePoint started_at{};
-    std::vector<PixelView> stripes;
-    std::vector<std::vector<std::byte>> parts; // of each stripe
-    size_t taken = 0;                          // stripes that a thread has; under the mutex
-    std::atomic<size_t> finished = 0;
-    std::atomic<bool> failed = false;
-    bool key = true; // of video; written before the last stripe is counted
-    Error error;     // written once, by whom set `failed`; read after the last stripe
-};
-
-EncodePool::EncodePool(size_t thread_count, size_t queue_limit) : queue_limit_(queue_limit) {
-    FROXEL_ASSERT(thread_count > 0 && queue_limit > 0, "an encode pool needs threads and a queue");
-    threads_.reserve(thread_count);
-    for (size_t i = 0; i < thread_count; ++i) {
-        // Made here, where a failure can still be thrown.
-        threads_.emplace_back([this, encoder = JpegEncoder()](const std::stop_token& stop) mutable {
-            nameThread("encode");
-            run(stop, encoder);
-        });
-    }
-}
-
-EncodePool::~EncodePool() {
-    for (std::jthread& thread : threads_) {
-        thread.request_stop();
-    }
-    threads_.clear();
-    for (const auto& work : queue_) {
-        work->job.pixels.end();
-        work->job.done(Error{ErrorCode::kCapacity, "the encoder is stopping"});
-    }
-}
+EncodePool::EncodePool(size_t thread_count, size_t queue_limit)
+    : quick_(thread_count, queue_limit, 0), patient_(thread_count, queue_limit, kPatient) {}
 
 bool EncodePool::submit(EncodeJob&& job) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (queue_.size() >= queue_limit_) {
-            return false;
-        }
-        const auto first_lossless = std::find_if(
-            queue_.begin(), queue_.end(), [](const auto& work) { return work->job.lossless; });
-        const auto place = job.lossless ? queue_.end() : first_lossless;
-        queue_.insert(place, std::make_shared<Work>(std::move(job), Clock::now()));
-    }
-    wake_.notify_one();
-    return true;
-}
-
-bool EncodePool::withdrawLossless(const void* owner) {
-    std::shared_ptr<Work> withdrawn; // ends without the mutex
-    const std::lock_guard lock(mutex_);
-    const auto found = std::find_if(queue_.begin(), queue_.end(), [owner](const auto& work) {
-        return work->job.lossless && work->job.owner == owner;
-    });
-    if (found == queue_.end()) {
-        return false;
-    }
-    withdrawn = std::move(*found);
-    queue_.erase(found);
-    return true;
-}
-
-void EncodePool::run(const std::stop_token& stop, JpegEncoder& encoder) {
-    while (const auto share = takeShare(stop)) {
-        share->work->encode(encoder, share->stripe);
-    }
-}
-
-std::optional<EncodePool::Share> EncodePool::takeShare(const std::stop_token& stop) {
-    std::unique_lock lock(mutex_);
-    ++idle_count_;
-    wake_.wait(lock, stop, [this] { return !begun_.empty() || !queue_.empty(); });
-    --idle_count_;
-    if (begun_.empty()) {
-        if (stop.stop_requested() || queue_.empty()) {
-            return std::nullopt;
-        }
-        queue_.front()->begin(1 + idle_count_);
-        begun_.push_back(std::move(queue_.front()));
-        queue_.pop_front();
-        wake_.notify_all();
-    }
-    Share share{begun_.front(), begun_.front()->taken++};
-    if (share.work->taken == share.work->stripes.size()) {
-        begun_.pop_front();
-    }
-    return share;
+    const PixelView& pixels = job.pixels.view();
+    const uint64_t area_px = uint64_t{pixels.width_px} * pixels.height_px;
+    const bool waits = job.lossless || area_px > kLargeArea_px;
+    return (waits ? patient_ : quick_).submit(std::move(job));
 }
 
 } // namespace froxel::encode

@@ -1,81 +1,34 @@
-// Encoder threads with one bounded queue, first in first out but for lossless ones. A large picture
-// is shared by as many threads as are idle when its turn comes (encode/jpeg_stripes.h). When the
+// Where pictures are encoded, in two lanes: most within milliseconds, large and lossless ones,
+// which take up to seconds, on threads of their own that give way to others. So nobody's picture
+// waits for a huge one, and on a CPU device drawing does not share its cores with it. When a lane's
 // queue is full, submit() refuses at once and never waits: the caller decides what to drop.
 #pragma once
 
-#include "core/clock.h"
-#include "core/encoded_frame.h"
-#include "core/error.h"
-#include "core/pixel_view.h"
-#include "view/settings.h"
-
-#include <condition_variable>
-#include <cstddef>
-#include <deque>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <stop_token>
-#include <thread>
-#include <vector>
+#include "encode/encode_lane.h"
 
 namespace froxel::encode {
 
-class JpegEncoder;
-class VideoEncoder;
-
-// How a picture becomes the next frame of a video.
-struct VideoJob {
-    std::shared_ptr<VideoEncoder> encoder; // in no other job meanwhile
-    bool key = false;                      // a key frame is asked for
-    TimePoint drawn_at{};
-};
-
-struct EncodeJob {
-    PixelLease pixels; // ends before `done` is called, so that rendering can go on
-    view::Encoding encoding;
-    // Called once, on an encoder thread; must not throw and should return soon. Jobs of one viewer
-    // may finish out of order when several are queued.
-    std::function<void(Result<EncodedFrame>)> done;
-    std::optional<VideoJob> video = std::nullopt; // with a video codec
-    bool lossless = false;       // PNG instead of JPEG; waits behind those, whose viewers move
-    const void* owner = nullptr; // whoever may withdraw it
-};
-
 class EncodePool {
   public:
+    // Pictures of more are large: 2560x1440 is not.
+    static constexpr uint64_t kLargeArea_px = 4'000'000;
+
+    // Threads and queue of each lane.
     EncodePool(size_t thread_count, size_t queue_limit);
-    // Finishes jobs under way; those still queued get `done` with kCapacity, on this thread.
-    ~EncodePool();
-    EncodePool(const EncodePool&) = delete;
-    EncodePool& operator=(const EncodePool&) = delete;
 
     // Takes the job (moved from) and returns true, or leaves it untouched and returns false when
-    // queue_limit jobs are waiting. Any thread.
+    // queue_limit jobs are waiting in its lane. Any thread.
     [[nodiscard]] bool submit(EncodeJob&& job);
     // Takes the owner's lossless job back, unless it was begun; `done` is not called. Any thread.
-    [[nodiscard]] bool withdrawLossless(const void* owner);
-    [[nodiscard]] size_t threadCount() const { return threads_.size(); }
+    [[nodiscard]] bool withdrawLossless(const void* owner) {
+        return patient_.withdrawLossless(owner);
+    }
+    // Of one lane.
+    [[nodiscard]] size_t threadCount() const { return quick_.threadCount(); }
 
   private:
-    struct Work;
-    struct Share {
-        std::shared_ptr<Work> work;
-        size_t stripe = 0;
-    };
-
-    void run(const std::stop_token& stop, JpegEncoder& encoder);
-    // What to encode next; none: the pool stops. Waits.
-    [[nodiscard]] std::optional<Share> takeShare(const std::stop_token& stop);
-
-    const size_t queue_limit_;
-    std::mutex mutex_;
-    std::condition_variable_any wake_;
-    std::deque<std::shared_ptr<Work>> queue_; // not begun
-    std::deque<std::shared_ptr<Work>> begun_; // have stripes that nobody has taken
-    size_t idle_count_ = 0;
-    std::vector<std::jthread> threads_; // last: stops before the queue goes
+    EncodeLane quick_;
+    EncodeLane patient_;
 };
 
 } // namespace froxel::encode

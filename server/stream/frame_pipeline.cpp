@@ -37,6 +37,11 @@ FramePipeline::Losses FramePipeline::takeLosses() {
     return std::exchange(losses_, {});
 }
 
+Seconds FramePipeline::takeWork() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(work_, Seconds(0));
+}
+
 void FramePipeline::push(DrawnFrame frame) {
     const bool lossless = isLossless(frame);
     bool waits = false;
@@ -97,6 +102,10 @@ void FramePipeline::onEncoded(Result<EncodedFrame> result) {
         // A full or closing encoder may take it the next time; anything else would fail again.
         finish({1, error.code == ErrorCode::kCapacity});
         return;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        work_ += Microseconds(result->busy_us);
     }
     session::FrameRecord& record = encoding_->record;
     record.encoded_bytes = result->bytes->size();

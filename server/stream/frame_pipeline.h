@@ -49,6 +49,8 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
         bool retry = false; // the encoder was full: what they showed has to be drawn again
     };
     [[nodiscard]] Losses takeLosses();
+    // What cores worked on its pictures since the last call. Any thread.
+    [[nodiscard]] Seconds takeWork();
 
   private:
     void startEncoding();
@@ -71,6 +73,7 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     std::shared_ptr<encode::VideoEncoder> video_; // none: the next frame of video is a key frame
     uint64_t key_requests_ = 0;                   // served so far
     Losses losses_;
+    Seconds work_{0};
 };
 
 } // namespace froxel::stream

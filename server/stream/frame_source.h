@@ -67,6 +67,8 @@ class FrameSource {
     virtual ~FrameSource() = default;
     // Pieces on the device at once that keep it busy: 1 where the host is the device.
     [[nodiscard]] virtual uint32_t depth() const = 0;
+    // Whether its work is done by the host's cores, which encoders use too.
+    [[nodiscard]] virtual bool isHost() const = 0;
     // Errors: kCapacity, kDevice.
     [[nodiscard]] virtual Result<std::unique_ptr<ViewSource>> makeView() = 0;
 };

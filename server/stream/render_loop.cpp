@@ -186,6 +186,10 @@ void RenderLoop::takeNews() {
 }
 
 void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
+    const Seconds encoding = viewer.pipeline->takeWork();
+    if (source_->isHost()) {
+        scheduler_.charge(id, encoding / core_count_);
+    }
     const FramePipeline::Losses losses = viewer.pipeline->takeLosses();
     viewer.started -= losses.count;
     viewer.changed = viewer.changed || losses.retry;

@@ -23,6 +23,7 @@
 #include "stream/viewer.h"
 #include "stream/viewer_mailbox.h"
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <map>
@@ -108,6 +109,7 @@ class RenderLoop final : public session::StreamPort {
     void finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn);
 
     const RenderLoopOptions options_;
+    const uint32_t core_count_ = std::max(1U, std::thread::hardware_concurrency());
     encode::EncodePool& pool_;
     // Shared with the encoders, which may still be in a last wake() when the loop is gone.
     const std::shared_ptr<ViewerMailbox> mailbox_;

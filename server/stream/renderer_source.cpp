@@ -45,6 +45,8 @@ class RendererSource final : public FrameSource {
     // A CPU device draws with the host's cores: a second frame would only make the first late.
     [[nodiscard]] uint32_t depth() const override { return device_->traits().is_cpu ? 1 : 2; }
 
+    [[nodiscard]] bool isHost() const override { return device_->traits().is_cpu; }
+
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
         return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_));
     }

@@ -170,6 +170,7 @@ class FakeSource final : public stream::FrameSource {
   public:
     explicit FakeSource(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {}
     [[nodiscard]] uint32_t depth() const override { return device_->depth; }
+    [[nodiscard]] bool isHost() const override { return false; }
     [[nodiscard]] Result<std::unique_ptr<stream::ViewSource>> makeView() override {
         return std::unique_ptr<stream::ViewSource>(std::make_unique<FakeView>(device_));
     }

@@ -5,10 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <memory>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 
 namespace froxel::encode {
 namespace {
@@ -22,13 +25,15 @@ EncodeJob job(PixelLease pixels, std::function<void(Result<EncodedFrame>)> done)
 // An encoder thread that waits in a job's `done` until told to go on.
 class HeldThread {
   public:
-    explicit HeldThread(EncodePool& pool) {
+    explicit HeldThread(EncodePool& pool, bool patient = false) {
         auto entered = std::make_shared<std::promise<void>>();
         auto go = gate_.get_future().share();
-        EXPECT_TRUE(pool.submit(job({}, [entered, go](const Result<EncodedFrame>&) {
+        auto held = job({}, [entered, go](const Result<EncodedFrame>&) {
             entered->set_value();
             go.wait();
-        })));
+        });
+        held.lossless = patient;
+        EXPECT_TRUE(pool.submit(std::move(held)));
         entered->get_future().wait();
     }
     void release() { gate_.set_value(); }
@@ -48,6 +53,7 @@ TEST(EncodePool, Job_GivesTheEncodersBytes) {
     EXPECT_EQ(frame.height_px, 48U);
     EXPECT_GT(frame.encode_us, 0);
     EXPECT_GE(frame.wait_us, 0);
+    EXPECT_GT(frame.busy_us, 0);
     EXPECT_EQ(*frame.bytes, JpegEncoder().encode(picture.view(), kEncoding).value());
 }
 
@@ -150,7 +156,8 @@ TEST(EncodePool, OneThread_KeepsTheOrder) {
 TEST(EncodePool, WithdrawLossless_TakesBackTheOwnersThatWaits_AndNothingElse) {
     const Picture picture = makePicture(16, 16);
     EncodePool pool(1, 4);
-    HeldThread held(pool);
+    HeldThread quick(pool);
+    HeldThread patient(pool, true);
     std::atomic<int> done = 0;
     std::atomic<int> leases = 0;
     const auto submit = [&](const void* owner, bool lossless) {
@@ -167,21 +174,63 @@ TEST(EncodePool, WithdrawLossless_TakesBackTheOwnersThatWaits_AndNothingElse) {
     EXPECT_EQ(leases, 1) << "its pixels are free at once";
     EXPECT_FALSE(pool.withdrawLossless(&done)) << "the JPEG stays";
     EXPECT_FALSE(pool.withdrawLossless(nullptr));
-    held.release();
-    while (leases < 3 || done < 2) {
+    quick.release();
+    patient.release();
+    while (leases < 3 || done < 2) { // the JPEG and the other's PNG
         std::this_thread::yield();
     }
     EXPECT_EQ(done, 2);
 }
 
-TEST(EncodePool, Lossless_IsAPngBehindWhatMoves) {
+// The one thread of the other lane stands still meanwhile.
+TEST(EncodePool, LargeAndLossless_DoNotKeepOthersWaiting) {
+    EncodePool pool(1, 8);
+    HeldThread held(pool, true);
+    const Picture picture = makePicture(40, 30);
+    const Picture large = makePicture(2100, 2000);
+    std::atomic<int> patient = 0;
+    std::promise<void> quick;
+    const auto count = [&](const Result<EncodedFrame>& frame) { patient += frame ? 1 : 0; };
+    auto lossless = job({picture.view(), nullptr}, count);
+    lossless.lossless = true;
+    ASSERT_TRUE(pool.submit(std::move(lossless)));
+    ASSERT_TRUE(pool.submit(job({large.view(), nullptr}, count)));
+    ASSERT_TRUE(pool.submit(
+        job({picture.view(), nullptr}, [&](const Result<EncodedFrame>&) { quick.set_value(); })));
+    quick.get_future().wait();
+    EXPECT_EQ(patient, 0);
+    held.release();
+    while (patient < 2) {
+        std::this_thread::yield();
+    }
+}
+
+TEST(EncodePool, LargeAndLossless_RunAtALowerPriority) {
     EncodePool pool(1, 8);
     const Picture picture = makePicture(40, 30);
+    for (const bool lossless : {false, true}) {
+        std::promise<int> niceness;
+        auto next = job({picture.view(), nullptr}, [&](const Result<EncodedFrame>&) {
+            niceness.set_value(getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())));
+        });
+        next.lossless = lossless;
+        ASSERT_TRUE(pool.submit(std::move(next)));
+        const int own = getpriority(PRIO_PROCESS, 0);
+        const int expected = lossless ? std::min(own + 10, 19) : own;
+        EXPECT_EQ(niceness.get_future().get(), expected);
+    }
+}
+
+TEST(EncodePool, Lossless_IsAPngBehindWhatMoves) {
+    EncodePool pool(1, 8);
+    const Picture small = makePicture(40, 30);
+    const Picture large = makePicture(2100, 2000);
     std::vector<std::string> order;
     std::promise<void> all;
     {
-        HeldThread held(pool);
+        HeldThread held(pool, true);
         for (const bool lossless : {true, false, true, false}) {
+            const Picture& picture = lossless ? small : large;
             auto next = job({picture.view(), nullptr}, [&, lossless](Result<EncodedFrame> frame) {
                 const auto& bytes = *frame.value().bytes;
                 const bool png = bytes[1] == std::byte{'P'} && bytes[2] == std::byte{'N'};

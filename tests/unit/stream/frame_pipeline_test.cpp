@@ -46,11 +46,12 @@ class FramePipelineTest : public testing::Test {
         }
     }
     // Another viewer's job, which does not end before the latch opens.
-    void occupy(encode::EncodePool& pool, std::latch& release) {
+    void occupy(encode::EncodePool& pool, std::latch& release, bool lossless = false) {
         encode::EncodeJob job{
             PixelLease({pixels_.data(), kSide, kSide, size_t{4} * kSide}, nullptr),
             {},
             [&](const Result<EncodedFrame>&) { release.wait(); }};
+        job.lossless = lossless;
         while (!pool.submit(std::move(job))) {
             std::this_thread::yield(); // the thread has not taken the job before this one yet
         }
@@ -80,6 +81,8 @@ TEST_F(FramePipelineTest, Push_TwoFrames_ArriveInOrderAndEndTheirLeases) {
     EXPECT_EQ(frames[1].record.frame_id, 2U);
     EXPECT_EQ(frames[0].record.encoded_bytes, frames[0].bytes->size());
     EXPECT_EQ(fates_->encoded, 2U);
+    EXPECT_GT(pipeline->takeWork(), Seconds(0));
+    EXPECT_EQ(pipeline->takeWork(), Seconds(0));
     EXPECT_EQ(fates_->not_encoded, 0U);
     EXPECT_EQ(ended_leases_, 2);
 }
@@ -88,7 +91,7 @@ TEST_F(FramePipelineTest, Push_TwoFrames_ArriveInOrderAndEndTheirLeases) {
 TEST_F(FramePipelineTest, Push_BehindALosslessThatWaits_TakesItsPlace) {
     encode::EncodePool pool(1, 4);
     std::latch release(1);
-    occupy(pool, release);
+    occupy(pool, release, true);
     const auto pipeline = makePipeline(pool);
     DrawnFrame rest = frame(1);
     rest.record.delivered.refinement = session::Refinement::kLossless;
