@@ -351,8 +351,9 @@ TEST(Storm, ManyResumeAtOnce_EachGetsItsOwn) {
     std::atomic<int> right = 0;
     for (int i = 0; i < 16; ++i) {
         crowd.emplace_back([&, i] {
-            WsClient client(server.port());
-            const auto again = client.join("", welcomes[static_cast<size_t>(i)].resume_token());
+            const std::string& token = welcomes[static_cast<size_t>(i)].resume_token();
+            WsClient client(server.port(), {.target = "/ws?resume=" + token.substr(0, 16)});
+            const auto again = client.join("", token);
             right += again.resumed() && again.state().exposure() == 1 + i &&
                      again.session_id() == welcomes[static_cast<size_t>(i)].session_id();
             client.expectFrame();
