@@ -13,6 +13,7 @@ shared uint short_total;
 shared uint long_total;
 shared uint short_base;
 shared uint long_base;
+shared float pair_sums[kAssignScanGroup];
 
 // The entries of the blocks before this one, and of all; both saturate.
 uint blockOffset(out uint entry_count) {
@@ -30,11 +31,41 @@ uint blockOffset(out uint entry_count) {
     return offset;
 }
 
+// Pairs that pixels may evaluate where each loops over its tile's longest list. All must call.
+float listedPairs() {
+    uint self = gl_LocalInvocationIndex;
+    float sum = 0.0;
+    for (uint tile = self; tile < frame.grid_x * frame.grid_y; tile += kAssignScanGroup) {
+        uint left = tile % frame.grid_x * frame.tile_width_px;
+        uint top = tile / frame.grid_x * frame.tile_height_px;
+        uint width = min(frame.tile_width_px, max(frame.image_width_px, left) - left);
+        uint height = min(frame.tile_height_px, max(frame.image_height_px, top) - top);
+        sum += float(width * height) * float(tile_longest[tile]);
+    }
+    pair_sums[self] = sum;
+    for (uint half_size = kAssignScanGroup / 2u; half_size > 0u; half_size /= 2u) {
+        barrier();
+        if (self < half_size) {
+            pair_sums[self] += pair_sums[self + half_size];
+        }
+    }
+    barrier();
+    return pair_sums[0];
+}
+
 uint outcomeOf(uint entry_count) {
     if (totals.task_count > frame.task_capacity) {
         return kAssignShort;
     }
-    if (entry_count > frame.max_entries) {
+    bool all_lights = entry_count > frame.max_entries;
+    if (frame.max_pairs > 0.0) {
+        float pixels = float(frame.image_width_px) * float(frame.image_height_px);
+        float pairs = all_lights ? pixels * float(frame.light_count) : listedPairs();
+        if (pairs > frame.max_pairs) {
+            return kAssignLong;
+        }
+    }
+    if (all_lights) {
         return kAssignAllLights;
     }
     return entry_count > frame.index_capacity ? kAssignShort : kAssignLists;

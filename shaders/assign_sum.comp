@@ -30,6 +30,9 @@ void main() {
             uint count = cursors[cluster];
             sum += count;
             largest = max(largest, count);
+            if (frame.max_pairs > 0.0 && count > 0u) {
+                atomicMax(tile_longest[cluster % (frame.grid_x * frame.grid_y)], count);
+            }
             if (count > 0u) {
                 atomicAdd(buckets[histogramBucket(count)], 1u);
             } else {

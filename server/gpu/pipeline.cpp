@@ -124,7 +124,9 @@ vk::raii::Pipeline makeComputePipeline(const Device& device,
     const SpecInfo spec(constants);
     auto pipeline = device.handle().createComputePipeline(
         device.pipelineCache(),
-        vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+        vk::ComputePipelineCreateInfo{// so that a part of a picture can be dispatched
+                                      .flags = vk::PipelineCreateFlagBits::eDispatchBase,
+                                      .stage = {.stage = vk::ShaderStageFlagBits::eCompute,
                                                 .module = *module,
                                                 .pName = "main",
                                                 .pSpecializationInfo = &spec.info},

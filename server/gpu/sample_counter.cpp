@@ -2,26 +2,37 @@
 
 #include "core/assert.h"
 
+#include <numeric>
+
 namespace froxel::gpu {
 
 SampleCounter::SampleCounter(const Device& device)
     : pool_(device.handle().createQueryPool(
-          {.queryType = vk::QueryType::eOcclusion, .queryCount = 1})) {}
+          {.queryType = vk::QueryType::eOcclusion, .queryCount = kMaxParts})) {}
+
+void SampleCounter::restart(const vk::raii::CommandBuffer& cmd) {
+    part_count_ = 0;
+    cmd.resetQueryPool(*pool_, 0, kMaxParts);
+}
 
 void SampleCounter::begin(const vk::raii::CommandBuffer& cmd) {
-    cmd.resetQueryPool(*pool_, 0, 1);
-    cmd.beginQuery(*pool_, 0, vk::QueryControlFlagBits::ePrecise);
+    FROXEL_ASSERT(part_count_ < kMaxParts, "more parts than queries");
+    cmd.beginQuery(*pool_, part_count_++, vk::QueryControlFlagBits::ePrecise);
 }
 
 void SampleCounter::end(const vk::raii::CommandBuffer& cmd) const {
-    cmd.endQuery(*pool_, 0);
+    cmd.endQuery(*pool_, part_count_ - 1);
 }
 
 uint64_t SampleCounter::read() const {
-    const auto [result, count] = pool_.getResult<uint64_t>(
-        0, 1, sizeof(uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    if (part_count_ == 0) {
+        return 0;
+    }
+    const auto [result, counts] =
+        pool_.getResults<uint64_t>(0, part_count_, part_count_ * sizeof(uint64_t), sizeof(uint64_t),
+                                   vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     FROXEL_ASSERT(result == vk::Result::eSuccess, "samples of a completed frame are counted");
-    return count;
+    return std::accumulate(counts.begin(), counts.end(), uint64_t{0});
 }
 
 } // namespace froxel::gpu

@@ -1,4 +1,4 @@
-// How many samples passed the depth test in part of a frame (an occlusion query).
+// How many samples passed the depth test in parts of a frame (occlusion queries).
 #pragma once
 
 #include "gpu/device.h"
@@ -9,17 +9,22 @@ namespace froxel::gpu {
 
 class SampleCounter {
   public:
+    static constexpr uint32_t kMaxParts = 256;
+
     // The device has traits().counts_samples.
     explicit SampleCounter(const Device& device);
 
-    // Around draws, outside of rendering; once a recording.
+    // Before the first part of a recording; outside of rendering, like the others.
+    void restart(const vk::raii::CommandBuffer& cmd);
+    // Around the draws of a part.
     void begin(const vk::raii::CommandBuffer& cmd);
     void end(const vk::raii::CommandBuffer& cmd) const;
-    // Only after the frame has completed.
+    // Of all parts; only after the frame has completed.
     [[nodiscard]] uint64_t read() const;
 
   private:
     vk::raii::QueryPool pool_;
+    uint32_t part_count_ = 0;
 };
 
 } // namespace froxel::gpu

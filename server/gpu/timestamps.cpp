@@ -2,6 +2,8 @@
 
 #include "core/assert.h"
 
+#include <algorithm>
+
 namespace froxel::gpu {
 
 Timestamps::Timestamps(const Device& device)
@@ -32,7 +34,7 @@ void Timestamps::end(const vk::raii::CommandBuffer& cmd) {
     }
 }
 
-void Timestamps::read(FrameStats& stats) const {
+void Timestamps::read(FrameStats& stats, bool cut) const {
     if (names_.empty()) {
         return;
     }
@@ -45,10 +47,19 @@ void Timestamps::read(FrameStats& stats) const {
     const auto micros = [&](uint64_t from, uint64_t to) {
         return to > from ? static_cast<double>(to - from) * us_per_tick : 0.0;
     };
+    double sum_us = 0;
     for (size_t i = 0; i < names_.size(); ++i) {
-        stats.passes.push_back({names_[i], micros(ticks[2 * i], ticks[2 * i + 1])});
+        const double us = micros(ticks[2 * i], ticks[2 * i + 1]);
+        sum_us += us;
+        const auto same = std::find_if(stats.passes.begin(), stats.passes.end(),
+                                       [&](const auto& pass) { return pass.name == names_[i]; });
+        if (same == stats.passes.end()) {
+            stats.passes.push_back({names_[i], us});
+        } else {
+            same->gpu_us += us;
+        }
     }
-    stats.gpu_us = micros(ticks.front(), ticks.back());
+    stats.gpu_us = cut ? sum_us : micros(ticks.front(), ticks.back());
 }
 
 } // namespace froxel::gpu

@@ -11,7 +11,7 @@ namespace froxel::gpu {
 
 class Timestamps {
   public:
-    static constexpr uint32_t kMaxPasses = 32;
+    static constexpr uint32_t kMaxPasses = 512; // parts of passes, where frames are cut
 
     explicit Timestamps(const Device& device);
 
@@ -20,8 +20,9 @@ class Timestamps {
     // Opens and closes a pass: one debug label and two timestamps of the same name. Not nested.
     void begin(const vk::raii::CommandBuffer& cmd, const char* name);
     void end(const vk::raii::CommandBuffer& cmd);
-    // Fills passes and gpu_us; only after the frame has completed.
-    void read(FrameStats& stats) const;
+    // Fills passes, parts of one name together, and gpu_us: from the first to the last, or where
+    // others may have drawn between parts (`cut`) their sum. Only after the frame has completed.
+    void read(FrameStats& stats, bool cut) const;
 
   private:
     const Device& device_;

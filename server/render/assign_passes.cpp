@@ -39,6 +39,10 @@ void recordAssignClear(const AssignContext& assign) {
     io::AssignTotals totals{};
     totals.tasks = totals.short_lists = totals.long_lists = {.x = 0, .y = 1, .z = 1};
     assign.cmd.updateBuffer<io::AssignTotals>(*buffers.totals.handle, 0, totals);
+    if (assign.slot.pricedTiles() > 0) {
+        assign.cmd.fillBuffer(*buffers.totals.handle, sizeof(io::AssignTotals),
+                              assign.slot.pricedTiles() * sizeof(uint32_t), 0);
+    }
     assign.cmd.fillBuffer(*buffers.cursors.handle, 0, assign.slot.clusterCount() * sizeof(uint32_t),
                           0);
 }
@@ -70,7 +74,8 @@ void recordAssignOrder(const AssignContext& assign) {
 
 void recordAssignCopy(const AssignContext& assign) {
     assign.cmd.copyBuffer(*assign.slot.buffers().totals.handle, assign.slot.readback(),
-                          vk::BufferCopy{.size = sizeof(io::AssignTotals)});
+                          vk::BufferCopy{.size = sizeof(io::AssignTotals) +
+                                                 assign.slot.pricedTiles() * sizeof(uint32_t)});
 }
 
 } // namespace froxel::render

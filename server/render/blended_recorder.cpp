@@ -43,22 +43,26 @@ void nextRasterPass(const vk::raii::CommandBuffer& cmd) {
 }
 
 void recordPeeled(const FrameContext& frame) {
-    const auto& cmd = frame.slot.cmd;
+    const auto& size = frame.slot.targets->size;
+    const RegionCost cost = frame.costs.blended();
     const uint32_t layers = peelLayers(frame.plan, frame.draws);
-    {
-        const gpu::PassScope scope(frame.slot.timestamps, cmd, "peel");
-        for (uint32_t layer = 0; layer < layers; ++layer) {
-            recordPeelSelect(frame, layer);
-            nextRasterPass(cmd);
-            recordPeelShade(frame, layer);
-            nextRasterPass(cmd);
-        }
+    for (uint32_t layer = 0; layer < layers; ++layer) {
+        inParts(frame, size, cost, [layer](const FrameContext& at, const vk::Rect2D& part) {
+            const gpu::PassScope scope(at.slot.timestamps, at.slot.cmd, "peel");
+            recordPeelSelect(at, part, layer);
+            nextRasterPass(at.slot.cmd);
+            recordPeelShade(at, part, layer);
+            nextRasterPass(at.slot.cmd);
+        });
     }
     if (countsOverflow(frame.plan, frame.draws)) {
-        recordPeelCount(frame, layers);
+        frame.slot.overflow->restart(frame.slot.cmd);
+        inParts(frame, size, cost, [layers](const FrameContext& at, const vk::Rect2D& part) {
+            recordPeelCount(at, part, layers);
+        });
     }
     if (layers > 0) {
-        recordBlendResolve(frame);
+        inParts(frame, size, frame.costs.screen(), recordBlendResolve);
     }
 }
 
@@ -81,14 +85,15 @@ void recordBlended(const FrameContext& frame) {
     barrier(frame.slot.cmd, kRasterStages | Stage::eComputeShader,
             kRasterWrites | Access::eShaderStorageWrite, kRasterStages,
             kRasterUses | Access::eShaderSampledRead);
+    const auto& size = frame.slot.targets->size;
     switch (frame.plan.transparency) {
     case view::Transparency::kSorted:
-        recordTransparent(frame);
+        inParts(frame, size, frame.costs.blended(), recordTransparent);
         break;
     case view::Transparency::kWeighted:
-        recordWeighted(frame);
+        inParts(frame, size, frame.costs.blended(), recordWeighted);
         nextRasterPass(frame.slot.cmd);
-        recordBlendResolve(frame);
+        inParts(frame, size, frame.costs.screen(), recordBlendResolve);
         break;
     case view::Transparency::kPeeled:
         recordPeeled(frame);

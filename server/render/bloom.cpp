@@ -110,7 +110,8 @@ void recordBloomStep(const vk::raii::CommandBuffer& cmd,
                      BloomPipelines& pipelines,
                      const BloomTargets& targets,
                      const BloomPlan& plan,
-                     size_t step) {
+                     size_t step,
+                     const vk::Rect2D& region) {
     const auto& [shader, wire, pass] = plan.steps[step];
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
                      pipelines.pipeline(shader, plan.steps[step].flags()));
@@ -118,7 +119,7 @@ void recordBloomStep(const vk::raii::CommandBuffer& cmd,
                            targets.set(step), {});
     cmd.pushConstants<io::BloomPass>(pipelines.layout(), vk::ShaderStageFlagBits::eCompute, 0,
                                      pass);
-    cmd.dispatch(screenGroups(pass.target_width_px), screenGroups(pass.target_height_px), 1);
+    dispatchOver(cmd, region);
 }
 
 std::shared_ptr<BloomTargets> bloomTargetsFor(const gpu::Device& device,

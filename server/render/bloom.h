@@ -61,7 +61,8 @@ void recordBloomStep(const vk::raii::CommandBuffer& cmd,
                      BloomPipelines& pipelines,
                      const BloomTargets& targets,
                      const BloomPlan& plan,
-                     size_t step);
+                     size_t step,
+                     const vk::Rect2D& region);
 
 // `kept` where it fits the plan and the view, else others. Throws vk::OutOfDeviceMemoryError.
 [[nodiscard]] std::shared_ptr<BloomTargets>

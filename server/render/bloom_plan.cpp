@@ -1,7 +1,5 @@
 #include "render/bloom_plan.h"
 
-#include "render/light_budget.h"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -121,25 +119,6 @@ class Planner {
     BloomPlan plan_;
 };
 
-double tapsOf(const BloomStep& step) {
-    const double line = 2.0 * step.pass.reach + 1;
-    switch (step.shader) {
-    case BloomShader::kBright:
-        return 1;
-    case BloomShader::kSingle:
-        return line * line;
-    case BloomShader::kLine:
-        return line;
-    case BloomShader::kATrous:
-        return 25;
-    case BloomShader::kDown:
-        return 16;
-    case BloomShader::kUp:
-        return 4;
-    }
-    return 0;
-}
-
 } // namespace
 
 uint32_t BloomStep::flags() const {
@@ -172,23 +151,37 @@ BloomPlan planBloom(const view::Bloom& bloom, const view::Size& size, float expo
     return {};
 }
 
-Result<void> checkBloomBudget(const BloomPlan& plan, const view::Size& size, bool device_is_cpu) {
-    // A tap costs no more than a light's evaluation. This also keeps a kernel's taps below the
-    // 65,535 iterations that llvmpipe's loops have: a kernel of as many belongs to a larger
-    // picture.
-    const double most = device_is_cpu ? kMostPairsCpu : kMostPairsGpu;
-    double taps = 0;
+double tapsOf(const BloomStep& step) {
+    const double line = 2.0 * step.pass.reach + 1;
+    switch (step.shader) {
+    case BloomShader::kBright:
+        return 1;
+    case BloomShader::kSingle:
+        return line * line;
+    case BloomShader::kLine:
+        return line;
+    case BloomShader::kATrous:
+        return 25;
+    case BloomShader::kDown:
+        return 16;
+    case BloomShader::kUp:
+        return 4;
+    }
+    return 0;
+}
+
+Result<void> checkKernels(const BloomPlan& plan, bool device_is_cpu) {
+    constexpr double kMostIterations = 65'535; // llvmpipe's, which says nothing beyond
     for (const auto& step : plan.steps) {
-        taps += tapsOf(step) * step.pass.target_width_px * step.pass.target_height_px;
+        if (device_is_cpu && tapsOf(step) > kMostIterations) {
+            return Error{ErrorCode::kUnsupported,
+                         fmt::format("bloom takes {:.0f} taps for a pixel; this device's loops "
+                                     "have at most {:.0f}: ask for mip_chain, a smaller radius, "
+                                     "or a smaller picture",
+                                     tapsOf(step), kMostIterations)};
+        }
     }
-    if (taps <= most) {
-        return {};
-    }
-    return Error{ErrorCode::kCapacity,
-                 fmt::format("bloom of a picture of {}x{} takes {:.1e} taps; this device draws at "
-                             "most {:.1e} a frame: ask for mip_chain, a smaller radius, or a "
-                             "smaller picture",
-                             size.width_px, size.height_px, taps, most)};
+    return {};
 }
 
 } // namespace froxel::render

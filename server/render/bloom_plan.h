@@ -38,11 +38,13 @@ struct BloomPlan {
 
 // Of a picture of `size`; the kind is not none. What every kind comes to is a Gaussian of standard
 // deviation radius x the smaller side, cut at three of them or by splines of the same variance.
-[[nodiscard]] BloomPlan
-planBloom(const view::Bloom& bloom, const view::Size& size, float exposure);
+[[nodiscard]] BloomPlan planBloom(const view::Bloom& bloom, const view::Size& size, float exposure);
 
-// Errors: kCapacity where the taps would take minutes, as those of one large kernel do.
-[[nodiscard]] Result<void>
-checkBloomBudget(const BloomPlan& plan, const view::Size& size, bool device_is_cpu);
+// That a step takes for each pixel of its target.
+[[nodiscard]] double tapsOf(const BloomStep& step);
+
+// Errors: kUnsupported where a kernel has more taps than the iterations of a software rasteriser's
+// loops.
+[[nodiscard]] Result<void> checkKernels(const BloomPlan& plan, bool device_is_cpu);
 
 } // namespace froxel::render

@@ -35,7 +35,7 @@ void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
                              const DebugSets& sets,
                              const VariantKey& key,
                              const io::DebugFrame& values,
-                             const vk::Extent2D& size_px) {
+                             const vk::Rect2D& region) {
     const VariantKey used{0, key.light_flags & kListFlags, key.output_flags};
     if (values_key_ != used) {
         // The slot's last frame has finished: nothing uses the old one.
@@ -48,7 +48,7 @@ void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *values_layout_, 0, sets, {});
     cmd.pushConstants<io::DebugFrame>(*values_layout_, vk::ShaderStageFlagBits::eCompute, 0,
                                       values);
-    cmd.dispatch(screenGroups(size_px.width), screenGroups(size_px.height), 1);
+    dispatchOver(cmd, region);
 }
 
 void DebugPass::bindWires(const vk::raii::CommandBuffer& cmd,

@@ -22,7 +22,7 @@ class DebugPass {
                       const DebugSets& sets,
                       const VariantKey& key,
                       const io::DebugFrame& values,
-                      const vk::Extent2D& size_px);
+                      const vk::Rect2D& region);
     // Both inside a rendering scope over radiance.
     void
     recordLights(const vk::raii::CommandBuffer& cmd, const DebugSets& sets, uint32_t light_count);

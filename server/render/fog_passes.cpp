@@ -21,14 +21,13 @@ void bind(const FrameContext& frame,
 
 } // namespace
 
-void recordFogScatter(const FrameContext& frame) {
+void recordFogScatter(const FrameContext& frame, const vk::Rect2D& nodes) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog_scatter");
     const uint32_t noise = frame.plan.fog_noise ? io::kOutputFogNoise : 0U;
     bind(frame, FogShader::kScatter,
          {0, frame.plan.fog_light_flags & ~io::kLightDirectional, noise},
          frame.scene.fog().volumeLayout(), frame.slot.fog->set());
-    frame.slot.cmd.dispatch(screenGroups(frame.fog->node_count_x),
-                            screenGroups(frame.fog->node_count_y), frame.fog->slice_count);
+    dispatchOver(frame.slot.cmd, nodes, frame.fog->slice_count);
 }
 
 void recordFogIntegrate(const FrameContext& frame) {
@@ -38,13 +37,12 @@ void recordFogIntegrate(const FrameContext& frame) {
                             screenGroups(frame.fog->node_count_y), 1);
 }
 
-void recordFogApply(const FrameContext& frame) {
+void recordFogApply(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog");
     bind(frame, FogShader::kApply,
          {0, frame.plan.fog_light_flags & io::kLightDirectional, frame.plan.fog_output_flags},
          frame.scene.pipelines.screenPipelineLayout(), *frame.slot.screen_set);
-    const auto& size = frame.slot.targets->size;
-    frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
+    dispatchOver(frame.slot.cmd, region);
 }
 
 } // namespace froxel::render

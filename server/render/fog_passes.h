@@ -5,8 +5,10 @@
 
 namespace froxel::render {
 
-void recordFogScatter(const FrameContext& frame);   // reads lights and lists; writes the volume
+void recordFogScatter(const FrameContext& frame,
+                      const vk::Rect2D& nodes);     // reads lights and lists; writes the volume
 void recordFogIntegrate(const FrameContext& frame); // adds it up from front to back
-void recordFogApply(const FrameContext& frame); // reads volume and depth; radiance seen through fog
+void recordFogApply(const FrameContext& frame,
+                    const vk::Rect2D& region); // reads volume and depth; radiance seen through fog
 
 } // namespace froxel::render

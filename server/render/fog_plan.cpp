@@ -1,6 +1,5 @@
 #include "render/fog_plan.h"
 
-#include "render/light_budget.h"
 #include "view/environment.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -51,8 +50,7 @@ uint64_t froxelCount(const io::Fog& fog) {
     return uint64_t{fog.node_count_x} * fog.node_count_y * fog.slice_count;
 }
 
-Result<void>
-checkFogBudget(const io::Fog& fog, uint64_t lights_each, uint64_t most_texels, bool device_is_cpu) {
+Result<void> checkFroxels(const io::Fog& fog, uint64_t most_texels) {
     const uint64_t count = froxelCount(fog);
     const uint64_t most = std::min(kMostFroxelBytes / kFroxelBytes, most_texels);
     if (count > most) {
@@ -60,16 +58,6 @@ checkFogBudget(const io::Fog& fog, uint64_t lights_each, uint64_t most_texels, b
                      fmt::format("fog_tile and fog_slices ask for {}x{}x{} froxels, {} in all; at "
                                  "most {} are allowed: ask for larger tiles or fewer slices",
                                  fog.node_count_x, fog.node_count_y, fog.slice_count, count, most)};
-    }
-    const double pairs_most = device_is_cpu ? kMostPairsCpu : kMostPairsGpu;
-    const double pairs = static_cast<double>(count) * static_cast<double>(lights_each);
-    if (pairs > pairs_most) {
-        return Error{ErrorCode::kCapacity,
-                     fmt::format("fog of {}x{}x{} froxels that loop over {} lights each takes "
-                                 "{:.1e} evaluations of lights; this device draws at most {:.1e} a "
-                                 "frame: ask for larger tiles, fewer slices or fewer lights",
-                                 fog.node_count_x, fog.node_count_y, fog.slice_count, lights_each,
-                                 pairs, pairs_most)};
     }
     return {};
 }

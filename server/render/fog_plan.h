@@ -22,9 +22,7 @@ inline constexpr double kOpaqueDepth = 16;
 
 [[nodiscard]] uint64_t froxelCount(const io::Fog& fog);
 
-// Errors: kCapacity where the volume is larger than kMostFroxelBytes or `most_texels`, or where its
-// froxels, looping over `lights_each` lights, would take minutes (light_budget.h).
-[[nodiscard]] Result<void>
-checkFogBudget(const io::Fog& fog, uint64_t lights_each, uint64_t most_texels, bool device_is_cpu);
+// Errors: kCapacity where the volume is larger than kMostFroxelBytes or `most_texels`.
+[[nodiscard]] Result<void> checkFroxels(const io::Fog& fog, uint64_t most_texels);
 
 } // namespace froxel::render

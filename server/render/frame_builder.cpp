@@ -2,11 +2,11 @@
 
 #include "cluster/depth_range.h"
 #include "cluster/list_cap.h"
+#include "render/blended_recorder.h"
 #include "render/fog_plan.h"
 #include "render/frame_facts.h"
 #include "render/gbuffer_layout.h"
 #include "render/grown_lights.h"
-#include "render/light_budget.h"
 #include "render/prepass_choice.h"
 #include "render/visibility_instances.h"
 
@@ -18,6 +18,9 @@
 namespace froxel::render {
 
 namespace {
+
+// Fragments a pixel before a scene's are counted.
+constexpr double kUsualOverdraw = 2;
 
 bool storesHalves(const view::ViewSettings& settings) {
     return !isForward(settings.renderer) &&
@@ -128,8 +131,19 @@ bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
     return !device_lists_.refused();
 }
 
-bool FrameBuilder::acceptLists(const io::AssignTotals& totals) {
-    return device_lists_.accept(totals);
+bool FrameBuilder::acceptLists(const AssignSlot& lists) {
+    const io::AssignTotals& totals = lists.totals();
+    const bool whole = device_lists_.accept(totals);
+    if (const auto tiles = lists.tileLongest();
+        !tiles.empty() && totals.outcome != io::kAssignShort) {
+        const AssignData& data = device_lists_.data();
+        const io::AssignFrame& frame = data.frame[0];
+        seen_lists_ = {.grid = {frame.grid_x, frame.grid_y, frame.grid_z},
+                       .tile_longest = {tiles.begin(), tiles.end()},
+                       .all_lights =
+                           totals.entry_count > frame.max_entries ? frame.light_count : 0};
+    }
+    return whole;
 }
 
 const cluster::GridCosts& FrameBuilder::gridCosts(const view::ViewSettings& settings) const {
@@ -208,6 +222,8 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     if (settings.shadows.light_count > 0 && !view::replacesPicture(settings.debug.view)) {
         buildShadows(scene_, lights_, settings, inputs.time_s, shadows_);
     }
+    drawn_ = settings.size;
+    shadow_size_px_ = settings.shadows.size_px;
     planned_ = generalised(facts(inputs), inputs.generic);
     const FramePlan plan = planFrame(settings, planned_);
     uniforms_ = makeFrameUniforms(settings, projection, plan.lists ? &light_grid_.grid() : nullptr,
@@ -217,6 +233,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
     uniforms_.first_area = lights_.first_area;
     fogged_ = plan.fog;
+    fog_ = {};
     if (plan.fog) {
         fog_ = makeFog(
             settings,
@@ -267,20 +284,73 @@ void FrameBuilder::buildDebug(const FrameInputs& inputs, const FramePlan& plan, 
                                     shownBytes(plan.debug, plan.gbuffer_output_flags));
 }
 
-Result<void> FrameBuilder::affordable(const FrameInputs& inputs) const {
-    const bool all_lights = inputs.settings.renderer == view::Renderer::kNaive ||
-                            !light_grid_.lists() || lists_.stats.overflowed;
-    // What the device lists is not known yet.
-    const uint64_t each = all_lights ? lights_.lights.size() : on_device_ ? 0 : lists_.stats.p95;
-    if (fogged_) {
-        if (auto affordable =
-                checkFogBudget(fog_, each, scene_.device.limits().maxTexelBufferElements,
-                               scene_.device.traits().is_cpu);
-            !affordable) {
-            return affordable;
-        }
+PairBound FrameBuilder::knownPairs(const FramePlan& plan) const {
+    if (!plan.lists || on_device_ || lists_.stats.overflowed) {
+        return PairBound::uniform(lights_.lights.size());
     }
-    return checkLightBudget(inputs.settings.size, each, scene_.device.traits().is_cpu);
+    return PairBound::lists(light_grid_.grid(), lists_);
+}
+
+// With room for what moves between two frames; a frame that has more is drawn again.
+std::optional<PairBound> FrameBuilder::seenPairs() const {
+    const auto& grid = light_grid_.grid();
+    if (!seen_lists_ || seen_lists_->grid != grid.size) {
+        return {};
+    }
+    if (seen_lists_->all_lights > 0) {
+        return PairBound::uniform(seen_lists_->all_lights);
+    }
+    std::vector<uint32_t> longest = seen_lists_->tile_longest;
+    for (uint32_t& length : longest) {
+        length += length / 4;
+    }
+    return PairBound::tiles(grid, longest);
+}
+
+FrameCosts FrameBuilder::costs(const FramePlan& plan,
+                               const view::Size& shown,
+                               const BloomPlan* bloom,
+                               Seconds piece) {
+    const view::Size& drawn = drawn_;
+    FrameLoad load{.plan = plan,
+                   .draws = draws_,
+                   .shadows = shadows_,
+                   .bloom = bloom,
+                   .drawn = drawn,
+                   .shown = shown,
+                   .pairs = knownPairs(plan),
+                   .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
+                   .area_count = static_cast<uint32_t>(lights_.areas.size()),
+                   .overdraw = scene_.overdraw.value_or(kUsualOverdraw),
+                   .shadow_size_px = shadow_size_px_,
+                   .fog_nodes = {fog_.node_count_x, fog_.node_count_y},
+                   .fog_tile_px = fog_.tile_px,
+                   .fog_slice_count = fog_.slice_count,
+                   .peel_layers =
+                       peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0)};
+    if (plan.visibility) {
+        const VisibilityScene& visible = scene_.visibility();
+        load.device_triangles = visible.triangle_count;
+        load.resolve_count = visible.pipelines.bindless()
+                                 ? 1
+                                 : static_cast<uint32_t>(visible.materials_in_use.size());
+    }
+    FrameCosts costs(scene_.unit_costs, load);
+    if (!on_device_ || costs.total() <= piece) {
+        return costs;
+    }
+    const vk::Rect2D whole{{0, 0}, {drawn.width_px, drawn.height_px}};
+    const double room = costs.pairsWithin(piece);
+    const double pixels = static_cast<double>(drawn.width_px) * drawn.height_px;
+    const auto seen = seenPairs();
+    if (seen && seen->pairs(whole) > room) {
+        load.pairs = *seen;
+        device_lists_.setMaxPairs(1.001 * seen->pairs(whole)); // summed in floats there
+    } else {
+        load.pairs = PairBound::uniform(static_cast<uint64_t>(room / pixels));
+        device_lists_.setMaxPairs(room);
+    }
+    return {scene_.unit_costs, std::move(load)};
 }
 
 } // namespace froxel::render

@@ -5,6 +5,7 @@
 #include "interface/frame_io.h"
 #include "light/frame_lights.h"
 #include "render/draw_list.h"
+#include "render/frame_costs.h"
 #include "render/frame_plan.h"
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
@@ -24,11 +25,17 @@ class FrameBuilder {
 
     // Culls, evaluates lights, plans, assigns lights to clusters.
     [[nodiscard]] FramePlan build(const FrameInputs& inputs);
-    // Of what was built: whether the device gets through its lights in time. Errors: kCapacity.
-    [[nodiscard]] Result<void> affordable(const FrameInputs& inputs) const;
+    // What the frame that was built takes. Where its lists are made on the device and could make it
+    // longer than `piece`, the device looks at them before it shades, and leaves the frame without
+    // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `bloom` and
+    // this.
+    [[nodiscard]] FrameCosts
+    costs(const FramePlan& plan, const view::Size& shown, const BloomPlan* bloom, Seconds piece);
     // After a frame with lists from the device: whether they are whole. If not, the frame must be
-    // built again, for which there will be room.
-    [[nodiscard]] bool acceptLists(const io::AssignTotals& totals);
+    // built again, for which there will be room, and what its lists hold is known.
+    [[nodiscard]] bool acceptLists(const AssignSlot& lists);
+    // What lists held is of no use any more: the frame was refused, and another one comes.
+    void forgetLists() { seen_lists_.reset(); }
     // Puts what build() made into the slot's buffer and describes it to the shaders.
     [[nodiscard]] UploadOffsets upload(FrameSlot& slot);
 
@@ -49,6 +56,15 @@ class FrameBuilder {
     [[nodiscard]] glm::vec3 background() const { return uniforms_.background; }
 
   private:
+    // The longest list of each tile, as the device last told.
+    struct SeenLists {
+        view::GridSize grid;
+        std::vector<uint32_t> tile_longest;
+        uint32_t all_lights = 0; // what each pixel loops over instead; 0: lists
+    };
+    // What is known of pairs before the device has made lists.
+    [[nodiscard]] PairBound knownPairs(const FramePlan& plan) const;
+    [[nodiscard]] std::optional<PairBound> seenPairs() const;
     // Where a binding's data lies in the upload buffer.
     struct Block {
         vk::DeviceSize offset = 0;
@@ -81,9 +97,12 @@ class FrameBuilder {
     cluster::LightLists lists_; // made by the host
     GpuLightLists device_lists_;
     bool on_device_ = false;
+    std::optional<SeenLists> seen_lists_;
     view::ViewSettings refused_; // what the device's lists were too small for
     DrawList draws_;
     ShadowFrame shadows_;
+    view::Size drawn_;
+    uint32_t shadow_size_px_ = 0;
     FrameFacts planned_;
     bool visibility_ = false;
     bool compute_raster_ = false;

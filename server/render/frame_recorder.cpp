@@ -3,12 +3,11 @@
 #include "render/barrier.h"
 #include "render/blended_recorder.h"
 #include "render/fog_passes.h"
+#include "render/fresh_targets.h"
 #include "render/passes.h"
 #include "render/raster_passes.h"
 #include "render/visibility_passes.h"
 
-#include <utility>
-#include <vector>
 
 namespace froxel::render {
 
@@ -19,9 +18,21 @@ using Stage = vk::PipelineStageFlagBits2;
 
 constexpr vk::PipelineStageFlags2 kShaders = Stage::eComputeShader | Stage::eFragmentShader;
 
+const view::Size& drawn(const FrameContext& frame) {
+    return frame.slot.targets->size;
+}
+
+const view::Size& shown(const FrameContext& frame) {
+    return frame.slot.targets->shown;
+}
+
+vk::Rect2D whole(const FrameContext& frame) {
+    return {{0, 0}, {drawn(frame).width_px, drawn(frame).height_px}};
+}
+
 void recordPrepass(const FrameContext& frame) {
     if (frame.plan.depth_prepass) {
-        recordDepthPrepass(frame);
+        inParts(frame, drawn(frame), frame.costs.depthPrepass(), recordDepthPrepass);
         // prepass depth -> the next pass's equality test
         barrier(frame.slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages,
                 Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
@@ -30,7 +41,7 @@ void recordPrepass(const FrameContext& frame) {
 
 void recordForward(const FrameContext& frame) {
     recordPrepass(frame);
-    recordForwardPass(frame);
+    inParts(frame, drawn(frame), frame.costs.forward(), recordForwardPass);
 }
 
 // Depth and ids, rastered in compute.
@@ -59,13 +70,13 @@ void recordComputeRaster(const FrameContext& frame) {
             Access::eShaderSampledRead | Access::eShaderStorageWrite);
 }
 
-// Depth and ids; what follows reads them in compute.
-void recordVisible(const FrameContext& frame) {
-    if (frame.plan.compute_raster) {
-        recordComputeRaster(frame);
-        return;
-    }
+// Likewise by the rasteriser, of a part of the picture.
+void recordVisiblePart(const FrameContext& frame, const vk::Rect2D& region) {
     const auto& cmd = frame.slot.cmd;
+    // draws of the part before -> this one's
+    barrier(cmd, Stage::eDrawIndirect | Stage::eComputeShader, Access::eShaderStorageWrite,
+            Stage::eComputeShader | Stage::eTransfer,
+            Access::eShaderStorageWrite | Access::eTransferWrite);
     if (!frame.scene.device.traits().draw_indirect_count) {
         recordEmptyDraws(frame);
     }
@@ -78,11 +89,23 @@ void recordVisible(const FrameContext& frame) {
     // draws and their counts -> indirect draws
     barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eDrawIndirect,
             Access::eIndirectCommandRead);
-    recordVisibility(frame);
+    recordVisibility(frame, region);
     // depth and ids -> loads of the pass that shades or fills the G-buffer
     barrier(cmd, kDepthStages | Stage::eColorAttachmentOutput,
             Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite,
             Stage::eComputeShader, Access::eShaderSampledRead);
+}
+
+// Depth and ids; what follows reads them in compute.
+void recordVisible(const FrameContext& frame) {
+    if (frame.plan.compute_raster) {
+        const RegionCost cost = frame.costs.ids();
+        frame.pieces.add(cost.each + cost.of(whole(frame)));
+        recordComputeRaster(frame);
+        return;
+    }
+    // Views share the lists of visible meshlets: each part makes its own.
+    inParts(frame, drawn(frame), frame.costs.ids(), recordVisiblePart);
 }
 
 // radiance as the last pass left it, in either stage -> loads and stores of a compute pass
@@ -96,13 +119,13 @@ void radianceToCompute(const vk::raii::CommandBuffer& cmd) {
 void recordGeometry(const FrameContext& frame) {
     if (frame.plan.visibility) {
         recordVisible(frame);
-        recordVisibilityGbuffer(frame);
+        inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityGbuffer);
         // G-buffer, and depth where compute rastered -> lighting's loads
         barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
                 Access::eShaderSampledRead);
     } else {
         recordPrepass(frame);
-        recordGbuffer(frame);
+        inParts(frame, drawn(frame), frame.costs.gbuffer(), recordGbuffer);
         // G-buffer and depth -> lighting's loads
         barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput,
                 Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite, kShaders,
@@ -112,18 +135,15 @@ void recordGeometry(const FrameContext& frame) {
 
 void recordDeferred(const FrameContext& frame) {
     recordGeometry(frame);
-    if (frame.plan.lighting_compute) {
-        recordLightingCompute(frame);
-    } else {
-        recordLightingFragment(frame);
-    }
+    inParts(frame, drawn(frame), frame.costs.lighting(),
+            frame.plan.lighting_compute ? recordLightingCompute : recordLightingFragment);
     if (frame.plan.toon_pass) {
         radianceToCompute(frame.slot.cmd);
-        recordToon(frame);
+        inParts(frame, drawn(frame), frame.costs.screen(), recordToon);
     }
     if (frame.plan.outline) {
         radianceToCompute(frame.slot.cmd);
-        recordOutline(frame);
+        inParts(frame, drawn(frame), frame.costs.screen(), recordOutline);
     }
 }
 
@@ -131,7 +151,8 @@ void recordDeferred(const FrameContext& frame) {
 void recordFog(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
     if (frame.plan.fog_volume) {
-        recordFogScatter(frame);
+        inParts(frame, {frame.fog->node_count_x, frame.fog->node_count_y}, frame.costs.fogScatter(),
+                recordFogScatter);
         // the slices' scattering -> their sums, in place
         barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
                 Access::eShaderStorageRead | Access::eShaderStorageWrite);
@@ -146,15 +167,20 @@ void recordFog(const FrameContext& frame) {
                 Access::eShaderStorageWrite,
             Stage::eComputeShader,
             Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite);
-    recordFogApply(frame);
+    inParts(frame, drawn(frame), frame.costs.screen(), recordFogApply);
 }
 
 void recordBloom(const FrameContext& frame) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "bloom");
     for (size_t step = 0; step < frame.bloom->steps.size(); ++step) {
         // the picture, what steps before left -> this one's loads; their loads -> its stores
         radianceToCompute(frame.slot.cmd);
-        recordBloomStep(frame.slot.cmd, frame.scene.bloom(), *frame.slot.bloom, *frame.bloom, step);
+        const auto& pass = frame.bloom->steps[step].pass;
+        inParts(frame, {pass.target_width_px, pass.target_height_px}, frame.costs.bloom(step),
+                [step](const FrameContext& at, const vk::Rect2D& part) {
+                    const gpu::PassScope scope(at.slot.timestamps, at.slot.cmd, "bloom");
+                    recordBloomStep(at.slot.cmd, at.scene.bloom(), *at.slot.bloom, *at.bloom, step,
+                                    part);
+                });
     }
 }
 
@@ -162,7 +188,7 @@ void recordBloom(const FrameContext& frame) {
 void recordReplacement(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
     if (frame.plan.debug == view::DebugView::kOverdraw) {
-        recordOverdraw(frame);
+        inParts(frame, drawn(frame), frame.costs.gbuffer(), recordOverdraw);
         // counted fragments -> load
         barrier(cmd, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
                 Stage::eComputeShader, Access::eShaderStorageRead);
@@ -171,58 +197,12 @@ void recordReplacement(const FrameContext& frame) {
     } else if (frame.plan.visibility) {
         recordVisible(frame);
     } else {
-        recordDepthPrepass(frame);
+        inParts(frame, drawn(frame), frame.costs.depthPrepass(), recordDepthPrepass);
         // depth -> loads
         barrier(cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, Stage::eComputeShader,
                 Access::eShaderSampledRead);
     }
-    recordDebugView(frame);
-}
-
-// Moves fresh images into the GENERAL layout.
-void transitionFresh(FrameSlot& slot) {
-    std::vector<vk::ImageMemoryBarrier2> barriers;
-    const auto add = [&](const gpu::Image& image, vk::ImageAspectFlags aspect) {
-        if (*image.handle) {
-            barriers.push_back({.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                .dstAccessMask = vk::AccessFlagBits2::eMemoryRead |
-                                                 vk::AccessFlagBits2::eMemoryWrite,
-                                .oldLayout = vk::ImageLayout::eUndefined,
-                                .newLayout = vk::ImageLayout::eGeneral,
-                                .image = *image.handle,
-                                .subresourceRange = {aspect, 0, 1, 0, 1}});
-        }
-    };
-    ViewTargets& targets = *slot.targets;
-    if (std::exchange(targets.fresh, false)) {
-        add(targets.depth, vk::ImageAspectFlagBits::eDepth);
-        add(targets.gbuffer, vk::ImageAspectFlagBits::eColor);
-        add(targets.gbuffer_extra, vk::ImageAspectFlagBits::eColor);
-        add(targets.ids, vk::ImageAspectFlagBits::eColor);
-        add(targets.compute_depth, vk::ImageAspectFlagBits::eColor);
-        add(targets.radiance, vk::ImageAspectFlagBits::eColor);
-    }
-    if (slot.blend && std::exchange(slot.blend->fresh, false)) {
-        add(slot.blend->sums, vk::ImageAspectFlagBits::eColor);
-        add(slot.blend->weights, vk::ImageAspectFlagBits::eColor);
-        add(slot.blend->layer_depth, vk::ImageAspectFlagBits::eDepth);
-        for (const auto& keys : slot.blend->layer_keys) {
-            add(keys, vk::ImageAspectFlagBits::eColor);
-        }
-    }
-    if (slot.shadows && std::exchange(slot.shadows->fresh, false)) {
-        add(slot.shadows->atlas, vk::ImageAspectFlagBits::eDepth);
-    }
-    if (slot.bloom && std::exchange(slot.bloom->fresh, false)) {
-        for (const auto& image : slot.bloom->images()) {
-            add(image, vk::ImageAspectFlagBits::eColor);
-        }
-    }
-    if (!barriers.empty()) {
-        slot.cmd.pipelineBarrier2(
-            {.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
-             .pImageMemoryBarriers = barriers.data()});
-    }
+    inParts(frame, drawn(frame), frame.costs.debugView(), recordDebugView);
 }
 
 void copyImage(const vk::raii::CommandBuffer& cmd,
@@ -239,15 +219,14 @@ void copyImage(const vk::raii::CommandBuffer& cmd,
 
 } // namespace
 
-void recordFrame(const FrameContext& frame) {
+void recordFrame(const FrameContext& frame, Seconds piece_limit) {
     auto& slot = frame.slot;
-    slot.cmd.reset();
-    slot.cmd.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    frame.pieces.begin(piece_limit);
     slot.timestamps.reset();
-    // the view's last frame, which had the same targets -> this one
-    barrier(frame.slot.cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eAllCommands,
-            Access::eMemoryRead | Access::eMemoryWrite);
-    transitionFresh(slot);
+    recordFreshTargets(slot);
+    if (frame.plan.count_samples) {
+        slot.samples->restart(slot.cmd);
+    }
     if (slot.device_lists) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
     }
@@ -262,7 +241,7 @@ void recordFrame(const FrameContext& frame) {
         recordReplacement(frame);
     } else if (frame.plan.visibility_shade) {
         recordVisible(frame);
-        recordVisibilityShade(frame);
+        inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityShade);
     } else if (frame.plan.forward) {
         recordForward(frame);
     } else {
@@ -277,7 +256,7 @@ void recordFrame(const FrameContext& frame) {
                 Stage::eComputeShader,
                 Access::eShaderStorageRead | Access::eShaderStorageWrite |
                     Access::eShaderSampledRead);
-        recordCountPairs(frame);
+        inParts(frame, drawn(frame), frame.costs.countPairs(), recordCountPairs);
     }
     if (frame.plan.fog) {
         recordFog(frame);
@@ -296,17 +275,17 @@ void recordFrame(const FrameContext& frame) {
                 Stage::eColorAttachmentOutput | Stage::eFragmentShader,
                 Access::eColorAttachmentRead | Access::eColorAttachmentWrite |
                     Access::eShaderSampledRead);
-        recordWires(frame);
+        recordWires(frame, whole(frame));
     }
     if (frame.plan.tonemap) {
         radianceToCompute(frame.slot.cmd);
-        recordTonemap(frame);
+        inParts(frame, shown(frame), frame.costs.screen(), recordTonemap);
     }
     if (frame.plan.fxaa) {
         // packed pixels -> the filter's loads
         barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
                 Stage::eComputeShader, Access::eShaderSampledRead);
-        recordFxaa(frame);
+        inParts(frame, shown(frame), frame.costs.screen(), recordFxaa);
     }
     if (slot.targets->needs.device_pixels) {
         // packed pixels -> copy
@@ -315,7 +294,7 @@ void recordFrame(const FrameContext& frame) {
         recordReadback(frame);
     }
     recordHostRead(slot.cmd); // pixels and counters
-    slot.cmd.end();
+    frame.pieces.end();
 }
 
 void recordHostRead(const vk::raii::CommandBuffer& cmd) {

@@ -5,6 +5,8 @@
 #include "render/assign_passes.h"
 #include "render/debug_frame.h"
 #include "render/draw_list.h"
+#include "render/frame_costs.h"
+#include "render/frame_pieces.h"
 #include "render/frame_plan.h"
 #include "render/frame_slot.h"
 #include "render/scene_resources.h"
@@ -37,10 +39,23 @@ struct FrameContext {
     const BloomPlan* bloom = nullptr;      // likewise
     const io::Fog* fog = nullptr;          // likewise
     const ShadowFrame* shadows = nullptr;  // likewise
+    FramePieces& pieces;                   // the slot's
+    const FrameCosts& costs;
 };
 
-// Records slot.cmd from begin to end.
-void recordFrame(const FrameContext& frame);
+// Calls record(frame, part) for parts of a picture of `size`, where pieces may end.
+template <class Record>
+void inParts(const FrameContext& frame,
+             const view::Size& size,
+             const RegionCost& cost,
+             const Record& record) {
+    frame.pieces.over({size.width_px, size.height_px}, cost,
+                      [&](const vk::Rect2D& part) { record(frame, part); });
+}
+
+// Records the slot's pieces from begin to end, none longer than `piece_limit` where work can be
+// cut: between two of them other views' frames may be drawn.
+void recordFrame(const FrameContext& frame, Seconds piece_limit);
 
 // Records the assignment of lights on the device, from clearing its counters to copying them to the
 // host; lists and indices are ready for shaders.

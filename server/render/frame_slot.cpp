@@ -72,7 +72,7 @@ Readback::Readback(const gpu::Device& device, vk::DeviceSize size_bytes)
                                              "readback")) {}
 
 FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines)
-    : cmd(timeline.makeCommandBuffer()), timestamps(device), upload(device),
+    : cmd(timeline.makeCommandBuffer()), pieces(timeline, cmd), timestamps(device), upload(device),
       pool(makePool(device)) {
     frame_set = gpu::makeSet(device, pool, pipelines.frameLayout());
     screen_set = gpu::makeSet(device, pool, pipelines.screenLayout());

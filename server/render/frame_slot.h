@@ -10,6 +10,7 @@
 #include "render/bloom.h"
 #include "render/debug_pass.h"
 #include "render/fog.h"
+#include "render/frame_pieces.h"
 #include "render/fxaa.h"
 #include "render/gpu_light_lists.h"
 #include "render/pair_counter.h"
@@ -71,10 +72,15 @@ struct Readback {
 struct FrameSlot {
     FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines);
 
+    // Whether the frame last recorded has pieces that are still to be submitted.
+    [[nodiscard]] bool unfinished() const {
+        return in_flight && !given_up && done_values.size() < pieces.count();
+    }
     // Whether a new frame may use the slot.
     [[nodiscard]] bool free() const { return !in_flight && (!readback || !readback->leased); }
 
-    vk::raii::CommandBuffer cmd;
+    vk::raii::CommandBuffer cmd; // of the piece that is recorded
+    FramePieces pieces;
     gpu::Timestamps timestamps;
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
@@ -102,7 +108,9 @@ struct FrameSlot {
     bool stale = false;        // an older frame was drawn again after this one
     FrameInputs inputs;        // of that frame, to draw it again
     bool in_flight = false;
-    uint64_t done_value = 0;
+    std::vector<uint64_t> done_values; // of the pieces submitted
+    uint32_t waited_count = 0;         // of these
+    bool given_up = false;             // the others will not be submitted
     FrameStats stats;
     std::chrono::steady_clock::time_point submitted;
 };

@@ -60,11 +60,11 @@ void FxaaSlot::write(const gpu::Buffer& display, const gpu::Buffer& pixels) {
 void FxaaSlot::record(const vk::raii::CommandBuffer& cmd,
                       const FxaaPipeline& shared,
                       vk::DescriptorSet frame_set,
-                      const vk::Extent2D& size_px) const {
+                      const vk::Rect2D& region) const {
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute, shared.pipeline());
     const std::array sets = {frame_set, *set_};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, shared.layout(), 0, sets, {});
-    cmd.dispatch(screenGroups(size_px.width), screenGroups(size_px.height), 1);
+    dispatchOver(cmd, region);
 }
 
 } // namespace froxel::render

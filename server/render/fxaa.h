@@ -27,12 +27,13 @@ class FxaaSlot {
   public:
     FxaaSlot(const gpu::Device& device, const FxaaPipeline& shared);
 
-    // From the picture before it to where pixels are copied from or read; the slot is not in flight.
+    // From the picture before it to where pixels are copied from or read; the slot is not in
+    // flight.
     void write(const gpu::Buffer& display, const gpu::Buffer& pixels);
     void record(const vk::raii::CommandBuffer& cmd,
                 const FxaaPipeline& shared,
                 vk::DescriptorSet frame_set,
-                const vk::Extent2D& size_px) const;
+                const vk::Rect2D& region) const;
 
   private:
     const gpu::Device& device_;

@@ -54,7 +54,7 @@ io::AssignSpot makeSpot(const light::FrameLights& lights, const io::Light& light
 ListBuffers::ListBuffers(const gpu::Device& device, const ListCapacity& capacity_in)
     : capacity(capacity_in), arena(device),
       totals(makeWords(arena,
-                       sizeof(io::AssignTotals) / sizeof(uint32_t),
+                       sizeof(io::AssignTotals) / sizeof(uint32_t) + io::kAssignMaxTiles,
                        "light list counters",
                        Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc)),
       tasks(makeWords(arena,
@@ -76,11 +76,13 @@ ListBuffers::ListBuffers(const gpu::Device& device, const ListCapacity& capacity
                         Usage::eUniformTexelBuffer | Usage::eTransferSrc)) {}
 
 AssignSlot::AssignSlot(const gpu::Device& device, const AssignPipelines& pipelines)
-    : device_(device), arena_(device), readback_(arena_.makeBuffer(sizeof(io::AssignTotals),
-                                                                   Usage::eTransferDst,
-                                                                   gpu::MemoryUse::kReadback,
-                                                                   "light list counters")),
+    : device_(device), arena_(device),
+      readback_(arena_.makeBuffer(sizeof(io::AssignTotals) + io::kAssignMaxTiles * sizeof(uint32_t),
+                                  Usage::eTransferDst,
+                                  gpu::MemoryUse::kReadback,
+                                  "light list counters")),
       pool_(nullptr) {
+    static_assert(uint64_t{view::kGridXRange.max} * view::kGridYRange.max <= io::kAssignMaxTiles);
     const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer,
                                       AssignPipelines::kBindings};
     pool_ = gpu::makeDescriptorPool(device, std::array{size});
@@ -95,6 +97,7 @@ void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
     const io::AssignFrame& frame = data.frame[0];
     light_count_ = frame.light_count;
     cluster_count_ = frame.cluster_count;
+    priced_tiles_ = frame.max_pairs > 0 ? frame.grid_x * frame.grid_y : 0;
     const auto part = [&](vk::DeviceSize offset, vk::DeviceSize bytes) {
         return vk::DescriptorBufferInfo{upload, offset, std::max<vk::DeviceSize>(bytes, 16)};
     };
@@ -128,6 +131,12 @@ void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
 
 const io::AssignTotals& AssignSlot::totals() const {
     return *reinterpret_cast<const io::AssignTotals*>(readback_.mapped);
+}
+
+std::span<const uint32_t> AssignSlot::tileLongest() const {
+    const auto* words =
+        reinterpret_cast<const uint32_t*>(readback_.mapped + sizeof(io::AssignTotals));
+    return {words, priced_tiles_};
 }
 
 GpuLightLists::GpuLightLists(const gpu::Device& device, const ListLimits& limits)
@@ -180,7 +189,11 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
                         .index_capacity = buffers_->capacity.entries,
                         .task_capacity = buffers_->capacity.tasks,
                         .max_entries = static_cast<uint32_t>(limits_.max_entries),
-                        .padding0 = 0});
+                        .max_pairs = 0,
+                        .image_width_px = grid.image.width_px,
+                        .image_height_px = grid.image.height_px,
+                        .tile_width_px = grid.tile_width_px,
+                        .tile_height_px = grid.tile_height_px});
     return data_;
 }
 
@@ -199,6 +212,9 @@ void GpuLightLists::ensure(const ListCapacity& needed) {
 }
 
 bool GpuLightLists::accept(const io::AssignTotals& totals) {
+    if (totals.outcome == io::kAssignLong) {
+        return false;
+    }
     if (totals.outcome != io::kAssignShort) {
         return true;
     }

@@ -75,8 +75,12 @@ class AssignSlot {
     [[nodiscard]] vk::Buffer readback() const { return *readback_.handle; }
     [[nodiscard]] uint32_t lightCount() const { return light_count_; }
     [[nodiscard]] uint32_t clusterCount() const { return cluster_count_; }
+    // Whether tiles are looked at.
+    [[nodiscard]] uint32_t pricedTiles() const { return priced_tiles_; }
     // Of the last frame, which has completed.
     [[nodiscard]] const io::AssignTotals& totals() const;
+    // Likewise the longest list of each tile; empty where they were not looked at.
+    [[nodiscard]] std::span<const uint32_t> tileLongest() const;
 
   private:
     const gpu::Device& device_;
@@ -87,6 +91,7 @@ class AssignSlot {
     std::shared_ptr<ListBuffers> buffers_;
     uint32_t light_count_ = 0;
     uint32_t cluster_count_ = 0;
+    uint32_t priced_tiles_ = 0;
 };
 
 class GpuLightLists {
@@ -96,6 +101,8 @@ class GpuLightLists {
     // Prepares a frame's data and memory that holds what frames so far have needed. `lights` must
     // stay alive until the data is uploaded. Throws vk::OutOfDeviceMemoryError.
     const AssignData& prepare(const cluster::ClusterGrid& grid, const light::FrameLights& lights);
+    // Of what was prepared: how many (light, pixel) pairs the frame may evaluate.
+    void setMaxPairs(double pairs) { data_.frame[0].max_pairs = static_cast<float>(pairs); }
     [[nodiscard]] const AssignData& data() const { return data_; }
     [[nodiscard]] const std::shared_ptr<ListBuffers>& buffers() const { return buffers_; }
 

@@ -61,7 +61,7 @@ void PairCounter::recordCount(const vk::raii::CommandBuffer& cmd,
                               vk::DescriptorSet frame_set,
                               vk::DescriptorSet screen_set,
                               uint32_t light_flags,
-                              const vk::Extent2D& size_px) {
+                              const vk::Rect2D& region) {
     const uint32_t flags = light_flags & kListFlags;
     if (light_flags_ != flags) {
         // The slot's last frame has finished: nothing uses the old one.
@@ -73,7 +73,7 @@ void PairCounter::recordCount(const vk::raii::CommandBuffer& cmd,
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
     const std::array sets = {frame_set, screen_set, *set_};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
-    cmd.dispatch(screenGroups(size_px.width), screenGroups(size_px.height), 1);
+    dispatchOver(cmd, region);
 }
 
 PairStats PairCounter::read() const {

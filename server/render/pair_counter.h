@@ -27,7 +27,7 @@ class PairCounter {
                      vk::DescriptorSet frame_set,
                      vk::DescriptorSet screen_set,
                      uint32_t light_flags,
-                     const vk::Extent2D& size_px);
+                     const vk::Rect2D& region);
     // Of the frame recorded last, which has finished.
     [[nodiscard]] PairStats read() const;
 

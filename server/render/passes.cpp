@@ -51,26 +51,22 @@ void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipe
 void dispatch(const FrameContext& frame,
               ScreenPass pass,
               const VariantKey& key,
-              const view::Size& size) {
+              const vk::Rect2D& region) {
     bindScreen(frame, vk::PipelineBindPoint::eCompute, frame.scene.pipelines.screen(pass, key));
-    frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
-}
-
-void dispatch(const FrameContext& frame, ScreenPass pass, const VariantKey& key) {
-    dispatch(frame, pass, key, frame.slot.targets->size);
+    dispatchOver(frame.slot.cmd, region);
 }
 
 } // namespace
 
-void recordDepthPrepass(const FrameContext& frame) {
+void recordDepthPrepass(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "depth_prepass");
     const SampleScope samples(frame, true);
     const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
-    const Rendering rendering(frame, {}, &depth);
+    const Rendering rendering(frame, region, {}, &depth);
     drawGroups(frame, GeometryPass::kDepth, frame.draws.solid);
 }
 
-void recordForwardPass(const FrameContext& frame) {
+void recordForwardPass(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "forward");
     const bool after_depth = frame.plan.depth_prepass;
     const SampleScope samples(frame, !after_depth);
@@ -78,12 +74,12 @@ void recordForwardPass(const FrameContext& frame) {
         attachment(frame.slot.targets->radiance, LoadOp::eClear, background(frame))};
     const auto depth = attachment(frame.slot.targets->depth,
                                   after_depth ? LoadOp::eLoad : LoadOp::eClear, farDepth());
-    const Rendering rendering(frame, colors, &depth);
+    const Rendering rendering(frame, region, colors, &depth);
     drawGroups(frame, after_depth ? GeometryPass::kForwardAfterDepth : GeometryPass::kForward,
                frame.draws.solid);
 }
 
-void recordGbuffer(const FrameContext& frame) {
+void recordGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "gbuffer");
     const bool after_depth = frame.plan.depth_prepass;
     const SampleScope samples(frame, !after_depth);
@@ -96,21 +92,21 @@ void recordGbuffer(const FrameContext& frame) {
     }
     const auto depth = attachment(frame.slot.targets->depth,
                                   after_depth ? LoadOp::eLoad : LoadOp::eClear, farDepth());
-    const Rendering rendering(frame, colors, &depth);
+    const Rendering rendering(frame, region, colors, &depth);
     drawGroups(frame, after_depth ? GeometryPass::kGbufferAfterDepth : GeometryPass::kGbuffer,
                frame.draws.solid);
 }
 
-void recordLightingCompute(const FrameContext& frame) {
+void recordLightingCompute(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "lighting");
     dispatch(frame, ScreenPass::kLighting,
-             {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags});
+             {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags}, region);
 }
 
-void recordLightingFragment(const FrameContext& frame) {
+void recordLightingFragment(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "lighting");
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eDontCare)};
-    const Rendering rendering(frame, colors, nullptr);
+    const Rendering rendering(frame, region, colors, nullptr);
     bindScreen(frame, vk::PipelineBindPoint::eGraphics,
                frame.scene.pipelines.fragmentLighting(
                    {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags}));
@@ -119,59 +115,55 @@ void recordLightingFragment(const FrameContext& frame) {
     frame.slot.cmd.draw(3, 1, 0, 0);
 }
 
-void recordToon(const FrameContext& frame) {
+void recordToon(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "toon");
-    dispatch(frame, ScreenPass::kToon, {0, 0, frame.plan.toon_output_flags});
+    dispatch(frame, ScreenPass::kToon, {0, 0, frame.plan.toon_output_flags}, region);
 }
 
-void recordOutline(const FrameContext& frame) {
+void recordOutline(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "outline");
-    dispatch(frame, ScreenPass::kOutline, {0, 0, frame.plan.gbuffer_output_flags});
+    dispatch(frame, ScreenPass::kOutline, {0, 0, frame.plan.gbuffer_output_flags}, region);
 }
 
-void recordTransparent(const FrameContext& frame) {
+void recordTransparent(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "transparent");
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
     const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
-    const Rendering rendering(frame, colors, &depth);
+    const Rendering rendering(frame, region, colors, &depth);
     drawGroups(frame, GeometryPass::kTransparent, frame.draws.transparent);
 }
 
-void recordTonemap(const FrameContext& frame) {
+void recordTonemap(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "tonemap");
-    dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags},
-             frame.slot.targets->shown);
+    dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags}, region);
 }
 
-void recordFxaa(const FrameContext& frame) {
+void recordFxaa(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fxaa");
-    const auto& size = frame.slot.targets->shown;
-    frame.slot.fxaa->record(frame.slot.cmd, frame.scene.fxaa(), *frame.slot.frame_set,
-                            {size.width_px, size.height_px});
+    frame.slot.fxaa->record(frame.slot.cmd, frame.scene.fxaa(), *frame.slot.frame_set, region);
 }
 
-void recordOverdraw(const FrameContext& frame) {
+void recordOverdraw(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "overdraw");
     const vk::ClearValue none = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 0.0F});
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eClear, none)};
     const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
-    const Rendering rendering(frame, colors, &depth);
+    const Rendering rendering(frame, region, colors, &depth);
     drawGroups(frame, GeometryPass::kOverdraw, frame.draws.solid);
 }
 
-void recordDebugView(const FrameContext& frame) {
+void recordDebugView(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "debug_view");
-    const auto& size = frame.slot.targets->size;
     frame.slot.debug->recordValues(
         frame.slot.cmd, {*frame.slot.frame_set, *frame.slot.screen_set},
         {0, frame.plan.lighting_light_flags, frame.plan.gbuffer_output_flags}, frame.debug->values,
-        {size.width_px, size.height_px});
+        region);
 }
 
-void recordWires(const FrameContext& frame) {
+void recordWires(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "wires");
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
-    const Rendering rendering(frame, colors, nullptr);
+    const Rendering rendering(frame, region, colors, nullptr);
     const DebugSets sets = {*frame.slot.frame_set, *frame.slot.screen_set};
     frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
     frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
@@ -184,13 +176,12 @@ void recordWires(const FrameContext& frame) {
     }
 }
 
-void recordCountPairs(const FrameContext& frame) {
+void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "count_pairs");
-    const auto& size = frame.slot.targets->size;
     frame.slot.pairs->recordCount(frame.slot.cmd, *frame.slot.frame_set, *frame.slot.screen_set,
                                   frame.plan.forward ? frame.plan.forward_light_flags
                                                      : frame.plan.lighting_light_flags,
-                                  {size.width_px, size.height_px});
+                                  region);
 }
 
 void recordReadback(const FrameContext& frame) {

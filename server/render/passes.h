@@ -6,20 +6,31 @@
 
 namespace froxel::render {
 
-void recordDepthPrepass(const FrameContext& frame); // writes depth
-void recordForwardPass(const FrameContext& frame);  // writes radiance, depth where no prepass did
-void recordGbuffer(const FrameContext& frame);      // writes G-buffer, depth
-void recordLightingCompute(const FrameContext& frame);  // reads both; writes radiance and/or pixels
-void recordLightingFragment(const FrameContext& frame); // reads both; writes radiance
-void recordToon(const FrameContext& frame);        // reads radiance; writes radiance and/or pixels
-void recordOutline(const FrameContext& frame); // reads depth and G-buffer; darkens radiance
-void recordTransparent(const FrameContext& frame); // blends over radiance, tests depth
-void recordTonemap(const FrameContext& frame);     // reads radiance, writes pixels
-void recordOverdraw(const FrameContext& frame);    // writes depth; adds fragments up in radiance
-void recordDebugView(const FrameContext& frame);   // reads what the view shows, writes pixels
-void recordWires(const FrameContext& frame);       // blends lines over radiance, reads depth
-void recordFxaa(const FrameContext& frame);        // reads the display's picture, writes pixels
-void recordCountPairs(const FrameContext& frame);  // reads depth
-void recordReadback(const FrameContext& frame);    // copies pixels to the host
+void recordDepthPrepass(const FrameContext& frame, const vk::Rect2D& region); // writes depth
+void recordForwardPass(const FrameContext& frame,
+                       const vk::Rect2D& region); // writes radiance, depth where no prepass did
+void recordGbuffer(const FrameContext& frame, const vk::Rect2D& region); // writes G-buffer, depth
+void recordLightingCompute(const FrameContext& frame,
+                           const vk::Rect2D& region); // reads both; writes radiance and/or pixels
+void recordLightingFragment(const FrameContext& frame,
+                            const vk::Rect2D& region); // reads both; writes radiance
+void recordToon(const FrameContext& frame,
+                const vk::Rect2D& region); // reads radiance; writes radiance and/or pixels
+void recordOutline(const FrameContext& frame,
+                   const vk::Rect2D& region); // reads depth and G-buffer; darkens radiance
+void recordTransparent(const FrameContext& frame,
+                       const vk::Rect2D& region); // blends over radiance, tests depth
+void recordTonemap(const FrameContext& frame,
+                   const vk::Rect2D& region); // reads radiance, writes pixels
+void recordOverdraw(const FrameContext& frame,
+                    const vk::Rect2D& region); // writes depth; adds fragments up in radiance
+void recordDebugView(const FrameContext& frame,
+                     const vk::Rect2D& region); // reads what the view shows, writes pixels
+void recordWires(const FrameContext& frame,
+                 const vk::Rect2D& region); // blends lines over radiance, reads depth
+void recordFxaa(const FrameContext& frame,
+                const vk::Rect2D& region); // reads the display's picture, writes pixels
+void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region); // reads depth
+void recordReadback(const FrameContext& frame); // copies pixels to the host
 
 } // namespace froxel::render

@@ -2,6 +2,7 @@
 // used by one thread, the render thread; only PixelLease may end elsewhere.
 #pragma once
 
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/frame_stats.h"
 #include "core/linear_image.h"
@@ -16,6 +17,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace froxel::render {
@@ -37,14 +39,33 @@ struct FrameInputs {
     // For tests and measurements.
     GenericParts generic = {};
     GeometryPath geometry = GeometryPath::kAuto;
-    bool cull_meshlets = true; // in the visibility passes
+    bool cull_meshlets = true;              // in the visibility passes
     std::optional<bool> depth_prepass = {}; // none: where it pays
     AssignmentPlace assignment = AssignmentPlace::kAuto;
+};
+
+// How long frames and their pieces may take by their estimates. The defaults are for whoever has
+// the device alone; whoever shares it wants less.
+struct WorkLimits {
+    Seconds frame{100}; // beyond: refused, before anything is allocated
+    Seconds piece{10};
+};
+
+// What a frame will ask of the device.
+struct FrameWork {
+    Seconds estimate{0};
+    uint32_t piece_count = 1;
 };
 
 struct RenderedFrame {
     PixelLease pixels; // RGBA8 sRGB
     FrameStats stats;
+};
+
+// What became of the oldest piece.
+struct PieceResult {
+    bool again = false;                 // its frame must be begun again: lists turned out longer
+    std::optional<RenderedFrame> frame; // it was the last one; neither: more follow, or given up
 };
 
 // Geometry, textures and pipelines shared by all viewers of one scene.
@@ -62,31 +83,46 @@ class Renderer {
     std::unique_ptr<SceneResources> resources_;
 };
 
-// Targets, light lists and readback ring of one viewer. Frames complete in submission order.
+// Targets, light lists and readback ring of one viewer. Frames complete in submission order, each
+// as pieces that run in order; between them the device may run those of other viewers.
 class ViewRenderer {
   public:
     static constexpr uint32_t kReadbackSlots = 3;
 
-    explicit ViewRenderer(Renderer& renderer, const ListLimits& limits = {});
+    explicit ViewRenderer(Renderer& renderer,
+                          const ListLimits& limits = {},
+                          const WorkLimits& work = {});
     ~ViewRenderer();
     ViewRenderer(const ViewRenderer&) = delete;
     ViewRenderer& operator=(const ViewRenderer&) = delete;
 
-    // Whether a readback slot is free; submit() must not be called otherwise.
+    // Whether a readback slot is free and no frame has pieces that wait; neither begin() nor
+    // submit() may be called otherwise.
     [[nodiscard]] bool canSubmit() const;
-    // Records and submits one frame; returns at once where the device runs on its own.
-    // Errors: kCapacity when targets of this size do not fit or lights would take minutes
-    // (light_budget.h); kDevice when the device is lost; kUnsupported when the settings ask for
-    // what the device lacks.
+
+    // Records one frame; nothing runs yet. Errors: kCapacity when targets of this size do not fit
+    // or the frame would take longer than allowed; kDevice when the device is lost; kUnsupported
+    // when the settings ask for what the device lacks.
+    [[nodiscard]] Result<FrameWork> begin(const FrameInputs& inputs);
+    // Gives the device the next piece of the frame begun last; returns at once where the device
+    // runs on its own. Errors: kDevice.
+    [[nodiscard]] Result<void> submitPiece();
+    // Gives up the pieces of the frame begun last that wait, of which there is at least one; those
+    // on the device are still to be collected, and with none there the frame is gone at once.
+    void abandon();
+    // Waits for the oldest piece on the device. Errors: kDevice.
+    [[nodiscard]] Result<PieceResult> collectPiece();
+
+    // The same for whoever has the device alone: a whole frame. Waits for the oldest one; draws it
+    // again where its light lists did not fit the device's memory for them. Errors: begin()'s.
     [[nodiscard]] Result<void> submit(const FrameInputs& inputs);
-    // Waits for the oldest submitted frame; draws it again where its light lists did not fit the
-    // device's memory for them. Errors: kCapacity, kDevice.
     [[nodiscard]] Result<RenderedFrame> collect();
     [[nodiscard]] uint32_t inFlight() const;
     // The linear picture of the frame last submitted, which had keep_radiance (not a fast path:
     // waits and copies).
     [[nodiscard]] Result<LinearImage> readLinear();
-    // The shadow maps of the frame last submitted, which had some (not a fast path). Errors: kDevice.
+    // The shadow maps of the frame last submitted, which had some (not a fast path). Errors:
+    // kDevice.
     [[nodiscard]] Result<ShadowAtlas> readShadows();
     // Which triangles the frame last collected shows, which took the visibility passes; `scene` is
     // the renderer's (not a fast path: see visibility_readback.h). Errors: kDevice.

@@ -8,10 +8,6 @@
 
 namespace froxel::render {
 
-[[nodiscard]] inline vk::Rect2D area(const FrameContext& frame) {
-    return {{0, 0}, {frame.slot.targets->size.width_px, frame.slot.targets->size.height_px}};
-}
-
 [[nodiscard]] inline vk::RenderingAttachmentInfo
 attachment(const gpu::Image& image,
            vk::AttachmentLoadOp load,
@@ -28,22 +24,23 @@ attachment(const gpu::Image& image,
     return vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0};
 }
 
-// Open as long as it lives, with the frame's viewport.
+// Open as long as it lives, with the frame's viewport, over a part of the picture.
 class Rendering {
   public:
     Rendering(const FrameContext& frame,
+              const vk::Rect2D& region,
               std::span<const vk::RenderingAttachmentInfo> colors,
               const vk::RenderingAttachmentInfo* depth)
         : cmd_(frame.slot.cmd) {
-        const auto rect = area(frame);
-        cmd_.beginRendering({.renderArea = rect,
+        const auto& size = frame.slot.targets->size;
+        cmd_.beginRendering({.renderArea = region,
                              .layerCount = 1,
                              .colorAttachmentCount = static_cast<uint32_t>(colors.size()),
                              .pColorAttachments = colors.data(),
                              .pDepthAttachment = depth});
-        cmd_.setViewport(0, vk::Viewport{0, 0, static_cast<float>(rect.extent.width),
-                                         static_cast<float>(rect.extent.height), 0, 1});
-        cmd_.setScissor(0, rect);
+        cmd_.setViewport(0, vk::Viewport{0, 0, static_cast<float>(size.width_px),
+                                         static_cast<float>(size.height_px), 0, 1});
+        cmd_.setScissor(0, region);
     }
     ~Rendering() { cmd_.endRendering(); }
     Rendering(const Rendering&) = delete;

@@ -13,6 +13,7 @@
 #include "render/pipelines.h"
 #include "render/scene_needs.h"
 #include "render/texture_store.h"
+#include "render/unit_costs.h"
 #include "render/visibility_scene.h"
 
 #include <cstdint>
@@ -59,6 +60,8 @@ class SceneResources {
     // Fragments that pass the depth test, per pixel of the picture: of the first frame that the
     // rasteriser draws. None: not measured yet.
     std::optional<double> overdraw;
+    // Of this device; see device_speed.h.
+    UnitCosts unit_costs;
 
     // Made at the first call. Null: the device cannot assign lights as the host does.
     [[nodiscard]] const AssignPipelines* assignment();

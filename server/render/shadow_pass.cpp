@@ -135,14 +135,17 @@ copyShadows(SceneResources& scene, const ShadowTargets& targets, const ShadowFra
     return atlas;
 }
 
-void recordShadows(const FrameContext& frame) {
+namespace {
+
+// The first of them clear the atlas.
+void recordFaces(const FrameContext& frame, std::span<const ShadowFace> faces, bool first) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "shadows");
     const auto& cmd = frame.slot.cmd;
     const auto& targets = *frame.slot.shadows;
     const vk::RenderingAttachmentInfo depth{
         .imageView = *targets.atlas.view,
         .imageLayout = vk::ImageLayout::eGeneral,
-        .loadOp = vk::AttachmentLoadOp::eClear,
+        .loadOp = first ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad,
         .storeOp = vk::AttachmentStoreOp::eStore,
         .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0}}; // nothing so far
     const auto used = static_cast<uint32_t>(frame.shadows->faces.size());
@@ -154,10 +157,22 @@ void recordShadows(const FrameContext& frame) {
                  frame.offsets.shadow_rows);
     cmd.setCullMode(vk::CullModeFlagBits::eNone);
     cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
-    for (const ShadowFace& face : frame.shadows->faces) {
+    for (const ShadowFace& face : faces) {
         drawFace(frame, face);
     }
     cmd.endRendering();
+}
+
+} // namespace
+
+void recordShadows(const FrameContext& frame) {
+    const std::span<const ShadowFace> faces = frame.shadows->faces;
+    const size_t at_once = frame.pieces.fits(frame.costs.shadowFace());
+    for (size_t first = 0; first < faces.size(); first += at_once) {
+        const auto part = faces.subspan(first, std::min(at_once, faces.size() - first));
+        frame.pieces.add(static_cast<double>(part.size()) * frame.costs.shadowFace());
+        recordFaces(frame, part, first == 0);
+    }
 }
 
 } // namespace froxel::render

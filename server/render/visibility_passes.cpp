@@ -19,15 +19,14 @@ uint32_t depthFlag(const FrameContext& frame) {
 }
 
 // A pipeline over every pixel: once with all textures, or once for each material.
-void resolve(const FrameContext& frame, vk::Pipeline pipeline) {
+void resolve(const FrameContext& frame, const vk::Rect2D& region, vk::Pipeline pipeline) {
     const auto& cmd = frame.slot.cmd;
     const auto& scene = *frame.visibility;
     bindVisibilityCompute(frame, pipeline);
-    const auto& size = frame.slot.targets->size;
     const auto shade = [&](vk::DescriptorSet textures, uint32_t material, bool last) {
         cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3, textures, {});
         pushVisibilityWords(frame, {material, last ? 1U : 0U});
-        cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
+        dispatchOver(cmd, region);
     };
     if (scene.pipelines.bindless()) {
         shade(scene.textureSet(), io::kAnyMaterial, true);
@@ -97,32 +96,34 @@ void recordCompact(const FrameContext& frame) {
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
 }
 
-void recordVisibility(const FrameContext& frame) {
+void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "visibility");
     // Ids of empty pixels are never read: their depth says so.
     const std::array colors = {
         attachment(frame.slot.targets->ids, vk::AttachmentLoadOp::eDontCare)};
     const auto depth =
         attachment(frame.slot.targets->depth, vk::AttachmentLoadOp::eClear, farDepth());
-    const Rendering rendering(frame, colors, &depth);
+    const Rendering rendering(frame, region, colors, &depth);
     bindGeometry(frame);
     for (uint32_t i = 0; i < frame.visibility->groups.size(); ++i) {
         drawGroup(frame, i);
     }
 }
 
-void recordVisibilityGbuffer(const FrameContext& frame) {
+void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "resolve");
-    resolve(frame, frame.visibility->pipelines.gbuffer(
-                       {frame.visibility->material_flags, 0,
-                        frame.plan.gbuffer_output_flags | depthFlag(frame)}));
+    resolve(
+        frame, region,
+        frame.visibility->pipelines.gbuffer({frame.visibility->material_flags, 0,
+                                             frame.plan.gbuffer_output_flags | depthFlag(frame)}));
 }
 
-void recordVisibilityShade(const FrameContext& frame) {
+void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "shade");
-    resolve(frame, frame.visibility->pipelines.shade(
-                       {frame.visibility->material_flags, frame.plan.lighting_light_flags,
-                        frame.plan.lighting_output_flags | depthFlag(frame)}));
+    resolve(frame, region,
+            frame.visibility->pipelines.shade(
+                {frame.visibility->material_flags, frame.plan.lighting_light_flags,
+                 frame.plan.lighting_output_flags | depthFlag(frame)}));
 }
 
 } // namespace froxel::render

@@ -23,6 +23,8 @@ FROXEL_CONST uint kAssignSaturated = 0x7fffffffU;
 FROXEL_CONST uint kAssignLists = 0U;
 FROXEL_CONST uint kAssignAllLights = 1U; // past max_entries: every cluster names one list of all
 FROXEL_CONST uint kAssignShort = 2U;     // a buffer was too small: no lists, draw the frame again
+FROXEL_CONST uint kAssignLong = 3U;      // pixels may loop over more than max_pairs: likewise
+FROXEL_CONST uint kAssignMaxTiles = 16384U;
 
 // One frame's grid and limits. A table of doubles follows it in a buffer of its own: plane depths
 // and their reciprocals (grid_z + 1 each; 0 for the eye), row edges and row norms (used_rows + 1
@@ -41,7 +43,13 @@ struct AssignFrame {
     uint index_capacity; // at least light_count
     uint task_capacity;
     uint max_entries;
-    uint padding0;
+    // (Light, pixel) pairs that the frame may evaluate, each pixel counting with its tile's longest
+    // list; 0: nobody asks, and tiles are not looked at.
+    float max_pairs;
+    uint image_width_px;
+    uint image_height_px;
+    uint tile_width_px;
+    uint tile_height_px;
 };
 
 // A spot's volume, made on the host. Without a cut it is treated as a point light.
@@ -67,7 +75,7 @@ struct AssignDispatch {
     uint z;
 };
 
-// Counters of a frame; the host reads them back.
+// Counters of a frame; the host reads them back, and behind them each tile's longest list.
 struct AssignTotals {
     AssignDispatch tasks;
     AssignDispatch short_lists;

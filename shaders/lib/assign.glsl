@@ -8,7 +8,10 @@ layout(set = 0, binding = 1, scalar) readonly buffer TableBlock { double tables[
 layout(set = 0, binding = 2, scalar) readonly buffer LightBlock { Light lights[]; };
 layout(set = 0, binding = 3, scalar) readonly buffer RadiusBlock { uint radius_bits[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer SpotBlock { AssignSpot spots[]; };
-layout(set = 0, binding = 5, scalar) buffer TotalsBlock { AssignTotals totals; };
+layout(set = 0, binding = 5, scalar) buffer TotalsBlock {
+    AssignTotals totals;
+    uint tile_longest[]; // row by row; of frames with max_pairs
+};
 layout(set = 0, binding = 6, scalar) buffer TaskBlock { AssignTask tasks[]; };
 layout(set = 0, binding = 7, scalar) buffer SpanBlock { uint spans[]; }; // a task's, by line
 // Of each cluster: first its count, then where its next entry goes.

@@ -1,0 +1,266 @@
+#include "render/frame_costs.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace froxel::render {
+namespace {
+
+vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
+    const auto end = [](int32_t at, uint32_t side) { return at + static_cast<int32_t>(side); };
+    const int32_t left = std::max(a.offset.x, b.offset.x);
+    const int32_t top = std::max(a.offset.y, b.offset.y);
+    const int32_t right =
+        std::min(end(a.offset.x, a.extent.width), end(b.offset.x, b.extent.width));
+    const int32_t bottom =
+        std::min(end(a.offset.y, a.extent.height), end(b.offset.y, b.extent.height));
+    if (right <= left || bottom <= top) {
+        return {};
+    }
+    return {{left, top},
+            {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
+}
+
+vk::Extent2D extentOf(const view::Size& size) {
+    return {size.width_px, size.height_px};
+}
+
+Seconds whole(const RegionCost& cost, const vk::Extent2D& extent) {
+    return cost.each + cost.of({{0, 0}, extent});
+}
+
+} // namespace
+
+double FrameCosts::pixels(const vk::Rect2D& region) const {
+    return static_cast<double>(region.extent.width) * region.extent.height;
+}
+
+double FrameCosts::lit(const vk::Rect2D& region, double pair) const {
+    const uint64_t longest = load_.pairs.longest();
+    const auto shadows = std::min<uint64_t>(load_.shadows.lights.size(), longest);
+    const auto areas = std::min<uint64_t>(load_.area_count, longest);
+    return load_.pairs.pairs(region) * pair +
+           pixels(region) * (unit_.lit_pixel + load_.directional_count * pair +
+                             static_cast<double>(shadows) * unit_.shadow_pair +
+                             static_cast<double>(areas) * unit_.area_pair);
+}
+
+RegionCost FrameCosts::depthPrepass() const {
+    return {Seconds(load_.draws.triangle_count * unit_.triangle / 2),
+            [this](const auto& region) { return Seconds(pixels(region) * unit_.depth_pixel); }};
+}
+
+RegionCost FrameCosts::forward() const {
+    // Behind a prepass each pixel is shaded once.
+    const double each = load_.plan.depth_prepass ? 1.0 : load_.overdraw;
+    return {Seconds(load_.draws.triangle_count * unit_.triangle), [this, each](const auto& region) {
+                return Seconds(each * (pixels(region) * unit_.surface_pixel +
+                                       lit(region, unit_.fragment_pair)));
+            }};
+}
+
+RegionCost FrameCosts::gbuffer() const {
+    return {Seconds(load_.draws.triangle_count * unit_.triangle),
+            [this](const auto& region) { return Seconds(pixels(region) * unit_.surface_pixel); }};
+}
+
+RegionCost FrameCosts::ids() const {
+    return {Seconds(load_.device_triangles * unit_.triangle),
+            [this](const auto& region) { return Seconds(pixels(region) * unit_.depth_pixel); }};
+}
+
+RegionCost FrameCosts::resolve() const {
+    return {
+        Seconds(0), [this](const auto& region) {
+            const double surface =
+                pixels(region) * (unit_.surface_pixel + load_.resolve_count * unit_.resolve_pixel);
+            return Seconds(surface + (load_.plan.visibility_shade ? lit(region, unit_.pair) : 0.0));
+        }};
+}
+
+RegionCost FrameCosts::lighting() const {
+    const double pair = load_.plan.lighting_compute ? unit_.pair : unit_.fragment_pair;
+    return {Seconds(0), [this, pair](const auto& region) { return Seconds(lit(region, pair)); }};
+}
+
+RegionCost FrameCosts::countPairs() const {
+    return {Seconds(0), [this](const auto& region) { return Seconds(lit(region, unit_.pair)); }};
+}
+
+RegionCost FrameCosts::debugView() const {
+    return view::countsLights(load_.plan.debug) ? countPairs() : screen();
+}
+
+RegionCost FrameCosts::blended() const {
+    return {Seconds(load_.draws.transparent_triangle_count * unit_.triangle),
+            [this](const auto& region) {
+                double sum = 0;
+                for (const vk::Rect2D& part : load_.draws.transparent_parts) {
+                    const vk::Rect2D both = common(part, region);
+                    if (both.extent.width > 0) {
+                        sum += pixels(both) * unit_.surface_pixel + lit(both, unit_.fragment_pair);
+                    }
+                }
+                return Seconds(sum + pixels(region) * unit_.depth_pixel);
+            }};
+}
+
+RegionCost FrameCosts::screen() const {
+    return {Seconds(0),
+            [this](const auto& region) { return Seconds(pixels(region) * unit_.screen_pixel); }};
+}
+
+RegionCost FrameCosts::fogScatter() const {
+    return {Seconds(0), [this](const vk::Rect2D& nodes) {
+                const auto tile = load_.fog_tile_px;
+                const vk::Rect2D whole{{0, 0}, {load_.drawn.width_px, load_.drawn.height_px}};
+                const vk::Rect2D region =
+                    common(whole, {{nodes.offset.x * static_cast<int32_t>(tile),
+                                    nodes.offset.y * static_cast<int32_t>(tile)},
+                                   {nodes.extent.width * tile, nodes.extent.height * tile}});
+                // Pairs are of the tiles' pixels, and a tile has one froxel a slice.
+                const double each = load_.fog_slice_count / (static_cast<double>(tile) * tile);
+                return Seconds(pixels(nodes) * load_.fog_slice_count * unit_.froxel +
+                               each * lit(region, unit_.pair));
+            }};
+}
+
+RegionCost FrameCosts::bloom(size_t step) const {
+    const double taps = tapsOf(load_.bloom->steps[step]);
+    return {Seconds(0), [this, taps](const auto& region) {
+                return Seconds(pixels(region) * taps * unit_.bloom_tap);
+            }};
+}
+
+Seconds FrameCosts::shadowFace() const {
+    const auto faces = std::max<size_t>(load_.shadows.faces.size(), 1);
+    const double triangles = load_.shadows.triangle_count / static_cast<double>(faces);
+    const auto side = static_cast<double>(load_.shadow_size_px);
+    return Seconds(triangles * unit_.triangle / 2 + side * side * unit_.depth_pixel);
+}
+
+void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
+    const auto& plan = load_.plan;
+    const auto drawn = extentOf(load_.drawn);
+    const auto add = [&](const char* name, const RegionCost& cost) {
+        passes.push_back({name, whole(cost, drawn)});
+    };
+    if (plan.visibility) {
+        add("visibility", ids());
+        if (plan.gbuffer || plan.visibility_shade) {
+            add(plan.gbuffer ? "resolve" : "shade", resolve());
+        }
+    } else {
+        if (plan.depth_prepass || !(plan.forward || plan.gbuffer)) {
+            add("depth_prepass", depthPrepass());
+        }
+        if (plan.forward || plan.gbuffer) {
+            plan.forward ? add("forward", forward()) : add("gbuffer", gbuffer());
+        }
+    }
+    if (plan.lighting_compute || plan.lighting_fragment) {
+        add("lighting", lighting());
+    }
+    if (plan.toon_pass) {
+        add("toon", screen());
+    }
+    if (plan.outline) {
+        add("outline", screen());
+    }
+    if (plan.count_pairs) {
+        add("count_pairs", countPairs());
+    }
+}
+
+void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
+    const auto drawn = extentOf(load_.drawn);
+    if (load_.plan.fog_volume) {
+        passes.push_back({"fog_scatter", whole(fogScatter(), load_.fog_nodes)});
+    }
+    if (load_.plan.fog) {
+        passes.push_back({"fog", whole(screen(), drawn)});
+    }
+    if (load_.plan.transparent) {
+        const bool peeled = load_.plan.transparency == view::Transparency::kPeeled;
+        const double layers = peeled ? load_.peel_layers : 1;
+        passes.push_back({peeled ? "peel" : "transparent", layers * whole(blended(), drawn)});
+    }
+}
+
+void FrameCosts::addPost(std::vector<PassEstimate>& passes) const {
+    if (load_.bloom != nullptr) {
+        Seconds sum{0};
+        for (size_t step = 0; step < load_.bloom->steps.size(); ++step) {
+            const auto& pass = load_.bloom->steps[step].pass;
+            sum += whole(bloom(step), {pass.target_width_px, pass.target_height_px});
+        }
+        passes.push_back({"bloom", sum});
+    }
+    if (load_.plan.tonemap) {
+        passes.push_back({"tonemap", whole(screen(), extentOf(load_.shown))});
+    }
+    if (load_.plan.fxaa) {
+        passes.push_back({"fxaa", whole(screen(), extentOf(load_.shown))});
+    }
+}
+
+std::vector<PassEstimate> FrameCosts::passes() const {
+    std::vector<PassEstimate> passes;
+    if (load_.plan.shadows) {
+        passes.push_back(
+            {"shadows", static_cast<double>(load_.shadows.faces.size()) * shadowFace()});
+    }
+    if (view::replacesPicture(load_.plan.debug)) {
+        if (load_.plan.debug == view::DebugView::kOverdraw) {
+            passes.push_back({"overdraw", whole(gbuffer(), extentOf(load_.drawn))});
+        } else {
+            addSurfaces(passes);
+        }
+        passes.push_back({"debug_view", whole(debugView(), extentOf(load_.drawn))});
+        return passes;
+    }
+    addSurfaces(passes);
+    addBlended(passes);
+    addPost(passes);
+    return passes;
+}
+
+Seconds FrameCosts::total() const {
+    Seconds sum{0};
+    for (const auto& pass : passes()) {
+        sum += pass.time;
+    }
+    return sum;
+}
+
+Result<void> FrameCosts::check(Seconds limit) const {
+    const Seconds sum = total();
+    if (sum <= limit) {
+        return {};
+    }
+    const auto all = passes();
+    const auto dearest = std::max_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+    return Error{
+        ErrorCode::kCapacity,
+        fmt::format("a picture of {}x{} with up to {} lights a pixel takes about {:.3g} s of this "
+                    "device, {:.3g} s of it for {}; at most {:.3g} s a frame are allowed: ask for "
+                    "fewer or smaller lights, lists, fewer effects, or a smaller picture",
+                    load_.shown.width_px, load_.shown.height_px, load_.pairs.longest(), sum.count(),
+                    dearest->time.count(), dearest->pass, limit.count())};
+}
+
+double FrameCosts::pairsWithin(Seconds limit) const {
+    FrameLoad dark = load_;
+    dark.pairs = PairBound::uniform(0);
+    const Seconds rest = FrameCosts(unit_, std::move(dark)).total();
+    const Seconds room = std::max(limit - rest, limit / 2);
+    const double pair = std::max(load_.plan.forward && !load_.plan.visibility_shade
+                                     ? unit_.fragment_pair * load_.overdraw
+                                     : unit_.pair,
+                                 load_.plan.lighting_fragment ? unit_.fragment_pair : 0.0);
+    return room.count() / pair;
+}
+
+} // namespace froxel::render

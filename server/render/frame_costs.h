@@ -1,0 +1,92 @@
+// What a frame takes of the device's time, pass by pass, before it is drawn: from what its lists
+// hold and by costs measured on lavapipe and on an H200 (tests/bench), scaled to this device. Pure.
+#pragma once
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "render/bloom_plan.h"
+#include "render/draw_list.h"
+#include "render/frame_pieces.h"
+#include "render/frame_plan.h"
+#include "render/pair_bound.h"
+#include "render/shadow_maps.h"
+#include "render/unit_costs.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace froxel::render {
+
+// The host's facts of a frame that was built.
+struct FrameLoad {
+    const FramePlan& plan;
+    const DrawList& draws;
+    const ShadowFrame& shadows;
+    const BloomPlan* bloom = nullptr; // none: no bloom
+    view::Size drawn;
+    view::Size shown;
+    PairBound pairs;
+    uint32_t directional_count = 0;
+    uint32_t area_count = 0;
+    double overdraw = 1;           // of solid surfaces, in fragments per pixel
+    uint32_t device_triangles = 0; // that the host does not cull
+    uint32_t resolve_count = 1;    // dispatches over the picture where ids are resolved
+    uint32_t shadow_size_px = 0;
+    vk::Extent2D fog_nodes;
+    uint32_t fog_tile_px = 0;
+    uint32_t fog_slice_count = 0;
+    uint32_t peel_layers = 0;
+};
+
+struct PassEstimate {
+    const char* pass = "";
+    Seconds time{0};
+};
+
+class FrameCosts {
+  public:
+    FrameCosts(const UnitCosts& unit, FrameLoad load) : unit_(unit), load_(std::move(load)) {}
+
+    // Of passes over the drawn picture.
+    [[nodiscard]] RegionCost depthPrepass() const;
+    [[nodiscard]] RegionCost forward() const;
+    [[nodiscard]] RegionCost gbuffer() const;
+    [[nodiscard]] RegionCost ids() const;
+    [[nodiscard]] RegionCost resolve() const; // ids into a G-buffer, or shaded at once
+    [[nodiscard]] RegionCost lighting() const;
+    [[nodiscard]] RegionCost countPairs() const;
+    [[nodiscard]] RegionCost debugView() const;
+    [[nodiscard]] RegionCost blended() const; // one pass over what is blended
+    // Over another one: tone map, filters, fog's application, what blending came to.
+    [[nodiscard]] RegionCost screen() const;
+    // Over fog's nodes.
+    [[nodiscard]] RegionCost fogScatter() const;
+    [[nodiscard]] RegionCost bloom(size_t step) const; // over its target
+    [[nodiscard]] Seconds shadowFace() const;
+
+    // All of the plan, in order; what a frame takes that is not cut.
+    [[nodiscard]] std::vector<PassEstimate> passes() const;
+    [[nodiscard]] Seconds total() const;
+    // Errors: kCapacity where that is more than `limit`; names the dearest pass.
+    [[nodiscard]] Result<void> check(Seconds limit) const;
+    // What the frame takes but for its local lights, and pairs of these that fit into what is left
+    // of `limit`, at least into half of it.
+    [[nodiscard]] double pairsWithin(Seconds limit) const;
+
+    [[nodiscard]] const FrameLoad& load() const { return load_; }
+
+  private:
+    [[nodiscard]] double pixels(const vk::Rect2D& region) const;
+    // Shading all lights, without materials.
+    [[nodiscard]] double lit(const vk::Rect2D& region, double pair) const;
+    void addSurfaces(std::vector<PassEstimate>& passes) const;
+    void addBlended(std::vector<PassEstimate>& passes) const;
+    void addPost(std::vector<PassEstimate>& passes) const;
+
+    UnitCosts unit_;
+    FrameLoad load_;
+};
+
+} // namespace froxel::render

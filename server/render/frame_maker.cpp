@@ -1,0 +1,260 @@
+#include "render/frame_maker.h"
+
+#include "render/blended_recorder.h"
+#include "render/fog_plan.h"
+#include "render/frame_recorder.h"
+
+namespace froxel::render {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double microsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+} // namespace
+
+void FrameMaker::prepareTargets(FrameSlot& slot,
+                                const FramePlan& plan,
+                                const view::Size& drawn,
+                                const view::Size& shown) {
+    const TargetNeeds wanted{.gbuffer = plan.gbuffer,
+                             .gbuffer_flags = plan.gbuffer_output_flags,
+                             .radiance = plan.radiance,
+                             .visibility = plan.visibility,
+                             .compute_raster = plan.compute_raster,
+                             .sampled_radiance = plan.bloom != view::BloomKind::kNone,
+                             .display = plan.fxaa,
+                             .device_pixels = !scene_.device.traits().is_cpu};
+    const bool same_size = targets_ && targets_->size == drawn && targets_->shown == shown;
+    if (!same_size || !targets_->needs.covers(wanted)) {
+        TargetNeeds grown = wanted;
+        if (same_size) {
+            if (!wanted.gbuffer && targets_->needs.gbuffer) {
+                grown.gbuffer = true;
+                grown.gbuffer_flags = targets_->needs.gbuffer_flags;
+            }
+            grown.radiance |= targets_->needs.radiance;
+            grown.visibility |= targets_->needs.visibility;
+            grown.compute_raster |= targets_->needs.compute_raster;
+        }
+        // Frames in flight keep the old targets alive through their slots.
+        targets_.reset();
+        bloom_.reset();
+        blend_.reset();
+        targets_ = std::make_shared<ViewTargets>(scene_.device, drawn, shown, grown);
+    }
+    targets_->rastered_in_compute = plan.compute_raster;
+    slot.targets = targets_;
+    const vk::DeviceSize bytes = vk::DeviceSize{4} * shown.width_px * shown.height_px;
+    if (!slot.readback || slot.readback->buffer.size_bytes != bytes) {
+        slot.readback.reset();
+        slot.readback = std::make_shared<Readback>(scene_.device, bytes);
+    }
+}
+
+void FrameMaker::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
+    slot.blend.reset(); // its last frame has finished
+    slot.blend = blend_ =
+        blendTargetsFor(plan, scene_.device, scene_.pipelines, targets_, std::move(blend_));
+    slot.counts_overflow = countsOverflow(plan, builder_.draws());
+    if (slot.counts_overflow && !slot.overflow) {
+        slot.overflow = std::make_unique<gpu::SampleCounter>(scene_.device);
+    }
+}
+
+void FrameMaker::prepareShadows(FrameSlot& slot,
+                                const FramePlan& plan,
+                                const view::Shadows& settings) {
+    slot.shadows.reset(); // its last frame has finished
+    shadows_ = shadowTargetsFor(scene_.device, settings, builder_.localLightCount(), plan.shadows,
+                                std::move(shadows_));
+    if (plan.shadows) {
+        slot.shadows = shadows_;
+        if (!slot.shadow_slot) {
+            slot.shadow_slot = std::make_unique<ShadowSlot>(scene_.device, scene_.pipelines);
+        }
+    }
+}
+
+void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
+    if (!slot.visibility) {
+        slot.visibility = std::make_unique<VisibilityFrame>(scene_.device, scene_.visibility());
+    }
+    const auto& t = *slot.targets;
+    slot.visibility->write(
+        {.resources = scene_,
+         .scene = scene_.visibility(),
+         .instances = {slot.upload.buffer(), offsets.instances,
+                       scene_.instances.size() * sizeof(io::InstanceView)},
+         .order = {slot.upload.buffer(), offsets.meshlet_order,
+                   scene_.visibility().placed.size() * sizeof(uint32_t)},
+         .ids = *t.ids.view,
+         .gbuffer = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view,
+         .raster = t.rastered_in_compute ? &scene_.visibility().computeRaster() : nullptr,
+         .words = *t.words.handle,
+         .depth = *t.compute_depth.view});
+}
+
+Result<std::optional<BloomPlan>> FrameMaker::bloomPlan(const FramePlan& plan,
+                                                       const FrameInputs& inputs) const {
+    if (plan.bloom == view::BloomKind::kNone) {
+        return std::optional<BloomPlan>();
+    }
+    const auto& settings = inputs.settings;
+    BloomPlan bloom_plan = planBloom(settings.bloom, settings.size, settings.exposure);
+    if (auto able = checkKernels(bloom_plan, scene_.device.traits().is_cpu); !able) {
+        return able.error();
+    }
+    return std::optional(std::move(bloom_plan));
+}
+
+void FrameMaker::prepareParts(FrameSlot& slot,
+                              const FramePlan& plan,
+                              const UploadOffsets& offsets) {
+    if (plan.shadows) {
+        slot.shadow_slot->write(slot.upload.buffer(), offsets.shadow_uniforms);
+    }
+    writeScreenSet(scene_.device, slot, plan.fxaa ? targets_->display : pixelsOf(slot));
+    if (plan.fxaa) {
+        if (!slot.fxaa) {
+            slot.fxaa = std::make_unique<FxaaSlot>(scene_.device, scene_.fxaa());
+        }
+        slot.fxaa->write(targets_->display, pixelsOf(slot));
+    }
+    if (plan.visibility) {
+        writeVisibilitySet(slot, offsets);
+    }
+    if (plan.count_pairs && !slot.pairs) {
+        slot.pairs = std::make_unique<PairCounter>(scene_.device, scene_.pipelines);
+    }
+    if (plan.debug != view::DebugView::kNone && !slot.debug) {
+        slot.debug = std::make_unique<DebugPass>(scene_.device, scene_.pipelines);
+    }
+    if (plan.count_samples && !slot.samples) {
+        slot.samples = std::make_unique<gpu::SampleCounter>(scene_.device);
+    }
+}
+
+void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs) {
+    slot.stats = {};
+    slot.stats.triangle_count = builder_.draws().triangle_count;
+    if (plan.visibility) { // the host does not know what the device culls
+        slot.stats.triangle_count += scene_.visibility().triangle_count;
+    }
+    slot.stats.draw_count = static_cast<uint32_t>(builder_.draws().commands.size());
+    slot.stats.shadows = builder_.shadows().stats();
+    slot.stats.lists = builder_.listStats();
+    slot.stats.peel.layer_count = peelLayers(plan, builder_.draws());
+    slot.stats.details = details_.update(
+        inputs.settings, builder_.plannedFacts(), plan, scene_.needs, *scene_.device.memoryLedger(),
+        plan.debug != view::DebugView::kNone ? &builder_.debugFrame().legend : nullptr);
+    slot.stats.grid = builder_.gridStats();
+    slot.counts_pairs = plan.count_pairs;
+    slot.counts_samples = plan.count_samples;
+    slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
+}
+
+Result<void> FrameMaker::record(FrameSlot& slot, const FrameInputs& asked) {
+    const auto start = Clock::now();
+    FrameInputs inputs = asked;
+    inputs.settings.size = drawnSize(asked.settings);
+    const FramePlan plan = builder_.build(inputs);
+    if (plan.fog) {
+        const uint64_t most_texels = scene_.device.limits().maxTexelBufferElements;
+        if (auto fits = checkFroxels(builder_.fog(), most_texels); !fits) {
+            return fits;
+        }
+    }
+    const auto bloom_plan = bloomPlan(plan, inputs);
+    if (!bloom_plan) {
+        return bloom_plan.error();
+    }
+    const BloomPlan* bloom_steps = *bloom_plan ? &**bloom_plan : nullptr;
+    const FrameCosts costs = builder_.costs(plan, asked.settings.size, bloom_steps, work_.piece);
+    if (auto affordable = costs.check(work_.frame); !affordable) {
+        builder_.forgetLists();
+        return affordable;
+    }
+    prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
+    slot.bloom.reset(); // its last frame has finished
+    slot.bloom = bloom_ = bloom_steps != nullptr
+                              ? bloomTargetsFor(scene_.device, scene_.bloom(), *bloom_steps,
+                                                targets_, std::move(bloom_))
+                              : nullptr;
+    prepareBlend(slot, plan);
+    slot.fog.reset(); // its last frame has finished
+    slot.fog = fog_ = plan.fog_volume ? fogVolumeFor(scene_.device, scene_.fog(),
+                                                     froxelCount(builder_.fog()), std::move(fog_))
+                                      : nullptr;
+    prepareShadows(slot, plan, inputs.settings.shadows);
+    const UploadOffsets offsets = builder_.upload(slot);
+    prepareParts(slot, plan, offsets);
+    recordFrame({.scene = scene_,
+                 .slot = slot,
+                 .plan = plan,
+                 .draws = builder_.draws(),
+                 .offsets = offsets,
+                 .background = builder_.background(),
+                 .visibility = plan.visibility ? &scene_.visibility() : nullptr,
+                 .debug = plan.debug != view::DebugView::kNone ? &builder_.debugFrame() : nullptr,
+                 .bloom = bloom_steps,
+                 .fog = plan.fog ? &builder_.fog() : nullptr,
+                 .shadows = plan.shadows ? &builder_.shadows() : nullptr,
+                 .pieces = slot.pieces,
+                 .costs = costs},
+                work_.piece);
+    noteBuilt(slot, plan, inputs);
+    slot.stats.host_us = microsSince(start);
+    slot.submitted = start;
+    slot.done_values.clear();
+    slot.waited_count = 0;
+    slot.given_up = false;
+    slot.in_flight = true;
+    slot.stale = false;
+    return {};
+}
+
+void FrameMaker::freeTargets() {
+    blend_.reset();
+    bloom_.reset();
+    fog_.reset();
+    shadows_.reset();
+    targets_.reset();
+}
+
+RenderedFrame FrameMaker::finish(FrameSlot& slot) {
+    slot.timestamps.read(slot.stats, slot.pieces.count() > 1);
+    if (slot.device_lists) {
+        std::string why = std::move(slot.stats.lists.why);
+        const uint32_t redraws = slot.stats.lists.redraw_count;
+        slot.stats.lists = listStats(slot.assignment->totals(), slot.assignment->lightCount(),
+                                     slot.assignment->clusterCount());
+        slot.stats.lists.why = std::move(why);
+        slot.stats.lists.redraw_count = redraws;
+    }
+    if (slot.counts_pairs) {
+        slot.stats.pairs = slot.pairs->read();
+    }
+    if (slot.counts_overflow) {
+        slot.stats.peel.overflow_count = slot.overflow->read();
+    }
+    if (slot.counts_samples) {
+        const auto& drawn = slot.targets->size;
+        scene_.overdraw = static_cast<double>(slot.samples->read()) /
+                          (static_cast<double>(drawn.width_px) * drawn.height_px);
+    }
+    slot.stats.frame_us = microsSince(slot.submitted);
+    slot.readback->leased = true;
+    const auto& size = slot.targets->shown;
+    const PixelView pixels{.data = slot.readback->buffer.mapped,
+                           .width_px = size.width_px,
+                           .height_px = size.height_px,
+                           .stride_bytes = size_t{4} * size.width_px};
+    return {.pixels = PixelLease(pixels, [readback = slot.readback] { readback->leased = false; }),
+            .stats = slot.stats};
+}
+
+} // namespace froxel::render

@@ -1,0 +1,62 @@
+// One view's frames, from what is asked for to recorded commands and from finished ones to pixels:
+// the host's part, the targets that frames share, and what a slot needs. Render thread.
+#pragma once
+
+#include "render/frame_builder.h"
+#include "render/frame_slot.h"
+#include "render/memory_report.h"
+#include "render/renderer.h"
+
+#include <memory>
+#include <optional>
+
+namespace froxel::render {
+
+class FrameMaker {
+  public:
+    FrameMaker(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
+        : scene_(scene_in), work_(work_limits), builder_(scene_in, limits) {}
+
+    // Builds a frame and records its pieces into a free slot, which is in flight from then on.
+    // Errors: kCapacity, kUnsupported. Throws vk::SystemError.
+    [[nodiscard]] Result<void> record(FrameSlot& slot, const FrameInputs& inputs);
+    // Whether what the device told of a completed frame's lists lets it be shown.
+    [[nodiscard]] bool accepts(const FrameSlot& slot) {
+        return !slot.device_lists || builder_.acceptLists(*slot.assignment);
+    }
+    // The picture of a completed frame and what is known of it. Throws vk::SystemError.
+    [[nodiscard]] RenderedFrame finish(FrameSlot& slot);
+    void freeTargets();
+
+    // Of the frame recorded last; null: none, or none of that.
+    [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
+    [[nodiscard]] const ShadowTargets* shadows() const { return shadows_.get(); }
+    [[nodiscard]] const ShadowFrame& shadowFrame() const { return builder_.shadows(); }
+
+  private:
+    void prepareTargets(FrameSlot& slot,
+                        const FramePlan& plan,
+                        const view::Size& drawn,
+                        const view::Size& shown);
+    void prepareBlend(FrameSlot& slot, const FramePlan& plan);
+    // Kept while settings ask for them, also with no light in view.
+    void prepareShadows(FrameSlot& slot, const FramePlan& plan, const view::Shadows& settings);
+    void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
+    [[nodiscard]] Result<std::optional<BloomPlan>> bloomPlan(const FramePlan& plan,
+                                                             const FrameInputs& inputs) const;
+    // What a slot needs besides targets. Throws vk::SystemError.
+    void prepareParts(FrameSlot& slot, const FramePlan& plan, const UploadOffsets& offsets);
+    void noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs);
+
+    SceneResources& scene_;
+    const WorkLimits work_;
+    FrameBuilder builder_;
+    std::shared_ptr<ViewTargets> targets_;
+    std::shared_ptr<BloomTargets> bloom_;    // null: the last frame has none
+    std::shared_ptr<BlendTargets> blend_;    // likewise
+    std::shared_ptr<ShadowTargets> shadows_; // likewise
+    std::shared_ptr<FogVolume> fog_;         // likewise
+    FrameDetailsKeeper details_;
+};
+
+} // namespace froxel::render

@@ -1,0 +1,53 @@
+#include "render/fresh_targets.h"
+
+#include <utility>
+#include <vector>
+
+namespace froxel::render {
+
+void recordFreshTargets(FrameSlot& slot) {
+    std::vector<vk::ImageMemoryBarrier2> barriers;
+    const auto add = [&](const gpu::Image& image, vk::ImageAspectFlags aspect) {
+        if (*image.handle) {
+            barriers.push_back({.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                .dstAccessMask = vk::AccessFlagBits2::eMemoryRead |
+                                                 vk::AccessFlagBits2::eMemoryWrite,
+                                .oldLayout = vk::ImageLayout::eUndefined,
+                                .newLayout = vk::ImageLayout::eGeneral,
+                                .image = *image.handle,
+                                .subresourceRange = {aspect, 0, 1, 0, 1}});
+        }
+    };
+    ViewTargets& targets = *slot.targets;
+    if (std::exchange(targets.fresh, false)) {
+        add(targets.depth, vk::ImageAspectFlagBits::eDepth);
+        add(targets.gbuffer, vk::ImageAspectFlagBits::eColor);
+        add(targets.gbuffer_extra, vk::ImageAspectFlagBits::eColor);
+        add(targets.ids, vk::ImageAspectFlagBits::eColor);
+        add(targets.compute_depth, vk::ImageAspectFlagBits::eColor);
+        add(targets.radiance, vk::ImageAspectFlagBits::eColor);
+    }
+    if (slot.blend && std::exchange(slot.blend->fresh, false)) {
+        add(slot.blend->sums, vk::ImageAspectFlagBits::eColor);
+        add(slot.blend->weights, vk::ImageAspectFlagBits::eColor);
+        add(slot.blend->layer_depth, vk::ImageAspectFlagBits::eDepth);
+        for (const auto& keys : slot.blend->layer_keys) {
+            add(keys, vk::ImageAspectFlagBits::eColor);
+        }
+    }
+    if (slot.shadows && std::exchange(slot.shadows->fresh, false)) {
+        add(slot.shadows->atlas, vk::ImageAspectFlagBits::eDepth);
+    }
+    if (slot.bloom && std::exchange(slot.bloom->fresh, false)) {
+        for (const auto& image : slot.bloom->images()) {
+            add(image, vk::ImageAspectFlagBits::eColor);
+        }
+    }
+    if (!barriers.empty()) {
+        slot.cmd.pipelineBarrier2(
+            {.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
+             .pImageMemoryBarriers = barriers.data()});
+    }
+}
+
+} // namespace froxel::render

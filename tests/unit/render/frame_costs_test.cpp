@@ -1,0 +1,2 @@
+#include "render/frame_costs.h"
+#include <gtest/gtest.h>
