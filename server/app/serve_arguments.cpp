@@ -8,6 +8,7 @@ namespace {
 
 constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
 constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
+constexpr view::Range<double> kFrameLimitRange{"frame_limit", 0.01, 60.0};
 constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
 constexpr view::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
 constexpr view::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
@@ -79,6 +80,9 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
         "--min-fps", options.min_rate_hz, kMinRateRange,
         byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),
         "Refuse a session that would take active ones below these frames a second; 0: none");
+    command.number("--frame-limit", options.frame_limit_s, kFrameLimitRange,
+                   "Seconds of the device's time that one picture may take by its estimate; "
+                   "others are refused");
     command.number("--resume-grace", options.resume_grace_s, kGraceRange,
                    "Seconds that a lost connection's session waits for it");
     command.number("--max-sessions-per-address", options.sessions_per_address, kAccountRange,

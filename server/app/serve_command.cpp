@@ -79,7 +79,8 @@ OpenedScene openScene(const ServeOptions& options,
     const bool on_cpu = traits.is_cpu;
     auto memory = [ledger = device->memoryLedger()] { return render::memoryReport(*ledger); };
     report({"moving the scene to the device", 0.6});
-    auto source = stream::makeRendererSource(std::move(device), scene);
+    auto source =
+        stream::makeRendererSource(std::move(device), scene, Seconds(options.frame_limit_s));
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
     return {std::move(source), std::move(context), std::move(memory), Seconds(limit_s)};

@@ -8,11 +8,15 @@ namespace froxel::gpu {
 
 SampleCounter::SampleCounter(const Device& device)
     : pool_(device.handle().createQueryPool(
-          {.queryType = vk::QueryType::eOcclusion, .queryCount = kMaxParts})) {}
+          {.queryType = vk::QueryType::eOcclusion, .queryCount = kMaxParts})) {
+    pool_.reset(0, kMaxParts);
+}
 
-void SampleCounter::restart(const vk::raii::CommandBuffer& cmd) {
+void SampleCounter::restart() {
+    if (part_count_ > 0) {
+        pool_.reset(0, part_count_);
+    }
     part_count_ = 0;
-    cmd.resetQueryPool(*pool_, 0, kMaxParts);
 }
 
 void SampleCounter::begin(const vk::raii::CommandBuffer& cmd) {

@@ -9,14 +9,14 @@ namespace froxel::gpu {
 
 class SampleCounter {
   public:
-    static constexpr uint32_t kMaxParts = 256;
+    static constexpr uint32_t kMaxParts = 1024;
 
     // The device has traits().counts_samples.
     explicit SampleCounter(const Device& device);
 
-    // Before the first part of a recording; outside of rendering, like the others.
-    void restart(const vk::raii::CommandBuffer& cmd);
-    // Around the draws of a part.
+    // Host side, before recording the first part; the last frame's has completed.
+    void restart();
+    // Around the draws of a part, outside of rendering.
     void begin(const vk::raii::CommandBuffer& cmd);
     void end(const vk::raii::CommandBuffer& cmd) const;
     // Of all parts; only after the frame has completed.

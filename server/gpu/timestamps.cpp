@@ -9,11 +9,15 @@ namespace froxel::gpu {
 Timestamps::Timestamps(const Device& device)
     : device_(device),
       pool_(device.handle().createQueryPool(
-          {.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * kMaxPasses})) {}
+          {.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * kMaxPasses})) {
+    pool_.reset(0, 2 * kMaxPasses);
+}
 
 void Timestamps::reset() {
+    if (!names_.empty()) {
+        pool_.reset(0, static_cast<uint32_t>(2 * names_.size()));
+    }
     names_.clear();
-    pool_.reset(0, 2 * kMaxPasses);
 }
 
 void Timestamps::begin(const vk::raii::CommandBuffer& cmd, const char* name) {

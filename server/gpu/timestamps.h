@@ -11,7 +11,7 @@ namespace froxel::gpu {
 
 class Timestamps {
   public:
-    static constexpr uint32_t kMaxPasses = 512; // parts of passes, where frames are cut
+    static constexpr uint32_t kMaxPasses = 4096; // parts of passes, where frames are cut
 
     explicit Timestamps(const Device& device);
 

@@ -56,7 +56,7 @@ void recordPeeled(const FrameContext& frame) {
         });
     }
     if (countsOverflow(frame.plan, frame.draws)) {
-        frame.slot.overflow->restart(frame.slot.cmd);
+        frame.slot.overflow->restart();
         inParts(frame, size, cost, [layers](const FrameContext& at, const vk::Rect2D& part) {
             recordPeelCount(at, part, layers);
         });

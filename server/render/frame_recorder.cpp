@@ -225,7 +225,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
     slot.timestamps.reset();
     recordFreshTargets(slot);
     if (frame.plan.count_samples) {
-        slot.samples->restart(slot.cmd);
+        slot.samples->restart();
     }
     if (slot.device_lists) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);

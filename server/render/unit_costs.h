@@ -18,6 +18,19 @@ struct UnitCosts {
     double froxel = 0;        // of fog, without lights
     double bloom_tap = 0;
 };
+
+// Of a device that takes so many times as long for everything.
+[[nodiscard]] constexpr UnitCosts scaled(UnitCosts unit, double scale) {
+    for (double UnitCosts::*cost :
+         {&UnitCosts::triangle, &UnitCosts::depth_pixel, &UnitCosts::surface_pixel,
+          &UnitCosts::resolve_pixel, &UnitCosts::lit_pixel, &UnitCosts::screen_pixel,
+          &UnitCosts::pair, &UnitCosts::fragment_pair, &UnitCosts::shadow_pair,
+          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap}) {
+        unit.*cost *= scale;
+    }
+    return unit;
+}
+
 inline constexpr UnitCosts kCpuUnitCosts{.triangle = 3e-7,
                                          .depth_pixel = 1.2e-8,
                                          .surface_pixel = 6e-8,

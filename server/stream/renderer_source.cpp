@@ -1,6 +1,9 @@
 #include "stream/renderer_source.h"
 
+#include "render/device_speed.h"
 #include "render/renderer.h"
+
+#include <spdlog/spdlog.h>
 
 #include <utility>
 
@@ -9,28 +12,36 @@ namespace {
 
 class RendererView final : public ViewSource {
   public:
-    explicit RendererView(render::Renderer& renderer) : view_(renderer) {}
+    RendererView(render::Renderer& renderer, const render::WorkLimits& limits)
+        : view_(renderer, {}, limits) {}
 
     [[nodiscard]] bool canBegin() const override { return view_.canSubmit(); }
 
-    // A frame is one piece, which the renderer submits when it begins.
     [[nodiscard]] Result<FrameWork> begin(const view::ViewSettings& settings,
                                           double time_s) override {
-        if (auto submitted = view_.submit({.settings = settings, .time_s = time_s}); !submitted) {
-            return submitted.error();
+        const auto work = view_.begin({.settings = settings, .time_s = time_s});
+        if (!work) {
+            return work.error();
         }
-        return FrameWork{};
+        return FrameWork{work->estimate, work->piece_count};
     }
-    [[nodiscard]] Result<void> submitPiece() override { return {}; }
-    void abandon() override {}
+    [[nodiscard]] Result<void> submitPiece() override { return view_.submitPiece(); }
+    void abandon() override { view_.abandon(); }
 
     [[nodiscard]] Result<Collected> collect() override {
-        auto frame = view_.collect();
-        if (!frame) {
-            return frame.error();
+        auto piece = view_.collectPiece();
+        if (!piece) {
+            return piece.error();
         }
-        return Collected{Collected::Outcome::kFrame,
-                         SourceFrame{std::move(frame->pixels), std::move(frame->stats)}};
+        if (piece->again) {
+            return Collected{.outcome = Collected::Outcome::kAgain};
+        }
+        if (!piece->frame) {
+            return Collected{.outcome = Collected::Outcome::kPiece};
+        }
+        return Collected{
+            .outcome = Collected::Outcome::kFrame,
+            .frame = SourceFrame{std::move(piece->frame->pixels), std::move(piece->frame->stats)}};
     }
 
   private:
@@ -39,8 +50,21 @@ class RendererView final : public ViewSource {
 
 class RendererSource final : public FrameSource {
   public:
-    RendererSource(std::unique_ptr<gpu::Device> device, const scene::Scene& scene)
-        : device_(std::move(device)), renderer_(*device_, scene) {}
+    RendererSource(std::unique_ptr<gpu::Device> device,
+                   const scene::Scene& scene,
+                   Seconds frame_limit)
+        : device_(std::move(device)),
+          renderer_(*device_, scene), limits_{frame_limit,
+                                              device_->traits().is_cpu ? kCpuPiece : kGpuPiece} {
+        if (!scene.cameras.empty()) {
+            const auto& camera = scene.cameras.front().camera;
+            const auto scale = render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
+            if (!scale) {
+                throw StartupError(scale.error());
+            }
+            spdlog::info("event=device_speed pair_cost={:.2f}", *scale);
+        }
+    }
 
     // A CPU device draws with the host's cores: a second frame would only make the first late.
     [[nodiscard]] uint32_t depth() const override { return device_->traits().is_cpu ? 1 : 2; }
@@ -48,19 +72,21 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] bool isHost() const override { return device_->traits().is_cpu; }
 
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
-        return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_));
+        return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_, limits_));
     }
 
   private:
     std::unique_ptr<gpu::Device> device_;
     render::Renderer renderer_;
+    const render::WorkLimits limits_;
 };
 
 } // namespace
 
 std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
-                                                const scene::Scene& scene) {
-    return std::make_unique<RendererSource>(std::move(device), scene);
+                                                const scene::Scene& scene,
+                                                Seconds frame_limit) {
+    return std::make_unique<RendererSource>(std::move(device), scene, frame_limit);
 }
 
 } // namespace froxel::stream

@@ -1,6 +1,7 @@
 // The real frame source: render::Renderer on a device, behind the seam of frame_source.h.
 #pragma once
 
+#include "core/clock.h"
 #include "stream/frame_source.h"
 
 #include <memory>
@@ -14,9 +15,15 @@ struct Scene;
 
 namespace froxel::stream {
 
-// Moves the scene to the device; the scene is not needed afterwards. On the render thread, which
+// For how long one frame may keep the device from others, by its estimate.
+inline constexpr Seconds kCpuPiece{0.25};
+inline constexpr Seconds kGpuPiece{0.05};
+
+// Moves the scene to the device and measures how fast that is; frames that would take longer than
+// `frame_limit` are refused. The scene is not needed afterwards. On the render thread, which
 // must also end what comes back. Throws StartupError, vk::SystemError.
 [[nodiscard]] std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
-                                                              const scene::Scene& scene);
+                                                              const scene::Scene& scene,
+                                                              Seconds frame_limit);
 
 } // namespace froxel::stream

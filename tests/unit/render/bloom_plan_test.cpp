@@ -1,5 +1,4 @@
 #include "render/bloom_plan.h"
-#include "render/light_budget.h"
 
 #include <gtest/gtest.h>
 
@@ -95,17 +94,18 @@ TEST(BloomPlan, Threshold_IsOfExposedRadiance) {
     EXPECT_EQ(pass.knee, 0.125F);
 }
 
-TEST(BloomPlan, Budget_RefusesWhatTakesMinutesAlone) {
+TEST(BloomPlan, Kernels_OfMoreTapsThanASoftwareLoopHas_AreRefusedThere) {
     const view::Size full{1920, 1080};
-    const auto taps = [&](BloomKind kind, float radius, bool cpu) {
-        return checkBloomBudget(planBloom(bloomOf(kind, radius), full, 1), full, cpu);
+    const auto check = [&](BloomKind kind, float radius, bool cpu) {
+        return checkKernels(planBloom(bloomOf(kind, radius), full, 1), cpu);
     };
-    EXPECT_TRUE(taps(BloomKind::kMipChain, 0.05F, true));
-    EXPECT_TRUE(taps(BloomKind::kATrous, 0.05F, true));
-    EXPECT_TRUE(taps(BloomKind::kSeparable, 0.05F, true));
-    EXPECT_TRUE(taps(BloomKind::kSinglePass, 0.005F, true));
-    EXPECT_FALSE(taps(BloomKind::kSinglePass, 0.05F, true));
-    EXPECT_TRUE(taps(BloomKind::kSinglePass, 0.05F, false));
+    EXPECT_TRUE(check(BloomKind::kMipChain, 0.05F, true));
+    EXPECT_TRUE(check(BloomKind::kSeparable, 0.05F, true));
+    EXPECT_TRUE(check(BloomKind::kSinglePass, 0.005F, true));
+    EXPECT_TRUE(check(BloomKind::kSinglePass, 0.05F, false));
+    const auto refused = check(BloomKind::kSinglePass, 0.05F, true);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kUnsupported);
 }
 
 } // namespace

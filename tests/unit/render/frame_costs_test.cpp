@@ -1,2 +1,82 @@
 #include "render/frame_costs.h"
+
 #include <gtest/gtest.h>
+
+#include <array>
+
+namespace froxel::render {
+namespace {
+
+cluster::ClusterGrid gridOf(const view::GridSize& size, const view::Size& image) {
+    return cluster::makeClusterGrid({.size = size}, image, view::Camera{}, 0.1, 100);
+}
+
+struct Load {
+    FramePlan plan{.gbuffer = true, .lighting_compute = true, .lists = true};
+    DrawList draws;
+    ShadowFrame shadows;
+    [[nodiscard]] FrameLoad of(const PairBound& pairs) const {
+        return {.plan = plan,
+                .draws = draws,
+                .shadows = shadows,
+                .drawn = {640, 360},
+                .shown = {640, 360},
+                .pairs = pairs};
+    }
+};
+
+} // namespace
+
+TEST(PairBound, Lists_CountEachPixelWithItsTilesLongest) {
+    const auto grid = gridOf({2, 1, 3}, {100, 10});
+    cluster::LightLists lists;
+    for (const uint32_t count : {1U, 2U, 7U, 0U, 0U, 5U}) { // x fastest, then z
+        lists.clusters.push_back({0, count});
+    }
+    const auto bound = PairBound::lists(grid, lists);
+    EXPECT_EQ(bound.longest(), 7U);
+    EXPECT_EQ(bound.pairs({{0, 0}, {50, 10}}), 500 * 7);
+    EXPECT_EQ(bound.pairs({{50, 0}, {50, 10}}), 500 * 5);
+    EXPECT_EQ(bound.pairs({{40, 8}, {20, 2}}), 20 * 7 + 20 * 5);
+}
+
+TEST(PairBound, Uniform_IsPixelsTimesLights) {
+    EXPECT_EQ(PairBound::uniform(1000).pairs({{8, 8}, {10, 3}}), 30'000);
+    EXPECT_EQ(PairBound().pairs({{0, 0}, {10, 10}}), 0);
+}
+
+// 640x360 pixels of a million lights: what the lists hold decides, not their 95th percentile.
+TEST(FrameCosts, OneLongList_CountsWhole) {
+    const Load load;
+    const auto grid = gridOf({1, 1, 256}, {640, 360});
+    cluster::LightLists lists;
+    lists.clusters.assign(256, {0, 1});
+    lists.clusters[100].count = 1'000'000;
+    const FrameCosts costs(kCpuUnitCosts, load.of(PairBound::lists(grid, lists)));
+    EXPECT_GT(costs.total(), Seconds(100));
+    const auto refused = costs.check(Seconds(1));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    EXPECT_NE(refused.error().message.find("for lighting"), std::string::npos);
+}
+
+TEST(FrameCosts, AllPasses_CountTogether) {
+    Load load;
+    const FrameCosts one(kCpuUnitCosts, load.of(PairBound::uniform(500)));
+    load.plan.fxaa = load.plan.tonemap = load.plan.fog = true;
+    const FrameCosts more(kCpuUnitCosts, load.of(PairBound::uniform(500)));
+    EXPECT_GT(more.total(), one.total());
+    EXPECT_TRUE(one.check(one.total()));
+    EXPECT_FALSE(more.check(one.total()));
+}
+
+TEST(FrameCosts, PairsWithinALimit_FillIt) {
+    const Load load;
+    const FrameCosts dark(kGpuUnitCosts, load.of(PairBound::uniform(0)));
+    const double pairs = dark.pairsWithin(Seconds(0.05));
+    const auto each = static_cast<uint64_t>(pairs / (640 * 360));
+    const FrameCosts lit(kGpuUnitCosts, load.of(PairBound::uniform(each)));
+    EXPECT_NEAR(lit.total().count(), 0.05, 0.001);
+}
+
+} // namespace froxel::render

@@ -1,0 +1,244 @@
+// Frames that are cut, so that the device can be taken back between their pieces, are the same
+// pictures to the bit.
+#include "hall/hall.h"
+#include "render/renderer.h"
+#include "support/draw.h"
+#include "support/gpu_fixture.h"
+#include "support/test_scenes.h"
+
+#include <functional>
+#include <string>
+
+namespace froxel::test {
+
+namespace {
+
+using view::Renderer;
+using Change = std::function<void(render::FrameInputs&)>;
+
+class Pieces : public SharedGpuTest {
+  protected:
+    static void TearDownTestSuite() {
+        renderer_.reset();
+        SharedGpuTest::TearDownTestSuite();
+    }
+    // Of all tests, as its pipelines are.
+    [[nodiscard]] static render::Renderer& renderer() {
+        if (!renderer_) {
+            renderer_ = std::make_unique<render::Renderer>(device(), hall());
+        }
+        return *renderer_;
+    }
+    static const scene::Scene& hall() {
+        static const scene::Scene scene = hall::makeHall();
+        return scene;
+    }
+    // Small enough for tens of pieces.
+    [[nodiscard]] static render::WorkLimits cut() {
+        return {Seconds(100), onGpu() ? Seconds(4e-6) : Seconds(1e-3)};
+    }
+    [[nodiscard]] static render::FrameInputs inputs(size_t camera = 0) {
+        render::FrameInputs inputs;
+        inputs.settings.camera = hall().cameras.at(camera).camera;
+        inputs.settings.size = {212, 119};
+        inputs.settings.lights.count = 300;
+        inputs.time_s = 2.5;
+        return inputs;
+    }
+    // Draws whole and in pieces; both as pixels, and as radiance where there is some.
+    static void expectSame(const render::FrameInputs& inputs, bool radiance = true) {
+        render::ViewRenderer whole_view(renderer());
+        render::ViewRenderer cut_view(renderer(), {}, cut());
+        const auto drawn = [&](render::ViewRenderer& view) {
+            return radiance ? draw(view, inputs) : drawPixels(view, inputs);
+        };
+        const Picture whole = drawn(whole_view);
+        const Picture parts = drawn(cut_view);
+        EXPECT_EQ(whole.rgba8, parts.rgba8);
+        EXPECT_EQ(differingFloats(whole, parts), 0U);
+        EXPECT_EQ(whole.stats.peel.overflow_count, parts.stats.peel.overflow_count);
+        EXPECT_EQ(whole.stats.pairs.evaluated, parts.stats.pairs.evaluated);
+        EXPECT_EQ(whole.stats.pairs.contributing, parts.stats.pairs.contributing);
+        const auto work = cut_view.begin(inputs);
+        ASSERT_TRUE(work) << work.error().message;
+        EXPECT_GT(work->piece_count, 3U);
+        cut_view.abandon();
+    }
+
+  private:
+    inline static std::unique_ptr<render::Renderer> renderer_;
+};
+
+} // namespace
+
+TEST_F(Pieces, Renderers_DrawTheSameBits) {
+    for (const Renderer renderer :
+         {Renderer::kNaive, Renderer::kForwardPlus, Renderer::kClusteredDeferred,
+          Renderer::kToonFragment, Renderer::kToonCompute}) {
+        for (const auto stage : {view::LightingStage::kAuto, view::LightingStage::kFragment,
+                                 view::LightingStage::kCompute}) {
+            SCOPED_TRACE(std::string(view::kRendererNames[static_cast<size_t>(renderer)]) + ", " +
+                         std::to_string(static_cast<int>(stage)));
+            auto asked = inputs();
+            asked.settings.renderer = renderer;
+            asked.settings.lighting = stage;
+            expectSame(asked);
+        }
+    }
+}
+
+TEST_F(Pieces, ListsOfAnyGrid_DrawTheSameBits) {
+    for (const view::GridSize grid : {view::GridSize{1, 1, 64}, {16, 9, 24}, {128, 128, 2}}) {
+        auto asked = inputs();
+        asked.settings.grid = {.automatic = false, .size = grid};
+        asked.settings.light_loop = view::LightLoop::kLists;
+        expectSame(asked);
+    }
+}
+
+TEST_F(Pieces, Effects_DrawTheSameBits) {
+    const std::pair<const char*, Change> cases[] = {
+        {"fog", [](auto& in) { in.settings.fog.density = 0.05F; }},
+        {"shadows",
+         [](auto& in) {
+             in.settings.shadows.light_count = 6;
+             in.settings.shadows.size_px = 64;
+             in.settings.lights.radius_m = 6;
+         }},
+        {"bloom, one pass",
+         [](auto& in) { in.settings.bloom.kind = view::BloomKind::kSinglePass; }},
+        {"bloom, separable",
+         [](auto& in) { in.settings.bloom.kind = view::BloomKind::kSeparable; }},
+        {"bloom, a trous", [](auto& in) { in.settings.bloom.kind = view::BloomKind::kATrous; }},
+        {"bloom, mip chain", [](auto& in) { in.settings.bloom.kind = view::BloomKind::kMipChain; }},
+        {"fxaa", [](auto& in) { in.settings.antialiasing = view::Antialiasing::kFxaa; }},
+        {"ssaa4", [](auto& in) { in.settings.antialiasing = view::Antialiasing::kSsaa4; }},
+        {"pairs", [](auto& in) { in.settings.count_pairs = true; }},
+    };
+    for (const auto& [name, change] : cases) {
+        SCOPED_TRACE(name);
+        auto asked = inputs();
+        change(asked);
+        expectSame(asked);
+    }
+}
+
+TEST_F(Pieces, BlendedSurfaces_DrawTheSameBits) {
+    const auto& cameras = hall().cameras;
+    size_t glass = 0;
+    while (cameras.at(glass).name != "Glass") {
+        ++glass;
+    }
+    for (const auto kind : {view::Transparency::kSorted, view::Transparency::kWeighted,
+                            view::Transparency::kPeeled}) {
+        auto asked = inputs(glass);
+        asked.settings.transparency = kind;
+        asked.settings.peel_layers = 3;
+        expectSame(asked);
+    }
+}
+
+TEST_F(Pieces, DebugViews_DrawTheSameBits) {
+    for (const auto view : {view::DebugView::kDepth, view::DebugView::kEvaluatedLights,
+                            view::DebugView::kOverdraw, view::DebugView::kGbuffer}) {
+        auto asked = inputs();
+        asked.settings.debug.view = view;
+        expectSame(asked, false);
+    }
+}
+
+TEST_F(Pieces, OfTwoViewsInTurn_DrawTheSameBits) {
+    render::ViewRenderer alone(renderer());
+    auto first = inputs(0);
+    auto second = inputs(1);
+    second.settings.renderer = Renderer::kForwardPlus;
+    second.settings.lighting = view::LightingStage::kCompute; // views share what culling writes
+    const Picture first_whole = drawPixels(alone, first);
+    const Picture second_whole = drawPixels(alone, second);
+
+    render::ViewRenderer a(renderer(), {}, cut());
+    render::ViewRenderer b(renderer(), {}, cut());
+    ASSERT_TRUE(a.begin(first));
+    ASSERT_TRUE(b.begin(second));
+    std::optional<render::RenderedFrame> frame_a;
+    std::optional<render::RenderedFrame> frame_b;
+    const auto step = [](render::ViewRenderer& view, std::optional<render::RenderedFrame>& frame) {
+        if (!frame) {
+            ASSERT_TRUE(view.submitPiece());
+            auto done = view.collectPiece();
+            ASSERT_TRUE(done);
+            ASSERT_FALSE(done->again);
+            frame = std::move(done->frame);
+        }
+    };
+    while (!frame_a || !frame_b) {
+        ASSERT_NO_FATAL_FAILURE(step(a, frame_a));
+        ASSERT_NO_FATAL_FAILURE(step(b, frame_b));
+    }
+    const auto pixels = [](const render::RenderedFrame& frame) {
+        const auto& view = frame.pixels.view();
+        return std::vector<std::byte>(view.data,
+                                      view.data + size_t{4} * view.width_px * view.height_px);
+    };
+    EXPECT_EQ(pixels(*frame_a), first_whole.rgba8);
+    EXPECT_EQ(pixels(*frame_b), second_whole.rgba8);
+}
+
+TEST_F(Pieces, GivenUp_LeaveTheViewAsItWas) {
+    render::ViewRenderer view(renderer(), {}, cut());
+    const Picture before = drawPixels(view, inputs());
+    auto other = inputs(1);
+    ASSERT_TRUE(view.begin(other));
+    ASSERT_TRUE(view.submitPiece());
+    EXPECT_FALSE(view.canSubmit());
+    view.abandon();
+    const auto piece = view.collectPiece();
+    ASSERT_TRUE(piece);
+    EXPECT_FALSE(piece->frame || piece->again);
+    EXPECT_TRUE(view.canSubmit());
+    EXPECT_EQ(view.inFlight(), 0U);
+    EXPECT_EQ(drawPixels(view, inputs()).rgba8, before.rgba8);
+}
+
+TEST_F(Pieces, FramesOverTheLimit_AreRefusedBeforeAnythingIsAllocated) {
+    render::ViewRenderer view(renderer(), {}, {Seconds(1), Seconds(0.25)});
+    auto asked = inputs();
+    asked.settings.renderer = Renderer::kNaive;
+    asked.settings.lights.count = 1'000'000;
+    asked.settings.size = {4096, 4096};
+    const auto begun = view.begin(asked);
+    ASSERT_FALSE(begun);
+    EXPECT_EQ(begun.error().code, ErrorCode::kCapacity);
+    EXPECT_THAT(begun.error().message, ::testing::HasSubstr("1000005 lights a pixel"));
+    EXPECT_THAT(begun.error().message, ::testing::HasSubstr("at most 1 s"));
+    EXPECT_FALSE(drawPixels(view, inputs()).rgba8.empty());
+}
+
+// One huge light and a million tiny ones in a grid of one tile: the 95th percentile of its lists is
+// 1, and the floor's pixels loop over nearly all.
+TEST_F(Pieces, ListsThatHoldNearlyAllLights_CountAsWhatTheyHold) {
+    render::ViewRenderer view(renderer(), {}, {Seconds(1), Seconds(0.25)});
+    auto asked = inputs();
+    asked.settings.lights.count = 1'000'000;
+    asked.settings.lights.radius_m = 0.05F;
+    asked.settings.grid = {.automatic = false, .size = {1, 1, 256}};
+    asked.settings.light_loop = view::LightLoop::kLists;
+    asked.settings.size = {640, 360};
+    const auto begun = view.begin(asked);
+    if (onGpu() && begun) { // which the device tells after it made the lists
+        while (!view.canSubmit()) {
+            ASSERT_TRUE(view.submitPiece());
+            const auto piece = view.collectPiece();
+            ASSERT_TRUE(piece);
+            if (piece->again) {
+                EXPECT_FALSE(view.begin(asked));
+                return;
+            }
+        }
+        FAIL() << "the frame was drawn";
+    }
+    ASSERT_FALSE(begun) << begun->estimate.count() << " s";
+    EXPECT_EQ(begun.error().code, ErrorCode::kCapacity);
+}
+
+} // namespace froxel::test
