@@ -1,5 +1,5 @@
-// How often something may happen: so often at once, then so often a second. Pure: time is passed
-// in.
+// How often something may happen, or how much of it: so much at once, then so much a second. Pure:
+// time is passed in.
 #pragma once
 
 #include "core/clock.h"
@@ -22,19 +22,24 @@ class Allowance {
         --left_;
         return true;
     }
+    // Counts so much of it, also where that is more than is left.
+    void spend(double amount, TimePoint now) {
+        left_ = leftAt(now) - amount;
+        at_ = std::max(at_, now);
+    }
     // When take() will do; `now` if it does already.
     [[nodiscard]] TimePoint nextAt(TimePoint now) const {
         const Seconds wait((1 - leftAt(now)) / per_second_);
         return wait.count() > 0 ? now + std::chrono::ceil<Clock::duration>(wait) : now;
     }
 
-  private:
-    // Times that it may happen at once; all before the first.
+    // How much may happen at once; all before the first. Below 0: what was spent beyond.
     [[nodiscard]] double leftAt(TimePoint now) const {
         const Seconds since = std::max(Seconds(0), Seconds(now - at_));
         return std::min(most_, left_ + per_second_ * since.count());
     }
 
+  private:
     double most_;
     double per_second_;
     double left_ = most_;

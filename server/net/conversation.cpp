@@ -25,13 +25,14 @@ Conversation::~Conversation() {
     metrics_->sessionClosed();
 }
 
-void Conversation::onMessage(protocol::ByteSpan message,
+void Conversation::onDecoded(session::CommandResult<CommandMessage> command,
                              protocol::WireFormat format,
                              TimePoint now) {
     if (closing_) {
         return;
     }
-    if (const auto command = reader_.read(message, format)) {
+    command = reader_.check(std::move(command), format);
+    if (command) {
         handle(*command, now);
     } else {
         reject(command.error(), now);
@@ -80,8 +81,7 @@ void Conversation::begin(TimePoint now) {
     hello_.resume_token.clear();
     if (!seat) {
         const bool full = seat.error().code == ErrorCode::kCapacity;
-        answer(session::makeError(
-            {full ? RejectCode::kCapacity : RejectCode::kDevice, 0, "", seat.error().message}));
+        tellError({full ? RejectCode::kCapacity : RejectCode::kDevice, 0, "", seat.error().message});
         close(full ? CloseCode::kCapacity : CloseCode::kDeviceLost, "no session");
         return;
     }
@@ -121,6 +121,11 @@ void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
 }
 
 void Conversation::applyCommand(const CommandMessage& message, TimePoint now) {
+    if (std::holds_alternative<session::PickLight>(message.body) && !picks_.take(now)) {
+        return reject({RejectCode::kRateLimit, message.stamp.seq, "",
+                       "more than " + numberText(kPicksPerSecond) + " lights picked a second"},
+                      now);
+    }
     if (auto applied = seat_->session->apply(seat_->place, message, now); !applied) {
         reject(applied.error(), now);
         return;
@@ -218,10 +223,10 @@ void Conversation::onService(const ServiceStatus& status, TimePoint now) {
     }
     service_ = status;
     if (pass_ && !pass_->valid()) {
-        answer(session::makeError({RejectCode::kToken, 0, "token", "the token was taken away"}));
+        tellError({RejectCode::kToken, 0, "token", "the token was taken away"});
         close(CloseCode::kToken, "the token was taken away");
     } else if (status.lost) {
-        answer(session::makeError({RejectCode::kDevice, 0, "", *status.lost}));
+        tellError({RejectCode::kDevice, 0, "", *status.lost});
         close(CloseCode::kDeviceLost, "the device was lost");
     } else if (status.draining) {
         drain(*status.draining);
@@ -260,7 +265,7 @@ void Conversation::onNotice(Notice notice) {
     } else if (std::holds_alternative<RoomNews>(notice)) {
         outbox_.putRoom();
     } else if (const auto* rejection = std::get_if<Rejection>(&notice)) {
-        answer(session::makeError(*rejection));
+        tellError(*rejection);
     } else if (auto* closing = std::get_if<Closing>(&notice)) {
         close(closing->code, std::move(closing->reason));
     }
@@ -298,33 +303,6 @@ void Conversation::countDrops(uint32_t before) {
 void Conversation::mendVideo(TimePoint now) {
     if (video_lost_ && seat_ && window_.open() && !outbox_.hasFrame() && !paused_) {
         requestKeyFrame(now);
-    }
-}
-
-void Conversation::reject(const Rejection& rejection, TimePoint now) {
-    metrics_->commandRejected(rejection.code);
-    spdlog::info("event=command_refused session={} seq={} code={} field={} reason={}", id(),
-                 rejection.ref_seq, session::nameOf(rejection.code), logValue(rejection.field),
-                 logValue(rejection.message));
-    answer(session::makeError(rejection));
-    if (rejection.code == RejectCode::kVersion) {
-        close(CloseCode::kVersion, "protocol version");
-    } else if (rejection.code == RejectCode::kToken) {
-        close(CloseCode::kToken, "no valid token");
-    } else if (rejection.code == RejectCode::kControl) {
-        return; // no fault: control may have gone while the command was on its way
-    } else if (!rejects_.spend(now)) {
-        answer(session::makeError({RejectCode::kRateLimit, rejection.ref_seq, "",
-                                   "more than " + numberText(protocol::kMaxRejects) +
-                                       " messages refused within " +
-                                       numberText(protocol::kRejectPeriod.count()) + " s"}));
-        close(CloseCode::kPolicy, "too many refused messages");
-    }
-}
-
-void Conversation::answer(const v1::ServerMessage& message) {
-    if (!outbox_.putAnswer(inReply(message))) {
-        close(CloseCode::kSlowConsumer, "answers are not read");
     }
 }
 

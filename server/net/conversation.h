@@ -6,6 +6,7 @@
 #include "net/lobby.h"
 #include "net/metrics.h"
 #include "net/outbox.h"
+#include "net/read_budget.h"
 #include "net/service.h"
 #include "net/token_gate.h"
 #include "session/command_reader.h"
@@ -28,6 +29,11 @@ class Conversation {
     // them must not take a slow link from the pictures.
     static constexpr double kStatesAtOnce = 16;
     static constexpr double kStatesPerSecond = 5;
+    // A pick looks at up to 20,000 lights.
+    static constexpr double kPicksAtOnce = 10;
+    static constexpr double kPicksPerSecond = 5;
+    // Messages to a client of more bytes are made away from the network's threads.
+    static constexpr size_t kLongBytes = size_t{8} * 1024;
 
     // `viewer` is what the session tells; whatever it is told goes to onNotice(). `caller` is who
     // connected, by address. Without a `gate` everybody is let in.
@@ -43,7 +49,15 @@ class Conversation {
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
 
-    void onMessage(protocol::ByteSpan message, protocol::WireFormat format, TimePoint now);
+    void onMessage(protocol::ByteSpan message, protocol::WireFormat format, TimePoint now) {
+        onDecoded(session::decodeCommand(message, format), format, now);
+    }
+    // A message that session::decodeCommand() gave this for, on whatever thread.
+    void onDecoded(session::CommandResult<session::CommandMessage> command,
+                   protocol::WireFormat format,
+                   TimePoint now);
+    // The client says more than is read of one.
+    void onFlood(ReadBudget::Standing standing);
     void onService(const ServiceStatus& status, TimePoint now);
     void onNotice(Notice notice);
     // The client closed the connection on purpose.
@@ -85,10 +99,11 @@ class Conversation {
     void sayLoading();
     void drain(const Draining& draining);
     void reject(const session::Rejection& rejection, TimePoint now);
-    void answer(const v1::ServerMessage& message);
+    void tellError(const session::Rejection& rejection);
+    void answer(v1::ServerMessage message);
     void close(protocol::CloseCode code, std::string reason);
     void grantCredits();
-    [[nodiscard]] Outgoing inReply(const v1::ServerMessage& message) const;
+    [[nodiscard]] Outgoing inReply(v1::ServerMessage message) const;
     [[nodiscard]] Outgoing stateMessage();
     void mendVideo(TimePoint now);
     [[nodiscard]] std::optional<Outgoing> detailsMessage();
@@ -107,6 +122,8 @@ class Conversation {
     std::optional<session::Delivery> told_delivery_; // none before the first acknowledgement
     Outbox outbox_;
     Allowance states_{kStatesAtOnce, kStatesPerSecond};
+    Allowance room_states_{kStatesAtOnce, kStatesPerSecond};
+    Allowance picks_{kPicksAtOnce, kPicksPerSecond};
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
     session::Hello hello_;                // its secrets are forgotten when they have served

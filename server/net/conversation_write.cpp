@@ -1,4 +1,5 @@
 // What a conversation writes: which message is next, and how each is made.
+#include "core/text.h"
 #include "froxel/v1/server.pb.h"
 #include "net/conversation.h"
 #include "session/state_message.h"
@@ -15,12 +16,14 @@ std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
         key_at_.reset();
         video_lost_ ? mendVideo(now) : requestKeyFrame(now);
     }
-    switch (outbox_.next(states_.nextAt(now) <= now, window_.open() && !paused_)) {
+    switch (outbox_.next(room_states_.nextAt(now) <= now, states_.nextAt(now) <= now,
+                         window_.open() && !paused_)) {
     case Outbox::Next::kNothing:
         return {};
     case Outbox::Next::kAnswer:
         return outbox_.takeAnswer();
     case Outbox::Next::kRoom:
+        static_cast<void>(room_states_.take(now));
         outbox_.takeRoom();
         return inReply(seat_->session->roomState(seat_->place.member));
     case Outbox::Next::kState:
@@ -40,21 +43,75 @@ std::optional<TimePoint> Conversation::wakeAt(TimePoint now) const {
     if (closing_) {
         return {};
     }
-    if (!outbox_.hasState()) {
-        return key_at_;
+    std::optional<TimePoint> at = key_at_;
+    const auto orAt = [&at](TimePoint other) { at = at ? std::min(*at, other) : other; };
+    if (outbox_.hasRoom()) {
+        orAt(room_states_.nextAt(now));
     }
-    const TimePoint state_at = states_.nextAt(now);
-    return key_at_ ? std::min(*key_at_, state_at) : state_at;
+    if (outbox_.hasState()) {
+        orAt(states_.nextAt(now));
+    }
+    return at;
 }
 
-Outgoing Conversation::inReply(const v1::ServerMessage& message) const {
-    const auto format = reader_.replyFormat();
-    return {protocol::encodeServerMessage(message, format), nullptr, format};
+Outgoing Conversation::inReply(v1::ServerMessage message) const {
+    Outgoing reply;
+    reply.format = reader_.replyFormat();
+    if (message.ByteSizeLong() > kLongBytes) {
+        reply.unmade = std::make_shared<const v1::ServerMessage>(std::move(message));
+    } else {
+        reply.head = protocol::encodeServerMessage(message, reply.format);
+    }
+    return reply;
+}
+
+void Conversation::answer(v1::ServerMessage message) {
+    if (!outbox_.putAnswer(inReply(std::move(message)))) {
+        close(protocol::CloseCode::kSlowConsumer, "answers are not read");
+    }
+}
+
+void Conversation::tellError(const session::Rejection& rejection) {
+    metrics_->commandRejected(rejection.code);
+    answer(session::makeError(rejection));
+}
+
+void Conversation::reject(const session::Rejection& rejection, TimePoint now) {
+    using session::RejectCode;
+    spdlog::info("event=command_refused session={} seq={} code={} field={} reason={}", id(),
+                 rejection.ref_seq, session::nameOf(rejection.code), logValue(rejection.field),
+                 logValue(rejection.message));
+    tellError(rejection);
+    if (rejection.code == RejectCode::kVersion) {
+        close(protocol::CloseCode::kVersion, "protocol version");
+    } else if (rejection.code == RejectCode::kToken) {
+        close(protocol::CloseCode::kToken, "no valid token");
+    } else if (rejection.code == RejectCode::kControl || rejection.blameless) {
+        return; // control may have gone while the command was on its way
+    } else if (!rejects_.spend(now)) {
+        tellError({RejectCode::kRateLimit, rejection.ref_seq, "",
+                   "more than " + numberText(protocol::kMaxRejects) + " messages refused within " +
+                       numberText(protocol::kRejectPeriod.count()) + " s"});
+        close(protocol::CloseCode::kPolicy, "too many refused messages");
+    }
+}
+
+void Conversation::onFlood(ReadBudget::Standing standing) {
+    if (closing_ || standing == ReadBudget::Standing::kWithin) {
+        return;
+    }
+    const std::string most = numberText(ReadBudget::kBytesPerSecond) + " bytes a second";
+    tellError({session::RejectCode::kRateLimit, 0, "",
+               "messages are more than " + most +
+                   ", and what takes long counts as more; they are read more slowly"});
+    if (standing == ReadBudget::Standing::kSpent) {
+        close(protocol::CloseCode::kPolicy, "more messages than are read of one viewer");
+    }
 }
 
 // Of several viewers each is answered by the number of its own command.
 Outgoing Conversation::stateMessage() {
-    session::SessionState state = seat_->session->state();
+    session::SessionState state = seat_->session->newState(seat_->place);
     state.applied = newest_;
     const auto told = std::exchange(told_placed_, state.settings.lights.placed);
     return inReply(makeStateChanged(seat_->session->context(), state, told));

@@ -2,6 +2,7 @@
 // the one for operators (admin_site.h). Immutable; any thread.
 #pragma once
 
+#include "net/paced_reads.h"
 #include "net/service.h"
 #include "transport/peer_stream.h"
 
@@ -18,7 +19,9 @@
 
 namespace froxel::net {
 
-using PeerStream = transport::PeerStream<boost::beast::tcp_stream>;
+using PacedTcp = boost::beast::
+    basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor, PacedReads>;
+using PeerStream = transport::PeerStream<PacedTcp>;
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 

@@ -63,9 +63,25 @@ void LiveSession::tellAll(Mail& mail, const Notice& notice) const {
     }
 }
 
+void LiveSession::tellRoom(Mail& mail) {
+    for (auto& [id, member] : members_) {
+        if (!std::exchange(member.has_room_news, true)) {
+            mail.add(member.viewer, RoomNews{});
+        }
+    }
+}
+
+void LiveSession::tellState(Mail& mail, std::optional<MemberId> but) {
+    for (auto& [id, member] : members_) {
+        if (id != but && !std::exchange(member.has_state_news, true)) {
+            mail.add(member.viewer, StateNews{});
+        }
+    }
+}
+
 void LiveSession::addMember(MemberId member, std::string name, Mail& mail) {
     const std::lock_guard lock(mutex_);
-    tellAll(mail, RoomNews{});
+    tellRoom(mail);
     room_.add(member, std::move(name));
     used_by_ = used_by_ == 0 ? room_.controller() : used_by_;
     members_[member];
@@ -82,7 +98,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
              Closing{protocol::CloseCode::kReplaced, "a newer connection took this session up"});
     if (room_.find(place.member)->away) {
         room_.setAway(place.member, false);
-        tellAll(mail, RoomNews{});
+        tellRoom(mail);
     }
     member = {place.connection, std::move(viewer), 0, 0, codecs, {}, false, 0, 0, now};
     updateCodecs(now, mail);
@@ -112,7 +128,7 @@ void LiveSession::detach(const Place& place, Mail& mail) {
     updateCodecs(Clock::now(), mail);
     updateGrant();
     updateDelivery();
-    tellAll(mail, RoomNews{});
+    tellRoom(mail);
 }
 
 bool LiveSession::removeMember(MemberId member, Mail& mail) {
@@ -127,7 +143,7 @@ bool LiveSession::removeMember(MemberId member, Mail& mail) {
     } else if (!std::exchange(ended_, true)) {
         serving_.port->leave(id_);
     }
-    tellAll(mail, RoomNews{});
+    tellRoom(mail);
     return last;
 }
 
@@ -154,11 +170,7 @@ LiveSession::apply(const Place& place, const session::CommandMessage& message, T
     member->watched_at = control_used_ = now;
     used_by_ = place.member;
     serving_.port->update(id_, state_, now);
-    for (const auto& [id, other] : members_) {
-        if (id != place.member) {
-            mail.add(other.viewer, StateNews{});
-        }
-    }
+    tellState(mail, place.member);
     return {};
 }
 
@@ -184,7 +196,7 @@ CommandResult<void> LiveSession::changeControl(const Place& place,
         room_.releaseControl(place.member);
     }
     if (room_.version() != before) {
-        tellAll(mail, RoomNews{});
+        tellRoom(mail);
     }
     return {};
 }
@@ -206,14 +218,14 @@ std::optional<TimePoint> LiveSession::passIdleControl(Seconds limit, TimePoint n
     }
     room_.releaseControl(used_by_);
     noteHolder();
-    tellAll(mail, RoomNews{});
+    tellRoom(mail);
     return room_.heir() == 0 ? std::nullopt : std::optional(now + length);
 }
 
 void LiveSession::takeControl(Mail& mail) {
     const std::lock_guard lock(mutex_);
     room_.releaseControl(room_.controller());
-    tellAll(mail, RoomNews{});
+    tellRoom(mail);
 }
 
 void LiveSession::tellClosing(const Closing& closing, Mail& mail) const {
@@ -246,7 +258,7 @@ void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
     if (state_.encoding.codec != before) {
         ++state_.version;
         serving_.port->update(id_, state_, now);
-        tellAll(mail, StateNews{});
+        tellState(mail);
     }
 }
 
@@ -271,6 +283,14 @@ std::optional<TimePoint> LiveSession::requestKeyFrame(const Place& place, TimePo
     return {};
 }
 
+SessionState LiveSession::newState(const Place& place) {
+    const std::lock_guard lock(mutex_);
+    if (Member* member = find(place)) {
+        member->has_state_news = false;
+    }
+    return state_;
+}
+
 SessionState LiveSession::state() const {
     const std::lock_guard lock(mutex_);
     return state_;
@@ -281,8 +301,11 @@ bool LiveSession::controls(const Place& place) const {
     return room_.controller() == place.member;
 }
 
-v1::ServerMessage LiveSession::roomState(MemberId you) const {
+v1::ServerMessage LiveSession::roomState(MemberId you) {
     const std::lock_guard lock(mutex_);
+    if (const auto found = members_.find(you); found != members_.end()) {
+        found->second.has_room_news = false;
+    }
     return session::makeRoomState(room_, you);
 }
 
@@ -320,7 +343,7 @@ void LiveSession::refuse(Error error, SessionState refused, std::optional<Sessio
         tellAll(mail, Closing{protocol::CloseCode::kCapacity, "the first picture cannot be made"});
     } else {
         takeBack(refused, drawn, Clock::now());
-        tellAll(mail, StateNews{});
+        tellState(mail);
     }
 }
 

@@ -122,8 +122,10 @@ class LiveSession final : public session::FrameSink,
     [[nodiscard]] const Caller& opener() const { return opener_; } // whom it is charged to
     [[nodiscard]] const session::SessionContext& context() const { return *serving_.context; }
     [[nodiscard]] session::SessionState state() const;
+    // The same, for a viewer that StateNews came to.
+    [[nodiscard]] session::SessionState newState(const Place& place);
     [[nodiscard]] bool controls(const Place& place) const;
-    [[nodiscard]] v1::ServerMessage roomState(session::MemberId you) const;
+    [[nodiscard]] v1::ServerMessage roomState(session::MemberId you);
     // `resumed` and the token are the caller's; `placed` becomes the placed lights that it tells
     // of.
     [[nodiscard]] v1::ServerMessage
@@ -147,10 +149,15 @@ class LiveSession final : public session::FrameSink,
         uint64_t told_frame = 0; // the newest picture told to this connection
         uint64_t acked_frame = 0;
         TimePoint watched_at{}; // its last sign of watching
+        // It was told, and has not asked since: of many changes it hears once.
+        bool has_room_news = false;
+        bool has_state_news = false;
     };
     LiveSession(Serving serving, std::string room, Caller opener, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
     void tellAll(Mail& mail, const Notice& notice) const;
+    void tellRoom(Mail& mail);
+    void tellState(Mail& mail, std::optional<session::MemberId> but = {});
     [[nodiscard]] bool plainSuffices() const;
     void tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail);
     void updateGrant();

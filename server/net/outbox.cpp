@@ -1,11 +1,17 @@
 #include "net/outbox.h"
 
 #include "core/assert.h"
+#include "froxel/v1/server.pb.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace froxel::net {
+
+void Outgoing::make() {
+    head = protocol::encodeServerMessage(*unmade, format);
+    unmade.reset();
+}
 
 bool Outbox::putAnswer(Outgoing answer) {
     if (answers_.size() >= kMaxAnswers) {
@@ -52,11 +58,11 @@ void Outbox::keepAnswersOnly() {
     frames_.clear();
 }
 
-Outbox::Next Outbox::next(bool state_allowed, bool frame_allowed) const {
+Outbox::Next Outbox::next(bool room_allowed, bool state_allowed, bool frame_allowed) const {
     if (!answers_.empty()) {
         return Next::kAnswer;
     }
-    if (room_due_) {
+    if (room_due_ && room_allowed) {
         return Next::kRoom;
     }
     if (state_due_ && state_allowed) {

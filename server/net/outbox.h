@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -20,7 +21,11 @@ struct Outgoing {
     std::string head;
     SharedBytes body;
     protocol::WireFormat format = protocol::WireFormat::kBinary;
+    // What the head is still to be made of, since that takes long; null: it is there.
+    std::shared_ptr<const v1::ServerMessage> unmade{};
 
+    // Any thread.
+    void make();
     [[nodiscard]] size_t size() const { return head.size() + (body ? body->size() : 0); }
 };
 
@@ -46,13 +51,14 @@ class Outbox {
 
     enum class Next { kNothing, kAnswer, kRoom, kState, kFrame };
     // Answers first, then who is in the room, then the state, which the caller allows seldom enough
-    // for pictures.
-    [[nodiscard]] Next next(bool state_allowed, bool frame_allowed) const;
+    // for pictures, both.
+    [[nodiscard]] Next next(bool room_allowed, bool state_allowed, bool frame_allowed) const;
     [[nodiscard]] Outgoing takeAnswer();
     void takeState() { state_due_ = false; }
     void takeRoom() { room_due_ = false; }
     [[nodiscard]] session::ReadyFrame takeFrame();
 
+    [[nodiscard]] bool hasRoom() const { return room_due_; }
     [[nodiscard]] bool hasState() const { return state_due_; }
     [[nodiscard]] bool hasFrame() const { return !frames_.empty(); }
     // The picture that takeFrame() gives next.

@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds kClosingTime{1000};
 constexpr std::chrono::milliseconds kLeastClosingTime{500};
 constexpr std::chrono::seconds kLastWords{1};
 
-std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
+std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& long_work) {
     auto site = std::make_shared<Site>();
     if (!options.web_root.empty()) {
         site->files = StaticFiles::load(options.web_root).value();
@@ -44,6 +44,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options) {
     site->lobby = std::make_shared<Lobby>(options.lobby);
     site->metrics = std::make_shared<Metrics>(
         options.version, [lobby = site->lobby] { return lobby->sessionCount(); });
+    site->long_work = &long_work;
     return site;
 }
 
@@ -76,7 +77,7 @@ struct Admin {
 struct Server::Impl {
     explicit Impl(const ServerOptions& options)
         : reconnect_url(options.reconnect_url), io(static_cast<int>(options.thread_count)),
-          site(makeSite(options)),
+          long_work(options.thread_count), site(makeSite(options, long_work)),
           listener(std::make_shared<Listener>(io,
                                               options.bind,
                                               "--port",
@@ -157,6 +158,7 @@ struct Server::Impl {
 
     const std::string reconnect_url;
     asio::io_context io;
+    LongWork long_work;
     const std::shared_ptr<const Site> site;
     const std::shared_ptr<Listener> listener;
     asio::steady_timer lobby_timer; // on a strand of its own

@@ -4,6 +4,7 @@
 
 #include "net/client_address.h"
 #include "net/lobby.h"
+#include "net/long_work.h"
 #include "net/metrics.h"
 #include "net/service.h"
 #include "net/static_files.h"
@@ -25,6 +26,7 @@ struct Site {
     std::shared_ptr<Service> service;
     std::shared_ptr<Lobby> lobby;
     std::shared_ptr<Metrics> metrics;
+    LongWork* long_work = nullptr; // lives until the network's threads have ended
 };
 
 } // namespace froxel::net

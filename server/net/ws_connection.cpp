@@ -87,6 +87,26 @@ void WsConnection::onStrand(Work work) {
                });
 }
 
+// Has something made elsewhere and goes on with it here, if the connection is still there.
+template <class Work, class Then>
+void WsConnection::aside(Work work, Then then) {
+    site_->long_work->run(
+        stream_.get_executor(),
+        [work = std::move(work)]() mutable {
+            std::optional<decltype(work())> made;
+            static_cast<void>(guarded("long message", [&] { made = work(); }));
+            return made;
+        },
+        [self = shared_from_this(), then = std::move(then)](auto made, Seconds took) mutable {
+            self->reads().count(&ReadBudget::onWork, took, Clock::now());
+            if (!made) {
+                self->abandon("internal error");
+            } else if (self->conversation_) {
+                self->run([&] { then(std::move(*made)); });
+            }
+        });
+}
+
 void WsConnection::start(Request upgrade, Caller caller) {
     upgrade_ = std::move(upgrade);
     setOptions();
@@ -115,6 +135,14 @@ void WsConnection::setOptions() {
         }));
     // A picture is one WebSocket frame, gathered from header and JPEG without a copy.
     stream_.auto_fragment(false);
+    stream_.control_callback([this](websocket::frame_type, beast::string_view) {
+        reads().count(&ReadBudget::onControlFrame, Clock::now());
+    });
+    reads().onWorse([weak = weak_from_this()](ReadBudget::Standing standing) {
+        if (const auto self = weak.lock()) {
+            self->onStrand([standing](Conversation& talk) { talk.onFlood(standing); });
+        }
+    });
 }
 
 void WsConnection::onAccepted() {
@@ -164,7 +192,21 @@ void WsConnection::onRead(ErrorCode error) {
     const bool was_greeted = conversation_->greeted();
     const auto format =
         stream_.got_text() ? protocol::WireFormat::kText : protocol::WireFormat::kBinary;
-    conversation_->onMessage(bytesOf(buffer_), format, Clock::now());
+    reads().count(&ReadBudget::onMessage, Clock::now());
+    if (buffer_.size() <= LongWork::kShortBytes) {
+        conversation_->onMessage(bytesOf(buffer_), format, Clock::now());
+        onHandled(was_greeted);
+        return;
+    }
+    // Nothing is read meanwhile, so the buffer stays as it is, and messages in their order.
+    aside([bytes = bytesOf(buffer_), format] { return session::decodeCommand(bytes, format); },
+          [this, format, was_greeted](auto command) {
+              conversation_->onDecoded(std::move(command), format, Clock::now());
+              onHandled(was_greeted);
+          });
+}
+
+void WsConnection::onHandled(bool was_greeted) {
     buffer_.consume(buffer_.size());
     if (!was_greeted && conversation_->greeted()) {
         hello_deadline_.cancel();
@@ -190,6 +232,22 @@ void WsConnection::write() {
         }
         return;
     }
+    if (!writing_->unmade) {
+        send();
+        return;
+    }
+    aside(
+        [message = *writing_]() mutable {
+            message.make();
+            return std::move(message);
+        },
+        [this](Outgoing made) {
+            writing_ = std::move(made);
+            send();
+        });
+}
+
+void WsConnection::send() {
     stream_.text(writing_->format == protocol::WireFormat::kText);
     armWriteDeadline(writing_->size());
     const std::array<asio::const_buffer, 2> buffers = {

@@ -40,12 +40,17 @@ class WsConnection final : public SessionViewer,
     void onStrand(Work work);
     template <class Work>
     void run(const Work& work);
+    template <class Work, class Then>
+    void aside(Work work, Then then);
+    [[nodiscard]] PacedReads& reads() { return boost::beast::get_lowest_layer(stream_).rate_policy(); }
     void setOptions();
     void onAccepted();
     void onReadError(ErrorCode error);
     void read();
     void onRead(ErrorCode error);
+    void onHandled(bool was_greeted);
     void write();
+    void send();
     void onWritten(ErrorCode error);
     void writeLater();
     void armWriteDeadline(size_t bytes);

@@ -17,9 +17,8 @@ CommandResult<void> checkVersion(const Hello& hello) {
 
 } // namespace
 
-CommandResult<CommandMessage> CommandReader::read(protocol::ByteSpan message,
-                                                  protocol::WireFormat format) {
-    auto command = decodeCommand(message, format);
+CommandResult<CommandMessage> CommandReader::check(CommandResult<CommandMessage> command,
+                                                   protocol::WireFormat format) {
     if (!command) {
         return command;
     }

@@ -13,7 +13,12 @@ class CommandReader {
     // The format of a message is that of its WebSocket message (text or binary); a client may
     // mix them. A refused message does not count: its seq may be used again.
     [[nodiscard]] CommandResult<CommandMessage> read(protocol::ByteSpan message,
-                                                     protocol::WireFormat format);
+                                                     protocol::WireFormat format) {
+        return check(decodeCommand(message, format), format);
+    }
+    // The same for one that was decoded elsewhere.
+    [[nodiscard]] CommandResult<CommandMessage> check(CommandResult<CommandMessage> command,
+                                                      protocol::WireFormat format);
 
     [[nodiscard]] bool greeted() const { return reply_format_.has_value(); }
     // How ServerMessages go to this client: as its Hello came. Binary before Hello.

@@ -30,6 +30,7 @@ struct Rejection {
     uint64_t ref_seq = 0; // 0: not caused by a message, or its seq could not be read
     std::string field;    // as in view/ranges.h where it has a range; empty if none
     std::string message;  // one line for a person
+    bool blameless = false; // nothing that a client could have known: never too many of them
 };
 
 [[nodiscard]] inline Rejection outOfRange(std::string_view field, const std::string& text) {

@@ -115,7 +115,9 @@ struct Reducer {
         auto picked =
             context.pick_light(state.settings, state.light_clock.secondsAt(now), command.at);
         if (!picked) {
-            return outOfRange("x", picked.error().message);
+            Rejection miss = outOfRange("x", picked.error().message);
+            miss.blameless = true;
+            return miss;
         }
         picked->id = command.id;
         const auto placed = withPicked(state.settings.lights.placed, *picked);

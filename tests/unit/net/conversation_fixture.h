@@ -86,9 +86,12 @@ class ConversationTest : public testing::Test {
         port_.sink()->deliver(std::move(ready));
     }
     std::optional<v1::ServerMessage> nextAnswer() {
-        const auto out = talk_.nextMessage(now_);
+        auto out = talk_.nextMessage(now_);
         if (!out) {
             return {};
+        }
+        if (out->unmade) {
+            out->make();
         }
         v1::ServerMessage message;
         protocol::decodeServerMessage(protocol::bytesOf(out->head), out->format, message).value();

@@ -65,10 +65,29 @@ TEST_F(LobbyTest, Watcher_SettingState_IsRefusedAndToldWhoControls) {
     EXPECT_EQ(first.ear->count<StateNews>(), 0U) << "its own answer tells it";
 }
 
+TEST_F(LobbyTest, News_NotAskedAfterYet_AreToldOnce) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    for (int i = 0; i < 100; ++i) {
+        ASSERT_TRUE(control(second, session::RequestControl{}));
+        ASSERT_TRUE(control(second, session::ReleaseControl{}));
+        ASSERT_TRUE(apply(first, exposure(2 + i)));
+    }
+    EXPECT_EQ(first.ear->count<RoomNews>(), 1U);
+    EXPECT_EQ(second.ear->count<StateNews>(), 1U);
+    static_cast<void>(room(first));
+    static_cast<void>(second.seat.session->newState(second.seat.place));
+    ASSERT_TRUE(control(second, session::RequestControl{}));
+    ASSERT_TRUE(apply(first, exposure(2)));
+    EXPECT_EQ(first.ear->count<RoomNews>(), 2U);
+    EXPECT_EQ(second.ear->count<StateNews>(), 2U);
+}
+
 TEST_F(LobbyTest, Control_IsAskedForGivenAndReleased_AndEveryoneIsTold) {
     const Guest first = enter("hall");
     const Guest second = enter("hall");
     EXPECT_EQ(first.ear->count<RoomNews>(), 1U);
+    static_cast<void>(room(first));
     ASSERT_TRUE(control(second, session::RequestControl{}));
     EXPECT_EQ(first.ear->count<RoomNews>(), 2U);
     v1::RoomState told = room(first);
@@ -278,8 +297,8 @@ TEST_F(LobbyTest, Refused_InARoom_NamesTheCommandToItsSenderAlone_AndAllGetTheGo
     port_.sink()->refuse({ErrorCode::kUnsupported, "no"}, port_.session().states.back(), good);
     EXPECT_EQ(first.ear->last<session::Rejection>()->ref_seq, 9U);
     EXPECT_EQ(second.ear->last<session::Rejection>()->ref_seq, 0U);
-    EXPECT_EQ(second.seat.session->state().settings.exposure, 1);
-    EXPECT_EQ(second.ear->count<StateNews>(), 2U);
+    EXPECT_EQ(second.seat.session->newState(second.seat.place).settings.exposure, 1);
+    EXPECT_EQ(second.ear->count<StateNews>(), 1U) << "both at once";
     EXPECT_EQ(first.ear->count<StateNews>(), 1U);
 }
 

@@ -1,0 +1,37 @@
+#include "net/long_work.h"
+
+#include "core/thread_name.h"
+
+#include <ctime>
+#include <sys/resource.h>
+
+namespace froxel::net {
+namespace {
+
+// setpriority(2): on Linux a thread's own. A tenth of the weight of a thread that has none.
+constexpr int kNiceness = 10;
+
+} // namespace
+
+Seconds threadTime() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+LongWork::LongWork(uint32_t thread_count)
+    : io_(static_cast<int>(thread_count)), open_(io_.get_executor()) {
+    for (uint32_t i = 0; i < thread_count; ++i) {
+        threads_.emplace_back([this] {
+            nameThread("messages");
+            setpriority(PRIO_PROCESS, 0, kNiceness); // refused: it goes on as it is
+            io_.run();
+        });
+    }
+}
+
+LongWork::~LongWork() {
+    io_.stop();
+}
+
+} // namespace froxel::net

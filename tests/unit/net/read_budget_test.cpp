@@ -1,0 +1,89 @@
+#include "net/read_budget.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace froxel::net {
+namespace {
+
+using namespace std::chrono_literals;
+using Standing = ReadBudget::Standing;
+
+constexpr size_t kAll = static_cast<size_t>(ReadBudget::kBytesAtOnce);
+
+class ReadBudgetTest : public testing::Test {
+  protected:
+    // Messages of up to 64 KiB, as many as may be read within so many seconds.
+    void read(int seconds) {
+        for (int i = 0; i < 100 * seconds && budget_.standing() != Standing::kSpent; ++i) {
+            now_ += 10ms;
+            budget_.onBytes(std::min(budget_.readable(now_), protocol::kMaxMessageBytes), now_);
+            budget_.onMessage(now_);
+        }
+    }
+
+    TimePoint now_ = TimePoint() + 1h;
+    ReadBudget budget_;
+};
+
+TEST_F(ReadBudgetTest, Readable_Fresh_IsAllAtOnce) {
+    EXPECT_EQ(budget_.readable(now_), kAll);
+    EXPECT_EQ(budget_.standing(), Standing::kWithin);
+}
+
+TEST_F(ReadBudgetTest, Readable_AllWasRead_ComesBackByTheSecond) {
+    budget_.onBytes(kAll / 2, now_);
+    budget_.onMessage(now_);
+    budget_.onBytes(budget_.readable(now_), now_);
+    EXPECT_EQ(budget_.readable(now_), 0U);
+    EXPECT_EQ(budget_.standing(), Standing::kThrottled);
+    EXPECT_NEAR(static_cast<double>(budget_.readable(now_ + 2s)), 2 * ReadBudget::kBytesPerSecond, 1);
+}
+
+TEST_F(ReadBudgetTest, Standing_NeverMoreThanIsReadASecond_StaysWithin) {
+    for (int i = 0; i < 6000; ++i) { // ten minutes
+        now_ += 100ms;
+        budget_.onBytes(static_cast<size_t>(ReadBudget::kBytesPerSecond * 0.07), now_);
+        budget_.onMessage(now_);
+    }
+    EXPECT_EQ(budget_.standing(), Standing::kWithin);
+}
+
+TEST_F(ReadBudgetTest, Standing_AllThatIsReadable_IsThrottledAtOnceAndSpentInTheEnd) {
+    read(1);
+    EXPECT_EQ(budget_.standing(), Standing::kThrottled);
+    read(60);
+    EXPECT_EQ(budget_.standing(), Standing::kSpent);
+}
+
+TEST_F(ReadBudgetTest, OnWork_ASecond_CostsTwelveSecondsOfReading) {
+    budget_.onWork(50ms, now_);
+    EXPECT_NEAR(static_cast<double>(budget_.readable(now_)),
+                ReadBudget::kBytesAtOnce - 0.6 * ReadBudget::kBytesPerSecond, 1);
+}
+
+TEST_F(ReadBudgetTest, OnControlFrame_Thousands_AreThrottled) {
+    for (int i = 0; i < 11'000; ++i) {
+        budget_.onControlFrame(now_);
+    }
+    EXPECT_EQ(budget_.standing(), Standing::kThrottled);
+}
+
+TEST_F(ReadBudgetTest, Standing_BytesWithoutEndOfAMessage_IsSpent) {
+    budget_.onBytes(ReadBudget::kMostWithoutMessage, now_);
+    EXPECT_EQ(budget_.standing(), Standing::kWithin);
+    budget_.onBytes(1, now_);
+    EXPECT_EQ(budget_.standing(), Standing::kSpent);
+}
+
+TEST_F(ReadBudgetTest, Standing_LongMessageInFragmentsOfAByte_StaysWithin) {
+    for (int i = 0; i < 2; ++i) {
+        budget_.onBytes(7 * protocol::kMaxMessageBytes, now_);
+        budget_.onMessage(now_);
+    }
+    EXPECT_EQ(budget_.standing(), Standing::kWithin);
+}
+
+} // namespace
+} // namespace froxel::net
