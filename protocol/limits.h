@@ -33,7 +33,7 @@ inline constexpr std::chrono::seconds kRejectPeriod{10};
 // WebSocket close codes that this protocol uses.
 enum class CloseCode : uint16_t {
     kNormal = 1000,
-    kPolicy = 1008,       // no Hello in time, or too many refused messages; do not retry
+    kPolicy = 1008,       // no Hello in time, or too many messages; do not retry
     kTooBig = 1009,       // a message over the cap; do not retry
     kVersion = 4001,      // protocol_major differs; do not retry
     kToken = 4003,        // no valid token; retry with another

@@ -2,6 +2,7 @@
 
 #include "app/bind_option.h"
 #include "net/client_address.h"
+#include "net/host_names.h"
 
 namespace froxel::app {
 namespace {
@@ -60,10 +61,24 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
             const auto parsed = net::TrustedProxies::parse({network});
             return parsed ? std::string() : parsed.error().message;
         });
+    command
+        .text("--allow-host", "NAME", options.host_names, "",
+              "Name that requests may be addressed to, besides localhost and IP addresses; "
+              "repeatable. Without: any, but at a loopback address none")
+        ->allow_extra_args(false)
+        ->check([](const std::string& text) {
+            return net::isHostName(text)
+                       ? std::string()
+                       : fmt::format("'{}' is not a host's name alone, such as froxel.example.org",
+                                     text);
+        });
     command.text(
         "--token-file", "FILE", options.token_file, "",
         "Lets in who sends one of its tokens, one a line; read again on SIGHUP, and who has "
         "none of them any more is sent away");
+    command.text("--admin-token-file", "FILE", options.admin_token_file, "",
+                 "A POST at the admin address must show one of its tokens as a bearer; beyond "
+                 "loopback none is answered without. Read again on SIGHUP");
     command.text("--tls-cert", "FILE", options.tls_certificate, "",
                  "Certificate with its chain, PEM, for https and wss; read again on SIGHUP");
     command.text("--tls-key", "FILE", options.tls_key, "", "Its key, PEM");

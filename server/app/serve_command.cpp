@@ -135,6 +135,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.lobby = lobbyRules(options);
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
+    run.server.host_names = options.host_names;
     run.server.trusted_proxies = options.trusted_proxies;
     if (options.agones) {
         run.server.agones = agonesOptions(options);
@@ -159,14 +160,19 @@ void raiseDescriptorLimit(uint32_t connections) {
 
 // What is read again on SIGHUP.
 struct Secrets {
-    explicit Secrets(const ServeOptions& options) : token_file(options.token_file) {
-        if (!token_file.empty()) {
-            gate = std::make_shared<net::TokenGate>();
-            gate->load(token_file).value();
-        }
+    explicit Secrets(const ServeOptions& options)
+        : token_file(options.token_file), admin_token_file(options.admin_token_file),
+          gate(gateOf(token_file)), admin_gate(gateOf(admin_token_file)) {
         if (!options.tls_key.empty()) {
             tls = std::make_shared<net::Tls>(options.tls_certificate, options.tls_key);
         }
+    }
+    static std::shared_ptr<net::TokenGate> gateOf(const std::filesystem::path& file) {
+        auto gate = file.empty() ? nullptr : std::make_shared<net::TokenGate>();
+        if (gate) {
+            gate->load(file).value();
+        }
+        return gate;
     }
     void reload() const {
         const auto told = [](const char* what, const Result<void>& done) {
@@ -180,16 +186,21 @@ struct Secrets {
         if (gate) {
             told("tokens", gate->load(token_file));
         }
+        if (admin_gate) {
+            told("admin_tokens", admin_gate->load(admin_token_file));
+        }
         if (tls) {
             told("certificate", tls->reload());
         }
-        if (!gate && !tls) {
+        if (!gate && !admin_gate && !tls) {
             spdlog::info("event=nothing_to_reload");
         }
     }
 
     const std::filesystem::path token_file;
-    std::shared_ptr<net::TokenGate> gate;
+    const std::filesystem::path admin_token_file;
+    const std::shared_ptr<net::TokenGate> gate;
+    const std::shared_ptr<net::TokenGate> admin_gate;
     std::shared_ptr<net::Tls> tls;
 };
 
@@ -222,6 +233,7 @@ int runServe(const ServeOptions& options) {
     });
     ServeRunOptions run_options = runOptions(options);
     run_options.server.gate = secrets.gate;
+    run_options.server.admin_gate = secrets.admin_gate;
     run_options.server.tls = secrets.tls;
     run_options.server.reconnect_url = options.advertise;
     run_options.on_failure = [&](const Error& error) {

@@ -56,10 +56,13 @@ struct ServeOptions {
     std::filesystem::path web_root;
     // Origins ("https://example.org") that may connect besides the server's own.
     std::vector<std::string> allowed_origins;
+    std::vector<std::string> host_names;      // answered to, see net::HostNames
     std::vector<std::string> trusted_proxies; // networks, as net::TrustedProxies
     bool agones = false;                      // its SDK on this host is told how the server is
     std::filesystem::path token_file;         // one of its tokens is asked for; empty: none
-    std::filesystem::path tls_certificate;    // PEM, with its chain; with a key: TLS
+    std::filesystem::path
+        admin_token_file; // one of its tokens is asked for by POST at the admin address
+    std::filesystem::path tls_certificate; // PEM, with its chain; with a key: TLS
     std::filesystem::path tls_key;
 };
 

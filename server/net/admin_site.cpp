@@ -4,6 +4,8 @@
 #include "net/health.h"
 #include "session/room.h"
 
+#include <boost/beast/core/string.hpp>
+
 namespace froxel::net {
 
 namespace http = boost::beast::http;
@@ -15,6 +17,16 @@ constexpr std::string_view kTakeControl = "/take-control";
 Response verdict(const Result<void>& well) {
     return well ? textResponse(http::status::ok, "ok")
                 : textResponse(http::status::service_unavailable, well.error().message);
+}
+
+// RFC 6750 section 2.1; empty: none.
+std::string_view bearerToken(const Request& request) {
+    constexpr std::string_view kScheme = "Bearer ";
+    const auto field = request[http::field::authorization];
+    const std::string_view text{field.data(), field.size()};
+    return boost::beast::iequals(text.substr(0, kScheme.size()), kScheme)
+               ? text.substr(kScheme.size())
+               : std::string_view();
 }
 
 } // namespace
@@ -32,11 +44,15 @@ Response AdminSite::answer(const Request& request, std::string_view path) const 
     if (path == kStartedPath) {
         return verdict(hasStarted(service_->status()));
     }
-    if (path == kDrainPath) {
-        return drain(request);
-    }
-    if (const auto room = roomIn(path)) {
-        return takeControl(request, *room);
+    if (takesPost(path)) {
+        if (auto refused = refusePost(request)) {
+            return std::move(*refused);
+        }
+        if (const auto room = roomIn(path)) {
+            return takeControl(*room);
+        }
+        hooks_.drain();
+        return textResponse(http::status::accepted, "draining");
     }
     return textResponse(http::status::not_found,
                         "not found; there are /metrics, /livez, /readyz, /startupz, /drain and "
@@ -53,22 +69,29 @@ std::optional<std::string> AdminSite::roomIn(std::string_view path) {
     return session::isRoomName(path) ? std::optional(std::string(path)) : std::nullopt;
 }
 
-Response AdminSite::takeControl(const Request& request, const std::string& room) const {
-    if (request.count(http::field::origin) > 0) {
-        return textResponse(http::status::forbidden, "a browser may not take control of a room");
-    }
+Response AdminSite::takeControl(const std::string& room) const {
     return hooks_.take_control(room)
                ? textResponse(http::status::ok, "the control of room " + room + " was taken")
                : textResponse(http::status::not_found, "nobody is in room " + room);
 }
 
 // A page of any site can make a browser on this machine post here; none sends this without Origin.
-Response AdminSite::drain(const Request& request) const {
+std::optional<Response> AdminSite::refusePost(const Request& request) const {
     if (request.count(http::field::origin) > 0) {
-        return textResponse(http::status::forbidden, "a browser may not drain a server");
+        return textResponse(http::status::forbidden, "no browser may do this");
     }
-    hooks_.drain();
-    return textResponse(http::status::accepted, "draining");
+    if (!access_.tokens && !access_.loopback) {
+        return textResponse(http::status::forbidden,
+                            "only with --admin-token-file, since others reach this address");
+    }
+    if (access_.tokens && !access_.tokens->lets(bearerToken(request))) {
+        Response response =
+            textResponse(http::status::unauthorized, "Authorization must be Bearer and a token of "
+                                                     "--admin-token-file");
+        response.set(http::field::www_authenticate, "Bearer");
+        return response;
+    }
+    return {};
 }
 
 std::optional<Response> AdminSite::refuseUpgrade(const Request& /*request*/,

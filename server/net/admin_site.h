@@ -4,6 +4,7 @@
 #include "net/facts.h"
 #include "net/http_site.h"
 #include "net/metrics.h"
+#include "net/token_gate.h"
 
 #include <functional>
 #include <memory>
@@ -21,12 +22,23 @@ struct AdminHooks {
     std::function<bool(const std::string&)> take_control = [](const std::string&) { return false; };
 };
 
+// Whom it answers, and what.
+struct AdminAccess {
+    HostNames host_names;
+    bool loopback = true;                    // only this host's own programs reach it
+    std::shared_ptr<const TokenGate> tokens; // one is asked for to POST; null: none
+};
+
 class AdminSite final : public HttpSite {
   public:
     AdminSite(std::shared_ptr<const Metrics> metrics,
               std::shared_ptr<const Service> service,
-              AdminHooks hooks)
-        : metrics_(std::move(metrics)), service_(std::move(service)), hooks_(std::move(hooks)) {}
+              AdminHooks hooks,
+              AdminAccess access = {})
+        : metrics_(std::move(metrics)), service_(std::move(service)), hooks_(std::move(hooks)),
+          access_(std::move(access)) {}
+
+    [[nodiscard]] const HostNames& hostNames() const override { return access_.host_names; }
 
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
     [[nodiscard]] bool takesPost(std::string_view path) const override {
@@ -42,12 +54,14 @@ class AdminSite final : public HttpSite {
   private:
     // Of "/rooms/NAME/take-control".
     [[nodiscard]] static std::optional<std::string> roomIn(std::string_view path);
-    [[nodiscard]] Response takeControl(const Request& request, const std::string& room) const;
-    [[nodiscard]] Response drain(const Request& request) const;
+    // None: whoever asks may POST.
+    [[nodiscard]] std::optional<Response> refusePost(const Request& request) const;
+    [[nodiscard]] Response takeControl(const std::string& room) const;
 
     const std::shared_ptr<const Metrics> metrics_;
     const std::shared_ptr<const Service> service_;
     const AdminHooks hooks_;
+    const AdminAccess access_;
 };
 
 } // namespace froxel::net

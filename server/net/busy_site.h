@@ -8,6 +8,7 @@ namespace froxel::net {
 
 class BusySite final : public HttpSite {
   public:
+    [[nodiscard]] const HostNames& hostNames() const override { return any_; }
     [[nodiscard]] Response answer(const Request& /*request*/,
                                   std::string_view /*path*/) const override {
         return refused();
@@ -26,6 +27,8 @@ class BusySite final : public HttpSite {
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 
   private:
+    const HostNames any_{};
+
     static Response refused() {
         return refusal(boost::beast::http::status::service_unavailable,
                        "this server has as many connections as it takes; try again later");

@@ -81,7 +81,8 @@ void Conversation::begin(TimePoint now) {
     hello_.resume_token.clear();
     if (!seat) {
         const bool full = seat.error().code == ErrorCode::kCapacity;
-        tellError({full ? RejectCode::kCapacity : RejectCode::kDevice, 0, "", seat.error().message});
+        tellError(
+            {full ? RejectCode::kCapacity : RejectCode::kDevice, 0, "", seat.error().message});
         close(full ? CloseCode::kCapacity : CloseCode::kDeviceLost, "no session");
         return;
     }

@@ -134,6 +134,10 @@ void HttpSession::onRequest() {
     const bool wants_socket = beast::websocket::is_upgrade(parser_->get());
     Request request = parser_->release();
     parser_.reset();
+    if (auto refused = refuseHost(request, *site_)) {
+        write(std::move(*refused));
+        return;
+    }
     if (wants_socket) {
         upgrade(std::move(request));
         return;
@@ -156,6 +160,9 @@ void HttpSession::upgrade(Request request) {
 
 void HttpSession::write(Response response) {
     response_ = std::move(response);
+    if (stream_.encrypted()) { // a browser that has seen this asks for http here no more; RFC 6797
+        response_.set("Strict-Transport-Security", "max-age=31536000");
+    }
     stream_.next_layer().expires_after(kDeadline);
     http::async_write(stream_, response_,
                       [self = shared_from_this()](beast::error_code error, size_t) {

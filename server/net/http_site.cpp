@@ -1,5 +1,7 @@
 #include "net/http_site.h"
 
+#include "core/text.h"
+
 #include <utility>
 
 namespace froxel::net {
@@ -34,6 +36,18 @@ std::string contentPolicy(std::string_view reconnect_url) {
 boost::asio::ip::address peerAddress(const PeerStream& stream) {
     boost::beast::error_code gone;
     return stream.next_layer().socket().remote_endpoint(gone).address();
+}
+
+std::optional<Response> refuseHost(const Request& request, const HttpSite& site) {
+    const auto field = request[http::field::host];
+    const std::string_view host{field.data(), field.size()};
+    if (site.hostNames().contain(host)) {
+        return {};
+    }
+    return refusal(http::status::misdirected_request,
+                   "host " + printable(host) +
+                       " is not answered to; it must be localhost, an IP address or a name given "
+                       "by --allow-host");
 }
 
 std::string_view pathOf(const Request& request) {

@@ -2,6 +2,7 @@
 // the one for operators (admin_site.h). Immutable; any thread.
 #pragma once
 
+#include "net/host_names.h"
 #include "net/paced_reads.h"
 #include "net/service.h"
 #include "transport/peer_stream.h"
@@ -19,8 +20,8 @@
 
 namespace froxel::net {
 
-using PacedTcp = boost::beast::
-    basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor, PacedReads>;
+using PacedTcp =
+    boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor, PacedReads>;
 using PeerStream = transport::PeerStream<PacedTcp>;
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
@@ -32,6 +33,8 @@ class HttpSite {
   public:
     virtual ~HttpSite() = default;
 
+    // By which names it is asked.
+    [[nodiscard]] virtual const HostNames& hostNames() const = 0;
     // A GET or HEAD, or a POST where takesPost(); `path` is without the query.
     [[nodiscard]] virtual Response answer(const Request& request, std::string_view path) const = 0;
     [[nodiscard]] virtual bool takesPost(std::string_view /*path*/) const { return false; }
@@ -53,6 +56,8 @@ class HttpSite {
 
 // Of the other end; unspecified where that is gone.
 [[nodiscard]] boost::asio::ip::address peerAddress(const PeerStream& stream);
+// Why a request is answered by neither, whatever it asks for: its Host is none of the site's names.
+[[nodiscard]] std::optional<Response> refuseHost(const Request& request, const HttpSite& site);
 
 // The path of a request's target, without the query.
 [[nodiscard]] std::string_view pathOf(const Request& request);

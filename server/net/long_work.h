@@ -37,11 +37,10 @@ class LongWork {
                                 then = std::move(then)]() mutable {
             const Seconds before = threadTime();
             auto result = work();
-            boost::asio::post(home.get_executor(),
-                              [result = std::move(result), took = threadTime() - before,
-                               then = std::move(then)]() mutable {
-                                  then(std::move(result), took);
-                              });
+            boost::asio::post(
+                home.get_executor(),
+                [result = std::move(result), took = threadTime() - before,
+                 then = std::move(then)]() mutable { then(std::move(result), took); });
         });
     }
 

@@ -10,6 +10,7 @@ using boost::beast::iequals;
 
 bool originAllowed(std::optional<std::string_view> origin,
                    std::string_view host,
+                   bool secure,
                    std::span<const std::string> allowed) {
     if (!origin) {
         return true;
@@ -18,7 +19,10 @@ bool originAllowed(std::optional<std::string_view> origin,
                     [&](const std::string& listed) { return iequals(*origin, listed); })) {
         return true;
     }
-    for (const std::string_view scheme : {"http://", "https://"}) {
+    for (const std::string_view scheme : {"https://", "http://"}) {
+        if (secure && scheme == "http://") {
+            continue;
+        }
         if (!host.empty() && origin->size() == scheme.size() + host.size() &&
             iequals(origin->substr(0, scheme.size()), scheme) &&
             iequals(origin->substr(scheme.size()), host)) {

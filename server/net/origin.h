@@ -9,10 +9,12 @@
 
 namespace froxel::net {
 
-// True when there is no Origin, when it is http(s)://HOST with exactly the request's Host, or when
-// `allowed` lists it. Letter case of scheme and host does not matter. "null" is foreign. Pure.
+// True when there is no Origin, when it is https://HOST with exactly the request's Host, or
+// http://HOST where the connection is not `secure` (by TLS, here or at a proxy), or when `allowed`
+// lists it. Letter case of scheme and host does not matter. "null" is foreign. Pure.
 [[nodiscard]] bool originAllowed(std::optional<std::string_view> origin,
                                  std::string_view host,
+                                 bool secure,
                                  std::span<const std::string> allowed);
 
 } // namespace froxel::net

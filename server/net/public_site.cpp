@@ -99,16 +99,18 @@ whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& 
         origin = viewOf(found->value());
     }
     const auto host = viewOf(request[http::field::host]);
-    if (!originAllowed(origin, host, site.allowed_origins)) {
+    // A proxy with TLS says so; a page cannot.
+    const bool secure = site.encrypted || beast::iequals(request["X-Forwarded-Proto"], "https");
+    if (!originAllowed(origin, host, secure, site.allowed_origins)) {
         return refusal(http::status::forbidden,
                        "origin " + printable(*origin) + " may not connect to " + printable(host));
     }
     const auto named = request.find(http::field::sec_websocket_protocol);
-    if (named != request.end() && !http::token_list(named->value())
+    if (named == request.end() || !http::token_list(named->value())
                                        .exists(beast::string_view(protocol::kSubprotocol.data(),
                                                                   protocol::kSubprotocol.size()))) {
-        return refusal(http::status::bad_request,
-                       "this server speaks the subprotocol " + std::string(protocol::kSubprotocol));
+        return refusal(http::status::bad_request, "the request must offer the subprotocol " +
+                                                      std::string(protocol::kSubprotocol));
     }
     return whyNoPlace(request, peer, site);
 }

@@ -13,6 +13,7 @@ class PublicSite final : public HttpSite {
   public:
     explicit PublicSite(std::shared_ptr<const Site> site) : site_(std::move(site)) {}
 
+    [[nodiscard]] const HostNames& hostNames() const override { return site_->host_names; }
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
     [[nodiscard]] std::optional<Response>
     refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;

@@ -35,7 +35,9 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     if (!options.web_root.empty()) {
         site->files = StaticFiles::load(options.web_root).value();
     }
+    site->host_names = HostNames(options.host_names, options.bind.address);
     site->allowed_origins = options.allowed_origins;
+    site->encrypted = options.tls != nullptr;
     site->gate = options.gate;
     site->connections_per_address = std::max(1U, options.connections_max / 2);
     site->trusted_proxies = TrustedProxies::parse(options.trusted_proxies).value();
@@ -86,13 +88,16 @@ struct Server::Impl {
                                               options.tls)),
           lobby_timer(asio::make_strand(io)) {
         if (!options.admin.address.empty()) {
+            const std::string& address = options.admin.address;
             admin.emplace(options.admin,
                           std::make_shared<AdminSite>(
                               site->metrics, site->service,
                               AdminHooks{[this] { return moves(); }, options.on_drain_request,
                                          [lobby = site->lobby](const std::string& room) {
                                              return lobby->takeControl(room);
-                                         }}));
+                                         }},
+                              AdminAccess{HostNames(options.host_names, address),
+                                          isLoopback(address), options.admin_gate}));
         }
         site->lobby->setAlarm([this](TimePoint due) {
             asio::post(lobby_timer.get_executor(), [this, due] { expireAt(due); });

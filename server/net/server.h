@@ -31,11 +31,13 @@ struct ServerOptions {
     LobbyRules lobby;
     std::filesystem::path web_root; // empty: no page
     std::vector<std::string> allowed_origins;
-    std::vector<std::string> trusted_proxies; // networks, as TrustedProxies::parse
-    std::shared_ptr<const TokenGate> gate;    // null: everybody is let in
-    std::shared_ptr<const Tls> tls;           // of the viewers' address; null: without encryption
-    std::optional<AgonesOptions> agones;      // whose SDK is told of this server; none: nobody's
-    std::string reconnect_url; // where pages are sent when this server drains, or empty
+    std::vector<std::string> trusted_proxies;    // networks, as TrustedProxies::parse
+    std::vector<std::string> host_names;         // answered to at both addresses, see HostNames
+    std::shared_ptr<const TokenGate> gate;       // null: everybody is let in
+    std::shared_ptr<const TokenGate> admin_gate; // of the admin address, see AdminAccess
+    std::shared_ptr<const Tls> tls;      // of the viewers' address; null: without encryption
+    std::optional<AgonesOptions> agones; // whose SDK is told of this server; none: nobody's
+    std::string reconnect_url;           // where pages are sent when this server drains, or empty
 };
 
 class Server {

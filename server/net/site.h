@@ -3,6 +3,7 @@
 #pragma once
 
 #include "net/client_address.h"
+#include "net/host_names.h"
 #include "net/lobby.h"
 #include "net/long_work.h"
 #include "net/metrics.h"
@@ -18,7 +19,9 @@ namespace froxel::net {
 
 struct Site {
     StaticFiles files;
+    HostNames host_names;
     std::vector<std::string> allowed_origins; // besides the server's own
+    bool encrypted = false;                   // by TLS
     std::shared_ptr<const TokenGate> gate;    // null: everybody is let in
     TrustedProxies trusted_proxies;
     uint32_t connections_per_address = 0;

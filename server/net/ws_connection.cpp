@@ -124,15 +124,12 @@ void WsConnection::start(Request upgrade, Caller caller) {
 void WsConnection::setOptions() {
     stream_.set_option(websocket::stream_base::timeout{kHandshakeTimeout, kIdleTimeout,
                                                        /*keep_alive_pings=*/true});
-    const bool named = upgrade_.count(beast::http::field::sec_websocket_protocol) > 0;
-    stream_.set_option(
-        websocket::stream_base::decorator([named](websocket::response_type& response) {
-            if (named) {
-                response.set(beast::http::field::sec_websocket_protocol,
-                             beast::string_view(protocol::kSubprotocol.data(),
-                                                protocol::kSubprotocol.size()));
-            }
-        }));
+    stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+        response.set(
+            beast::http::field::sec_websocket_protocol,
+            beast::string_view(protocol::kSubprotocol.data(), protocol::kSubprotocol.size()));
+        response.set(beast::http::field::server, "froxel"); // Beast's has its version
+    }));
     // A picture is one WebSocket frame, gathered from header and JPEG without a copy.
     stream_.auto_fragment(false);
     stream_.control_callback([this](websocket::frame_type, beast::string_view) {

@@ -42,7 +42,9 @@ class WsConnection final : public SessionViewer,
     void run(const Work& work);
     template <class Work, class Then>
     void aside(Work work, Then then);
-    [[nodiscard]] PacedReads& reads() { return boost::beast::get_lowest_layer(stream_).rate_policy(); }
+    [[nodiscard]] PacedReads& reads() {
+        return boost::beast::get_lowest_layer(stream_).rate_policy();
+    }
     void setOptions();
     void onAccepted();
     void onReadError(ErrorCode error);

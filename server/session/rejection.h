@@ -19,7 +19,7 @@ enum class RejectCode : uint8_t {
     kUnsupported, // unknown command or enum value
     kVersion,     // protocol_major differs; close with 4001
     kCapacity,    // no session or memory left
-    kRateLimit,   // too many refused messages; close with 1008
+    kRateLimit,   // more than a connection may say
     kDevice,      // the device was lost
     kControl,     // another viewer controls the room
     kToken,       // no valid token; close with 4003
@@ -27,9 +27,9 @@ enum class RejectCode : uint8_t {
 
 struct Rejection {
     RejectCode code = RejectCode::kMalformed;
-    uint64_t ref_seq = 0; // 0: not caused by a message, or its seq could not be read
-    std::string field;    // as in view/ranges.h where it has a range; empty if none
-    std::string message;  // one line for a person
+    uint64_t ref_seq = 0;   // 0: not caused by a message, or its seq could not be read
+    std::string field;      // as in view/ranges.h where it has a range; empty if none
+    std::string message;    // one line for a person
     bool blameless = false; // nothing that a client could have known: never too many of them
 };
 

@@ -154,7 +154,7 @@ TEST(Handshakes, EndedHalfWay_LeaveNoDescriptorBehind) {
     const auto before = openDescriptors();
     for (int i = 0; i < 30; ++i) {
         Raw half(server.port(), false);
-        half.send("GET /ws HTTP/1.1\r\nHost: te");
+        half.send("GET /ws HTTP/1.1\r\nHost: lo");
         half.endSending();
         EXPECT_TRUE(half.ends());
     }

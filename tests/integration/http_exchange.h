@@ -27,7 +27,8 @@ inline std::string httpExchange(uint16_t port, const std::string& raw) {
 
 inline std::string
 httpGet(uint16_t port, const std::string& target, const std::string& headers = {}) {
-    return httpExchange(port, "GET " + target + " HTTP/1.1\r\nHost: test\r\nConnection: close\r\n" +
+    return httpExchange(port, "GET " + target +
+                                  " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" +
                                   headers + "\r\n");
 }
 

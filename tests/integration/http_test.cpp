@@ -68,7 +68,7 @@ TEST_F(HttpTest, Page_SameETag_IsNotSentAgain) {
 
 TEST_F(HttpTest, Head_Page_HasTheLengthButNoBody) {
     const std::string answer =
-        exchange("HEAD / HTTP/1.1\r\nHost: test\r\nConnection: close\r\n\r\n");
+        exchange("HEAD / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     EXPECT_EQ(statusOf(answer), 200);
     EXPECT_NE(answer.find("Content-Length: 34"), std::string::npos) << answer;
     EXPECT_TRUE(answer.ends_with("\r\n\r\n"));
@@ -76,8 +76,8 @@ TEST_F(HttpTest, Head_Page_HasTheLengthButNoBody) {
 
 TEST_F(HttpTest, KeepAlive_TwoRequests_BothAreAnswered) {
     const std::string answer =
-        exchange("GET /healthz HTTP/1.1\r\nHost: test\r\n\r\n"
-                 "GET / HTTP/1.1\r\nHost: test\r\nConnection: close\r\n\r\n");
+        exchange("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
+                 "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     EXPECT_NE(answer.find("status"), std::string::npos);
     EXPECT_NE(answer.find("<title>page"), std::string::npos);
 }
@@ -111,8 +111,9 @@ TEST_F(HttpTest, Paths_ThatTryToEscape_AreNotFound) {
 
 TEST_F(HttpTest, Methods_OtherThanGetAndHead_AreNotAllowed) {
     for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "PATCH", "FOO"}) {
-        const std::string answer = exchange(std::string(method) + " / HTTP/1.1\r\nHost: test\r\n"
-                                                                  "Connection: close\r\n\r\n");
+        const std::string answer =
+            exchange(std::string(method) + " / HTTP/1.1\r\nHost: localhost\r\n"
+                                           "Connection: close\r\n\r\n");
         EXPECT_EQ(statusOf(answer), 405) << method << answer;
         EXPECT_NE(answer.find("Allow: GET, HEAD"), std::string::npos) << method;
     }
@@ -124,15 +125,15 @@ TEST_F(HttpTest, Header_OverTheLimit_Is431) {
 }
 
 TEST_F(HttpTest, Header_NeverEnds_Is408) {
-    EXPECT_EQ(statusOf(exchange("GET / HTTP/1.1\r\nHost: te")), 408);
+    EXPECT_EQ(statusOf(exchange("GET / HTTP/1.1\r\nHost: lo")), 408);
 }
 
 TEST_F(HttpTest, Requests_Malformed_AreBadAndTheServerLives) {
     for (const std::string& raw :
          {std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03 tls hello", 22),
-          std::string(
-              "GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n"),
-          std::string("GET / HTTP/1.1\r\nHost: a\r\nContent-Length: x\r\n\r\n"),
+          std::string("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: "
+                      "2\r\n\r\n"),
+          std::string("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: x\r\n\r\n"),
           std::string("GET / HTTP/3.7\r\n\r\n"), std::string("nonsense\r\n\r\n")}) {
         EXPECT_EQ(statusOf(exchange(raw)), 400) << raw;
     }
@@ -141,7 +142,7 @@ TEST_F(HttpTest, Requests_Malformed_AreBadAndTheServerLives) {
 
 TEST_F(HttpTest, Body_Any_IsRefused) {
     const std::string answer =
-        exchange("GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\n\r\nhello");
+        exchange("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n\r\nhello");
     EXPECT_EQ(statusOf(answer), 413);
 }
 
@@ -150,18 +151,37 @@ TEST_F(HttpTest, Socket_WithoutUpgrade_Is426) {
 }
 
 TEST_F(HttpTest, Socket_UpgradeElsewhere_Is404) {
-    EXPECT_EQ(statusOf(exchange("GET /other HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\n"
+    EXPECT_EQ(statusOf(exchange("GET /other HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
                                 "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")),
               404);
 }
 
 TEST_F(HttpTest, Socket_ForeignOrigin_Is403) {
-    EXPECT_EQ(statusOf(exchange("GET /ws HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\n"
+    EXPECT_EQ(statusOf(exchange("GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
                                 "Origin: http://b\r\n"
                                 "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")),
               403);
+}
+
+TEST_F(HttpTest, NameOfAnother_IsMisdirectedWhateverIsAsked) {
+    const std::string rebound = " HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n";
+    EXPECT_EQ(statusOf(exchange("GET /" + rebound)), 421);
+    EXPECT_EQ(statusOf(httpExchange(server_.adminPort(), "GET /metrics" + rebound)), 421);
+    EXPECT_EQ(statusOf(exchange("GET /ws HTTP/1.1\r\nHost: evil.example\r\nUpgrade: websocket\r\n"
+                                "Origin: http://evil.example\r\n"
+                                "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                "Sec-WebSocket-Protocol: froxel.v1\r\n"
+                                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")),
+              421);
+}
+
+TEST_F(HttpTest, Socket_SubprotocolIsNotOffered_Is400) {
+    EXPECT_EQ(statusOf(exchange("GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
+                                "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")),
+              400);
 }
 
 TEST_F(HttpTest, Health_Serving_SaysSo) {

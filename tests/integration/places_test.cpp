@@ -79,7 +79,7 @@ TEST(Places, Full_IsToldBeforeTheUpgrade_ButNotToWhoComesBackOrJoinsARoom) {
     WsClient hall(server.port());
     hall.join("hall");
     const std::string answer =
-        httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: test\r\nUpgrade: websocket\r\n"
+        httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
                                     "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                                     "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
     EXPECT_EQ(statusOf(answer), 503);

@@ -43,7 +43,7 @@ class RawWebSocket {
             throw std::runtime_error("cannot connect");
         }
         if (upgrade) {
-            send("GET /ws HTTP/1.1\r\nHost: test\r\nUpgrade: websocket\r\n"
+            send("GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
                  "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                  "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
                  "Sec-WebSocket-Protocol: froxel.v1\r\n\r\n");

@@ -61,10 +61,10 @@ TEST(Upgrade, Origins_OwnAndListedOnly_AreAccepted) {
     }
 }
 
-TEST(Upgrade, Subprotocol_UnknownIsRefused_NoneIsAccepted) {
+TEST(Upgrade, Subprotocol_MustBeOffered) {
     TestServer server;
     EXPECT_TRUE(upgradeIsRefused(server.port(), {.subprotocol = "chat"}));
-    EXPECT_FALSE(upgradeIsRefused(server.port(), {.subprotocol = ""}));
+    EXPECT_TRUE(upgradeIsRefused(server.port(), {.subprotocol = ""}));
     EXPECT_FALSE(upgradeIsRefused(server.port(), {.subprotocol = "chat, froxel.v1"}));
 }
 
@@ -121,7 +121,8 @@ TEST(ConnectionLimit, Reached_TellsNewOnesToComeBackAndKeepsTheOld) {
     first.join();
     WsClient second(server.port());
     EXPECT_TRUE(upgradeIsRefused(server.port(), {}));
-    const std::string refused = httpExchange(server.port(), "GET / HTTP/1.1\r\nHost: a\r\n\r\n");
+    const std::string refused =
+        httpExchange(server.port(), "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_EQ(statusOf(refused), 503);
     EXPECT_NE(refused.find("Retry-After: "), std::string::npos) << refused;
     first.expectFrame();
@@ -302,8 +303,9 @@ TEST(Drain, ViewersConnected_AreToldAndGoOnUntilTheDeadline) {
     EXPECT_EQ(client.expect(ServerMessage::kDraining).draining().deadline_ms(), 800U);
     client.expectFrame();
     const std::string refused =
-        httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: test\r\nUpgrade: websocket\r\n"
+        httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
                                     "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                    "Sec-WebSocket-Protocol: froxel.v1\r\n"
                                     "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
     EXPECT_EQ(statusOf(refused), 503);
     EXPECT_NE(refused.find("Retry-After: "), std::string::npos) << refused;

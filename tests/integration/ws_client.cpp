@@ -140,11 +140,11 @@ v1::ServerMessage WsClient::expect(v1::ServerMessage::BodyCase body) {
     }
 }
 
-v1::ServerMessage WsClient::expectAnswer() {
+v1::ServerMessage WsClient::expectErrorOr(v1::ServerMessage::BodyCase body) {
     for (;;) {
-        const Received received = receiveOrThrow("Welcome or an error");
+        const Received received = receiveOrThrow("an answer or an error");
         if (received.message &&
-            (received.message->has_welcome() || received.message->has_error())) {
+            (received.message->body_case() == body || received.message->has_error())) {
             return *received.message;
         }
     }

@@ -57,8 +57,9 @@ class WsClient {
     // auto_ack). Throws std::runtime_error when the connection ends or after kTimeout.
     v1::ServerMessage expect(v1::ServerMessage::BodyCase body);
     v1::Error expectError() { return expect(v1::ServerMessage::kError).error(); }
-    // The first Welcome or Error.
-    v1::ServerMessage expectAnswer();
+    // The first of this kind, or Error.
+    v1::ServerMessage expectErrorOr(v1::ServerMessage::BodyCase body);
+    v1::ServerMessage expectAnswer() { return expectErrorOr(v1::ServerMessage::kWelcome); }
     // The state that answers `seq` or a later command.
     v1::ViewState expectState(uint64_t seq);
     Frame expectFrame(const std::function<bool(const v1::FrameHeader&)>& wanted = {});

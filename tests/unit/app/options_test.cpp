@@ -197,6 +197,10 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "30",
                                 "--control-idle-seconds",
                                 "0",
+                                "--allow-host",
+                                "a.example",
+                                "--admin-token-file",
+                                "operators",
                                 "--trusted-proxies",
                                 "10.0.0.0/8,fd00::/8",
                                 "--log-level",
@@ -235,6 +239,8 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.idle_s, 20);
     EXPECT_EQ(serve.forget_s, 30);
     EXPECT_EQ(serve.control_idle_s, 0);
+    EXPECT_THAT(serve.host_names, testing::ElementsAre("a.example"));
+    EXPECT_EQ(serve.admin_token_file, "operators");
     EXPECT_THAT(serve.trusted_proxies, testing::ElementsAre("10.0.0.0/8", "fd00::/8"));
     EXPECT_EQ(serve.device, gpu::DeviceChoice::kGpu);
     EXPECT_EQ(options.log_level, LogLevel::kDebug);

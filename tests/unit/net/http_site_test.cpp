@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 namespace froxel::net {
 namespace {
 
@@ -12,6 +15,15 @@ namespace http = boost::beast::http;
 
 Request request(http::verb verb, std::string_view target) {
     return Request(verb, boost::beast::string_view(target.data(), target.size()), 11);
+}
+
+Request upgradeAt(std::string_view target) {
+    Request upgrade = request(http::verb::get, target);
+    upgrade.set(http::field::host, "froxel.example");
+    upgrade.set(http::field::connection, "upgrade");
+    upgrade.set(http::field::upgrade, "websocket");
+    upgrade.set(http::field::sec_websocket_protocol, "froxel.v1");
+    return upgrade;
 }
 
 struct PublicSiteTest : testing::Test {
@@ -34,12 +46,7 @@ struct PublicSiteTest : testing::Test {
 TEST_F(PublicSiteTest, Upgrade_OfWhoWouldGetNoPlace_Is503WithRetryAfter) {
     service->setServing({std::make_shared<const session::SessionContext>(), &port});
     const auto ask = [&](std::string_view target) {
-        Request upgrade = request(http::verb::get, target);
-        upgrade.set(http::field::host, "localhost");
-        upgrade.set(http::field::connection, "upgrade");
-        upgrade.set(http::field::upgrade, "websocket");
-        upgrade.set(http::field::sec_websocket_protocol, "froxel.v1");
-        return site->refuseUpgrade(upgrade, {});
+        return site->refuseUpgrade(upgradeAt(target), {});
     };
     EXPECT_FALSE(ask("/ws"));
     const auto seat = lobby->enter(service->status().serving.value(), {1, 0, "", "hall", ""}, {},
@@ -135,6 +142,77 @@ TEST(AdminSite, Metrics_AreTheMetrics_AnythingElseIsNotFound) {
 TEST(AdminSite, Upgrade_Any_IsRefused) {
     const AdminSite site(std::make_shared<Metrics>(), std::make_shared<Service>(), {});
     EXPECT_TRUE(site.refuseUpgrade(request(http::verb::get, "/ws"), {}));
+}
+
+TEST_F(PublicSiteTest, Upgrade_SubprotocolIsNotOffered_IsRefused) {
+    Request upgrade = upgradeAt("/ws");
+    EXPECT_FALSE(site->refuseUpgrade(upgrade, {}));
+    upgrade.erase(http::field::sec_websocket_protocol);
+    EXPECT_EQ(site->refuseUpgrade(upgrade, {})->result(), http::status::bad_request);
+}
+
+TEST_F(PublicSiteTest, Upgrade_ProxyHasTls_WantsThePageToHaveIt) {
+    Request upgrade = upgradeAt("/ws");
+    upgrade.set(http::field::origin, "http://froxel.example");
+    EXPECT_FALSE(site->refuseUpgrade(upgrade, {}));
+    upgrade.set("X-Forwarded-Proto", "https");
+    EXPECT_EQ(site->refuseUpgrade(upgrade, {})->result(), http::status::forbidden);
+}
+
+TEST(RefuseHost, NameOfAnother_IsRefusedAtBothAddresses) {
+    auto parts = std::make_shared<Site>();
+    parts->host_names = HostNames({}, "127.0.0.1");
+    const PublicSite open(parts);
+    const AdminSite admin(std::make_shared<Metrics>(), std::make_shared<Service>(), {},
+                          {HostNames({}, "127.0.0.1"), true, nullptr});
+    Request rebound = request(http::verb::get, "/metrics");
+    rebound.set(http::field::host, "evil.example:8080");
+    Request own = request(http::verb::get, "/metrics");
+    own.set(http::field::host, "127.0.0.1:8080");
+    const auto expectOwnOnly = [&](const HttpSite& site) {
+        EXPECT_EQ(refuseHost(rebound, site)->result(), http::status::misdirected_request);
+        EXPECT_FALSE(refuseHost(own, site));
+    };
+    expectOwnOnly(open);
+    expectOwnOnly(admin);
+}
+
+struct AdminDrain : testing::Test {
+    http::status drain(AdminAccess access, const char* authorization = "") {
+        Request post = request(http::verb::post, "/drain");
+        post.set(http::field::authorization, authorization);
+        const AdminSite site(std::make_shared<Metrics>(), std::make_shared<Service>(),
+                             {[] { return true; }, [this] { ++drained; }}, std::move(access));
+        return respond(post, site).result();
+    }
+    int drained = 0;
+};
+
+TEST_F(AdminDrain, Loopback_NeedsNothing) {
+    EXPECT_EQ(drain({}), http::status::accepted);
+    EXPECT_EQ(drained, 1);
+}
+
+TEST_F(AdminDrain, BeyondLoopbackWithoutTokens_IsForbidden) {
+    EXPECT_EQ(drain({{}, false, nullptr}), http::status::forbidden);
+    EXPECT_EQ(drained, 0);
+}
+
+TEST_F(AdminDrain, WithTokens_OneIsAskedFor) {
+    const std::filesystem::path file = testing::TempDir() + "froxel_admin_tokens";
+    std::ofstream(file) << "a-token-0123456789\n";
+    auto tokens = std::make_shared<TokenGate>();
+    tokens->load(file).value();
+    for (const bool loopback : {true, false}) {
+        drained = 0;
+        for (const char* wrong : {"", "Bearer another", "Bearer ", "a-token-0123456789"}) {
+            EXPECT_EQ(drain({{}, loopback, tokens}, wrong), http::status::unauthorized) << wrong;
+        }
+        EXPECT_EQ(drained, 0);
+        EXPECT_EQ(drain({{}, loopback, tokens}, "Bearer a-token-0123456789"),
+                  http::status::accepted);
+        EXPECT_EQ(drained, 1);
+    }
 }
 
 TEST_F(PublicSiteTest, EveryAnswer_HasTheSecurityHeaders) {

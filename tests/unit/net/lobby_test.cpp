@@ -71,7 +71,7 @@ TEST_F(LobbyTest, News_NotAskedAfterYet_AreToldOnce) {
     for (int i = 0; i < 100; ++i) {
         ASSERT_TRUE(control(second, session::RequestControl{}));
         ASSERT_TRUE(control(second, session::ReleaseControl{}));
-        ASSERT_TRUE(apply(first, exposure(2 + i)));
+        ASSERT_TRUE(apply(first, exposure(2 + static_cast<float>(i))));
     }
     EXPECT_EQ(first.ear->count<RoomNews>(), 1U);
     EXPECT_EQ(second.ear->count<StateNews>(), 1U);

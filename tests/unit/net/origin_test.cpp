@@ -8,14 +8,14 @@ namespace froxel::net {
 namespace {
 
 TEST(OriginAllowed, NoOrigin_IsAllowed) {
-    EXPECT_TRUE(originAllowed({}, "host:8080", {}));
+    EXPECT_TRUE(originAllowed({}, "host:8080", false, {}));
 }
 
 TEST(OriginAllowed, SameHost_IsAllowedInAnyCase) {
-    EXPECT_TRUE(originAllowed("http://host:8080", "host:8080", {}));
-    EXPECT_TRUE(originAllowed("https://host", "host", {}));
-    EXPECT_TRUE(originAllowed("HTTP://Host:8080", "hOST:8080", {}));
-    EXPECT_TRUE(originAllowed("http://[::1]:8080", "[::1]:8080", {}));
+    EXPECT_TRUE(originAllowed("http://host:8080", "host:8080", false, {}));
+    EXPECT_TRUE(originAllowed("https://host", "host", false, {}));
+    EXPECT_TRUE(originAllowed("HTTP://Host:8080", "hOST:8080", false, {}));
+    EXPECT_TRUE(originAllowed("http://[::1]:8080", "[::1]:8080", false, {}));
 }
 
 TEST(OriginAllowed, AnotherHost_IsRefused) {
@@ -23,19 +23,24 @@ TEST(OriginAllowed, AnotherHost_IsRefused) {
          {"http://evil", "http://host:8081", "http://host:8080.evil", "http://evilhost:8080",
           "http://host:8080/", "http://user@host:8080", "host:8080", "ftp://host:8080", "null", "",
           "http://"}) {
-        EXPECT_FALSE(originAllowed(foreign, "host:8080", {})) << foreign;
+        EXPECT_FALSE(originAllowed(foreign, "host:8080", false, {})) << foreign;
     }
 }
 
+TEST(OriginAllowed, OwnPageWithoutTls_MayNotConnectWithIt) {
+    EXPECT_TRUE(originAllowed("https://host", "host", true, {}));
+    EXPECT_FALSE(originAllowed("http://host", "host", true, {}));
+}
+
 TEST(OriginAllowed, EmptyHost_MatchesNothing) {
-    EXPECT_FALSE(originAllowed("http://", "", {}));
+    EXPECT_FALSE(originAllowed("http://", "", false, {}));
 }
 
 TEST(OriginAllowed, Listed_IsAllowedExactly) {
     const std::vector<std::string> listed = {"https://gallery.example"};
-    EXPECT_TRUE(originAllowed("https://gallery.example", "host", listed));
-    EXPECT_FALSE(originAllowed("http://gallery.example", "host", listed));
-    EXPECT_FALSE(originAllowed("https://gallery.example:444", "host", listed));
+    EXPECT_TRUE(originAllowed("https://gallery.example", "host", false, listed));
+    EXPECT_FALSE(originAllowed("http://gallery.example", "host", false, listed));
+    EXPECT_FALSE(originAllowed("https://gallery.example:444", "host", false, listed));
 }
 
 } // namespace

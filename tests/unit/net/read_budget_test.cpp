@@ -38,7 +38,8 @@ TEST_F(ReadBudgetTest, Readable_AllWasRead_ComesBackByTheSecond) {
     budget_.onBytes(budget_.readable(now_), now_);
     EXPECT_EQ(budget_.readable(now_), 0U);
     EXPECT_EQ(budget_.standing(), Standing::kThrottled);
-    EXPECT_NEAR(static_cast<double>(budget_.readable(now_ + 2s)), 2 * ReadBudget::kBytesPerSecond, 1);
+    EXPECT_NEAR(static_cast<double>(budget_.readable(now_ + 2s)), 2 * ReadBudget::kBytesPerSecond,
+                1);
 }
 
 TEST_F(ReadBudgetTest, Standing_NeverMoreThanIsReadASecond_StaysWithin) {
