@@ -23,6 +23,16 @@ void FakeDevice::passTime(uint32_t pieces) {
     changed_.wait_for(lock, Seconds(frame_time.load()) / pieces, [] { return false; });
 }
 
+void FakeDevice::addDone(view::Size size) {
+    const std::lock_guard lock(mutex_);
+    done_.push_back(size);
+}
+
+std::vector<view::Size> FakeDevice::done() {
+    const std::lock_guard lock(mutex_);
+    return done_;
+}
+
 namespace {
 
 constexpr int kReadbackSlots = 3;
@@ -115,6 +125,7 @@ class FakeView final : public stream::ViewSource {
         }
         const view::ViewSettings settings = frame.settings;
         frames_.pop_front();
+        device_->addDone(settings.size);
         if (settings.lights.count > device_->max_lights) {
             return Error{ErrorCode::kCapacity, "the lists do not fit the fake device"};
         }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace froxel::test {
 
@@ -38,11 +39,15 @@ class FakeDevice {
     void passGate();
     // Takes a piece's part of frame_time.
     void passTime(uint32_t pieces);
+    // The sizes of whole frames, in the order in which they were done.
+    void addDone(view::Size size);
+    [[nodiscard]] std::vector<view::Size> done();
 
   private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool open_ = true;
+    std::vector<view::Size> done_;
 };
 
 [[nodiscard]] std::unique_ptr<stream::FrameSource>
