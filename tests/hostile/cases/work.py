@@ -39,12 +39,20 @@ async def all_lights(arena):
 
 @case()
 async def huge_pictures(arena):
-    """The largest picture, with every map of shadows, bloom and four samples a pixel."""
+    """The largest picture, with every map of shadows and the widest bloom."""
     async with arena.viewer() as viewer:
         await viewer.say(setSize={"width": 4096, "height": 4096})
         await viewer.say(setShadows={"lights": 32, "size": 512})
-        await viewer.say(setPost={"bloom": "BLOOM_KIND_SEPARABLE", "bloomRadius": 0.05,
-                                  "antialiasing": "ANTIALIASING_SSAA4"})
+        await viewer.say(setPost={"bloom": "BLOOM_KIND_SEPARABLE", "bloomRadius": 0.05})
+        await viewer.watch()
+
+
+@case()
+async def four_samples(arena):
+    """As large a picture as four samples a pixel are given for."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 2048, "height": 2048})
+        await viewer.say(setPost={"antialiasing": "ANTIALIASING_SSAA4"})
         await viewer.watch()
 
 
