@@ -53,13 +53,15 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device, uint32_t set_count)
 
 } // namespace
 
-BloomPipelines::BloomPipelines(const gpu::Device& device, const gpu::Timeline& timeline)
+BloomPipelines::BloomPipelines(const gpu::Device& device,
+                               const gpu::Timeline& timeline,
+                               VariantMaker& maker)
     : device_(device), set_layout_(render::setLayout(device)),
       layout_(gpu::makePipelineLayout(device, {*set_layout_}, sizeof(io::BloomPass))),
-      made_(timeline, Pipelines::kKeptScreen) {}
+      made_(timeline, maker, Pipelines::kKeptScreen) {}
 
 vk::Pipeline BloomPipelines::pipeline(BloomShader shader, uint32_t flags) {
-    return *made_.findOrMake(std::pair(shader, flags), [&] {
+    return *made_.findOrMake(std::pair(shader, flags), [=, this] {
         const auto [code, name] = shaderOf(shader);
         return gpu::makeComputePipeline(device_, code, {0, 0, flags}, *layout_, name);
     });

@@ -16,7 +16,7 @@ namespace froxel::render {
 // Shared by every view; a pipeline is made when first needed.
 class BloomPipelines {
   public:
-    BloomPipelines(const gpu::Device& device, const gpu::Timeline& timeline);
+    BloomPipelines(const gpu::Device& device, const gpu::Timeline& timeline, VariantMaker& maker);
 
     [[nodiscard]] vk::Pipeline pipeline(BloomShader shader, uint32_t flags);
     [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }

@@ -27,14 +27,15 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
 
 FogPipelines::FogPipelines(const gpu::Device& device,
                            const gpu::Timeline& timeline,
+                           VariantMaker& maker,
                            const Pipelines& shared)
     : device_(device), screen_layout_(shared.screenPipelineLayout()),
       set_layout_(makeSetLayout(device)),
       volume_layout_(gpu::makePipelineLayout(device, {shared.frameLayout(), *set_layout_})),
-      made_(timeline, Pipelines::kKeptScreen) {}
+      made_(timeline, maker, Pipelines::kKeptScreen) {}
 
 vk::Pipeline FogPipelines::pipeline(FogShader shader, const VariantKey& key) {
-    return *made_.findOrMake(std::pair(shader, key), [&] {
+    return *made_.findOrMake(std::pair(shader, key), [=, this] {
         const gpu::SpecConstants constants = {key.material_flags, key.light_flags, key.output_flags,
                                               std::max(1U, device_.traits().subgroup_size)};
         switch (shader) {

@@ -17,7 +17,10 @@ enum class FogShader : uint8_t { kScatter, kIntegrate, kApply };
 // Shared by every view; a pipeline is made when first needed.
 class FogPipelines {
   public:
-    FogPipelines(const gpu::Device& device, const gpu::Timeline& timeline, const Pipelines& shared);
+    FogPipelines(const gpu::Device& device,
+                 const gpu::Timeline& timeline,
+                 VariantMaker& maker,
+                 const Pipelines& shared);
 
     [[nodiscard]] vk::Pipeline pipeline(FogShader shader, const VariantKey& key);
     // Of set 1 where the volume is written.

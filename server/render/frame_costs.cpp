@@ -32,6 +32,26 @@ Seconds whole(const RegionCost& cost, const vk::Extent2D& extent) {
 
 } // namespace
 
+Result<void>
+checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Seconds limit) {
+    const bool all = settings.renderer == view::Renderer::kNaive ||
+                     settings.light_loop == view::LightLoop::kAllLights;
+    if (!all || view::replacesPicture(settings.debug.view)) {
+        return {};
+    }
+    const double pixels = static_cast<double>(settings.size.width_px) * settings.size.height_px;
+    const Seconds least(pixels * settings.lights.count * unit.pair);
+    if (least <= limit) {
+        return {};
+    }
+    return Error{ErrorCode::kCapacity,
+                 fmt::format("a picture of {}x{} whose pixels loop over all {} lights takes at "
+                             "least {:.3g} s of this device; at most {:.3g} s a frame are "
+                             "allowed: ask for fewer lights, lists, or a smaller picture",
+                             settings.size.width_px, settings.size.height_px,
+                             settings.lights.count, least.count(), limit.count())};
+}
+
 double FrameCosts::pixels(const vk::Rect2D& region) const {
     return static_cast<double>(region.extent.width) * region.extent.height;
 }

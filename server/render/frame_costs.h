@@ -45,6 +45,11 @@ struct PassEstimate {
     Seconds time{0};
 };
 
+// Errors: kCapacity where looping over all lights, as these settings ask for, takes longer than
+// `limit` whatever there is to see: told before any light is looked at.
+[[nodiscard]] Result<void>
+checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Seconds limit);
+
 class FrameCosts {
   public:
     FrameCosts(const UnitCosts& unit, FrameLoad load) : unit_(unit), load_(std::move(load)) {}

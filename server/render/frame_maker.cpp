@@ -3,6 +3,7 @@
 #include "render/blended_recorder.h"
 #include "render/fog_plan.h"
 #include "render/frame_recorder.h"
+#include "render/fresh_targets.h"
 
 namespace froxel::render {
 
@@ -157,10 +158,32 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
 }
 
-Result<void> FrameMaker::record(FrameSlot& slot, const FrameInputs& asked) {
+Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs) {
+    VariantMaker& variants = scene_.variants;
+    if (variants.busyFor(this)) {
+        return false;
+    }
+    variants.setAsker(this);
+    variants.beginRecording();
+    try {
+        if (auto recorded = recordNow(slot, inputs); !recorded) {
+            return recorded.error();
+        }
+        return true;
+    } catch (const VariantsMissing&) {
+        variants.giveUpRecording();
+        markFresh(slot); // nothing of what was recorded runs
+        return false;
+    }
+}
+
+Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked) {
     const auto start = Clock::now();
     FrameInputs inputs = asked;
     inputs.settings.size = drawnSize(asked.settings);
+    if (auto able = checkAllLights(scene_.unit_costs, inputs.settings, work_.frame); !able) {
+        return able;
+    }
     const FramePlan plan = builder_.build(inputs);
     if (plan.fog) {
         const uint64_t most_texels = scene_.device.limits().maxTexelBufferElements;

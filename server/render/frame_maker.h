@@ -17,9 +17,10 @@ class FrameMaker {
     FrameMaker(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
         : scene_(scene_in), work_(work_limits), builder_(scene_in, limits) {}
 
-    // Builds a frame and records its pieces into a free slot, which is in flight from then on.
-    // Errors: kCapacity, kUnsupported. Throws vk::SystemError.
-    [[nodiscard]] Result<void> record(FrameSlot& slot, const FrameInputs& inputs);
+    // Builds a frame and records its pieces into a free slot, which is in flight from then on; or
+    // not yet, where variants that it needs are still being made: false. Errors: kCapacity,
+    // kUnsupported. Throws vk::SystemError.
+    [[nodiscard]] Result<bool> record(FrameSlot& slot, const FrameInputs& inputs);
     // Whether what the device told of a completed frame's lists lets it be shown.
     [[nodiscard]] bool accepts(const FrameSlot& slot) {
         return !slot.device_lists || builder_.acceptLists(*slot.assignment);
@@ -34,6 +35,8 @@ class FrameMaker {
     [[nodiscard]] const ShadowFrame& shadowFrame() const { return builder_.shadows(); }
 
   private:
+    // Throws VariantsMissing besides.
+    [[nodiscard]] Result<void> recordNow(FrameSlot& slot, const FrameInputs& inputs);
     void prepareTargets(FrameSlot& slot,
                         const FramePlan& plan,
                         const view::Size& drawn,

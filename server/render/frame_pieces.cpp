@@ -57,6 +57,7 @@ void FramePieces::begin(Seconds limit) {
     used_ = 0;
     limit_ = limit;
     piece_ = estimate_ = Seconds(0);
+    closed_ = false;
     beginBuffer(current_);
 }
 
@@ -68,11 +69,12 @@ void FramePieces::cut() {
     std::swap(current_, ended_[used_]);
     ++used_;
     piece_ = Seconds(0);
+    closed_ = false;
     beginBuffer(current_);
 }
 
 void FramePieces::add(Seconds cost) {
-    if (piece_ > Seconds(0) && piece_ + cost > limit_) {
+    if (closed_ || (piece_ > Seconds(0) && piece_ + cost > limit_)) {
         cut();
     }
     piece_ += cost;

@@ -25,6 +25,8 @@ class FramePieces {
 
     // Starts over, in an empty buffer that has begun.
     void begin(Seconds limit);
+    // What was recorded last may take much longer than was said: nothing else goes into its piece.
+    void close() { closed_ = true; }
     // What is recorded next takes about this long and is not cut: a piece ends here where both
     // would take longer than the limit. Outside of rendering; buffers that views share must hold
     // nothing that is still needed.
@@ -55,6 +57,7 @@ class FramePieces {
     uint32_t used_ = 0; // of `ended_`, in this frame
     Seconds limit_{0};
     Seconds piece_{0}; // of the present one
+    bool closed_ = false;
     Seconds estimate_{0};
 };
 

@@ -8,7 +8,6 @@
 #include "render/raster_passes.h"
 #include "render/visibility_passes.h"
 
-
 namespace froxel::render {
 
 namespace {

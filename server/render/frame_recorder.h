@@ -49,8 +49,14 @@ void inParts(const FrameContext& frame,
              const view::Size& size,
              const RegionCost& cost,
              const Record& record) {
-    frame.pieces.over({size.width_px, size.height_px}, cost,
-                      [&](const vk::Rect2D& part) { record(frame, part); });
+    VariantMaker& variants = frame.scene.variants;
+    frame.pieces.over({size.width_px, size.height_px}, cost, [&](const vk::Rect2D& part) {
+        const size_t used = variants.firstUses();
+        record(frame, part);
+        if (frame.scene.device.traits().is_cpu && variants.firstUses() > used) {
+            frame.pieces.close(); // the device compiles them first
+        }
+    });
 }
 
 // Records the slot's pieces from begin to end, none longer than `piece_limit` where work can be

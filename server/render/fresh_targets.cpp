@@ -50,4 +50,16 @@ void recordFreshTargets(FrameSlot& slot) {
     }
 }
 
+void markFresh(FrameSlot& slot) {
+    const auto mark = [](const auto& targets) {
+        if (targets) {
+            targets->fresh = true;
+        }
+    };
+    mark(slot.targets);
+    mark(slot.blend);
+    mark(slot.shadows);
+    mark(slot.bloom);
+}
+
 } // namespace froxel::render

@@ -86,6 +86,10 @@ void drawGroups(const FrameContext& frame,
                  frame.draws.indices.empty() ? *frame.scene.index_buffer.handle
                                              : frame.slot.upload.buffer(),
                  frame.offsets.rows);
+    // All that are missing are asked for, before the first that is ends the recording.
+    for (const DrawGroup& group : groups) {
+        (void)pipelines.prepareGeometry(pass, variant(frame, pass, group));
+    }
     vk::Pipeline bound;
     io::PeelDraw peel{.first_triangle = 0, .layer = layer};
     for (const DrawGroup& group : groups) {

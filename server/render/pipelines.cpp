@@ -202,7 +202,7 @@ void describeTests(gpu::GraphicsPipelineInfo& info, GeometryPass pass) {
 
 } // namespace
 
-Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline)
+Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, VariantMaker& maker)
     : device_(device), frame_layout_(frameSetLayout(device)),
       material_layout_(materialSetLayout(device)), screen_set_layout_(screenSetLayout(device)),
       geometry_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *material_layout_})),
@@ -213,8 +213,9 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline)
                                            sizeof(io::PeelDraw),
                                            Stage::eFragment)),
       resolve_layout_(gpu::makePipelineLayout(device, {*blend_set_layout_})),
-      blend_resolve_(timeline, view::kTransparencyNames.size()), geometry_(timeline, kKeptGeometry),
-      screen_(timeline, kKeptScreen), fragment_lighting_(timeline, kKeptScreen) {}
+      blend_resolve_(timeline, maker, view::kTransparencyNames.size()),
+      geometry_(timeline, maker, kKeptGeometry), screen_(timeline, maker, kKeptScreen),
+      fragment_lighting_(timeline, maker, kKeptScreen) {}
 
 gpu::SpecConstants Pipelines::constants(const VariantKey& key) const {
     return {key.material_flags, key.light_flags, key.output_flags,
@@ -244,11 +245,16 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
 }
 
 vk::Pipeline Pipelines::geometry(GeometryPass pass, const VariantKey& key) {
-    return *geometry_.findOrMake(std::tuple(pass, key), [&] { return makeGeometry(pass, key); });
+    return *geometry_.findOrMake(std::tuple(pass, key),
+                                 [=, this] { return makeGeometry(pass, key); });
+}
+
+bool Pipelines::prepareGeometry(GeometryPass pass, const VariantKey& key) {
+    return geometry_.prepare(std::tuple(pass, key), [=, this] { return makeGeometry(pass, key); });
 }
 
 vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
-    return *screen_.findOrMake(std::tuple(pass, key), [&] {
+    return *screen_.findOrMake(std::tuple(pass, key), [=, this] {
         const bool batched = (key.light_flags & io::kLightBatched) != 0;
         switch (pass) {
         case ScreenPass::kLighting:
@@ -270,7 +276,7 @@ vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
 }
 
 vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
-    return *fragment_lighting_.findOrMake(key, [&] {
+    return *fragment_lighting_.findOrMake(key, [=, this] {
         gpu::GraphicsPipelineInfo info;
         info.vertex = shaders::fullscreen_vert();
         info.fragment = (key.light_flags & io::kLightBatched) != 0
@@ -284,7 +290,7 @@ vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
 }
 
 vk::Pipeline Pipelines::blendResolve(view::Transparency transparency) {
-    return *blend_resolve_.findOrMake(transparency, [&] {
+    return *blend_resolve_.findOrMake(transparency, [=, this] {
         gpu::GraphicsPipelineInfo info;
         info.vertex = shaders::fullscreen_vert();
         info.fragment = transparency == view::Transparency::kWeighted

@@ -94,9 +94,12 @@ class Pipelines {
     static constexpr size_t kKeptGeometry = 48;
     static constexpr size_t kKeptScreen = 16;
 
-    Pipelines(const gpu::Device& device, const gpu::Timeline& timeline);
+    Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, VariantMaker& maker);
 
+    // These may throw VariantsMissing.
     [[nodiscard]] vk::Pipeline geometry(GeometryPass pass, const VariantKey& key);
+    // Whether geometry() has it; asks for it where not.
+    [[nodiscard]] bool prepareGeometry(GeometryPass pass, const VariantKey& key);
     // What weighted or peeled surfaces came to, over the picture.
     [[nodiscard]] vk::Pipeline blendResolve(view::Transparency transparency);
     [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);

@@ -19,6 +19,10 @@ Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
 
 Renderer::~Renderer() = default;
 
+void Renderer::makeVariantsInBackground(int niceness) {
+    resources_->variants.start(niceness);
+}
+
 struct ViewRenderer::Impl {
     Impl(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work)
         : scene(scene_in), maker(scene_in, limits, work) {
@@ -66,9 +70,11 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
     const auto submitted = slot.submitted;
     while (slot.stale || !maker.accepts(slot)) {
         const FrameInputs inputs = slot.inputs;
-        if (const auto recorded = maker.record(slot, inputs); !recorded) {
+        const auto recorded = maker.record(slot, inputs);
+        if (!recorded) {
             return recorded.error();
         }
+        FROXEL_ASSERT(*recorded, "whoever waits for frames makes variants at once");
         while (slot.unfinished()) {
             submitPiece(slot);
         }
@@ -107,8 +113,12 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     }
     try {
         slot->inputs = inputs;
-        if (auto recorded = impl_->maker.record(*slot, inputs); !recorded) {
+        const auto recorded = impl_->maker.record(*slot, inputs);
+        if (!recorded) {
             return recorded.error();
+        }
+        if (!*recorded) {
+            return FrameWork{.estimate = Seconds(0), .piece_count = 0};
         }
         impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
@@ -169,9 +179,11 @@ Result<PieceResult> ViewRenderer::collectPiece() {
 }
 
 Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
-    if (auto begun = begin(inputs); !begun) {
+    const auto begun = begin(inputs);
+    if (!begun) {
         return begun.error();
     }
+    FROXEL_ASSERT(begun->piece_count > 0, "whoever waits for frames makes variants at once");
     while (impl_->pending.back()->unfinished()) {
         if (auto submitted = submitPiece(); !submitted) {
             return submitted;

@@ -54,7 +54,7 @@ struct WorkLimits {
 // What a frame will ask of the device.
 struct FrameWork {
     Seconds estimate{0};
-    uint32_t piece_count = 1;
+    uint32_t piece_count = 1; // 0: variants that it needs are being made, nothing has begun
 };
 
 struct RenderedFrame {
@@ -76,6 +76,10 @@ class Renderer {
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
+
+    // From now on variants are made on a thread of its own, and begin() does not wait for them. For
+    // those who use begin() alone. niceness: as nice(2).
+    void makeVariantsInBackground(int niceness);
 
     [[nodiscard]] SceneResources& resources() { return *resources_; }
 

@@ -84,7 +84,8 @@ SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene
     : device(device_in), timeline(device_in), needs(findNeeds(scene)),
       bounds_world(scene.bounds_world), light_rig(scene),
       light_assigner(std::max(1U, std::thread::hardware_concurrency())), arena(device_in),
-      texture_arena(device_in, kTextureChunkBytes, "textures"), pipelines(device_in, timeline),
+      texture_arena(device_in, kTextureChunkBytes, "textures"),
+      pipelines(device_in, timeline, variants),
       unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {
     if (const auto fault = scene::findFault(scene)) {
         throw StartupError({ErrorCode::kScene, *fault});
@@ -183,7 +184,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
 
 BloomPipelines& SceneResources::bloom() {
     if (!bloom_) {
-        bloom_ = std::make_unique<BloomPipelines>(device, timeline);
+        bloom_ = std::make_unique<BloomPipelines>(device, timeline, variants);
     }
     return *bloom_;
 }
@@ -197,7 +198,7 @@ const FxaaPipeline& SceneResources::fxaa() {
 
 FogPipelines& SceneResources::fog() {
     if (!fog_) {
-        fog_ = std::make_unique<FogPipelines>(device, timeline, pipelines);
+        fog_ = std::make_unique<FogPipelines>(device, timeline, variants, pipelines);
     }
     return *fog_;
 }

@@ -32,6 +32,9 @@ struct DrawItem {
 class SceneResources {
   public:
     SceneResources(gpu::Device& device, const scene::Scene& scene);
+    ~SceneResources() { variants.stop(); } // which makes what refers to the rest
+    SceneResources(const SceneResources&) = delete;
+    SceneResources& operator=(const SceneResources&) = delete;
 
     gpu::Device& device;
     gpu::Timeline timeline;
@@ -56,6 +59,7 @@ class SceneResources {
     std::vector<io::Material> material_uniforms;
     std::vector<vk::DescriptorImageInfo> material_textures; // kTexturesOfMaterial of each
     std::string visibility_unusable; // why; empty: visibility passes can draw the scene
+    VariantMaker variants;
     Pipelines pipelines;
     // Fragments that pass the depth test, per pixel of the picture: of the first frame that the
     // rasteriser draws. None: not measured yet.

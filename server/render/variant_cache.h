@@ -2,11 +2,16 @@
 #pragma once
 
 #include "gpu/command_context.h"
+#include "render/variant_maker.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <map>
+#include <memory>
+#include <optional>
 
 namespace froxel::render {
 
@@ -16,17 +21,54 @@ class VariantCache {
   public:
     // Past `limit` variants the one that was not used for longest goes, unless a frame that is
     // not finished uses it: so a frame that needs more of them has more.
-    VariantCache(const Timeline& timeline, size_t limit) : timeline_(timeline), limit_(limit) {}
+    VariantCache(const Timeline& timeline, VariantMaker& maker, size_t limit)
+        : timeline_(timeline), maker_(maker), limit_(limit) {}
 
+    // Throws VariantsMissing where the maker is in the background and has it not yet. `make` runs
+    // on its thread then, when what it refers to must still be there.
     template <class Make>
-    [[nodiscard]] const Pipeline& findOrMake(const Key& key, Make make) {
-        auto found = entries_.find(key);
-        if (found == entries_.end()) {
-            makeRoom();
-            found = entries_.emplace(key, Entry{make(), 0}).first;
+    [[nodiscard]] const Pipeline& findOrMake(const Key& key, const Make& make) {
+        if (!prepare(key, make)) {
+            throw VariantsMissing();
         }
-        found->second.last_use = timeline_.next();
-        return found->second.pipeline;
+        Entry& entry = entries_.find(key)->second;
+        if (!entry.used) {
+            entry.used = true;
+            maker_.noteFirstUse(entry.used);
+        }
+        entry.last_use = timeline_.next();
+        return entry.pipeline;
+    }
+
+    // Whether findOrMake() has it; asks for it where not. Rethrows what making it threw.
+    template <class Make>
+    [[nodiscard]] bool prepare(const Key& key, const Make& make) {
+        if (entries_.count(key) > 0) {
+            return true;
+        }
+        if (!maker_.inBackground()) {
+            makeRoom();
+            keep(key, make());
+            return true;
+        }
+        const auto asked = asked_.find(key);
+        if (asked == asked_.end()) {
+            auto making = std::make_shared<Making>();
+            asked_.emplace(key, making);
+            maker_.post([making, make] { making->run(make); });
+            return false;
+        }
+        if (!asked->second->done) {
+            return false;
+        }
+        const auto making = std::move(asked->second);
+        asked_.erase(asked);
+        if (making->error) {
+            std::rethrow_exception(making->error);
+        }
+        makeRoom();
+        keep(key, std::move(*making->pipeline));
+        return true;
     }
 
     template <class Visit>
@@ -40,7 +82,29 @@ class VariantCache {
     struct Entry {
         Pipeline pipeline;
         uint64_t last_use; // the timeline's value once its frame is finished
+        bool used = false;
     };
+    // What another thread makes.
+    struct Making {
+        std::optional<Pipeline> pipeline;
+        std::exception_ptr error;
+        std::atomic<bool> done = false;
+
+        template <class Make>
+        void run(const Make& make) {
+            try {
+                pipeline.emplace(make());
+            } catch (...) {
+                error = std::current_exception();
+            }
+            done = true;
+        }
+    };
+
+    // As if it were used by the next submission, for which it is meant.
+    void keep(const Key& key, Pipeline pipeline) {
+        entries_.emplace(key, Entry{std::move(pipeline), timeline_.next()});
+    }
 
     void makeRoom() {
         if (entries_.size() < limit_) {
@@ -59,8 +123,10 @@ class VariantCache {
     }
 
     const Timeline& timeline_;
+    VariantMaker& maker_;
     size_t limit_;
     std::map<Key, Entry> entries_;
+    std::map<Key, std::shared_ptr<Making>> asked_;
 };
 
 } // namespace froxel::render

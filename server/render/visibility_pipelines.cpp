@@ -36,13 +36,15 @@ vk::raii::DescriptorSetLayout texturesLayout(const gpu::Device& device, uint32_t
 
 VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
                                          const gpu::Timeline& timeline,
+                                         VariantMaker& maker,
                                          const Pipelines& shared,
                                          uint32_t texture_count)
     : device_(device), bindless_(texture_count > 0), set_layout_(geometryLayout(device)),
       texture_layout_(texturesLayout(device, texture_count)), raster_layout_(nullptr),
       compute_layout_(nullptr), cull_(nullptr), compact_(nullptr),
-      raster_(timeline, Pipelines::kKeptGeometry), gbuffer_(timeline, Pipelines::kKeptGeometry),
-      shade_(timeline, Pipelines::kKeptGeometry) {
+      raster_(timeline, maker, Pipelines::kKeptGeometry),
+      gbuffer_(timeline, maker, Pipelines::kKeptGeometry),
+      shade_(timeline, maker, Pipelines::kKeptGeometry) {
     raster_layout_ = gpu::makePipelineLayout(
         device, {shared.frameLayout(), shared.materialLayout(), *set_layout_});
     compute_layout_ =
@@ -93,11 +95,11 @@ vk::raii::Pipeline VisibilityPipelines::makeRaster(uint32_t material_flags) cons
 vk::Pipeline VisibilityPipelines::raster(uint32_t material_flags) {
     const bool masked = (material_flags & io::kMaterialMask) != 0;
     const uint32_t key = masked ? material_flags : 0U;
-    return *raster_.findOrMake(key, [&] { return makeRaster(key); });
+    return *raster_.findOrMake(key, [=, this] { return makeRaster(key); });
 }
 
 vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {
-    return *gbuffer_.findOrMake(key, [&] {
+    return *gbuffer_.findOrMake(key, [=, this] {
         return gpu::makeComputePipeline(device_,
                                         bindless_ ? shaders::visibility_gbuffer_bindless_comp()
                                                   : shaders::visibility_gbuffer_comp(),
@@ -106,7 +108,7 @@ vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {
 }
 
 vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
-    return *shade_.findOrMake(key, [&] {
+    return *shade_.findOrMake(key, [=, this] {
         const bool batched = (key.light_flags & io::kLightBatched) != 0;
         const auto plain = bindless_ ? shaders::visibility_shade_bindless_comp()
                                      : shaders::visibility_shade_comp();

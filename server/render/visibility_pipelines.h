@@ -22,6 +22,7 @@ class VisibilityPipelines {
     // texture_count: of the whole scene; 0 where materials are bound one at a time.
     VisibilityPipelines(const gpu::Device& device,
                         const gpu::Timeline& timeline,
+                        VariantMaker& maker,
                         const Pipelines& shared,
                         uint32_t texture_count);
 

@@ -142,7 +142,7 @@ std::string VisibilityScene::unusable(const SceneResources& scene) {
 
 VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
     : arena(scene.device),
-      pipelines(scene.device, scene.timeline, scene.pipelines, textureCount(scene)),
+      pipelines(scene.device, scene.timeline, scene.variants, scene.pipelines, textureCount(scene)),
       device_(scene.device) {
     Placer placer(scene);
     groups = std::move(placer.groups);

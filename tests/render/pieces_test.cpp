@@ -209,7 +209,7 @@ TEST_F(Pieces, FramesOverTheLimit_AreRefusedBeforeAnythingIsAllocated) {
     const auto begun = view.begin(asked);
     ASSERT_FALSE(begun);
     EXPECT_EQ(begun.error().code, ErrorCode::kCapacity);
-    EXPECT_THAT(begun.error().message, ::testing::HasSubstr("1000005 lights a pixel"));
+    EXPECT_THAT(begun.error().message, ::testing::HasSubstr("all 1000000 lights"));
     EXPECT_THAT(begun.error().message, ::testing::HasSubstr("at most 1 s"));
     EXPECT_FALSE(drawPixels(view, inputs()).rgba8.empty());
 }

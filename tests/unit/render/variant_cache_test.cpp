@@ -40,7 +40,8 @@ class VariantCacheTest : public ::testing::Test {
     }
 
     FakeTimeline timeline;
-    VariantCache<int, int, FakeTimeline> cache{timeline, 3};
+    VariantMaker maker;
+    VariantCache<int, int, FakeTimeline> cache{timeline, maker, 3};
     int made = 0;
 };
 

@@ -1,0 +1,62 @@
+#include "render/variant_maker.h"
+
+#include "core/thread_name.h"
+
+#include <algorithm>
+#include <unistd.h>
+#include <utility>
+
+namespace froxel::render {
+
+void VariantMaker::start(int niceness) {
+    thread_ = std::jthread([this, niceness](const std::stop_token& stop) {
+        nameThread("variants");
+        (void)nice(niceness); // of this thread alone, on Linux
+        run(stop);
+    });
+}
+
+void VariantMaker::stop() {
+    thread_.request_stop();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+bool VariantMaker::busyFor(const void* asker) const {
+    const std::lock_guard lock(mutex_);
+    return queues_.count(asker) > 0;
+}
+
+void VariantMaker::post(std::function<void()> make) {
+    {
+        const std::lock_guard lock(mutex_);
+        queues_[asker_].push_back(std::move(make));
+    }
+    wake_.notify_one();
+}
+
+// One of each asker's at a time, so that who needs few does not wait for who needs many.
+void VariantMaker::run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (wake_.wait(lock, stop, [&] { return !queues_.empty(); })) {
+        auto next = queues_.upper_bound(last_);
+        if (next == queues_.end()) {
+            next = queues_.begin();
+        }
+        last_ = next->first;
+        const auto make = std::move(next->second.front());
+        next->second.pop_front();
+        lock.unlock();
+        make();
+        lock.lock();
+        if (const auto queue = queues_.find(last_); queue->second.empty()) {
+            queues_.erase(queue);
+        }
+        if (stop.stop_requested()) {
+            return;
+        }
+    }
+}
+
+} // namespace froxel::render
