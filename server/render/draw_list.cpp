@@ -1,6 +1,7 @@
 #include "render/draw_list.h"
 
 #include "interface/constants.h"
+#include "render/covered_part.h"
 #include "render/triangle_cull.h"
 
 #include <algorithm>
@@ -316,34 +317,15 @@ void Builder::addSolid(std::vector<Visible>& visible) {
             out_.solid);
 }
 
-// The part of the picture that a meshlet's ball may cover; all of it from near by.
 vk::Rect2D Builder::partOf(const Visible& visible) const {
     const DrawItem& item = scene_.items[visible.item];
     const Meshlet& m = scene_.meshlets[visible.meshlet];
     const glm::mat4 view_from_object = viewFromObject(item);
-    const glm::vec3 center(view_from_object * glm::vec4(m.center, 1.0F));
     const float scale = std::max({glm::length(glm::vec3(view_from_object[0])),
                                   glm::length(glm::vec3(view_from_object[1])),
                                   glm::length(glm::vec3(view_from_object[2]))});
-    const float radius = m.radius * scale;
-    const glm::vec2 size_px = 2.0F * half_size_px_;
-    glm::vec2 low(0);
-    glm::vec2 high = size_px;
-    const bool perspective = camera_.projection == view::Projection::kPerspective;
-    if (!perspective || -center.z > 2 * radius) {
-        const glm::vec4 clip = clip_from_view_ * glm::vec4(center, 1.0F);
-        // A ball twice its radius away shows at most as a disc of 2 / sqrt(3) of its size.
-        const float grown = perspective ? 1.2F * radius / clip.w : radius;
-        const glm::vec2 middle = glm::vec2(clip) / clip.w;
-        const glm::vec2 reach = grown *
-                                glm::abs(glm::vec2(clip_from_view_[0][0], clip_from_view_[1][1])) *
-                                (1.0F + glm::length(middle));
-        low = glm::clamp((middle - reach + 1.0F) * half_size_px_, glm::vec2(0), size_px);
-        high = glm::clamp((middle + reach + 1.0F) * half_size_px_, glm::vec2(0), size_px);
-    }
-    const glm::ivec2 first(glm::floor(low));
-    const glm::uvec2 extent(glm::ceil(high) - glm::floor(low));
-    return {{first.x, first.y}, {extent.x, extent.y}};
+    return coveredPart(clip_from_view_, glm::vec3(view_from_object * glm::vec4(m.center, 1.0F)),
+                       m.radius * scale, half_size_px_);
 }
 
 // Whole items: blending needs order more than it needs few draws.

@@ -48,8 +48,8 @@ checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Second
                  fmt::format("a picture of {}x{} whose pixels loop over all {} lights takes at "
                              "least {:.3g} s of this device; at most {:.3g} s a frame are "
                              "allowed: ask for fewer lights, lists, or a smaller picture",
-                             settings.size.width_px, settings.size.height_px,
-                             settings.lights.count, least.count(), limit.count())};
+                             settings.size.width_px, settings.size.height_px, settings.lights.count,
+                             least.count(), limit.count())};
 }
 
 double FrameCosts::pixels(const vk::Rect2D& region) const {

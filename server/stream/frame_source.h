@@ -17,7 +17,8 @@ namespace froxel::stream {
 // What a frame will ask of the device, known when it begins.
 struct FrameWork {
     Seconds estimate{0};      // device time of all its pieces; 0: unknown
-    uint32_t piece_count = 1; // at least 1
+    // 0: nothing has begun, since variants of shaders that it needs are being made; ask again.
+    uint32_t piece_count = 1;
 };
 
 struct SourceFrame {
@@ -71,6 +72,8 @@ class FrameSource {
     [[nodiscard]] virtual bool isHost() const = 0;
     // Errors: kCapacity, kDevice.
     [[nodiscard]] virtual Result<std::unique_ptr<ViewSource>> makeView() = 0;
+    // From now on begin() does not wait for variants of shaders that are missing.
+    virtual void makeVariantsInBackground() {}
 };
 
 } // namespace froxel::stream

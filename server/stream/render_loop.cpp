@@ -92,6 +92,7 @@ void RenderLoop::leave(SessionId id) {
 void RenderLoop::run(const std::stop_token& stop) {
     try {
         source_ = options_.make_source();
+        source_->makeVariantsInBackground();
         serve(stop);
         drain();
     } catch (const StartupError& error) {

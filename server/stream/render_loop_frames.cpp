@@ -17,6 +17,9 @@ namespace {
 // that it is never idle; whoever comes then does not wait for a second long piece.
 constexpr Seconds kAhead{0.02};
 
+// How often a view whose shaders are being made is asked whether it can begin.
+constexpr std::chrono::milliseconds kVariantsPoll{20};
+
 [[nodiscard]] bool isThisPictureAlone(const Error& error) {
     return error.code == ErrorCode::kCapacity || error.code == ErrorCode::kUnsupported;
 }
@@ -62,6 +65,10 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
             throw StartupError(work.error());
         }
         refuse(id, viewer, work.error());
+        return false;
+    }
+    if (work->piece_count == 0) {
+        viewer.ask_again = now + kVariantsPoll;
         return false;
     }
     scheduler_.onFrame(id, now);

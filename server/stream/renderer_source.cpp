@@ -10,6 +10,9 @@
 namespace froxel::stream {
 namespace {
 
+// A CPU device draws with the cores that compile.
+constexpr int kCpuNiceness = 10;
+
 class RendererView final : public ViewSource {
   public:
     RendererView(render::Renderer& renderer, const render::WorkLimits& limits)
@@ -73,6 +76,10 @@ class RendererSource final : public FrameSource {
 
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
         return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_, limits_));
+    }
+
+    void makeVariantsInBackground() override {
+        renderer_.makeVariantsInBackground(device_->traits().is_cpu ? kCpuNiceness : 0);
     }
 
   private:

@@ -13,10 +13,10 @@ std::optional<TimePoint> Viewer::wantsFrameAt() const {
         return {};
     }
     if (moves()) {
-        return paced_until;
+        return std::max(paced_until, ask_again);
     }
     const auto due = refineNext();
-    return due ? std::optional(due->at) : std::nullopt;
+    return due ? std::optional(std::max(due->at, ask_again)) : std::nullopt;
 }
 
 std::optional<session::RefinementSchedule::Due> Viewer::refineNext() const {

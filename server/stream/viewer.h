@@ -52,6 +52,7 @@ struct Viewer {
     session::SteadyCost frame_cost;
     Seconds piece_cost{0};   // the longest of the last frame; 0 before it
     TimePoint paced_until{}; // by the delivery's interval
+    TimePoint ask_again{};   // nothing can begin before; see FrameWork::piece_count
     bool changed = true;
     bool blocked = false; // this state was refused; waits for another
     bool leaving = false;

@@ -85,6 +85,10 @@ class FakeView final : public stream::ViewSource {
         if (!device_->computes && settings.lighting == view::LightingStage::kCompute) {
             return Error{ErrorCode::kUnsupported, "the fake device has no compute stage"};
         }
+        if (device_->unready_count > 0) {
+            --device_->unready_count;
+            return stream::FrameWork{Seconds(0), 0};
+        }
         ++device_->begun_count;
         waiting_ = device_->piece_count;
         frames_.push_back({settings, waiting_});

@@ -23,6 +23,7 @@ class FakeDevice {
     std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
     std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
     std::atomic<uint32_t> again_count = 0; // that many frames need more than they were given
+    std::atomic<uint32_t> unready_count = 0; // that many times nothing can begin yet
     std::atomic<bool> lost = false;
     std::atomic<bool> noisy = false; // pictures of noise, whose encoded size goes with all settings
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage

@@ -46,6 +46,17 @@ TEST_F(RenderLoopPiecesTest, FrameNeedsMore_IsDrawnAgain) {
     EXPECT_EQ(device_->begun_count, 4U);
 }
 
+TEST_F(RenderLoopPiecesTest, ShadersAreBeingMade_IsAskedAgain_WhileOthersAreDrawn) {
+    device_->unready_count = 3;
+    const auto first = makeSink();
+    join(first, still(), 1);
+    ASSERT_TRUE(first->waitForFrames(1));
+    settle();
+    EXPECT_EQ(device_->unready_count, 0U);
+    EXPECT_EQ(first->frames().size(), 1U);
+    EXPECT_EQ(device_->begun_count, 2U); // one of them prices it
+}
+
 // The second comes while the first piece of four is on the device.
 TEST_F(RenderLoopPiecesTest, OfTwoViewers_AreMixed) {
     const auto first = makeSink();

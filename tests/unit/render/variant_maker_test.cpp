@@ -1,0 +1,104 @@
+// Variants that are made where nobody waits for them.
+#include "render/variant_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+
+namespace froxel::render {
+namespace {
+
+struct NoTimeline {
+    [[nodiscard]] static uint64_t next() { return 1; }
+    [[nodiscard]] static uint64_t completed() { return 0; }
+};
+using Cache = VariantCache<int, int, NoTimeline>;
+
+// Until the maker is through with what this asker wanted.
+void waitFor(const VariantMaker& maker, const void* asker) {
+    while (maker.busyFor(asker)) {
+        std::this_thread::yield();
+    }
+}
+
+} // namespace
+
+TEST(VariantMaker, InBackground_IsAskedForOnce_AndThenThere) {
+    const NoTimeline timeline;
+    VariantMaker maker;
+    Cache cache(timeline, maker, 4);
+    maker.start(0);
+    maker.setAsker(&cache);
+    std::atomic<int> made = 0;
+    const auto make = [&] { return 10 + made++; };
+    EXPECT_THROW((void)cache.findOrMake(1, make), VariantsMissing);
+    waitFor(maker, &cache);
+    EXPECT_EQ(cache.findOrMake(1, make), 10);
+    EXPECT_EQ(made, 1);
+}
+
+TEST(VariantMaker, WhatMakingThrew_IsThrownToWhoAsksNext) {
+    const NoTimeline timeline;
+    VariantMaker maker;
+    Cache cache(timeline, maker, 4);
+    maker.start(0);
+    maker.setAsker(&cache);
+    const auto make = []() -> int { throw std::runtime_error("no"); };
+    EXPECT_FALSE(cache.prepare(1, make));
+    waitFor(maker, &cache);
+    EXPECT_THROW((void)cache.prepare(1, make), std::runtime_error);
+}
+
+TEST(VariantMaker, WhoNeedsFew_DoesNotWaitForWhoNeedsMany) {
+    VariantMaker maker;
+    std::mutex mutex;
+    std::vector<int> order;
+    std::promise<void> open;
+    auto opened = open.get_future().share();
+    const auto note = [&](int what) {
+        return [&, what] {
+            opened.wait();
+            const std::lock_guard lock(mutex);
+            order.push_back(what);
+        };
+    };
+    const int many = 0;
+    const int few = 0;
+    maker.start(0);
+    maker.setAsker(&many);
+    for (int i = 0; i < 4; ++i) {
+        maker.post(note(1));
+    }
+    maker.setAsker(&few);
+    maker.post(note(2));
+    open.set_value();
+    waitFor(maker, &many);
+    waitFor(maker, &few);
+    const auto place = std::find(order.begin(), order.end(), 2) - order.begin();
+    EXPECT_LE(place, 2);
+    EXPECT_EQ(order.size(), 5U);
+}
+
+TEST(VariantMaker, FirstUses_OfARecordingThatCameToNothing_AreStillToCome) {
+    const NoTimeline timeline;
+    VariantMaker maker;
+    Cache cache(timeline, maker, 4);
+    const auto make = [] { return 1; };
+    maker.beginRecording();
+    (void)cache.findOrMake(1, make);
+    EXPECT_EQ(maker.firstUses(), 1U);
+    maker.giveUpRecording();
+    maker.beginRecording();
+    (void)cache.findOrMake(1, make);
+    EXPECT_EQ(maker.firstUses(), 1U);
+    maker.beginRecording();
+    (void)cache.findOrMake(1, make);
+    EXPECT_EQ(maker.firstUses(), 0U);
+}
+
+} // namespace froxel::render
