@@ -41,7 +41,47 @@ vk::DeviceSize alignUp(vk::DeviceSize value, vk::DeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
+vk::ImageCreateInfo createInfo(const ImageInfo& info) {
+    return {.flags = info.flags,
+            .imageType = vk::ImageType::e2D,
+            .format = info.format,
+            .extent = {info.extent.width, info.extent.height, 1},
+            .mipLevels = info.mip_count,
+            .arrayLayers = 1,
+            .samples = vk::SampleCountFlagBits::e1,
+            .tiling = vk::ImageTiling::eOptimal,
+            .usage = info.usage};
+}
+
 } // namespace
+
+std::optional<uint64_t> deviceMemoryBytes(const Device& device) {
+    const auto extensions = device.physical().enumerateDeviceExtensionProperties();
+    const bool has_budget =
+        std::any_of(extensions.begin(), extensions.end(), [](const auto& extension) {
+            return std::string_view(extension.extensionName) == VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
+        });
+    const auto chain = device.physical()
+                           .getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2,
+                                                 vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    const auto& heaps = chain.get<vk::PhysicalDeviceMemoryProperties2>().memoryProperties;
+    const auto& budget = chain.get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+    std::optional<uint64_t> largest;
+    for (uint32_t i = 0; i < heaps.memoryHeapCount; ++i) {
+        if (heaps.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
+            const uint64_t bytes = has_budget ? budget.heapBudget[i] : heaps.memoryHeaps[i].size;
+            largest = std::max(largest.value_or(0), bytes);
+        }
+    }
+    return largest;
+}
+
+vk::DeviceSize imageBytes(const Device& device, const ImageInfo& info) {
+    const auto create_info = createInfo(info);
+    return device.handle()
+        .getImageMemoryRequirements({.pCreateInfo = &create_info})
+        .memoryRequirements.size;
+}
 
 MemoryArena::MemoryArena(const Device& device, vk::DeviceSize chunk_bytes, std::string_view purpose)
     : device_(device), ledger_(device.memoryLedger()), chunk_bytes_(chunk_bytes),
@@ -111,16 +151,7 @@ Image MemoryArena::makeImage(const ImageInfo& info, std::string_view name) {
     image.format = info.format;
     image.extent = info.extent;
     image.mip_count = info.mip_count;
-    image.handle =
-        device_.handle().createImage({.flags = info.flags,
-                                      .imageType = vk::ImageType::e2D,
-                                      .format = info.format,
-                                      .extent = {info.extent.width, info.extent.height, 1},
-                                      .mipLevels = info.mip_count,
-                                      .arrayLayers = 1,
-                                      .samples = vk::SampleCountFlagBits::e1,
-                                      .tiling = vk::ImageTiling::eOptimal,
-                                      .usage = info.usage});
+    image.handle = device_.handle().createImage(createInfo(info));
     const Place at = place(image.handle.getMemoryRequirements(), MemoryUse::kDevice, name);
     image.handle.bindMemory(at.memory, at.offset);
     image.view = device_.handle().createImageView(

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,13 @@ struct ImageInfo {
     vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor;
     vk::ImageCreateFlags flags = {};
 };
+
+// Of the device's own memory, what this process may take: by VK_EXT_memory_budget, which knows of
+// other processes, else all there is. Of a CPU device it says little: its memory is the host's.
+[[nodiscard]] std::optional<uint64_t> deviceMemoryBytes(const Device& device);
+
+// What makeImage() takes of memory; nothing is made.
+[[nodiscard]] vk::DeviceSize imageBytes(const Device& device, const ImageInfo& info);
 
 // Linear sub-allocation from chunks. One thread. What it allocates stands in the device's ledger.
 class MemoryArena {

@@ -7,32 +7,44 @@
 
 namespace froxel::render {
 
+std::vector<BlendImage> blendImages(view::Transparency transparency, const view::Size& drawn) {
+    using Usage = vk::ImageUsageFlagBits;
+    const auto color = [&](const char* name, vk::Format format) {
+        return BlendImage{name,
+                          {.format = format,
+                           .extent = {drawn.width_px, drawn.height_px},
+                           .usage = Usage::eColorAttachment | Usage::eSampled}};
+    };
+    std::vector images = {color("blended sums", Pipelines::kRadianceFormat)};
+    if (transparency == view::Transparency::kWeighted) {
+        images.push_back(color("blend weights", Pipelines::kBlendWeightFormat));
+    } else {
+        images.push_back({"peeled layer depth",
+                          {.format = Pipelines::kDepthFormat,
+                           .extent = {drawn.width_px, drawn.height_px},
+                           .usage = Usage::eDepthStencilAttachment,
+                           .aspect = vk::ImageAspectFlagBits::eDepth}});
+        images.insert(images.end(), 2, color("peeled layer keys", Pipelines::kPeelKeyFormat));
+    }
+    return images;
+}
+
 BlendTargets::BlendTargets(const gpu::Device& device,
                            const Pipelines& pipelines,
                            view::Transparency transparency,
                            std::shared_ptr<const ViewTargets> view)
     : arena(device), transparency_(transparency), view_(std::move(view)),
       solid_depth_(*view_->solidDepth().view) {
-    using Usage = vk::ImageUsageFlagBits;
-    const vk::Extent2D extent{view_->size.width_px, view_->size.height_px};
-    const auto color = [&](vk::Format format, std::string_view name) {
-        return arena.makeImage({.format = format,
-                                .extent = extent,
-                                .usage = Usage::eColorAttachment | Usage::eSampled},
-                               name);
-    };
-    sums = color(Pipelines::kRadianceFormat, "blended sums");
+    std::vector<gpu::Image> images;
+    for (const auto& [name, info] : blendImages(transparency, view_->size)) {
+        images.push_back(arena.makeImage(info, name));
+    }
+    sums = std::move(images[0]);
     if (transparency == view::Transparency::kWeighted) {
-        weights = color(Pipelines::kBlendWeightFormat, "blend weights");
+        weights = std::move(images[1]);
     } else {
-        layer_depth = arena.makeImage({.format = Pipelines::kDepthFormat,
-                                       .extent = extent,
-                                       .usage = Usage::eDepthStencilAttachment,
-                                       .aspect = vk::ImageAspectFlagBits::eDepth},
-                                      "peeled layer depth");
-        for (auto& keys : layer_keys) {
-            keys = color(Pipelines::kPeelKeyFormat, "peeled layer keys");
-        }
+        layer_depth = std::move(images[1]);
+        layer_keys = {std::move(images[2]), std::move(images[3])};
     }
     writeSets(device, pipelines);
 }

@@ -13,6 +13,14 @@
 
 namespace froxel::render {
 
+// What weighted or peeled surfaces are drawn into, in the order of BlendTargets' members.
+struct BlendImage {
+    const char* name;
+    gpu::ImageInfo info;
+};
+[[nodiscard]] std::vector<BlendImage> blendImages(view::Transparency transparency,
+                                                  const view::Size& drawn);
+
 // One view's, for one kind of transparency. Frames in flight keep theirs alive.
 class BlendTargets {
   public:

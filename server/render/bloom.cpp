@@ -67,17 +67,19 @@ vk::Pipeline BloomPipelines::pipeline(BloomShader shader, uint32_t flags) {
     });
 }
 
+gpu::ImageInfo bloomImage(const view::Size& size) {
+    return {.format = Pipelines::kRadianceFormat,
+            .extent = {size.width_px, size.height_px},
+            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eStorage};
+}
+
 BloomTargets::BloomTargets(const gpu::Device& device,
                            const BloomPipelines& pipelines,
                            const BloomPlan& plan,
                            std::shared_ptr<const ViewTargets> view)
     : view_(std::move(view)), sizes_(plan.images), wires_(plan.wires()), arena_(device) {
     for (const auto& size : sizes_) {
-        images_.push_back(arena_.makeImage(
-            {.format = Pipelines::kRadianceFormat,
-             .extent = {size.width_px, size.height_px},
-             .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eStorage},
-            "bloom"));
+        images_.push_back(arena_.makeImage(bloomImage(size), "bloom"));
     }
     const auto count = static_cast<uint32_t>(wires_.size());
     pool_ = makePool(device, count);

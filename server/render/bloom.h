@@ -29,6 +29,9 @@ class BloomPipelines {
     VariantCache<std::pair<BloomShader, uint32_t>> made_;
 };
 
+// One of bloom's own pictures.
+[[nodiscard]] gpu::ImageInfo bloomImage(const view::Size& size);
+
 // One view's pictures for one plan. Frames in flight keep theirs alive.
 class BloomTargets {
   public:

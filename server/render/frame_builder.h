@@ -36,8 +36,17 @@ class FrameBuilder {
     [[nodiscard]] bool acceptLists(const AssignSlot& lists);
     // What lists held is of no use any more: the frame was refused, and another one comes.
     void forgetLists() { seen_lists_.reset(); }
-    // Puts what build() made into the slot's buffer and describes it to the shaders.
+    // Adds what build() made to what will be uploaded; nothing is allocated yet.
+    void gather(FrameUpload& upload);
+    // Puts it into the slot's buffer and describes it to the shaders. Throws
+    // vk::OutOfDeviceMemoryError.
     [[nodiscard]] UploadOffsets upload(FrameSlot& slot);
+    // Of what was built: light lists on the device; none: the host made them, or there are none.
+    [[nodiscard]] ListCapacity listCapacity() const;
+    // Kept on the host for the next frame, for what grows with the number of lights.
+    [[nodiscard]] uint64_t hostBytes() const;
+    // Frees that.
+    void letGo();
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const ShadowFrame& shadows() const { return shadows_; }
@@ -77,9 +86,9 @@ class FrameBuilder {
     // Chooses the grid and fills the lists, or empties them.
     void assignLights(const FrameInputs& inputs);
     [[nodiscard]] bool assignsOnDevice(const FrameInputs& inputs);
-    // Where the device's assignment finds its data; finishes with writeAssignment.
-    [[nodiscard]] AssignOffsets uploadAssignment(FrameUpload& upload, Blocks& blocks) const;
-    void writeAssignment(FrameSlot& slot, const AssignOffsets& offsets) const;
+    // Where the device's assignment finds its data.
+    [[nodiscard]] AssignOffsets gatherAssignment(FrameUpload& upload) const;
+    void writeAssignment(FrameSlot& slot);
     [[nodiscard]] bool choosesVisibility(const FrameInputs& inputs);
     [[nodiscard]] bool choosesComputeRaster(const FrameInputs& inputs);
     [[nodiscard]] bool prepass(const FrameInputs& inputs) const;
@@ -88,7 +97,7 @@ class FrameBuilder {
     [[nodiscard]] std::vector<io::WireVertex> buildWires(const FrameInputs& inputs,
                                                          uint32_t& slice_count);
     void buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m);
-    void writeFrameSet(FrameSlot& slot, const Blocks& blocks) const;
+    void writeFrameSet(FrameSlot& slot) const;
 
     SceneResources& scene_;
     light::FrameLights lights_;
@@ -111,6 +120,9 @@ class FrameBuilder {
     io::Frame uniforms_{};
     io::Fog fog_{};
     bool fogged_ = false;
+    Blocks blocks_; // of what was gathered, like the offsets
+    UploadOffsets offsets_;
+    AssignOffsets assign_offsets_;
     DebugFrame debug_;
     LightGrid wire_grid_;            // of a frozen camera
     light::FrameLights wire_lights_; // as it sees them

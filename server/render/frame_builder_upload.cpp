@@ -9,12 +9,11 @@
 
 namespace froxel::render {
 
-UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
-    auto& upload = slot.upload;
+void FrameBuilder::gather(FrameUpload& upload) {
     upload.clear();
-    Blocks blocks;
+    blocks_ = {};
     const auto place = [&](size_t binding, auto span) {
-        blocks[binding] = span.empty() ? Block{} : Block{upload.add(span), span.size_bytes()};
+        blocks_[binding] = span.empty() ? Block{} : Block{upload.add(span), span.size_bytes()};
     };
     place(0, std::span<const io::Frame>(&uniforms_, 1));
     place(1, std::span<const io::Light>(lights_.lights));
@@ -23,19 +22,12 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
     place(4, std::span<const io::Spot>(lights_.spots));
     place(5, std::span<const io::DirectionalLight>(lights_.directionals));
     place(6, std::span<const io::Fog>(&fog_, fogged_ ? 1 : 0));
-    if (slot.fog) {
-        blocks[7] = {.bytes = kFroxelBytes * froxelCount(fog_),
-                     .buffer = *slot.fog->froxels().handle};
-    }
     place(8, std::span<const uint32_t>(shadows_.shadow_of_light));
     place(9, std::span<const io::ShadowLight>(shadows_.lights));
     place(11, std::span<const io::AreaLight>(lights_.areas));
-    if (!lights_.areas.empty()) {
-        const gpu::Buffer& table = scene_.ltcTable();
-        blocks[12] = {.bytes = ltc::table().size_bytes(), .buffer = *table.handle};
-    }
-    const AssignOffsets assign = uploadAssignment(upload, blocks);
-    UploadOffsets offsets;
+    assign_offsets_ = on_device_ ? gatherAssignment(upload) : AssignOffsets{};
+    UploadOffsets& offsets = offsets_;
+    offsets = {};
     offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));
     if (!draws_.indices.empty()) {
         // lavapipe 22.3 ignores an index buffer's offset in indirect draws: count from 0 instead.
@@ -58,42 +50,48 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
             upload.add(std::span<const vk::DrawIndexedIndirectCommand>(shadows_.commands));
     }
     offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
-    upload.commit();
-    writeFrameSet(slot, blocks);
-    writeAssignment(slot, assign);
-    return offsets;
 }
 
-AssignOffsets FrameBuilder::uploadAssignment(FrameUpload& upload, Blocks& blocks) const {
-    if (!on_device_) {
-        return {};
-    }
+AssignOffsets FrameBuilder::gatherAssignment(FrameUpload& upload) const {
     const AssignData& data = device_lists_.data();
-    const ListBuffers& buffers = *device_lists_.buffers();
-    blocks[2] = {.bytes = data.frame[0].cluster_count * sizeof(io::ClusterList),
-                 .buffer = *buffers.lists.handle};
-    blocks[3] = {.bytes = uint64_t{buffers.capacity.entries} * sizeof(uint32_t),
-                 .buffer = *buffers.indices.handle};
     return {.frame = upload.add(std::span<const io::AssignFrame>(data.frame)),
             .tables = upload.add(std::span<const double>(data.tables)),
-            .lights = blocks[1].offset,
+            .lights = blocks_[1].offset,
             .radii = upload.add(data.radii_m),
             .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
 }
 
-void FrameBuilder::writeAssignment(FrameSlot& slot, const AssignOffsets& offsets) const {
-    slot.device_lists = on_device_;
-    if (!on_device_) {
-        return;
+UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
+    slot.upload.commit();
+    if (slot.fog) {
+        blocks_[7] = {.bytes = kFroxelBytes * froxelCount(fog_),
+                      .buffer = *slot.fog->froxels().handle};
     }
+    if (!lights_.areas.empty()) {
+        const gpu::Buffer& table = scene_.ltcTable();
+        blocks_[12] = {.bytes = ltc::table().size_bytes(), .buffer = *table.handle};
+    }
+    slot.device_lists = on_device_;
+    if (on_device_) {
+        writeAssignment(slot);
+    }
+    writeFrameSet(slot);
+    return offsets_;
+}
+
+void FrameBuilder::writeAssignment(FrameSlot& slot) {
+    const auto& buffers = device_lists_.makeBuffers();
+    blocks_[2] = {.bytes = device_lists_.data().frame[0].cluster_count * sizeof(io::ClusterList),
+                  .buffer = *buffers->lists.handle};
+    blocks_[3] = {.bytes = uint64_t{buffers->capacity.entries} * sizeof(uint32_t),
+                  .buffer = *buffers->indices.handle};
     if (!slot.assignment) {
         slot.assignment = std::make_unique<AssignSlot>(scene_.device, *scene_.assignment());
     }
-    slot.assignment->write(device_lists_.buffers(), device_lists_.data(), slot.upload.buffer(),
-                           offsets);
+    slot.assignment->write(buffers, device_lists_.data(), slot.upload.buffer(), assign_offsets_);
 }
 
-void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
+void FrameBuilder::writeFrameSet(FrameSlot& slot) const {
     std::array<vk::DescriptorBufferInfo, Pipelines::kFrameBindings> infos;
     std::array<vk::BufferView, Pipelines::kFrameBindings> views;
     std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
@@ -101,7 +99,7 @@ void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
     const vk::DescriptorImageInfo atlas = atlasInfo(slot.shadows.get());
     for (uint32_t i = 0; i < infos.size(); ++i) {
         // What the frame lacks is described as none.
-        const auto& [offset, bytes, own] = blocks[i];
+        const auto& [offset, bytes, own] = blocks_[i];
         const vk::Buffer buffer = own ? own : slot.upload.buffer();
         infos[i] = bytes > 0 ? vk::DescriptorBufferInfo{buffer, offset, bytes}
                              : vk::DescriptorBufferInfo{.buffer = {}, .range = VK_WHOLE_SIZE};
@@ -124,6 +122,30 @@ void FrameBuilder::writeFrameSet(FrameSlot& slot, const Blocks& blocks) const {
         }
     }
     scene_.device.handle().updateDescriptorSets(writes, {});
+}
+
+ListCapacity FrameBuilder::listCapacity() const {
+    // Kept for the next frame that has its lists made there.
+    return on_device_                ? device_lists_.capacity()
+           : device_lists_.buffers() ? device_lists_.buffers()->capacity
+                                     : ListCapacity{};
+}
+
+uint64_t FrameBuilder::hostBytes() const {
+    const auto kept = [](const auto& items) { return items.capacity() * sizeof(items[0]); };
+    uint64_t bytes = kept(lists_.clusters) + kept(lists_.indices);
+    for (const auto* lights : {&lights_, &grown_, &wire_lights_}) {
+        bytes += kept(lights->lights) + kept(lights->radii_m) + kept(lights->spots) +
+                 kept(lights->cones);
+    }
+    return bytes;
+}
+
+void FrameBuilder::letGo() {
+    lists_ = {};
+    lights_ = {};
+    grown_ = {};
+    wire_lights_ = {};
 }
 
 } // namespace froxel::render

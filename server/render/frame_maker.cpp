@@ -4,6 +4,8 @@
 #include "render/fog_plan.h"
 #include "render/frame_recorder.h"
 #include "render/fresh_targets.h"
+#include "render/memory_need.h"
+#include "render/refusals.h"
 
 namespace froxel::render {
 
@@ -17,43 +19,47 @@ double microsSince(Clock::time_point start) {
 
 } // namespace
 
+Result<void> FrameMaker::takeMemory(FrameSlot& slot,
+                                    const FramePlan& plan,
+                                    const FrameInputs& asked,
+                                    const BloomPlan* bloom_plan,
+                                    const Slots& slots) {
+    builder_.gather(slot.upload);
+    target_needs_ = targetNeeds(plan, scene_.device, drawnSize(asked.settings), asked.settings.size,
+                                targets_.get());
+    FrameMemory frame =
+        frameMemory(builder_, plan, asked, target_needs_, bloom_plan, shadows_ != nullptr);
+    letGo(slots, slot, frame);
+    if (auto taken = take(memory_, frame, scene_.device, pictureWords(asked.settings)); !taken) {
+        builder_.letGo();
+        return taken;
+    }
+    // What does not fit goes before anything else is made; frames in flight keep theirs.
+    if (targets_ && !targets_->fits(frame.drawn, frame.shown, target_needs_)) {
+        targets_.reset();
+        bloom_.reset();
+        blend_.reset();
+    }
+    if (shadows_ &&
+        (frame.shadows.light_count == 0 || !shadows_->fits(frame.shadows, frame.shadow_casters))) {
+        shadows_.reset();
+    }
+    if (fog_ && fog_->froxels().size_bytes != kFroxelBytes * frame.froxel_count) {
+        fog_.reset();
+    }
+    return {};
+}
+
 void FrameMaker::prepareTargets(FrameSlot& slot,
                                 const FramePlan& plan,
                                 const view::Size& drawn,
                                 const view::Size& shown) {
-    const TargetNeeds wanted{.gbuffer = plan.gbuffer,
-                             .gbuffer_flags = plan.gbuffer_output_flags,
-                             .radiance = plan.radiance,
-                             .visibility = plan.visibility,
-                             .compute_raster = plan.compute_raster,
-                             .sampled_radiance = plan.bloom != view::BloomKind::kNone,
-                             .display = plan.fxaa,
-                             .device_pixels = !scene_.device.traits().is_cpu};
-    const bool same_size = targets_ && targets_->size == drawn && targets_->shown == shown;
-    if (!same_size || !targets_->needs.covers(wanted)) {
-        TargetNeeds grown = wanted;
-        if (same_size) {
-            if (!wanted.gbuffer && targets_->needs.gbuffer) {
-                grown.gbuffer = true;
-                grown.gbuffer_flags = targets_->needs.gbuffer_flags;
-            }
-            grown.radiance |= targets_->needs.radiance;
-            grown.visibility |= targets_->needs.visibility;
-            grown.compute_raster |= targets_->needs.compute_raster;
-        }
-        // Frames in flight keep the old targets alive through their slots.
-        targets_.reset();
-        bloom_.reset();
-        blend_.reset();
-        targets_ = std::make_shared<ViewTargets>(scene_.device, drawn, shown, grown);
+    if (!targets_) {
+        targets_ = std::make_shared<ViewTargets>(scene_.device, drawn, shown, target_needs_);
     }
     targets_->rastered_in_compute = plan.compute_raster;
     slot.targets = targets_;
-    const vk::DeviceSize bytes = vk::DeviceSize{4} * shown.width_px * shown.height_px;
-    if (!slot.readback || slot.readback->buffer.size_bytes != bytes) {
-        slot.readback.reset();
-        slot.readback = std::make_shared<Readback>(scene_.device, bytes);
-    }
+    slot.makeReadback(scene_.device, packedBytes(shown));
 }
 
 void FrameMaker::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
@@ -158,7 +164,7 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
 }
 
-Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs) {
+Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots) {
     VariantMaker& variants = scene_.variants;
     if (variants.busyFor(this)) {
         return false;
@@ -166,7 +172,7 @@ Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs) {
     variants.setAsker(this);
     variants.beginRecording();
     try {
-        if (auto recorded = recordNow(slot, inputs); !recorded) {
+        if (auto recorded = recordNow(slot, inputs, slots); !recorded) {
             return recorded.error();
         }
         return true;
@@ -177,7 +183,7 @@ Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs) {
     }
 }
 
-Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked) {
+Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
     const auto start = Clock::now();
     FrameInputs inputs = asked;
     inputs.settings.size = drawnSize(asked.settings);
@@ -200,6 +206,9 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked) {
     if (auto affordable = costs.check(work_.frame); !affordable) {
         builder_.forgetLists();
         return affordable;
+    }
+    if (auto taken = takeMemory(slot, plan, asked, bloom_steps, slots); !taken) {
+        return taken;
     }
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     slot.bloom.reset(); // its last frame has finished

@@ -9,18 +9,23 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace froxel::render {
 
 class FrameMaker {
   public:
     FrameMaker(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
-        : scene_(scene_in), work_(work_limits), builder_(scene_in, limits) {}
+        : scene_(scene_in), work_(work_limits), builder_(scene_in, limits),
+          memory_(scene_in.memory) {}
 
-    // Builds a frame and records its pieces into a free slot, which is in flight from then on; or
-    // not yet, where variants that it needs are still being made: false. Errors: kCapacity,
-    // kUnsupported. Throws vk::SystemError.
-    [[nodiscard]] Result<bool> record(FrameSlot& slot, const FrameInputs& inputs);
+    using Slots = std::vector<std::unique_ptr<FrameSlot>>;
+
+    // Builds a frame and records its pieces into a free slot, one of `slots`, which are all of the
+    // view's; it is in flight from then on; or not yet, where variants that it needs are still
+    // being made: false. Errors: kCapacity, kUnsupported. Throws vk::SystemError.
+    [[nodiscard]] Result<bool>
+    record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots);
     // Whether what the device told of a completed frame's lists lets it be shown.
     [[nodiscard]] bool accepts(const FrameSlot& slot) {
         return !slot.device_lists || builder_.acceptLists(*slot.assignment);
@@ -36,7 +41,15 @@ class FrameMaker {
 
   private:
     // Throws VariantsMissing besides.
-    [[nodiscard]] Result<void> recordNow(FrameSlot& slot, const FrameInputs& inputs);
+    [[nodiscard]] Result<void>
+    recordNow(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots);
+    // Asks the budget for a frame that was built, before anything is allocated for it. Errors:
+    // kCapacity.
+    [[nodiscard]] Result<void> takeMemory(FrameSlot& slot,
+                                          const FramePlan& plan,
+                                          const FrameInputs& asked,
+                                          const BloomPlan* bloom_plan,
+                                          const Slots& slots);
     void prepareTargets(FrameSlot& slot,
                         const FramePlan& plan,
                         const view::Size& drawn,
@@ -54,6 +67,8 @@ class FrameMaker {
     SceneResources& scene_;
     const WorkLimits work_;
     FrameBuilder builder_;
+    MemoryShare memory_;
+    TargetNeeds target_needs_; // of the frame that memory was taken for last
     std::shared_ptr<ViewTargets> targets_;
     std::shared_ptr<BloomTargets> bloom_;    // null: the last frame has none
     std::shared_ptr<BlendTargets> blend_;    // likewise

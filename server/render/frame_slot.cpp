@@ -41,12 +41,30 @@ vk::DeviceSize FrameUpload::addBytes(std::span<const std::byte> bytes) {
     return offset;
 }
 
+vk::DeviceSize FrameUpload::sizeFor(vk::DeviceSize bytes) const {
+    // Room to grow into, and no more than that is kept idle.
+    constexpr vk::DeviceSize kMostRoom = vk::DeviceSize{4} << 20U;
+    constexpr vk::DeviceSize kNeverTooLarge = vk::DeviceSize{1} << 20U;
+    const auto had = buffer_.size_bytes;
+    const bool too_large = had > kNeverTooLarge && had > 2 * bytes + kMostRoom;
+    return had >= bytes && had > 0 && !too_large ? had : bytes + std::min(bytes / 2, kMostRoom);
+}
+
+void FrameUpload::trim(vk::DeviceSize bytes) {
+    if (sizeFor(bytes) < buffer_.size_bytes) {
+        buffer_ = {};
+        arena_.reset();
+    }
+}
+
 void FrameUpload::commit() {
-    if (used_bytes_ > buffer_.size_bytes || !*buffer_.handle) {
+    const auto size = sizeFor(used_bytes_);
+    if (size != buffer_.size_bytes) {
         using Usage = vk::BufferUsageFlagBits;
         buffer_ = {};
+        arena_.reset(); // before its successor takes memory
         arena_ = std::make_unique<gpu::MemoryArena>(device_);
-        buffer_ = arena_->makeBuffer(used_bytes_ + used_bytes_ / 2,
+        buffer_ = arena_->makeBuffer(size,
                                      Usage::eUniformBuffer | Usage::eStorageBuffer |
                                          Usage::eUniformTexelBuffer | Usage::eVertexBuffer |
                                          Usage::eIndexBuffer | Usage::eIndirectBuffer,
@@ -76,6 +94,28 @@ FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, P
       pool(makePool(device)) {
     frame_set = gpu::makeSet(device, pool, pipelines.frameLayout());
     screen_set = gpu::makeSet(device, pool, pipelines.screenLayout());
+}
+
+void FrameSlot::makeReadback(const gpu::Device& device, vk::DeviceSize size_bytes) {
+    if (!readback || readback->buffer.size_bytes != size_bytes) {
+        readback.reset(); // before its successor takes memory
+        readback = std::make_shared<Readback>(device, size_bytes);
+    }
+}
+
+void FrameSlot::letGo(vk::DeviceSize readback_bytes, vk::DeviceSize upload_bytes) {
+    targets.reset();
+    bloom.reset();
+    blend.reset();
+    fog.reset();
+    shadows.reset();
+    if (readback && readback->buffer.size_bytes != readback_bytes) {
+        readback.reset(); // a lease keeps its own
+    }
+    if (assignment) {
+        assignment->letGo();
+    }
+    upload.trim(upload_bytes);
 }
 
 const gpu::Buffer& pixelsOf(const FrameSlot& slot) {

@@ -39,7 +39,12 @@ class FrameUpload {
     vk::DeviceSize add(std::span<const T> data) {
         return addBytes(std::as_bytes(data));
     }
-    // Copies everything, growing the buffer where needed; the slot must not be in flight.
+    // What the buffer takes once `bytes` are committed: as it is, or a new one's.
+    [[nodiscard]] vk::DeviceSize sizeFor(vk::DeviceSize bytes) const;
+    // Frees a buffer that is too large for `bytes`; the slot must not be in flight.
+    void trim(vk::DeviceSize bytes);
+    [[nodiscard]] vk::DeviceSize addedBytes() const { return used_bytes_; }
+    // Copies everything, into another buffer where it must; the slot must not be in flight.
     void commit();
     // Forgets what was added.
     void clear();
@@ -78,6 +83,11 @@ struct FrameSlot {
     }
     // Whether a new frame may use the slot.
     [[nodiscard]] bool free() const { return !in_flight && (!readback || !readback->leased); }
+    // Throws vk::OutOfDeviceMemoryError.
+    void makeReadback(const gpu::Device& device, vk::DeviceSize size_bytes);
+    // Not in flight: keeps nothing that the view's next frame, with so many bytes of pixels and of
+    // upload, has no use for.
+    void letGo(vk::DeviceSize readback_bytes, vk::DeviceSize upload_bytes);
 
     vk::raii::CommandBuffer cmd; // of the piece that is recorded
     FramePieces pieces;

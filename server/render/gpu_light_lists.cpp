@@ -25,14 +25,6 @@ uint32_t blocksOf(uint32_t clusters) {
     return (clusters + io::kAssignScanBlock - 1) / io::kAssignScanBlock;
 }
 
-gpu::Buffer makeWords(gpu::MemoryArena& arena,
-                      uint64_t words,
-                      const char* name,
-                      vk::BufferUsageFlags more = {}) {
-    return arena.makeBuffer(words * sizeof(uint32_t), Usage::eStorageBuffer | more,
-                            gpu::MemoryUse::kDevice, name);
-}
-
 io::AssignSpot makeSpot(const light::FrameLights& lights, const io::Light& light, float radius_m) {
     const glm::dvec3 apex(light.position_view.x, -light.position_view.y, -light.position_view.z);
     io::AssignSpot spot{};
@@ -51,36 +43,38 @@ io::AssignSpot makeSpot(const light::FrameLights& lights, const io::Light& light
 
 } // namespace
 
+std::vector<ListPart> listParts(const ListCapacity& capacity) {
+    constexpr uint64_t kWord = sizeof(uint32_t);
+    const uint64_t clusters = capacity.clusters;
+    const uint64_t entries = capacity.entries;
+    const uint64_t tasks = capacity.tasks;
+    return {
+        {&ListBuffers::totals, "light list counters", kTotalsBytes,
+         Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc},
+        {&ListBuffers::tasks, "light assignment tasks", tasks * sizeof(io::AssignTask), {}},
+        {&ListBuffers::spans, "light assignment spans", tasks * io::kAssignTaskLines * kWord, {}},
+        {&ListBuffers::cursors, "light list cursors", clusters * kWord, Usage::eTransferDst},
+        {&ListBuffers::block_sums, "light list sums", blocksOf(capacity.clusters) * kWord, {}},
+        {&ListBuffers::queue, "light list queue", clusters * kWord, {}},
+        {&ListBuffers::lists, "light lists", clusters * sizeof(io::ClusterList),
+         Usage::eUniformTexelBuffer | Usage::eTransferSrc},
+        {&ListBuffers::raw_indices, "light indices, unordered", entries * kWord, {}},
+        {&ListBuffers::indices, "light indices", entries * kWord,
+         Usage::eUniformTexelBuffer | Usage::eTransferSrc}};
+}
+
 ListBuffers::ListBuffers(const gpu::Device& device, const ListCapacity& capacity_in)
-    : capacity(capacity_in), arena(device),
-      totals(makeWords(arena,
-                       sizeof(io::AssignTotals) / sizeof(uint32_t) + io::kAssignMaxTiles,
-                       "light list counters",
-                       Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc)),
-      tasks(makeWords(arena,
-                      uint64_t{capacity.tasks} * sizeof(io::AssignTask) / sizeof(uint32_t),
-                      "light assignment tasks")),
-      spans(makeWords(
-          arena, uint64_t{capacity.tasks} * io::kAssignTaskLines, "light assignment spans")),
-      cursors(makeWords(arena, capacity.clusters, "light list cursors", Usage::eTransferDst)),
-      block_sums(makeWords(arena, blocksOf(capacity.clusters), "light list sums")),
-      queue(makeWords(arena, capacity.clusters, "light list queue")),
-      lists(makeWords(arena,
-                      uint64_t{capacity.clusters} * 2,
-                      "light lists",
-                      Usage::eUniformTexelBuffer | Usage::eTransferSrc)),
-      raw_indices(makeWords(arena, capacity.entries, "light indices, unordered")),
-      indices(makeWords(arena,
-                        capacity.entries,
-                        "light indices",
-                        Usage::eUniformTexelBuffer | Usage::eTransferSrc)) {}
+    : capacity(capacity_in), arena(device) {
+    for (const auto& [buffer, name, bytes, usage] : listParts(capacity)) {
+        this->*buffer =
+            arena.makeBuffer(bytes, Usage::eStorageBuffer | usage, gpu::MemoryUse::kDevice, name);
+    }
+}
 
 AssignSlot::AssignSlot(const gpu::Device& device, const AssignPipelines& pipelines)
     : device_(device), arena_(device),
-      readback_(arena_.makeBuffer(sizeof(io::AssignTotals) + io::kAssignMaxTiles * sizeof(uint32_t),
-                                  Usage::eTransferDst,
-                                  gpu::MemoryUse::kReadback,
-                                  "light list counters")),
+      readback_(arena_.makeBuffer(
+          kTotalsBytes, Usage::eTransferDst, gpu::MemoryUse::kReadback, "light list counters")),
       pool_(nullptr) {
     static_assert(uint64_t{view::kGridXRange.max} * view::kGridYRange.max <= io::kAssignMaxTiles);
     const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer,
@@ -172,9 +166,11 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
         }
     }
     data_.radii_m = lights.radii_m;
-    ensure({.clusters = grid.clusterCount(),
-            .entries = std::max(wanted_.entries, light_count), // also holds the list of all
-            .tasks = wanted_.tasks});
+    const ListCapacity had = buffers_ ? buffers_->capacity : ListCapacity{};
+    capacity_ = {.clusters = std::max(grid.clusterCount(), had.clusters),
+                 // Also holds the list of all lights.
+                 .entries = std::max({wanted_.entries, light_count, had.entries}),
+                 .tasks = std::max(wanted_.tasks, had.tasks)};
     data_.frame.assign(1,
                        {.columns = sweep_.columns(),
                         .rows = sweep_.rows(),
@@ -186,8 +182,8 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
                         .perspective = grid.projection == view::Projection::kPerspective ? 1U : 0U,
                         .light_count = light_count,
                         .cluster_count = grid.clusterCount(),
-                        .index_capacity = buffers_->capacity.entries,
-                        .task_capacity = buffers_->capacity.tasks,
+                        .index_capacity = capacity_.entries,
+                        .task_capacity = capacity_.tasks,
                         .max_entries = static_cast<uint32_t>(limits_.max_entries),
                         .max_pairs = 0,
                         .image_width_px = grid.image.width_px,
@@ -197,18 +193,13 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
     return data_;
 }
 
-void GpuLightLists::ensure(const ListCapacity& needed) {
-    const ListCapacity had = buffers_ ? buffers_->capacity : ListCapacity{};
-    if (needed.clusters <= had.clusters && needed.entries <= had.entries &&
-        needed.tasks <= had.tasks) {
-        return;
+const std::shared_ptr<ListBuffers>& GpuLightLists::makeBuffers() {
+    if (!buffers_ || buffers_->capacity != capacity_) {
+        // Frames in flight keep the old ones alive through their slots.
+        buffers_.reset();
+        buffers_ = std::make_shared<ListBuffers>(device_, capacity_);
     }
-    const ListCapacity grown{.clusters = std::max(needed.clusters, had.clusters),
-                             .entries = std::max(needed.entries, had.entries),
-                             .tasks = std::max(needed.tasks, had.tasks)};
-    // Frames in flight keep the old ones alive through their slots.
-    buffers_.reset();
-    buffers_ = std::make_shared<ListBuffers>(device_, grown);
+    return buffers_;
 }
 
 bool GpuLightLists::accept(const io::AssignTotals& totals) {

@@ -23,10 +23,25 @@ struct ListCapacity {
     uint32_t clusters = 0;
     uint32_t entries = 0;
     uint32_t tasks = 0;
+    bool operator==(const ListCapacity&) const = default;
 };
 
+// Counters that come back, and those of tiles.
+inline constexpr uint64_t kTotalsBytes =
+    sizeof(io::AssignTotals) + io::kAssignMaxTiles * sizeof(uint32_t);
+
 // Device memory of the lists. Frames on one queue follow each other, so all of a view share it.
+struct ListBuffers;
+struct ListPart {
+    gpu::Buffer ListBuffers::*buffer;
+    const char* name;
+    uint64_t bytes;
+    vk::BufferUsageFlags usage;
+};
+[[nodiscard]] std::vector<ListPart> listParts(const ListCapacity& capacity);
+
 struct ListBuffers {
+    // Throws vk::OutOfDeviceMemoryError.
     ListBuffers(const gpu::Device& device, const ListCapacity& capacity);
 
     ListCapacity capacity;
@@ -70,6 +85,9 @@ class AssignSlot {
                vk::Buffer upload,
                const AssignOffsets& offsets);
 
+    // The slot is not in flight, and is written before its next frame.
+    void letGo() { buffers_.reset(); }
+
     [[nodiscard]] const ListBuffers& buffers() const { return *buffers_; }
     [[nodiscard]] vk::DescriptorSet set() const { return *set_; }
     [[nodiscard]] vk::Buffer readback() const { return *readback_.handle; }
@@ -98,12 +116,16 @@ class GpuLightLists {
   public:
     GpuLightLists(const gpu::Device& device, const ListLimits& limits);
 
-    // Prepares a frame's data and memory that holds what frames so far have needed. `lights` must
-    // stay alive until the data is uploaded. Throws vk::OutOfDeviceMemoryError.
+    // Prepares a frame's data for memory that holds what frames so far have needed. `lights` must
+    // stay alive until the data is uploaded.
     const AssignData& prepare(const cluster::ClusterGrid& grid, const light::FrameLights& lights);
     // Of what was prepared: how many (light, pixel) pairs the frame may evaluate.
     void setMaxPairs(double pairs) { data_.frame[0].max_pairs = static_cast<float>(pairs); }
     [[nodiscard]] const AssignData& data() const { return data_; }
+    // What the frame prepared last finds room for.
+    [[nodiscard]] const ListCapacity& capacity() const { return capacity_; }
+    // That memory. Throws vk::OutOfDeviceMemoryError.
+    [[nodiscard]] const std::shared_ptr<ListBuffers>& makeBuffers();
     [[nodiscard]] const std::shared_ptr<ListBuffers>& buffers() const { return buffers_; }
 
     // After a frame: whether its lists are whole. If not they have none and the frame must be drawn
@@ -114,13 +136,12 @@ class GpuLightLists {
     void clearRefusal() { refused_ = false; }
 
   private:
-    void ensure(const ListCapacity& needed);
-
     const gpu::Device& device_;
     ListLimits limits_;
     cluster::BallSweep sweep_;
     AssignData data_;
     std::shared_ptr<ListBuffers> buffers_;
+    ListCapacity capacity_;
     ListCapacity wanted_;
     bool refused_ = false;
 };

@@ -93,17 +93,31 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
     return {};
 }
 
-Error noMemoryFor(const view::ViewSettings& settings) {
-    std::string what = "the device has no memory for a picture of " +
-                       std::to_string(settings.size.width_px) + "x" +
+std::string pictureWords(const view::ViewSettings& settings) {
+    std::string what = "a picture of " + std::to_string(settings.size.width_px) + "x" +
                        std::to_string(settings.size.height_px);
+    std::vector<std::string> more;
     if (view::samplesAcross(settings.antialiasing) > 1) {
-        what += " with four samples a pixel";
+        more.emplace_back("four samples a pixel");
     }
     if (settings.shadows.light_count > 0) {
-        what += " and shadow maps of " + std::to_string(settings.shadows.light_count) + " lights";
+        more.push_back("shadow maps of " + std::to_string(settings.shadows.light_count) +
+                       " lights");
     }
-    return {ErrorCode::kCapacity, what};
+    if (settings.bloom.kind != view::BloomKind::kNone) {
+        more.emplace_back("bloom");
+    }
+    if (settings.lights.count > 10'000) { // fewer take next to nothing
+        more.push_back(std::to_string(settings.lights.count) + " lights");
+    }
+    for (size_t i = 0; i < more.size(); ++i) {
+        what += (i == 0 ? " with " : i + 1 == more.size() ? " and " : ", ") + more[i];
+    }
+    return what;
+}
+
+Error noMemoryFor(const view::ViewSettings& settings) {
+    return {ErrorCode::kCapacity, "the device has no memory for " + pictureWords(settings)};
 }
 
 } // namespace froxel::render

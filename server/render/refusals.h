@@ -4,11 +4,16 @@
 #include "core/error.h"
 #include "render/renderer.h"
 
+#include <string>
+
 namespace froxel::render {
 
 // Whether this device and these settings can give what is asked for. Errors: kUnsupported, saying
 // what lacks and what would do.
 [[nodiscard]] Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene);
+
+// What takes memory of a picture, in words: "a picture of 640x360 with bloom".
+[[nodiscard]] std::string pictureWords(const view::ViewSettings& settings);
 
 // kCapacity: targets of these settings did not fit the device's memory.
 [[nodiscard]] Error noMemoryFor(const view::ViewSettings& settings);

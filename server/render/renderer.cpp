@@ -14,8 +14,8 @@
 
 namespace froxel::render {
 
-Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
-    : resources_(std::make_unique<SceneResources>(device, scene)) {}
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits)
+    : resources_(std::make_unique<SceneResources>(device, scene, limits)) {}
 
 Renderer::~Renderer() = default;
 
@@ -70,7 +70,7 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
     const auto submitted = slot.submitted;
     while (slot.stale || !maker.accepts(slot)) {
         const FrameInputs inputs = slot.inputs;
-        const auto recorded = maker.record(slot, inputs);
+        const auto recorded = maker.record(slot, inputs, slots);
         if (!recorded) {
             return recorded.error();
         }
@@ -113,7 +113,7 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     }
     try {
         slot->inputs = inputs;
-        const auto recorded = impl_->maker.record(*slot, inputs);
+        const auto recorded = impl_->maker.record(*slot, inputs, impl_->slots);
         if (!recorded) {
             return recorded.error();
         }

@@ -11,6 +11,7 @@
 #include "gpu/device.h"
 #include "render/frame_plan.h"
 #include "render/list_limits.h"
+#include "render/memory_budget.h"
 #include "render/shadow_atlas.h"
 #include "scene/scene.h"
 #include "view/settings.h"
@@ -42,6 +43,8 @@ struct FrameInputs {
     bool cull_meshlets = true;              // in the visibility passes
     std::optional<bool> depth_prepass = {}; // none: where it pays
     AssignmentPlace assignment = AssignmentPlace::kAuto;
+    // What the picture takes beside the renderer, to be encoded: of the view's memory, too.
+    uint64_t beside_bytes = 0;
 };
 
 // How long frames and their pieces may take by their estimates. The defaults are for whoever has
@@ -71,8 +74,8 @@ struct PieceResult {
 // Geometry, textures and pipelines shared by all viewers of one scene.
 class Renderer {
   public:
-    Renderer(gpu::Device& device,
-             const scene::Scene& scene); // throws StartupError, vk::SystemError
+    // Throws StartupError, vk::SystemError.
+    Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

@@ -80,8 +80,10 @@ gpu::Buffer uploadVector(gpu::MemoryArena& arena,
 
 } // namespace
 
-SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene)
-    : device(device_in), timeline(device_in), needs(findNeeds(scene)),
+SceneResources::SceneResources(gpu::Device& device_in,
+                               const scene::Scene& scene,
+                               const MemoryLimits& limits)
+    : device(device_in), timeline(device_in), memory(limits), needs(findNeeds(scene)),
       bounds_world(scene.bounds_world), light_rig(scene),
       light_assigner(std::max(1U, std::thread::hardware_concurrency())), arena(device_in),
       texture_arena(device_in, kTextureChunkBytes, "textures"),
@@ -104,9 +106,10 @@ SceneResources::SceneResources(gpu::Device& device_in, const scene::Scene& scene
         indices = std::move(geometry.indices);
         positions = std::move(geometry.positions);
     }
+    const uint64_t device_bytes = arena.allocatedBytes() + texture_arena.allocatedBytes();
+    memory.setShared(device_bytes);
     spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
-                 items.size(), meshlets.size(), textures_->imageCount(),
-                 arena.allocatedBytes() + texture_arena.allocatedBytes());
+                 items.size(), meshlets.size(), textures_->imageCount(), device_bytes);
 }
 
 void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader) {

@@ -10,6 +10,7 @@
 #include "render/fog.h"
 #include "render/fxaa.h"
 #include "render/geometry_pack.h"
+#include "render/memory_budget.h"
 #include "render/pipelines.h"
 #include "render/scene_needs.h"
 #include "render/texture_store.h"
@@ -31,13 +32,14 @@ struct DrawItem {
 
 class SceneResources {
   public:
-    SceneResources(gpu::Device& device, const scene::Scene& scene);
+    SceneResources(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits);
     ~SceneResources() { variants.stop(); } // which makes what refers to the rest
     SceneResources(const SceneResources&) = delete;
     SceneResources& operator=(const SceneResources&) = delete;
 
     gpu::Device& device;
     gpu::Timeline timeline;
+    MemoryBudget memory;
     const SceneNeeds needs;
     const BoundsD3 bounds_world;
     const light::LightRig light_rig;

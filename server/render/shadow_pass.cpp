@@ -61,17 +61,19 @@ void drawFace(const FrameContext& frame, const ShadowFace& face) {
 
 } // namespace
 
+gpu::ImageInfo shadowImage(const view::Shadows& settings, uint32_t light_count) {
+    using Usage = vk::ImageUsageFlagBits;
+    return {.format = Pipelines::kDepthFormat,
+            .extent = extentOf(tilesFor(settings, light_count), settings.size_px),
+            .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc,
+            .aspect = vk::ImageAspectFlagBits::eDepth};
+}
+
 ShadowTargets::ShadowTargets(const gpu::Device& device,
                              const view::Shadows& settings,
                              uint32_t light_count)
     : size_px(settings.size_px), tile_count(tilesFor(settings, light_count)), arena(device) {
-    using Usage = vk::ImageUsageFlagBits;
-    atlas = arena.makeImage(
-        {.format = Pipelines::kDepthFormat,
-         .extent = extentOf(tile_count, size_px),
-         .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc,
-         .aspect = vk::ImageAspectFlagBits::eDepth},
-        "shadow atlas");
+    atlas = arena.makeImage(shadowImage(settings, light_count), "shadow atlas");
 }
 
 bool ShadowTargets::fits(const view::Shadows& settings, uint32_t light_count) const {

@@ -18,10 +18,12 @@ struct FrameContext;
 struct ShadowFrame;
 class SceneResources;
 
+// The atlas that `light_count` point lights have, or as many as the settings allow.
+[[nodiscard]] gpu::ImageInfo shadowImage(const view::Shadows& settings, uint32_t light_count);
+
 // Tiles of shadows.size_px in rows of io::kShadowColumns. Frames in flight keep theirs alive.
 struct ShadowTargets {
-    // Room for what `light_count` point lights have, or as many as the settings allow. Throws
-    // vk::OutOfDeviceMemoryError.
+    // Throws vk::OutOfDeviceMemoryError.
     ShadowTargets(const gpu::Device& device, const view::Shadows& settings, uint32_t light_count);
 
     [[nodiscard]] bool fits(const view::Shadows& settings, uint32_t light_count) const;

@@ -51,7 +51,7 @@ void DeviceAssigner::Impl::run(const cluster::ClusterGrid& grid, const light::Fr
         .radii = upload.add(data.radii_m),
         .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
     upload.commit();
-    slot.write(lists.buffers(), data, upload.buffer(), offsets);
+    slot.write(lists.makeBuffers(), data, upload.buffer(), offsets);
     timestamps.reset();
     timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         render::recordAssignment({cmd, pipelines, slot}, timestamps);

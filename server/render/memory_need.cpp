@@ -1,0 +1,125 @@
+#include "render/memory_need.h"
+
+#include "render/blend_targets.h"
+#include "render/bloom.h"
+#include "render/fog_plan.h"
+#include "render/shadow_pass.h"
+
+namespace froxel::render {
+
+namespace {
+
+constexpr const char* kReadback = "readback";
+constexpr const char* kUpload = "frame upload";
+constexpr const char* kHost = "host";
+// A device may round a buffer up to this much.
+constexpr uint64_t kBufferStep = 256;
+// Counters that come back, of each slot.
+constexpr uint64_t kSlotBytes = 16 << 10U;
+
+} // namespace
+
+FrameMemory frameMemory(const FrameBuilder& builder,
+                        const FramePlan& plan,
+                        const FrameInputs& asked,
+                        const TargetNeeds& targets,
+                        const BloomPlan* bloom,
+                        bool atlas_is_kept) {
+    FrameMemory frame{.drawn = drawnSize(asked.settings),
+                      .shown = asked.settings.size,
+                      .targets = targets,
+                      .shadows = asked.settings.shadows,
+                      .shadow_casters = builder.localLightCount(),
+                      .lists = builder.listCapacity(),
+                      .host_bytes = builder.hostBytes() + asked.beside_bytes};
+    if (plan.transparent && plan.transparency != view::Transparency::kSorted) {
+        frame.blend = plan.transparency;
+    }
+    if (bloom != nullptr) {
+        frame.bloom = bloom->images;
+    }
+    if (!plan.shadows && !atlas_is_kept) {
+        frame.shadows.light_count = 0;
+    }
+    if (plan.fog_volume) {
+        frame.froxel_count = froxelCount(builder.fog());
+    }
+    return frame;
+}
+
+std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& image_bytes) {
+    std::vector<MemoryUse> uses;
+    const auto image = [&](const std::string& purpose, const gpu::ImageInfo& info) {
+        uses.push_back({purpose, image_bytes(info)});
+    };
+    const auto buffer = [&](const std::string& purpose, uint64_t bytes) {
+        if (bytes > 0) {
+            uses.push_back({purpose, (bytes + kBufferStep - 1) / kBufferStep * kBufferStep});
+        }
+    };
+    const uint64_t drawn_px = uint64_t{frame.drawn.width_px} * frame.drawn.height_px;
+    const uint64_t packed_bytes = packedBytes(frame.shown);
+    for (const auto& target : targetImages(frame.drawn, frame.targets)) {
+        image(target.name, target.info);
+    }
+    buffer("depth and id words", frame.targets.compute_raster ? kWordBytes * drawn_px : 0);
+    buffer("display", frame.targets.display ? packed_bytes : 0);
+    buffer("pixels", frame.targets.device_pixels ? packed_bytes : 0);
+    if (frame.blend) {
+        for (const auto& [name, info] : blendImages(*frame.blend, frame.drawn)) {
+            image(name, info);
+        }
+    }
+    for (const auto& size : frame.bloom) {
+        image("bloom", bloomImage(size));
+    }
+    buffer("fog volume", kFroxelBytes * frame.froxel_count);
+    if (frame.shadows.light_count > 0) {
+        image("shadow atlas", shadowImage(frame.shadows, frame.shadow_casters));
+    }
+    buffer(kReadback, packed_bytes * ViewRenderer::kReadbackSlots);
+    buffer(kUpload, frame.upload_bytes);
+    if (frame.lists.clusters > 0) {
+        for (const auto& part : listParts(frame.lists)) {
+            buffer(part.name, part.bytes);
+        }
+        buffer("light list counters", kTotalsBytes * ViewRenderer::kReadbackSlots);
+    }
+    buffer("counters", kSlotBytes * ViewRenderer::kReadbackSlots);
+    buffer(kHost, frame.host_bytes);
+    return uses;
+}
+
+MemoryTaken totalOf(const std::vector<MemoryUse>& uses, bool device_is_cpu) {
+    MemoryTaken total;
+    for (const auto& use : uses) {
+        const bool of_host =
+            use.purpose == kReadback || use.purpose == kUpload || use.purpose == kHost;
+        (of_host && !device_is_cpu ? total.host_bytes : total.device_bytes) += use.bytes;
+    }
+    return total;
+}
+
+void letGo(const std::vector<std::unique_ptr<FrameSlot>>& slots,
+           const FrameSlot& next,
+           FrameMemory& frame) {
+    const vk::DeviceSize upload_bytes = next.upload.addedBytes();
+    frame.upload_bytes = 0;
+    for (const auto& slot : slots) {
+        if (!slot->in_flight) {
+            slot->letGo(packedBytes(frame.shown), upload_bytes);
+        }
+        frame.upload_bytes += slot->upload.sizeFor(upload_bytes);
+    }
+}
+
+Result<void> take(MemoryShare& share,
+                  const FrameMemory& frame,
+                  const gpu::Device& device,
+                  const std::string& picture) {
+    const auto need = memoryNeed(
+        frame, [&](const gpu::ImageInfo& info) { return gpu::imageBytes(device, info); });
+    return share.take(totalOf(need, device.traits().is_cpu), picture);
+}
+
+} // namespace froxel::render

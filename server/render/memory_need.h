@@ -1,0 +1,64 @@
+// What a view's memory comes to with a frame, by purpose; of device memory the purposes are those
+// of the ledger. Pure, but for what the device says of its images.
+#pragma once
+
+#include "core/frame_stats.h"
+#include "render/frame_builder.h"
+#include "render/view_targets.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace froxel::render {
+
+struct FrameMemory {
+    view::Size drawn;
+    view::Size shown;
+    TargetNeeds targets;
+    std::optional<view::Transparency> blend = {}; // weighted or peeled surfaces are in sight
+    std::vector<view::Size> bloom = {};           // BloomPlan::images
+    uint64_t froxel_count = 0;                    // of the fog's volume
+    view::Shadows shadows;                        // light_count 0: no atlas
+    uint32_t shadow_casters = 0;                  // lights that may have maps
+    uint64_t upload_bytes = 0;                    // of all slots together
+    ListCapacity lists;                           // on the device
+    uint64_t host_bytes = 0;                      // kept by the host, encoders with it
+};
+
+// Of a frame that was built and gathered; what slots hold is not yet in it.
+[[nodiscard]] FrameMemory frameMemory(const FrameBuilder& builder,
+                                      const FramePlan& plan,
+                                      const FrameInputs& asked,
+                                      const TargetNeeds& targets,
+                                      const BloomPlan* bloom, // null: none
+                                      bool atlas_is_kept);
+
+// What an image takes: gpu::imageBytes.
+using ImageBytes = std::function<uint64_t(const gpu::ImageInfo&)>;
+
+// Steady state: every readback slot has been used. Old targets that a frame in flight still draws
+// into come on top until it is done, which is never on a CPU device.
+[[nodiscard]] std::vector<MemoryUse>
+memoryNeed(const FrameMemory& frame, uint32_t slot_count, const ImageBytes& image_bytes);
+
+// Where it is: what the host reads, writes and keeps is the host's, but on a CPU device.
+[[nodiscard]] MemoryTaken totalOf(const std::vector<MemoryUse>& uses, bool device_is_cpu);
+
+// Slots that are not in flight keep nothing that the frame has no use for; `next` is to draw it,
+// and has gathered it. Notes what uploads come to.
+void letGo(const std::vector<std::unique_ptr<FrameSlot>>& slots,
+           const FrameSlot& next,
+           FrameMemory& frame);
+
+// Asks for all of it. Errors: kCapacity.
+[[nodiscard]] Result<void> take(MemoryShare& share,
+                                const FrameMemory& frame,
+                                const gpu::Device& device,
+                                const std::string& picture);
+
+} // namespace froxel::render

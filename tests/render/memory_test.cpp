@@ -1,0 +1,178 @@
+// What memoryNeed() says against what the device's ledger has, and the budget that is asked with
+// it.
+#include "render/memory_need.h"
+#include "support/draw.h"
+#include "support/gpu_fixture.h"
+#include "support/test_scenes.h"
+
+#include <functional>
+
+namespace froxel::test {
+
+namespace {
+
+using render::FrameInputs;
+using Change = std::function<void(FrameInputs&)>;
+
+struct Named {
+    const char* name;
+    Change change;
+};
+
+FrameInputs small() {
+    FrameInputs inputs;
+    inputs.settings.size = {640, 360};
+    inputs.settings.lights.count = 50;
+    return inputs;
+}
+
+const std::vector<Named> kFrames = {
+    {"default", [](FrameInputs&) {}},
+    {"odd size",
+     [](FrameInputs& f) {
+         f.settings.size = {1333, 377};
+     }},
+    {"many lights", [](FrameInputs& f) { f.settings.lights.count = 2'000; }},
+    {"forward", [](FrameInputs& f) { f.settings.renderer = view::Renderer::kForwardPlus; }},
+    {"forward in compute",
+     [](FrameInputs& f) {
+         f.settings.renderer = view::Renderer::kForwardPlus;
+         f.settings.lighting = view::LightingStage::kCompute;
+     }},
+    {"wide gbuffer",
+     [](FrameInputs& f) { f.settings.gbuffer.position = view::PositionSource::kFp32; }},
+    {"bloom by mips", [](FrameInputs& f) { f.settings.bloom.kind = view::BloomKind::kMipChain; }},
+    {"separable bloom",
+     [](FrameInputs& f) { f.settings.bloom.kind = view::BloomKind::kSeparable; }},
+    {"four samples", [](FrameInputs& f) { f.settings.antialiasing = view::Antialiasing::kSsaa4; }},
+    {"fxaa", [](FrameInputs& f) { f.settings.antialiasing = view::Antialiasing::kFxaa; }},
+    {"fog", [](FrameInputs& f) { f.settings.fog.density = 0.05F; }},
+    {"shadows", [](FrameInputs& f) { f.settings.shadows = {.light_count = 4, .size_px = 64}; }},
+    {"weighted", [](FrameInputs& f) { f.settings.transparency = view::Transparency::kWeighted; }},
+    {"peeled", [](FrameInputs& f) { f.settings.transparency = view::Transparency::kPeeled; }},
+    {"lists on the device",
+     [](FrameInputs& f) { f.assignment = render::AssignmentPlace::kDevice; }},
+    {"raster in compute", [](FrameInputs& f) { f.geometry = render::GeometryPath::kVisibility; }},
+};
+
+} // namespace
+
+class MemoryNeed : public SharedGpuTest {
+  protected:
+    static void SetUpTestSuite() {
+        SharedGpuTest::SetUpTestSuite();
+        scene_ = std::make_unique<scene::Scene>(makeRoom());
+    }
+    static void TearDownTestSuite() {
+        scene_.reset();
+        SharedGpuTest::TearDownTestSuite();
+    }
+    // As many frames as there are slots, all kept, so that every slot has its buffers.
+    static void fill(render::ViewRenderer& view, const FrameInputs& inputs) {
+        std::vector<render::RenderedFrame> kept;
+        while (view.canSubmit()) {
+            const auto submitted = view.submit(inputs);
+            ASSERT_TRUE(submitted) << submitted.error().message;
+            auto frame = view.collect();
+            ASSERT_TRUE(frame) << frame.error().message;
+            kept.push_back(std::move(*frame));
+        }
+    }
+    [[nodiscard]] static uint64_t allocated() { return device().memoryLedger()->totalBytes(); }
+
+    inline static std::unique_ptr<scene::Scene> scene_;
+};
+
+TEST_F(MemoryNeed, EveryKindOfFrame_TakesWhatWasSaidAndHardlyLess) {
+    render::Renderer renderer(device(), *scene_);
+    for (const auto& [name, change] : kFrames) {
+        FrameInputs inputs = small();
+        inputs.settings.camera = scene_->cameras.at(0).camera;
+        change(inputs);
+        {
+            render::ViewRenderer warm(renderer); // what the scene makes at first use
+            fill(warm, inputs);
+        }
+        const uint64_t shared = allocated();
+        const uint64_t taken_before = renderer.resources().memory.takenBytes();
+        render::ViewRenderer view(renderer);
+        fill(view, inputs);
+        const uint64_t real = allocated() - shared;
+        const uint64_t said = renderer.resources().memory.takenBytes() - taken_before;
+        EXPECT_GE(said, real) << name;
+        EXPECT_LE(static_cast<double>(said), 1.1 * static_cast<double>(real)) << name;
+    }
+}
+
+TEST_F(MemoryNeed, GoingToAndFro_HoldsNoMoreThanThePictureOfNow) {
+    render::Renderer renderer(device(), *scene_);
+    FrameInputs inputs = small();
+    inputs.settings.camera = scene_->cameras.at(0).camera;
+    render::ViewRenderer view(renderer);
+    fill(view, inputs);
+    const uint64_t at_first = allocated();
+    FrameInputs large = inputs;
+    for (const uint32_t width : {1280U, 1296U, 1312U}) { // a set of targets for each slot, once
+        large.settings.size = {width, 720};
+        fill(view, large);
+    }
+    ASSERT_TRUE(view.submit(inputs));
+    ASSERT_TRUE(view.collect());
+    EXPECT_LE(allocated(), at_first);
+}
+
+TEST_F(MemoryNeed, PictureBeyondTheSession_IsRefusedWithFiguresAndAllocatesNothing) {
+    render::Renderer renderer(device(), *scene_, {.session_bytes = 24U << 20U});
+    FrameInputs inputs = small();
+    inputs.settings.camera = scene_->cameras.at(0).camera;
+    render::ViewRenderer view(renderer);
+    fill(view, inputs);
+    const uint64_t before = allocated();
+    FrameInputs large = inputs;
+    large.settings.size = {4096, 4096};
+    large.settings.shadows = {.light_count = 32, .size_px = 512};
+    large.settings.bloom.kind = view::BloomKind::kMipChain;
+    const auto refused = view.submit(large);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    EXPECT_THAT(refused.error().message,
+                testing::MatchesRegex("a picture of 4096x4096 with shadow maps of 32 lights and "
+                                      "bloom takes [0-9]+ MiB of memory; a session has 24 here: "
+                                      "ask for a smaller picture"));
+    EXPECT_LE(allocated(), before);
+    fill(view, inputs); // the last good picture still comes
+}
+
+TEST_F(MemoryNeed, PictureBeyondTheDevice_IsRefusedUntilAnotherViewGoes) {
+    const uint64_t scene_bytes = [this] {
+        render::Renderer renderer(device(), *scene_);
+        return renderer.resources().memory.takenBytes();
+    }();
+    render::Renderer renderer(device(), *scene_, {.device_bytes = scene_bytes + (16U << 20U)});
+    FrameInputs inputs = small();
+    inputs.settings.camera = scene_->cameras.at(0).camera;
+    render::ViewRenderer second(renderer);
+    {
+        render::ViewRenderer first(renderer);
+        fill(first, inputs);
+        const auto refused = second.submit(inputs);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+        EXPECT_THAT(refused.error().message,
+                    testing::HasSubstr("the scene and other sessions take"));
+    }
+    fill(second, inputs);
+}
+
+TEST_F(MemoryNeed, WhatEncodesThePicture_CountsToo) {
+    render::Renderer renderer(device(), *scene_, {.session_bytes = 24U << 20U});
+    FrameInputs inputs = small();
+    inputs.settings.camera = scene_->cameras.at(0).camera;
+    inputs.beside_bytes = 24U << 20U;
+    render::ViewRenderer view(renderer);
+    ASSERT_FALSE(view.submit(inputs));
+    inputs.beside_bytes = 0;
+    fill(view, inputs);
+}
+
+} // namespace froxel::test
