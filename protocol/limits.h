@@ -1,6 +1,7 @@
 // The protocol's numbers: versions, caps, deadlines and close codes. README.md explains them.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -44,5 +45,9 @@ enum class CloseCode : uint16_t {
     kCapacity = 4029,     // no session left; retry with back-off
     kDeviceLost = 4050,   // the rendering device was lost; retry with back-off
 };
+inline constexpr std::array kCloseCodes = {
+    CloseCode::kNormal,  CloseCode::kPolicy,       CloseCode::kTooBig,    CloseCode::kVersion,
+    CloseCode::kToken,   CloseCode::kSlowConsumer, CloseCode::kReplaced,  CloseCode::kDraining,
+    CloseCode::kResting, CloseCode::kCapacity,     CloseCode::kDeviceLost};
 
 } // namespace froxel::protocol

@@ -41,19 +41,23 @@ Json limitsOf(const gpu::Device& device) {
 // What proxies and manifests must agree with.
 Json serviceReport() {
     const ServeOptions defaults;
-    return {{"port", defaults.port},
-            {"admin_port", defaults.admin.port},
-            {"socket_path", net::kSocketPath},
-            {"metrics_path", net::kMetricsPath},
-            {"live_path", net::kLivePath},
-            {"ready_path", net::kReadyPath},
-            {"started_path", net::kStartedPath},
-            {"drain_path", net::kDrainPath},
-            {"drain_seconds", defaults.drain_s},
-            {"idle_timeout_seconds", net::kIdleTimeout.count()},
-            {"agones_counter", net::kAgonesCounter},
-            {"agones_health_seconds", net::kAgonesHealthPeriod.count()},
-            {"exit_code_device_lost", kExitDeviceLost}};
+    return {
+        {"port", defaults.port},
+        {"admin_port", defaults.admin.port},
+        {"socket_path", net::kSocketPath},
+        {"metrics_path", net::kMetricsPath},
+        {"live_path", net::kLivePath},
+        {"ready_path", net::kReadyPath},
+        {"started_path", net::kStartedPath},
+        {"drain_path", net::kDrainPath},
+        {"drain_seconds", defaults.drain_s},
+        {"max_sessions", defaults.sessions_max},
+        {"session_memory_mib", {{"cpu", kCpuSessionMemory_mib}, {"gpu", kGpuSessionMemory_mib}}},
+        {"host_memory_share", kHostMemoryShare},
+        {"idle_timeout_seconds", net::kIdleTimeout.count()},
+        {"agones_counter", net::kAgonesCounter},
+        {"agones_health_seconds", net::kAgonesHealthPeriod.count()},
+        {"exit_code_device_lost", kExitDeviceLost}};
 }
 
 // One frame with default settings from the scene's first camera: what the automatic choices are

@@ -8,6 +8,8 @@ namespace froxel::app {
 namespace {
 
 constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
+constexpr view::Range<uint32_t> kSessionMemoryRange{"session_memory", 16, 1U << 20U};
+constexpr view::Range<uint32_t> kDeviceMemoryRange{"device_memory", 16, 1U << 24U};
 constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
 constexpr view::Range<double> kFrameLimitRange{"frame_limit", 0.01, 60.0};
 constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
@@ -91,6 +93,14 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     using Defaults = session::SessionDefaults;
     command.number("--max-sessions", options.sessions_max, kSessionsRange,
                    "Sessions at once; all viewers of a room share one");
+    command.number("--session-memory", options.memory.session_mib, kSessionMemoryRange,
+                   fmt::format("{} on a CPU device, {} on a GPU", kCpuSessionMemory_mib,
+                               kGpuSessionMemory_mib),
+                   "MiB that a session's pictures may take; larger ones are refused");
+    command.number("--device-memory", options.memory.device_mib, kDeviceMemoryRange,
+                   fmt::format("{} of the host's or its container's on a CPU device, {} of a GPU's",
+                               kHostMemoryShare, kGpuMemoryShare),
+                   "MiB that the scene and all sessions may take");
     command.number(
         "--min-fps", options.min_rate_hz, kMinRateRange,
         byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),

@@ -1,6 +1,7 @@
 #include "app/serve_command.h"
 
 #include "app/bind_option.h"
+#include "app/device_losses.h"
 #include "app/output_file.h"
 #include "app/scene_source.h"
 #include "app/serve_end.h"
@@ -54,6 +55,18 @@ session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_
     return defaults;
 }
 
+void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
+    constexpr uint64_t kMib = 1 << 20U;
+    spdlog::info("event=memory_limits device_mib={} session_mib={}", limits.device_bytes / kMib,
+                 limits.session_bytes / kMib);
+    if (limits.device_bytes / sessions_max < limits.session_bytes) {
+        spdlog::warn("event=memory_overcommitted device_mib={} session_mib={} sessions={} "
+                     "advice=\"lower --session-memory or --max-sessions, or raise "
+                     "--device-memory: a session may find none left\"",
+                     limits.device_bytes / kMib, limits.session_bytes / kMib, sessions_max);
+    }
+}
+
 // On the render thread, which owns all of it from then on.
 OpenedScene openScene(const ServeOptions& options,
                       const std::function<void(net::LoadingProgress)>& report) {
@@ -79,8 +92,10 @@ OpenedScene openScene(const ServeOptions& options,
     const bool on_cpu = traits.is_cpu;
     auto memory = [ledger = device->memoryLedger()] { return render::memoryReport(*ledger); };
     report({"moving the scene to the device", 0.6});
-    auto source =
-        stream::makeRendererSource(std::move(device), scene, Seconds(options.frame_limit_s));
+    const render::MemoryLimits limits = memoryLimits(options.memory, *device);
+    tellMemory(limits, options.sessions_max);
+    auto source = stream::makeRendererSource(std::move(device), scene,
+                                             Seconds(options.frame_limit_s), limits);
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
     return {std::move(source), std::move(context), std::move(memory), Seconds(limit_s)};
@@ -235,6 +250,7 @@ int runServe(const ServeOptions& options) {
     run_options.server.gate = secrets.gate;
     run_options.server.admin_gate = secrets.admin_gate;
     run_options.server.tls = secrets.tls;
+    run_options.losses = std::make_shared<DeviceLosses>(options.pipeline_cache.folder);
     run_options.server.reconnect_url = options.advertise;
     run_options.on_failure = [&](const Error& error) {
         failure.put(error);

@@ -1,6 +1,7 @@
 // `froxel serve`: puts the rooms together, runs until a signal, and drains.
 #pragma once
 
+#include "app/memory_limits.h"
 #include "gpu/device_options.h"
 #include "net/bind_address.h"
 #include "session/session_context.h"
@@ -25,6 +26,7 @@ struct ServeOptions {
     gpu::PipelineCacheOptions pipeline_cache;
     uint32_t sessions_max = 16;      // at once, a room being one; more are refused
     uint32_t connections_max = 4096; // of any kind; more are told to come back
+    MemoryOptions memory;            // of all sessions and each; absent: memory_limits.h
     // That active sessions must keep when another one joins; absent: by the device's kind.
     std::optional<double> min_rate_hz;
     double frame_limit_s = 1; // of the device's time, that one picture may take by its estimate

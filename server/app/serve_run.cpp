@@ -47,11 +47,21 @@ Result<void> ServeRun::rendersOn() const {
     return net::rendersOn(server_->service().status(), Clock::now());
 }
 
+void ServeRun::giveUp(const std::string& why) {
+    if (options_.losses) {
+        options_.losses->add();
+    }
+    server_->giveUp(why);
+}
+
 stream::RenderLoopOptions ServeRun::loopOptions() {
     stream::RenderLoopOptions loop;
     loop.on_failure = options_.on_failure;
     loop.fates = server_->metrics().fates();
     server_->metrics().setSessionCapacity(options_.server.lobby.sessions_max);
+    if (options_.losses) {
+        server_->metrics().setDeviceLosses(options_.losses->count());
+    }
     loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
         OpenedScene opened = options_.open(
@@ -61,6 +71,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
         if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {
             loop_.setMinRate(rate_hz, frameCost(opened.source, *context));
         }
+        server_->metrics().watchLoad([this] { return loop_.load(Clock::now()); });
         service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit});
         return std::move(opened.source);
     };

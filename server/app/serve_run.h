@@ -2,6 +2,7 @@
 // a frame source of their own; serve_command.cpp with the real one.
 #pragma once
 
+#include "app/device_losses.h"
 #include "encode/encode_pool.h"
 #include "net/server.h"
 #include "session/session_context.h"
@@ -26,6 +27,7 @@ struct OpenedScene {
 struct ServeRunOptions {
     net::ServerOptions server;
     uint32_t encoder_count = 1;
+    std::shared_ptr<DeviceLosses> losses; // null: they are not noted
     // Runs on the render thread while the server already listens. May throw.
     std::function<OpenedScene(const std::function<void(net::LoadingProgress)>& report)> open;
     // The scene could not be opened or the device was lost. On the render thread; must not throw.
@@ -50,7 +52,8 @@ class ServeRun {
     bool drain(std::chrono::milliseconds deadline) { return server_->drain(deadline); }
     // Closes the connections whose token was taken away; after the gate has loaded.
     void checkTokens() { server_->service().announce(); }
-    void giveUp(const std::string& why) { server_->giveUp(why); }
+    // The device is gone: notes it, and tells every viewer.
+    void giveUp(const std::string& why);
     // Whether the render thread moves; an error says for how long it has not.
     [[nodiscard]] Result<void> rendersOn() const;
 

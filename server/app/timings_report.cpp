@@ -63,6 +63,15 @@ Json toJson(const view::Lights& lights) {
             {"placed", lights.placed.lights().size()}};
 }
 
+Json toJson(const view::ToonRamp& ramp) {
+    Json points = Json::array();
+    for (uint32_t i = 0; i < ramp.count; ++i) {
+        const auto& point = ramp.points[i];
+        points.push_back({point.x, point.y, point.slope});
+    }
+    return points;
+}
+
 Json toJson(const LightListStats& lists) {
     return {{"lights", lists.light_count},
             {"clusters", lists.cluster_count},
@@ -207,6 +216,22 @@ Json settingsReport(const view::ViewSettings& settings) {
     }
     if (const auto& outline = settings.toon_outline; outline.strength > 0) {
         json["toon_outline"] = {{"strength", outline.strength}, {"width", outline.width}};
+    }
+    if (settings.list_cap > 0) {
+        json["list_cap"] = settings.list_cap;
+    }
+    if (settings.debug.scale_max > 0) {
+        json["debug_scale_max"] = settings.debug.scale_max;
+    }
+    if (settings.debug.grid_camera) {
+        json["grid_camera"] = toJson(*settings.debug.grid_camera);
+    }
+    const view::ViewSettings usual;
+    if (settings.toon_fragment != usual.toon_fragment) {
+        json["toon_fragment"] = toJson(settings.toon_fragment);
+    }
+    if (settings.toon_compute != usual.toon_compute) {
+        json["toon_compute"] = toJson(settings.toon_compute);
     }
     return json;
 }

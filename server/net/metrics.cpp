@@ -80,6 +80,9 @@ constexpr std::array kListGauges = {
               [](const LightListStats& s) { return s.all_lights ? 1.0 : 0.0; }},
 };
 
+// Of refused upgrades.
+constexpr std::array kUpgradeStatuses = {400U, 403U, 404U, 503U};
+
 // Close codes with rows of their own: RFC 6455's that happen, and the protocol's.
 bool isKnown(uint16_t code) {
     return (code >= 1000 && code <= 1011) || (code >= 4001 && code <= 4099);
@@ -110,10 +113,13 @@ struct Metrics::Impl {
     void noteDelivery(const FrameRecord& record);
     [[nodiscard]] prometheus::MetricFamily sessionFamily() const;
     [[nodiscard]] prometheus::MetricFamily memoryFamily() const;
+    [[nodiscard]] prometheus::MetricFamily loadFamily() const;
 
     const std::function<size_t()> session_count;
     Gauge& viewers = gauge("froxel_viewers", "Viewers connected now.");
     Gauge& capacity = gauge("froxel_session_capacity", "Sessions that the server takes at once.");
+    Counter& device_losses = counter("froxel_device_losses_total",
+                                     "Times that the device was lost, in the runs before.");
     Counter& joined =
         counter("froxel_viewers_joined_total", "Times that a viewer came in since the start.");
     Counter& sent = counter("froxel_frames_sent_total", "Pictures sent.");
@@ -149,8 +155,9 @@ struct Metrics::Impl {
         "froxel_light_pairs_total", "(light, pixel) pairs of the pictures sent that counted them.");
     Counter& evaluated = pairs.Add({{"kind", "evaluated"}});
     Counter& contributing = pairs.Add({{"kind", "contributing"}});
-    mutable std::mutex memory_mutex;
+    mutable std::mutex watch_mutex;
     std::function<std::vector<MemoryUse>()> memory;
+    std::function<double()> load;
 };
 
 Metrics::Metrics(const std::string& version, std::function<size_t()> session_count)
@@ -164,12 +171,15 @@ Metrics::Metrics(const std::string& version, std::function<size_t()> session_cou
                std::to_string(protocol::kMajor) + "." + std::to_string(protocol::kMinor)}})
         .Set(1);
     // There from the start, so that their first one shows as a rise.
-    for (const auto code : {protocol::CloseCode::kNormal, protocol::CloseCode::kPolicy,
-                            protocol::CloseCode::kSlowConsumer, protocol::CloseCode::kCapacity}) {
+    for (const auto code : protocol::kCloseCodes) {
         impl_->closes.Add({{"code", std::to_string(static_cast<unsigned>(code))}});
     }
-    impl_->rejects.Add({{"reason", session::nameOf(session::RejectCode::kMalformed)}});
-    impl_->upgrades.Add({{"status", "403"}});
+    for (const auto code : session::kRejectCodes) {
+        impl_->rejects.Add({{"reason", session::nameOf(code)}});
+    }
+    for (const unsigned status : kUpgradeStatuses) {
+        impl_->upgrades.Add({{"status", std::to_string(status)}});
+    }
     auto& stages = prometheus::BuildHistogram()
                        .Name("froxel_stage_duration_seconds")
                        .Help("What the pictures sent took in each stage from command to socket, "
@@ -201,6 +211,10 @@ Metrics::~Metrics() = default;
 
 void Metrics::setSessionCapacity(uint32_t sessions_max) {
     impl_->capacity.Set(sessions_max);
+}
+
+void Metrics::setDeviceLosses(uint64_t count) {
+    impl_->device_losses.Increment(static_cast<double>(count));
 }
 
 void Metrics::sessionOpened() {
@@ -270,8 +284,21 @@ std::shared_ptr<FrameFates> Metrics::fates() const {
 }
 
 void Metrics::watchMemory(std::function<std::vector<MemoryUse>()> memory) {
-    const std::lock_guard lock(impl_->memory_mutex);
+    const std::lock_guard lock(impl_->watch_mutex);
     impl_->memory = std::move(memory);
+}
+
+void Metrics::watchLoad(std::function<double()> load) {
+    const std::lock_guard lock(impl_->watch_mutex);
+    impl_->load = std::move(load);
+}
+
+prometheus::MetricFamily Metrics::Impl::loadFamily() const {
+    const std::lock_guard lock(watch_mutex);
+    return metricFamily(prometheus::MetricType::Gauge, "froxel_device_load",
+                        "Share of the device's time that sessions need, 0 to 1: by it a new one is "
+                        "let in or not.",
+                        "", {{"", load ? load() : 0.0}});
 }
 
 prometheus::MetricFamily Metrics::Impl::sessionFamily() const {
@@ -283,7 +310,7 @@ prometheus::MetricFamily Metrics::Impl::sessionFamily() const {
 
 prometheus::MetricFamily Metrics::Impl::memoryFamily() const {
     std::vector<MetricRow> rows;
-    const std::lock_guard lock(memory_mutex);
+    const std::lock_guard lock(watch_mutex);
     for (const MemoryUse& use : memory ? memory() : std::vector<MemoryUse>{}) {
         rows.emplace_back(use.purpose, static_cast<double>(use.bytes));
     }
@@ -319,6 +346,7 @@ std::string Metrics::text() const {
     }
     families.push_back(impl_->sessionFamily());
     families.push_back(impl_->memoryFamily());
+    families.push_back(impl_->loadFamily());
     return prometheus::TextSerializer().Serialize(families);
 }
 

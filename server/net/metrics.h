@@ -34,6 +34,8 @@ class Metrics {
 
     // Sessions that the server takes at once; once.
     void setSessionCapacity(uint32_t sessions_max);
+    // Times that the device was lost before this run; once.
+    void setDeviceLosses(uint64_t count);
     // A viewer came in, and left: of a room each one.
     void sessionOpened();
     void sessionClosed();
@@ -57,6 +59,10 @@ class Metrics {
     // Tells what the device's memory is used for at that moment; called by text(), on its thread.
     // Until it is set nothing is told of memory.
     void watchMemory(std::function<std::vector<MemoryUse>()> memory);
+
+    // Tells how much of the device's time is taken, 0 to 1; called by text(), on its thread. Until
+    // it is set it is 0.
+    void watchLoad(std::function<double()> load);
 
     // The README lists the names.
     [[nodiscard]] std::string text() const;

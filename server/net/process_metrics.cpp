@@ -2,6 +2,7 @@
 
 #include "net/metric_family.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <malloc.h>
@@ -14,6 +15,10 @@ namespace froxel::net {
 namespace {
 
 using prometheus::MetricType;
+
+// Of this process, near enough: before main().
+const double start_time_s =
+    std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 
 // A number of /proc/self/status, in the unit of the file.
 std::optional<double> statusNumber(const std::string& name) {
@@ -68,6 +73,8 @@ std::vector<prometheus::MetricFamily> processMetrics() {
         add(MetricType::Gauge, "process_max_fds", "File descriptors that may be open.",
             static_cast<double>(limit.rlim_cur));
     }
+    add(MetricType::Gauge, "process_start_time_seconds", "When it began, since 1970.",
+        start_time_s);
     if (rusage usage{}; getrusage(RUSAGE_SELF, &usage) == 0) {
         add(MetricType::Counter, "process_cpu_seconds_total", "CPU time of all threads.",
             secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime));

@@ -5,6 +5,7 @@
 
 #include <boost/system/result.hpp>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -24,6 +25,10 @@ enum class RejectCode : uint8_t {
     kControl,     // another viewer controls the room
     kToken,       // no valid token; close with 4003
 };
+inline constexpr std::array kRejectCodes = {
+    RejectCode::kMalformed, RejectCode::kOutOfRange, RejectCode::kUnsupported,
+    RejectCode::kVersion,   RejectCode::kCapacity,   RejectCode::kRateLimit,
+    RejectCode::kDevice,    RejectCode::kControl,    RejectCode::kToken};
 
 struct Rejection {
     RejectCode code = RejectCode::kMalformed;

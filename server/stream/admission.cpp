@@ -73,10 +73,10 @@ double Admission::rateOf(const Entry& entry, TimePoint now) {
     return (here + before * (reach / kWindow)) / kWindow.count();
 }
 
-Result<void> Admission::check(TimePoint now) const {
-    double busy = 0; // of the device's time, 1 being all of it
+Admission::Needs Admission::needs(TimePoint now) const {
+    Needs needs;
     double cost_sum_s = 0;
-    uint32_t active = 0;
+    uint32_t drawing = 0;
     uint32_t unknown = 0;
     for (const auto& [id, entry] : sessions_) {
         const auto cost = entry.cost.value();
@@ -87,25 +87,35 @@ Result<void> Admission::check(TimePoint now) const {
         }
         const double rate_hz = rateOf(entry, now);
         if (rate_hz > 0) {
-            ++active;
+            ++drawing;
             cost_sum_s += cost->count();
-            busy += cost->count() * std::min(rate_hz, min_rate_hz_);
+            needs.busy += cost->count() * std::min(rate_hz, min_rate_hz_);
         }
     }
     const auto typical = typical_cost_.value();
-    const bool known = active > 0 || typical;
-    if (active + unknown == 0 || !known || min_rate_hz_ <= 0) {
-        return {};
-    }
-    const double mean_s = active > 0 ? cost_sum_s / active : typical->count();
-    busy += unknown * mean_s * min_rate_hz_;
-    if (busy + mean_s * min_rate_hz_ <= 1) {
+    needs.mean_s = drawing > 0 ? cost_sum_s / drawing : typical.value_or(Seconds(0)).count();
+    needs.one_more = needs.mean_s * min_rate_hz_;
+    needs.busy += unknown * needs.one_more;
+    needs.active = drawing + unknown;
+    return needs;
+}
+
+double Admission::load(TimePoint now) const {
+    const Needs needs = this->needs(now);
+    return needs.busy + needs.one_more > 1 && needs.active > 0 ? 1
+           : needs.busy > 0                                    ? needs.busy / (1 - needs.one_more)
+                                                               : 0;
+}
+
+Result<void> Admission::check(TimePoint now) const {
+    const Needs needs = this->needs(now);
+    if (needs.active == 0 || needs.busy + needs.one_more <= 1) {
         return {};
     }
     return Error{ErrorCode::kCapacity,
-                 "the device is busy: " + numberText(active + unknown) + " active sessions need " +
-                     rounded(busy) + " of its time for " + rounded(min_rate_hz_) +
-                     " frames a second each, and one more at " + rounded(mean_s * 1e3) +
+                 "the device is busy: " + numberText(needs.active) + " active sessions need " +
+                     rounded(needs.busy) + " of its time for " + rounded(min_rate_hz_) +
+                     " frames a second each, and one more at " + rounded(needs.mean_s * 1e3) +
                      " ms a frame would pass 1; try again later"};
 }
 

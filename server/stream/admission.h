@@ -39,6 +39,9 @@ class Admission {
 
     // kCapacity, with the figures in one line, where one more session is too much.
     [[nodiscard]] Result<void> check(TimePoint now) const;
+    // What is taken of what may be let in: 0 where nobody needs anything, 1 where one more session
+    // is too much. 0 without a floor rate, too.
+    [[nodiscard]] double load(TimePoint now) const;
 
   private:
     struct Entry {
@@ -49,6 +52,14 @@ class Admission {
         uint32_t window_count = 0;
         uint32_t before_count = 0;
     };
+    // Of the device's time, 1 being all of it; at the floor rate.
+    struct Needs {
+        double busy = 0;     // by the sessions that are there
+        double one_more = 0; // by another one; 0: unknown
+        double mean_s = 0;   // a frame
+        uint32_t active = 0;
+    };
+    [[nodiscard]] Needs needs(TimePoint now) const;
     [[nodiscard]] static double rateOf(const Entry& entry, TimePoint now);
 
     double min_rate_hz_;

@@ -46,12 +46,13 @@ class ViewSource {
     virtual ~ViewSource() = default;
     // Whether begin() may be called: a readback slot is free, and no frame has pieces that wait.
     [[nodiscard]] virtual bool canBegin() const = 0;
-    // Builds and records a frame at `time_s` of the lights' clock; nothing runs yet. Errors:
-    // kCapacity when this size does not fit or the frame would take too long, and kUnsupported when
+    // Builds and records a frame at `time_s` of the lights' clock; nothing runs yet. `beside_bytes`
+    // is what encoding its pictures takes, of the same memory. Errors: kCapacity when this size
+    // does not fit or the frame would take too long, and kUnsupported when
     // the device cannot do what the settings ask for (earlier ones still work), kDevice when the
     // device is lost.
-    [[nodiscard]] virtual Result<FrameWork> begin(const view::ViewSettings& settings,
-                                                  double time_s) = 0;
+    [[nodiscard]] virtual Result<FrameWork>
+    begin(const view::ViewSettings& settings, double time_s, uint64_t beside_bytes) = 0;
     // Gives the device the next piece of the frame begun last. Errors: kDevice.
     [[nodiscard]] virtual Result<void> submitPiece() = 0;
     // Gives up the pieces that wait of the frame begun last. Those on the device are still to be

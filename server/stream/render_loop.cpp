@@ -65,6 +65,11 @@ void RenderLoop::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cos
     admission_.setMinRate(min_rate_hz, frame_cost);
 }
 
+double RenderLoop::load(TimePoint now) const {
+    const std::lock_guard lock(admission_mutex_);
+    return admission_.load(now);
+}
+
 void RenderLoop::update(SessionId id, const SessionState& state, TimePoint arrived) {
     mailbox_->update(id, state, arrived);
 }

@@ -60,6 +60,9 @@ class RenderLoop final : public session::StreamPort {
     // thread.
     void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
 
+    // Admission::load(). Any thread.
+    [[nodiscard]] double load(TimePoint now) const;
+
     // Waits for the frames under way; no sink is called after it. The port still answers.
     void stop();
 

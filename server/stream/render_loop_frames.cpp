@@ -1,4 +1,5 @@
 #include "core/text.h"
+#include "encode/memory.h"
 #include "session/render_scale.h"
 #include "stream/render_loop.h"
 
@@ -103,7 +104,8 @@ RenderLoop::beginWork(Viewer& viewer, const session::Delivered& with, TimePoint 
     }
     view::ViewSettings settings = viewer.state.settings;
     settings.size = session::scaled(settings.size, with.scale);
-    return viewer.source->begin(settings, viewer.state.light_clock.secondsAt(now));
+    return viewer.source->begin(settings, viewer.state.light_clock.secondsAt(now),
+                                encode::memoryBytes(with.encoding, settings.size));
 }
 
 void RenderLoop::submitPiece(Viewer& viewer) {

@@ -20,9 +20,10 @@ class RendererView final : public ViewSource {
 
     [[nodiscard]] bool canBegin() const override { return view_.canSubmit(); }
 
-    [[nodiscard]] Result<FrameWork> begin(const view::ViewSettings& settings,
-                                          double time_s) override {
-        const auto work = view_.begin({.settings = settings, .time_s = time_s});
+    [[nodiscard]] Result<FrameWork>
+    begin(const view::ViewSettings& settings, double time_s, uint64_t beside_bytes) override {
+        const auto work =
+            view_.begin({.settings = settings, .time_s = time_s, .beside_bytes = beside_bytes});
         if (!work) {
             return work.error();
         }
@@ -55,10 +56,12 @@ class RendererSource final : public FrameSource {
   public:
     RendererSource(std::unique_ptr<gpu::Device> device,
                    const scene::Scene& scene,
-                   Seconds frame_limit)
+                   Seconds frame_limit,
+                   const render::MemoryLimits& memory)
         : device_(std::move(device)),
-          renderer_(*device_, scene), limits_{frame_limit,
-                                              device_->traits().is_cpu ? kCpuPiece : kGpuPiece} {
+          renderer_(*device_, scene, memory), limits_{frame_limit, device_->traits().is_cpu
+                                                                       ? kCpuPiece
+                                                                       : kGpuPiece} {
         if (!scene.cameras.empty()) {
             const auto& camera = scene.cameras.front().camera;
             const auto scale = render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
@@ -92,8 +95,9 @@ class RendererSource final : public FrameSource {
 
 std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
                                                 const scene::Scene& scene,
-                                                Seconds frame_limit) {
-    return std::make_unique<RendererSource>(std::move(device), scene, frame_limit);
+                                                Seconds frame_limit,
+                                                const render::MemoryLimits& memory) {
+    return std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
 }
 
 } // namespace froxel::stream

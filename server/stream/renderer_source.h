@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/clock.h"
+#include "render/memory_budget.h"
 #include "stream/frame_source.h"
 
 #include <memory>
@@ -24,6 +25,7 @@ inline constexpr Seconds kGpuPiece{0.05};
 // must also end what comes back. Throws StartupError, vk::SystemError.
 [[nodiscard]] std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
                                                               const scene::Scene& scene,
-                                                              Seconds frame_limit);
+                                                              Seconds frame_limit,
+                                                              const render::MemoryLimits& memory);
 
 } // namespace froxel::stream

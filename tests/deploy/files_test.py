@@ -5,6 +5,7 @@ Manifests are those that `kubectl kustomize` renders, where there is a kubectl, 
 Kubernetes' API; what only a cluster knows is not tested.
 """
 
+import contextlib
 import copy
 import json
 import os
@@ -12,8 +13,10 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 import tomllib
 import unittest
+import urllib.request
 from pathlib import Path
 
 import yaml
@@ -32,10 +35,50 @@ def run(*command):
     return subprocess.run([*map(str, command)], check=True, capture_output=True, text=True).stdout
 
 
+def run_code(*command):
+    return subprocess.run([*map(str, command)], check=False, capture_output=True).returncode
+
+
 def seconds(text):
     """Of "30s", "1h" or a number, as proxies, systemd and compose write it."""
     number, unit = re.fullmatch(r"(\d+)(s|m|h|)", str(text)).groups()
     return int(number) * {"": 1, "s": 1, "m": 60, "h": 3600}[unit]
+
+
+def mebibytes(text):
+    """Of "3Gi", as Kubernetes writes it, or "3g", as compose does."""
+    number, unit = re.fullmatch(r"(\d+)([GgMm])i?", text).groups()
+    return int(number) * {"g": 1024, "m": 1}[unit.lower()]
+
+
+def defaulted(text):
+    """What compose makes of "${NAME:-value}" where NAME is not set."""
+    return re.sub(r"\$\{\w+:-([^}]*)\}", r"\1", str(text))
+
+
+# What a CPU server takes beside its sessions: the built-in scene on the device; and the process with
+# the scene on the host, compiled pipelines and encoders' scratch. MiB, see Sizing in deploy/README.md.
+SCENE_MIB = 128
+PROCESS_MIB = 512
+
+
+@contextlib.contextmanager
+def fresh_server():
+    """A server that nobody has come to yet, as the text of its /metrics."""
+    with subprocess.Popen([FROXEL, "serve", "--device", "cpu", "--port", "0", "--admin-bind",
+                           "127.0.0.1:0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          text=True) as server:
+        try:
+            server.stdout.readline()
+            admin = server.stdout.readline().strip()
+            deadline = time.monotonic() + 60
+            while run_code(FROXEL, "probe", admin.replace("/metrics", "/startupz")) != 0:
+                if time.monotonic() > deadline:
+                    raise TimeoutError("the server does not start")
+                time.sleep(0.1)
+            yield urllib.request.urlopen(admin, timeout=20).read().decode()
+        finally:
+            server.terminate()
 
 
 class Files(unittest.TestCase):
@@ -50,9 +93,13 @@ class Files(unittest.TestCase):
 
     def manifests(self, folder):
         if not shutil.which("kubectl"):
-            self.skipTest("kubectl is not here (Debian: kubernetes-client)")
-        text = run("kubectl", "kustomize", DEPLOY / "kubernetes" / folder)
-        return list(yaml.safe_load_all(text))
+            self.skipTest("kubectl is not here")
+        if "kustomizeVersion" not in run("kubectl", "version", "--client", "--output", "json"):
+            self.skipTest("this kubectl is older than 1.24 (Debian 12's) and knows no labels")
+        done = subprocess.run(["kubectl", "kustomize", DEPLOY / "kubernetes" / folder],
+                              check=True, capture_output=True, text=True)
+        self.assertEqual(done.stderr, "", "kustomize warns of what it will drop")
+        return list(yaml.safe_load_all(done.stdout))
 
     def kinds_of(self, folder):
         kinds = {}
@@ -168,6 +215,32 @@ class Files(unittest.TestCase):
                    if entry["metadata"]["name"] == backend["name"]]
         self.assertEqual(public["spec"]["ports"][0]["name"], backend["port"]["name"])
 
+    def assert_memory(self, what, limit, sessions, env):
+        """Sessions, each at its limit, and the scene fit into the share of a CPU server's memory
+        that they have."""
+        if env.get("FROXEL_DEVICE") == "gpu":
+            return  # most is the GPU's; the host's part has a limit of its own
+        service = self.service
+        session = int(env.get("FROXEL_SESSION_MEMORY", service["session_memory_mib"]["cpu"]))
+        self.assertLessEqual(sessions * session + SCENE_MIB,
+                             service["host_memory_share"] * mebibytes(limit), what)
+        self.assertGreaterEqual((1 - service["host_memory_share"]) * mebibytes(limit), PROCESS_MIB, what)
+
+    def test_memory_limits_hold_all_sessions(self):
+        for folder in ("overlays/cpu", "overlays/nvidia", "agones"):
+            kinds = self.kinds_of(folder)
+            template = kinds["Deployment"][0]["spec"]["template"] if "Deployment" in kinds \
+                else kinds["Fleet"][0]["spec"]["template"]["spec"]["template"]
+            container, = template["spec"]["containers"]
+            config = tomllib.loads(kinds["ConfigMap"][0]["data"]["froxel.toml"])
+            env = {entry["name"]: entry["value"] for entry in container["env"]}
+            sessions = int(env.get("FROXEL_MAX_SESSIONS", config["max-sessions"]))
+            self.assert_memory(folder, container["resources"]["limits"]["memory"], sessions, env)
+        froxel = yaml.safe_load((DEPLOY / "compose.yaml").read_text())["services"]["froxel"]
+        env = {name: defaulted(value) for name, value in froxel["environment"].items()}
+        self.assert_memory("compose", defaulted(froxel["mem_limit"]),
+                           int(env["FROXEL_MAX_SESSIONS"]), env)
+
     def check_pod(self, pod, config_map):
         """What every pod of ours has: nothing that it could misuse, and its configuration."""
         container, = pod["containers"]
@@ -265,6 +338,10 @@ class Files(unittest.TestCase):
         froxel = compose["services"]["froxel"]
         self.assert_variables(froxel["environment"])
         self.assertTrue(froxel["ports"][0].endswith(f":{self.service['port']}"))
+        for service in compose["services"].values():
+            self.assertIn("mem_limit", service)
+            for port in service.get("ports", []):
+                self.assertTrue(defaulted(port).startswith("127.0.0.1:"), port)
         self.assertEqual(froxel["expose"], [str(self.service["admin_port"])])
         self.assertGreater(seconds(froxel["stop_grace_period"]),
                            int(froxel["environment"]["FROXEL_DRAIN_SECONDS"]))
@@ -294,6 +371,38 @@ class Files(unittest.TestCase):
         readme = (DEPLOY / "README.md").read_text()
         for name in re.findall(r"alert: (\w+)", (folder / "alerts.yml").read_text()):
             self.assertIn(f"`{name}`", readme)
+
+    def test_alerts_watch_series_that_are_there_before_the_event(self):
+        with fresh_server() as text:
+            series = [(name, dict(re.findall(r'(\w+)="([^"]*)"', labels or "")))
+                      for name, labels in re.findall(r"^([a-z_]+)(?:\{(.*)\})? ", text, re.M)]
+        rules = yaml.safe_load((DEPLOY / "compose/alerts.yml").read_text())["groups"][0]["rules"]
+        tests = yaml.safe_load((DEPLOY / "compose/alerts_test.yml").read_text())["tests"]
+        watched = {rule["alert"]: rule["expr"] for rule in rules}
+        watched |= {f"test of {test['name']}": " ".join(
+            entry["series"] for entry in test["input_series"]) for test in tests}
+        for alert, expression in watched.items():
+            for name, labels in re.findall(r"\b((?:froxel|process)_\w+)\{([^}]*)\}", expression):
+                wanted = dict(re.findall(r'(\w+)="([^"]*)"', labels))
+                for given_by_prometheus in ("job", "instance"):
+                    wanted.pop(given_by_prometheus, None)
+                found = any(name == its_name and wanted.items() <= its_labels.items()
+                            for its_name, its_labels in series)
+                self.assertTrue(found, f"{alert}: a fresh server has no {name} with {wanted}")
+        # Every alert with a counter behind it has been seen to fire.
+        fired = {case["alertname"] for test in tests for case in test["alert_rule_test"]
+                 if case["exp_alerts"]}
+        self.assertLessEqual({"FroxelDown", "FroxelRestarts", "FroxelDeviceLost", "FroxelFull",
+                              "FroxelRefusesViewers", "FroxelWrongTokens"}, fired)
+
+    def test_autoscalers_use_metrics_that_the_adapter_gives(self):
+        readme = (DEPLOY / "README.md").read_text()
+        given = set(re.findall(r"name: \{as: (\w+)\}|seriesQuery: (froxel_device_load)\b", readme))
+        given = {name for pair in given for name in pair if name}
+        autoscaler = yaml.safe_load((DEPLOY / "kubernetes/base/autoscaler.yaml").read_text())
+        used = {metric["pods"]["metric"]["name"] for metric in autoscaler["spec"]["metrics"]}
+        self.assertIn("froxel_device_load", used)
+        self.assertLessEqual(used, given)
 
     def test_unit_leaves_time_to_drain(self):
         unit = (DEPLOY / "systemd/froxel.service").read_text()

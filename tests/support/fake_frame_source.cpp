@@ -75,7 +75,8 @@ class FakeView final : public stream::ViewSource {
     }
 
     [[nodiscard]] Result<stream::FrameWork> begin(const view::ViewSettings& settings,
-                                                  double /*time_s*/) override {
+                                                  double /*time_s*/,
+                                                  uint64_t /*beside_bytes*/) override {
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }

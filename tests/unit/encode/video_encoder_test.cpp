@@ -1,3 +1,4 @@
+#include "encode/memory.h"
 #include "encode/video_encoder.h"
 #include "unit/encode/picture.h"
 
@@ -6,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <malloc.h>
 #include <memory>
 #include <random>
 #include <vpx/vp8dx.h>
@@ -224,6 +226,27 @@ TEST(VideoEncoder, WhatCannotBeEncoded_IsRefusedAndStartsAnew) {
     const auto slow = encoder.encode(picture.view(), encoding(99), false, kStart + 2s);
     EXPECT_EQ(slow.error().message, "video_kbps is 99; it must be from 100 to 100000");
     EXPECT_TRUE(encoder.encode(picture.view(), encoding(1000), false, kStart + 3s).value().key);
+}
+
+// By what the allocator has handed out, which libvpx and its threads go through.
+TEST(VideoMemory, OfAnySize_IsNoMoreThanIsSaid) {
+    for (const auto chroma : {view::Chroma::k420, view::Chroma::k444}) {
+        for (const view::Size size : {view::Size{64, 64}, {640, 360}, {1280, 720}, {1920, 1080}}) {
+            const auto used = [] {
+                const auto heap = mallinfo2();
+                return heap.uordblks + heap.hblkhd;
+            };
+            const Picture picture = makePicture(size.width_px, size.height_px);
+            const size_t before = used();
+            VideoEncoder encoder(4);
+            for (int i = 0; i < 3; ++i) {
+                ASSERT_TRUE(encoder.encode(picture.view(), encoding(4000, chroma), false,
+                                           kStart + i * kFrameTime));
+            }
+            EXPECT_LE(used() - before, memoryBytes(encoding(4000, chroma), size))
+                << size.width_px << "x" << size.height_px;
+        }
+    }
 }
 
 } // namespace

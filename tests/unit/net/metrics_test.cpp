@@ -1,4 +1,5 @@
 #include "net/metrics.h"
+#include "protocol/limits.h"
 
 #include <gtest/gtest.h>
 
@@ -167,6 +168,43 @@ TEST(Metrics, Memory_IsWhatItIsAtEachScrape) {
     EXPECT_THAT(metrics.text(),
                 HasSubstr("froxel_device_memory_bytes{purpose=\"light lists\"} 9\n"));
     EXPECT_THAT(metrics.text(), Not(HasSubstr("textures")));
+}
+
+TEST(Metrics, EveryReason_HasARowFromTheStart) {
+    const std::string text = Metrics().text();
+    for (const auto code : protocol::kCloseCodes) {
+        EXPECT_THAT(text, HasSubstr("froxel_websocket_closes_total{code=\"" +
+                                    std::to_string(static_cast<unsigned>(code)) + "\"} 0\n"));
+    }
+    for (const auto code : session::kRejectCodes) {
+        EXPECT_THAT(text, HasSubstr("froxel_command_rejects_total{reason=\"" +
+                                    session::nameOf(code) + "\"} 0\n"));
+    }
+    EXPECT_THAT(text, HasSubstr("froxel_upgrades_refused_total{status=\"503\"} 0\n"));
+}
+
+TEST(Metrics, StartTime_IsInThePastAndStays) {
+    const auto startOf = [](const std::string& text) {
+        const std::string name = "\nprocess_start_time_seconds ";
+        return std::stod(text.substr(text.find(name) + name.size()));
+    };
+    const Metrics metrics;
+    const std::chrono::duration<double> now = std::chrono::system_clock::now().time_since_epoch();
+    const double start_s = startOf(metrics.text());
+    EXPECT_LE(start_s, now.count());
+    EXPECT_GT(start_s, now.count() - 24 * 3600);
+    EXPECT_EQ(startOf(metrics.text()), start_s);
+}
+
+TEST(Metrics, Load_IsWhatItIsAtEachScrape) {
+    Metrics metrics;
+    EXPECT_THAT(metrics.text(),
+                HasSubstr("# TYPE froxel_device_load gauge\nfroxel_device_load 0\n"));
+    double load = 0.25;
+    metrics.watchLoad([&load] { return load; });
+    EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_device_load 0.25\n"));
+    load = 1;
+    EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_device_load 1\n"));
 }
 
 } // namespace

@@ -196,5 +196,32 @@ TEST_F(AdmissionTest, MixedCosts_FillTheDeviceAndNotMore) {
     }
 }
 
+TEST_F(AdmissionTest, Load_IsOneWhereOneMoreIsTooMuchAndLessBefore) {
+    EXPECT_EQ(admission_.load(now_), 0);
+    add({1, 2, 3, 4, 5});
+    draw({1, 2, 3, 4, 5}, 40, 5ms, 5);
+    EXPECT_TRUE(admits());
+    EXPECT_NEAR(admission_.load(now_), 0.75 / 0.85, 0.01);
+    add({6});
+    draw({1, 2, 3, 4, 5, 6}, 33, 5ms, 5);
+    EXPECT_FALSE(admits());
+    EXPECT_EQ(admission_.load(now_), 1);
+}
+
+// It takes half of the device at the floor, and two would take more than all of it.
+TEST_F(AdmissionTest, LoneSessionThatLeavesNoRoom_IsFullLoad) {
+    add({1});
+    draw({1}, 30, 17ms, 5);
+    EXPECT_FALSE(admits());
+    EXPECT_EQ(admission_.load(now_), 1);
+}
+
+TEST_F(AdmissionTest, IdleSessions_AreNoLoad) {
+    add({1});
+    draw({1}, 30, 5ms, 5);
+    now_ += 2 * std::chrono::duration_cast<Clock::duration>(Admission::kWindow);
+    EXPECT_EQ(admission_.load(now_), 0);
+}
+
 } // namespace
 } // namespace froxel::stream

@@ -1,0 +1,39 @@
+// How much memory a server lets its sessions take: by options, or by the device and the host.
+#pragma once
+
+#include "render/memory_budget.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace froxel::gpu {
+class Device;
+}
+
+namespace froxel::app {
+
+// Of a session, MiB. A CPU device's is host memory, which containers limit.
+inline constexpr uint32_t kCpuSessionMemory_mib = 256;
+inline constexpr uint32_t kGpuSessionMemory_mib = 2048;
+// Of the host's memory, which is a CPU device's, too; the rest is for the process itself: the scene
+// on the host, compiled pipelines, encoders' scratch.
+inline constexpr double kHostMemoryShare = 0.75;
+// Of what a GPU has for this process; drivers round up, and take some for themselves.
+inline constexpr double kGpuMemoryShare = 0.8;
+
+// What this process may take of the host's memory: all of it, or less where a control group of it
+// (version 2 or 1) says so. `root` is where /proc and /sys are; none where nothing can be read.
+[[nodiscard]] std::optional<uint64_t> hostMemoryBytes(const std::filesystem::path& root = "/");
+
+struct MemoryOptions {
+    std::optional<uint32_t> device_mib;
+    std::optional<uint32_t> session_mib;
+};
+
+// Of a session on either kind of device: as asked for, or the default.
+[[nodiscard]] uint64_t sessionMemoryBytes(const MemoryOptions& options, bool device_is_cpu);
+[[nodiscard]] render::MemoryLimits memoryLimits(const MemoryOptions& options,
+                                                const gpu::Device& device);
+
+} // namespace froxel::app
