@@ -56,6 +56,6 @@ for entry in "${scenes[@]}"; do
 done
 if [ -n "${FROXEL_HOSTILE_PYTHON:-}" ]; then
     "$FROXEL_HOSTILE_PYTHON" "$(dirname "$0")/../hostile/hostile.py" "$froxel" --out "$out/hostile.json" \
-        -- --device gpu || failures=$((failures + 1))
+        -- --device gpu --size 1280x720 --lights 1000 || failures=$((failures + 1))
 fi
 exit "$((failures > 0))"

@@ -20,8 +20,8 @@ sys.path.insert(0, str(cases.HERE.parents[0] / "load"))
 from server import split_arguments
 
 ATTEMPTS = 3
-# Few enough pixels and lights that a software device draws it fluently.
-SERVE = ["--size", "320x180", "--lights", "50"]
+# Few enough pixels and lights that a software device draws it fluently; unless others are asked for.
+SERVE = {"--size": "320x180", "--lights": "50"}
 # Heading, its width, and figures: alone, then beside hostile viewers.
 COLUMNS = [("frames/s", 14, "{alone_fps:.1f} {fps:.1f}"), ("kept", 6, "{kept:.0%}"),
            ("gap, s", 12, "{alone_gap_s:.2f} {gap_s:.2f}"),
@@ -72,7 +72,8 @@ def main():
             print(f"{case.group}.{case.name}: {(case.attack.__doc__ or '').splitlines()[0]}")
         return 0
     print(" " * 22 + "".join(f"{name:>{width}}" for name, width, _ in COLUMNS), flush=True)
-    results = [play(case, options.froxel, [*SERVE, *serve]) for case in selected]
+    defaults = [word for name, value in SERVE.items() if name not in serve for word in (name, value)]
+    results = [play(case, options.froxel, [*defaults, *serve]) for case in selected]
     if options.out:
         options.out.write_text(json.dumps(results, indent=1) + "\n")
     failed = [result["case"] for result in results if not result["holds"]]
