@@ -21,6 +21,10 @@ class FrameMaker {
 
     using Slots = std::vector<std::unique_ptr<FrameSlot>>;
 
+    ~FrameMaker() { scene_.variants.forget(this); }
+    FrameMaker(const FrameMaker&) = delete;
+    FrameMaker& operator=(const FrameMaker&) = delete;
+
     // Builds a frame and records its pieces into a free slot, one of `slots`, which are all of the
     // view's; it is in flight from then on; or not yet, where variants that it needs are still
     // being made: false. Errors: kCapacity, kUnsupported. Throws vk::SystemError.

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace froxel::render {
 
@@ -51,11 +52,16 @@ class VariantCache {
             keep(key, make());
             return true;
         }
-        const auto asked = asked_.find(key);
+        auto asked = asked_.find(key);
+        if (asked != asked_.end() && asked->second->dropped) {
+            asked_.erase(asked);
+            asked = asked_.end();
+        }
         if (asked == asked_.end()) {
-            auto making = std::make_shared<Making>();
+            const auto making = std::make_shared<Making>();
             asked_.emplace(key, making);
-            maker_.post([making, make] { making->run(make); });
+            maker_.post(
+                [order = std::make_shared<Order>(making), make] { order->making->run(make); });
             return false;
         }
         if (!asked->second->done) {
@@ -89,6 +95,7 @@ class VariantCache {
         std::optional<Pipeline> pipeline;
         std::exception_ptr error;
         std::atomic<bool> done = false;
+        std::atomic<bool> dropped = false; // nobody will make it
 
         template <class Make>
         void run(const Make& make) {
@@ -99,6 +106,15 @@ class VariantCache {
             }
             done = true;
         }
+    };
+
+    // Goes with the work that was posted, done or not.
+    struct Order {
+        explicit Order(std::shared_ptr<Making> of) : making(std::move(of)) {}
+        ~Order() { making->dropped = !making->done; }
+        Order(const Order&) = delete;
+        Order& operator=(const Order&) = delete;
+        const std::shared_ptr<Making> making;
     };
 
     // As if it were used by the next submission, for which it is meant.

@@ -36,6 +36,17 @@ void VariantMaker::post(std::function<void()> make) {
     wake_.notify_one();
 }
 
+void VariantMaker::forget(const void* asker) {
+    std::deque<std::function<void()>> dropped; // ends without the lock
+    const std::lock_guard lock(mutex_);
+    if (const auto queue = queues_.find(asker); queue != queues_.end()) {
+        dropped.swap(queue->second);
+        if (asker != under_way_) {
+            queues_.erase(queue);
+        }
+    }
+}
+
 // One of each asker's at a time, so that who needs few does not wait for who needs many.
 void VariantMaker::run(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
@@ -45,11 +56,13 @@ void VariantMaker::run(const std::stop_token& stop) {
             next = queues_.begin();
         }
         last_ = next->first;
-        const auto make = std::move(next->second.front());
+        auto make = std::move(next->second.front());
         next->second.pop_front();
+        under_way_ = last_;
         lock.unlock();
         make();
         lock.lock();
+        under_way_ = nullptr;
         if (const auto queue = queues_.find(last_); queue->second.empty()) {
             queues_.erase(queue);
         }

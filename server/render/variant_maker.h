@@ -36,6 +36,8 @@ class VariantMaker {
     [[nodiscard]] bool busyFor(const void* asker) const;
     // Runs `make` on the thread; it must not throw.
     void post(std::function<void()> make);
+    // The asker is gone: what was not begun for it is dropped.
+    void forget(const void* asker);
 
     // A variant is recorded for the first time: a software device compiles it when it draws.
     void noteFirstUse(bool& used) { first_uses_.push_back(&used); }
@@ -60,6 +62,7 @@ class VariantMaker {
     std::condition_variable_any wake_;
     std::map<const void*, std::deque<std::function<void()>>> queues_; // empty: one is under way
     const void* last_ = nullptr;                                      // whose turn it was
+    const void* under_way_ = nullptr;                                 // whose work is being done
     std::jthread thread_;
 };
 

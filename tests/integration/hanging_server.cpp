@@ -21,7 +21,8 @@ class HangingView final : public stream::ViewSource {
 
     [[nodiscard]] bool canBegin() const override { return true; }
     [[nodiscard]] Result<stream::FrameWork> begin(const view::ViewSettings& /*settings*/,
-                                                  double /*time_s*/) override {
+                                                  double /*time_s*/,
+                                                  uint64_t /*beside_bytes*/) override {
         return stream::FrameWork{Seconds(0), 2};
     }
     [[nodiscard]] Result<void> submitPiece() override { return {}; }

@@ -84,6 +84,30 @@ TEST(VariantMaker, WhoNeedsFew_DoesNotWaitForWhoNeedsMany) {
     EXPECT_EQ(order.size(), 5U);
 }
 
+TEST(VariantMaker, WhatAnAskerThatIsGoneWanted_IsDropped_AndMadeForTheNext) {
+    const NoTimeline timeline;
+    VariantMaker maker;
+    Cache cache(timeline, maker, 4);
+    std::promise<void> open;
+    auto opened = open.get_future().share();
+    const int gone = 0;
+    const int next = 0;
+    maker.start(0);
+    maker.setAsker(&gone);
+    maker.post([opened] { opened.wait(); });
+    std::atomic<int> made = 0;
+    const auto make = [&] { return ++made; };
+    EXPECT_FALSE(cache.prepare(1, make));
+    maker.forget(&gone);
+    maker.setAsker(&next);
+    EXPECT_FALSE(cache.prepare(1, make));
+    open.set_value();
+    waitFor(maker, &gone);
+    waitFor(maker, &next);
+    EXPECT_TRUE(cache.prepare(1, make));
+    EXPECT_EQ(made, 1);
+}
+
 TEST(VariantMaker, FirstUses_OfARecordingThatCameToNothing_AreStillToCome) {
     const NoTimeline timeline;
     VariantMaker maker;
