@@ -16,7 +16,10 @@ class LightSetFile : public testing::Test {
         std::ofstream(path_) << text;
         return path_;
     }
-    const std::string path_ = testing::TempDir() + "options_test_lights.json";
+    // Tests run side by side.
+    const std::string path_ = testing::TempDir() + "lights_" +
+                              testing::UnitTest::GetInstance()->current_test_info()->name() +
+                              ".json";
 };
 
 TEST_F(LightSetFile, OfEveryCommandThatDraws_IsRead) {
