@@ -65,6 +65,7 @@ int serve(std::chrono::milliseconds wait, std::chrono::milliseconds watchdog) {
     LatestSlot<Error> failure;
     app::ServeRunOptions options;
     options.server.admin = {"127.0.0.1", 0};
+    options.server.lobby.sessions_max = 4;
     options.open = [&](const auto& /*report*/) {
         session::SessionContext context;
         context.scene.name = "fake";

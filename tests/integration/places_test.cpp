@@ -81,7 +81,8 @@ TEST(Places, Full_IsToldBeforeTheUpgrade_ButNotToWhoComesBackOrJoinsARoom) {
     const std::string answer =
         httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
                                     "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+                                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+                                    "Sec-WebSocket-Protocol: froxel.v1\r\n\r\n");
     EXPECT_EQ(statusOf(answer), 503);
     EXPECT_NE(answer.find("Retry-After: 5\r\n"), std::string::npos) << answer;
     EXPECT_EQ(bodyOf(answer), "all 2 sessions of this server are taken; try again later\n");
