@@ -60,7 +60,7 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
     command.number("--seconds", options.seconds, kSecondsRange, "How long to measure");
     command.value("--script", "NAME|FILE", options.script, parseScript, options.script,
                   "orbit: the camera circles, 60 commands a second; idle: nothing; storm: every "
-                  "setting there is, 200 a second; or a FILE.jsonl");
+                  "setting over its whole range, 200 a second; or a FILE.jsonl");
     command.number("--ramp", options.ramp_s, kRampRange, "Seconds over which viewers join");
     command.value("--room", "NAME", options.room, parseRoom, "a session each",
                   "Room that all viewers share; the first one there controls, the others watch "

@@ -55,7 +55,9 @@ ViewerResult pool(const RunResult& result) {
                 sum.addSize(*size);
             }
         }
-        sum.refusals += one.refusals;
+        for (const auto& [code, count] : one.refusals) {
+            sum.refusals[code] += count;
+        }
         sum.refusal = sum.refusal ? sum.refusal : one.refusal;
         all.received_bytes += viewer.received_bytes;
         all.sent_bytes += viewer.sent_bytes;
@@ -126,12 +128,24 @@ Json servedOf(const RunResult& result) {
     return all;
 }
 
+uint64_t refusalCount(const Measured& measured) {
+    uint64_t count = 0;
+    for (const auto& [code, of_code] : measured.refusals) {
+        count += of_code;
+    }
+    return count;
+}
+
 Json figuresOf(const ViewerResult& viewer) {
     const Measured& measured = viewer.measured;
     const load::Samples& samples = measured.samples;
     Json stages = Json::object();
     for (size_t stage = 0; stage < load::kStageNames.size(); ++stage) {
         stages[std::string(load::kStageNames[stage])] = summaryOf(samples.stage_ms[stage]);
+    }
+    Json by_code = Json::object();
+    for (const auto& [code, count] : measured.refusals) {
+        by_code[v1::ErrorCode_Name(code)] = count;
     }
     const Json intervals = summaryOf(samples.interval_ms);
     return {{"frames", measured.frames},
@@ -158,7 +172,8 @@ Json figuresOf(const ViewerResult& viewer) {
             {"commands", measured.commands},
             {"commands_skipped", measured.commands_skipped},
             {"commands_unshown", measured.commands_unshown},
-            {"refusals", measured.refusals},
+            {"refusals", refusalCount(measured)},
+            {"refusals_by_code", std::move(by_code)},
             {"refusal", orNull(measured.refusal)}};
 }
 
@@ -182,7 +197,7 @@ std::string rowOf(const std::string& name, const ViewerResult& viewer) {
         shown(samples.latency_ms, &Summary::p95), shown(samples.latency_ms, &Summary::p99),
         shown(samples.reaction_ms, &Summary::median), shown(samples.reaction_ms, &Summary::p95),
         shown(samples.age_ms, &Summary::p99), jitter, byteRate(viewer) * 8 / 1e6,
-        measured.server_dropped + measured.client_dropped, measured.refusals);
+        measured.server_dropped + measured.client_dropped, refusalCount(measured));
 }
 
 std::string stagesLine(const ViewerResult& all) {

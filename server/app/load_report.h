@@ -39,7 +39,8 @@
 //   client_dropped    frames that a newer one overtook before they were painted
 //   commands, commands_skipped   skipped: cameras not sent, since others waited for the socket
 //   commands_unshown  of both, those that no frame showed until the end
-//   refusals, refusal            Error messages; the first one's text or null
+//   refusals, refusals_by_code, refusal   Error messages, {ErrorCode: count} of them, and the first
+//                     one's text or null
 //
 // Each *_ms is {count, min, median, p95, p99, max, mean} in milliseconds, nearest ranks
 // (measure/statistics.h), or null without a sample.

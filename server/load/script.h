@@ -32,7 +32,8 @@ struct Idle {};
 // The camera circles about its target once in kOrbitPeriod, kOrbitRate commands a second.
 struct Orbit {};
 // Every command of the protocol that sets the view, and Ping, in turn, kStormRate a second, each
-// with random values that the server says it takes; the same ones in every run.
+// with random values over the whole of what the server says it takes, often the least or the most;
+// the same ones in every run. Much of it costs too much and is refused as that.
 struct Storm {};
 // From a file; played once.
 using Recording = std::shared_ptr<const std::vector<Step>>;

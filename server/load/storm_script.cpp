@@ -2,196 +2,210 @@
 
 #include "load/orbit_script.h"
 
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace froxel::load {
 namespace {
 
-constexpr uint32_t kLeastSide = 16;      // pixels
-constexpr uint32_t kMostGridSide = 32;   // larger grids would only take memory
-constexpr uint32_t kMostGridSlices = 64; // likewise
-constexpr uint32_t kKinds = 19;          // of commands
-constexpr uint32_t kPlacedIds = 8;       // of lights that come and go
+using Turn = v1::ClientMessage::BodyCase;
+constexpr auto kAll = RandomValues::Fields::kAll;
+constexpr auto kSome = RandomValues::Fields::kSome;
+
+constexpr uint32_t kPlacedIds = 200;   // of lights that come and go
+constexpr uint32_t kPlacedAtOnce = 16; // at most
+constexpr uint32_t kSeeds = 1000;
+constexpr uint32_t kMostRampPoints = 8;
+
+// Every command but those about rooms and pausing, and PickLight, which is refused where no light
+// is.
+constexpr std::array kTurns = {
+    Turn::kSetRenderer,     Turn::kSetCamera,
+    Turn::kSetLights,       Turn::kSetGrid,
+    Turn::kSetExposure,     Turn::kSetCamera,
+    Turn::kSetToon,         Turn::kSetSize,
+    Turn::kSetEncoding,     Turn::kPing,
+    Turn::kSetDelivery,     Turn::kSelectSceneCamera,
+    Turn::kSetPost,         Turn::kRequestKeyFrame,
+    Turn::kSetDebugView,    Turn::kSetShadows,
+    Turn::kSetFog,          Turn::kSetTransparency,
+    Turn::kSetPlacedLights,
+};
+
+v1::Vec3 vec(double x, double y, double z) {
+    v1::Vec3 made;
+    made.set_x(x);
+    made.set_y(y);
+    made.set_z(z);
+    return made;
+}
 
 } // namespace
 
 StormScript::StormScript(const v1::Welcome& welcome, uint32_t viewer)
     : start_(welcome.state()),
       cameras_(welcome.scene().cameras().begin(), welcome.scene().cameras().end()),
-      random_(viewer) {}
+      values_(welcome, viewer) {}
 
-uint32_t StormScript::whole(uint32_t from, uint32_t to) {
-    return std::uniform_int_distribution<uint32_t>(from, std::max(from, to))(random_);
+v1::Vec3 StormScript::color(const std::string& range) {
+    const double red = values_.within(range);
+    const double green = values_.within(range);
+    return vec(red, green, values_.within(range));
 }
 
-double StormScript::real(double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(random_);
-}
-
-// From 1, since 0 is UNSPECIFIED everywhere.
-template <class Enum>
-Enum StormScript::named(Enum last) {
-    return static_cast<Enum>(whole(1, static_cast<uint32_t>(last)));
-}
-
-void StormScript::fillRenderer(v1::SetRenderer& command) {
-    command.set_renderer(named(v1::RENDERER_TOON_COMPUTE));
-    command.set_lighting(v1::LIGHTING_STAGE_AUTO);
-    command.set_shading(named(v1::SHADING_MODEL_LAMBERT));
-    command.mutable_gbuffer()->set_normal(named(v1::NORMAL_ENCODING_SPHEREMAP16));
-    command.mutable_gbuffer()->set_position(named(v1::POSITION_SOURCE_FP16));
+void StormScript::fillCamera(v1::SetCamera& command) {
+    command = orbitPose(start_, values_.real(0, 2 * std::numbers::pi));
+    if (values_.once(4)) { // from somewhere, as far ahead as may be
+        *command.mutable_eye() = values_.place();
+        *command.mutable_target() = command.eye();
+        const double ahead = std::max(1.0, values_.within("focus") / 16);
+        const double x = command.eye().x();
+        command.mutable_target()->set_x(x < 0 ? x + ahead : x - ahead);
+    }
+    if (values_.once(4)) {
+        *command.mutable_up() = vec(values_.real(-1, 1), 1, values_.real(-1, 1));
+    }
+    command.clear_fov_deg();
+    command.clear_half_height_m();
+    if (values_.once(8)) {
+        command.set_half_height_m(values_.within("half_height"));
+    } else {
+        command.set_fov_deg(values_.once(2) ? start_.fov_deg() : values_.within("fov_deg"));
+    }
+    v1::Vec2& shift = *command.mutable_lens_shift();
+    if (values_.once(8)) {
+        shift.set_x(values_.within("lens_shift.x"));
+        shift.set_y(values_.within("lens_shift.y"));
+    }
 }
 
 void StormScript::fillLights(v1::SetLights& command) {
-    command.set_count(whole(0, 2 * start_.light_count()));
-    command.set_radius_m(start_.light_radius_m() * real(0.5, 1.5));
-    command.set_intensity(real(0, 4));
-    command.set_seed(whole(0, 1000));
-    command.set_speed(real(0, 4));
-    command.set_animate(whole(0, 3) > 0);
-    command.set_light_loop(named(v1::LIGHT_LOOP_ALL_LIGHTS));
-    command.set_count_pairs(whole(0, 3) == 0);
+    values_.fill(command, kSome);
+    command.set_seed(values_.once(2) ? values_.whole(0, kSeeds) : values_.whole(0, UINT32_MAX));
+    command.clear_clear_box();
+    if (command.has_box()) {
+        fillBox(*command.mutable_box());
+    } else {
+        command.set_clear_box(values_.once(2));
+    }
+}
+
+// Grows to hold a place.
+void StormScript::fillBox(v1::Box& box) {
+    box = start_.light_box();
+    const v1::Vec3 held = values_.place();
+    v1::Vec3& least = *box.mutable_min();
+    least = vec(std::min(least.x(), held.x()), std::min(least.y(), held.y()),
+                std::min(least.z(), held.z()));
+    v1::Vec3& most = *box.mutable_max();
+    most = vec(std::max(most.x(), held.x()), std::max(most.y(), held.y()),
+               std::max(most.z(), held.z()));
 }
 
 void StormScript::fillGrid(v1::SetGrid& command) {
-    if (whole(0, 1) == 0) {
-        command.set_automatic(true);
-    } else {
-        command.mutable_grid()->set_x(whole(1, kMostGridSide));
-        command.mutable_grid()->set_y(whole(1, kMostGridSide));
-        command.mutable_grid()->set_z(whole(1, kMostGridSlices));
+    values_.fill(command, kAll);
+    if (command.automatic()) {
+        command.clear_grid();
     }
-    command.set_law(named(v1::GRID_LAW_HYPERBOLIC));
-}
-
-void StormScript::fillToon(v1::SetToon& command) {
-    const uint32_t count = whole(2, 8);
-    for (uint32_t index = 0; index < count; ++index) {
-        auto& point = *command.mutable_fragment()->add_points();
-        point.set_x((index + real(0, 0.9)) / count);
-        point.set_y(real(0, 1));
-        point.set_slope(real(-2, 2));
-    }
-}
-
-void StormScript::fillPost(v1::SetPost& command) {
-    command.set_bloom(named(v1::BLOOM_KIND_MIP_CHAIN));
-    command.set_bloom_threshold(real(0, 4));
-    command.set_bloom_radius(real(0.001, 0.02));
-    command.set_antialiasing(named(v1::ANTIALIASING_SSAA4));
-}
-
-void StormScript::fillPlacedLights(v1::PlacedLights& command) {
-    command.set_clear(whole(0, 3) == 0);
-    v1::PlacedLight& light = *command.add_lights();
-    light.set_id(whole(1, kPlacedIds));
-    light.set_kind(named(v1::LIGHT_KIND_SPOT));
-    const v1::Box& box = start_.light_box();
-    light.mutable_position()->set_x(real(box.min().x(), box.max().x()));
-    light.mutable_position()->set_y(real(box.min().y(), box.max().y()));
-    light.mutable_position()->set_z(real(box.min().z(), box.max().z()));
-    light.mutable_color()->set_x(real(0, 1));
-    light.set_radius_m(start_.light_radius_m() * real(0.5, 4));
 }
 
 void StormScript::fillFog(v1::Fog& fog) {
-    fog.set_density(whole(0, 1) == 0 ? 0 : real(0, 0.3));
-    fog.set_height_falloff(real(0, 1));
-    fog.set_anisotropy(real(-0.9, 0.9));
-    fog.set_tile(whole(8, 64));
-    fog.set_slices(whole(8, 64));
-    fog.set_half_rate(whole(0, 1) == 0);
-    fog.set_noise(whole(0, 1) == 0);
+    values_.fill(fog, kSome);
+    *fog.mutable_albedo() = color("fog_albedo");
+    if (values_.once(4)) {
+        fog.set_density(0);
+    }
 }
 
-void StormScript::fillShadows(v1::SetShadows& command) {
-    command.set_lights(whole(0, 2));
-    command.set_size(whole(64, 128));
+// What every client decodes, and the video that this one said it does.
+void StormScript::fillEncoding(v1::SetEncoding& command) {
+    values_.fill(command, kSome);
+    command.set_codec(values_.once(2) ? v1::CODEC_JPEG : v1::CODEC_VP9);
 }
 
-void StormScript::fillSize(v1::SetSize& command) {
-    command.set_width(whole(kLeastSide, start_.width()));
-    command.set_height(whole(kLeastSide, start_.height()));
+void StormScript::fillToon(v1::SetToon& command) {
+    values_.fill(command, kSome);
+    for (v1::ToonRamp* ramp : {command.mutable_fragment(), command.mutable_compute()}) {
+        const uint32_t count = values_.whole(2, kMostRampPoints);
+        for (uint32_t index = 0; index < count; ++index) {
+            v1::ToonRamp::Point& point = *ramp->add_points();
+            point.set_x((index + values_.real(0, 0.9)) / count);
+            point.set_y(values_.within("toon"));
+            point.set_slope(values_.within("toon.slope"));
+        }
+    }
+}
+
+void StormScript::fillPlacedLights(v1::PlacedLights& command) {
+    command.set_clear(values_.once(8));
+    const uint32_t first = values_.whole(1, kPlacedIds);
+    const uint32_t count = values_.whole(1, kPlacedAtOnce);
+    for (uint32_t id = first; id < first + count; ++id) {
+        v1::PlacedLight& light = *command.add_lights();
+        values_.fill(light, kAll);
+        light.set_id(id);
+        *light.mutable_position() = values_.place();
+        *light.mutable_direction() = vec(values_.real(-1, 1), -1, values_.real(-1, 1));
+        *light.mutable_color() = color("lights.color");
+        light.set_inner_cone_deg(light.outer_cone_deg() * values_.real(0, 1));
+        light.set_radius_m(std::max(light.radius_m(), light.width_m() + light.height_m()));
+        if (values_.once(2)) {
+            light.set_replaces_seeded(id);
+        } else if (values_.once(2)) {
+            light.set_replaces_scene(id);
+        }
+    }
+}
+
+// The others need nothing but values in their ranges, and one of their fields at least.
+void StormScript::fillOther(v1::ClientMessage& message, int number) {
+    const auto& field = *message.GetDescriptor()->FindFieldByNumber(number);
+    auto& command = *message.GetReflection()->MutableMessage(&message, &field);
+    values_.fill(command, kSome);
+    if (command.ByteSizeLong() == 0) {
+        values_.fill(command, kAll);
+    }
+}
+
+void StormScript::fillCommand(v1::ClientMessage& message) {
+    const Turn turn = kTurns[count_ % kTurns.size()];
+    switch (turn) {
+    case Turn::kSelectSceneCamera:
+        if (!cameras_.empty()) {
+            const auto last = static_cast<uint32_t>(cameras_.size()) - 1;
+            message.mutable_select_scene_camera()->set_name(cameras_[values_.whole(0, last)]);
+            return;
+        }
+        [[fallthrough]];
+    case Turn::kSetCamera:
+        return fillCamera(*message.mutable_set_camera());
+    case Turn::kSetLights:
+        return fillLights(*message.mutable_set_lights());
+    case Turn::kSetGrid:
+        return fillGrid(*message.mutable_set_grid());
+    case Turn::kSetFog:
+        return fillFog(*message.mutable_set_fog()->mutable_fog());
+    case Turn::kSetToon:
+        return fillToon(*message.mutable_set_toon());
+    case Turn::kSetEncoding:
+        return fillEncoding(*message.mutable_set_encoding());
+    case Turn::kSetPlacedLights:
+        return fillPlacedLights(*message.mutable_set_placed_lights());
+    default:
+        fillOther(message, turn);
+    }
 }
 
 std::optional<Step> StormScript::next() {
     Step step;
     step.at = std::chrono::duration_cast<Clock::duration>(
         Seconds(static_cast<double>(count_) / kStormRate));
-    v1::ClientMessage& message = step.message;
-    switch (count_++ % kKinds) {
-    case 0:
-        fillRenderer(*message.mutable_set_renderer());
-        break;
-    case 1:
-        fillLights(*message.mutable_set_lights());
-        break;
-    case 2:
-        fillGrid(*message.mutable_set_grid());
-        break;
-    case 3:
-        message.mutable_set_exposure()->set_exposure(real(0.1, 4));
-        message.mutable_set_exposure()->set_tone_map(named(v1::TONE_MAP_CLAMP));
-        break;
-    case 4:
-        fillToon(*message.mutable_set_toon());
-        break;
-    case 5:
-        fillSize(*message.mutable_set_size());
-        break;
-    case 6:
-        message.mutable_set_encoding()->set_quality(whole(1, 100));
-        message.mutable_set_encoding()->set_chroma(named(v1::CHROMA_444));
-        message.mutable_set_encoding()->set_codec(whole(0, 1) == 0 ? v1::CODEC_JPEG
-                                                                   : v1::CODEC_VP9);
-        message.mutable_set_encoding()->set_video_kbps(whole(200, 20'000));
-        break;
-    case 7:
-        message.mutable_ping();
-        break;
-    case 8:
-        message.mutable_request_key_frame();
-        break;
-    case 13:
-        // No raw G-buffer: forward renderers have none.
-        message.mutable_set_debug_view()->set_view(
-            whole(0, 1) == 0 ? v1::DEBUG_VIEW_NONE
-                             : static_cast<v1::DebugView>(whole(v1::DEBUG_VIEW_CLUSTER_SLICES,
-                                                                v1::DEBUG_VIEW_CLUSTER_WIRES)));
-        message.mutable_set_debug_view()->set_freeze(whole(0, 1) == 0);
-        break;
-    case 14:
-        fillPost(*message.mutable_set_post());
-        break;
-    case 15:
-        message.mutable_set_transparency()->set_transparency(named(v1::TRANSPARENCY_PEELED));
-        message.mutable_set_transparency()->set_peel_layers(whole(1, 16));
-        break;
-    case 16:
-        fillPlacedLights(*message.mutable_set_placed_lights());
-        break;
-    case 17:
-        fillFog(*message.mutable_set_fog()->mutable_fog());
-        break;
-    case 18:
-        fillShadows(*message.mutable_set_shadows());
-        break;
-    case 9:
-        message.mutable_set_delivery()->set_adaptive(whole(0, 1) == 0);
-        message.mutable_set_delivery()->set_target_fps(whole(0, 60));
-        message.mutable_set_delivery()->set_refine(named(v1::REFINE_LOSSLESS));
-        break;
-    case 10:
-        if (!cameras_.empty()) {
-            const uint32_t last = static_cast<uint32_t>(cameras_.size()) - 1;
-            message.mutable_select_scene_camera()->set_name(cameras_[whole(0, last)]);
-            break;
-        }
-        [[fallthrough]];
-    default:
-        *message.mutable_set_camera() = orbitPose(start_, real(0, 2 * std::numbers::pi));
-    }
+    fillCommand(step.message);
+    ++count_;
     return step;
 }
 

@@ -1,9 +1,9 @@
-// Every command that the protocol has, as fast as nobody's hands are.
+// Every setting that the protocol has, over the whole of what the server takes, faster than
+// anyone's hands are.
 #pragma once
 
+#include "load/random_values.h"
 #include "load/script.h"
-
-#include <random>
 
 namespace froxel::load {
 
@@ -14,24 +14,22 @@ class StormScript final : public Script {
     [[nodiscard]] std::optional<Step> next() override;
 
   private:
-    // Both ends included.
-    [[nodiscard]] uint32_t whole(uint32_t from, uint32_t to);
-    [[nodiscard]] double real(double from, double to);
-    template <class Enum>
-    [[nodiscard]] Enum named(Enum last);
-    void fillRenderer(v1::SetRenderer& command);
+    [[nodiscard]] v1::Vec3 color(const std::string& range);
+    // Those whose fields have to do with one another.
+    void fillCamera(v1::SetCamera& command);
     void fillLights(v1::SetLights& command);
+    void fillBox(v1::Box& box);
     void fillGrid(v1::SetGrid& command);
-    void fillToon(v1::SetToon& command);
-    void fillPost(v1::SetPost& command);
-    void fillPlacedLights(v1::PlacedLights& command);
     void fillFog(v1::Fog& fog);
-    void fillShadows(v1::SetShadows& command);
-    void fillSize(v1::SetSize& command);
+    void fillEncoding(v1::SetEncoding& command);
+    void fillToon(v1::SetToon& command);
+    void fillPlacedLights(v1::PlacedLights& command);
+    void fillOther(v1::ClientMessage& message, int number);
+    void fillCommand(v1::ClientMessage& message);
 
     const v1::ViewState start_;
     std::vector<std::string> cameras_;
-    std::mt19937 random_;
+    RandomValues values_;
     uint64_t count_ = 0;
 };
 

@@ -217,7 +217,7 @@ void ViewerMeter::onRefusal(const v1::Error& error) {
         unseen_.erase(std::next(refused).base());
     }
     if (counting_) {
-        ++measured_.refusals;
+        ++measured_.refusals[error.code()];
         if (!measured_.refusal) {
             measured_.refusal = printable(error.message(), 200);
         }

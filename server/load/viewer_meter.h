@@ -33,6 +33,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,15 +70,15 @@ struct Measured {
     Samples samples; // age_ms from end() on
     double seconds = 0;
     uint64_t frames = 0;
-    uint64_t frame_bytes = 0;            // encoded pictures and their headers
-    uint64_t server_dropped = 0;         // replaced by newer ones before sending
-    uint64_t client_dropped = 0;         // arrived, and never painted
-    uint64_t commands = 0;               // sent, but acknowledgements
-    uint64_t commands_skipped = 0;       // cameras not sent since others waited for the socket
-    uint64_t commands_unshown = 0;       // sent or skipped, and shown by no frame until the end
-    uint64_t refusals = 0;               // Error messages
-    std::optional<std::string> refusal;  // the first one's text, made printable
-    std::optional<PictureSize> smallest; // of the frames
+    uint64_t frame_bytes = 0;      // encoded pictures and their headers
+    uint64_t server_dropped = 0;   // replaced by newer ones before sending
+    uint64_t client_dropped = 0;   // arrived, and never painted
+    uint64_t commands = 0;         // sent, but acknowledgements
+    uint64_t commands_skipped = 0; // cameras not sent since others waited for the socket
+    uint64_t commands_unshown = 0; // sent or skipped, and shown by no frame until the end
+    std::map<v1::ErrorCode, uint64_t> refusals; // Error messages
+    std::optional<std::string> refusal;         // the first one's text, made printable
+    std::optional<PictureSize> smallest;        // of the frames
     std::optional<PictureSize> largest;
 
     // Of a frame.

@@ -186,10 +186,13 @@ struct Reducer {
         }
         const std::string samples =
             across > 1 ? " with " + numberText(across * across) + " samples a pixel" : "";
-        return Rejection{RejectCode::kOutOfRange, 0, field,
-                         "width x height is " + numberText(size.width_px) + "x" +
-                             numberText(size.height_px) + samples + "; this server draws at most " +
-                             numberText(context.defaults.max_area_px) + " pixels"};
+        Rejection refused{RejectCode::kCapacity, 0, field,
+                          "width x height is " + numberText(size.width_px) + "x" +
+                              numberText(size.height_px) + samples +
+                              "; this server draws at most " +
+                              numberText(context.defaults.max_area_px) + " pixels"};
+        refused.blameless = true; // Welcome does not tell it
+        return refused;
     }
 
     Outcome operator()(const SetPost& command) const {

@@ -33,8 +33,8 @@ struct SessionState {
 [[nodiscard]] bool setsState(const Command& command);
 
 // The state after the command; `version` tells whether anything differs. Refused: kOutOfRange
-// (unknown scene camera, picture too large), kUnsupported (a codec that is not decodable). Only for
-// commands with setsState().
+// (unknown scene camera), kCapacity (picture too large), kUnsupported (a codec that is not
+// decodable). Only for commands with setsState().
 [[nodiscard]] CommandResult<SessionState> apply(SessionState state,
                                                 const CommandMessage& message,
                                                 const SessionContext& context,

@@ -128,14 +128,17 @@ TEST(ViewerMeter, Commands_TellHowLateTheyWere_RefusalsTheirFirstText) {
     meter.onCommandSkipped(2, kStart);
     v1::Error error;
     error.set_message("first\n");
+    error.set_code(v1::ERROR_CODE_CAPACITY);
     meter.onRefusal(error);
     error.set_message("second");
+    error.set_code(v1::ERROR_CODE_DEVICE);
     meter.onRefusal(error);
     const Measured& measured = meter.measured();
     EXPECT_EQ(measured.samples.timer_lag_ms, std::vector{3.0});
     EXPECT_EQ(measured.commands, 1U);
     EXPECT_EQ(measured.commands_skipped, 1U);
-    EXPECT_EQ(measured.refusals, 2U);
+    EXPECT_EQ(measured.refusals, (std::map<v1::ErrorCode, uint64_t>{{v1::ERROR_CODE_CAPACITY, 1},
+                                                                    {v1::ERROR_CODE_DEVICE, 1}}));
     EXPECT_EQ(measured.refusal, "first\\x0a");
 }
 

@@ -291,6 +291,7 @@ TEST_F(State, TooLargeAPicture_IsRefused) {
     const auto result = apply(initial, {{3, 0}, SetSize{{1001, 1000}}}, context, kStart);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().ref_seq, 3U);
+    EXPECT_EQ(result.error().code, RejectCode::kCapacity);
     EXPECT_EQ(result.error().message,
               "width x height is 1001x1000; this server draws at most 1000000 pixels");
 }
