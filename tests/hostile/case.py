@@ -18,7 +18,8 @@ sys.path.insert(0, str(HERE.parents[0] / "load"))
 from server import Server
 from viewer import Viewer, Victim
 
-HONEST, HOSTILE, NEWCOMER = "127.0.0.1", "127.0.0.66", "127.0.0.3"
+# `froxel load` comes from 127.0.0.1.
+HONEST, HOSTILE, NEWCOMER = "127.0.0.2", "127.0.0.66", "127.0.0.3"
 SETTLED_FRAMES = 20
 # A hostile viewer that was sent away comes back.
 COMES_BACK_S = 0.05
@@ -76,9 +77,10 @@ def load_cases():
 
 @dataclasses.dataclass
 class Arena:
-    """What a hostile viewer knows: the server's URL, and which of its kind it is."""
+    """What a hostile viewer knows: the server's URL, the binary, and which of its kind it is."""
 
     url: str
+    froxel: str
     index: int
     heard: collections.Counter
 
@@ -99,21 +101,24 @@ async def attack_for_ever(attack, arena):
         await asyncio.sleep(COMES_BACK_S)
 
 
-def play_hostile(name, url, ready, begin, pipe):
+def play_hostile(name, url, froxel, ready, begin, pipe):
     """In a process of its own, so that it does not slow the honest viewer's clock."""
     load_cases()
     case = CASES[name]
     heard = collections.Counter()
 
     async def play():
-        arenas = (Arena(url, index, heard) for index in range(case.clients))
+        arenas = (Arena(url, froxel, index, heard) for index in range(case.clients))
         tasks = [asyncio.create_task(attack_for_ever(case.attack, arena)) for arena in arenas]
         over = asyncio.get_running_loop().run_in_executor(None, pipe.recv)
         done, _ = await asyncio.wait([over, *tasks], return_when=asyncio.FIRST_COMPLETED)
         if over not in done:
             await done.pop()  # raises what is wrong with the case
+        for task in tasks:
+            task.cancel()
+        await asyncio.wait(tasks, timeout=1)
         pipe.send(heard)
-        os._exit(0)  # nobody is owed a good-bye
+        os._exit(0)  # nobody is owed a longer good-bye
 
     ready.set()
     begin.wait()
@@ -190,7 +195,7 @@ def play(case, froxel, options):
     figures, wrong = {}, []
     with Server(froxel, "--drain-seconds", "1", *options, *case.serve) as server:
         fellow = spawn.Process(target=play_hostile,
-                               args=(case.name, server.url, ready, begin, theirs), daemon=True)
+                               args=(case.name, server.url, froxel, ready, begin, theirs), daemon=True)
         fellow.start()
         ready.wait(30)
         try:

@@ -1,6 +1,6 @@
 """What an honest viewer keeps beside hostile ones, case by case.
 
-Usage: hostile.py FROXEL [--only NAME,...] [--out FILE] [--list] [-- OPTIONS OF froxel serve]
+Usage: hostile.py FROXEL [--only NAME,...] [--seconds N] [--out FILE] [--list] [-- OPTIONS OF froxel serve]
 
 For each case (cases/*.py) a server is started, an honest viewer moves its camera and is measured alone, then
 beside hostile viewers, which come from another address and behave as the case says. Beside any of them it
@@ -10,6 +10,7 @@ cases. Exit code 0: all bounds hold; 1: one does not; 2: usage.
 """
 
 import argparse
+import dataclasses
 import json
 import sys
 from pathlib import Path
@@ -64,6 +65,7 @@ def main():
     parser.add_argument("--only", help="cases or files of cases, comma-separated")
     parser.add_argument("--out", type=Path, help="JSON of all figures")
     parser.add_argument("--list", action="store_true", help="name the cases and end")
+    parser.add_argument("--seconds", type=float, help="how long each case is measured, instead of its own time")
     options = parser.parse_args(arguments)
     cases.load_cases()
     selected = chosen(options.only)
@@ -73,6 +75,8 @@ def main():
         return 0
     print(" " * 22 + "".join(f"{name:>{width}}" for name, width, _ in COLUMNS), flush=True)
     defaults = [word for name, value in SERVE.items() if name not in serve for word in (name, value)]
+    if options.seconds:
+        selected = [dataclasses.replace(case, seconds=options.seconds) for case in selected]
     results = [play(case, options.froxel, [*defaults, *serve]) for case in selected]
     if options.out:
         options.out.write_text(json.dumps(results, indent=1) + "\n")

@@ -2,6 +2,7 @@
 
 import asyncio
 import itertools
+import subprocess
 
 from case import case
 from viewer import together
@@ -119,3 +120,16 @@ async def sizes_storm(arena):
             while (heard := await viewer.hear())[0] != "frame":
                 pass
             await viewer.acknowledge(heard[1])
+
+
+@case(seconds=20)
+async def storms(arena):
+    """Two viewers that change every setting over its whole range, 200 times a second."""
+    command = [arena.froxel, "load", arena.url, "--viewers", "2", "--script", "storm", "--seconds", "3600"]
+    load = await asyncio.create_subprocess_exec(*command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    try:
+        said, _ = await load.communicate()
+        raise RuntimeError(f"froxel load ended: {said.decode().strip()}")
+    finally:
+        if load.returncode is None:
+            load.kill()
