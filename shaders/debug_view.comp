@@ -16,6 +16,9 @@
 layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 layout(push_constant, scalar) uniform DebugBlock { DebugFrame debug; };
 
+// No material has a say here: its constant is which view.
+const uint kView = MATERIAL_FLAGS;
+
 uint color(vec3 c) { return packUnorm4x8(vec4(c, 1.0)); }
 
 uint heatOfCount(uint count) { return heatColor(heatPosition(count, debug.count_max)); }
@@ -40,7 +43,7 @@ uint byteMosaic(uvec2 pixel) {
     if (texelFetch(depth_image, source, 0).x <= 0.0) {
         return kDebugEmpty;
     }
-    uvec4 words = debug.view == kDebugGbuffer ? texelFetch(gbuffer_image, source, 0)
+    uvec4 words = kView == kDebugGbuffer ? texelFetch(gbuffer_image, source, 0)
                                               : texelFetch(extra_image, source, 0);
     uint value = (words[cell.y] >> (8u * cell.x)) & 255u;
     return 0xff000000u | value * 0x010101u;
@@ -66,11 +69,11 @@ uint lightsColor(uvec2 pixel, float distance) {
     if (hasLight(kLightLocal)) {
         list = handedList(pixel, distance);
     }
-    if (debug.view == kDebugListedLights || debug.view == kDebugEvaluatedLights) {
+    if (kView == kDebugListedLights || kView == kDebugEvaluatedLights) {
         return heatOfCount(list.count);
     }
     uint reaching = countReaching(list, positionFromDistance(pixel, distance));
-    if (debug.view == kDebugContributingLights) {
+    if (kView == kDebugContributingLights) {
         return heatOfCount(reaching);
     }
     return heatColor(heatPosition(list.count - reaching, max(list.count, 1u)));
@@ -78,7 +81,7 @@ uint lightsColor(uvec2 pixel, float distance) {
 
 uint materialColor(uvec2 pixel, uvec4 extra) {
     GbufferSample g = unpackGbuffer(texelFetch(gbuffer_image, ivec2(pixel), 0), extra);
-    switch (debug.view) {
+    switch (kView) {
     case kDebugNormal:
         return color(fma(toWorld(g.normal_view), vec3(0.5), vec3(0.5)));
     case kDebugBaseColor:
@@ -94,7 +97,7 @@ uint surfaceColor(uvec2 pixel, float depth) {
         extra = texelFetch(extra_image, ivec2(pixel), 0);
     }
     float distance = distanceFromDepth(depth);
-    switch (debug.view) {
+    switch (kView) {
     case kDebugPosition: {
         vec3 p = toWorld(extraPosition(extra, positionFromDistance(pixel, distance))) +
                  vec3(debug.world_x.w, debug.world_y.w, debug.world_z.w);
@@ -114,7 +117,7 @@ uint surfaceColor(uvec2 pixel, float depth) {
 }
 
 uint debugColor(uvec2 pixel) {
-    switch (debug.view) {
+    switch (kView) {
     case kDebugGbuffer:
     case kDebugGbufferExtra:
         return byteMosaic(pixel);

@@ -155,7 +155,6 @@ io::DebugFrame makeDebugValues(const view::ViewSettings& settings,
     values.inverse_box = glm::vec3(1.0 / glm::max(box.size(), glm::dvec3(1e-9)));
     values.scale_max = static_cast<float>(legend.max);
     values.count_max = static_cast<uint32_t>(std::max(1.0, legend.max));
-    values.view = static_cast<uint32_t>(settings.debug.view);
     values.byte_count = byte_count;
     return values;
 }

@@ -23,28 +23,60 @@ gpu::GraphicsPipelineInfo wiresInfo(gpu::Spirv vertex, vk::PipelineLayout layout
     return info;
 }
 
+// What the view's part of the shader looks at.
+VariantKey valuesKey(view::DebugView view, uint32_t light_flags, uint32_t output_flags) {
+    using View = view::DebugView;
+    const bool packed = view == View::kPosition || view == View::kNormal ||
+                        view == View::kBaseColor || view == View::kRoughness;
+    const bool lists = view::countsLights(view) || view::showsClusters(view);
+    return {static_cast<uint32_t>(view), lists ? light_flags & kListFlags : 0U,
+            packed ? output_flags : 0U};
+}
+
 } // namespace
 
-DebugPass::DebugPass(const gpu::Device& device, const Pipelines& shared)
+DebugPass::DebugPass(const gpu::Device& device,
+                     const gpu::Timeline& timeline,
+                     VariantMaker& maker,
+                     const Pipelines& shared)
     : device_(device),
       values_layout_(gpu::makePipelineLayout(
           device, {shared.frameLayout(), shared.screenLayout()}, sizeof(io::DebugFrame))),
-      wires_layout_(shared.screenPipelineLayout()) {}
+      wires_layout_(shared.screenPipelineLayout()), made_(timeline, maker, Pipelines::kKeptScreen) {
+}
+
+vk::Pipeline DebugPass::pipeline(DebugShader shader, const VariantKey& key) {
+    return *made_.findOrMake(std::tuple(shader, key), [=, this] { return make(shader, key); });
+}
+
+vk::raii::Pipeline DebugPass::make(DebugShader shader, const VariantKey& key) const {
+    switch (shader) {
+    case DebugShader::kValues:
+        return gpu::makeComputePipeline(device_, shaders::debug_view_comp(),
+                                        {key.material_flags, key.light_flags, key.output_flags, 1},
+                                        *values_layout_, "debug view");
+    case DebugShader::kLightWires:
+        return gpu::makeGraphicsPipeline(
+            device_, wiresInfo(shaders::light_wires_vert(), wires_layout_), "light wires");
+    case DebugShader::kClusterWires:
+        break;
+    }
+    auto info = wiresInfo(shaders::cluster_wires_vert(), wires_layout_);
+    info.bindings = {{0, sizeof(io::WireVertex), vk::VertexInputRate::eVertex}};
+    info.attributes = {{0, 0, vk::Format::eR32G32B32Sfloat, 0},
+                       {1, 0, vk::Format::eR8G8B8A8Unorm, 12}};
+    return gpu::makeGraphicsPipeline(device_, info, "cluster wires");
+}
 
 void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
                              const DebugSets& sets,
-                             const VariantKey& key,
+                             view::DebugView view,
+                             uint32_t light_flags,
+                             uint32_t output_flags,
                              const io::DebugFrame& values,
                              const vk::Rect2D& region) {
-    const VariantKey used{0, key.light_flags & kListFlags, key.output_flags};
-    if (values_key_ != used) {
-        // The slot's last frame has finished: nothing uses the old one.
-        values_ = gpu::makeComputePipeline(device_, shaders::debug_view_comp(),
-                                           {0, used.light_flags, used.output_flags, 1},
-                                           *values_layout_, "debug view");
-        values_key_ = used;
-    }
-    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *values_);
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
+                     pipeline(DebugShader::kValues, valuesKey(view, light_flags, output_flags)));
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *values_layout_, 0, sets, {});
     cmd.pushConstants<io::DebugFrame>(*values_layout_, vk::ShaderStageFlagBits::eCompute, 0,
                                       values);
@@ -53,8 +85,8 @@ void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
 
 void DebugPass::bindWires(const vk::raii::CommandBuffer& cmd,
                           const DebugSets& sets,
-                          const vk::raii::Pipeline& pipeline) const {
-    cmd.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+                          DebugShader shader) {
+    cmd.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline(shader, {}));
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, wires_layout_, 0, sets, {});
 }
 
@@ -64,11 +96,7 @@ void DebugPass::recordLights(const vk::raii::CommandBuffer& cmd,
     if (light_count == 0) {
         return;
     }
-    if (!*lights_) {
-        lights_ = gpu::makeGraphicsPipeline(
-            device_, wiresInfo(shaders::light_wires_vert(), wires_layout_), "light wires");
-    }
-    bindWires(cmd, sets, lights_);
+    bindWires(cmd, sets, DebugShader::kLightWires);
     cmd.draw(2 * io::kWireSegments * io::kWireCircles, light_count, 0, 0);
 }
 
@@ -77,14 +105,7 @@ void DebugPass::recordClusters(const vk::raii::CommandBuffer& cmd,
                                vk::Buffer vertices,
                                vk::DeviceSize offset,
                                uint32_t vertex_count) {
-    if (!*clusters_) {
-        auto info = wiresInfo(shaders::cluster_wires_vert(), wires_layout_);
-        info.bindings = {{0, sizeof(io::WireVertex), vk::VertexInputRate::eVertex}};
-        info.attributes = {{0, 0, vk::Format::eR32G32B32Sfloat, 0},
-                           {1, 0, vk::Format::eR8G8B8A8Unorm, 12}};
-        clusters_ = gpu::makeGraphicsPipeline(device_, info, "cluster wires");
-    }
-    bindWires(cmd, sets, clusters_);
+    bindWires(cmd, sets, DebugShader::kClusterWires);
     cmd.bindVertexBuffers(0, vertices, offset);
     cmd.draw(vertex_count, 1, 0, 0);
 }

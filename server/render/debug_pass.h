@@ -1,26 +1,34 @@
-// Debug views on the device: their pipelines exist from the first frame on that asks for one.
+// Debug views on the device; exists once a view has asked for one.
 #pragma once
 
 #include "interface/debug_io.h"
 #include "render/pipelines.h"
 
 #include <array>
-#include <optional>
+#include <tuple>
 
 namespace froxel::render {
 
 // A slot's own: frame, screen.
 using DebugSets = std::array<vk::DescriptorSet, 2>;
 
-// One a frame slot, so that a pipeline is replaced when nothing uses it any more.
+enum class DebugShader : uint8_t { kValues, kLightWires, kClusterWires };
+
+// Shared by every view. The functions that record may throw VariantsMissing.
 class DebugPass {
   public:
-    DebugPass(const gpu::Device& device, const Pipelines& shared);
+    DebugPass(const gpu::Device& device,
+              const gpu::Timeline& timeline,
+              VariantMaker& maker,
+              const Pipelines& shared);
 
-    // A value of each pixel, in the picture's place.
+    // A value of each pixel, in the picture's place. Flags: how lights are listed, and how the
+    // G-buffer is packed.
     void recordValues(const vk::raii::CommandBuffer& cmd,
                       const DebugSets& sets,
-                      const VariantKey& key,
+                      view::DebugView view,
+                      uint32_t light_flags,
+                      uint32_t output_flags,
                       const io::DebugFrame& values,
                       const vk::Rect2D& region);
     // Both inside a rendering scope over radiance.
@@ -33,17 +41,14 @@ class DebugPass {
                         uint32_t vertex_count);
 
   private:
-    void bindWires(const vk::raii::CommandBuffer& cmd,
-                   const DebugSets& sets,
-                   const vk::raii::Pipeline& pipeline) const;
+    [[nodiscard]] vk::Pipeline pipeline(DebugShader shader, const VariantKey& key);
+    [[nodiscard]] vk::raii::Pipeline make(DebugShader shader, const VariantKey& key) const;
+    void bindWires(const vk::raii::CommandBuffer& cmd, const DebugSets& sets, DebugShader shader);
 
     const gpu::Device& device_;
     vk::raii::PipelineLayout values_layout_;
     vk::PipelineLayout wires_layout_;
-    std::optional<VariantKey> values_key_; // of the pipeline
-    vk::raii::Pipeline values_{nullptr};
-    vk::raii::Pipeline lights_{nullptr};
-    vk::raii::Pipeline clusters_{nullptr};
+    VariantCache<std::tuple<DebugShader, VariantKey>> made_;
 };
 
 } // namespace froxel::render

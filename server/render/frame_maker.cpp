@@ -135,10 +135,7 @@ void FrameMaker::prepareParts(FrameSlot& slot,
         writeVisibilitySet(slot, offsets);
     }
     if (plan.count_pairs && !slot.pairs) {
-        slot.pairs = std::make_unique<PairCounter>(scene_.device, scene_.pipelines);
-    }
-    if (plan.debug != view::DebugView::kNone && !slot.debug) {
-        slot.debug = std::make_unique<DebugPass>(scene_.device, scene_.pipelines);
+        slot.pairs = std::make_unique<PairCounter>(scene_.device, scene_.pairs());
     }
     if (plan.count_samples && !slot.samples) {
         slot.samples = std::make_unique<gpu::SampleCounter>(scene_.device);

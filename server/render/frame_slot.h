@@ -8,7 +8,6 @@
 #include "gpu/timestamps.h"
 #include "render/blend_targets.h"
 #include "render/bloom.h"
-#include "render/debug_pass.h"
 #include "render/fog.h"
 #include "render/frame_pieces.h"
 #include "render/fxaa.h"
@@ -105,7 +104,6 @@ struct FrameSlot {
     std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
     std::unique_ptr<VisibilityFrame> visibility;   // null: no frame asked for it yet
     std::unique_ptr<PairCounter> pairs;            // likewise
-    std::unique_ptr<DebugPass> debug;              // likewise
     bool counts_pairs = false;                     // in the frame last recorded
     std::unique_ptr<gpu::SampleCounter> samples;   // likewise
     bool counts_samples = false;                   // in the frame last recorded

@@ -31,18 +31,32 @@ uint64_t join(uint32_t low, uint32_t high) {
 
 } // namespace
 
-PairCounter::PairCounter(const gpu::Device& device, const Pipelines& shared)
-    : device_(device), arena_(device),
-      counts_(arena_.makeBuffer(sizeof(io::PairCounts),
-                                vk::BufferUsageFlagBits::eStorageBuffer |
-                                    vk::BufferUsageFlagBits::eTransferDst,
-                                gpu::MemoryUse::kReadback,
-                                "pair counts")),
-      set_layout_(setLayout(device)),
+PairPipelines::PairPipelines(const gpu::Device& device,
+                             const gpu::Timeline& timeline,
+                             VariantMaker& maker,
+                             const Pipelines& shared)
+    : device_(device), set_layout_(render::setLayout(device)),
       layout_(gpu::makePipelineLayout(device,
                                       {shared.frameLayout(), shared.screenLayout(), *set_layout_})),
+      made_(timeline, maker, Pipelines::kKeptScreen) {}
+
+vk::Pipeline PairPipelines::pipeline(uint32_t light_flags) {
+    const uint32_t flags = light_flags & kListFlags;
+    return *made_.findOrMake(flags, [=, this] {
+        return gpu::makeComputePipeline(device_, shaders::count_pairs_comp(),
+                                        {0, flags, 0, std::max(1U, device_.traits().subgroup_size)},
+                                        *layout_, "count pairs");
+    });
+}
+
+PairCounter::PairCounter(const gpu::Device& device, const PairPipelines& shared)
+    : arena_(device), counts_(arena_.makeBuffer(sizeof(io::PairCounts),
+                                                vk::BufferUsageFlagBits::eStorageBuffer |
+                                                    vk::BufferUsageFlagBits::eTransferDst,
+                                                gpu::MemoryUse::kReadback,
+                                                "pair counts")),
       pool_(makePool(device)) {
-    set_ = gpu::makeSet(device, pool_, *set_layout_);
+    set_ = gpu::makeSet(device, pool_, shared.setLayout());
     const vk::DescriptorBufferInfo buffer{*counts_.handle, 0, VK_WHOLE_SIZE};
     device.handle().updateDescriptorSets(
         vk::WriteDescriptorSet{.dstSet = *set_,
@@ -58,21 +72,14 @@ void PairCounter::recordClear(const vk::raii::CommandBuffer& cmd) const {
 }
 
 void PairCounter::recordCount(const vk::raii::CommandBuffer& cmd,
+                              PairPipelines& shared,
                               vk::DescriptorSet frame_set,
                               vk::DescriptorSet screen_set,
                               uint32_t light_flags,
-                              const vk::Rect2D& region) {
-    const uint32_t flags = light_flags & kListFlags;
-    if (light_flags_ != flags) {
-        // The slot's last frame has finished: nothing uses the old one.
-        pipeline_ = gpu::makeComputePipeline(
-            device_, shaders::count_pairs_comp(),
-            {0, flags, 0, std::max(1U, device_.traits().subgroup_size)}, *layout_, "count pairs");
-        light_flags_ = flags;
-    }
-    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+                              const vk::Rect2D& region) const {
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, shared.pipeline(light_flags));
     const std::array sets = {frame_set, screen_set, *set_};
-    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, shared.layout(), 0, sets, {});
     dispatchOver(cmd, region);
 }
 

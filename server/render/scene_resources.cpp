@@ -22,6 +22,14 @@ constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
 constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
 constexpr size_t kTexturesOfMaterial = 5;
 
+// Beside a CPU device the host has a tenth of a second for a frame's lists: so many entries take
+// it.
+constexpr uint64_t kCpuListEntries = uint64_t{1} << 23U;
+
+uint64_t listEntries(const gpu::Device& device) {
+    return device.traits().is_cpu ? kCpuListEntries : cluster::LightAssigner::kDefaultMaxEntries;
+}
+
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);
     const float s = std::sin(slot.rotation_rad);
@@ -85,8 +93,8 @@ SceneResources::SceneResources(gpu::Device& device_in,
                                const MemoryLimits& limits)
     : device(device_in), timeline(device_in), memory(limits), needs(findNeeds(scene)),
       bounds_world(scene.bounds_world), light_rig(scene),
-      light_assigner(std::max(1U, std::thread::hardware_concurrency())), arena(device_in),
-      texture_arena(device_in, kTextureChunkBytes, "textures"),
+      light_assigner(std::max(1U, std::thread::hardware_concurrency()), listEntries(device_in)),
+      arena(device_in), texture_arena(device_in, kTextureChunkBytes, "textures"),
       pipelines(device_in, timeline, variants),
       unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {
     if (const auto fault = scene::findFault(scene)) {
@@ -204,6 +212,20 @@ FogPipelines& SceneResources::fog() {
         fog_ = std::make_unique<FogPipelines>(device, timeline, variants, pipelines);
     }
     return *fog_;
+}
+
+DebugPass& SceneResources::debug() {
+    if (!debug_) {
+        debug_ = std::make_unique<DebugPass>(device, timeline, variants, pipelines);
+    }
+    return *debug_;
+}
+
+PairPipelines& SceneResources::pairs() {
+    if (!pairs_) {
+        pairs_ = std::make_unique<PairPipelines>(device, timeline, variants, pipelines);
+    }
+    return *pairs_;
 }
 
 VisibilityScene& SceneResources::visibility() {

@@ -7,10 +7,12 @@
 #include "light/light_rig.h"
 #include "render/assign_pipelines.h"
 #include "render/bloom.h"
+#include "render/debug_pass.h"
 #include "render/fog.h"
 #include "render/fxaa.h"
 #include "render/geometry_pack.h"
 #include "render/memory_budget.h"
+#include "render/pair_counter.h"
 #include "render/pipelines.h"
 #include "render/scene_needs.h"
 #include "render/texture_store.h"
@@ -75,6 +77,8 @@ class SceneResources {
     [[nodiscard]] BloomPipelines& bloom();
     [[nodiscard]] const FxaaPipeline& fxaa();
     [[nodiscard]] FogPipelines& fog();
+    [[nodiscard]] DebugPass& debug();
+    [[nodiscard]] PairPipelines& pairs();
     // The highlights of rectangular lights: ltc::table().
     [[nodiscard]] const gpu::Buffer& ltcTable();
     // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
@@ -98,6 +102,8 @@ class SceneResources {
     std::unique_ptr<BloomPipelines> bloom_;
     std::unique_ptr<FxaaPipeline> fxaa_;
     std::unique_ptr<FogPipelines> fog_;
+    std::unique_ptr<DebugPass> debug_;
+    std::unique_ptr<PairPipelines> pairs_;
     std::unique_ptr<gpu::MemoryArena> ltc_arena_;
     gpu::Buffer ltc_table_;
 };

@@ -32,10 +32,9 @@ struct DebugFrame {
     vec3 inverse_box; // 1/m, of the scene's box
     float scale_max;  // of values that are not counted
     uint count_max;   // of those that are
-    uint view;
     uint byte_count; // of a texel of the raw target
 };
-FROXEL_SIZE_ASSERT(DebugFrame, 76);
+FROXEL_SIZE_ASSERT(DebugFrame, 72);
 
 FROXEL_CONST uint kWireSegments = 48U; // lines a circle
 FROXEL_CONST uint kWireCircles = 3U;   // a light
