@@ -12,6 +12,10 @@
 #include "render/scene_resources.h"
 #include "render/shadow_maps.h"
 
+#include <algorithm>
+#include <span>
+#include <vector>
+
 namespace froxel::render {
 
 // Offsets into the slot's upload buffer.
@@ -57,6 +61,35 @@ void inParts(const FrameContext& frame,
             frame.pieces.close(); // the device compiles them first
         }
     });
+}
+
+// Shares of one pass that get a piece each at most, while they are compiled.
+inline constexpr size_t kMostAlone = 64;
+
+// Calls record(share, first) for what a pass draws, in turn: all at once, but on a software device
+// a piece for each thing whose variant is_new(). It compiles them as it draws, for a material's
+// textures anew, which takes it long. `first` also where there is nothing.
+template <class Things, class IsNew, class Record>
+void inShares(const FrameContext& frame, const Things& things, IsNew is_new, Record record) {
+    const std::span all(things);
+    const size_t compiled = frame.scene.device.traits().is_cpu ? kMostAlone : 0;
+    std::vector<bool> alone(all.size(), false);
+    for (size_t i = 0; i < std::min(all.size(), compiled); ++i) {
+        alone[i] = is_new(all[i]);
+    }
+    size_t begin = 0;
+    do {
+        size_t end = begin + 1;
+        while (end < all.size() && !alone[begin] && !alone[end]) {
+            ++end;
+        }
+        if (begin > 0) {
+            frame.pieces.close();
+            frame.pieces.add(Seconds(0));
+        }
+        record(all.subspan(begin, std::min(end, all.size()) - begin), begin == 0);
+        begin = end;
+    } while (begin < all.size());
 }
 
 // Records the slot's pieces from begin to end, none longer than `piece_limit` where work can be

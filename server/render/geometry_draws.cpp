@@ -74,6 +74,23 @@ uint32_t drawCounted(const FrameContext& frame,
 
 } // namespace
 
+void inGroups(const FrameContext& frame,
+              GeometryPass pass,
+              std::span<const DrawGroup> groups,
+              const std::function<void(std::span<const DrawGroup>, bool first)>& record) {
+    auto& pipelines = frame.scene.pipelines;
+    // All that are missing are asked for, before the first that is ends the recording.
+    for (const DrawGroup& group : groups) {
+        (void)pipelines.prepareGeometry(pass, variant(frame, pass, group));
+    }
+    inShares(
+        frame, groups,
+        [&](const DrawGroup& group) {
+            return pipelines.isNewGeometry(pass, variant(frame, pass, group));
+        },
+        record);
+}
+
 void drawGroups(const FrameContext& frame,
                 GeometryPass pass,
                 std::span<const DrawGroup> groups,
@@ -86,10 +103,6 @@ void drawGroups(const FrameContext& frame,
                  frame.draws.indices.empty() ? *frame.scene.index_buffer.handle
                                              : frame.slot.upload.buffer(),
                  frame.offsets.rows);
-    // All that are missing are asked for, before the first that is ends the recording.
-    for (const DrawGroup& group : groups) {
-        (void)pipelines.prepareGeometry(pass, variant(frame, pass, group));
-    }
     vk::Pipeline bound;
     io::PeelDraw peel{.first_triangle = 0, .layer = layer};
     for (const DrawGroup& group : groups) {

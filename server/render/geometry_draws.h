@@ -3,6 +3,7 @@
 
 #include "render/frame_recorder.h"
 
+#include <functional>
 #include <span>
 
 namespace froxel::render {
@@ -13,6 +14,13 @@ void bindGeometry(const FrameContext& frame,
                   vk::DescriptorSet frame_set,
                   vk::Buffer indices,
                   vk::DeviceSize rows);
+
+// inShares() of a pass's groups: several renderings then, of which those that are not the first
+// load what is there.
+void inGroups(const FrameContext& frame,
+              GeometryPass pass,
+              std::span<const DrawGroup> groups,
+              const std::function<void(std::span<const DrawGroup>, bool first)>& record);
 
 // Within a rendering. layer: of the peeling passes, which also need their blend set bound.
 void drawGroups(const FrameContext& frame,

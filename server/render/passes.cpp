@@ -59,42 +59,54 @@ void dispatch(const FrameContext& frame,
 } // namespace
 
 void recordDepthPrepass(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "depth_prepass");
-    const SampleScope samples(frame, true);
-    const auto depth = attachment(frame.slot.targets->depth, LoadOp::eClear, farDepth());
-    const Rendering rendering(frame, region, {}, &depth);
-    drawGroups(frame, GeometryPass::kDepth, frame.draws.solid);
+    inGroups(frame, GeometryPass::kDepth, frame.draws.solid, [&](const auto& groups, bool first) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "depth_prepass");
+        const SampleScope samples(frame, true);
+        const auto depth = attachment(frame.slot.targets->depth,
+                                      first ? LoadOp::eClear : LoadOp::eLoad, farDepth());
+        const Rendering rendering(frame, region, {}, &depth);
+        drawGroups(frame, GeometryPass::kDepth, groups);
+    });
 }
 
 void recordForwardPass(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "forward");
     const bool after_depth = frame.plan.depth_prepass;
-    const SampleScope samples(frame, !after_depth);
-    const std::array colors = {
-        attachment(frame.slot.targets->radiance, LoadOp::eClear, background(frame))};
-    const auto depth = attachment(frame.slot.targets->depth,
-                                  after_depth ? LoadOp::eLoad : LoadOp::eClear, farDepth());
-    const Rendering rendering(frame, region, colors, &depth);
-    drawGroups(frame, after_depth ? GeometryPass::kForwardAfterDepth : GeometryPass::kForward,
-               frame.draws.solid);
+    const auto pass = after_depth ? GeometryPass::kForwardAfterDepth : GeometryPass::kForward;
+    inGroups(frame, pass, frame.draws.solid, [&](const auto& groups, bool first) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "forward");
+        const SampleScope samples(frame, !after_depth);
+        const std::array colors = {attachment(frame.slot.targets->radiance,
+                                              first ? LoadOp::eClear : LoadOp::eLoad,
+                                              background(frame))};
+        const auto depth =
+            attachment(frame.slot.targets->depth,
+                       first && !after_depth ? LoadOp::eClear : LoadOp::eLoad, farDepth());
+        const Rendering rendering(frame, region, colors, &depth);
+        drawGroups(frame, pass, groups);
+    });
 }
 
 void recordGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "gbuffer");
     const bool after_depth = frame.plan.depth_prepass;
-    const SampleScope samples(frame, !after_depth);
-    // Words of empty pixels are never read: their depth says so.
-    std::vector colors = {attachment(frame.slot.targets->gbuffer, LoadOp::eDontCare)};
-    if (*frame.slot.targets->gbuffer_extra.handle) {
-        // A stored depth of 0 is an empty pixel.
-        colors.push_back(attachment(frame.slot.targets->gbuffer_extra, LoadOp::eClear,
-                                    vk::ClearColorValue(std::array<uint32_t, 4>{})));
-    }
-    const auto depth = attachment(frame.slot.targets->depth,
-                                  after_depth ? LoadOp::eLoad : LoadOp::eClear, farDepth());
-    const Rendering rendering(frame, region, colors, &depth);
-    drawGroups(frame, after_depth ? GeometryPass::kGbufferAfterDepth : GeometryPass::kGbuffer,
-               frame.draws.solid);
+    const auto pass = after_depth ? GeometryPass::kGbufferAfterDepth : GeometryPass::kGbuffer;
+    inGroups(frame, pass, frame.draws.solid, [&](const auto& groups, bool first) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "gbuffer");
+        const SampleScope samples(frame, !after_depth);
+        // Words of empty pixels are never read: their depth says so.
+        std::vector colors = {
+            attachment(frame.slot.targets->gbuffer, first ? LoadOp::eDontCare : LoadOp::eLoad)};
+        if (*frame.slot.targets->gbuffer_extra.handle) {
+            // A stored depth of 0 is an empty pixel.
+            colors.push_back(attachment(frame.slot.targets->gbuffer_extra,
+                                        first ? LoadOp::eClear : LoadOp::eLoad,
+                                        vk::ClearColorValue(std::array<uint32_t, 4>{})));
+        }
+        const auto depth =
+            attachment(frame.slot.targets->depth,
+                       first && !after_depth ? LoadOp::eClear : LoadOp::eLoad, farDepth());
+        const Rendering rendering(frame, region, colors, &depth);
+        drawGroups(frame, pass, groups);
+    });
 }
 
 void recordLightingCompute(const FrameContext& frame, const vk::Rect2D& region) {
@@ -126,11 +138,14 @@ void recordOutline(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordTransparent(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "transparent");
-    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
-    const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
-    const Rendering rendering(frame, region, colors, &depth);
-    drawGroups(frame, GeometryPass::kTransparent, frame.draws.transparent);
+    const auto pass = GeometryPass::kTransparent;
+    inGroups(frame, pass, frame.draws.transparent, [&](const auto& groups, bool) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "transparent");
+        const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+        const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
+        const Rendering rendering(frame, region, colors, &depth);
+        drawGroups(frame, pass, groups);
+    });
 }
 
 void recordTonemap(const FrameContext& frame, const vk::Rect2D& region) {
@@ -154,10 +169,10 @@ void recordOverdraw(const FrameContext& frame, const vk::Rect2D& region) {
 
 void recordDebugView(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "debug_view");
-    frame.slot.debug->recordValues(
-        frame.slot.cmd, {*frame.slot.frame_set, *frame.slot.screen_set},
-        {0, frame.plan.lighting_light_flags, frame.plan.gbuffer_output_flags}, frame.debug->values,
-        region);
+    frame.scene.debug().recordValues(frame.slot.cmd,
+                                     {*frame.slot.frame_set, *frame.slot.screen_set},
+                                     frame.plan.debug, frame.plan.lighting_light_flags,
+                                     frame.plan.gbuffer_output_flags, frame.debug->values, region);
 }
 
 void recordWires(const FrameContext& frame, const vk::Rect2D& region) {
@@ -168,20 +183,20 @@ void recordWires(const FrameContext& frame, const vk::Rect2D& region) {
     frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
     frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
     if (frame.plan.debug == view::DebugView::kLightSpheres) {
-        frame.slot.debug->recordLights(frame.slot.cmd, sets, frame.debug->light_count);
+        frame.scene.debug().recordLights(frame.slot.cmd, sets, frame.debug->light_count);
     } else if (!frame.debug->wires.empty()) {
-        frame.slot.debug->recordClusters(frame.slot.cmd, sets, frame.slot.upload.buffer(),
-                                         frame.offsets.wires,
-                                         static_cast<uint32_t>(frame.debug->wires.size()));
+        frame.scene.debug().recordClusters(frame.slot.cmd, sets, frame.slot.upload.buffer(),
+                                           frame.offsets.wires,
+                                           static_cast<uint32_t>(frame.debug->wires.size()));
     }
 }
 
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "count_pairs");
-    frame.slot.pairs->recordCount(frame.slot.cmd, *frame.slot.frame_set, *frame.slot.screen_set,
-                                  frame.plan.forward ? frame.plan.forward_light_flags
-                                                     : frame.plan.lighting_light_flags,
-                                  region);
+    frame.slot.pairs->recordCount(
+        frame.slot.cmd, frame.scene.pairs(), *frame.slot.frame_set, *frame.slot.screen_set,
+        frame.plan.forward ? frame.plan.forward_light_flags : frame.plan.lighting_light_flags,
+        region);
 }
 
 void recordReadback(const FrameContext& frame) {

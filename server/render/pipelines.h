@@ -100,6 +100,10 @@ class Pipelines {
     [[nodiscard]] vk::Pipeline geometry(GeometryPass pass, const VariantKey& key);
     // Whether geometry() has it; asks for it where not.
     [[nodiscard]] bool prepareGeometry(GeometryPass pass, const VariantKey& key);
+    // geometry() has it and has not given it yet: a software device compiles it when it draws.
+    [[nodiscard]] bool isNewGeometry(GeometryPass pass, const VariantKey& key) const {
+        return geometry_.isNew(std::tuple(pass, key));
+    }
     // What weighted or peeled surfaces came to, over the picture.
     [[nodiscard]] vk::Pipeline blendResolve(view::Transparency transparency);
     [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);

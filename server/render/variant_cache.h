@@ -77,6 +77,12 @@ class VariantCache {
         return true;
     }
 
+    // It is there, and no recording has used it.
+    [[nodiscard]] bool isNew(const Key& key) const {
+        const auto found = entries_.find(key);
+        return found != entries_.end() && !found->second.used;
+    }
+
     template <class Visit>
     void forEachKey(Visit visit) const {
         for (const auto& [key, entry] : entries_) {

@@ -18,24 +18,39 @@ uint32_t depthFlag(const FrameContext& frame) {
     return frame.plan.compute_raster ? io::kOutputDepth : 0U;
 }
 
-// A pipeline over every pixel: once with all textures, or once for each material.
-void resolve(const FrameContext& frame, const vk::Rect2D& region, vk::Pipeline pipeline) {
-    const auto& cmd = frame.slot.cmd;
+void shade(const FrameContext& frame,
+           const vk::Rect2D& region,
+           vk::DescriptorSet textures,
+           const std::array<uint32_t, 2>& words) {
+    frame.slot.cmd.bindDescriptorSets(Point::eCompute, frame.visibility->pipelines.computeLayout(),
+                                      3, textures, {});
+    pushVisibilityWords(frame, words);
+    dispatchOver(frame.slot.cmd, region);
+}
+
+// A pipeline over every pixel: once with all textures, or once for each material. find() gives it.
+template <class Find>
+void resolve(const FrameContext& frame, const vk::Rect2D& region, const char* name, Find find) {
     const auto& scene = *frame.visibility;
-    bindVisibilityCompute(frame, pipeline);
-    const auto shade = [&](vk::DescriptorSet textures, uint32_t material, bool last) {
-        cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3, textures, {});
-        pushVisibilityWords(frame, {material, last ? 1U : 0U});
-        dispatchOver(cmd, region);
-    };
+    const size_t used = frame.scene.variants.firstUses();
+    const vk::Pipeline pipeline = find();
     if (scene.pipelines.bindless()) {
-        shade(scene.textureSet(), io::kAnyMaterial, true);
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, name);
+        bindVisibilityCompute(frame, pipeline);
+        shade(frame, region, scene.textureSet(), {io::kAnyMaterial, 1});
         return;
     }
-    for (const uint32_t material : scene.materials_in_use) {
-        shade(frame.scene.materialSet(material), material,
-              material == scene.materials_in_use.back());
-    }
+    const bool is_new = frame.scene.variants.firstUses() > used;
+    inShares(
+        frame, scene.materials_in_use, [=](uint32_t) { return is_new; },
+        [&](std::span<const uint32_t> materials, bool) {
+            const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, name);
+            bindVisibilityCompute(frame, pipeline);
+            for (const uint32_t material : materials) {
+                const bool last = material == scene.materials_in_use.back();
+                shade(frame, region, frame.scene.materialSet(material), {material, last ? 1U : 0U});
+            }
+        });
 }
 
 void bindGeometry(const FrameContext& frame) {
@@ -111,19 +126,19 @@ void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "resolve");
-    resolve(
-        frame, region,
-        frame.visibility->pipelines.gbuffer({frame.visibility->material_flags, 0,
-                                             frame.plan.gbuffer_output_flags | depthFlag(frame)}));
+    resolve(frame, region, "resolve", [&] {
+        return frame.visibility->pipelines.gbuffer(
+            {frame.visibility->material_flags, 0,
+             frame.plan.gbuffer_output_flags | depthFlag(frame)});
+    });
 }
 
 void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "shade");
-    resolve(frame, region,
-            frame.visibility->pipelines.shade(
-                {frame.visibility->material_flags, frame.plan.lighting_light_flags,
-                 frame.plan.lighting_output_flags | depthFlag(frame)}));
+    resolve(frame, region, "shade", [&] {
+        return frame.visibility->pipelines.shade(
+            {frame.visibility->material_flags, frame.plan.lighting_light_flags,
+             frame.plan.lighting_output_flags | depthFlag(frame)});
+    });
 }
 
 } // namespace froxel::render
