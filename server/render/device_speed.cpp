@@ -2,71 +2,94 @@
 
 #include "render/scene_resources.h"
 
-#include <algorithm>
+#include <array>
+#include <utility>
 
 namespace froxel::render {
 namespace {
 
-struct LitTime {
+struct Drawn {
     double lighting_s = 0;
+    double all_s = 0; // of its passes
+    double estimate_s = 0;
     double pairs = 0;
 };
 
-double lightingSeconds(const FrameStats& stats) {
-    const auto pass = std::find_if(stats.passes.begin(), stats.passes.end(),
-                                   [](const auto& p) { return p.name == "lighting"; });
-    return pass == stats.passes.end() ? 0.0 : pass->gpu_us * 1e-6;
-}
-
-// The faster of some frames; the first compiles.
-Result<LitTime> drawLit(ViewRenderer& view, const FrameInputs& inputs) {
-    constexpr int kFrames = 4;
-    LitTime best;
-    for (int i = 0; i < kFrames; ++i) {
-        if (auto submitted = view.submit(inputs); !submitted) {
+Result<RenderedFrame> drawWhole(ViewRenderer& view, uint32_t piece_count) {
+    for (uint32_t piece = 0; piece < piece_count; ++piece) {
+        if (auto submitted = view.submitPiece(); !submitted) {
             return submitted.error();
         }
-        const auto frame = view.collect();
+        auto done = view.collectPiece();
+        if (!done) {
+            return done.error();
+        }
+        if (done->frame) {
+            return std::move(*done->frame);
+        }
+    }
+    return Error{ErrorCode::kDevice, "a frame of known lights was not drawn"};
+}
+
+// The fastest of some frames; the first compiles.
+Result<Drawn> draw(ViewRenderer& view, const FrameInputs& inputs) {
+    constexpr int kFrames = 4;
+    Drawn best;
+    for (int i = 0; i < kFrames; ++i) {
+        const auto work = view.begin(inputs);
+        if (!work) {
+            return work.error();
+        }
+        const auto frame = drawWhole(view, work->piece_count);
         if (!frame) {
             return frame.error();
         }
-        const double seconds = lightingSeconds(frame->stats);
-        best.lighting_s = i == 0 ? seconds : std::min(best.lighting_s, seconds);
-        best.pairs = static_cast<double>(frame->stats.pairs.evaluated);
+        Drawn drawn{.estimate_s = work->estimate.count(),
+                    .pairs = static_cast<double>(frame->stats.pairs.evaluated)};
+        for (const PassTime& pass : frame->stats.passes) {
+            drawn.all_s += pass.gpu_us * 1e-6;
+            drawn.lighting_s += pass.name == "lighting" ? pass.gpu_us * 1e-6 : 0;
+        }
+        best = i == 0 || drawn.all_s < best.all_s ? drawn : best;
     }
     return best;
 }
 
 } // namespace
 
-Result<double> measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera) {
+Result<DeviceSpeed>
+measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera) {
     FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = {320, 180};
     inputs.settings.light_loop = view::LightLoop::kAllLights;
     inputs.settings.lights.scene_lights = false;
-    inputs.settings.lights.count = 1;
     inputs.settings.lights.radius_m = 1000;
     inputs.settings.count_pairs = true;
     ViewRenderer view(renderer);
-    const auto dark = drawLit(view, inputs);
-    if (!dark) {
-        return dark.error();
+    std::array<Drawn, 3> drawn; // without lights, with, surfaces alone
+    const std::array<uint32_t, 3> lights = {1, device_is_cpu ? 200U : 20'000U, 0};
+    for (size_t i = 0; i < drawn.size(); ++i) {
+        inputs.settings.lights.count = lights[i];
+        inputs.settings.debug.view =
+            lights[i] == 0 ? view::DebugView::kBaseColor : view::DebugView::kNone;
+        auto done = draw(view, inputs);
+        if (!done) {
+            return done.error();
+        }
+        drawn[i] = *done;
     }
-    inputs.settings.lights.count = device_is_cpu ? 200 : 20'000;
-    const auto lit = drawLit(view, inputs);
-    if (!lit) {
-        return lit.error();
-    }
+    const auto& [dark, lit, surfaces] = drawn;
+    const double pairs = lit.pairs - dark.pairs;
+    const double seconds = lit.lighting_s - dark.lighting_s;
+    DeviceSpeed speed;
     UnitCosts& unit = renderer.resources().unit_costs;
-    const double pairs = lit->pairs - dark->pairs;
-    const double seconds = lit->lighting_s - dark->lighting_s;
-    if (pairs <= 0 || seconds <= 0) {
-        return 1.0;
+    if (pairs > 0 && seconds > 0) {
+        speed = {.lights = seconds / pairs / unit.pair,
+                 .surfaces = surfaces.all_s / surfaces.estimate_s};
+        unit = scaled(unit, speed.lights, speed.surfaces);
     }
-    const double scale = seconds / pairs / unit.pair;
-    unit = scaled(unit, scale);
-    return scale;
+    return speed;
 }
 
 } // namespace froxel::render

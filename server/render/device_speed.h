@@ -7,10 +7,17 @@
 
 namespace froxel::render {
 
-// Draws a small picture with lights that reach everything and without, and scales the renderer's
-// unit costs by what a (light, pixel) pair took. A camera that sees nothing changes nothing. Before
-// the first view; takes some tenths of a second on a CPU device, most of it to compile. Returns the
-// scale. Errors: kDevice.
-Result<double> measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera);
+// How many times as long it takes for everything.
+struct DeviceSpeed {
+    double lights = 1;   // and for passes over the picture
+    double surfaces = 1; // triangles and their materials
+};
+
+// Draws a small picture with lights that reach everything, without, and of surfaces alone, and
+// scales the renderer's unit costs by what these took. A camera that sees nothing changes nothing.
+// Before the first view; takes some tenths of a second on a CPU device, most of it to compile.
+// Errors: kDevice.
+Result<DeviceSpeed>
+measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera);
 
 } // namespace froxel::render

@@ -19,14 +19,17 @@ struct UnitCosts {
     double bloom_tap = 0;
 };
 
-// Of a device that takes so many times as long for everything.
-[[nodiscard]] constexpr UnitCosts scaled(UnitCosts unit, double scale) {
+// Of a device that takes so many times as long for lights, and for surfaces.
+[[nodiscard]] constexpr UnitCosts scaled(UnitCosts unit, double lights, double surfaces) {
+    for (double UnitCosts::*cost : {&UnitCosts::triangle, &UnitCosts::depth_pixel,
+                                    &UnitCosts::surface_pixel, &UnitCosts::resolve_pixel}) {
+        unit.*cost *= surfaces;
+    }
     for (double UnitCosts::*cost :
-         {&UnitCosts::triangle, &UnitCosts::depth_pixel, &UnitCosts::surface_pixel,
-          &UnitCosts::resolve_pixel, &UnitCosts::lit_pixel, &UnitCosts::screen_pixel,
-          &UnitCosts::pair, &UnitCosts::fragment_pair, &UnitCosts::shadow_pair,
-          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap}) {
-        unit.*cost *= scale;
+         {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::pair,
+          &UnitCosts::fragment_pair, &UnitCosts::shadow_pair, &UnitCosts::area_pair,
+          &UnitCosts::froxel, &UnitCosts::bloom_tap}) {
+        unit.*cost *= lights;
     }
     return unit;
 }

@@ -64,11 +64,12 @@ class RendererSource final : public FrameSource {
                                                                        : kGpuPiece} {
         if (!scene.cameras.empty()) {
             const auto& camera = scene.cameras.front().camera;
-            const auto scale = render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
-            if (!scale) {
-                throw StartupError(scale.error());
+            const auto speed = render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
+            if (!speed) {
+                throw StartupError(speed.error());
             }
-            spdlog::info("event=device_speed pair_cost={:.2f}", *scale);
+            spdlog::info("event=device_speed lights={:.2f} surfaces={:.2f}", speed->lights,
+                         speed->surfaces);
         }
     }
 
