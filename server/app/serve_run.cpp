@@ -58,6 +58,8 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
     stream::RenderLoopOptions loop;
     loop.on_failure = options_.on_failure;
     loop.fates = server_->metrics().fates();
+    loop.on_begun = [this](Seconds took) { server_->metrics().frameBegun(took); };
+    loop.on_piece = [this](Seconds took) { server_->metrics().pieceDrawn(took); };
     server_->metrics().setSessionCapacity(options_.server.lobby.sessions_max);
     if (options_.losses) {
         server_->metrics().setDeviceLosses(options_.losses->count());

@@ -27,6 +27,8 @@ using session::FrameRecord;
 const Histogram::BucketBoundaries kSeconds = {0.0005, 0.001, 0.002, 0.004, 0.008, 0.016, 0.033,
                                               0.066,  0.1,   0.2,   0.5,   1.0,   2.0,   5.0};
 
+// Around what a piece may take on a GPU and on a CPU device.
+const Histogram::BucketBoundaries kSteps = {0.001, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2};
 const Histogram::BucketBoundaries kQualities = {30, 45, 55, 65, 75, 85, 92, 100};
 const Histogram::BucketBoundaries kScales = {0.4, 0.5, 0.6, 0.7, 0.75, 0.85, 1.0};
 
@@ -143,6 +145,15 @@ struct Metrics::Impl {
     std::array<Counter*, kRefinements.size()> refinements{};
     std::array<Histogram*, kStages.size()> stages{};
     std::array<Gauge*, kListGauges.size()> lists{};
+    prometheus::Family<Histogram>& steps =
+        prometheus::BuildHistogram()
+            .Name("froxel_frame_step_seconds")
+            .Help(
+                "What one step of a frame took, between which others are served: to begin it, and "
+                "to draw a piece of it.")
+            .Register(registry);
+    Histogram& begun = steps.Add({{"step", "begin"}}, kSteps);
+    Histogram& pieces = steps.Add({{"step", "piece"}}, kSteps);
     Counter& refused_connections =
         counter("froxel_connections_refused_total", "Connections over the limit.");
     prometheus::Family<Counter>& rejects =
@@ -277,6 +288,14 @@ void Metrics::upgradeRefused(unsigned http_status) {
 
 void Metrics::connectionRefused() {
     impl_->refused_connections.Increment();
+}
+
+void Metrics::frameBegun(Seconds took) {
+    impl_->begun.Observe(took.count());
+}
+
+void Metrics::pieceDrawn(Seconds took) {
+    impl_->pieces.Observe(took.count());
 }
 
 std::shared_ptr<FrameFates> Metrics::fates() const {

@@ -54,6 +54,11 @@ class Metrics {
     // Nothing is counted for kNone.
     void rateStepped(session::RateStep step);
 
+    // How long the render thread took to begin a frame, and the device for a piece of one. Any
+    // thread.
+    void frameBegun(Seconds took);
+    void pieceDrawn(Seconds took);
+
     // Where pictures are counted on their way to a connection; text() reads it.
     [[nodiscard]] std::shared_ptr<FrameFates> fates() const;
     // Tells what the device's memory is used for at that moment; called by text(), on its thread.

@@ -36,6 +36,10 @@ namespace froxel::stream {
 struct RenderLoopOptions {
     Seconds min_frame_interval{1.0 / 60};
     std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
+    // Steps of frames, as the render thread begins them and as the device draws their pieces:
+    // nobody else is served meanwhile. Runs on the render thread.
+    std::function<void(Seconds)> on_begun = [](Seconds) {};
+    std::function<void(Seconds)> on_piece = [](Seconds) {};
     // Of the render thread, from the first frame on.
     std::shared_ptr<Heartbeat> heartbeat = std::make_shared<Heartbeat>();
     // Makes device and scene; runs on the render thread, which then owns them. May take long and

@@ -61,6 +61,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     const auto work = beginWork(viewer, with, now);
     const Seconds host = spentSince(now);
     scheduler_.charge(id, host);
+    options_.on_begun(host);
     if (!work) {
         if (!isThisPictureAlone(work.error())) {
             throw StartupError(work.error());
@@ -161,6 +162,7 @@ void RenderLoop::finishOldest() {
         throw StartupError(collected.error());
     }
     const Seconds cost = spentSince(piece.submitted);
+    options_.on_piece(cost);
     scheduler_.onFinished(frame.id, cost - piece.charged, accounted_);
     frame.cost += cost;
     frame.longest_piece = std::max(frame.longest_piece, cost);

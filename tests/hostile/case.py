@@ -6,6 +6,7 @@ import dataclasses
 import importlib.util
 import multiprocessing
 import os
+import re
 import sys
 import time
 from collections.abc import Callable
@@ -125,6 +126,17 @@ def play_hostile(name, url, froxel, ready, begin, pipe):
     asyncio.run(play())
 
 
+def longest_step_s(server):
+    """What no step of a frame took longer than, as the server's histogram tells it."""
+    text = server.scrape()
+    longest = 0.0
+    for step in ("begin", "piece"):
+        buckets = re.findall(rf'^froxel_frame_step_seconds_bucket\{{step="{step}",le="(.*)"\}} (\d+)$', text, re.M)
+        counts = {float(bound.replace("+Inf", "inf")): int(count) for bound, count in buckets}
+        longest = max(longest, min(bound for bound in counts if counts[bound] == counts[float("inf")]))
+    return longest
+
+
 class Memory:
     """Most that the server held, read from its metrics meanwhile."""
 
@@ -184,7 +196,7 @@ async def measure(case, server, begin, fellow):
     room_states = (heard[2] - heard[1])["roomState"] / (times[2] - times[1])
     return {**{f"alone_{name}": value for name, value in alone.items()}, **beside, **joined,
             "kept": beside["fps"] / max(alone["fps"], 1e-9), "room_states_per_s": room_states,
-            "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
+            "step_s": await asyncio.to_thread(longest_step_s, server), "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
 
 
 def play(case, froxel, options):

@@ -27,7 +27,7 @@ SERVE = {"--size": "320x180", "--lights": "50"}
 COLUMNS = [("frames/s", 14, "{alone_fps:.1f} {fps:.1f}"), ("kept", 6, "{kept:.0%}"),
            ("gap, s", 12, "{alone_gap_s:.2f} {gap_s:.2f}"),
            ("ping p99, ms", 15, "{alone_ping_p99_ms:.1f} {ping_p99_ms:.1f}"),
-           ("RSS, MB", 9, "{rss_mb:.0f}"), ("device, MB", 12, "{device_mb:.0f}")]
+           ("step, s", 9, "{step_s:g}"), ("RSS, MB", 9, "{rss_mb:.0f}"), ("device, MB", 12, "{device_mb:.0f}")]
 
 
 def told(figures):

@@ -39,11 +39,15 @@ class Server:
         self.process.terminate()
         return self.process.wait(60)
 
+    def scrape(self):
+        """What /metrics says."""
+        with urllib.request.urlopen(self.metrics_url, timeout=5) as answer:
+            return answer.read().decode()
+
     def sample(self):
         """Every metric's value, summed over its labels; "at_s" and "scrape_s" besides."""
         start = time.monotonic()
-        with urllib.request.urlopen(self.metrics_url, timeout=5) as answer:
-            text = answer.read().decode()
+        text = self.scrape()
         values = {}
         for name, value in re.findall(r"^([a-z_]+)(?:\{[^}]*\})? (\S+)$", text, re.MULTILINE):
             values[name] = values.get(name, 0) + float(value)

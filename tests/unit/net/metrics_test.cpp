@@ -88,6 +88,18 @@ TEST(Metrics, Fates_AreReadWhenScraped) {
     EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total{reason=\"given_up\"} 2\n"));
 }
 
+TEST(Metrics, Steps_AreCountedByTheirLength) {
+    Metrics metrics;
+    metrics.frameBegun(Seconds(0.002));
+    metrics.pieceDrawn(Seconds(0.3));
+    metrics.pieceDrawn(Seconds(0.04));
+    const std::string text = metrics.text();
+    EXPECT_THAT(text, HasSubstr("froxel_frame_step_seconds_count{step=\"begin\"} 1\n"));
+    EXPECT_THAT(text,
+                HasSubstr("froxel_frame_step_seconds_bucket{step=\"piece\",le=\"0.25\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("froxel_frame_step_seconds_count{step=\"piece\"} 2\n"));
+}
+
 // Whatever viewers send, rows are bounded.
 TEST(Metrics, EveryCloseCode_RowsAreBounded) {
     Metrics metrics;
