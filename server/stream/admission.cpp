@@ -19,13 +19,13 @@ std::string rounded(double value) {
 
 void Admission::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost) {
     min_rate_hz_ = min_rate_hz;
-    if (frame_cost) {
-        typical_cost_.add(*frame_cost);
-    }
+    newcomer_cost_ = frame_cost.value_or(Seconds(0));
 }
 
-void Admission::add(uint64_t session, TimePoint now) {
-    sessions_[session].expected_since = now;
+void Admission::add(uint64_t session, const session::Account& account, TimePoint now) {
+    Entry& entry = sessions_[session];
+    entry.account = account;
+    entry.expected_since = now;
 }
 
 void Admission::setTakesFrames(uint64_t session, bool takes, TimePoint now) {
@@ -47,7 +47,6 @@ void Admission::onFrame(uint64_t session, Seconds cost, TimePoint now) {
     }
     Entry& entry = found->second;
     entry.cost.add(cost);
-    typical_cost_.add(cost);
     const Seconds age = now - entry.window_begin;
     if (age >= kWindow) {
         entry.before_count = age < 2 * kWindow ? entry.window_count : 0;
@@ -75,48 +74,51 @@ double Admission::rateOf(const Entry& entry, TimePoint now) {
 
 Admission::Needs Admission::needs(TimePoint now) const {
     Needs needs;
-    double cost_sum_s = 0;
-    uint32_t drawing = 0;
-    uint32_t unknown = 0;
+    needs.one_more = newcomer_cost_.count() * min_rate_hz_;
     for (const auto& [id, entry] : sessions_) {
         const auto cost = entry.cost.value();
-        if (!cost) {
-            const bool expected = entry.expected_since && now - *entry.expected_since < kPatience;
-            unknown += expected ? 1U : 0U;
-            continue;
-        }
-        const double rate_hz = rateOf(entry, now);
-        if (rate_hz > 0) {
-            ++drawing;
-            cost_sum_s += cost->count();
-            needs.busy += cost->count() * std::min(rate_hz, min_rate_hz_);
+        const double rate_hz = cost ? std::min(rateOf(entry, now), min_rate_hz_) : 0;
+        const bool expected =
+            !cost && entry.expected_since && now - *entry.expected_since < kPatience;
+        if (rate_hz > 0 || expected) {
+            ++needs.active;
+            needs.accounts[entry.account] += cost ? cost->count() * rate_hz : needs.one_more;
         }
     }
-    const auto typical = typical_cost_.value();
-    needs.mean_s = drawing > 0 ? cost_sum_s / drawing : typical.value_or(Seconds(0)).count();
-    needs.one_more = needs.mean_s * min_rate_hz_;
-    needs.busy += unknown * needs.one_more;
-    needs.active = drawing + unknown;
     return needs;
+}
+
+double Admission::busyFor(const session::Account& account, const Needs& needs) {
+    const auto newcomers = needs.accounts.contains(account) ? 0U : 1U;
+    const double share = 1.0 / static_cast<double>(needs.accounts.size() + newcomers);
+    double busy = 0;
+    for (const auto& [other, need] : needs.accounts) {
+        busy += other == account ? need : std::min(need, share);
+    }
+    return busy;
 }
 
 double Admission::load(TimePoint now) const {
     const Needs needs = this->needs(now);
-    return needs.busy + needs.one_more > 1 && needs.active > 0 ? 1
-           : needs.busy > 0                                    ? needs.busy / (1 - needs.one_more)
-                                                               : 0;
+    double busy = 0;
+    for (const auto& [account, need] : needs.accounts) {
+        busy = std::max(busy, busyFor(account, needs));
+    }
+    return busy <= 0 ? 0 : busy + needs.one_more > 1 ? 1 : busy / (1 - needs.one_more);
 }
 
-Result<void> Admission::check(TimePoint now) const {
+Result<void> Admission::check(const session::Account& account, TimePoint now) const {
     const Needs needs = this->needs(now);
-    if (needs.active == 0 || needs.busy + needs.one_more <= 1) {
+    const double busy = busyFor(account, needs);
+    if (needs.active == 0 || busy + needs.one_more <= 1) {
         return {};
     }
-    return Error{ErrorCode::kCapacity,
-                 "the device is busy: " + numberText(needs.active) + " active sessions need " +
-                     rounded(needs.busy) + " of its time for " + rounded(min_rate_hz_) +
-                     " frames a second each, and one more at " + rounded(needs.mean_s * 1e3) +
-                     " ms a frame would pass 1; try again later"};
+    return Error{ErrorCode::kCapacity, "the device is busy: " + numberText(needs.active) +
+                                           " active sessions need " + rounded(busy) +
+                                           " of its time for " + rounded(min_rate_hz_) +
+                                           " frames a second each, and one more at " +
+                                           rounded(newcomer_cost_.count() * 1e3) +
+                                           " ms a frame would pass 1; try again later"};
 }
 
 } // namespace froxel::stream

@@ -42,19 +42,19 @@ Result<SessionId> RenderLoop::join(std::weak_ptr<session::FrameSink> sink,
                                    const session::Account& account,
                                    TimePoint now) {
     const std::lock_guard lock(admission_mutex_);
-    if (auto fits = admission_.check(now); !fits) {
+    if (auto fits = admission_.check(account, now); !fits) {
         return fits.error();
     }
     auto id = mailbox_->join(std::move(sink), state, account, now);
     if (id) {
-        admission_.add(*id, now);
+        admission_.add(*id, account, now);
     }
     return id;
 }
 
-Result<void> RenderLoop::admits(const session::Account& /*account*/, TimePoint now) const {
+Result<void> RenderLoop::admits(const session::Account& account, TimePoint now) const {
     const std::lock_guard lock(admission_mutex_);
-    if (auto fits = admission_.check(now); !fits) {
+    if (auto fits = admission_.check(account, now); !fits) {
         return fits;
     }
     return mailbox_->check();

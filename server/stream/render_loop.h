@@ -60,8 +60,7 @@ class RenderLoop final : public session::StreamPort {
     RenderLoop& operator=(const RenderLoop&) = delete;
 
     // Frames a second that active sessions must keep when another one joins, and the device time of
-    // a frame until some were drawn for them: see Admission. 0, as it is first: no matter. Any
-    // thread.
+    // a newcomer's frame: see Admission. 0, as it is first: no matter. Any thread.
     void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
 
     // Admission::load(). Any thread.

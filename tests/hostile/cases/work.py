@@ -7,6 +7,7 @@ import subprocess
 from case import case
 from viewer import together
 
+JOINS = {"newcomer_s": 3}
 HUGE_LIGHT = {"id": 1, "position": {"y": 2}, "radiusM": 10_000, "intensity": 1}
 
 
@@ -21,7 +22,7 @@ async def long_lists(arena):
         await viewer.watch()
 
 
-@case()
+@case(newcomer=True, most=JOINS)
 async def all_lights(arena):
     """Naive shading with as many lights as are taken, found by halving."""
     async with arena.viewer() as viewer:
@@ -38,7 +39,7 @@ async def all_lights(arena):
                 count = max(count // 2, 1)
 
 
-@case()
+@case(newcomer=True, most=JOINS)
 async def huge_pictures(arena):
     """The largest picture, with every map of shadows and the widest bloom."""
     async with arena.viewer() as viewer:
@@ -67,7 +68,7 @@ async def fog_and_layers(arena):
         await viewer.watch()
 
 
-@case()
+@case(newcomer=True, most=JOINS)
 async def a_frame_a_connection(arena):
     """One large picture, then a new connection, which owes nothing yet."""
     async with arena.viewer() as viewer:

@@ -38,9 +38,10 @@ class Pod {
         admission_.setMinRate(5, cost_);
         metrics_.watchLoad([this] { return admission_.load(now_); });
     }
-    [[nodiscard]] bool full() const { return !admission_.check(now_); }
+    [[nodiscard]] bool full() const { return !admission_.check({"newcomer"}, now_); }
     void join() {
-        admission_.add(++viewers_, now_);
+        ++viewers_;
+        admission_.add(viewers_, {"viewer " + std::to_string(viewers_)}, now_);
         const auto round = std::chrono::duration_cast<Clock::duration>(
             std::max(viewers_ * cost_, Seconds(1.0 / 60)));
         for (const TimePoint end = now_ + 5s; now_ < end; now_ += round) {
