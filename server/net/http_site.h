@@ -2,6 +2,7 @@
 // the one for operators (admin_site.h). Immutable; any thread.
 #pragma once
 
+#include "net/connection_tickets.h"
 #include "net/host_names.h"
 #include "net/paced_reads.h"
 #include "net/service.h"
@@ -26,9 +27,6 @@ using PeerStream = transport::PeerStream<PacedTcp>;
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
-// Counts a connection for as long as it is held.
-using ConnectionTicket = std::shared_ptr<const void>;
-
 class HttpSite {
   public:
     virtual ~HttpSite() = default;
@@ -42,7 +40,7 @@ class HttpSite {
     // of its path, too: a browser's page is told no status of a WebSocket that was refused.
     [[nodiscard]] virtual std::optional<Response>
     refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const = 0;
-    // Connections that `peer` may have at once.
+    // Connections that the account of `peer` may have at once.
     [[nodiscard]] virtual uint32_t connectionsMax(const boost::asio::ip::address& /*peer*/) const {
         return std::numeric_limits<uint32_t>::max();
     }

@@ -9,8 +9,6 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/strand.hpp>
 
-#include <map>
-#include <mutex>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <utility>
@@ -59,13 +57,6 @@ void tune(tcp::socket& socket) {
 
 } // namespace
 
-// Any thread, as tickets go where their connections end.
-struct Listener::Peers {
-    std::mutex mutex;
-    std::map<asio::ip::address, uint32_t> counts;
-    uint32_t total = 0;
-};
-
 Listener::Listener(asio::io_context& io,
                    const BindAddress& bind,
                    const char* option,
@@ -74,8 +65,7 @@ Listener::Listener(asio::io_context& io,
                    std::shared_ptr<const Tls> tls)
     : io_(io), acceptor_(asio::make_strand(io)), back_off_(acceptor_.get_executor()),
       connections_max_(connections_max), site_(std::move(site)),
-      busy_site_(std::make_shared<BusySite>()), tls_(std::move(tls)),
-      peers_(std::make_shared<Peers>()) {
+      busy_site_(std::make_shared<BusySite>()), tls_(std::move(tls)), tickets_(connections_max) {
     Failure failure;
     const auto ip = asio::ip::make_address(bind.address, failure);
     if (failure) {
@@ -136,8 +126,9 @@ void Listener::onAccepted(Failure failure, tcp::socket socket) {
     }
     Failure gone; // it has no address then, and its first read fails
     const asio::ip::address peer = socket.remote_endpoint(gone).address();
-    if (!failure && hasRoomFor(peer)) {
-        serve(std::move(socket), site_, ticketOf(peers_, peer));
+    ConnectionTicket ticket = failure ? nullptr : tickets_.take(peer, site_->connectionsMax(peer));
+    if (ticket) {
+        serve(std::move(socket), site_, std::move(ticket));
     } else if (!failure) {
         spdlog::warn("event=connection_refused port={} peer={} limit={}", port_, peer.to_string(),
                      connections_max_);
@@ -149,28 +140,6 @@ void Listener::onAccepted(Failure failure, tcp::socket socket) {
         } // else the socket closes here: a refusal would take what is short
     }
     accept();
-}
-
-bool Listener::hasRoomFor(const asio::ip::address& peer) const {
-    const std::lock_guard lock(peers_->mutex);
-    const auto found = peers_->counts.find(peer);
-    const uint32_t here = found == peers_->counts.end() ? 0 : found->second;
-    return peers_->total < connections_max_ && here < site_->connectionsMax(peer);
-}
-
-ConnectionTicket Listener::ticketOf(const std::shared_ptr<Peers>& peers,
-                                    const asio::ip::address& peer) {
-    const std::lock_guard lock(peers->mutex);
-    ++peers->total;
-    ++peers->counts[peer];
-    return {nullptr, [peers, peer](const void*) {
-                const std::lock_guard last_lock(peers->mutex);
-                --peers->total;
-                const auto found = peers->counts.find(peer);
-                if (--found->second == 0) {
-                    peers->counts.erase(found);
-                }
-            }};
 }
 
 void Listener::serve(tcp::socket socket,

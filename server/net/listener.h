@@ -36,12 +36,6 @@ class Listener final : public std::enable_shared_from_this<Listener> {
 
     void accept();
     void onAccepted(boost::system::error_code error, boost::asio::ip::tcp::socket socket);
-    // Connections that are there, by address.
-    struct Peers;
-
-    [[nodiscard]] static ConnectionTicket ticketOf(const std::shared_ptr<Peers>& peers,
-                                                   const boost::asio::ip::address& peer);
-    [[nodiscard]] bool hasRoomFor(const boost::asio::ip::address& peer) const;
     void serve(boost::asio::ip::tcp::socket socket,
                std::shared_ptr<const HttpSite> site,
                ConnectionTicket ticket);
@@ -53,7 +47,7 @@ class Listener final : public std::enable_shared_from_this<Listener> {
     const std::shared_ptr<const HttpSite> site_;
     const std::shared_ptr<const HttpSite> busy_site_;
     const std::shared_ptr<const Tls> tls_; // null: without encryption
-    const std::shared_ptr<Peers> peers_;
+    ConnectionTickets tickets_;
     const std::shared_ptr<Count> refused_count_ = std::make_shared<Count>(0);
     uint16_t port_ = 0;
 };
