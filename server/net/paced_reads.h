@@ -16,8 +16,13 @@ class PacedReads {
   public:
     using Standing = ReadBudget::Standing;
 
-    // `told` is called within a read, or a charge, that makes the standing worse.
-    void onWorse(std::function<void(Standing)> told) { told_ = std::move(told); }
+    // A fresh budget, as of a new connection: what was read so far was of another kind. `told` is
+    // called within a read, or a charge, that makes its standing worse.
+    void begin(std::function<void(Standing)> told) {
+        budget_ = {};
+        told_ = std::move(told);
+    }
+    [[nodiscard]] Standing standing() const { return budget_.standing(); }
     // Counts something by a function of ReadBudget.
     template <class... Args>
     void count(void (ReadBudget::*what)(Args...), Args... args) {

@@ -135,7 +135,7 @@ void WsConnection::setOptions() {
     stream_.control_callback([this](websocket::frame_type, beast::string_view) {
         reads().count(&ReadBudget::onControlFrame, Clock::now());
     });
-    reads().onWorse([weak = weak_from_this()](ReadBudget::Standing standing) {
+    reads().begin([weak = weak_from_this()](ReadBudget::Standing standing) {
         if (const auto self = weak.lock()) {
             self->onStrand([standing](Conversation& talk) { talk.onFlood(standing); });
         }

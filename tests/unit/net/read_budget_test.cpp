@@ -1,8 +1,9 @@
-#include "net/read_budget.h"
+#include "net/paced_reads.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace froxel::net {
 namespace {
@@ -84,6 +85,21 @@ TEST_F(ReadBudgetTest, Standing_LongMessageInFragmentsOfAByte_StaysWithin) {
         budget_.onMessage(now_);
     }
     EXPECT_EQ(budget_.standing(), Standing::kWithin);
+}
+
+TEST(PacedReads, Begin_AfterRequestsThatSpentItAll_TellsOfTheNextFloodAnew) {
+    const TimePoint now = TimePoint() + 1h;
+    PacedReads reads; // of a connection that asked for many pages
+    reads.count(&ReadBudget::onBytes, ReadBudget::kMostWithoutMessage + 1, now);
+    ASSERT_EQ(reads.standing(), Standing::kSpent);
+    std::vector<Standing> told;
+    reads.begin([&told](Standing standing) { told.push_back(standing); });
+    EXPECT_EQ(reads.standing(), Standing::kWithin);
+    for (size_t read = 0; read < 2 * kAll; read += protocol::kMaxMessageBytes) {
+        reads.count(&ReadBudget::onBytes, protocol::kMaxMessageBytes, now);
+        reads.count(&ReadBudget::onMessage, now);
+    }
+    EXPECT_EQ(told, (std::vector{Standing::kThrottled, Standing::kSpent}));
 }
 
 } // namespace
