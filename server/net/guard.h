@@ -22,4 +22,11 @@ template <class Work>
     }
 }
 
+// A thread of `io`, until that stops. Handlers guard themselves; this is for what none foresaw.
+template <class Io>
+void runGuarded(const char* where, Io& io) {
+    while (!guarded(where, [&io] { io.run(); })) {
+    }
+}
+
 } // namespace froxel::net

@@ -1,6 +1,7 @@
 #include "net/long_work.h"
 
 #include "core/thread_name.h"
+#include "net/guard.h"
 
 #include <ctime>
 #include <sys/resource.h>
@@ -25,7 +26,7 @@ LongWork::LongWork(uint32_t thread_count)
         threads_.emplace_back([this] {
             nameThread("messages");
             setpriority(PRIO_PROCESS, 0, kNiceness); // refused: it goes on as it is
-            io_.run();
+            runGuarded("long message", io_);
         });
     }
 }

@@ -50,12 +50,6 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     return site;
 }
 
-// Handlers guard themselves; this is for what none foresaw.
-void work(asio::io_context& io) {
-    while (!guarded("network thread", [&io] { io.run(); })) {
-    }
-}
-
 // The admin address, on a thread of its own: whatever viewers do, it answers.
 struct Admin {
     Admin(const BindAddress& bind, std::shared_ptr<const AdminSite> site)
@@ -64,7 +58,7 @@ struct Admin {
         listener->start();
         thread = std::jthread([this] {
             nameThread("admin");
-            work(io);
+            runGuarded("network thread", io);
         });
     }
     ~Admin() { io.stop(); }
@@ -109,7 +103,7 @@ struct Server::Impl {
         for (uint32_t i = 0; i < options.thread_count; ++i) {
             std::packaged_task<void()> task([this] {
                 nameThread("network");
-                work(io);
+                runGuarded("network thread", io);
             });
             done.push_back(task.get_future());
             threads.emplace_back(std::move(task));
