@@ -172,6 +172,7 @@ void RenderLoop::takeNews() {
     const bool had_viewers = !viewers_.empty();
     for (auto entry = viewers_.begin(); entry != viewers_.end();) {
         Viewer& viewer = *entry->second;
+        chargeEncoding(entry->first, viewer); // the last picture's as well
         if (viewer.waiting && viewer.waitsInVain()) {
             abandon(viewer);
         }
@@ -191,11 +192,14 @@ void RenderLoop::takeNews() {
     }
 }
 
-void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
+void RenderLoop::chargeEncoding(SessionId id, Viewer& viewer) {
     const Seconds encoding = viewer.pipeline->takeWork();
     if (source_->isHost()) {
         scheduler_.charge(id, encoding / core_count_);
     }
+}
+
+void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
     const FramePipeline::Losses losses = viewer.pipeline->takeLosses();
     viewer.started -= losses.count;
     viewer.changed = viewer.changed || losses.retry;

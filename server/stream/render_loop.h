@@ -93,6 +93,7 @@ class RenderLoop final : public session::StreamPort {
     void takeNews();
     void readNews();
     void takeState(Viewer& viewer, const ViewerNews& news);
+    void chargeEncoding(session::SessionId id, Viewer& viewer);
     void updateReadiness(session::SessionId id, Viewer& viewer, TimePoint now);
     [[nodiscard]] std::optional<TimePoint> nextWake() const;
     void fail(const Error& error);
