@@ -66,6 +66,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
         if (!isThisPictureAlone(work.error())) {
             throw StartupError(work.error());
         }
+        scheduler_.onFrame(id, now); // a refused one takes the host's time, too
         refuse(id, viewer, work.error());
         return false;
     }
@@ -144,8 +145,10 @@ void RenderLoop::end(Viewer& viewer, BegunFrame& frame) {
 
 void RenderLoop::refuse(SessionId id, Viewer& viewer, const Error& error) {
     const view::Size& size = viewer.state.settings.size;
-    spdlog::warn("event=picture_refused session={} size={}x{} reason={}", id, size.width_px,
-                 size.height_px, logValue(error.message));
+    if (const auto count = viewer.noteRefusal(Clock::now())) {
+        spdlog::warn("event=picture_refused session={} size={}x{} count={} reason={}", id,
+                     size.width_px, size.height_px, *count, logValue(error.message));
+    }
     viewer.blocked = true;
     if (const auto sink = viewer.sink.lock()) {
         sink->refuse(error, viewer.state, viewer.drawn);

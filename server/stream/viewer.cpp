@@ -56,4 +56,12 @@ bool Viewer::waitsInVain() const {
     return (taken_back || waiting->state.version != state.version) && !gave_up;
 }
 
+std::optional<uint64_t> Viewer::noteRefusal(TimePoint now) {
+    ++untold_refusals_;
+    if (!refusal_lines_.take(now)) {
+        return {};
+    }
+    return std::exchange(untold_refusals_, 0);
+}
+
 } // namespace froxel::stream

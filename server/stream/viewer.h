@@ -2,6 +2,7 @@
 // way for it. Render thread only.
 #pragma once
 
+#include "core/allowance.h"
 #include "session/refinement.h"
 #include "session/render_scale.h"
 #include "session/steady_cost.h"
@@ -70,9 +71,15 @@ struct Viewer {
     // because of a change, the next change does not end this one: a camera that never rests gets
     // pictures too.
     [[nodiscard]] bool waitsInVain() const;
+    // A picture was refused. How many were since the last line in the log, with this one; none: no
+    // line, since that one was written within a second.
+    [[nodiscard]] std::optional<uint64_t> noteRefusal(TimePoint now);
 
   private:
     [[nodiscard]] std::optional<session::RefinementSchedule::Due> refineNext() const;
+
+    Allowance refusal_lines_{1, 1};
+    uint64_t untold_refusals_ = 0;
 };
 
 } // namespace froxel::stream

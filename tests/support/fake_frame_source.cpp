@@ -74,13 +74,14 @@ class FakeView final : public stream::ViewSource {
         return waiting_ == 0 && static_cast<int>(frames_.size()) + *own_leases_ < kReadbackSlots;
     }
 
-    [[nodiscard]] Result<stream::FrameWork> begin(const view::ViewSettings& settings,
-                                                  double /*time_s*/,
-                                                  uint64_t /*beside_bytes*/) override {
+    [[nodiscard]] Result<stream::FrameWork>
+    begin(const view::ViewSettings& settings, double /*time_s*/, uint64_t beside_bytes) override {
+        device_->beside_bytes = beside_bytes;
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
         if (uint64_t{settings.size.width_px} * settings.size.height_px > device_->max_area_px) {
+            ++device_->unfit_count;
             return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
         }
         if (!device_->computes && settings.lighting == view::LightingStage::kCompute) {

@@ -22,12 +22,14 @@ class FakeDevice {
     std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
     std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
     std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
-    std::atomic<uint32_t> again_count = 0; // that many frames need more than they were given
+    std::atomic<uint32_t> again_count = 0;   // that many frames need more than they were given
     std::atomic<uint32_t> unready_count = 0; // that many times nothing can begin yet
     std::atomic<bool> lost = false;
     std::atomic<bool> noisy = false; // pictures of noise, whose encoded size goes with all settings
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage
     std::atomic<uint64_t> begun_count = 0;
+    std::atomic<uint64_t> unfit_count = 0;     // that did not begin, being too large
+    std::atomic<uint64_t> beside_bytes = 0;    // as begin() was last told
     std::atomic<uint64_t> submitted_count = 0; // pieces
     std::atomic<uint64_t> abandoned_count = 0; // frames
     std::atomic<uint64_t> collect_count = 0;   // calls

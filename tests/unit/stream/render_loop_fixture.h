@@ -18,9 +18,9 @@ inline constexpr uint64_t kPlenty = 1000;
 // A render loop over a fake device.
 class RenderLoopTest : public testing::Test {
   protected:
-    void start() {
+    void start(Seconds min_frame_interval = Seconds(0)) {
         RenderLoopOptions options;
-        options.min_frame_interval = Seconds(0);
+        options.min_frame_interval = min_frame_interval;
         options.fates = fates_;
         options.make_source = [this] { return test::makeFakeSource(device_); };
         options.on_failure = [this](const Error& error) { failure_.set_value(error); };

@@ -131,6 +131,22 @@ TEST_F(RenderLoopTest, Refuse_DeviceCannot_TellsAndKeepsServing) {
     EXPECT_TRUE(sink->waitForFrames(2));
 }
 
+TEST_F(RenderLoopTest, Refuse_IsPacedAsAPicture) {
+    device_->max_area_px = 1000;
+    start(Seconds(3600));
+    const auto sink = makeSink();
+    auto state = still();
+    state.settings.size = {640, 480};
+    const auto id = join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitFor([](const auto& record) { return !record.refusals.empty(); }));
+    for (int i = 0; i < 3; ++i) {
+        ++state.version;
+        loop_->update(id, state, Clock::now());
+        settle();
+    }
+    EXPECT_EQ(device_->unfit_count, 1U);
+}
+
 TEST_F(RenderLoopTest, Refuse_ShownByTheFinishedFrame_TellsOnceAndKeepsServing) {
     device_->depth = 2;
     device_->max_lights = 2000;
