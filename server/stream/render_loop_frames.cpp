@@ -106,8 +106,11 @@ RenderLoop::beginWork(Viewer& viewer, const session::Delivered& with, TimePoint 
     }
     view::ViewSettings settings = viewer.state.settings;
     settings.size = session::scaled(settings.size, with.scale);
-    return viewer.source->begin(settings, viewer.state.light_clock.secondsAt(now),
-                                encode::memoryBytes(with.encoding, settings.size));
+    // A refined still leaves the encoder of video as it is.
+    const uint64_t encoding_bytes =
+        std::max(encode::memoryBytes(with.encoding, settings.size),
+                 encode::memoryBytes(viewer.state.encoding, settings.size));
+    return viewer.source->begin(settings, viewer.state.light_clock.secondsAt(now), encoding_bytes);
 }
 
 void RenderLoop::submitPiece(Viewer& viewer) {

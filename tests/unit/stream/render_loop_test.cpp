@@ -1,3 +1,4 @@
+#include "encode/memory.h"
 #include "render_loop_fixture.h"
 #include "session/refinement.h"
 
@@ -305,6 +306,18 @@ TEST_F(RenderLoopTest, Rest_IsRefinedInStagesAndThenNothing) {
     EXPECT_GE(apart, session::RefinementSchedule::kLosslessAfter / 2);
     settle();
     EXPECT_EQ(sink->frames().size(), 3U);
+}
+
+TEST_F(RenderLoopTest, RestOfVideo_CountsTheEncoderThatIsKept) {
+    start();
+    const auto sink = makeSink();
+    auto state = still();
+    state.encoding.codec = view::Codec::kVp9;
+    state.delivery.refine = view::Refine::kHigh;
+    join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(2));
+    ASSERT_FALSE(view::isVideo(sink->frames()[1].record.delivered.encoding.codec));
+    EXPECT_GE(device_->beside_bytes, encode::memoryBytes(state.encoding, state.settings.size));
 }
 
 TEST_F(RenderLoopTest, Delivery_LimitsMovingFramesAndMakesRestingOnesWhole) {
