@@ -1,6 +1,7 @@
 #include "app/scene_camera.h"
 
 #include "core/text.h"
+#include "scene/first_camera.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -14,8 +15,7 @@ struct Finder {
     const scene::Scene& scene;
 
     Result<view::Camera> operator()(const DefaultCamera&) const {
-        return scene.cameras.empty() ? view::overview(scene.bounds_world)
-                                     : scene.cameras.front().camera;
+        return scene::firstCamera(scene.cameras, scene.bounds_world);
     }
     Result<view::Camera> operator()(const view::Camera& camera) const { return camera; }
     Result<view::Camera> operator()(const std::string& name) const {

@@ -2,6 +2,7 @@
 
 #include "core/assert.h"
 #include "core/text.h"
+#include "scene/first_camera.h"
 #include "session/placed_lights.h"
 
 #include <algorithm>
@@ -260,8 +261,7 @@ bool holdsOneOf(const Command& command) {
 SessionState initialState(const SessionContext& context, TimePoint now) {
     const SessionDefaults& defaults = context.defaults;
     view::ViewSettings settings = defaults.other;
-    settings.camera = context.scene.cameras.empty() ? view::overview(context.scene.bounds_world)
-                                                    : context.scene.cameras.front().camera;
+    settings.camera = scene::firstCamera(context.scene.cameras, context.scene.bounds_world);
     settings.camera.lens_shift = defaults.lens_shift.value_or(settings.camera.lens_shift);
     settings.size = defaults.size;
     settings.renderer = defaults.renderer;

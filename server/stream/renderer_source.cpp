@@ -1,7 +1,9 @@
 #include "stream/renderer_source.h"
 
+#include "core/keep_for_good.h"
 #include "render/device_speed.h"
 #include "render/renderer.h"
+#include "scene/first_camera.h"
 
 #include <spdlog/spdlog.h>
 
@@ -61,16 +63,11 @@ class RendererSource final : public FrameSource {
         : device_(std::move(device)),
           renderer_(*device_, scene, memory), limits_{frame_limit, device_->traits().is_cpu
                                                                        ? kCpuPiece
-                                                                       : kGpuPiece} {
-        if (!scene.cameras.empty()) {
-            const auto& camera = scene.cameras.front().camera;
-            const auto speed = render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
-            if (!speed) {
-                throw StartupError(speed.error());
-            }
-            spdlog::info("event=device_speed lights={:.2f} surfaces={:.2f}", speed->lights,
-                         speed->surfaces);
-        }
+                                                                       : kGpuPiece} {}
+
+    // Estimates of frames are scaled by it. Errors: kDevice.
+    [[nodiscard]] Result<render::DeviceSpeed> measureSpeed(const view::Camera& camera) {
+        return render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
     }
 
     // A CPU device draws with the host's cores: a second frame would only make the first late.
@@ -79,7 +76,13 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] bool isHost() const override { return device_->traits().is_cpu; }
 
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
-        return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_, limits_));
+        try {
+            return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_, limits_));
+        } catch (const vk::OutOfDeviceMemoryError&) {
+            return noMemory("device");
+        } catch (const vk::OutOfHostMemoryError&) {
+            return noMemory("host");
+        }
     }
 
     void makeVariantsInBackground() override {
@@ -87,6 +90,10 @@ class RendererSource final : public FrameSource {
     }
 
   private:
+    [[nodiscard]] static Error noMemory(const std::string& whose) {
+        return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};
+    }
+
     std::unique_ptr<gpu::Device> device_;
     render::Renderer renderer_;
     const render::WorkLimits limits_;
@@ -98,7 +105,18 @@ std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> dev
                                                 const scene::Scene& scene,
                                                 Seconds frame_limit,
                                                 const render::MemoryLimits& memory) {
-    return std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
+    auto source = std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
+    const auto camera = scene::firstCamera(scene.cameras, scene.bounds_world);
+    const auto speed = source->measureSpeed(camera);
+    if (!speed) {
+        if (speed.error().code == ErrorCode::kDevice) {
+            keepForGood(std::move(source));
+        }
+        throw StartupError(speed.error());
+    }
+    spdlog::info("event=device_speed lights={:.2f} surfaces={:.2f}", speed->lights,
+                 speed->surfaces);
+    return source;
 }
 
 } // namespace froxel::stream

@@ -1,0 +1,43 @@
+#include "stream/renderer_source.h"
+#include "support/gpu_fixture.h"
+#include "support/test_scenes.h"
+
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <sstream>
+
+namespace froxel::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+// What is logged while it lives.
+class LogText {
+  public:
+    LogText() {
+        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+            "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
+    }
+    ~LogText() { spdlog::set_default_logger(before_); }
+    LogText(const LogText&) = delete;
+    LogText& operator=(const LogText&) = delete;
+    [[nodiscard]] std::string text() const { return text_.str(); }
+
+  private:
+    const std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
+    std::ostringstream text_;
+};
+
+// By a view of all of it: the default speed, 1, would be told where nothing was seen.
+TEST(RendererSource, SceneWithoutCameras_SpeedIsMeasured) {
+    scene::Scene scene = makeRoom();
+    scene.cameras.clear();
+    const LogText log;
+    const auto source = stream::makeRendererSource(openTestDevice(), scene, Seconds(10), {});
+    EXPECT_THAT(log.text(), HasSubstr("event=device_speed lights="));
+    EXPECT_EQ(log.text().find("lights=1.00 surfaces=1.00"), std::string::npos) << log.text();
+}
+
+} // namespace
+} // namespace froxel::test
