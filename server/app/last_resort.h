@@ -23,7 +23,7 @@ class LastResort {
               wake.wait_for(lock, over, patience, [] { return false; });
               if (!over.stop_requested()) {
                   spdlog::warn("event=exit_forced after_ms={}", patience.count());
-                  spdlog::shutdown();
+                  spdlog::default_logger()->flush(); // other threads may yet log
                   std::quick_exit(exit_code);
               }
           }) {}

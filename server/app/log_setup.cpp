@@ -61,7 +61,11 @@ class LimitedStderr final : public spdlog::sinks::base_sink<std::mutex> {
             write(message);
         }
     }
-    void flush_() override { std::fflush(stderr); }
+    // Before the end, which need not destroy this.
+    void flush_() override {
+        tellLeftOut(true);
+        std::fflush(stderr);
+    }
 
   private:
     void tellLeftOut(bool end) {

@@ -20,8 +20,15 @@ constexpr std::chrono::seconds kLastFrame{3};
 [[noreturn]] void endWithoutDevice(ServeRun& run, const char* event, const std::string& why) {
     spdlog::error("event={} reason={}", event, logValue(why));
     run.giveUp(why);
-    spdlog::shutdown();
+    spdlog::default_logger()->flush(); // other threads may yet log
     std::quick_exit(kExitDeviceLost);
+}
+
+void endIfDeviceIsLost(ServeRun& run, LatestSlot<Error>& failure) {
+    // A scene that could not be opened while everybody left is nobody's loss.
+    if (auto error = run.opened() ? failure.take() : std::nullopt) {
+        endWithoutDevice(run, "device_lost", error->message);
+    }
 }
 
 } // namespace
@@ -35,12 +42,9 @@ int serveUntilEnd(std::optional<ServeRun>& run,
         moves = run->rendersOn();
         return moves.has_value();
     });
-    const bool opened = run->opened();
+    endIfDeviceIsLost(*run, failure);
     if (auto error = failure.take()) {
-        if (!opened) {
-            throw StartupError(std::move(*error));
-        }
-        endWithoutDevice(*run, "device_lost", error->message);
+        throw StartupError(std::move(*error));
     }
     if (!moves) {
         endWithoutDevice(*run, "device_stuck", moves.error().message);
@@ -49,8 +53,12 @@ int serveUntilEnd(std::optional<ServeRun>& run,
     spdlog::info("event=draining signal={} seconds={}", signal, Whole(drain_time).count());
     const bool all_closed = run->drain(drain_time);
     spdlog::info("event=drained all_closed={}", all_closed);
+    endIfDeviceIsLost(*run, failure);
     // A scene that is still being loaded cannot be interrupted, and nobody has anything to lose.
-    const LastResort last_resort(opened ? kLastFrame : std::chrono::seconds(0), EXIT_SUCCESS);
+    const LastResort last_resort(run->opened() ? kLastFrame : std::chrono::seconds(0),
+                                 EXIT_SUCCESS);
+    run->stop();
+    endIfDeviceIsLost(*run, failure); // with the frames that were under way
     run.reset();
     return EXIT_SUCCESS;
 }

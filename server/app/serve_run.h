@@ -50,6 +50,8 @@ class ServeRun {
     [[nodiscard]] bool opened() const { return server_->service().status().serving.has_value(); }
     // As net::Server.
     bool drain(std::chrono::milliseconds deadline) { return server_->drain(deadline); }
+    // As stream::RenderLoop.
+    void stop() { loop_.stop(); }
     // Closes the connections whose token was taken away; after the gate has loaded.
     void checkTokens() { server_->service().announce(); }
     // The device is gone: notes it, and tells every viewer.

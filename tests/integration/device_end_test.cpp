@@ -55,6 +55,18 @@ TEST(DeviceEnd, DriverNeverReturns_WatchdogTellsAndItExitsSixWithOneLine) {
     expectToldAndSix(server, "event=device_stuck");
 }
 
+TEST(DeviceEnd, LostAfterSigterm_ExitsSix) {
+    HangingServer server("1500", "0");
+    WsClient client(server.port());
+    client.join();
+    EXPECT_EQ(server.readLine(), "the device has a piece");
+    server.signal(SIGTERM);
+    const auto end = server.wait(20s);
+    EXPECT_EQ(end.exit_code, 6) << end.signal << end.errors;
+    EXPECT_NE(end.errors.find("event=draining"), std::string::npos) << end.errors;
+    EXPECT_NE(end.errors.find("event=device_lost"), std::string::npos) << end.errors;
+}
+
 TEST(DeviceEnd, DriverNeverReturnsAndSigterm_EndsNevertheless) {
     HangingServer server("0", "0");
     WsClient client(server.port());

@@ -31,6 +31,8 @@ class HangingView final : public stream::ViewSource {
         if (asked_++ > 0) {
             std::abort();
         }
+        std::puts("the device has a piece");
+        std::fflush(stdout);
         std::binary_semaphore answer{0}; // which never comes
         if (wait_.count() == 0) {
             answer.acquire();
