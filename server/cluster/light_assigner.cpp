@@ -123,6 +123,10 @@ LightAssigner::LightAssigner(unsigned threads, uint64_t max_entries)
 
 LightAssigner::~LightAssigner() = default;
 
+Crew& LightAssigner::crew() {
+    return impl_->crew;
+}
+
 void LightAssigner::Impl::sweepLights(const ClusterGrid& grid,
                                       const light::FrameLights& lights,
                                       unsigned member,

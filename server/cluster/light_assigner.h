@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cluster/cluster_grid.h"
+#include "cluster/crew.h"
 #include "core/frame_stats.h"
 #include "interface/light_io.h"
 #include "light/frame_lights.h"
@@ -44,6 +45,8 @@ class LightAssigner {
     LightAssigner& operator=(const LightAssigner&) = delete;
 
     void assign(const ClusterGrid& grid, const light::FrameLights& lights, LightLists& out);
+    // Its threads, between two calls.
+    [[nodiscard]] Crew& crew();
 
   private:
     struct Impl;

@@ -5,6 +5,7 @@
 #include "light/falloff.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -59,6 +60,42 @@ double keepStrongest(std::span<uint32_t> all,
                            [](double sum, const Candidate& gone) { return sum + gone.irradiance; });
 }
 
+// What capping some lists dropped.
+struct Dropped {
+    double irradiance = 0; // at most in any one cluster
+    uint64_t count = 0;
+    uint32_t list_count = 0;
+
+    void add(const Dropped& other) {
+        irradiance = std::max(irradiance, other.irradiance);
+        count += other.count;
+        list_count += other.list_count;
+    }
+};
+
+// The lists of a row of clusters, each in its own place.
+Dropped capRow(const ClusterGrid& grid,
+               const light::FrameLights& lights,
+               uint32_t cap,
+               uint32_t row,
+               LightLists& lists,
+               std::vector<Candidate>& candidates) {
+    Dropped dropped;
+    const uint32_t y = row % grid.size.y;
+    const uint32_t z = row / grid.size.y;
+    for (uint32_t x = 0; x < grid.size.x; ++x) {
+        io::ClusterList& list = lists.clusters[grid.clusterIndex(x, y, z)];
+        if (list.count > cap) {
+            const auto all = std::span(lists.indices).subspan(list.offset, list.count);
+            const double lost =
+                keepStrongest(all, cap, boxOf(grid, grid.cell(x, y, z)), lights, candidates);
+            dropped.add({lost, list.count - cap, 1});
+            list.count = cap;
+        }
+    }
+    return dropped;
+}
+
 } // namespace
 
 double mostIrradiance(const light::FrameLights& lights,
@@ -79,36 +116,39 @@ double mostIrradiance(const light::FrameLights& lights,
 void capLists(const ClusterGrid& grid,
               const light::FrameLights& lights,
               uint32_t cap,
+              Crew& crew,
               LightLists& lists) {
     if (lists.all_lights) {
         return;
     }
+    const uint32_t row_count = grid.size.y * grid.size.z;
+    std::atomic<uint32_t> next_row = 0;
+    std::vector<Dropped> dropped(crew.members());
+    crew.run(crew.members(), [&](unsigned member) {
+        std::vector<Candidate> candidates;
+        for (uint32_t row = next_row++; row < row_count; row = next_row++) {
+            dropped[member].add(capRow(grid, lights, cap, row, lists, candidates));
+        }
+    });
+    Dropped all;
+    for (const Dropped& part : dropped) {
+        all.add(part);
+    }
     LightListStats& stats = lists.stats;
+    stats.dropped_irradiance = all.irradiance;
+    stats.dropped_count = all.count;
+    stats.capped_count = all.list_count;
+
+    // Lists only move towards the front.
     ListHistogram lengths;
-    std::vector<Candidate> candidates;
     stats.largest = 0;
     uint32_t end = 0;
-    for (uint32_t z = 0; z < grid.size.z; ++z) {
-        for (uint32_t y = 0; y < grid.size.y; ++y) {
-            for (uint32_t x = 0; x < grid.size.x; ++x) {
-                io::ClusterList& list = lists.clusters[grid.clusterIndex(x, y, z)];
-                const auto all = std::span(lists.indices).subspan(list.offset, list.count);
-                if (list.count > cap) {
-                    const double dropped = keepStrongest(all, cap, boxOf(grid, grid.cell(x, y, z)),
-                                                         lights, candidates);
-                    stats.dropped_irradiance = std::max(stats.dropped_irradiance, dropped);
-                    stats.dropped_count += list.count - cap;
-                    ++stats.capped_count;
-                    list.count = cap;
-                }
-                // Lists only move towards the front.
-                std::copy_n(all.begin(), list.count, lists.indices.begin() + end);
-                list.offset = end;
-                end += list.count;
-                lengths.add(list.count);
-                stats.largest = std::max(stats.largest, list.count);
-            }
-        }
+    for (io::ClusterList& list : lists.clusters) {
+        std::copy_n(lists.indices.begin() + list.offset, list.count, lists.indices.begin() + end);
+        list.offset = end;
+        end += list.count;
+        lengths.add(list.count);
+        stats.largest = std::max(stats.largest, list.count);
     }
     lists.indices.resize(end);
     stats.entry_count = end;

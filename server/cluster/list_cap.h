@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cluster/cluster_grid.h"
+#include "cluster/crew.h"
 #include "cluster/light_assigner.h"
 #include "light/frame_lights.h"
 
@@ -17,10 +18,12 @@ namespace froxel::cluster {
 
 // Leaves in each list the `cap` > 0 lights of most mostIrradiance() in the cluster's box, the first
 // ones where several have as much; indices still ascend, and lists still follow each other. Fills
-// the statistics anew, with what was dropped. Lists that name all lights stay as they are.
+// the statistics anew, with what was dropped. Lists that name all lights stay as they are. The result
+// does not depend on how many the crew are.
 void capLists(const ClusterGrid& grid,
               const light::FrameLights& lights,
               uint32_t cap,
+              Crew& crew,
               LightLists& lists);
 
 } // namespace froxel::cluster

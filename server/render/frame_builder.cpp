@@ -175,7 +175,8 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
     } else if (light_grid_.lists()) {
         scene_.light_assigner.assign(light_grid_.grid(), reach, lists_);
         if (settings.list_cap > 0) {
-            cluster::capLists(light_grid_.grid(), reach, settings.list_cap, lists_);
+            cluster::capLists(light_grid_.grid(), reach, settings.list_cap,
+                              scene_.light_assigner.crew(), lists_);
         }
     } else {
         lists_.clusters.clear();
@@ -319,6 +320,7 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .drawn = drawn,
                    .shown = shown,
                    .pairs = knownPairs(plan),
+                   .longest_loop = 0,
                    .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
                    .area_count = static_cast<uint32_t>(lights_.areas.size()),
                    .overdraw = scene_.overdraw.value_or(kUsualOverdraw),
@@ -335,6 +337,7 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                  ? 1
                                  : static_cast<uint32_t>(visible.materials_in_use.size());
     }
+    load.longest_loop = on_device_ ? 0 : load.pairs.longest();
     FrameCosts costs(scene_.unit_costs, load);
     if (!on_device_ || costs.total() <= piece) {
         return costs;
@@ -345,6 +348,7 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     const auto seen = seenPairs();
     if (seen && seen->pairs(whole) > room) {
         load.pairs = *seen;
+        load.longest_loop = seen->longest();
         device_lists_.setMaxPairs(1.001 * seen->pairs(whole)); // summed in floats there
     } else {
         load.pairs = PairBound::uniform(static_cast<uint64_t>(room / pixels));

@@ -7,6 +7,9 @@
 namespace froxel::render {
 namespace {
 
+// What cannot be cut may take as long as so many pieces.
+constexpr double kUncutPieces = 5;
+
 vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
     const auto end = [](int32_t at, uint32_t side) { return at + static_cast<int32_t>(side); };
     const int32_t left = std::max(a.offset.x, b.offset.x);
@@ -60,7 +63,8 @@ double FrameCosts::lit(const vk::Rect2D& region, double pair) const {
     const uint64_t longest = load_.pairs.longest();
     const auto shadows = std::min<uint64_t>(load_.shadows.lights.size(), longest);
     const auto areas = std::min<uint64_t>(load_.area_count, longest);
-    return load_.pairs.pairs(region) * pair +
+    const double loop = static_cast<double>(load_.longest_loop) * unit_.loop_light;
+    return std::max(load_.pairs.pairs(region) * pair, loop) +
            pixels(region) * (unit_.lit_pixel + load_.directional_count * pair +
                              static_cast<double>(shadows) * unit_.shadow_pair +
                              static_cast<double>(areas) * unit_.area_pair);
@@ -109,7 +113,11 @@ RegionCost FrameCosts::countPairs() const {
 }
 
 RegionCost FrameCosts::debugView() const {
-    return view::countsLights(load_.plan.debug) ? countPairs() : screen();
+    if (!view::countsLights(load_.plan.debug)) {
+        return screen();
+    }
+    return {Seconds(0),
+            [this](const auto& region) { return Seconds(lit(region, unit_.single_pair)); }};
 }
 
 RegionCost FrameCosts::blended() const {
@@ -254,7 +262,15 @@ Seconds FrameCosts::total() const {
     return sum;
 }
 
-Result<void> FrameCosts::check(Seconds limit) const {
+Result<void> FrameCosts::check(Seconds limit, Seconds piece) const {
+    const Seconds loop(static_cast<double>(load_.longest_loop) * unit_.loop_light);
+    if (loop > kUncutPieces * piece) {
+        return Error{ErrorCode::kCapacity,
+                     fmt::format("a pixel that loops over {} lights takes about {:.3g} s of this "
+                                 "device, however few pixels there are; at most {:.3g} s in one "
+                                 "are allowed: ask for fewer or smaller lights, or lists",
+                                 load_.longest_loop, loop.count(), (kUncutPieces * piece).count())};
+    }
     const Seconds sum = total();
     if (sum <= limit) {
         return {};

@@ -28,6 +28,7 @@ struct FrameLoad {
     view::Size drawn;
     view::Size shown;
     PairBound pairs;
+    uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;
     uint32_t area_count = 0;
     double overdraw = 1;           // of solid surfaces, in fragments per pixel
@@ -74,8 +75,9 @@ class FrameCosts {
     // All of the plan, in order; what a frame takes that is not cut.
     [[nodiscard]] std::vector<PassEstimate> passes() const;
     [[nodiscard]] Seconds total() const;
-    // Errors: kCapacity where that is more than `limit`; names the dearest pass.
-    [[nodiscard]] Result<void> check(Seconds limit) const;
+    // Errors: kCapacity where that is more than `limit`, naming the dearest pass, or where one
+    // loop, which cannot be cut, takes several times a piece.
+    [[nodiscard]] Result<void> check(Seconds limit, Seconds piece) const;
     // What the frame takes but for its local lights, and pairs of these that fit into what is left
     // of `limit`, at least into half of it.
     [[nodiscard]] double pairsWithin(Seconds limit) const;

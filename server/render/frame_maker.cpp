@@ -200,7 +200,7 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
     }
     const BloomPlan* bloom_steps = *bloom_plan ? &**bloom_plan : nullptr;
     const FrameCosts costs = builder_.costs(plan, asked.settings.size, bloom_steps, work_.piece);
-    if (auto affordable = costs.check(work_.frame); !affordable) {
+    if (auto affordable = costs.check(work_.frame, work_.piece); !affordable) {
         builder_.forgetLists();
         return affordable;
     }

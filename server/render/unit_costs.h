@@ -12,7 +12,9 @@ struct UnitCosts {
     double lit_pixel = 0;     // shading without lights
     double screen_pixel = 0;  // another pass over the picture
     double pair = 0;          // a light at a pixel, in compute
+    double single_pair = 0;   // likewise where lights come one at a time: debug views
     double fragment_pair = 0; // in the fragment stage
+    double loop_light = 0;    // the next light of a loop, however few pixels go through it
     double shadow_pair = 0;   // more, where the light has a shadow map
     double area_pair = 0;     // a rectangle
     double froxel = 0;        // of fog, without lights
@@ -27,8 +29,9 @@ struct UnitCosts {
     }
     for (double UnitCosts::*cost :
          {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::pair,
-          &UnitCosts::fragment_pair, &UnitCosts::shadow_pair, &UnitCosts::area_pair,
-          &UnitCosts::froxel, &UnitCosts::bloom_tap}) {
+          &UnitCosts::single_pair, &UnitCosts::loop_light, &UnitCosts::fragment_pair,
+          &UnitCosts::shadow_pair, &UnitCosts::area_pair, &UnitCosts::froxel,
+          &UnitCosts::bloom_tap}) {
         unit.*cost *= lights;
     }
     return unit;
@@ -41,7 +44,9 @@ inline constexpr UnitCosts kCpuUnitCosts{.triangle = 3e-7,
                                          .lit_pixel = 4e-8,
                                          .screen_pixel = 4e-8,
                                          .pair = 5e-9,
+                                         .single_pair = 1.2e-8,
                                          .fragment_pair = 2.2e-8,
+                                         .loop_light = 0,
                                          .shadow_pair = 6e-8,
                                          .area_pair = 1.5e-7,
                                          .froxel = 6e-8,
@@ -53,10 +58,12 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .lit_pixel = 1e-10,
                                          .screen_pixel = 1e-10,
                                          .pair = 8e-12,
+                                         .single_pair = 9e-11,
                                          .fragment_pair = 4.2e-10,
+                                         .loop_light = 1.5e-9,
                                          .shadow_pair = 3e-11,
                                          .area_pair = 3e-11,
                                          .froxel = 1e-10,
-                                         .bloom_tap = 2.5e-12};
+                                         .bloom_tap = 5.5e-12};
 
 } // namespace froxel::render

@@ -35,7 +35,7 @@ Capped cappedLists(uint32_t cap, view::Projection projection = view::Projection:
     LightAssigner assigner(2);
     assigner.assign(result.grid, result.lights, result.all);
     result.capped = result.all;
-    capLists(result.grid, result.lights, cap, result.capped);
+    capLists(result.grid, result.lights, cap, assigner.crew(), result.capped);
     return result;
 }
 
@@ -129,9 +129,10 @@ TEST(ListCap, Strongest_Stays) {
     }
     const ClusterGrid grid = makeClusterGrid({.size = {1, 1, 1}}, kImage, {}, 1, 20);
     LightLists lists;
-    LightAssigner(1).assign(grid, lights, lists);
+    LightAssigner assigner(1);
+    assigner.assign(grid, lights, lists);
     ASSERT_EQ(lists.clusters[0].count, 5U);
-    capLists(grid, lights, 1, lists);
+    capLists(grid, lights, 1, assigner.crew(), lists);
     ASSERT_EQ(lists.clusters[0].count, 1U);
     EXPECT_EQ(lists.indices, std::vector<uint32_t>{3});
     const double window = 1 - 0.01 * 0.01;
