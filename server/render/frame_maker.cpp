@@ -169,14 +169,22 @@ Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, cons
     variants.setAsker(this);
     variants.beginRecording();
     try {
-        if (auto recorded = recordNow(slot, inputs, slots); !recorded) {
+        const uint64_t since = scene_.timeline.next();
+        auto recorded = recordNow(slot, inputs, slots);
+        slot.uses = variants.endRecording(since);
+        if (!recorded) {
+            slot.uses.giveUp();
+            slot.uses.end();
             return recorded.error();
         }
         return true;
     } catch (const VariantsMissing&) {
-        variants.giveUpRecording();
+        variants.endRecording(0).giveUp();
         markFresh(slot); // nothing of what was recorded runs
         return false;
+    } catch (...) {
+        variants.endRecording(0).giveUp();
+        throw;
     }
 }
 
@@ -235,6 +243,10 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
                  .pieces = slot.pieces,
                  .costs = costs},
                 work_.piece);
+    if (slot.pieces.estimate() > work_.frame) { // with what each piece does again
+        markFresh(slot);
+        return tooLongInPieces(asked.settings.size, slot.pieces, work_.frame);
+    }
     noteBuilt(slot, plan, inputs);
     slot.stats.host_us = microsSince(start);
     slot.submitted = start;

@@ -82,6 +82,11 @@ struct FrameSlot {
     }
     // Whether a new frame may use the slot.
     [[nodiscard]] bool free() const { return !in_flight && (!readback || !readback->leased); }
+    // All that will run of the frame last recorded has run.
+    void end() {
+        in_flight = false;
+        uses.end();
+    }
     // Throws vk::OutOfDeviceMemoryError.
     void makeReadback(const gpu::Device& device, vk::DeviceSize size_bytes);
     // Not in flight: keeps nothing that the view's next frame, with so many bytes of pixels and of
@@ -119,6 +124,7 @@ struct FrameSlot {
     std::vector<uint64_t> done_values; // of the pieces submitted
     uint32_t waited_count = 0;         // of these
     bool given_up = false;             // the others will not be submitted
+    VariantUses uses;                  // of the frame last recorded
     FrameStats stats;
     std::chrono::steady_clock::time_point submitted;
 };

@@ -9,7 +9,10 @@ void recordFreshTargets(FrameSlot& slot) {
     std::vector<vk::ImageMemoryBarrier2> barriers;
     const auto add = [&](const gpu::Image& image, vk::ImageAspectFlags aspect) {
         if (*image.handle) {
-            barriers.push_back({.dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+            // After whatever still writes them, of frames before one whose commands did not run.
+            barriers.push_back({.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
                                 .dstAccessMask = vk::AccessFlagBits2::eMemoryRead |
                                                  vk::AccessFlagBits2::eMemoryWrite,
                                 .oldLayout = vk::ImageLayout::eUndefined,

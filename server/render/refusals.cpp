@@ -116,6 +116,16 @@ std::string pictureWords(const view::ViewSettings& settings) {
     return what;
 }
 
+Error tooLongInPieces(const view::Size& size, const FramePieces& pieces, Seconds limit) {
+    return {
+        ErrorCode::kCapacity,
+        fmt::format("a picture of {}x{}, cut into {} pieces that each go through its triangles, "
+                    "takes about {:.3g} s of this device; at most {:.3g} s a frame are allowed: "
+                    "ask for fewer lights, fewer effects, or a smaller picture",
+                    size.width_px, size.height_px, pieces.count(), pieces.estimate().count(),
+                    limit.count())};
+}
+
 Error noMemoryFor(const view::ViewSettings& settings) {
     return {ErrorCode::kCapacity, "the device has no memory for " + pictureWords(settings)};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "render/frame_pieces.h"
 #include "render/renderer.h"
 
 #include <string>
@@ -14,6 +15,10 @@ namespace froxel::render {
 
 // What takes memory of a picture, in words: "a picture of 640x360 with bloom".
 [[nodiscard]] std::string pictureWords(const view::ViewSettings& settings);
+
+// kCapacity: cut into its pieces the frame would take longer than the limit.
+[[nodiscard]] Error
+tooLongInPieces(const view::Size& size, const FramePieces& pieces, Seconds limit);
 
 // kCapacity: targets of these settings did not fit the device's memory.
 [[nodiscard]] Error noMemoryFor(const view::ViewSettings& settings);

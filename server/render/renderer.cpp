@@ -3,6 +3,7 @@
 #include "core/assert.h"
 #include "render/frame_maker.h"
 #include "render/frame_slot.h"
+#include "render/fresh_targets.h"
 #include "render/radiance_readback.h"
 #include "render/refusals.h"
 #include "render/scene_resources.h"
@@ -146,8 +147,12 @@ void ViewRenderer::abandon() {
                   "abandon needs a frame whose pieces wait");
     FrameSlot& slot = *impl_->pending.back();
     slot.given_up = true;
+    slot.uses.giveUp();
+    if (slot.done_values.empty()) {
+        markFresh(slot);
+    }
     if (slot.waited_count == slot.done_values.size()) {
-        slot.in_flight = false;
+        slot.end();
         impl_->pending.pop_back();
     }
 }
@@ -164,7 +169,7 @@ Result<PieceResult> ViewRenderer::collectPiece() {
         return PieceResult{};
     }
     impl_->pending.pop_front();
-    slot.in_flight = false;
+    slot.end();
     if (slot.given_up) {
         return PieceResult{};
     }
@@ -200,16 +205,16 @@ Result<RenderedFrame> ViewRenderer::collect() {
         return done.error();
     }
     impl_->pending.pop_front();
-    slot.in_flight = false;
+    slot.end();
     try {
         const auto whole = impl_->redraw(slot);
-        slot.in_flight = false;
+        slot.end();
         if (!whole) {
             return whole.error();
         }
         return impl_->maker.finish(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
-        slot.in_flight = false;
+        slot.end();
         return Error{ErrorCode::kCapacity,
                      "the device has no memory for this many light list entries"};
     } catch (const vk::SystemError& error) {

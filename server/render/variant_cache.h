@@ -53,18 +53,12 @@ class VariantCache {
             return true;
         }
         auto asked = asked_.find(key);
-        if (asked != asked_.end() && asked->second->dropped) {
-            asked_.erase(asked);
-            asked = asked_.end();
-        }
         if (asked == asked_.end()) {
-            const auto making = std::make_shared<Making>();
-            asked_.emplace(key, making);
-            maker_.post(
-                [order = std::make_shared<Order>(making), make] { order->making->run(make); });
-            return false;
+            forgetUnwanted();
+            asked = asked_.emplace(key, std::make_shared<Making>()).first;
         }
-        if (!asked->second->done) {
+        if (!asked->second->done) { // whoever else asked for it: in this one's turn too
+            maker_.post([making = asked->second, make] { making->run(make); });
             return false;
         }
         const auto making = std::move(asked->second);
@@ -101,10 +95,13 @@ class VariantCache {
         std::optional<Pipeline> pipeline;
         std::exception_ptr error;
         std::atomic<bool> done = false;
-        std::atomic<bool> dropped = false; // nobody will make it
 
+        // Of several who asked the first in turn makes it.
         template <class Make>
         void run(const Make& make) {
+            if (done) {
+                return;
+            }
             try {
                 pipeline.emplace(make());
             } catch (...) {
@@ -114,14 +111,12 @@ class VariantCache {
         }
     };
 
-    // Goes with the work that was posted, done or not.
-    struct Order {
-        explicit Order(std::shared_ptr<Making> of) : making(std::move(of)) {}
-        ~Order() { making->dropped = !making->done; }
-        Order(const Order&) = delete;
-        Order& operator=(const Order&) = delete;
-        const std::shared_ptr<Making> making;
-    };
+    // Past the limit what was made goes that nobody came for.
+    void forgetUnwanted() {
+        if (asked_.size() >= limit_) {
+            std::erase_if(asked_, [](const auto& entry) { return entry.second->done.load(); });
+        }
+    }
 
     // As if it were used by the next submission, for which it is meant.
     void keep(const Key& key, Pipeline pipeline) {
@@ -132,7 +127,7 @@ class VariantCache {
         if (entries_.size() < limit_) {
             return;
         }
-        const uint64_t completed = timeline_.completed();
+        const uint64_t completed = std::min(timeline_.completed(), maker_.heldSince() - 1);
         while (entries_.size() >= limit_) {
             const auto oldest = std::min_element(
                 entries_.begin(), entries_.end(),

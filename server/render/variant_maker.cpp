@@ -8,6 +8,36 @@
 
 namespace froxel::render {
 
+VariantUses::VariantUses(VariantMaker& maker, uint64_t since, std::vector<bool*> first_uses)
+    : maker_(&maker), since_(since), first_uses_(std::move(first_uses)) {
+    maker.held_.insert(since);
+}
+
+VariantUses& VariantUses::operator=(VariantUses&& other) noexcept {
+    if (this != &other) {
+        end();
+        maker_ = std::exchange(other.maker_, nullptr);
+        since_ = other.since_;
+        first_uses_ = std::exchange(other.first_uses_, {});
+    }
+    return *this;
+}
+
+void VariantUses::giveUp() {
+    for (bool* used : first_uses_) {
+        *used = false;
+    }
+    first_uses_.clear();
+}
+
+void VariantUses::end() {
+    first_uses_.clear();
+    if (maker_ != nullptr) {
+        maker_->held_.erase(maker_->held_.find(since_));
+        maker_ = nullptr;
+    }
+}
+
 void VariantMaker::start(int niceness) {
     thread_ = std::jthread([this, niceness](const std::stop_token& stop) {
         nameThread("variants");

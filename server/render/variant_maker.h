@@ -4,17 +4,45 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace froxel::render {
 
 // A frame cannot be recorded yet: variants that it needs are being made.
 struct VariantsMissing {};
+
+class VariantMaker;
+
+// What a recorded frame uses of the variants: kept until it has run, which pieces do long after
+// others that were recorded later. One thread.
+class VariantUses {
+  public:
+    VariantUses() = default;
+    VariantUses(VariantMaker& maker, uint64_t since, std::vector<bool*> first_uses);
+    ~VariantUses() { end(); }
+    VariantUses(const VariantUses&) = delete;
+    VariantUses& operator=(const VariantUses&) = delete;
+    VariantUses(VariantUses&& other) noexcept { *this = std::move(other); }
+    VariantUses& operator=(VariantUses&& other) noexcept;
+
+    // Not all of it will run: what it was the first to use is still to be used for the first time.
+    void giveUp();
+    // All that will run of it has run.
+    void end();
+
+  private:
+    VariantMaker* maker_ = nullptr; // null: of no frame
+    uint64_t since_ = 0;
+    std::vector<bool*> first_uses_;
+};
 
 // All but the work itself on one thread.
 class VariantMaker {
@@ -44,19 +72,21 @@ class VariantMaker {
     // In the recording that beginRecording() was called for.
     [[nodiscard]] size_t firstUses() const { return first_uses_.size(); }
     void beginRecording() { first_uses_.clear(); }
-    // It came to nothing: they are still to be used for the first time.
-    void giveUpRecording() {
-        for (bool* used : first_uses_) {
-            *used = false;
-        }
-        first_uses_.clear();
+    // `since`: the timeline's value of a submission at that time, or an earlier one.
+    [[nodiscard]] VariantUses endRecording(uint64_t since) {
+        return {*this, since, std::exchange(first_uses_, {})};
     }
+    // Variants used from then on are still used by frames that have not run. The highest value:
+    // none.
+    [[nodiscard]] uint64_t heldSince() const { return held_.empty() ? UINT64_MAX : *held_.begin(); }
 
   private:
     void run(const std::stop_token& stop);
 
     const void* asker_ = nullptr;
     std::vector<bool*> first_uses_;
+    std::multiset<uint64_t> held_; // of frames that have not run
+    friend class VariantUses;
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;

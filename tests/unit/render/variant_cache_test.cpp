@@ -74,6 +74,30 @@ TEST_F(VariantCacheTest, FrameNotFinished_KeepsWhatItUses) {
     EXPECT_THAT(kept(), ::testing::Contains(6));
 }
 
+// A frame in pieces: the first runs, and others' frames after it, before its last is submitted.
+TEST_F(VariantCacheTest, FrameWhosePiecesWait_KeepsWhatItUses) {
+    maker.beginRecording();
+    frame({1, 2, 3});
+    VariantUses uses = maker.endRecording(timeline.done + 1);
+    finish();
+    frame({4, 5, 6, 7});
+    finish();
+    frame({8});
+    EXPECT_THAT(kept(), ::testing::IsSupersetOf({1, 2, 3}));
+    uses.end();
+    finish();
+    frame({9});
+    EXPECT_THAT(kept(), ::testing::SizeIs(3));
+}
+
+TEST_F(VariantCacheTest, FrameGivenUp_WasNoFirstUse) {
+    maker.beginRecording();
+    frame({1});
+    EXPECT_FALSE(cache.isNew(1));
+    maker.endRecording(1).giveUp();
+    EXPECT_TRUE(cache.isNew(1));
+}
+
 TEST_F(VariantCacheTest, FrameThatNeedsMoreThanTheLimit_IsMadeOnceAndStays) {
     frame({1, 2, 3, 4, 5});
     finish();

@@ -116,7 +116,7 @@ TEST(VariantMaker, FirstUses_OfARecordingThatCameToNothing_AreStillToCome) {
     maker.beginRecording();
     (void)cache.findOrMake(1, make);
     EXPECT_EQ(maker.firstUses(), 1U);
-    maker.giveUpRecording();
+    maker.endRecording(1).giveUp();
     maker.beginRecording();
     (void)cache.findOrMake(1, make);
     EXPECT_EQ(maker.firstUses(), 1U);
