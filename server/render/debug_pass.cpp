@@ -92,12 +92,10 @@ void DebugPass::bindWires(const vk::raii::CommandBuffer& cmd,
 
 void DebugPass::recordLights(const vk::raii::CommandBuffer& cmd,
                              const DebugSets& sets,
+                             uint32_t first_light,
                              uint32_t light_count) {
-    if (light_count == 0) {
-        return;
-    }
     bindWires(cmd, sets, DebugShader::kLightWires);
-    cmd.draw(2 * io::kWireSegments * io::kWireCircles, light_count, 0, 0);
+    cmd.draw(2 * io::kLinesOfALight, light_count, 0, first_light);
 }
 
 void DebugPass::recordClusters(const vk::raii::CommandBuffer& cmd,

@@ -32,8 +32,10 @@ class DebugPass {
                       const io::DebugFrame& values,
                       const vk::Rect2D& region);
     // Both inside a rendering scope over radiance.
-    void
-    recordLights(const vk::raii::CommandBuffer& cmd, const DebugSets& sets, uint32_t light_count);
+    void recordLights(const vk::raii::CommandBuffer& cmd,
+                      const DebugSets& sets,
+                      uint32_t first_light,
+                      uint32_t light_count);
     void recordClusters(const vk::raii::CommandBuffer& cmd,
                         const DebugSets& sets,
                         vk::Buffer vertices, // io::WireVertex

@@ -19,7 +19,7 @@ namespace froxel::render {
 
 namespace {
 
-// Fragments a pixel before a scene's are counted.
+// Fragments a pixel at least: what was counted is of one view, perhaps of the sky.
 constexpr double kUsualOverdraw = 2;
 
 bool storesHalves(const view::ViewSettings& settings) {
@@ -292,6 +292,12 @@ PairBound FrameBuilder::knownPairs(const FramePlan& plan) const {
     return PairBound::lists(light_grid_.grid(), lists_);
 }
 
+uint64_t FrameBuilder::wireLines(const FramePlan& plan) const {
+    return plan.debug == view::DebugView::kLightSpheres
+               ? uint64_t{debug_.light_count} * io::kLinesOfALight
+               : debug_.wires.size() / 2;
+}
+
 // With room for what moves between two frames; a frame that has more is drawn again.
 std::optional<PairBound> FrameBuilder::seenPairs() const {
     const auto& grid = light_grid_.grid();
@@ -323,13 +329,13 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .longest_loop = 0,
                    .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
                    .area_count = static_cast<uint32_t>(lights_.areas.size()),
-                   .overdraw = scene_.overdraw.value_or(kUsualOverdraw),
+                   .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
                    .shadow_size_px = shadow_size_px_,
                    .fog_nodes = {fog_.node_count_x, fog_.node_count_y},
                    .fog_tile_px = fog_.tile_px,
                    .fog_slice_count = fog_.slice_count,
-                   .peel_layers =
-                       peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0)};
+                   .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
+                   .wire_lines = wireLines(plan)};
     if (plan.visibility) {
         const VisibilityScene& visible = scene_.visibility();
         load.device_triangles = visible.triangle_count;

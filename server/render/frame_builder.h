@@ -74,6 +74,7 @@ class FrameBuilder {
     // What is known of pairs before the device has made lists.
     [[nodiscard]] PairBound knownPairs(const FramePlan& plan) const;
     [[nodiscard]] std::optional<PairBound> seenPairs() const;
+    [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     // Where a binding's data lies in the upload buffer.
     struct Block {
         vk::DeviceSize offset = 0;

@@ -225,6 +225,9 @@ void FrameCosts::addPost(std::vector<PassEstimate>& passes) const {
         }
         passes.push_back({"bloom", sum});
     }
+    if (load_.wire_lines > 0) {
+        passes.push_back({"wires", wires(load_.wire_lines)});
+    }
     if (load_.plan.tonemap) {
         passes.push_back({"tonemap", whole(screen(), extentOf(load_.shown))});
     }

@@ -39,6 +39,7 @@ struct FrameLoad {
     uint32_t fog_tile_px = 0;
     uint32_t fog_slice_count = 0;
     uint32_t peel_layers = 0;
+    uint64_t wire_lines = 0; // of an overlay
 };
 
 struct PassEstimate {
@@ -71,6 +72,9 @@ class FrameCosts {
     [[nodiscard]] RegionCost fogScatter() const;
     [[nodiscard]] RegionCost bloom(size_t step) const; // over its target
     [[nodiscard]] Seconds shadowFace() const;
+    [[nodiscard]] Seconds wires(uint64_t line_count) const {
+        return Seconds(static_cast<double>(line_count) * unit_.wire_line);
+    }
 
     // All of the plan, in order; what a frame takes that is not cut.
     [[nodiscard]] std::vector<PassEstimate> passes() const;

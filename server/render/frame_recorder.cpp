@@ -204,6 +204,27 @@ void recordReplacement(const FrameContext& frame) {
     inParts(frame, drawn(frame), frame.costs.debugView(), recordDebugView);
 }
 
+// Lines over the lit picture. Later lights' blend over those before.
+void recordOverlay(const FrameContext& frame) {
+    const uint32_t lights =
+        frame.plan.debug == view::DebugView::kLightSpheres ? frame.debug->light_count : 0;
+    const Seconds each = frame.costs.wires(io::kLinesOfALight);
+    const auto at_once = static_cast<uint32_t>(std::min<size_t>(frame.pieces.fits(each), lights));
+    for (uint32_t first = 0; first < lights; first += at_once) {
+        const uint32_t count = std::min(at_once, lights - first);
+        frame.pieces.add(count * each);
+        recordLightWires(frame, first, count);
+        // lines so far -> those blended over them
+        barrier(frame.slot.cmd, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
+                Stage::eColorAttachmentOutput,
+                Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
+    }
+    if (!frame.debug->wires.empty()) {
+        frame.pieces.add(frame.costs.wires(frame.debug->wires.size() / 2));
+        recordClusterWires(frame);
+    }
+}
+
 void copyImage(const vk::raii::CommandBuffer& cmd,
                const gpu::Image& image,
                vk::ImageAspectFlags aspect,
@@ -274,7 +295,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
                 Stage::eColorAttachmentOutput | Stage::eFragmentShader,
                 Access::eColorAttachmentRead | Access::eColorAttachmentWrite |
                     Access::eShaderSampledRead);
-        recordWires(frame, whole(frame));
+        recordOverlay(frame);
     }
     if (frame.plan.tonemap) {
         radianceToCompute(frame.slot.cmd);

@@ -56,6 +56,18 @@ void dispatch(const FrameContext& frame,
     dispatchOver(frame.slot.cmd, region);
 }
 
+// Calls record(sets) in a rendering of lines over radiance.
+template <class Record>
+void inWires(const FrameContext& frame, Record record) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "wires");
+    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+    const auto& size = frame.slot.targets->size;
+    const Rendering rendering(frame, {{0, 0}, {size.width_px, size.height_px}}, colors, nullptr);
+    frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
+    frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
+    record(DebugSets{*frame.slot.frame_set, *frame.slot.screen_set});
+}
+
 } // namespace
 
 void recordDepthPrepass(const FrameContext& frame, const vk::Rect2D& region) {
@@ -175,20 +187,18 @@ void recordDebugView(const FrameContext& frame, const vk::Rect2D& region) {
                                      frame.plan.gbuffer_output_flags, frame.debug->values, region);
 }
 
-void recordWires(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "wires");
-    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
-    const Rendering rendering(frame, region, colors, nullptr);
-    const DebugSets sets = {*frame.slot.frame_set, *frame.slot.screen_set};
-    frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
-    frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
-    if (frame.plan.debug == view::DebugView::kLightSpheres) {
-        frame.scene.debug().recordLights(frame.slot.cmd, sets, frame.debug->light_count);
-    } else if (!frame.debug->wires.empty()) {
+void recordLightWires(const FrameContext& frame, uint32_t first_light, uint32_t light_count) {
+    inWires(frame, [&](const DebugSets& sets) {
+        frame.scene.debug().recordLights(frame.slot.cmd, sets, first_light, light_count);
+    });
+}
+
+void recordClusterWires(const FrameContext& frame) {
+    inWires(frame, [&](const DebugSets& sets) {
         frame.scene.debug().recordClusters(frame.slot.cmd, sets, frame.slot.upload.buffer(),
                                            frame.offsets.wires,
                                            static_cast<uint32_t>(frame.debug->wires.size()));
-    }
+    });
 }
 
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region) {

@@ -26,8 +26,9 @@ void recordOverdraw(const FrameContext& frame,
                     const vk::Rect2D& region); // writes depth; adds fragments up in radiance
 void recordDebugView(const FrameContext& frame,
                      const vk::Rect2D& region); // reads what the view shows, writes pixels
-void recordWires(const FrameContext& frame,
-                 const vk::Rect2D& region); // blends lines over radiance, reads depth
+// Blend lines over radiance, read depth.
+void recordLightWires(const FrameContext& frame, uint32_t first_light, uint32_t light_count);
+void recordClusterWires(const FrameContext& frame);
 void recordFxaa(const FrameContext& frame,
                 const vk::Rect2D& region); // reads the display's picture, writes pixels
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region); // reads depth

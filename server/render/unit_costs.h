@@ -19,6 +19,7 @@ struct UnitCosts {
     double area_pair = 0;     // a rectangle
     double froxel = 0;        // of fog, without lights
     double bloom_tap = 0;
+    double wire_line = 0; // of an overlay
 };
 
 // Of a device that takes so many times as long for lights, and for surfaces.
@@ -30,8 +31,8 @@ struct UnitCosts {
     for (double UnitCosts::*cost :
          {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::pair,
           &UnitCosts::single_pair, &UnitCosts::loop_light, &UnitCosts::fragment_pair,
-          &UnitCosts::shadow_pair, &UnitCosts::area_pair, &UnitCosts::froxel,
-          &UnitCosts::bloom_tap}) {
+          &UnitCosts::shadow_pair, &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap,
+          &UnitCosts::wire_line}) {
         unit.*cost *= lights;
     }
     return unit;
@@ -50,7 +51,8 @@ inline constexpr UnitCosts kCpuUnitCosts{.triangle = 3e-7,
                                          .shadow_pair = 6e-8,
                                          .area_pair = 1.5e-7,
                                          .froxel = 6e-8,
-                                         .bloom_tap = 2e-9};
+                                         .bloom_tap = 2e-9,
+                                         .wire_line = 2.5e-6};
 inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .depth_pixel = 1e-10,
                                          .surface_pixel = 6e-10,
@@ -64,6 +66,7 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .shadow_pair = 3e-11,
                                          .area_pair = 3e-11,
                                          .froxel = 1e-10,
-                                         .bloom_tap = 5.5e-12};
+                                         .bloom_tap = 5.5e-12,
+                                         .wire_line = 2e-9};
 
 } // namespace froxel::render

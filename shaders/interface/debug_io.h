@@ -38,6 +38,7 @@ FROXEL_SIZE_ASSERT(DebugFrame, 72);
 
 FROXEL_CONST uint kWireSegments = 48U; // lines a circle
 FROXEL_CONST uint kWireCircles = 3U;   // a light
+FROXEL_CONST uint kLinesOfALight = kWireSegments * kWireCircles;
 
 // A corner of the cluster grid's wires.
 struct WireVertex {
