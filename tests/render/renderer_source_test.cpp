@@ -29,6 +29,16 @@ class LogText {
     std::ostringstream text_;
 };
 
+template <VkResult result>
+VKAPI_ATTR VkResult VKAPI_CALL failToCreate(VkDevice /*device*/,
+                                            const VkDescriptorPoolCreateInfo* /*info*/,
+                                            const VkAllocationCallbacks* /*allocator*/,
+                                            VkDescriptorPool* /*pool*/) {
+    return result;
+}
+constexpr PFN_vkCreateDescriptorPool kNoDeviceMemory = failToCreate<VK_ERROR_OUT_OF_DEVICE_MEMORY>;
+constexpr PFN_vkCreateDescriptorPool kNoHostMemory = failToCreate<VK_ERROR_OUT_OF_HOST_MEMORY>;
+
 // By a view of all of it: the default speed, 1, would be told where nothing was seen.
 TEST(RendererSource, SceneWithoutCameras_SpeedIsMeasured) {
     scene::Scene scene = makeRoom();
@@ -37,6 +47,23 @@ TEST(RendererSource, SceneWithoutCameras_SpeedIsMeasured) {
     const auto source = stream::makeRendererSource(openTestDevice(), scene, Seconds(10), {});
     EXPECT_THAT(log.text(), HasSubstr("event=device_speed lights="));
     EXPECT_EQ(log.text().find("lights=1.00 surfaces=1.00"), std::string::npos) << log.text();
+}
+
+TEST(RendererSource, NoMemoryForAView_IsRefusedAndTheNextOneMayFit) {
+    auto device = openTestDevice();
+    // The driver's functions, of which one now finds no memory.
+    auto& driver = const_cast<vk::raii::DeviceDispatcher&>(*device->handle().getDispatcher());
+    const auto source = stream::makeRendererSource(std::move(device), makeRoom(), Seconds(10), {});
+    const auto create_pool = driver.vkCreateDescriptorPool;
+    for (const auto fail : {kNoDeviceMemory, kNoHostMemory}) {
+        driver.vkCreateDescriptorPool = fail;
+        const auto view = source->makeView();
+        ASSERT_FALSE(view);
+        EXPECT_EQ(view.error().code, ErrorCode::kCapacity);
+        EXPECT_THAT(view.error().message, HasSubstr("has no memory"));
+    }
+    driver.vkCreateDescriptorPool = create_pool;
+    EXPECT_TRUE(source->makeView());
 }
 
 } // namespace
