@@ -1,8 +1,10 @@
 #include "render/device_speed.h"
 
+#include "core/keep_for_good.h"
 #include "render/scene_resources.h"
 
 #include <array>
+#include <memory>
 #include <utility>
 
 namespace froxel::render {
@@ -66,15 +68,16 @@ measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera)
     inputs.settings.lights.scene_lights = false;
     inputs.settings.lights.radius_m = 1000;
     inputs.settings.count_pairs = true;
-    ViewRenderer view(renderer);
+    auto view = std::make_unique<ViewRenderer>(renderer);
     std::array<Drawn, 3> drawn; // without lights, with, surfaces alone
     const std::array<uint32_t, 3> lights = {1, device_is_cpu ? 200U : 20'000U, 0};
     for (size_t i = 0; i < drawn.size(); ++i) {
         inputs.settings.lights.count = lights[i];
         inputs.settings.debug.view =
             lights[i] == 0 ? view::DebugView::kBaseColor : view::DebugView::kNone;
-        auto done = draw(view, inputs);
+        auto done = draw(*view, inputs);
         if (!done) {
+            keepForGood(std::move(view)); // a lost device may still use it
             return done.error();
         }
         drawn[i] = *done;

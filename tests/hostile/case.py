@@ -37,6 +37,7 @@ class Case:
     seconds: float = 6  # alone, and again beside the hostile ones
     serve: tuple = ()  # options of froxel serve
     room: str = ""  # that the honest viewer is in; it came first
+    needs: tuple = ()  # what the hostile viewers must have heard, lest it be no attack
     newcomer: bool = False  # whether another honest viewer comes at the end: newcomer_s
     least: dict = dataclasses.field(default_factory=dict)  # bounds of figures, besides LEAST and MOST
     most: dict = dataclasses.field(default_factory=dict)
@@ -222,6 +223,7 @@ def play(case, froxel, options):
         if fellow.is_alive():
             ours.send("over")
             figures["heard"] = dict(ours.recv()) if ours.poll(10) else {}
+            wrong += [f"no hostile viewer heard {name}" for name in case.needs if not figures["heard"].get(name)]
             fellow.terminate()
         fellow.join()
         code = server.stop()

@@ -11,7 +11,35 @@ JOINS = {"newcomer_s": 3}
 HUGE_LIGHT = {"id": 1, "position": {"y": 2}, "radiusM": 10_000, "intensity": 1}
 
 
-@case()
+async def as_many_lights_as_taken(viewer, radius_m):
+    """Finds how many by halving, and goes on with them for ever."""
+    count = 1_000_000
+    while True:
+        await viewer.say(setLights={"count": count, "radiusM": radius_m})
+        while (heard := await viewer.hear())[0] not in ("error", "frame"):
+            pass
+        if heard[0] == "frame":
+            await viewer.acknowledge(heard[1])
+        else:
+            count = max(count // 2, 1)
+
+
+async def as_large_as_taken(viewer, width, height):
+    """A picture of that size, or of half its sides and so on, until some come: heard as "large"."""
+    while width >= 16 and height >= 16:
+        await viewer.say(setSize={"width": width, "height": height})
+        frames = 0
+        while (heard := await viewer.hear())[0] != "error" and frames < 2:
+            if heard[0] == "frame":
+                frames += 1
+                await viewer.acknowledge(heard[1])
+        if heard[0] != "error":
+            viewer.heard["large"] += 1
+            return
+        width, height = width // 2, height // 2
+
+
+@case(needs=("frame",))
 async def long_lists(arena):
     """A million tiny lights in a grid of one column: what most pixels loop over is in few lists."""
     async with arena.viewer() as viewer:
@@ -22,53 +50,55 @@ async def long_lists(arena):
         await viewer.watch()
 
 
-@case(newcomer=True, most=JOINS)
+@case(needs=("frame",), newcomer=True, most=JOINS)
 async def all_lights(arena):
     """Naive shading with as many lights as are taken, found by halving."""
     async with arena.viewer() as viewer:
         await viewer.say(setSize={"width": 1280, "height": 720})
         await viewer.say(setRenderer={"renderer": "RENDERER_NAIVE"})
-        count = 1_000_000
-        while True:
-            await viewer.say(setLights={"count": count, "radiusM": 1000})
-            while (heard := await viewer.hear())[0] not in ("error", "frame"):
-                pass
-            if heard[0] == "frame":
-                await viewer.acknowledge(heard[1])
-            else:
-                count = max(count // 2, 1)
+        await as_many_lights_as_taken(viewer, 1000)
 
 
-@case(newcomer=True, most=JOINS)
+@case(needs=("large",), newcomer=True, most=JOINS)
 async def huge_pictures(arena):
     """The largest picture, with every map of shadows and the widest bloom."""
     async with arena.viewer() as viewer:
-        await viewer.say(setSize={"width": 4096, "height": 4096})
         await viewer.say(setShadows={"lights": 32, "size": 512})
         await viewer.say(setPost={"bloom": "BLOOM_KIND_SEPARABLE", "bloomRadius": 0.05})
+        await as_large_as_taken(viewer, 4096, 4096)
         await viewer.watch()
 
 
-@case()
+@case(needs=("large",))
 async def four_samples(arena):
     """As large a picture as four samples a pixel are given for."""
     async with arena.viewer() as viewer:
-        await viewer.say(setSize={"width": 2048, "height": 2048})
         await viewer.say(setPost={"antialiasing": "ANTIALIASING_SSAA4"})
+        await as_large_as_taken(viewer, 2048, 2048)
         await viewer.watch()
 
 
-@case()
+@case(needs=("large",))
 async def fog_and_layers(arena):
     """The finest volume of fog, and sixteen layers of what is blended."""
     async with arena.viewer() as viewer:
-        await viewer.say(setSize={"width": 1280, "height": 720})
+        await viewer.say(setSize={"width": 64, "height": 64})
         await viewer.say(setFog={"fog": {"density": 0.1, "tile": 4, "slices": 256}})
         await viewer.say(setTransparency={"transparency": "TRANSPARENCY_PEELED", "peelLayers": 16})
+        await as_large_as_taken(viewer, 1280, 720)
         await viewer.watch()
 
 
-@case(newcomer=True, most=JOINS)
+@case(needs=("frame",))
+async def many_wires(arena):
+    """The ends of as many lights as are taken, as lines, which pixels have no say in."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 64, "height": 64})
+        await viewer.say(setDebugView={"view": "DEBUG_VIEW_LIGHT_SPHERES"})
+        await as_many_lights_as_taken(viewer, 0.1)
+
+
+@case(needs=("frame",), newcomer=True, most=JOINS)
 async def a_frame_a_connection(arena):
     """One large picture, then a new connection, which owes nothing yet."""
     async with arena.viewer() as viewer:
