@@ -332,18 +332,34 @@ void LiveSession::refuse(Error error, SessionState refused, std::optional<Sessio
     if (state_.version != refused.version) {
         return;
     }
-    const bool unsupported = error.code == ErrorCode::kUnsupported;
-    for (const auto& [id, member] : members_) {
-        const bool asked_for_it = member.connection == refused.applied.author;
-        mail.add(member.viewer,
-                 Rejection{unsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
-                           asked_for_it ? refused.applied.seq : 0, "", error.message});
-    }
-    if (!drawn && refused.settings == first_.settings) {
+    const bool last = !drawn && refused.settings == first_.settings;
+    tellRefusal(error, refused.applied, last, mail);
+    if (last) {
         tellAll(mail, Closing{protocol::CloseCode::kCapacity, "the first picture cannot be made"});
     } else {
         takeBack(refused, drawn, Clock::now());
         tellState(mail);
+    }
+}
+
+// Who asked is told, or who has control where that one is gone. The others hear of the state, which
+// is one piece of news however often it changes: nobody can have them sent away as slow readers.
+void LiveSession::tellRefusal(const Error& error,
+                              const session::CommandStamp& asked,
+                              bool to_all,
+                              Mail& mail) const {
+    const auto hasAsked = [&asked](const auto& entry) {
+        return entry.second.connection == asked.author;
+    };
+    const bool is_here = std::any_of(members_.begin(), members_.end(), hasAsked);
+    const bool unsupported = error.code == ErrorCode::kUnsupported;
+    for (const auto& entry : members_) {
+        const bool answers = is_here ? hasAsked(entry) : entry.first == room_.controller();
+        if (answers || to_all) {
+            mail.add(entry.second.viewer,
+                     Rejection{unsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
+                               hasAsked(entry) ? asked.seq : 0, "", error.message});
+        }
     }
 }
 

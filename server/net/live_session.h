@@ -164,6 +164,10 @@ class LiveSession final : public session::FrameSink,
     void updateCodecs(TimePoint now, Mail& mail);
     void keepDecodable();
     void updateDelivery();
+    void tellRefusal(const Error& error,
+                     const session::CommandStamp& asked,
+                     bool to_all,
+                     Mail& mail) const;
     void takeBack(const session::SessionState& refused,
                   const std::optional<session::SessionState>& drawn,
                   TimePoint now);

@@ -289,17 +289,50 @@ TEST_F(LobbyTest, Full_IsRefused_ButRoomsAndReturnsNeedNoPlace) {
     EXPECT_TRUE(tryEnter("cellar")) << "a refused room leaves nothing behind";
 }
 
-TEST_F(LobbyTest, Refused_InARoom_NamesTheCommandToItsSenderAlone_AndAllGetTheGoodState) {
+TEST_F(LobbyTest, Refused_InARoom_IsToldToItsSenderAlone_AndAllGetTheGoodState) {
     const Guest first = enter("hall");
     const Guest second = enter("hall");
     const session::SessionState good = port_.session().states.back();
     ASSERT_TRUE(apply(first, exposure(3, 9)));
     port_.sink()->refuse({ErrorCode::kUnsupported, "no"}, port_.session().states.back(), good);
     EXPECT_EQ(first.ear->last<session::Rejection>()->ref_seq, 9U);
-    EXPECT_EQ(second.ear->last<session::Rejection>()->ref_seq, 0U);
+    EXPECT_EQ(second.ear->count<session::Rejection>(), 0U);
     EXPECT_EQ(second.seat.session->newState(second.seat.place).settings.exposure, 1);
     EXPECT_EQ(second.ear->count<StateNews>(), 1U) << "both at once";
     EXPECT_EQ(first.ear->count<StateNews>(), 1U);
+}
+
+TEST_F(LobbyTest, Refused_AgainAndAgain_IsOnePieceOfNewsToWhoOnlyWatches) {
+    const Guest hostile = enter("hall");
+    const Guest watcher = enter("hall");
+    const session::SessionState good = port_.session().states.back();
+    for (int i = 0; i < 200; ++i) {
+        ASSERT_TRUE(apply(hostile, exposure(3)));
+        port_.sink()->refuse({ErrorCode::kCapacity, "no"}, port_.session().states.back(), good);
+    }
+    EXPECT_EQ(watcher.ear->notices.size(), 1U);
+    EXPECT_EQ(hostile.ear->count<session::Rejection>(), 200U);
+}
+
+TEST_F(LobbyTest, Refused_WhoAskedIsGone_IsToldToWhoHasControl) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    const session::SessionState good = port_.session().states.back();
+    ASSERT_TRUE(apply(first, exposure(3, 9)));
+    ASSERT_TRUE(control(second, session::RequestControl{}));
+    leave(first);
+    port_.sink()->refuse({ErrorCode::kCapacity, "no"}, port_.session().states.back(), good);
+    EXPECT_EQ(second.ear->last<session::Rejection>()->ref_seq, 0U);
+}
+
+TEST_F(LobbyTest, Refused_FirstPictureOfARoom_IsToldToAll) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    port_.sink()->refuse({ErrorCode::kCapacity, "no"}, port_.session().states.back(), {});
+    for (const Guest* guest : {&first, &second}) {
+        EXPECT_EQ(guest->ear->count<session::Rejection>(), 1U);
+        EXPECT_EQ(guest->ear->last<Closing>()->code, protocol::CloseCode::kCapacity);
+    }
 }
 
 TEST_F(LobbyTest, Welcome_TellsPlaceTokenAndDefaults) {
