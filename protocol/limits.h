@@ -42,7 +42,7 @@ enum class CloseCode : uint16_t {
     kReplaced = 4009,     // a newer connection took the session up; do not retry
     kDraining = 4010,     // the server is going down; retry elsewhere or later
     kResting = 4011,      // nobody watched, and the place is needed; retry when somebody does
-    kCapacity = 4029,     // no session left; retry with back-off
+    kCapacity = 4029,     // no session or place in the room left; retry with back-off
     kDeviceLost = 4050,   // the rendering device was lost; retry with back-off
 };
 inline constexpr std::array kCloseCodes = {

@@ -13,6 +13,7 @@ constexpr view::Range<uint32_t> kDeviceMemoryRange{"device_memory", 16, 1U << 24
 constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
 constexpr view::Range<double> kFrameLimitRange{"frame_limit", 0.01, 60.0};
 constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
+constexpr view::Range<uint32_t> kRoomRange{"max_viewers_per_room", 0, 100'000};
 constexpr view::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
 constexpr view::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
 constexpr view::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
@@ -116,6 +117,9 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
                    "exempt from; 0: no matter");
     command.number("--max-sessions-per-token", options.sessions_per_token, kAccountRange,
                    "Sessions opened with one token; 0: no matter");
+    command.number("--max-viewers-per-room", options.viewers_per_room, kRoomRange,
+                   "Viewers of one room, half of them from one address (IPv6: a /64), which "
+                   "127.0.0.1 and ::1 are exempt from; 0: no matter");
     command.number("--paused-seconds", options.paused_s, kRestRange,
                    "A session whose viewers are all paused, or take no pictures, for so long ends "
                    "when another needs its place");

@@ -133,6 +133,8 @@ net::LobbyRules lobbyRules(const ServeOptions& options) {
     rules.sessions_per_address =
         options.sessions_per_address.value_or(std::max(1U, options.sessions_max / 2));
     rules.sessions_per_token = options.sessions_per_token;
+    rules.viewers_per_room = options.viewers_per_room;
+    rules.viewers_per_room_and_address = (options.viewers_per_room + 1) / 2;
     rules.rest = {Seconds(options.paused_s), Seconds(options.idle_s)};
     rules.forget = Seconds(options.forget_s);
     rules.control_idle = Seconds(options.control_idle_s);

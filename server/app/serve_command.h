@@ -34,6 +34,7 @@ struct ServeOptions {
     // net::LobbyRules; absent: half of sessions_max.
     std::optional<uint32_t> sessions_per_address;
     uint32_t sessions_per_token = 0;
+    uint32_t viewers_per_room = 256;
     double paused_s = 30;
     double idle_s = 300;
     double forget_s = 3600;

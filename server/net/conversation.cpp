@@ -141,7 +141,7 @@ void Conversation::changeControl(const CommandMessage& message, TimePoint now) {
         rejection.ref_seq = message.stamp.seq;
         reject(rejection, now);
     } else {
-        lobby_->expire(now); // control that rests goes to who asks
+        lobby_->passIdleControl(*seat_->session, now); // to who asks
     }
 }
 

@@ -60,7 +60,11 @@ Result<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
                                                   Mail& mail) {
     const auto known = rooms_.find(hello.room);
     std::shared_ptr<LiveSession> session = known == rooms_.end() ? nullptr : known->second;
-    if (!session) {
+    if (session) {
+        if (auto taken = roomTakes(hello.room, caller); !taken) {
+            return taken.error();
+        }
+    } else {
         const auto gives_way = whoGivesWay(serving, caller, now);
         if (!gives_way) {
             return gives_way.error();
@@ -75,7 +79,9 @@ Result<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
         session = *opened;
     }
     const bool keep = rules_.resume_grace.count() > 0 && !closed_;
-    Entry entry{session, hello.room, keep ? session::makeResumeToken() : std::string(), "", 0, {}};
+    Entry entry{
+        session, hello.room, caller.address, keep ? session::makeResumeToken() : std::string(), "",
+        0,       {}};
     session->addMember(++last_member_, hello.client_name, mail);
     if (!hello.room.empty()) {
         rooms_[hello.room] = session;
@@ -100,7 +106,7 @@ Result<void> Lobby::admits(const Serving& serving,
         return Error{ErrorCode::kCapacity, "this session is not here, or not any more"};
     }
     if (rooms_.count(announcement.room) > 0) {
-        return {};
+        return roomTakes(announcement.room, caller);
     }
     const auto gives_way = whoGivesWay(serving, caller, now);
     return gives_way ? Result<void>() : gives_way.error();
@@ -156,6 +162,29 @@ Result<void> Lobby::withinLimits(const Caller& caller) const {
                  [&](const auto& session) { return session->opener().address == caller.address; });
 }
 
+Result<void> Lobby::roomTakes(const std::string& room, const Caller& caller) const {
+    int64_t all = 0;
+    int64_t from_there = 0;
+    for (const auto& [member, entry] : entries_) {
+        if (entry.room == room) {
+            ++all;
+            from_there += entry.address == caller.address ? 1 : 0;
+        }
+    }
+    const auto full = [](uint32_t limit, int64_t count) { return limit > 0 && count >= limit; };
+    if (full(rules_.viewers_per_room, all)) {
+        return Error{ErrorCode::kCapacity, "all " + numberText(rules_.viewers_per_room) +
+                                               " places of this room are taken; try again later"};
+    }
+    const uint32_t share = rules_.viewers_per_room_and_address;
+    if (!caller.local && full(share, from_there)) {
+        return Error{ErrorCode::kCapacity, "this address has " + numberText(share) +
+                                               " viewers in this room, which is all that it may "
+                                               "have; close one first"};
+    }
+    return {};
+}
+
 void Lobby::end(const LiveSession& session, const Closing& closing, Mail& mail) {
     session.tellClosing(closing, mail);
     for (auto entry = entries_.begin(); entry != entries_.end();) {
@@ -207,6 +236,16 @@ Lobby::Entries::iterator Lobby::remove(Entries::iterator entry, Mail& mail) {
         emptied_.notify_all();
     }
     return next;
+}
+
+void Lobby::passIdleControl(LiveSession& session, TimePoint now) {
+    if (rules_.control_idle.count() == 0) {
+        return;
+    }
+    Mail mail;
+    if (const auto due = session.passIdleControl(rules_.control_idle, now, mail)) {
+        alarm_(*due);
+    }
 }
 
 void Lobby::expire(TimePoint now) {

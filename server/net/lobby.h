@@ -66,6 +66,8 @@ class Lobby {
     void settle(const Seat& seat);
     // Once for each Seat.
     void depart(const Seat& seat, Departure how, TimePoint now);
+    // What expire() does for the control of one session: after somebody asked for it.
+    void passIdleControl(LiveSession& session, TimePoint now);
     // Ends what was waited for in vain or forgotten, and passes on control that rests. Sets off the
     // alarm for when more is due.
     void expire(TimePoint now);
@@ -84,6 +86,7 @@ class Lobby {
     struct Entry {
         std::shared_ptr<LiveSession> session;
         std::string room;
+        session::Account address; // that it came from first
         std::string token;
         std::string token_before; // that the newest connection came with, until it has the new one
         uint64_t connection = 0;
@@ -102,6 +105,8 @@ class Lobby {
     [[nodiscard]] Result<std::shared_ptr<LiveSession>>
     whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) const;
     [[nodiscard]] Result<void> withinLimits(const Caller& caller) const;
+    // Whether the room takes one more viewer. Errors: kCapacity.
+    [[nodiscard]] Result<void> roomTakes(const std::string& room, const Caller& caller) const;
     [[nodiscard]] std::set<std::shared_ptr<LiveSession>> sessions() const;
     void end(const LiveSession& session, const Closing& closing, Mail& mail);
     [[nodiscard]] size_t countAway() const;

@@ -20,6 +20,8 @@ struct LobbyRules {
     uint32_t sessions_max = 0;                 // a room being one
     uint32_t sessions_per_address = 0;         // opened from there; not of Caller::local
     uint32_t sessions_per_token = 0;
+    uint32_t viewers_per_room = 0;
+    uint32_t viewers_per_room_and_address = 0; // not of Caller::local
     // Whose viewers do not count as watching any more gives its place to who would be refused ...
     RestLimits rest{};
     // ... and ends by itself so long after their last sign of it.

@@ -189,6 +189,8 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                                 "3",
                                 "--max-sessions-per-token",
                                 "4",
+                                "--max-viewers-per-room",
+                                "5",
                                 "--paused-seconds",
                                 "10",
                                 "--idle-seconds",
@@ -235,6 +237,7 @@ TEST(Options, ServeWithAll_FillsEveryField) {
                 testing::ElementsAre("https://a.example", "https://b.example"));
     EXPECT_EQ(serve.sessions_per_address, 3U);
     EXPECT_EQ(serve.sessions_per_token, 4U);
+    EXPECT_EQ(serve.viewers_per_room, 5U);
     EXPECT_EQ(serve.paused_s, 10);
     EXPECT_EQ(serve.idle_s, 20);
     EXPECT_EQ(serve.forget_s, 30);

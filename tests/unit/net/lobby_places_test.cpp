@@ -165,6 +165,44 @@ TEST_F(PlacesTest, OneAddress_HasItsShare_AndOthersTheRest) {
     EXPECT_TRUE(come(from("192.0.2.66")));
 }
 
+TEST_F(PlacesTest, Room_TakesSoManyViewers_AndThoseWhoComeBack) {
+    rules_.viewers_per_room = 2;
+    open();
+    ASSERT_TRUE(come(from("192.0.2.1"), "hall"));
+    const Guest second = come(from("192.0.2.2"), "hall").value();
+    strict_->depart(second.seat, Departure::kLost, now_);
+    EXPECT_EQ(come(from("192.0.2.3"), "hall").error().message,
+              "all 2 places of this room are taken; try again later");
+    EXPECT_FALSE(mayCome({"hall", ""}, from("192.0.2.3")));
+    EXPECT_TRUE(come(from("192.0.2.3"), "cellar"));
+    EXPECT_TRUE(
+        strict_->enter(serving_, {1, 0, "", "hall", second.seat.resume_token}, {}, {}, now_));
+}
+
+TEST_F(PlacesTest, OneAddress_HasItsShareOfARoom_AndOthersTheRest) {
+    rules_.viewers_per_room = 4;
+    rules_.viewers_per_room_and_address = 2;
+    open();
+    ASSERT_TRUE(come(from("192.0.2.66"), "hall"));
+    const Guest last = come(from("192.0.2.66"), "hall").value();
+    const auto refused = come(from("192.0.2.66"), "hall");
+    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    EXPECT_NE(refused.error().message.find("this address has 2 viewers in this room"),
+              std::string::npos);
+    EXPECT_FALSE(mayCome({"hall", ""}, from("192.0.2.66")));
+    EXPECT_TRUE(come(from("192.0.2.7"), "hall"));
+    strict_->depart(last.seat, Departure::kLeft, now_);
+    EXPECT_TRUE(mayCome({"hall", ""}, from("192.0.2.66")));
+}
+
+TEST_F(PlacesTest, LocalProxy_HasNoShareOfARoom) {
+    rules_.viewers_per_room_and_address = 1;
+    open();
+    const Caller proxy{{"127.0.0.1"}, true, {}};
+    EXPECT_TRUE(come(proxy, "hall"));
+    EXPECT_TRUE(come(proxy, "hall"));
+}
+
 TEST_F(PlacesTest, LostConnections_CountForTheirAddress) {
     rules_.sessions_per_address = 2;
     open();
@@ -239,6 +277,23 @@ TEST_F(PlacesTest, ControlThatRests_GoesToWhoAsks) {
     ASSERT_TRUE(control(first, session::RequestControl{}));
     strict_->expire(now_);
     EXPECT_FALSE(apply(first, exposure(4))) << "who got it has as much time";
+}
+
+TEST_F(PlacesTest, ControlThatRests_AskedFor_IsLookedAtInThatRoomAlone) {
+    open();
+    const Guest first = come(from("192.0.2.1"), "hall").value();
+    const Guest second = come(from("192.0.2.1"), "hall").value();
+    const Guest forgotten = come().value();
+    now_ += 30s;
+    ASSERT_TRUE(apply(first, exposure(2)));
+    now_ += 2h;
+    ASSERT_TRUE(control(second, session::RequestControl{}));
+    strict_->passIdleControl(*second.seat.session, now_);
+    EXPECT_TRUE(apply(second, exposure(3)));
+    EXPECT_FALSE(sentAway(forgotten)) << "that is expire()'s";
+    ASSERT_TRUE(control(first, session::RequestControl{}));
+    strict_->passIdleControl(*first.seat.session, now_);
+    EXPECT_EQ(alarms_.back(), now_ + 1min);
 }
 
 TEST_F(PlacesTest, ControlThatRests_StaysWhileNobodyAsks) {
