@@ -56,7 +56,7 @@ const kTokenRefused = 4003;
 const kResting = 4011;
 
 const kNoRetryReasons: Readonly<Record<number, string>> = {
-  1008: 'The server closed the connection: too many refused messages.',
+  1008: 'The server closed the connection: too many messages, too many refused ones, or no greeting in time.',
   1009: 'The server closed the connection: a message was too big.',
   4003: 'The server asks for a token.',
   4009: 'This view is open in another tab or window now.',
