@@ -1,5 +1,6 @@
 // Places, as far as sockets take part in them: who is let in before and after the upgrade.
 #include "integration/http_exchange.h"
+#include "integration/raw_web_socket.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
 
@@ -78,11 +79,7 @@ TEST(Places, Full_IsToldBeforeTheUpgrade_ButNotToWhoComesBackOrJoinsARoom) {
     const std::string token = first.join().resume_token();
     WsClient hall(server.port());
     hall.join("hall");
-    const std::string answer =
-        httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
-                                    "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-                                    "Sec-WebSocket-Protocol: froxel.v1\r\n\r\n");
+    const std::string answer = httpExchange(server.port(), upgradeRequest());
     EXPECT_EQ(statusOf(answer), 503);
     EXPECT_NE(answer.find("Retry-After: 5\r\n"), std::string::npos) << answer;
     EXPECT_EQ(bodyOf(answer), "all 2 sessions of this server are taken; try again later\n");

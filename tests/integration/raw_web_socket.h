@@ -16,6 +16,13 @@
 
 namespace froxel::test {
 
+inline std::string upgradeRequest() {
+    return "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
+           "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+           "Sec-WebSocket-Protocol: froxel.v1\r\n\r\n";
+}
+
 class RawWebSocket {
   public:
     // Opcodes with FIN, RFC 6455 section 5.2.
@@ -43,10 +50,7 @@ class RawWebSocket {
             throw std::runtime_error("cannot connect");
         }
         if (upgrade) {
-            send("GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
-                 "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-                 "Sec-WebSocket-Protocol: froxel.v1\r\n\r\n");
+            send(upgradeRequest());
             std::string answer;
             while (answer.find("\r\n\r\n") == std::string::npos) {
                 answer += readExactly(1).value();

@@ -1,6 +1,7 @@
 // Connections that misbehave, and what the others notice of it.
 #include "integration/eventually.h"
 #include "integration/http_exchange.h"
+#include "integration/raw_web_socket.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
 
@@ -302,11 +303,7 @@ TEST(Drain, ViewersConnected_AreToldAndGoOnUntilTheDeadline) {
     auto drained = std::async(std::launch::async, [&] { return server.run().drain(1s); });
     EXPECT_EQ(client.expect(ServerMessage::kDraining).draining().deadline_ms(), 800U);
     client.expectFrame();
-    const std::string refused =
-        httpExchange(server.port(), "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
-                                    "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                                    "Sec-WebSocket-Protocol: froxel.v1\r\n"
-                                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    const std::string refused = httpExchange(server.port(), upgradeRequest());
     EXPECT_EQ(statusOf(refused), 503);
     EXPECT_NE(refused.find("Retry-After: "), std::string::npos) << refused;
     EXPECT_EQ(statusOf(httpGet(server.adminPort(), "/readyz")), 503);
