@@ -1,7 +1,8 @@
 // The protocol's numbers: versions, caps, deadlines and close codes. README.md explains them.
 #pragma once
 
-#include <array>
+#include "core/enumerators.h"
+
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -45,9 +46,23 @@ enum class CloseCode : uint16_t {
     kCapacity = 4029,     // no session or place in the room left; retry with back-off
     kDeviceLost = 4050,   // the rendering device was lost; retry with back-off
 };
-inline constexpr std::array kCloseCodes = {
-    CloseCode::kNormal,  CloseCode::kPolicy,       CloseCode::kTooBig,    CloseCode::kVersion,
-    CloseCode::kToken,   CloseCode::kSlowConsumer, CloseCode::kReplaced,  CloseCode::kDraining,
-    CloseCode::kResting, CloseCode::kCapacity,     CloseCode::kDeviceLost};
+constexpr bool isCloseCode(CloseCode code) {
+    switch (code) {
+    case CloseCode::kNormal:
+    case CloseCode::kPolicy:
+    case CloseCode::kTooBig:
+    case CloseCode::kVersion:
+    case CloseCode::kToken:
+    case CloseCode::kSlowConsumer:
+    case CloseCode::kReplaced:
+    case CloseCode::kDraining:
+    case CloseCode::kResting:
+    case CloseCode::kCapacity:
+    case CloseCode::kDeviceLost:
+        return true;
+    }
+    return false;
+}
+inline constexpr auto kCloseCodes = enumerators<CloseCode, 4999, isCloseCode>();
 
 } // namespace froxel::protocol

@@ -1,11 +1,11 @@
 // Why a client's message was refused. The session's state is as it was before the message.
 #pragma once
 
+#include "core/enumerators.h"
 #include "core/error.h"
 
 #include <boost/system/result.hpp>
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -25,10 +25,22 @@ enum class RejectCode : uint8_t {
     kControl,     // another viewer controls the room
     kToken,       // no valid token; close with 4003
 };
-inline constexpr std::array kRejectCodes = {
-    RejectCode::kMalformed, RejectCode::kOutOfRange, RejectCode::kUnsupported,
-    RejectCode::kVersion,   RejectCode::kCapacity,   RejectCode::kRateLimit,
-    RejectCode::kDevice,    RejectCode::kControl,    RejectCode::kToken};
+constexpr bool isRejectCode(RejectCode code) {
+    switch (code) {
+    case RejectCode::kMalformed:
+    case RejectCode::kOutOfRange:
+    case RejectCode::kUnsupported:
+    case RejectCode::kVersion:
+    case RejectCode::kCapacity:
+    case RejectCode::kRateLimit:
+    case RejectCode::kDevice:
+    case RejectCode::kControl:
+    case RejectCode::kToken:
+        return true;
+    }
+    return false;
+}
+inline constexpr auto kRejectCodes = enumerators<RejectCode, 255, isRejectCode>();
 
 struct Rejection {
     RejectCode code = RejectCode::kMalformed;
