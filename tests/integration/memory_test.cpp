@@ -33,40 +33,36 @@ class SessionMemory : public testing::Test {
     SessionMemory()
         : server_({"--size", "160x90", "--lights", "20", "--frame-limit", "10", "--session-memory",
                    std::to_string(kSession_mib)}),
-          port_(server_.port().value()), admin_(server_.adminPort().value()) {}
+          port_(server_.port().value()), admin_(server_.adminPort().value()), one_(port_),
+          two_(port_) {
+        for (WsClient* viewer : {&one_, &two_}) {
+            viewer->join();
+            viewer->expectFrame();
+        }
+        before_ = residentMib(admin_);
+    }
 
     ServerProcess server_;
     uint16_t port_;
     uint16_t admin_;
+    WsClient one_;
+    WsClient two_;
+    double before_ = 0; // both see pictures of the first size
 };
 
 TEST_F(SessionMemory, PicturesOf4096_AreRefusedAndTakeNothing) {
-    WsClient one(port_);
-    WsClient two(port_);
-    for (WsClient* viewer : {&one, &two}) {
-        viewer->join();
-        viewer->expectFrame();
-    }
-    const double before = residentMib(admin_);
-    for (WsClient* viewer : {&one, &two}) {
+    for (WsClient* viewer : {&one_, &two_}) {
         viewer->send(sizeOf(4096, 4096));
         const v1::Error error = viewer->expectError();
         EXPECT_EQ(error.code(), v1::ERROR_CODE_CAPACITY) << error.message();
         EXPECT_NE(error.message().find("a session has 128"), std::string::npos) << error.message();
         viewer->expectFrame([](const auto& header) { return header.width() <= 160; });
     }
-    EXPECT_LT(residentMib(admin_), before + 32);
+    EXPECT_LT(residentMib(admin_), before_ + 32);
 }
 
 TEST_F(SessionMemory, LargePicturesThatAreDrawn_StayWithinTheBudget) {
-    WsClient one(port_);
-    WsClient two(port_);
-    for (WsClient* viewer : {&one, &two}) {
-        viewer->join();
-        viewer->expectFrame();
-    }
-    const double before = residentMib(admin_);
-    for (WsClient* viewer : {&one, &two}) {
+    for (WsClient* viewer : {&one_, &two_}) {
         viewer->send(sizeOf(1600, 900));
         for (int i = 0; i < 4; ++i) { // every readback buffer
             viewer->expectFrame([](const auto& header) { return header.width() == 1600; });
@@ -75,7 +71,7 @@ TEST_F(SessionMemory, LargePicturesThatAreDrawn_StayWithinTheBudget) {
         EXPECT_EQ(viewer->expectError().code(), v1::ERROR_CODE_CAPACITY);
         viewer->expectFrame([](const auto& header) { return header.width() == 1600; });
     }
-    const double grown = residentMib(admin_) - before;
+    const double grown = residentMib(admin_) - before_;
     std::printf("resident memory grew by %.0f MiB for two viewers\n", grown);
     EXPECT_LT(grown, 2 * kSession_mib);
 }
