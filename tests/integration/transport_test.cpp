@@ -112,6 +112,7 @@ TEST(SessionLimit, Reached_RefusesClearlyUntilOneLeaves) {
     EXPECT_TRUE(upgradeIsRefused(server.port(), {}));
     first.expectFrame();
     second.close();
+    EXPECT_TRUE(eventually([&] { return !upgradeIsRefused(server.port(), {}); }));
     WsClient fourth(server.port());
     fourth.join();
 }
