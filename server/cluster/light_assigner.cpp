@@ -19,6 +19,9 @@ namespace {
 // Waking another thread costs about as much as this many lights.
 constexpr size_t kLightsPerMember = 256;
 
+// That a member finds before it tells the others.
+constexpr uint64_t kEntriesAtOnce = 4096;
+
 Ball dilated(Ball ball) {
     ball.radius = io::dilatedRadius(ball);
     return ball;
@@ -113,7 +116,7 @@ struct LightAssigner::Impl {
     std::vector<uint32_t> line_offsets; // lines + 1
     uint64_t max_entries;
     BallSweep sweep;
-    std::atomic<bool> overflow{false};
+    std::atomic<uint64_t> entries{0}; // that all members have found
 };
 
 LightAssigner::LightAssigner(unsigned threads, uint64_t max_entries)
@@ -136,12 +139,16 @@ void LightAssigner::Impl::sweepLights(const ClusterGrid& grid,
     const size_t end = light_count * (member + 1U) / members;
     SpanChunk& chunk = chunks[member];
     chunk.begin(first, size_t{grid.size.y} * grid.size.z);
+    uint64_t counted = 0; // in `entries`
     for (size_t light = first; light < end; ++light) {
         appendLight(grid, sweep, lights, light, chunk.spans());
         chunk.endLight();
-        if (chunk.entryCount() > max_entries || overflow.load(std::memory_order_relaxed)) {
-            overflow.store(true, std::memory_order_relaxed);
-            return;
+        const uint64_t found = chunk.entryCount() - counted;
+        if (found >= kEntriesAtOnce || light + 1 == end) {
+            counted += found;
+            if (entries.fetch_add(found, std::memory_order_relaxed) + found > max_entries) {
+                return; // and so do the others: it only grows
+            }
         }
     }
     chunk.sortByLine();
@@ -211,17 +218,14 @@ void LightAssigner::assign(const ClusterGrid& grid,
     out.clusters.resize(grid.clusterCount());
 
     impl.sweep.prepare(grid);
-    impl.overflow = false;
+    impl.entries = 0;
     impl.line_offsets.resize(size_t{grid.size.y} * grid.size.z + 1U);
     const size_t wanted = light_count / kLightsPerMember + 1;
     const auto members = static_cast<unsigned>(std::min<size_t>(wanted, impl.crew.members()));
     impl.crew.run(members,
                   [&](unsigned member) { impl.sweepLights(grid, lights, member, members); });
-    uint64_t entry_count = 0;
-    for (unsigned member = 0; member < members; ++member) {
-        entry_count += impl.chunks[member].entryCount();
-    }
-    if (impl.overflow || entry_count > impl.max_entries) {
+    const uint64_t entry_count = impl.entries;
+    if (entry_count > impl.max_entries) {
         Impl::nameAllLights(grid, light_count, out);
     } else {
         impl.placeLines(members);

@@ -67,6 +67,6 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .area_pair = 3e-11,
                                          .froxel = 1e-10,
                                          .bloom_tap = 5.5e-12,
-                                         .wire_line = 2e-9};
+                                         .wire_line = 1e-8};
 
 } // namespace froxel::render
