@@ -18,8 +18,8 @@ namespace froxel::cluster {
 
 // Leaves in each list the `cap` > 0 lights of most mostIrradiance() in the cluster's box, the first
 // ones where several have as much; indices still ascend, and lists still follow each other. Fills
-// the statistics anew, with what was dropped. Lists that name all lights stay as they are. The result
-// does not depend on how many the crew are.
+// the statistics anew, with what was dropped. Lists that name all lights stay as they are. The
+// result does not depend on how many the crew are.
 void capLists(const ClusterGrid& grid,
               const light::FrameLights& lights,
               uint32_t cap,

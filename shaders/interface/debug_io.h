@@ -32,7 +32,7 @@ struct DebugFrame {
     vec3 inverse_box; // 1/m, of the scene's box
     float scale_max;  // of values that are not counted
     uint count_max;   // of those that are
-    uint byte_count; // of a texel of the raw target
+    uint byte_count;  // of a texel of the raw target
 };
 FROXEL_SIZE_ASSERT(DebugFrame, 72);
 
