@@ -74,7 +74,7 @@ double RandomValues::real(double from, double to) {
 }
 
 // What is no end is more often small, however far the range goes: large values are mostly refused.
-double RandomValues::within(const std::string& range) {
+double RandomValues::within(std::string_view range) {
     const auto known = ranges_.find(range);
     const auto [least, most] = known == ranges_.end() ? std::pair(0.0, 0.0) : known->second;
     if (once(3)) {
@@ -127,7 +127,7 @@ void RandomValues::fillNumber(Message& message, const FieldDescriptor& field) {
     if (range == kRangeOf.end()) {
         return;
     }
-    const double value = within(std::string(range->second));
+    const double value = within(range->second);
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) {
         message.GetReflection()->SetDouble(&message, &field, value);
     } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_UINT32) {

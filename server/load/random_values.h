@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace froxel::load {
@@ -23,7 +24,7 @@ class RandomValues {
     // True once in so many times.
     [[nodiscard]] bool once(uint32_t in) { return whole(1, in) == 1; }
     // Of a FieldRange: an end of it in a third of the cases. 0 where the server told no such range.
-    [[nodiscard]] double within(const std::string& range);
+    [[nodiscard]] double within(std::string_view range);
     // Where lights are; rarely anywhere at all.
     [[nodiscard]] v1::Vec3 place();
 

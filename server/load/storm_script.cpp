@@ -51,7 +51,7 @@ StormScript::StormScript(const v1::Welcome& welcome, uint32_t viewer)
       cameras_(welcome.scene().cameras().begin(), welcome.scene().cameras().end()),
       values_(welcome, viewer) {}
 
-v1::Vec3 StormScript::color(const std::string& range) {
+v1::Vec3 StormScript::color(std::string_view range) {
     const double red = values_.within(range);
     const double green = values_.within(range);
     return vec(red, green, values_.within(range));

@@ -58,7 +58,9 @@ class VariantCache {
             asked = asked_.emplace(key, std::make_shared<Making>()).first;
         }
         if (!asked->second->done) { // whoever else asked for it: in this one's turn too
-            maker_.post([making = asked->second, make] { making->run(make); });
+            if (std::exchange(asked->second->asked_in, maker_.recording()) != maker_.recording()) {
+                maker_.post([making = asked->second, make] { making->run(make); });
+            }
             return false;
         }
         const auto making = std::move(asked->second);
@@ -95,6 +97,7 @@ class VariantCache {
         std::optional<Pipeline> pipeline;
         std::exception_ptr error;
         std::atomic<bool> done = false;
+        uint64_t asked_in = 0; // the last recording that asked; of the timeline's thread
 
         // Of several who asked the first in turn makes it.
         template <class Make>

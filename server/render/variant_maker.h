@@ -59,7 +59,12 @@ class VariantMaker {
     [[nodiscard]] bool inBackground() const { return thread_.joinable(); }
 
     // Who asks from now on, in whose turn work is done.
-    void setAsker(const void* asker) { asker_ = asker; }
+    void setAsker(const void* asker) {
+        asker_ = asker;
+        ++recording_;
+    }
+    // Counts calls of setAsker(), from 1: what one recording asks for twice is posted once.
+    [[nodiscard]] uint64_t recording() const { return recording_; }
     // Work that is not done yet, of one who asks.
     [[nodiscard]] bool busyFor(const void* asker) const;
     // Runs `make` on the thread; it must not throw.
@@ -84,6 +89,7 @@ class VariantMaker {
     void run(const std::stop_token& stop);
 
     const void* asker_ = nullptr;
+    uint64_t recording_ = 1;
     std::vector<bool*> first_uses_;
     std::multiset<uint64_t> held_; // of frames that have not run
     friend class VariantUses;

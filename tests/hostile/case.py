@@ -197,7 +197,8 @@ async def measure(case, server, begin, fellow):
     room_states = (heard[2] - heard[1])["roomState"] / (times[2] - times[1])
     return {**{f"alone_{name}": value for name, value in alone.items()}, **beside, **joined,
             "kept": beside["fps"] / max(alone["fps"], 1e-9), "room_states_per_s": room_states,
-            "step_s": await asyncio.to_thread(longest_step_s, server), "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
+            "step_s": await asyncio.to_thread(longest_step_s, server),
+            "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
 
 
 def play(case, froxel, options):
