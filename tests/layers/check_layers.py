@@ -138,9 +138,23 @@ def check_committed(paths):
             yield f"{path}: generated code is built, never committed"
 
 
+def check_built(paths, text_of):
+    """Yields the sources that no CMakeLists.txt builds; text_of(path) is a file's text."""
+    lists = {path: text_of(path) for path in paths if Path(path).name == "CMakeLists.txt"}
+    for path in map(Path, paths):
+        if path.suffix != ".cpp":
+            continue
+        near = (lists.get(str(folder / "CMakeLists.txt"), "") for folder in path.parents[:2])
+        named = re.compile(rf"\b{path.stem}(\.cpp)?\b")
+        if not any(map(named.search, near)) and not any(str(path) in text for text in lists.values()):
+            yield f"{path}: no CMakeLists.txt names it, so it is never built"
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
-    violations = [*check_tree(root), *check_committed(committed_files(root))]
+    committed = committed_files(root)
+    violations = [*check_tree(root), *check_committed(committed),
+                  *check_built(committed, lambda path: (root / path).read_text(encoding="utf-8"))]
     for violation in violations:
         print(violation)
     return 1 if violations else 0

@@ -4,7 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from check_layers import check_committed, check_file, check_tree
+from check_layers import check_built, check_committed, check_file, check_tree
 
 
 def violations(layer, *lines, name="a.cpp"):
@@ -62,6 +62,12 @@ class CheckLayers(unittest.TestCase):
     def test_generated_code(self):
         built = ["protocol/a.pb.h", "client-web/src/gen/a_pb.ts", "shaders/a.spv"]
         self.assertEqual(len(list(check_committed(built + ["shaders/a.frag"]))), 3)
+
+    def test_source_that_is_never_built(self):
+        texts = {"a/CMakeLists.txt": "add(a b.cpp) fuzz(c)", "t/CMakeLists.txt": "${ROOT}/s/d.cpp"}
+        sources = ["a/b.cpp", "a/u/c.cpp", "s/d.cpp", "a/bb.cpp", "s/e.cpp"]
+        found = list(check_built([*texts, *sources], texts.get))
+        self.assertEqual([line.split(":")[0] for line in found], ["a/bb.cpp", "s/e.cpp"])
 
 
 if __name__ == "__main__":
