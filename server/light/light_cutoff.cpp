@@ -1,5 +1,6 @@
 #include "light/light_cutoff.h"
 
+#include "core/parallel.h"
 #include "light/falloff.h"
 #include "light/seeded_lights.h"
 
@@ -27,16 +28,21 @@ double cutRadius(const glm::vec3& color, double radius_m, double cutoff) {
 }
 
 void cutLights(FrameLights& lights, double cutoff, bool compensated) {
-    for (size_t i = 0; i < lights.lights.size(); ++i) {
-        io::Light& light = lights.lights[i];
-        const auto whole = static_cast<double>(lights.radii_m[i]);
-        const double radius = cutRadius(light.color, whole, cutoff);
-        if (compensated && radius > 0 && std::isfinite(whole)) {
-            light.color *= static_cast<float>(whole / radius);
+    constexpr size_t kLightsPerThread = 4096;
+    const auto cut = [&](size_t /*part*/, size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            io::Light& light = lights.lights[i];
+            const auto whole = static_cast<double>(lights.radii_m[i]);
+            const double radius = cutRadius(light.color, whole, cutoff);
+            if (compensated && radius > 0 && std::isfinite(whole)) {
+                light.color *= static_cast<float>(whole / radius);
+            }
+            lights.radii_m[i] = static_cast<float>(radius);
+            light.inv_radius2 = inverseRadius2(static_cast<double>(lights.radii_m[i]));
         }
-        lights.radii_m[i] = static_cast<float>(radius);
-        light.inv_radius2 = inverseRadius2(static_cast<double>(lights.radii_m[i]));
-    }
+    };
+    const size_t count = lights.lights.size();
+    onThreads(count, threadCount(count, kLightsPerThread), cut);
 }
 
 } // namespace froxel::light

@@ -1,11 +1,11 @@
 #include "light/seeded_lights.h"
 
+#include "core/parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <future>
-#include <thread>
 #include <vector>
 
 namespace froxel::light {
@@ -191,18 +191,9 @@ void fillSeededLights(const view::Lights& settings,
                       std::span<io::Light> out) {
     const SeededFrame frame = seededFrame(settings, camera, box_world, time_s);
     const ShaderLights lights{out, inverseRadius2(static_cast<double>(settings.radius_m))};
-    const size_t threads = std::clamp<size_t>(out.size() / kLightsPerThread, 1,
-                                              std::max(1U, std::thread::hardware_concurrency()));
-    std::vector<std::future<void>> others;
-    for (size_t i = 1; i < threads; ++i) {
-        others.push_back(std::async(std::launch::async, [&, i] {
-            fillRange(frame, out.size() * i / threads, out.size() * (i + 1) / threads, lights);
-        }));
-    }
-    fillRange(frame, 0, out.size() / threads, lights);
-    for (auto& other : others) {
-        other.get();
-    }
+    onThreads(
+        out.size(), threadCount(out.size(), kLightsPerThread),
+        [&](size_t /*part*/, size_t begin, size_t end) { fillRange(frame, begin, end, lights); });
 }
 
 std::vector<SeededLight>

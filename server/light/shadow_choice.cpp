@@ -1,5 +1,7 @@
 #include "light/shadow_choice.h"
 
+#include "core/parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +49,16 @@ struct SeenSpace {
     }
 };
 
+// What each adds, negated, and which it is: the first in order are kept.
+using Ranked = std::vector<std::pair<double, uint32_t>>;
+
+void keepFirst(Ranked& ranked, size_t count) {
+    const size_t kept = std::min(count, ranked.size());
+    std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept),
+                      ranked.end());
+    ranked.resize(kept);
+}
+
 double luminanceOf(const glm::vec3& color) {
     return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
@@ -63,33 +75,43 @@ std::vector<uint32_t> chooseShadowed(const FrameLights& lights,
                                      const view::Size& size,
                                      double farthest_m,
                                      uint32_t count) {
+    constexpr size_t kLightsPerThread = 16'384;
     const SeenSpace seen(camera, size);
     const bool parallel = camera.projection == view::Projection::kOrthographic;
-    std::vector<std::pair<double, uint32_t>> ranked; // ascends: negated importance, index
-    for (uint32_t i = 0; i < lights.lights.size(); ++i) {
-        const io::Light& light = lights.lights[i];
+    const auto valueOf = [&](const io::Light& light, double radius_m) {
         const glm::dvec3 center(light.position_view);
-        const double reach_m = std::min(static_cast<double>(lights.radii_m[i]), farthest_m);
+        const double reach_m = std::min(radius_m, farthest_m);
         // A map is drawn from one point: rectangles have none.
         const bool point = extentOf(lights, light) == 0.0F;
         if (!point || !(reach_m > 0) || !seen.meets(center, reach_m)) {
-            continue;
+            return 0.0;
         }
         const double share =
             light.spot == io::kNoSpot ? 1.0 : 0.5 * (1.0 - lights.cones[light.spot].cos_outer);
         // Parallel rays show a ball in one size wherever it is.
         const double distance_m = parallel ? camera.half_height_m : glm::length(center);
-        const double value = importance(luminanceOf(light.color), distance_m, reach_m, share);
-        if (value > 0) {
-            ranked.emplace_back(-value, i);
+        return importance(luminanceOf(light.color), distance_m, reach_m, share);
+    };
+    const size_t light_count = lights.lights.size();
+    std::vector<Ranked> parts(threadCount(light_count, kLightsPerThread));
+    onThreads(light_count, parts.size(), [&](size_t part, size_t begin, size_t end) {
+        Ranked& ranked = parts[part];
+        for (size_t i = begin; i < end; ++i) {
+            const double value = valueOf(lights.lights[i], static_cast<double>(lights.radii_m[i]));
+            if (value > 0) {
+                ranked.emplace_back(-value, static_cast<uint32_t>(i));
+            }
         }
+        keepFirst(ranked, count);
+    });
+    Ranked best;
+    for (const Ranked& ranked : parts) {
+        best.insert(best.end(), ranked.begin(), ranked.end());
     }
-    const size_t kept = std::min<size_t>(count, ranked.size());
-    std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept),
-                      ranked.end());
+    keepFirst(best, count);
     std::vector<uint32_t> chosen;
-    for (size_t i = 0; i < kept; ++i) {
-        chosen.push_back(ranked[i].second);
+    for (const auto& [value, index] : best) {
+        chosen.push_back(index);
     }
     std::sort(chosen.begin(), chosen.end());
     return chosen;
