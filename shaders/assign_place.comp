@@ -61,7 +61,8 @@ uint outcomeOf(uint entry_count) {
     if (frame.max_pairs > 0.0) {
         float pixels = float(frame.image_width_px) * float(frame.image_height_px);
         float pairs = all_lights ? pixels * float(frame.light_count) : listedPairs();
-        if (pairs > frame.max_pairs) {
+        uint longest = all_lights ? frame.light_count : totals.largest;
+        if (pairs > frame.max_pairs || longest > frame.max_list) {
             return kAssignLong;
         }
     }

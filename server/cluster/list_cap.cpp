@@ -73,26 +73,24 @@ struct Dropped {
     }
 };
 
-// The lists of a row of clusters, each in its own place.
-Dropped capRow(const ClusterGrid& grid,
-               const light::FrameLights& lights,
-               uint32_t cap,
-               uint32_t row,
-               LightLists& lists,
-               std::vector<Candidate>& candidates) {
-    Dropped dropped;
-    const uint32_t y = row % grid.size.y;
-    const uint32_t z = row / grid.size.y;
-    for (uint32_t x = 0; x < grid.size.x; ++x) {
-        io::ClusterList& list = lists.clusters[grid.clusterIndex(x, y, z)];
-        if (list.count > cap) {
-            const auto all = std::span(lists.indices).subspan(list.offset, list.count);
-            const double lost =
-                keepStrongest(all, cap, boxOf(grid, grid.cell(x, y, z)), lights, candidates);
-            dropped.add({lost, list.count - cap, 1});
-            list.count = cap;
-        }
+// Of one cluster, whose entries have their own place.
+Dropped capList(const ClusterGrid& grid,
+                const light::FrameLights& lights,
+                uint32_t cap,
+                uint32_t cluster,
+                LightLists& lists,
+                std::vector<Candidate>& candidates) {
+    io::ClusterList& list = lists.clusters[cluster];
+    if (list.count <= cap) {
+        return {};
     }
+    const uint32_t x = cluster % grid.size.x;
+    const uint32_t line = cluster / grid.size.x;
+    const Cell cell = grid.cell(x, line % grid.size.y, line / grid.size.y);
+    const auto all = std::span(lists.indices).subspan(list.offset, list.count);
+    const double lost = keepStrongest(all, cap, boxOf(grid, cell), lights, candidates);
+    const Dropped dropped{lost, list.count - cap, 1};
+    list.count = cap;
     return dropped;
 }
 
@@ -121,13 +119,18 @@ void capLists(const ClusterGrid& grid,
     if (lists.all_lights) {
         return;
     }
-    const uint32_t row_count = grid.size.y * grid.size.z;
-    std::atomic<uint32_t> next_row = 0;
+    constexpr uint32_t kAtOnce = 16; // clusters that one of the crew takes
+    const auto step = std::clamp(grid.clusterCount() / crew.members(), 1U, kAtOnce);
+    std::atomic<uint32_t> next = 0;
     std::vector<Dropped> dropped(crew.members());
     crew.run(crew.members(), [&](unsigned member) {
         std::vector<Candidate> candidates;
-        for (uint32_t row = next_row++; row < row_count; row = next_row++) {
-            dropped[member].add(capRow(grid, lights, cap, row, lists, candidates));
+        for (uint32_t first = next.fetch_add(step); first < grid.clusterCount();
+             first = next.fetch_add(step)) {
+            const uint32_t end = std::min(first + step, grid.clusterCount());
+            for (uint32_t cluster = first; cluster < end; ++cluster) {
+                dropped[member].add(capList(grid, lights, cap, cluster, lists, candidates));
+            }
         }
     });
     Dropped all;

@@ -24,12 +24,13 @@ gpu::GraphicsPipelineInfo wiresInfo(gpu::Spirv vertex, vk::PipelineLayout layout
 }
 
 // What the view's part of the shader looks at.
-VariantKey valuesKey(view::DebugView view, uint32_t light_flags, uint32_t output_flags) {
+VariantKey
+valuesKey(view::DebugView view, uint32_t light_flags, uint32_t output_flags, bool device_is_cpu) {
     using View = view::DebugView;
     const bool packed = view == View::kPosition || view == View::kNormal ||
                         view == View::kBaseColor || view == View::kRoughness;
     const bool lists = view::countsLights(view) || view::showsClusters(view);
-    return {static_cast<uint32_t>(view), lists ? light_flags & kListFlags : 0U,
+    return {static_cast<uint32_t>(view), lists ? countingFlags(light_flags, device_is_cpu) : 0U,
             packed ? output_flags : 0U};
 }
 
@@ -76,7 +77,8 @@ void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
                              const io::DebugFrame& values,
                              const vk::Rect2D& region) {
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
-                     pipeline(DebugShader::kValues, valuesKey(view, light_flags, output_flags)));
+                     pipeline(DebugShader::kValues,
+                              valuesKey(view, light_flags, output_flags, device_.traits().is_cpu)));
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *values_layout_, 0, sets, {});
     cmd.pushConstants<io::DebugFrame>(*values_layout_, vk::ShaderStageFlagBits::eCompute, 0,
                                       values);

@@ -88,7 +88,7 @@ measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera)
     DeviceSpeed speed;
     UnitCosts& unit = renderer.resources().unit_costs;
     if (pairs > 0 && seconds > 0) {
-        speed = {.lights = seconds / pairs / unit.pair,
+        speed = {.lights = seconds / pairs / unit.compute.pair,
                  .surfaces = surfaces.all_s / surfaces.estimate_s};
         unit = scaled(unit, speed.lights, speed.surfaces);
     }

@@ -343,22 +343,25 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                  ? 1
                                  : static_cast<uint32_t>(visible.materials_in_use.size());
     }
-    load.longest_loop = on_device_ ? 0 : load.pairs.longest();
+    load.longest_loop = load.pairs.longest();
     FrameCosts costs(scene_.unit_costs, load);
     if (!on_device_ || costs.total() <= piece) {
         return costs;
     }
+    // What the device is told to hold its lists against, since nobody knows them yet.
     const vk::Rect2D whole{{0, 0}, {drawn.width_px, drawn.height_px}};
     const double room = costs.pairsWithin(piece);
+    const uint64_t longest = costs.lightsWithin(piece);
     const double pixels = static_cast<double>(drawn.width_px) * drawn.height_px;
     const auto seen = seenPairs();
-    if (seen && seen->pairs(whole) > room) {
+    if (seen && (seen->pairs(whole) > room || seen->longest() > longest)) {
         load.pairs = *seen;
         load.longest_loop = seen->longest();
-        device_lists_.setMaxPairs(1.001 * seen->pairs(whole)); // summed in floats there
+        device_lists_.limit(1.001 * seen->pairs(whole), seen->longest()); // floats are summed there
     } else {
         load.pairs = PairBound::uniform(static_cast<uint64_t>(room / pixels));
-        device_lists_.setMaxPairs(room);
+        load.longest_loop = std::min(longest, load.pairs.longest());
+        device_lists_.limit(room, longest);
     }
     return {scene_.unit_costs, std::move(load)};
 }

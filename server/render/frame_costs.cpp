@@ -7,9 +7,6 @@
 namespace froxel::render {
 namespace {
 
-// What cannot be cut may take as long as so many pieces.
-constexpr double kUncutPieces = 5;
-
 vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
     const auto end = [](int32_t at, uint32_t side) { return at + static_cast<int32_t>(side); };
     const int32_t left = std::max(a.offset.x, b.offset.x);
@@ -43,7 +40,7 @@ checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Second
         return {};
     }
     const double pixels = static_cast<double>(settings.size.width_px) * settings.size.height_px;
-    const Seconds least(pixels * settings.lights.count * unit.pair);
+    const Seconds least(pixels * settings.lights.count * unit.compute.pair);
     if (least <= limit) {
         return {};
     }
@@ -59,15 +56,18 @@ double FrameCosts::pixels(const vk::Rect2D& region) const {
     return static_cast<double>(region.extent.width) * region.extent.height;
 }
 
-double FrameCosts::lit(const vk::Rect2D& region, double pair) const {
+double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
     const uint64_t longest = load_.pairs.longest();
     const auto shadows = std::min<uint64_t>(load_.shadows.lights.size(), longest);
     const auto areas = std::min<uint64_t>(load_.area_count, longest);
-    const double loop = static_cast<double>(load_.longest_loop) * unit_.loop_light;
-    return std::max(load_.pairs.pairs(region) * pair, loop) +
-           pixels(region) * (unit_.lit_pixel + load_.directional_count * pair +
+    return load_.pairs.pairs(region) * unit.pair +
+           pixels(region) * (unit_.lit_pixel + load_.directional_count * unit.pair +
                              static_cast<double>(shadows) * unit_.shadow_pair +
                              static_cast<double>(areas) * unit_.area_pair);
+}
+
+Seconds FrameCosts::loop(const PairCost& unit) const {
+    return Seconds(static_cast<double>(load_.longest_loop) * unit.loop);
 }
 
 RegionCost FrameCosts::depthPrepass() const {
@@ -78,9 +78,10 @@ RegionCost FrameCosts::depthPrepass() const {
 RegionCost FrameCosts::forward() const {
     // Behind a prepass each pixel is shaded once.
     const double each = load_.plan.depth_prepass ? 1.0 : load_.overdraw;
-    return {Seconds(load_.draws.triangle_count * unit_.triangle), [this, each](const auto& region) {
-                return Seconds(each * (pixels(region) * unit_.surface_pixel +
-                                       lit(region, unit_.fragment_pair)));
+    return {Seconds(load_.draws.triangle_count * unit_.triangle) + loop(unit_.fragment),
+            [this, each](const auto& region) {
+                return Seconds(
+                    each * (pixels(region) * unit_.surface_pixel + lit(region, unit_.fragment)));
             }};
 }
 
@@ -96,38 +97,40 @@ RegionCost FrameCosts::ids() const {
 
 RegionCost FrameCosts::resolve() const {
     return {
-        Seconds(0), [this](const auto& region) {
+        load_.plan.visibility_shade ? loop(unit_.compute) : Seconds(0), [this](const auto& region) {
             const double surface =
                 pixels(region) * (unit_.surface_pixel + load_.resolve_count * unit_.resolve_pixel);
-            return Seconds(surface + (load_.plan.visibility_shade ? lit(region, unit_.pair) : 0.0));
+            return Seconds(surface +
+                           (load_.plan.visibility_shade ? lit(region, unit_.compute) : 0.0));
         }};
 }
 
 RegionCost FrameCosts::lighting() const {
-    const double pair = load_.plan.lighting_compute ? unit_.pair : unit_.fragment_pair;
-    return {Seconds(0), [this, pair](const auto& region) { return Seconds(lit(region, pair)); }};
+    const PairCost& unit = load_.plan.lighting_compute ? unit_.compute : unit_.fragment;
+    return {loop(unit), [this, &unit](const auto& region) { return Seconds(lit(region, unit)); }};
 }
 
 RegionCost FrameCosts::countPairs() const {
-    return {Seconds(0), [this](const auto& region) { return Seconds(lit(region, unit_.pair)); }};
+    return {loop(unit_.counting),
+            [this](const auto& region) { return Seconds(lit(region, unit_.counting)); }};
 }
 
 RegionCost FrameCosts::debugView() const {
     if (!view::countsLights(load_.plan.debug)) {
         return screen();
     }
-    return {Seconds(0),
-            [this](const auto& region) { return Seconds(lit(region, unit_.single_pair)); }};
+    return {loop(unit_.counting),
+            [this](const auto& region) { return Seconds(lit(region, unit_.counting)); }};
 }
 
 RegionCost FrameCosts::blended() const {
-    return {Seconds(load_.draws.transparent_triangle_count * unit_.triangle),
+    return {Seconds(load_.draws.transparent_triangle_count * unit_.triangle) + loop(unit_.fragment),
             [this](const auto& region) {
                 double sum = 0;
                 for (const vk::Rect2D& part : load_.draws.transparent_parts) {
                     const vk::Rect2D both = common(part, region);
                     if (both.extent.width > 0) {
-                        sum += pixels(both) * unit_.surface_pixel + lit(both, unit_.fragment_pair);
+                        sum += pixels(both) * unit_.surface_pixel + lit(both, unit_.fragment);
                     }
                 }
                 return Seconds(sum + pixels(region) * unit_.depth_pixel);
@@ -140,7 +143,7 @@ RegionCost FrameCosts::screen() const {
 }
 
 RegionCost FrameCosts::fogScatter() const {
-    return {Seconds(0), [this](const vk::Rect2D& nodes) {
+    return {loop(unit_.fog), [this](const vk::Rect2D& nodes) {
                 const auto tile = load_.fog_tile_px;
                 const vk::Rect2D whole{{0, 0}, {load_.drawn.width_px, load_.drawn.height_px}};
                 const vk::Rect2D region =
@@ -150,7 +153,7 @@ RegionCost FrameCosts::fogScatter() const {
                 // Pairs are of the tiles' pixels, and a tile has one froxel a slice.
                 const double each = load_.fog_slice_count / (static_cast<double>(tile) * tile);
                 return Seconds(pixels(nodes) * load_.fog_slice_count * unit_.froxel +
-                               each * lit(region, unit_.pair));
+                               each * lit(region, unit_.fog));
             }};
 }
 
@@ -266,13 +269,13 @@ Seconds FrameCosts::total() const {
 }
 
 Result<void> FrameCosts::check(Seconds limit, Seconds piece) const {
-    const Seconds loop(static_cast<double>(load_.longest_loop) * unit_.loop_light);
-    if (loop > kUncutPieces * piece) {
+    const Seconds loop(static_cast<double>(load_.longest_loop) * slowestLoop());
+    if (loop > piece) {
         return Error{ErrorCode::kCapacity,
                      fmt::format("a pixel that loops over {} lights takes about {:.3g} s of this "
                                  "device, however few pixels there are; at most {:.3g} s in one "
                                  "are allowed: ask for fewer or smaller lights, or lists",
-                                 load_.longest_loop, loop.count(), (kUncutPieces * piece).count())};
+                                 load_.longest_loop, loop.count(), piece.count())};
     }
     const Seconds sum = total();
     if (sum <= limit) {
@@ -290,16 +293,39 @@ Result<void> FrameCosts::check(Seconds limit, Seconds piece) const {
                     dearest->time.count(), dearest->pass, limit.count())};
 }
 
+double FrameCosts::slowestLoop() const {
+    const FramePlan& plan = load_.plan;
+    const bool replaced = view::replacesPicture(plan.debug);
+    double slowest = 0;
+    const auto add = [&](bool is_there, const PairCost& cost) {
+        slowest = is_there ? std::max(slowest, cost.loop) : slowest;
+    };
+    add(!replaced && (plan.lighting_compute || plan.visibility_shade), unit_.compute);
+    add(!replaced && (plan.forward || plan.lighting_fragment || plan.transparent), unit_.fragment);
+    add(plan.count_pairs || (replaced && view::countsLights(plan.debug)), unit_.counting);
+    add(!replaced && plan.fog_volume, unit_.fog);
+    return slowest;
+}
+
+uint64_t FrameCosts::lightsWithin(Seconds piece) const {
+    constexpr double kAny = 1e9;
+    return static_cast<uint64_t>(piece.count() / std::max(slowestLoop(), piece.count() / kAny));
+}
+
 double FrameCosts::pairsWithin(Seconds limit) const {
-    FrameLoad dark = load_;
-    dark.pairs = PairBound::uniform(0);
-    const Seconds rest = FrameCosts(unit_, std::move(dark)).total();
+    const auto totalWith = [this](uint64_t lights_each) {
+        FrameLoad load = load_;
+        load.pairs = PairBound::uniform(lights_each);
+        load.longest_loop = 0;
+        return FrameCosts(unit_, std::move(load)).total();
+    };
+    constexpr uint64_t kEach = 1000;
+    constexpr double kAny = 1e30;
+    const Seconds rest = totalWith(0);
     const Seconds room = std::max(limit - rest, limit / 2);
-    const double pair = std::max(load_.plan.forward && !load_.plan.visibility_shade
-                                     ? unit_.fragment_pair * load_.overdraw
-                                     : unit_.pair,
-                                 load_.plan.lighting_fragment ? unit_.fragment_pair : 0.0);
-    return room.count() / pair;
+    const double pairs = pixels({{0, 0}, extentOf(load_.drawn)}) * kEach;
+    const Seconds taken = totalWith(kEach) - rest;
+    return pairs * (room.count() / std::max(taken.count(), room.count() / kAny));
 }
 
 } // namespace froxel::render

@@ -80,18 +80,24 @@ class FrameCosts {
     [[nodiscard]] std::vector<PassEstimate> passes() const;
     [[nodiscard]] Seconds total() const;
     // Errors: kCapacity where that is more than `limit`, naming the dearest pass, or where one
-    // loop, which cannot be cut, takes several times a piece.
+    // loop, which cannot be cut, takes more than a piece.
     [[nodiscard]] Result<void> check(Seconds limit, Seconds piece) const;
     // What the frame takes but for its local lights, and pairs of these that fit into what is left
     // of `limit`, at least into half of it.
     [[nodiscard]] double pairsWithin(Seconds limit) const;
+    // How many lights one pixel may loop over.
+    [[nodiscard]] uint64_t lightsWithin(Seconds piece) const;
 
     [[nodiscard]] const FrameLoad& load() const { return load_; }
 
   private:
     [[nodiscard]] double pixels(const vk::Rect2D& region) const;
+    // The longest loop of one pixel, which cutting a region does not make shorter.
+    [[nodiscard]] Seconds loop(const PairCost& unit) const;
     // Shading all lights, without materials.
-    [[nodiscard]] double lit(const vk::Rect2D& region, double pair) const;
+    [[nodiscard]] double lit(const vk::Rect2D& region, const PairCost& unit) const;
+    // Of the frame's passes, seconds a light.
+    [[nodiscard]] double slowestLoop() const;
     void addSurfaces(std::vector<PassEstimate>& passes) const;
     void addBlended(std::vector<PassEstimate>& passes) const;
     void addPost(std::vector<PassEstimate>& passes) const;

@@ -119,8 +119,12 @@ class GpuLightLists {
     // Prepares a frame's data for memory that holds what frames so far have needed. `lights` must
     // stay alive until the data is uploaded.
     const AssignData& prepare(const cluster::ClusterGrid& grid, const light::FrameLights& lights);
-    // Of what was prepared: how many (light, pixel) pairs the frame may evaluate.
-    void setMaxPairs(double pairs) { data_.frame[0].max_pairs = static_cast<float>(pairs); }
+    // Of what was prepared: how many (light, pixel) pairs the frame may evaluate, and how long a
+    // list may be.
+    void limit(double pairs, uint64_t longest) {
+        data_.frame[0].max_pairs = static_cast<float>(pairs);
+        data_.frame[0].max_list = static_cast<uint32_t>(std::min<uint64_t>(longest, UINT32_MAX));
+    }
     [[nodiscard]] const AssignData& data() const { return data_; }
     // What the frame prepared last finds room for.
     [[nodiscard]] const ListCapacity& capacity() const { return capacity_; }

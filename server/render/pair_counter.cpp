@@ -41,7 +41,7 @@ PairPipelines::PairPipelines(const gpu::Device& device,
       made_(timeline, maker, Pipelines::kKeptScreen) {}
 
 vk::Pipeline PairPipelines::pipeline(uint32_t light_flags) {
-    const uint32_t flags = light_flags & kListFlags;
+    const uint32_t flags = countingFlags(light_flags, device_.traits().is_cpu);
     return *made_.findOrMake(flags, [=, this] {
         return gpu::makeComputePipeline(device_, shaders::count_pairs_comp(),
                                         {0, flags, 0, std::max(1U, device_.traits().subgroup_size)},

@@ -22,13 +22,9 @@ constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
 constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
 constexpr size_t kTexturesOfMaterial = 5;
 
-// Beside a CPU device the host has a tenth of a second for a frame's lists: so many entries take
-// it.
-constexpr uint64_t kCpuListEntries = uint64_t{1} << 23U;
-
-uint64_t listEntries(const gpu::Device& device) {
-    return device.traits().is_cpu ? kCpuListEntries : cluster::LightAssigner::kDefaultMaxEntries;
-}
+// The host has a tenth of a second for a frame's lists: so many entries take it, on two cores as
+// on sixteen, which wait for memory.
+constexpr uint64_t kHostListEntries = uint64_t{1} << 23U;
 
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);
@@ -93,7 +89,7 @@ SceneResources::SceneResources(gpu::Device& device_in,
                                const MemoryLimits& limits)
     : device(device_in), timeline(device_in), memory(limits), needs(findNeeds(scene)),
       bounds_world(scene.bounds_world), light_rig(scene),
-      light_assigner(std::max(1U, std::thread::hardware_concurrency()), listEntries(device_in)),
+      light_assigner(std::max(1U, std::thread::hardware_concurrency()), kHostListEntries),
       arena(device_in), texture_arena(device_in, kTextureChunkBytes, "textures"),
       pipelines(device_in, timeline, variants),
       unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {

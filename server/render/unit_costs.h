@@ -3,6 +3,13 @@
 
 namespace froxel::render {
 
+// Of lights that pixels loop over, seconds. A loop of few pixels, which nothing can cut, waits for
+// each of its lights.
+struct PairCost {
+    double pair = 0; // a light at a pixel
+    double loop = 0; // the next light of one pixel's loop, however few pixels go through it
+};
+
 // Seconds.
 struct UnitCosts {
     double triangle = 0;      // culled, set up, rastered, without its pixels
@@ -11,13 +18,13 @@ struct UnitCosts {
     double resolve_pixel = 0; // likewise in compute, from ids; for each dispatch over the picture
     double lit_pixel = 0;     // shading without lights
     double screen_pixel = 0;  // another pass over the picture
-    double pair = 0;          // a light at a pixel, in compute
-    double single_pair = 0;   // likewise where lights come one at a time: debug views
-    double fragment_pair = 0; // in the fragment stage
-    double loop_light = 0;    // the next light of a loop, however few pixels go through it
-    double shadow_pair = 0;   // more, where the light has a shadow map
-    double area_pair = 0;     // a rectangle
-    double froxel = 0;        // of fog, without lights
+    PairCost compute;
+    PairCost fragment;
+    PairCost counting; // pairs that are counted, by debug views too
+    PairCost fog;
+    double shadow_pair = 0; // more, where the light has a shadow map
+    double area_pair = 0;   // a rectangle
+    double froxel = 0;      // of fog, without lights
     double bloom_tap = 0;
     double wire_line = 0; // of an overlay
 };
@@ -29,11 +36,15 @@ struct UnitCosts {
         unit.*cost *= surfaces;
     }
     for (double UnitCosts::*cost :
-         {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::pair,
-          &UnitCosts::single_pair, &UnitCosts::loop_light, &UnitCosts::fragment_pair,
-          &UnitCosts::shadow_pair, &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap,
+         {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::shadow_pair,
+          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap,
           &UnitCosts::wire_line}) {
         unit.*cost *= lights;
+    }
+    for (PairCost UnitCosts::*cost :
+         {&UnitCosts::compute, &UnitCosts::fragment, &UnitCosts::counting, &UnitCosts::fog}) {
+        (unit.*cost).pair *= lights;
+        (unit.*cost).loop *= lights;
     }
     return unit;
 }
@@ -44,10 +55,10 @@ inline constexpr UnitCosts kCpuUnitCosts{.triangle = 3e-7,
                                          .resolve_pixel = 3e-8,
                                          .lit_pixel = 4e-8,
                                          .screen_pixel = 4e-8,
-                                         .pair = 5e-9,
-                                         .single_pair = 1.2e-8,
-                                         .fragment_pair = 2.2e-8,
-                                         .loop_light = 0,
+                                         .compute = {5e-9, 0},
+                                         .fragment = {2.2e-8, 0},
+                                         .counting = {1.2e-8, 0},
+                                         .fog = {5e-9, 0},
                                          .shadow_pair = 6e-8,
                                          .area_pair = 1.5e-7,
                                          .froxel = 6e-8,
@@ -59,10 +70,10 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .resolve_pixel = 1e-10,
                                          .lit_pixel = 1e-10,
                                          .screen_pixel = 1e-10,
-                                         .pair = 8e-12,
-                                         .single_pair = 9e-11,
-                                         .fragment_pair = 4.2e-10,
-                                         .loop_light = 1.5e-9,
+                                         .compute = {8e-12, 1.3e-7},
+                                         .fragment = {4.2e-10, 1.1e-6},
+                                         .counting = {9e-11, 2.1e-7},
+                                         .fog = {8e-12, 4.6e-7},
                                          .shadow_pair = 3e-11,
                                          .area_pair = 3e-11,
                                          .froxel = 1e-10,

@@ -23,7 +23,7 @@ FROXEL_CONST uint kAssignSaturated = 0x7fffffffU;
 FROXEL_CONST uint kAssignLists = 0U;
 FROXEL_CONST uint kAssignAllLights = 1U; // past max_entries: every cluster names one list of all
 FROXEL_CONST uint kAssignShort = 2U;     // a buffer was too small: no lists, draw the frame again
-FROXEL_CONST uint kAssignLong = 3U;      // pixels may loop over more than max_pairs: likewise
+FROXEL_CONST uint kAssignLong = 3U;      // pixels may loop over more than allowed: likewise
 FROXEL_CONST uint kAssignMaxTiles = 16384U;
 
 // One frame's grid and limits. A table of doubles follows it in a buffer of its own: plane depths
@@ -46,6 +46,7 @@ struct AssignFrame {
     // (Light, pixel) pairs that the frame may evaluate, each pixel counting with its tile's longest
     // list; 0: nobody asks, and tiles are not looked at.
     float max_pairs;
+    uint max_list; // as long as one list may be, likewise
     uint image_width_px;
     uint image_height_px;
     uint tile_width_px;

@@ -20,15 +20,15 @@ ClusterList handedList(uvec2 pixel, float distance) {
     return list;
 }
 
+// Loads past a list's end take its last light, so that none waits for a test.
 uint countReaching(ClusterList list, vec3 position) {
     uint reaching = 0;
     for (uint first = 0; first < list.count; first += kPlainStep) {
         [[unroll]] for (uint k = 0; k < kPlainStep; ++k) {
-            uint i = first + k;
-            if (kPlainStep == 1 || i < list.count) {
-                uint index = hasLight(kLightLists) ? fetchIndex(list.offset + i) : i;
-                reaching += reaches(fetchLight(index), position) ? 1u : 0u;
-            }
+            uint i = kPlainStep == 1 ? first : min(first + k, list.count - 1u);
+            uint index = hasLight(kLightLists) ? fetchIndex(list.offset + i) : i;
+            bool reached = reaches(fetchLight(index), position);
+            reaching += reached && i == first + k ? 1u : 0u;
         }
     }
     return reaching;

@@ -21,7 +21,8 @@ struct Load {
                 .shadows = shadows,
                 .drawn = {640, 360},
                 .shown = {640, 360},
-                .pairs = pairs};
+                .pairs = pairs,
+                .fog_nodes = {}};
     }
 };
 
@@ -60,26 +61,44 @@ TEST(FrameCosts, OneLongList_CountsWhole) {
     EXPECT_NE(refused.error().message.find("for lighting"), std::string::npos);
 }
 
-// On a GPU: 16x16 pixels are few pairs, and each takes its lights one after another.
+// On a GPU: few pixels are few pairs, and each takes its lights one after another.
 TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
-    Load load;
-    load.drawn = load.shown = {16, 16};
-    FrameLoad few = load.of(PairBound::uniform(400'000));
+    const Load load;
+    FrameLoad few = load.of(PairBound::uniform(900'000));
+    few.drawn = few.shown = {16, 16};
     const FrameCosts unknown(kGpuUnitCosts, few);
     EXPECT_LT(unknown.total(), Seconds(0.01));
     EXPECT_TRUE(unknown.check(Seconds(1), Seconds(0.05)));
-    few.longest_loop = 400'000;
+    few.longest_loop = 900'000;
     const FrameCosts known(kGpuUnitCosts, few);
-    EXPECT_GT(known.total(), Seconds(0.3));
+    EXPECT_GT(known.total(), Seconds(0.1));
     EXPECT_TRUE(known.check(Seconds(1), Seconds(1)));
     EXPECT_FALSE(known.check(Seconds(1), Seconds(0.05)));
+    few.longest_loop = known.lightsWithin(Seconds(0.05));
+    EXPECT_TRUE(FrameCosts(kGpuUnitCosts, few).check(Seconds(1), Seconds(0.05)));
+    ++few.longest_loop;
+    EXPECT_FALSE(FrameCosts(kGpuUnitCosts, few).check(Seconds(1), Seconds(0.05)));
+}
+
+// Cutting a picture does not make one pixel's loop shorter.
+TEST(FrameCosts, Loop_IsOfEveryPart) {
+    const Load load;
+    FrameLoad long_loop = load.of(PairBound::uniform(100'000));
+    long_loop.longest_loop = 100'000;
+    const FrameCosts costs(kGpuUnitCosts, long_loop);
+    const auto lighting = costs.lighting();
+    EXPECT_NEAR(lighting.each.count(), 100'000 * kGpuUnitCosts.compute.loop, 1e-9);
+    const vk::Rect2D half{{0, 0}, {640, 180}};
+    const vk::Rect2D whole{{0, 0}, {640, 360}};
+    EXPECT_NEAR(lighting.of(whole).count(), 2 * lighting.of(half).count(), 1e-9);
 }
 
 TEST(FrameCosts, AllPasses_CountTogether) {
-    Load load;
-    const FrameCosts one(kCpuUnitCosts, load.of(PairBound::uniform(500)));
-    load.plan.fxaa = load.plan.tonemap = load.plan.fog = true;
-    const FrameCosts more(kCpuUnitCosts, load.of(PairBound::uniform(500)));
+    const Load few;
+    Load many;
+    many.plan.fxaa = many.plan.tonemap = many.plan.fog = true;
+    const FrameCosts one(kCpuUnitCosts, few.of(PairBound::uniform(500)));
+    const FrameCosts more(kCpuUnitCosts, many.of(PairBound::uniform(500)));
     EXPECT_GT(more.total(), one.total());
     EXPECT_TRUE(one.check(one.total(), Seconds(1)));
     EXPECT_FALSE(more.check(one.total(), Seconds(1)));
@@ -92,6 +111,16 @@ TEST(FrameCosts, PairsWithinALimit_FillIt) {
     const auto each = static_cast<uint64_t>(pairs / (640 * 360));
     const FrameCosts lit(kGpuUnitCosts, load.of(PairBound::uniform(each)));
     EXPECT_NEAR(lit.total().count(), 0.05, 0.001);
+}
+
+// All passes that loop over lights share what there is.
+TEST(FrameCosts, PairsWithinALimit_CountEveryPass) {
+    const Load lit;
+    Load counting;
+    counting.plan.count_pairs = true;
+    const double alone = FrameCosts(kGpuUnitCosts, lit.of({})).pairsWithin(Seconds(0.05));
+    const double counted = FrameCosts(kGpuUnitCosts, counting.of({})).pairsWithin(Seconds(0.05));
+    EXPECT_LT(counted, alone / 5);
 }
 
 } // namespace froxel::render
