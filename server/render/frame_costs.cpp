@@ -116,7 +116,7 @@ RegionCost FrameCosts::countPairs() const {
 }
 
 RegionCost FrameCosts::debugView() const {
-    if (!view::countsLights(load_.plan.debug)) {
+    if (!view::testsLights(load_.plan.debug)) {
         return screen();
     }
     return {loop(unit_.counting),
@@ -302,7 +302,7 @@ double FrameCosts::slowestLoop() const {
     };
     add(!replaced && (plan.lighting_compute || plan.visibility_shade), unit_.compute);
     add(!replaced && (plan.forward || plan.lighting_fragment || plan.transparent), unit_.fragment);
-    add(plan.count_pairs || (replaced && view::countsLights(plan.debug)), unit_.counting);
+    add(plan.count_pairs || (replaced && view::testsLights(plan.debug)), unit_.counting);
     add(!replaced && plan.fog_volume, unit_.fog);
     return slowest;
 }

@@ -74,9 +74,13 @@ inline constexpr std::array kDebugViewNames = {std::string_view("none"),
     return view == DebugView::kClusterSlices || view == DebugView::kClusterTiles ||
            view == DebugView::kListedLights;
 }
+// Each pixel tests all lights that it is handed.
+[[nodiscard]] constexpr bool testsLights(DebugView view) {
+    return view == DebugView::kContributingLights || view == DebugView::kFalsePositives;
+}
 [[nodiscard]] constexpr bool countsLights(DebugView view) {
     return view == DebugView::kListedLights || view == DebugView::kEvaluatedLights ||
-           view == DebugView::kContributingLights || view == DebugView::kFalsePositives;
+           testsLights(view);
 }
 
 struct Debug {

@@ -6,6 +6,7 @@
 #include "support/test_scenes.h"
 
 #include <functional>
+#include <utility>
 
 namespace froxel::test {
 
@@ -144,13 +145,18 @@ TEST_F(MemoryNeed, PictureBeyondTheSession_IsRefusedWithFiguresAndAllocatesNothi
 }
 
 TEST_F(MemoryNeed, PictureBeyondTheDevice_IsRefusedUntilAnotherViewGoes) {
-    const uint64_t scene_bytes = [this] {
-        render::Renderer renderer(device(), *scene_);
-        return renderer.resources().memory.takenBytes();
-    }();
-    render::Renderer renderer(device(), *scene_, {.device_bytes = scene_bytes + (16U << 20U)});
     FrameInputs inputs = small();
     inputs.settings.camera = scene_->cameras.at(0).camera;
+    const auto [scene_bytes, view_bytes] = [&] {
+        render::Renderer renderer(device(), *scene_);
+        const auto& memory = renderer.resources().memory;
+        const uint64_t scene = memory.takenBytes();
+        render::ViewRenderer view(renderer);
+        fill(view, inputs);
+        return std::pair(scene, memory.takenBytes() - scene);
+    }();
+    render::Renderer renderer(device(), *scene_,
+                              {.device_bytes = scene_bytes + view_bytes * 3 / 2});
     render::ViewRenderer second(renderer);
     {
         render::ViewRenderer first(renderer);
