@@ -317,7 +317,7 @@ std::optional<PairBound> FrameBuilder::seenPairs() const {
 FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                const view::Size& shown,
                                const BloomPlan* bloom,
-                               Seconds piece) {
+                               const WorkLimits& work) {
     const view::Size& drawn = drawn_;
     FrameLoad load{.plan = plan,
                    .draws = draws_,
@@ -345,13 +345,13 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     }
     load.longest_loop = load.pairs.longest();
     FrameCosts costs(scene_.unit_costs, load);
-    if (!on_device_ || costs.total() <= piece) {
+    if (!on_device_ || costs.total() <= std::min(work.piece, work.loop)) {
         return costs;
     }
     // What the device is told to hold its lists against, since nobody knows them yet.
     const vk::Rect2D whole{{0, 0}, {drawn.width_px, drawn.height_px}};
-    const double room = costs.pairsWithin(piece);
-    const uint64_t longest = costs.lightsWithin(piece);
+    const double room = costs.pairsWithin(work.piece);
+    const uint64_t longest = costs.lightsWithin(work.loop);
     const double pixels = static_cast<double>(drawn.width_px) * drawn.height_px;
     const auto seen = seenPairs();
     if (seen && (seen->pairs(whole) > room || seen->longest() > longest)) {

@@ -29,8 +29,10 @@ class FrameBuilder {
     // longer than `piece`, the device looks at them before it shades, and leaves the frame without
     // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `bloom` and
     // this.
-    [[nodiscard]] FrameCosts
-    costs(const FramePlan& plan, const view::Size& shown, const BloomPlan* bloom, Seconds piece);
+    [[nodiscard]] FrameCosts costs(const FramePlan& plan,
+                                   const view::Size& shown,
+                                   const BloomPlan* bloom,
+                                   const WorkLimits& work);
     // After a frame with lists from the device: whether they are whole. If not, the frame must be
     // built again, for which there will be room, and what its lists hold is known.
     [[nodiscard]] bool acceptLists(const AssignSlot& lists);

@@ -268,14 +268,14 @@ Seconds FrameCosts::total() const {
     return sum;
 }
 
-Result<void> FrameCosts::check(Seconds limit, Seconds piece) const {
+Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
     const Seconds loop(static_cast<double>(load_.longest_loop) * slowestLoop());
-    if (loop > piece) {
+    if (loop > loop_limit) {
         return Error{ErrorCode::kCapacity,
                      fmt::format("a pixel that loops over {} lights takes about {:.3g} s of this "
                                  "device, however few pixels there are; at most {:.3g} s in one "
                                  "are allowed: ask for fewer or smaller lights, or lists",
-                                 load_.longest_loop, loop.count(), piece.count())};
+                                 load_.longest_loop, loop.count(), loop_limit.count())};
     }
     const Seconds sum = total();
     if (sum <= limit) {
@@ -307,9 +307,9 @@ double FrameCosts::slowestLoop() const {
     return slowest;
 }
 
-uint64_t FrameCosts::lightsWithin(Seconds piece) const {
+uint64_t FrameCosts::lightsWithin(Seconds limit) const {
     constexpr double kAny = 1e9;
-    return static_cast<uint64_t>(piece.count() / std::max(slowestLoop(), piece.count() / kAny));
+    return static_cast<uint64_t>(limit.count() / std::max(slowestLoop(), limit.count() / kAny));
 }
 
 double FrameCosts::pairsWithin(Seconds limit) const {

@@ -80,13 +80,13 @@ class FrameCosts {
     [[nodiscard]] std::vector<PassEstimate> passes() const;
     [[nodiscard]] Seconds total() const;
     // Errors: kCapacity where that is more than `limit`, naming the dearest pass, or where one
-    // loop, which cannot be cut, takes more than a piece.
-    [[nodiscard]] Result<void> check(Seconds limit, Seconds piece) const;
+    // loop, which cannot be cut, takes more than `loop_limit`.
+    [[nodiscard]] Result<void> check(Seconds limit, Seconds loop_limit) const;
     // What the frame takes but for its local lights, and pairs of these that fit into what is left
     // of `limit`, at least into half of it.
     [[nodiscard]] double pairsWithin(Seconds limit) const;
     // How many lights one pixel may loop over.
-    [[nodiscard]] uint64_t lightsWithin(Seconds piece) const;
+    [[nodiscard]] uint64_t lightsWithin(Seconds limit) const;
 
     [[nodiscard]] const FrameLoad& load() const { return load_; }
 

@@ -207,8 +207,8 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
         return bloom_plan.error();
     }
     const BloomPlan* bloom_steps = *bloom_plan ? &**bloom_plan : nullptr;
-    const FrameCosts costs = builder_.costs(plan, asked.settings.size, bloom_steps, work_.piece);
-    if (auto affordable = costs.check(work_.frame, work_.piece); !affordable) {
+    const FrameCosts costs = builder_.costs(plan, asked.settings.size, bloom_steps, work_);
+    if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
         builder_.forgetLists();
         return affordable;
     }

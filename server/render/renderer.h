@@ -52,6 +52,7 @@ struct FrameInputs {
 struct WorkLimits {
     Seconds frame{100}; // beyond: refused, before anything is allocated
     Seconds piece{10};
+    Seconds loop{10}; // one pixel's over its lights, which nothing cuts; beyond: refused
 };
 
 // What a frame will ask of the device.

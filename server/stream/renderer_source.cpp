@@ -61,9 +61,9 @@ class RendererSource final : public FrameSource {
                    Seconds frame_limit,
                    const render::MemoryLimits& memory)
         : device_(std::move(device)),
-          renderer_(*device_, scene, memory), limits_{frame_limit, device_->traits().is_cpu
-                                                                       ? kCpuPiece
-                                                                       : kGpuPiece} {}
+          renderer_(*device_, scene, memory), limits_{.frame = frame_limit,
+                                                      .piece = pieceLimit(),
+                                                      .loop = pieceLimit()} {}
 
     // Estimates of frames are scaled by it. Errors: kDevice.
     [[nodiscard]] Result<render::DeviceSpeed> measureSpeed(const view::Camera& camera) {
@@ -90,6 +90,9 @@ class RendererSource final : public FrameSource {
     }
 
   private:
+    [[nodiscard]] Seconds pieceLimit() const {
+        return device_->traits().is_cpu ? kCpuPiece : kGpuPiece;
+    }
     [[nodiscard]] static Error noMemory(const std::string& whose) {
         return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};
     }
