@@ -57,7 +57,8 @@ Result<BenchPictures::Shared> BenchPictures::draw(const view::ViewSettings& sett
     render::FrameInputs inputs{.settings = settings, .time_s = time_s};
     inputs.keep_radiance = true;
     // As naive is drawn: a GPU's texture unit may round a sample by whether the pixels beside it
-    // passed the depth test (README, "Measured"), which says nothing of assignment or loop order.
+    // passed the depth test (docs/figures/error.md), which says nothing of assignment or of the
+    // loop's order.
     inputs.depth_prepass = false;
     if (const auto submitted = viewer.submit(inputs); !submitted) {
         return submitted.error();

@@ -12,7 +12,7 @@ namespace {
 
 using namespace froxel;
 
-// Also in options.cpp's help and in the README.
+// Also in options.cpp's help and in docs/guide/commands.md.
 int exitCodeOf(ErrorCode code) {
     switch (code) {
     case ErrorCode::kInvalidArgument:

@@ -69,7 +69,7 @@ class Metrics {
     // it is set it is 0.
     void watchLoad(std::function<double()> load);
 
-    // The README lists the names.
+    // docs/guide/metrics.md lists the names.
     [[nodiscard]] std::string text() const;
 
   private:

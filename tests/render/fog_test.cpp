@@ -180,7 +180,7 @@ TEST_F(Fog, Grids_AnyLawAndSize_GiveTheSamePicture) {
     }
 }
 
-// Finer volumes come to what is integrated in double; the figures are in ARCHITECTURE.md.
+// Finer volumes come to what is integrated in double; the figures are in docs/figures/effects.md.
 TEST_F(Fog, FinerVolumes_ComeToTheReference) {
     const auto maker = lampsInTheAir();
     render::Renderer renderer(device(), maker.scene);
