@@ -1,4 +1,4 @@
-// Exit codes beyond those of an ErrorCode; all are in its help and in docs/guide/commands.md.
+// Exit codes beyond those of an ErrorCode; all are in froxel --help and docs/guide/commands.md.
 #pragma once
 
 namespace froxel::app {
