@@ -11,7 +11,7 @@ from urllib.parse import unquote
 
 MAX_BYTES = {"README.md": 9000, "ARCHITECTURE.md": 14000}
 INDEX = "docs/README.md"
-NOT_OURS = {".git", "build", "dist", "node_modules"}
+NOT_OURS = {"build", "dist", "node_modules"}  # and hidden folders
 # Files whose comments name documents by their path from the root.
 SOURCES = {".h", ".cpp", ".py", ".ts", ".sh", ".txt", ".glsl", ".proto", ".yaml", ".toml"}
 
@@ -86,7 +86,7 @@ def check_named(root, name):
 def files(root):
     """Every file of ours, as its path from root."""
     for folder, folders, names in os.walk(root):
-        folders[:] = sorted(set(folders) - NOT_OURS)
+        folders[:] = sorted(name for name in folders if name not in NOT_OURS and name[0] != ".")
         yield from (str((Path(folder) / name).relative_to(root)) for name in sorted(names))
 
 
