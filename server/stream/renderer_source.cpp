@@ -60,10 +60,8 @@ class RendererSource final : public FrameSource {
                    const scene::Scene& scene,
                    Seconds frame_limit,
                    const render::MemoryLimits& memory)
-        : device_(std::move(device)),
-          renderer_(*device_, scene, memory), limits_{.frame = frame_limit,
-                                                      .piece = pieceLimit(),
-                                                      .loop = pieceLimit()} {}
+        : device_(std::move(device)), renderer_(*device_, scene, memory),
+          limits_(limitsOf(*device_, frame_limit)) {}
 
     // Estimates of frames are scaled by it. Errors: kDevice.
     [[nodiscard]] Result<render::DeviceSpeed> measureSpeed(const view::Camera& camera) {
@@ -90,8 +88,9 @@ class RendererSource final : public FrameSource {
     }
 
   private:
-    [[nodiscard]] Seconds pieceLimit() const {
-        return device_->traits().is_cpu ? kCpuPiece : kGpuPiece;
+    [[nodiscard]] static render::WorkLimits limitsOf(const gpu::Device& device, Seconds frame) {
+        return device.traits().is_cpu ? render::WorkLimits{frame, kCpuPiece, kCpuPiece}
+                                      : render::WorkLimits{frame, kGpuPiece, kGpuLoop};
     }
     [[nodiscard]] static Error noMemory(const std::string& whose) {
         return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};

@@ -129,15 +129,20 @@ def play_hostile(name, url, froxel, ready, begin, pipe):
     asyncio.run(play())
 
 
-def longest_step_s(server):
-    """What no step of a frame took longer than, as the server's histogram tells it."""
+def steps_of(server):
+    """How many steps of frames took at most so many seconds, by what they do, as the server's histogram tells it."""
     text = server.scrape()
-    longest = 0.0
+    steps = {}
     for step in ("begin", "piece"):
         buckets = re.findall(rf'^froxel_frame_step_seconds_bucket\{{step="{step}",le="(.*)"\}} (\d+)$', text, re.M)
-        counts = {float(bound.replace("+Inf", "inf")): int(count) for bound, count in buckets}
-        longest = max(longest, min(bound for bound in counts if counts[bound] == counts[float("inf")]))
-    return longest
+        steps[step] = {bound: int(count) for bound, count in buckets}
+    return steps
+
+
+def longest_step_s(steps):
+    """What no step took longer than."""
+    return max(min(float(bound) for bound, count in counts.items() if count == counts["+Inf"])
+               for counts in steps.values())
 
 
 class Memory:
@@ -195,11 +200,12 @@ async def measure(case, server, begin, fellow):
         if running.done():
             await running  # raises what ended it
         running.cancel()
+        steps = await asyncio.to_thread(steps_of, server)
     alone, beside = victim.figures(times[0], times[1]), victim.figures(times[1], times[2])
     room_states = (heard[2] - heard[1])["roomState"] / (times[2] - times[1])
     return {**{f"alone_{name}": value for name, value in alone.items()}, **beside, **joined,
             "kept": beside["fps"] / max(alone["fps"], 1e-9), "room_states_per_s": room_states,
-            "step_s": await asyncio.to_thread(longest_step_s, server),
+            "step_s": longest_step_s(steps), "steps": steps,
             "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
 
 
