@@ -10,8 +10,7 @@ layout(local_size_x = 64) in;
 
 void main() {
     uint line_count = min(totals.task_count, frame.task_capacity) * kAssignTaskLines;
-    for (uint i = gl_GlobalInvocationID.x; i < line_count;
-         i += gl_NumWorkGroups.x * kAssignGroup) {
+    for (uint i = gl_GlobalInvocationID.x; i < line_count; i += gl_NumWorkGroups.x * kAssignGroup) {
         AssignTask task = tasks[i / kAssignTaskLines];
         uint line = task.line + i % kAssignTaskLines;
         uint span = 0u;

@@ -75,8 +75,8 @@ uint outcomeOf(uint entry_count) {
 // Without lists of its own each cluster has the one of all lights, or none.
 void placeSame(uint count) {
     for (uint i = 0u; i < kAssignScanEach; ++i) {
-        uint cluster = gl_WorkGroupID.x * kAssignScanBlock + i * kAssignScanGroup +
-                       gl_LocalInvocationIndex;
+        uint cluster =
+            gl_WorkGroupID.x * kAssignScanBlock + i * kAssignScanGroup + gl_LocalInvocationIndex;
         if (cluster < frame.cluster_count) {
             lists[cluster] = ClusterList(0u, count);
         }

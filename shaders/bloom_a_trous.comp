@@ -1,4 +1,5 @@
-// One step of the a trous wavelet (Holschneider et al. 1989): a cubic B-spline's five taps, with holes.
+// One step of the a trous wavelet (Holschneider et al. 1989): a cubic B-spline's five taps, with
+// holes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require

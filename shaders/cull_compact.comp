@@ -37,8 +37,8 @@ void main() {
     uint before = countBefore(group.first_block, lane);
     uint rank = ranks[i];
     if (rank != kCulled) {
-        DrawCommand draw = DrawCommand(m.index_count, 1u, m.first_index,
-                                       items[m.item].vertex_offset, placed);
+        DrawCommand draw =
+            DrawCommand(m.index_count, 1u, m.first_index, items[m.item].vertex_offset, placed);
         commands[group.first_block * kCullGroup + before + rank] = draw;
     }
     if (lane == 0 && gl_WorkGroupID.x + 1 == group.first_block + group.block_count) {

@@ -1,6 +1,6 @@
-// Which placed meshlets may be seen: inside the frustum and not facing away as a whole. Never leaves
-// out anything visible. One invocation a meshlet; its rank among those of its workgroup keeps order.
-// Where ids are rastered in compute, which needs no order, a list is made at once.
+// Which placed meshlets may be seen: inside the frustum and not facing away as a whole. Never
+// leaves out anything visible. One invocation a meshlet; its rank among those of its workgroup
+// keeps order. Where ids are rastered in compute, which needs no order, a list is made at once.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #ifdef FROXEL_LIST
@@ -21,8 +21,8 @@ layout(local_size_x = kCullGroup) in;
 const float kSlack = 1e-4;
 const float kRounding = 1e-6;
 
-// Whether a sphere lies outside x * normal.x + y * normal.y + z * normal.z + offset >= 0, a plane in
-// view space, taken to object space: no transform of the radius is needed.
+// Whether a sphere lies outside x * normal.x + y * normal.y + z * normal.z + offset >= 0, a plane
+// in view space, taken to object space: no transform of the radius is needed.
 bool beyond(InstanceView view, vec3 normal, float offset, vec3 center, float radius) {
     vec4 plane = view.row0 * normal.x + view.row1 * normal.y + view.row2 * normal.z;
     plane.w += offset;

@@ -44,7 +44,7 @@ uint byteMosaic(uvec2 pixel) {
         return kDebugEmpty;
     }
     uvec4 words = kView == kDebugGbuffer ? texelFetch(gbuffer_image, source, 0)
-                                              : texelFetch(extra_image, source, 0);
+                                         : texelFetch(extra_image, source, 0);
     uint value = (words[cell.y] >> (8u * cell.x)) & 255u;
     return 0xff000000u | value * 0x010101u;
 }

@@ -1,6 +1,6 @@
 // Adds up the slices of the volume front to back, each weighted by what it takes of light that the
-// slices before it have left: exact for a slice of constant source, whatever its thickness (Hillaire
-// 2015, "Physically based and unified volumetric rendering in Frostbite").
+// slices before it have left: exact for a slice of constant source, whatever its thickness
+// (Hillaire 2015, "Physically based and unified volumetric rendering in Frostbite").
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require

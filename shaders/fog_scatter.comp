@@ -1,8 +1,9 @@
-// What lights scatter towards the eye in each slice of the volume: radiance for each unit of what the
-// slice takes of light, as a mean over its stretch of the node's ray. 1 / d^2 is averaged in closed
-// form (Sun et al. 2005, "A practical analytic single scattering model"), the phase by Simpson's rule
-// over the angle that the light sees the stretch at; window, cone and what is lost between light and
-// sample are taken at one place, whose cluster's list is complete there. d^2 is widened by a share of a tile, since narrower glows would flicker between nodes.
+// What lights scatter towards the eye in each slice of the volume: radiance for each unit of what
+// the slice takes of light, as a mean over its stretch of the node's ray. 1 / d^2 is averaged in
+// closed form (Sun et al. 2005, "A practical analytic single scattering model"), the phase by
+// Simpson's rule over the angle that the light sees the stretch at; window, cone and what is lost
+// between light and sample are taken at one place, whose cluster's list is complete there. d^2 is
+// widened by a share of a tile, since narrower glows would flicker between nodes.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -15,7 +16,8 @@
 layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 layout(set = 1, binding = 0, scalar) writeonly buffer VolumeBlock { vec4 volume[]; };
 
-const float kWidth = 0.28; // of tiles, 1 / (2 sqrt(pi)): a ray through the lamp sees the mean over a tile
+// Of tiles, 1 / (2 sqrt(pi)): a ray through the lamp sees the mean over a tile.
+const float kWidth = 0.28;
 
 // A slice of a node's ray.
 struct Stretch {
@@ -27,8 +29,8 @@ struct Stretch {
     float width2; // m^2
 };
 
-// In the angle equal steps weigh alike, as 1 / d^2 does. `h`: from the ray; the ends are counted from
-// the place nearest to the light.
+// In the angle equal steps weigh alike, as 1 / d^2 does. `h`: from the ray; the ends are counted
+// from the place nearest to the light.
 float meanPhase(float h, float front, float back) {
     precise vec2 a = vec2(h, front) * inversesqrt(fma(front, front, h * h));
     precise vec2 b = vec2(h, back) * inversesqrt(fma(back, back, h * h));
@@ -40,8 +42,8 @@ float meanPhase(float h, float front, float back) {
 
 vec3 scatteredBy(Stretch s, LocalLight light) {
     precise vec3 to_light = light.position_view - s.sample_view;
-    precise float d2 = fma(to_light.z, to_light.z,
-                           fma(to_light.y, to_light.y, to_light.x * to_light.x));
+    precise float d2 =
+        fma(to_light.z, to_light.z, fma(to_light.y, to_light.y, to_light.x * to_light.x));
     precise float x = d2 * light.inv_radius2;
     precise vec3 from_origin = light.position_view - s.origin_view;
     precise float along = dot(from_origin, s.direction_view);

@@ -1,7 +1,7 @@
-// Fast approximate antialiasing after Lottes (2009): where brightness changes, finds whether the edge
-// runs along a row or a column, walks along it to both of its ends, and blends the pixel with the one
-// across the edge by as much as a straight edge between those ends would cover of it. Single pixels that
-// stick out are blended with what is around them.
+// Fast approximate antialiasing after Lottes (2009): where brightness changes, finds whether the
+// edge runs along a row or a column, walks along it to both of its ends, and blends the pixel with
+// the one across the edge by as much as a straight edge between those ends would cover of it.
+// Single pixels that stick out are blended with what is around them.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -69,7 +69,8 @@ void main() {
         float se = lumaAt(at + ivec2(1, 1));
         // Second differences across rows and across columns.
         float rows = 2.0 * abs(n + s - 2.0 * m) + abs(nw + sw - 2.0 * w) + abs(ne + se - 2.0 * e);
-        float columns = 2.0 * abs(w + e - 2.0 * m) + abs(nw + ne - 2.0 * n) + abs(sw + se - 2.0 * s);
+        float columns =
+            2.0 * abs(w + e - 2.0 * m) + abs(nw + ne - 2.0 * n) + abs(sw + se - 2.0 * s);
         bool in_rows = rows >= columns;
         ivec2 along = in_rows ? ivec2(1, 0) : ivec2(0, 1);
         float before = in_rows ? n : w;

@@ -1,7 +1,7 @@
 // Toon renderers: darkens the pixels near an edge. Stored depth is affine over a plane, so of three
 // pixels in a row on one plane the middle one has the mean of the others' depths, however steep the
-// plane: where it has more, a surface ends that is nearer than what is behind. Lines lie on that one. A
-// crease is where normals differ; its line lies on one side.
+// plane: where it has more, a surface ends that is nearer than what is behind. Lines lie on that
+// one. A crease is where normals differ; its line lies on one side.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require

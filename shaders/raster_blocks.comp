@@ -35,7 +35,8 @@ uint triangleOfBlock(uint64_t block, uint count) {
     return first;
 }
 
-void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, uint id, uvec2 first) {
+void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, uint id,
+               uvec2 first) {
     Edges edges;
     bool both_sides = (item.flags & kMaterialDoubleSided) != 0;
     if (!setEdges(a, b, c, mirrored, both_sides, ivec2(first), edges)) {
@@ -51,8 +52,7 @@ void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, ui
     for (uint y = 0; y < kRasterBlock; y += kLaneSide) {
         for (uint x = 0; x < kRasterBlock; x += kLaneSide) {
             uvec2 at = lane + uvec2(x, y);
-            ivec3 inside =
-                edges.inside + edges.step_x * int(at.x) + edges.step_y * int(at.y);
+            ivec3 inside = edges.inside + edges.step_x * int(at.x) + edges.step_y * int(at.y);
             if (isInside(inside) && all(lessThan(first + at, size))) {
                 drawPixel(first + at, depthAt(inside, edges.rest, edges.scale), id);
             }

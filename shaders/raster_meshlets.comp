@@ -1,5 +1,6 @@
-// Rasters the triangles of visible meshlets, a workgroup a meshlet: an invocation sets up a triangle,
-// then the rows of all small ones are shared out. Large ones are left to raster_blocks.comp.
+// Rasters the triangles of visible meshlets, a workgroup a meshlet: an invocation sets up a
+// triangle, then the rows of all small ones are shared out. Large ones are left to
+// raster_blocks.comp.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -113,10 +114,10 @@ float before(int inside, int step_x) {
 
 void drawRow(SmallTriangle t, uint row, uint id) {
     ivec3 inside = t.edges.inside + t.edges.step_y * int(row);
-    uint first = uint(min(max(max(before(inside.x, t.edges.step_x.x),
-                                  before(inside.y, t.edges.step_x.y)),
-                              before(inside.z, t.edges.step_x.z)),
-                          float(kRasterSmall)));
+    uint first =
+        uint(min(max(max(before(inside.x, t.edges.step_x.x), before(inside.y, t.edges.step_x.y)),
+                     before(inside.z, t.edges.step_x.z)),
+                 float(kRasterSmall)));
     inside += t.edges.step_x * int(first);
     bool entered = false;
     for (uint x = first; x < t.width; ++x) {

@@ -1,5 +1,6 @@
 // Geometry of every pass that shades: view-space normal and texture coordinates. The extended
-// variant carries a second set, vertex colour and tangent; the untextured one fetches no coordinates.
+// variant carries a second set, vertex colour and tangent; the untextured one fetches no
+// coordinates.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -38,8 +39,7 @@ void main() {
     // the normals of mirrored nodes back.
     vec3 c0 = cross(r1, r2);
     float side = dot(r0, c0) < 0.0 ? -1.0 : 1.0;
-    normal_view = side * vec3(dot(c0, normal_object),
-                              dot(cross(r2, r0), normal_object),
+    normal_view = side * vec3(dot(c0, normal_object), dot(cross(r2, r0), normal_object),
                               dot(cross(r0, r1), normal_object));
 #ifdef FROXEL_UNTEXTURED
     uv0 = vec2(0.0); // nothing looks at it
@@ -49,8 +49,8 @@ void main() {
 #ifdef FROXEL_EXTENDED
     uv1 = uv1_in;
     color = color_in;
-    vec3 t = vec3(dot(r0, tangent_object.xyz), dot(r1, tangent_object.xyz),
-                  dot(r2, tangent_object.xyz));
+    vec3 t =
+        vec3(dot(r0, tangent_object.xyz), dot(r1, tangent_object.xyz), dot(r2, tangent_object.xyz));
     tangent_view = vec4(dot(t, t) > 0.0 ? normalize(t) : t, tangent_object.w * side);
 #endif
 }

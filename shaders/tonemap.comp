@@ -1,5 +1,5 @@
-// Exposure, tone map and packing, where no other pass does it on the way; of several samples a pixel
-// each by itself, so that a bright one does not make the whole pixel white.
+// Exposure, tone map and packing, where no other pass does it on the way; of several samples a
+// pixel each by itself, so that a bright one does not make the whole pixel white.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require

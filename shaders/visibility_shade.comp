@@ -36,7 +36,8 @@ void main() {
     covered = covered && mine(id);
     float distance = distanceFromDepth(1.0);
     vec3 position = positionFromDistance(pixel, distance);
-    GbufferSample g = GbufferSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 0.0, 1.0, false, vec3(0.0));
+    GbufferSample g =
+        GbufferSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 0.0, 1.0, false, vec3(0.0));
     if (covered) {
         VisibleTriangle t = fetchTriangle(id);
         distance = solidDistance(t, pixel, depth);

@@ -10,9 +10,9 @@ namespace froxel::app {
 
 // What `froxel` takes to draw as `options` say: "render", then options that are not at their
 // default, but scene, device, renderer, lights, size and frames always. `camera` is the text for
-// --camera, empty for the scene's first; options.camera, grid_camera, pipeline cache and validation are ignored.
-// Parsing them gives the same settings; toon ramps, which have no option, must be at their defaults
-// (FROXEL_ASSERT).
+// --camera, empty for the scene's first; options.camera, grid_camera, pipeline cache and validation
+// are ignored. Parsing them gives the same settings; toon ramps, which have no option, must be at
+// their defaults (FROXEL_ASSERT).
 [[nodiscard]] std::vector<std::string> renderArguments(const RenderOptions& options,
                                                        const std::string& camera);
 

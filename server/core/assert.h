@@ -7,7 +7,8 @@
 #define FROXEL_ASSERT(condition, message)                                                          \
     do {                                                                                           \
         if (!(condition)) {                                                                        \
-            std::fprintf(stderr, "%s:%d: bug: %s (%s)\n", __FILE__, __LINE__, message, #condition); \
+            std::fprintf(stderr, "%s:%d: bug: %s (%s)\n", __FILE__, __LINE__, message,             \
+                         #condition);                                                              \
             std::abort();                                                                          \
         }                                                                                          \
     } while (false)

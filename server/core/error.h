@@ -27,12 +27,11 @@ struct Error {
 
 // The exception form of an Error, for start-up code only; caught once, in main.
 class StartupError : public std::runtime_error {
-public:
-    explicit StartupError(Error error)
-        : std::runtime_error(error.message), code_(error.code) {}
+  public:
+    explicit StartupError(Error error) : std::runtime_error(error.message), code_(error.code) {}
     [[nodiscard]] ErrorCode code() const { return code_; }
 
-private:
+  private:
     ErrorCode code_;
 };
 

@@ -9,7 +9,7 @@ namespace froxel {
 
 template <class T>
 class LatestSlot {
-public:
+  public:
     // Returns whether an untaken value was replaced (and is lost by design).
     bool put(T value) {
         const std::lock_guard lock(mutex_);
@@ -26,7 +26,7 @@ public:
         return value_.has_value();
     }
 
-private:
+  private:
     mutable std::mutex mutex_;
     std::optional<T> value_;
 };

@@ -20,7 +20,7 @@ struct PixelView {
 // Move-only claim on a readback slot; the slot is free again when the lease ends.
 // Any thread may end it.
 class PixelLease {
-public:
+  public:
     PixelLease() = default;
     PixelLease(PixelView view, std::function<void()> release)
         : view_(view), release_(std::move(release)) {}
@@ -46,7 +46,7 @@ public:
         view_ = {};
     }
 
-private:
+  private:
     PixelView view_;
     std::function<void()> release_;
 };

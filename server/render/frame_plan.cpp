@@ -63,9 +63,10 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
 
 // The part that says how lights are fetched, each invocation by itself.
 uint32_t fogLightFlags(uint32_t light_flags) {
-    return light_flags & (io::kLightLocal | io::kLightLists | io::kLightSpots | io::kLightAreas |
-                          io::kLightShadows | io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
-                          io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
+    return light_flags &
+           (io::kLightLocal | io::kLightLists | io::kLightSpots | io::kLightAreas |
+            io::kLightShadows | io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
+            io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
 }
 
 // A debug view in the picture's place: the surfaces that it shows, and no lighting.

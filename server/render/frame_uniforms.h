@@ -12,7 +12,7 @@ namespace froxel::render {
 struct ViewProjection {
     glm::dvec2 clip_scale{1, 1};
     glm::dvec2 clip_offset{0, 0}; // times w
-    double far_m = 0; // orthographic only: where depth reaches 0
+    double far_m = 0;             // orthographic only: where depth reaches 0
 };
 
 // far_m: the farthest depth of the scene, for orthographic cameras (perspective is infinite).

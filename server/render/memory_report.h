@@ -18,7 +18,8 @@ namespace froxel::render {
 // One a viewer.
 class FrameDetailsKeeper {
   public:
-    // The frame's details (legend: null without a debug view); logs the plan's lines when they are new.
+    // The frame's details (legend: null without a debug view); logs the plan's lines when they are
+    // new.
     [[nodiscard]] std::shared_ptr<const FrameDetails> update(const view::ViewSettings& settings,
                                                              const FrameFacts& facts,
                                                              const FramePlan& plan,

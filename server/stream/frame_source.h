@@ -16,7 +16,7 @@ namespace froxel::stream {
 
 // What a frame will ask of the device, known when it begins.
 struct FrameWork {
-    Seconds estimate{0};      // device time of all its pieces; 0: unknown
+    Seconds estimate{0}; // device time of all its pieces; 0: unknown
     // 0: nothing has begun, since variants of shaders that it needs are being made; ask again.
     uint32_t piece_count = 1;
 };

@@ -38,9 +38,7 @@ FROXEL_FUNCTION double coneDot(dvec3 a, dvec3 b) {
     return sum;
 }
 
-FROXEL_FUNCTION double coneLength(dvec3 a) {
-    return assignSqrt(coneDot(a, a));
-}
+FROXEL_FUNCTION double coneLength(dvec3 a) { return assignSqrt(coneDot(a, a)); }
 
 FROXEL_FUNCTION dvec3 coneScaled(dvec3 a, double scale) {
     FROXEL_PRECISE dvec3 scaled = a * scale;

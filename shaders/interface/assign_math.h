@@ -28,12 +28,8 @@ inline constexpr double kAssignFar = 1e300;
 inline constexpr double kAssignNearest = 2.2250738585072014e-308;
 inline constexpr double kAssignSlack = 1e-6;
 
-inline double assignDivide(double a, double b) {
-    return a / b;
-}
-inline double assignSqrt(double a) {
-    return std::sqrt(a);
-}
+inline double assignDivide(double a, double b) { return a / b; }
+inline double assignSqrt(double a) { return std::sqrt(a); }
 using std::abs;
 using std::max;
 using std::min;
@@ -182,9 +178,7 @@ FROXEL_FUNCTION Interval joined(Interval a, Interval b) {
 }
 
 // What a plane between slices (depth 0: of the eye) cuts out of the ball, by coordinate / depth.
-FROXEL_FUNCTION Interval planeInterval(double centre,
-                                       double half2,
-                                       double depth,
+FROXEL_FUNCTION Interval planeInterval(double centre, double half2, double depth,
                                        double inv_depth) {
     Interval at_eye = eyeInterval(centre, half2);
     Interval ahead = cutInterval(centre, half2, inv_depth);
@@ -201,9 +195,7 @@ FROXEL_FUNCTION bool touchedWithin(double depth, double near_depth, double far_d
 }
 
 // `cut`, and the touches between two planes.
-FROXEL_FUNCTION Interval touchedInterval(Touches t,
-                                         double near_depth,
-                                         double far_depth,
+FROXEL_FUNCTION Interval touchedInterval(Touches t, double near_depth, double far_depth,
                                          Interval cut) {
     bool low = touchedWithin(t.low_depth, near_depth, far_depth);
     bool high = touchedWithin(t.high_depth, near_depth, far_depth);
@@ -234,8 +226,8 @@ FROXEL_FUNCTION double boxOffset(double centre, double low, double high) {
 
 // How far the ball spans to either side of its centre's x within a row of a slice: its chord at the
 // point nearest to the centre is widest. Negative: it misses them.
-FROXEL_FUNCTION double
-boxChord(Ball ball, double plane0, double plane1, double edge0, double edge1) {
+FROXEL_FUNCTION double boxChord(Ball ball, double plane0, double plane1, double edge0,
+                                double edge1) {
     FROXEL_PRECISE double z = boxOffset(ball.z, plane0, plane1);
     FROXEL_PRECISE double y = boxOffset(ball.y, edge0, edge1);
     FROXEL_PRECISE double chord2 = ball.radius * ball.radius - y * y - z * z;

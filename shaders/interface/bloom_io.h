@@ -17,9 +17,9 @@ struct BloomPass {
     uint target_height_px;
     uint step_x_px; // from tap to tap
     uint step_y_px;
-    uint reach;     // Gaussians: taps on either side
-    float falloff;  // Gaussians: a tap k away weighs 2^(falloff k^2)
-    float share;    // of this pass in its result; the rest is what the one before had
+    uint reach;      // Gaussians: taps on either side
+    float falloff;   // Gaussians: a tap k away weighs 2^(falloff k^2)
+    float share;     // of this pass in its result; the rest is what the one before had
     float threshold; // radiance from which light is bright, and how far around it that sets in
     float knee;
     float strength; // share of the bright part that is spread

@@ -29,30 +29,30 @@ FROXEL_CONST uint kMaterialTangents = 1U << 10;   // the tangents are from the f
 FROXEL_CONST uint kMaterialBlend = 1U << 11;
 
 // Light flags: which lights a frame has and how they are looped over.
-FROXEL_CONST uint kLightLocal = 1U << 0;       // any light that has a place
-FROXEL_CONST uint kLightLists = 1U << 1;       // through cluster lists; else all lights
-FROXEL_CONST uint kLightSpots = 1U << 2;       // some of the local lights are spots
+FROXEL_CONST uint kLightLocal = 1U << 0; // any light that has a place
+FROXEL_CONST uint kLightLists = 1U << 1; // through cluster lists; else all lights
+FROXEL_CONST uint kLightSpots = 1U << 2; // some of the local lights are spots
 FROXEL_CONST uint kLightDirectional = 1U << 3;
-FROXEL_CONST uint kLightBatched = 1U << 4;     // a subgroup fetches lights together
-FROXEL_CONST uint kLightToon = 1U << 5;        // n.l through the toon ramp
-FROXEL_CONST uint kLightPartial = 1U << 6;     // batched where a subgroup may lack invocations
-FROXEL_CONST uint kLightLambert = 1U << 7;     // view::ShadingModel::kLambert
-FROXEL_CONST uint kLightEqualRadii = 1U << 8;  // Frame::light_inv_radius2 is every light's
-FROXEL_CONST uint kLightCulled = 1U << 9;      // batched, and what a subgroup can skip is skipped
-FROXEL_CONST uint kLightLong = 1U << 10;       // loops take several lights an iteration
-FROXEL_CONST uint kLightBlinnPhong = 1U << 11; // view::ShadingModel::kBlinnPhong
+FROXEL_CONST uint kLightBatched = 1U << 4;       // a subgroup fetches lights together
+FROXEL_CONST uint kLightToon = 1U << 5;          // n.l through the toon ramp
+FROXEL_CONST uint kLightPartial = 1U << 6;       // batched where a subgroup may lack invocations
+FROXEL_CONST uint kLightLambert = 1U << 7;       // view::ShadingModel::kLambert
+FROXEL_CONST uint kLightEqualRadii = 1U << 8;    // Frame::light_inv_radius2 is every light's
+FROXEL_CONST uint kLightCulled = 1U << 9;        // batched, and what a subgroup can skip is skipped
+FROXEL_CONST uint kLightLong = 1U << 10;         // loops take several lights an iteration
+FROXEL_CONST uint kLightBlinnPhong = 1U << 11;   // view::ShadingModel::kBlinnPhong
 FROXEL_CONST uint kLightSlicesLinear = 1U << 12; // cluster::SliceLaw; neither: logarithmic
 FROXEL_CONST uint kLightSlicesHyperbolic = 1U << 13;
-FROXEL_CONST uint kLightAreas = 1U << 14;      // some of the spots are rectangles
-FROXEL_CONST uint kLightShadows = 1U << 17;    // some local lights have shadow maps
+FROXEL_CONST uint kLightAreas = 1U << 14;   // some of the spots are rectangles
+FROXEL_CONST uint kLightShadows = 1U << 17; // some local lights have shadow maps
 
 // Output flags: targets and what the last pass does.
-FROXEL_CONST uint kOutputPixels = 1U << 0;     // lighting also exposes, tone maps and packs
-FROXEL_CONST uint kOutputRadiance = 1U << 1;   // lighting writes linear fp32 radiance
+FROXEL_CONST uint kOutputPixels = 1U << 0;      // lighting also exposes, tone maps and packs
+FROXEL_CONST uint kOutputRadiance = 1U << 1;    // lighting writes linear fp32 radiance
 FROXEL_CONST uint kOutputWideGbuffer = 1U << 2; // metalness, occlusion, emission are stored
-FROXEL_CONST uint kOutputClamp = 1U << 3;      // plain clamp instead of the neutral tone map
-FROXEL_CONST uint kOutputDepth = 1U << 4;      // the resolve replaces depths by those of planes
-FROXEL_CONST uint kOutputSamples = 1U << 5;    // the tone map's pixel is the mean of 2 x 2 samples
+FROXEL_CONST uint kOutputClamp = 1U << 3;       // plain clamp instead of the neutral tone map
+FROXEL_CONST uint kOutputDepth = 1U << 4;       // the resolve replaces depths by those of planes
+FROXEL_CONST uint kOutputSamples = 1U << 5;     // the tone map's pixel is the mean of 2 x 2 samples
 
 FROXEL_CONST uint kMaxToonSegments = 9U; // 8 points: 7 cubics and two constant ends
 FROXEL_CONST uint kScreenGroup = 8U;     // screen passes: workgroups of 8 x 8 pixels

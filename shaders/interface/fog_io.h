@@ -12,8 +12,8 @@ FROXEL_CONST uint kOutputFogVolume = 1U << 29; // and lights are scattered, in a
 FROXEL_CONST uint kOutputFogNoise = 1U << 30;  // whose samples are jittered
 
 // The volume has a node each `tile_px` pixels, the last ones at the picture's last column and row,
-// and `slice_count` slices to far_m, slice k from far_m (k / slice_count)^2 on. Its texel (x, y, z),
-// x fastest, holds what lights scatter to the eye in front of the end of slice z: rgb.
+// and `slice_count` slices to far_m, slice k from far_m (k / slice_count)^2 on. Its texel (x, y,
+// z), x fastest, holds what lights scatter to the eye in front of the end of slice z: rgb.
 struct Fog {
     float density; // view::Fog
     float height_falloff;

@@ -18,7 +18,8 @@ struct ToonSegment {
 FROXEL_SIZE_ASSERT(ToonSegment, 20);
 
 struct Frame {
-    // clip = (xy * clip_scale + clip_offset * w, clip_z.x + clip_z.y * z, w = clip_w.x + clip_w.y * z)
+    // clip = (xy * clip_scale + clip_offset * w, clip_z.x + clip_z.y * z, w)
+    // w = clip_w.x + clip_w.y * z
     vec2 clip_scale;
     vec2 clip_offset; // of an off-centre frustum
     vec2 clip_z;
@@ -26,7 +27,8 @@ struct Frame {
     // distance along the view axis = (num.x + num.y * depth) / (den.x + den.y * depth)
     vec2 distance_num;
     vec2 distance_den;
-    // ray = (pixel + 0.5) * ray_scale + ray_offset; xy_view = ray * (spread.x + spread.y * distance)
+    // ray = (pixel + 0.5) * ray_scale + ray_offset
+    // xy_view = ray * (spread.x + spread.y * distance)
     vec2 ray_scale;
     vec2 ray_offset;
     vec2 ray_spread;
@@ -43,13 +45,13 @@ struct Frame {
     uint slice_first;
     uint slice_scale;
     uint slice_shift;
-    vec3 up_view;       // world up
+    vec3 up_view; // world up
     float exposure;
     vec3 ambient_sky;   // linear radiance from above
     float orthographic; // 1: all view rays are parallel
     vec3 ambient_ground;
     float slice_unit;
-    vec3 background; // linear radiance of empty pixels
+    vec3 background;         // linear radiance of empty pixels
     float light_inv_radius2; // of every local light, where they are equal
     uint first_area;         // the first light that may be a rectangle
     float outline_strength;

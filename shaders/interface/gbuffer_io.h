@@ -8,7 +8,7 @@ FROXEL_IO_NAMESPACE_BEGIN
 
 FROXEL_CONST uint kOutputNormalShift = 16U;   // 3 bits: kNormal*
 FROXEL_CONST uint kOutputPositionShift = 19U; // 2 bits: kPosition*
-FROXEL_CONST uint kOutputEmissionShift = 21U; // 7 bits: emission is stored over 2 to the power of it
+FROXEL_CONST uint kOutputEmissionShift = 21U; // 7 bits: the power of 2 that emission is over
 
 FROXEL_CONST float kMostStoredEmission = 65408.0F; // RGB9E5
 

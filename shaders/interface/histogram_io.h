@@ -18,9 +18,7 @@ FROXEL_CONST uint kHistogramSteps = 16U;    // an octave
 FROXEL_CONST uint kHistogramBuckets = 464U; // hold every 32-bit length
 
 #ifdef __cplusplus
-constexpr int findMSB(uint value) {
-    return static_cast<int>(std::bit_width(value)) - 1;
-}
+constexpr int findMSB(uint value) { return static_cast<int>(std::bit_width(value)) - 1; }
 #endif
 
 FROXEL_FUNCTION uint histogramBucket(uint length) {
@@ -41,9 +39,7 @@ FROXEL_FUNCTION uint histogramUpper(uint bucket) {
 }
 
 // How many of `count` lists the 95th percentile covers, rounded up; count below 2^25.
-FROXEL_FUNCTION uint histogramRank95(uint count) {
-    return (count * 95U + 99U) / 100U;
-}
+FROXEL_FUNCTION uint histogramRank95(uint count) { return (count * 95U + 99U) / 100U; }
 
 FROXEL_IO_NAMESPACE_END
 

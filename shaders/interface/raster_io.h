@@ -11,10 +11,10 @@ FROXEL_IO_NAMESPACE_BEGIN
 FROXEL_CONST uint kSubpixelBits = 8U;
 FROXEL_CONST float kGuardPx = 8192.0F; // from the picture's middle
 
-FROXEL_CONST uint kRasterGroup = 128U;        // invocations a meshlet: one a triangle, then one a row
-FROXEL_CONST uint kRasterSmall = 16U;         // pixels a side of what a meshlet's workgroup draws
-FROXEL_CONST uint kRasterBlock = 32U;         // pixels a side of the blocks of larger triangles
-FROXEL_CONST uint kRasterBlockGroup = 64U;    // invocations a block
+FROXEL_CONST uint kRasterGroup = 128U;     // invocations a meshlet: one a triangle, then one a row
+FROXEL_CONST uint kRasterSmall = 16U;      // pixels a side of what a meshlet's workgroup draws
+FROXEL_CONST uint kRasterBlock = 32U;      // pixels a side of the blocks of larger triangles
+FROXEL_CONST uint kRasterBlockGroup = 64U; // invocations a block
 FROXEL_CONST uint kRasterBlockGroups = 4096U; // workgroups, which take runs of blocks in turns
 FROXEL_CONST uint kRasterRun = 8U;            // blocks
 

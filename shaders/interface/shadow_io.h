@@ -8,9 +8,9 @@ FROXEL_IO_NAMESPACE_BEGIN
 
 FROXEL_CONST uint kNoShadow = 0xffffffffU; // of a light: it has no map
 FROXEL_CONST uint kMaxShadowLights = 32U;
-FROXEL_CONST uint kShadowLevels = 15U;   // how much of a light arrives: 4 bits, 15 is all of it
-FROXEL_CONST uint kShadowColumns = 16U;  // square tiles of the atlas beside each other
-FROXEL_CONST uint kShadowTexels = 5U;    // 16 bytes each, of a ShadowLight
+FROXEL_CONST uint kShadowLevels = 15U;  // how much of a light arrives: 4 bits, 15 is all of it
+FROXEL_CONST uint kShadowColumns = 16U; // square tiles of the atlas beside each other
+FROXEL_CONST uint kShadowTexels = 5U;   // 16 bytes each, of a ShadowLight
 // Around what a face of a cube shows, in texels: an offset receiver stays on its face.
 FROXEL_CONST uint kShadowBorder = 5U;
 // A stored depth is this share of the light's reach over the distance along the face's axis.
@@ -21,8 +21,8 @@ FROXEL_CONST float kShadowBias = 0.5F;
 FROXEL_CONST float kShadowSlopeBias = 1.5F;
 
 // A light with maps. Its frame: the world's axes for a cube of six faces, +x -x +y -y +z -z; for a
-// spot right, up, and +z the way it shines, with that face alone. Along a face's axis `m`, `u` and `v`
-// are the next two axes, cyclically: texel = (0.5 + 0.5 * scale * (u, v) / m) * size_px.
+// spot right, up, and +z the way it shines, with that face alone. Along a face's axis `m`, `u` and
+// `v` are the next two axes, cyclically: texel = (0.5 + 0.5 * scale * (u, v) / m) * size_px.
 struct ShadowLight {
     vec3 x_view; // the frame's axes, unit
     float first_tile;

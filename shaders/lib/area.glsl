@@ -1,9 +1,9 @@
 // Rectangular lights: the same radiance from every point of one side, integrated over the rectangle
-// in closed form. What it scatters is the irradiance of the part above the surface: half the sum over
-// that polygon's edges of the angle that an edge takes, times its plane's unit normal (Lambert 1760;
-// Baum, Rushmeier and Winget 1989). A highlight is the same sum over the polygon under the inverse of
-// the lobe's fitted transform (server/ltc). Fresnel's term is the table's for highlights, and for
-// scattered light that of the mean direction.
+// in closed form. What it scatters is the irradiance of the part above the surface: half the sum
+// over that polygon's edges of the angle that an edge takes, times its plane's unit normal (Lambert
+// 1760; Baum, Rushmeier and Winget 1989). A highlight is the same sum over the polygon under the
+// inverse of the lobe's fitted transform (server/ltc). Fresnel's term is the table's for
+// highlights, and for scattered light that of the mean direction.
 #include "interface/area_io.h"
 
 struct AreaRect {
@@ -31,8 +31,8 @@ float atanOver(float t2) {
     return y;
 }
 
-// The angle between a and b over |c|, where c = cross(a, b). Not by an arc cosine, which loses small
-// angles.
+// The angle between a and b over |c|, where c = cross(a, b). Not by an arc cosine, which loses
+// small angles.
 float angleOver(vec3 a, vec3 b, vec3 c) {
     precise float sine = sqrt(dot(c, c));
     precise float cosine = dot(a, b);
@@ -50,8 +50,8 @@ struct Flux {
     float above; // along z, of the part with z > 0
 };
 
-// Seen from the origin: corner, corner + right, corner + right + up, corner + up. Positive on the side
-// that cross(up, right) points to.
+// Seen from the origin: corner, corner + right, corner + right + up, corner + up. Positive on the
+// side that cross(up, right) points to.
 Flux fluxOf(vec3 corner, vec3 right, vec3 up) {
     precise vec3 far_corner = corner + right + up;
     vec3 at[4] = vec3[](corner, corner + right, far_corner, corner + up);
@@ -74,7 +74,8 @@ Flux fluxOf(vec3 corner, vec3 right, vec3 up) {
             precise float t = a.z / (a.z - b.z);
             precise vec3 crossing = vec3(fma(along[i].xy, vec2(t), a.xy), 0.0);
             precise vec3 part = c * (a_above ? t : 1.0 - t);
-            up_part = part.z * (a_above ? angleOver(a, crossing, part) : angleOver(crossing, b, part));
+            up_part =
+                part.z * (a_above ? angleOver(a, crossing, part) : angleOver(crossing, b, part));
             leave = a_above ? crossing : leave;
             entry = a_above ? entry : crossing;
         }
@@ -122,8 +123,8 @@ Ltc ltcOf(Surface s) {
     precise float column = sqrt(clamp(1.0 - s.n_dot_v, 0.0, 1.0)) * kLast;
     uvec2 first = min(uvec2(column, row), uvec2(kLtcSize - 2u));
     precise vec2 f = vec2(column, row) - vec2(first);
-    uint entry = first.y * kLtcSize + first.x +
-                 (hasLight(kLightBlinnPhong) ? kLtcSize * kLtcSize : 0u);
+    uint entry =
+        first.y * kLtcSize + first.x + (hasLight(kLightBlinnPhong) ? kLtcSize * kLtcSize : 0u);
     Ltc a = ltcEntry(entry);
     Ltc b = ltcEntry(entry + 1u);
     Ltc c = ltcEntry(entry + kLtcSize);
@@ -140,14 +141,15 @@ vec3 transformed(Ltc ltc, vec3 v) {
 }
 
 // `share`: 0 or 1; of color, what the rectangle sends along its normal, candela.
-void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, vec3 color, float share,
-                  inout LightSum sum) {
+void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, vec3 color,
+                  float share, inout LightSum sum) {
     mat3 axes = axesOf(s);
     vec3 right = inAxes(axes, 2.0 * rect.half_right);
     vec3 up = inAxes(axes, 2.0 * rect.half_up);
     vec3 corner = inAxes(axes, to_light - rect.half_right - rect.half_up);
     Flux flux = fluxOf(corner, right, up);
-    precise float scale = rangeWindow(dot(to_light, to_light) * inv_radius2) * rect.inv_area * share;
+    precise float scale =
+        rangeWindow(dot(to_light, to_light) * inv_radius2) * rect.inv_area * share;
     precise float e = 0.5 * scale * flux.above;
     precise float size = sqrt(dot(flux.whole, flux.whole));
     precise float scattered = e;

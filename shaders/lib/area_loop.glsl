@@ -16,8 +16,8 @@ LocalLight fetchWhole(uint index) {
     return light;
 }
 
-// The next rectangle of a list, from its end; `left`: how many lights are still to be looked at. False:
-// there is none.
+// The next rectangle of a list, from its end; `left`: how many lights are still to be looked at.
+// False: there is none.
 bool nextArea(ClusterList list, bool all_lights, inout uint left, out LocalLight light,
               out AreaRect rect) {
     light = darkLight();

@@ -32,9 +32,9 @@ double columnEdge(uint i) {
 }
 
 struct LightVolume {
-    Ball ball;       // dilated
-    bool unlimited;  // no ball
-    bool cut;        // by spots[spot].cone
+    Ball ball;      // dilated
+    bool unlimited; // no ball
+    bool cut;       // by spots[spot].cone
     uint spot;
 };
 

@@ -86,18 +86,17 @@ Columns perspectiveColumns(Ball ball, uint slice, uint row) {
 }
 
 Columns orthographicColumns(Ball ball, uint slice, uint row) {
-    double half_width = boxChord(ball, planeDepth(slice), planeDepth(slice + 1u), rowEdge(row),
-                                 rowEdge(row + 1u));
+    double half_width =
+        boxChord(ball, planeDepth(slice), planeDepth(slice + 1u), rowEdge(row), rowEdge(row + 1u));
     precise double low = ball.x - half_width;
     precise double high = ball.x + half_width;
     return columnsWithin(Interval(low, high));
 }
 
 bool spotMisses(uint spot, uint column, uint row, uint slice) {
-    return coneMisses(spots[spot].cone,
-                      ConeCell(columnEdge(column), columnEdge(column + 1u), rowEdge(row),
-                               rowEdge(row + 1u), planeDepth(slice), planeDepth(slice + 1u),
-                               frame.perspective != 0u));
+    return coneMisses(spots[spot].cone, ConeCell(columnEdge(column), columnEdge(column + 1u),
+                                                 rowEdge(row), rowEdge(row + 1u), planeDepth(slice),
+                                                 planeDepth(slice + 1u), frame.perspective != 0u));
 }
 
 Columns columnsOf(LightVolume volume, uint slice, uint row) {

@@ -1,7 +1,7 @@
 // Bloom moves a share of each pixel's bright part to the pixels around it: picture + strength *
-// (spread - bright). Every kind's weights add up to 1 for a pixel that gathers, and, with the picture
-// mirrored at its borders, for one that gives too: a constant picture stays as it is, and light is moved,
-// neither lost nor made, however many pixels it comes from.
+// (spread - bright). Every kind's weights add up to 1 for a pixel that gathers, and, with the
+// picture mirrored at its borders, for one that gives too: a constant picture stays as it is, and
+// light is moved, neither lost nor made, however many pixels it comes from.
 #include "interface/bloom_io.h"
 #include "interface/constants.h"
 
@@ -14,7 +14,8 @@ layout(push_constant, scalar) uniform PassBlock { BloomPass bloom; };
 // Infinity would spread over the picture and become no number.
 const vec3 kMostBright = vec3(1e30);
 
-// The part of it that is above the threshold; from knee below to knee above it sets in as a parabola.
+// The part of it that is above the threshold; from knee below to knee above it sets in as a
+// parabola.
 vec3 brightPart(vec3 radiance) {
     vec3 color = min(radiance, kMostBright);
     float peak = max(color.r, max(color.g, color.b));
@@ -37,8 +38,8 @@ vec3 sourceAt(ivec2 at) {
 }
 
 bool insideTarget() {
-    return all(lessThan(gl_GlobalInvocationID.xy,
-                        uvec2(bloom.target_width_px, bloom.target_height_px)));
+    return all(
+        lessThan(gl_GlobalInvocationID.xy, uvec2(bloom.target_width_px, bloom.target_height_px)));
 }
 
 // `share`: of `spread`; the rest is what the target has, of the picture its bright part.
@@ -51,6 +52,5 @@ void put(ivec2 at, vec3 spread, float share) {
     vec3 before = imageLoad(target_image, at).rgb;
     vec3 own = adds ? brightPart(before) : before;
     vec3 mixed = mix(own, spread, share);
-    imageStore(target_image, at,
-               vec4(adds ? before + bloom.strength * (mixed - own) : mixed, 1.0));
+    imageStore(target_image, at, vec4(adds ? before + bloom.strength * (mixed - own) : mixed, 1.0));
 }

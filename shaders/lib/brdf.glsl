@@ -2,22 +2,23 @@
 // Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A light only adds
 // weights that do not depend on the surface's colours; those are applied once, at the end.
 // With kLightLambert only base colour / pi is left of it: no eye, no roughness, no metalness.
-// With kLightBlinnPhong D V is Blinn's lobe instead, (n.h)^s (Blinn 1977) over its reflectance head-on,
-// 8 pi (s + 2^(-s/2)) / ((s + 2)(s + 4)) (Giesen 2009, "Phong Normalization Factor derivations"), so that
-// a white metal returns exactly all of what comes head-on. s = 2 / alpha^2 - 2, the exponent whose
-// slopes vary as much as those of a Beckmann surface of that alpha (Walter et al. 2007, section 5.2).
+// With kLightBlinnPhong D V is Blinn's lobe instead, (n.h)^s (Blinn 1977) over its reflectance
+// head-on, 8 pi (s + 2^(-s/2)) / ((s + 2)(s + 4)) (Giesen 2009, "Phong Normalization Factor
+// derivations"), so that a white metal returns exactly all of what comes head-on. s = 2 / alpha^2 -
+// 2, the exponent whose slopes vary as much as those of a Beckmann surface of that alpha (Walter et
+// al. 2007, section 5.2).
 
 const float kPi = 3.14159265358979;
-const float kMostInverse2 = 1e4; // 1 / (1 cm)^2: the falloff's ceiling
+const float kMostInverse2 = 1e4;     // 1 / (1 cm)^2: the falloff's ceiling
 const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
 
 struct Surface {
     vec3 position_view;
     vec3 normal_view;
-    vec3 to_eye_view;  // unit
-    float n_dot_v;     // its absolute value
-    float n_dot_eye;   // negative where a normal map or interpolation turns the normal away
-    float alpha2;      // roughness^4
+    vec3 to_eye_view;   // unit
+    float n_dot_v;      // its absolute value
+    float n_dot_eye;    // negative where a normal map or interpolation turns the normal away
+    float alpha2;       // roughness^4
     float visibility_v; // sqrt(n_dot_v^2 (1 - alpha2) + alpha2)
     float shininess;    // blinn_phong: half of s
     float lobe;         // blinn_phong: 2 pi times the lobe's height
@@ -43,8 +44,7 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
         s.shininess = s.lobe = 0.0;
         return s;
     }
-    s.to_eye_view =
-        frame.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
+    s.to_eye_view = frame.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
     s.n_dot_eye = dot(normal_view, s.to_eye_view);
     s.n_dot_v = max(abs(s.n_dot_eye), 1e-4);
     float alpha = max(roughness, 0.045) * max(roughness, 0.045);
@@ -70,7 +70,8 @@ float lobePower(float c2, float h2, float power) {
     precise float log2_cosine2 =
         u < 0.05 ? series * (-2.0 * 1.44269504) : log2(max(c2 / h2, 1e-30));
     precise float exponent = power * log2_cosine2;
-    // Powers too small to matter end before they are denormal, which stages of llvmpipe flush or keep.
+    // Powers too small to matter end before they are denormal, which stages of llvmpipe flush or
+    // keep.
     return exponent > -64.0 ? exp2(exponent) : 0.0;
 }
 
@@ -128,8 +129,8 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, v
 // A point light; `share` is 0, 1 or a spot's angular falloff. Contributes exactly 0 at its radius.
 void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float share,
               inout LightSum sum) {
-    precise float d2 = fma(to_light.z, to_light.z,
-                           fma(to_light.y, to_light.y, to_light.x * to_light.x));
+    precise float d2 =
+        fma(to_light.z, to_light.z, fma(to_light.y, to_light.y, to_light.x * to_light.x));
     precise float x = d2 * inv_radius2;
     precise float inv_d = inversesqrt(max(d2, kLeastDistance2));
     precise float attenuation = rangeWindow(x) * min(inv_d * inv_d, kMostInverse2) * share;
@@ -142,8 +143,8 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
     addIrradiance(s, n_dot_l, v_dot_l, attenuation, color, sum);
 }
 
-// Outgoing radiance of all that was added. Sums of lights as bright as floats go may be infinite, and
-// black times that is no number: they end here.
+// Outgoing radiance of all that was added. Sums of lights as bright as floats go may be infinite,
+// and black times that is no number: they end here.
 vec3 shadeSum(LightSum sum, vec3 base_color, float metallic) {
     const vec3 kMost = vec3(1e30);
     sum.diffuse = min(sum.diffuse, kMost);

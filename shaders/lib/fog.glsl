@@ -10,7 +10,8 @@ const float kFogFarthest_m = 1e9; // stands for an empty pixel's distance
 
 // (1 - exp(-x)) / x for x >= 0, to 1e-6 of it.
 float meanTransmittance(float x) {
-    precise float series = fma(x, fma(x, fma(x, fma(x, 1.0 / 120.0, -1.0 / 24.0), 1.0 / 6.0), -0.5), 1.0);
+    precise float series =
+        fma(x, fma(x, fma(x, fma(x, 1.0 / 120.0, -1.0 / 24.0), 1.0 / 6.0), -0.5), 1.0);
     precise float closed = (1.0 - exp(-x)) / max(x, 0.1);
     return x < 0.1 ? series : closed;
 }

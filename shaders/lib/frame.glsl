@@ -11,12 +11,12 @@ layout(constant_id = 3) const uint BATCH_SIZE = 8;
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { Frame frame; };
 // Texel buffers: a software rasteriser gathers from these without a branch for each invocation,
 // four times cheaper than from storage buffers.
-layout(set = 0, binding = 1) uniform textureBuffer light_texels;   // io::Light: 2 texels
-layout(set = 0, binding = 2) uniform utextureBuffer list_texels;   // io::ClusterList
-layout(set = 0, binding = 3) uniform utextureBuffer index_texels;  // light index list
-layout(set = 0, binding = 4) uniform textureBuffer spot_texels;    // io::Spot: 2 texels
+layout(set = 0, binding = 1) uniform textureBuffer light_texels;  // io::Light: 2 texels
+layout(set = 0, binding = 2) uniform utextureBuffer list_texels;  // io::ClusterList
+layout(set = 0, binding = 3) uniform utextureBuffer index_texels; // light index list
+layout(set = 0, binding = 4) uniform textureBuffer spot_texels;   // io::Spot: 2 texels
 layout(set = 0, binding = 5, scalar) readonly buffer SunBlock { DirectionalLight suns[]; };
-layout(set = 0, binding = 8) uniform utextureBuffer shadow_of_light; // a local light's, or kNoShadow
+layout(set = 0, binding = 8) uniform utextureBuffer shadow_of_light; // or kNoShadow
 layout(set = 0, binding = 9) uniform textureBuffer shadow_texels;    // io::ShadowLight: 5 texels
 layout(set = 0, binding = 10) uniform texture2D shadow_atlas;
 layout(set = 0, binding = 11) uniform textureBuffer area_texels; // io::AreaLight: 2 texels
@@ -47,9 +47,7 @@ vec3 positionFromDistance(uvec2 pixel, float distance) {
 const uint kNoCluster = 0xffffffffu;
 
 // A depth in fixed point: the unit is a power of two, so nothing rounds but the conversion, down.
-uint fixedPoint(float distance) {
-    return uint(min(distance * frame.slice_unit, 2147483520.0));
-}
+uint fixedPoint(float distance) { return uint(min(distance * frame.slice_unit, 2147483520.0)); }
 
 // Grows with distance, by the law of the grid; the formulas are cluster::SliceLaw's.
 uint sliceKey(float distance) {
@@ -57,8 +55,7 @@ uint sliceKey(float distance) {
         uint left = 0xffffffffu / max(fixedPoint(distance), 1u);
         return frame.slice_first - min(left, frame.slice_first);
     }
-    uint key =
-        hasLight(kLightSlicesLinear) ? fixedPoint(distance) : floatBitsToUint(distance);
+    uint key = hasLight(kLightSlicesLinear) ? fixedPoint(distance) : floatBitsToUint(distance);
     return max(key, frame.slice_first) - frame.slice_first;
 }
 

@@ -21,7 +21,8 @@ struct GbufferSample {
     vec3 emissive;
 };
 
-// RGB9E5 as in the Vulkan specification, "Shared Exponent to RGB"; values up to kMostStoredEmission.
+// RGB9E5 as in the Vulkan specification, "Shared Exponent to RGB"; values up to
+// kMostStoredEmission.
 uint packSharedExponent(vec3 color) {
     vec3 c = clamp(color, vec3(0.0), vec3(kMostStoredEmission));
     float top = max(max(c.r, c.g), max(c.b, 1.52587890625e-5));
@@ -106,9 +107,7 @@ uvec4 packExtra(GbufferSample g, vec3 position_view, float depth) {
     }
 }
 
-bool readsExtra() {
-    return kPositionSource != kPositionDepth || kNormalEncoding == kNormalXyz16;
-}
+bool readsExtra() { return kPositionSource != kPositionDepth || kNormalEncoding == kNormalXyz16; }
 
 // xyz16's third half.
 float extraNormalZ(uvec4 extra) {

@@ -17,8 +17,8 @@ vec3 largestOfBlock(vec3 v) {
     return BATCH_SIZE > 16 ? largest(v, subgroupShuffleXor(v, 16)) : v;
 }
 
-// At most 8 invocations: a software rasteriser, where ballots and reductions are loops and a shuffle
-// is one instruction. Elsewhere they are one instruction, and a shuffle waits.
+// At most 8 invocations: a software rasteriser, where ballots and reductions are loops and a
+// shuffle is one instruction. Elsewhere they are one instruction, and a shuffle waits.
 const bool kSoftwareSubgroup = BATCH_SIZE <= 8;
 
 // Bit i: whether invocation i passes; at most 32 invocations.
@@ -100,9 +100,7 @@ void takenLights() {
 }
 #else
 void offerLight(LocalLight light) {}
-LocalLight takeLight(LocalLight mine, uint invocation) {
-    return shuffleLight(mine, invocation);
-}
+LocalLight takeLight(LocalLight mine, uint invocation) { return shuffleLight(mine, invocation); }
 void takenLights() {}
 #endif
 
@@ -129,7 +127,8 @@ Block makeBlock(Surface s, bool mine) {
     b.normal_view = 0.5 * (normal_low + normal_high);
     vec3 turn = s.normal_view - b.normal_view;
     vec3 from_centre = s.position_view - b.centre_view;
-    vec3 own = vec3(dot(turn, turn), -dot(s.normal_view, from_centre), dot(from_centre, from_centre));
+    vec3 own =
+        vec3(dot(turn, turn), -dot(s.normal_view, from_centre), dot(from_centre, from_centre));
     vec3 worst = largestOfBlock(mine ? own : kNone);
     // A product of three terms is off by less than 1e-6 of its terms' sizes, here and in a pixel.
     vec3 size = b.high_view - b.low_view;

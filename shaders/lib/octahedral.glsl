@@ -2,9 +2,7 @@
 // Representations for Independent Unit Vectors". Spheremap: Lambert's azimuthal projection, which
 // loses the vector towards -z.
 
-vec2 signNotZero(vec2 v) {
-    return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
-}
+vec2 signNotZero(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
 
 vec2 octahedral(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -35,9 +33,7 @@ vec2 unpackSigned(uint word, int bits) {
     return max(vec2(q) / float((1 << (bits - 1)) - 1), vec2(-1.0));
 }
 
-vec2 spheremap(vec3 n) {
-    return n.xy * inversesqrt(max(8.0 * n.z + 8.0, 1e-12));
-}
+vec2 spheremap(vec3 n) { return n.xy * inversesqrt(max(8.0 * n.z + 8.0, 1e-12)); }
 
 vec3 spheremapNormal(vec2 p) {
     vec2 q = 4.0 * p;

@@ -3,7 +3,7 @@
 #include "interface/peel_io.h"
 
 layout(set = 2, binding = 0) uniform texture2D solid_depth;
-layout(set = 2, binding = 1) uniform utexture2D layer_keys; // of the layer last selected; 0, 0: none
+layout(set = 2, binding = 1) uniform utexture2D layer_keys; // last selected; 0, 0: none
 layout(push_constant, scalar) uniform PeelBlock { PeelDraw peel; };
 
 uint peelOrder() { return peel.first_triangle + uint(gl_PrimitiveID) + 1u; }

@@ -20,7 +20,8 @@ void drawPixel(uvec2 pixel, float depth, uint id) {
         return;
     }
     if (kMasked) { // a look spares the textures; without them it costs more than an atomic
-        // Depths only grow, so a stale one is no harm. Not the whole word: its halves may be of two.
+        // Depths only grow, so a stale one is no harm. Not the whole word: its halves may be of
+        // two.
         if (uint(words[at] >> 32) > bits) {
             return;
         }

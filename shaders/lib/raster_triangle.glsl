@@ -14,7 +14,8 @@ struct ClipTriangle {
     vec4 c;
 };
 
-ClipTriangle clipTriangle(PlacedMeshlet placed, VisibleItem item, InstanceView view, uint triangle) {
+ClipTriangle clipTriangle(PlacedMeshlet placed, VisibleItem item, InstanceView view,
+                          uint triangle) {
     uint first = placed.first_index + 3u * triangle;
     uvec3 v = uvec3(indices[first], indices[first + 1u], indices[first + 2u]) + item.vertex_offset;
     view_from_object_0 = view.row0;
@@ -49,8 +50,8 @@ Corner toScreen(vec4 clip) {
     return Corner(ivec2(snapped) + middle, snapped - from_middle, clip.z / clip.w);
 }
 
-// Of the triangle's plane at its snapped corners, so that snapping bends no surface. Of a sliver, no
-// higher than a few subpixels, the depths as they are: its plane could lead anywhere.
+// Of the triangle's plane at its snapped corners, so that snapping bends no surface. Of a sliver,
+// no higher than a few subpixels, the depths as they are: its plane could lead anywhere.
 vec3 depthsAtCorners(Corner a, Corner b, Corner c) {
     vec3 depths = vec3(a.depth, b.depth, c.depth);
     vec2 ab = vec2(b.at - a.at) - (b.snapped - a.snapped);
@@ -92,7 +93,8 @@ void setEdge(ivec2 p, ivec2 q, ivec2 center, uint i, inout Edges e) {
 }
 
 // At `pixel`, for pixels up to 63 beyond it. False: nothing to draw.
-bool setEdges(Corner a, Corner b, Corner c, bool mirrored, bool both_sides, ivec2 pixel, out Edges e) {
+bool setEdges(Corner a, Corner b, Corner c, bool mirrored, bool both_sides, ivec2 pixel,
+              out Edges e) {
     ivec2 ab = b.at - a.at;
     ivec2 ac = c.at - a.at;
     int64_t area = int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x);

@@ -1,9 +1,9 @@
 // How much of each light that has shadow maps arrives at a surface: found once a pixel, before the
-// lights are looped over, so that a loop only picks four bits. A function of the surface alone: every
-// loop and every renderer sees the same.
+// lights are looped over, so that a loop only picks four bits. A function of the surface alone:
+// every loop and every renderer sees the same.
 
 struct ShadowFace {
-    ivec2 tile;    // its first texel
+    ivec2 tile; // its first texel
     int axis;
     float forward; // 1 or -1
 };
@@ -34,12 +34,12 @@ float shadowTap(ivec2 texel, float along, float near_m) {
 // Four comparisons, weighted bilinearly: a penumbra one texel wide.
 //
 // Bias. A texel's depth is that of the surface at its centre, up to a texel away from the receiver
-// across u and v; over that distance a plane of normal n rises towards the light by texel * (|n_u| +
-// |n_v|) along n, whatever the angle. Moved along n by more than that, no point of a plane is in its
-// own shadow, also where light grazes it. The slope's share is 1.5 instead of 1, and half a texel is
-// added, for normals that a map turned by up to 25 degrees. A caster less than that far above the
-// receiver casts no shadow on it; and within a texel of an inner corner, where a texel shows the other
-// surface, light is dimmed.
+// across u and v; over that distance a plane of normal n rises towards the light by texel * (|n_u|
+// + |n_v|) along n, whatever the angle. Moved along n by more than that, no point of a plane is in
+// its own shadow, also where light grazes it. The slope's share is 1.5 instead of 1, and half a
+// texel is added, for normals that a map turned by up to 25 degrees. A caster less than that far
+// above the receiver casts no shadow on it; and within a texel of an inner corner, where a texel
+// shows the other surface, light is dimmed.
 uint shadowLevel(Surface s, uint index) {
     int texel = int(index * kShadowTexels);
     vec4 x = texelFetch(shadow_texels, texel);
@@ -57,8 +57,9 @@ uint shadowLevel(Surface s, uint index) {
     ShadowFace face = faceTowards(v, x.w, y.w, size_px);
     vec3 seen = turned(v, face.axis);
     vec3 seen_normal = turned(normal, face.axis);
-    precise float offset = map.y * max(face.forward * seen.z, 0.0) *
-                           (kShadowBias + kShadowSlopeBias * (abs(seen_normal.x) + abs(seen_normal.y)));
+    precise float offset =
+        map.y * max(face.forward * seen.z, 0.0) *
+        (kShadowBias + kShadowSlopeBias * (abs(seen_normal.x) + abs(seen_normal.y)));
     precise vec3 moved = seen + seen_normal * offset;
     precise float along = max(face.forward * moved.z, 1e-20);
     // Behind a spot, where its cone lets nothing through, this is anywhere in the tile.
@@ -109,7 +110,8 @@ uvec4 findShadows(Surface s, bool lit) {
     do {
         uint index = left != 0u ? uint(findLSB(left)) : 0u;
         // Each is 15 until now: what is taken away is flipped.
-        uint taken = left != 0u ? (kShadowLevels - shadowLevel(s, index)) << ((index & 7u) * 4u) : 0u;
+        uint taken =
+            left != 0u ? (kShadowLevels - shadowLevel(s, index)) << ((index & 7u) * 4u) : 0u;
         uint word = index >> 3;
         levels ^= uvec4(word == 0u ? taken : 0u, word == 1u ? taken : 0u, word == 2u ? taken : 0u,
                         word == 3u ? taken : 0u);

@@ -30,7 +30,8 @@ vec3 srgbDecode(vec3 c) {
     return mix(high, c / 12.92, lessThanEqual(c, vec3(0.04045)));
 }
 
-// What the display emits, linear, 0 to 1. Radiance beyond fp32's comfort becomes white, not infinity.
+// What the display emits, linear, 0 to 1. Radiance beyond fp32's comfort becomes white, not
+// infinity.
 vec3 displayColor(vec3 radiance) {
     vec3 c = min(radiance * frame.exposure, vec3(1e6));
     if (!hasOutput(kOutputClamp)) {

@@ -1,6 +1,6 @@
-// The draws that culling writes. ranks: of each placed meshlet in its workgroup, kCulled where it is
-// out of sight; counts: of each group's draws, then of each workgroup's visible meshlets; order: of the
-// placed meshlets, near ones of a group first.
+// The draws that culling writes. ranks: of each placed meshlet in its workgroup, kCulled where it
+// is out of sight; counts: of each group's draws, then of each workgroup's visible meshlets; order:
+// of the placed meshlets, near ones of a group first.
 layout(set = 2, binding = 9, scalar) buffer CommandBlock { DrawCommand commands[]; };
 layout(set = 2, binding = 10, scalar) buffer RankBlock { uint ranks[]; };
 layout(set = 2, binding = 11, scalar) buffer CountBlock { uint counts[]; };

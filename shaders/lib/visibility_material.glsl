@@ -7,7 +7,7 @@ const uint normal_slot = 1u;
 const uint metallic_roughness_slot = 2u;
 const uint occlusion_slot = 3u;
 const uint emissive_slot = 4u;
-#define slotTexture(slot) \
+#define slotTexture(slot)                                                                          \
     scene_textures[nonuniformEXT(visible_material * kTexturesOfMaterial + slot##_slot)]
 #else
 // One material a dispatch.
@@ -45,5 +45,5 @@ vec2 uvGradient(UvTransform t, vec2 uv0, vec2 uv1) {
 #define uvDy(v, t) uvGradient(t, gradients.uv0_dy, gradients.uv1_dy)
 #define positionDx(position) gradients.position_dx
 #define positionDy(position) gradients.position_dy
-#define sampleMaterial(slot, v, t) \
+#define sampleMaterial(slot, v, t)                                                                 \
     textureGrad(slotTexture(slot), slotUv(v, t), uvDx(v, t), uvDy(v, t))

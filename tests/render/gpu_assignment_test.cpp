@@ -1,7 +1,7 @@
 // The device's light lists against the host's, entry by entry, and against the oracle.
 //
-// FROXEL_TEST_DEVICE=gpu runs these on a GPU (support/gpu_fixture.h); FROXEL_TEST_CASES sets how many
-// random configurations there are.
+// FROXEL_TEST_DEVICE=gpu runs these on a GPU (support/gpu_fixture.h); FROXEL_TEST_CASES sets how
+// many random configurations there are.
 #include "cluster/assign_reference.h"
 #include "support/device_assigner.h"
 #include "support/gpu_fixture.h"

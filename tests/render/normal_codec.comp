@@ -7,14 +7,15 @@
 #include "lib/gbuffer.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 1, binding = 0, scalar) buffer NormalBlock { vec3 normals[]; };
+layout(set = 1, binding = 0, scalar) buffer NormalBlock {
+    vec3 normals[];
+};
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < normals.length()) {
         vec3 n = normals[i];
-        GbufferSample g =
-            GbufferSample(n, vec3(0.0), 0.0, 0.0, 1.0, false, vec3(0.0));
+        GbufferSample g = GbufferSample(n, vec3(0.0), 0.0, 0.0, 1.0, false, vec3(0.0));
         normals[i] = unpackGbuffer(packGbuffer(g), packExtra(g, vec3(0.0), 1.0)).normal_view;
     }
 }

@@ -37,11 +37,19 @@ TEST_P(BadWhole, Parsed_RefusedWithRange) {
                   "a whole number from 0 to 1000000");
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    ParseNumber,
-    BadWhole,
-    testing::Values(
-        "", " 1", "1 ", "-1", "+1", "1000001", "1.5", "1e3", "0x10", "99999999999999999999", "ten"));
+INSTANTIATE_TEST_SUITE_P(ParseNumber,
+                         BadWhole,
+                         testing::Values("",
+                                         " 1",
+                                         "1 ",
+                                         "-1",
+                                         "+1",
+                                         "1000001",
+                                         "1.5",
+                                         "1e3",
+                                         "0x10",
+                                         "99999999999999999999",
+                                         "ten"));
 
 class BadReal : public testing::TestWithParam<std::string_view> {};
 
