@@ -8,33 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-# What each layer may include besides itself. A layer is a folder of server/, or protocol/;
-# "interface" is shaders/interface and "shaders" the embedded SPIR-V.
-MAY_INCLUDE = {
-    "core": set(),
-    "view": {"core"},
-    "scene": {"core", "view"},
-    "gltf": {"core", "view", "scene"},
-    "hall": {"core", "view", "scene"},
-    "gltf_writer": {"core", "view", "scene"},
-    "light": {"core", "view", "scene", "interface"},
-    "cluster": {"core", "view", "light", "interface"},
-    "ltc": {"reference", "interface"},
-    "gpu": {"core"},
-    "render": {"core", "view", "scene", "light", "cluster", "ltc", "gpu", "interface",
-               "shaders"},
-    "encode": {"core", "view"},
-    "measure": {"core"},
-    "reference": {"core", "view", "scene", "light"},
-    "protocol": {"core"},
-    "session": {"core", "view", "scene", "protocol"},
-    "stream": {"core", "view", "scene", "protocol", "session", "render", "encode", "gpu"},
-    "transport": set(),
-    "net": {"core", "protocol", "session", "transport"},
-    "load": {"core", "protocol", "session", "transport"},
-}
-EVERY_LAYER = set(MAY_INCLUDE) | {"interface", "shaders"}
-MAY_INCLUDE["app"] = EVERY_LAYER - {"interface", "shaders"}
+# Names that are no folders of server/: shaders/interface, the embedded SPIR-V, and protocol/.
+SHADER_LAYERS = {"interface", "shaders"}
+LAYER = re.compile(r"\bfroxel_layer\(([^)]*)\)")
+DEPENDS = re.compile(r"\bDEPENDS\b(.*?)(?:\bLIBRARIES\b|\bSOURCES\b|$)", re.S)
 
 # The first folder of an #include "..." where it is not the layer's own name.
 LAYER_OF_FOLDER = {"froxel": "protocol"}  # generated: froxel/v1/client.pb.h
@@ -64,16 +41,37 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 MAX_LINES = 400
 
 
-def layer_of_include(path):
+def dependencies(cmake):
+    """What a layer may include besides itself: DEPENDS of the froxel_layer()s of its CMakeLists.txt."""
+    return {word for call in LAYER.findall(cmake) for names in DEPENDS.findall(call) for word in names.split()}
+
+
+def allowed_includes(root):
+    """The same of every layer, by its name."""
+    lists = {folder: folder / "CMakeLists.txt" for folder in [*(root / "server").iterdir(), root / "protocol"]}
+    return {folder.name: dependencies(file.read_text(encoding="utf-8"))
+            for folder, file in lists.items() if file.exists()}
+
+
+def check_house(document, may_include):
+    """Yields the rows of ARCHITECTURE.md's table of layers that do not say what CMake says."""
+    rows = re.findall(r"^\| `(?:server/)?([a-z_]+)` \|.*\| ([^|]*) \|$", document, re.M)
+    told = {layer: {name.strip() for name in names.split(",")} for layer, names in rows}
+    for layer, allowed in may_include.items():
+        if told.get(layer, {"no row"}) != (allowed or {"nothing of ours"}):
+            yield f"ARCHITECTURE.md: {layer} may include {', '.join(sorted(allowed)) or 'nothing of ours'}"
+
+
+def layer_of_include(path, layers):
     """The layer that an #include "path" reaches, or None for a name that is no layer's."""
     if path in LAYER_OF_FILE:
         return LAYER_OF_FILE[path]
     folder = path.split("/")[0]
     folder = LAYER_OF_FOLDER.get(folder, folder)
-    return folder if folder in EVERY_LAYER | {"app"} else None
+    return folder if folder in layers | SHADER_LAYERS else None
 
 
-def check_file(name, layer, lines):
+def check_file(name, layer, lines, may_include):
     """Yields the violations of one file of a layer; `layer` is "tests" outside server/."""
     if name.endswith(".h") and "#pragma once" not in lines:
         yield f"{name}: no #pragma once"
@@ -93,12 +91,12 @@ def check_file(name, layer, lines):
         include = INCLUDE.match(line)
         if not include:
             continue
-        target = layer_of_include(include[1])
+        target = layer_of_include(include[1], set(may_include))
         if target is None:
             yield f'{where}: "{include[1]}" does not start with a layer'
-        elif target != layer and target not in MAY_INCLUDE[layer]:
-            allowed = ", ".join(sorted(MAY_INCLUDE[layer])) or "no other layer"
-            yield f"{where}: {layer} may not include {target}, only {allowed}"
+        elif target != layer and target not in may_include[layer]:
+            allowed = ", ".join(sorted(may_include[layer])) or "no other layer"
+            yield f"{where}: {layer} may not include {target}, only {allowed} (DEPENDS of its CMakeLists.txt)"
 
 
 def layer_folders(root):
@@ -112,14 +110,15 @@ def layer_folders(root):
 
 def check_tree(root):
     """Yields every violation under root."""
+    may_include = allowed_includes(root)
     for layer, folder in layer_folders(root):
-        if layer not in MAY_INCLUDE and layer != "tests":
-            yield f"{folder.relative_to(root)}: no such layer; add it to {Path(__file__).name}"
+        if layer not in may_include and layer != "tests":
+            yield f"{folder.relative_to(root)}: no CMakeLists.txt makes it a layer"
             continue
         for path in sorted(folder.rglob("*")):
             if path.suffix in SOURCES:
                 lines = path.read_text(encoding="utf-8").splitlines()
-                yield from check_file(str(path.relative_to(root)), layer, lines)
+                yield from check_file(str(path.relative_to(root)), layer, lines, may_include)
 
 
 def committed_files(root):
@@ -153,7 +152,9 @@ def check_built(paths, text_of):
 def main():
     root = Path(sys.argv[1]).resolve()
     committed = committed_files(root)
-    violations = [*check_tree(root), *check_committed(committed),
+    architecture = (root / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    violations = [*check_tree(root), *check_house(architecture, allowed_includes(root)),
+                  *check_committed(committed),
                   *check_built(committed, lambda path: (root / path).read_text(encoding="utf-8"))]
     for violation in violations:
         print(violation)

@@ -4,11 +4,15 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from check_layers import check_built, check_committed, check_file, check_tree
+from check_layers import (check_built, check_committed, check_file, check_house, check_tree,
+                          dependencies)
+
+MAY_INCLUDE = {"core": set(), "view": {"core"}, "session": {"core", "view", "protocol"}, "render": {"gpu"},
+               "gpu": {"core"}, "net": {"core"}, "load": {"core"}, "app": {"gpu"}, "stream": {"render"}, "protocol": set()}
 
 
 def violations(layer, *lines, name="a.cpp"):
-    return list(check_file(name, layer, lines))
+    return list(check_file(name, layer, lines, MAY_INCLUDE))
 
 
 class CheckLayers(unittest.TestCase):
@@ -24,6 +28,16 @@ class CheckLayers(unittest.TestCase):
         found = violations("session", "", '#include "render/renderer.h"')
         self.assertEqual(len(found), 1)
         self.assertIn("a.cpp:2: session may not include render", found[0])
+
+    def test_table_of_layers_is_cmakes(self):
+        rows = "| layer | what |\n| `server/core` | errors | nothing of ours |\n| `server/gpu` | the device | view |\n"
+        found = list(check_house(rows, {"core": set(), "gpu": {"core"}, "net": {"core"}}))
+        self.assertEqual([line.split()[1] for line in found], ["gpu", "net"])
+
+    def test_dependencies_are_those_of_cmake(self):
+        text = "froxel_layer(a\n    SOURCES a.cpp\n    DEPENDS core view\n            gpu\n    LIBRARIES B::b)\n"
+        self.assertEqual(dependencies(text + "froxel_layer(a_b DEPENDS light)"), {"core", "view", "gpu", "light"})
+        self.assertEqual(dependencies("add_library(froxel_core INTERFACE)"), set())
 
     def test_include_of_no_layer_is_named(self):
         self.assertEqual(len(violations("view", '#include "math.h"')), 1)
@@ -57,6 +71,8 @@ class CheckLayers(unittest.TestCase):
             root = Path(folder)
             for layer in ("server/core", "server/util", "protocol", "tests"):
                 (root / layer).mkdir(parents=True)
+                if layer != "server/util":
+                    (root / layer / "CMakeLists.txt").write_text("")
             self.assertEqual(len(list(check_tree(root))), 1)
 
     def test_generated_code(self):
