@@ -4,30 +4,40 @@
 #include <algorithm>
 #include <cstddef>
 #include <future>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace froxel {
 
 // How many threads pay for so many things, of which each should have `least_each`. At least 1, at
-// most as many as the machine has.
+// most as many as the machine has, or 16: they are started one after another.
 [[nodiscard]] inline size_t threadCount(size_t count, size_t least_each) {
     return std::clamp<size_t>(count / least_each, 1,
-                              std::max(1U, std::thread::hardware_concurrency()));
+                              std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
 }
 
 // Cuts [0, count) into as many ranges as there are threads, calls job(thread, begin, end) once for
-// each, the first on the caller's thread, and returns when all are done. What a job throws is
-// thrown.
+// each, the first on the caller's thread, as others are for which the system gives no thread, and
+// returns when all are done. What a job throws is thrown.
 template <class Job>
 void onThreads(size_t count, size_t threads, const Job& job) {
+    const auto run = [&job, count, threads](size_t thread) {
+        job(thread, count * thread / threads, count * (thread + 1) / threads);
+    };
     std::vector<std::future<void>> others;
-    for (size_t thread = 1; thread < threads; ++thread) {
-        others.push_back(std::async(std::launch::async, [&job, count, threads, thread] {
-            job(thread, count * thread / threads, count * (thread + 1) / threads);
-        }));
+    size_t left = threads; // from here on
+    for (size_t thread = 1; thread < left; ++thread) {
+        try {
+            others.push_back(std::async(std::launch::async, run, thread));
+        } catch (const std::system_error&) {
+            left = thread;
+        }
     }
-    job(0, 0, count / threads);
+    run(0);
+    for (size_t thread = left; thread < threads; ++thread) {
+        run(thread);
+    }
     for (auto& other : others) {
         other.get();
     }

@@ -39,6 +39,26 @@ TEST(LightCutoff, UnlimitedLight_EndsByTheInverseSquare) {
     EXPECT_NEAR(cut, 20, 1e-9);
 }
 
+// More than one thread cuts.
+TEST(LightCutoff, VeryMany_AreEachCut) {
+    FrameLights lights;
+    for (uint32_t i = 0; i < 50'000; ++i) {
+        const float radius_m = 0.5F + static_cast<float>(i % 17);
+        lights.lights.push_back({.position_view = {},
+                                 .inv_radius2 = 1 / (radius_m * radius_m),
+                                 .color = glm::vec3(static_cast<float>(i % 5)),
+                                 .spot = io::kNoSpot});
+        lights.radii_m.push_back(radius_m);
+    }
+    const FrameLights whole = lights;
+    cutLights(lights, 0.01, false);
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        const double cut =
+            cutRadius(whole.lights[i].color, static_cast<double>(whole.radii_m[i]), 0.01);
+        ASSERT_EQ(lights.radii_m[i], static_cast<float>(cut)) << i;
+    }
+}
+
 TEST(LightCutoff, BlackLight_ReachesNothing) {
     EXPECT_EQ(cutRadius({0, 0, 0}, 2, 0.01), 0);
 }

@@ -54,6 +54,18 @@ TEST(ChooseShadowed, TakesTheMostImportant_InLightOrder) {
     EXPECT_THAT(ahead.choose(32), ElementsAre(0, 1, 2, 3));
 }
 
+// More than one thread looks at.
+TEST(ChooseShadowed, OfVeryMany_TheMostImportantWhereverTheyAre) {
+    Ahead ahead;
+    for (uint32_t i = 0; i < 100'000; ++i) {
+        const bool bright = i == 3 || i == 49'999 || i == 50'000 || i == 99'999;
+        ahead.add({0, 0, -20}, 1, bright ? 10.0F : 1.0F);
+    }
+    EXPECT_THAT(ahead.choose(4), ElementsAre(3, 49'999, 50'000, 99'999));
+    // Of equals the first.
+    EXPECT_THAT(ahead.choose(6), ElementsAre(0, 1, 3, 49'999, 50'000, 99'999));
+}
+
 TEST(ChooseShadowed, Rectangles_HaveNoMaps) {
     Ahead ahead;
     ahead.add({0, 0, -5}, 1, 100).asSpot(glm::radians(90.0)).add({0, 0, -6});
