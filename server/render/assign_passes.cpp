@@ -29,7 +29,7 @@ void dispatchIndirect(const AssignContext& assign, AssignPass pass, size_t argum
 }
 
 uint32_t scanGroups(const AssignContext& assign) {
-    return groups(assign.slot.clusterCount(), io::kAssignScanBlock);
+    return groups(assign.slot.frame().cluster_count, io::kAssignScanBlock);
 }
 
 } // namespace
@@ -43,12 +43,12 @@ void recordAssignClear(const AssignContext& assign) {
         assign.cmd.fillBuffer(*buffers.totals.handle, sizeof(io::AssignTotals),
                               assign.slot.pricedTiles() * sizeof(uint32_t), 0);
     }
-    assign.cmd.fillBuffer(*buffers.cursors.handle, 0, assign.slot.clusterCount() * sizeof(uint32_t),
-                          0);
+    assign.cmd.fillBuffer(*buffers.cursors.handle, 0,
+                          assign.slot.frame().cluster_count * sizeof(uint32_t), 0);
 }
 
 void recordAssignBound(const AssignContext& assign) {
-    dispatch(assign, AssignPass::kBound, groups(assign.slot.lightCount(), io::kAssignGroup));
+    dispatch(assign, AssignPass::kBound, groups(assign.slot.frame().light_count, io::kAssignGroup));
 }
 
 void recordAssignCount(const AssignContext& assign) {

@@ -136,9 +136,9 @@ bool FrameBuilder::acceptLists(const AssignSlot& lists) {
     const bool whole = device_lists_.accept(totals);
     if (const auto tiles = lists.tileLongest();
         !tiles.empty() && totals.outcome != io::kAssignShort) {
-        const AssignData& data = device_lists_.data();
-        const io::AssignFrame& frame = data.frame[0];
+        const io::AssignFrame& frame = lists.frame(); // the next one may be prepared
         seen_lists_ = {.grid = {frame.grid_x, frame.grid_y, frame.grid_z},
+                       .too_long = totals.outcome == io::kAssignLong,
                        .tile_longest = {tiles.begin(), tiles.end()},
                        .all_lights =
                            totals.entry_count > frame.max_entries ? frame.light_count : 0};
@@ -307,9 +307,10 @@ std::optional<PairBound> FrameBuilder::seenPairs() const {
     if (seen_lists_->all_lights > 0) {
         return PairBound::uniform(seen_lists_->all_lights);
     }
+    const auto light_count = static_cast<uint32_t>(lights_.lights.size());
     std::vector<uint32_t> longest = seen_lists_->tile_longest;
     for (uint32_t& length : longest) {
-        length += length / 4;
+        length = std::min(length + length / 4 + 1, light_count);
     }
     return PairBound::tiles(grid, longest);
 }
@@ -354,13 +355,22 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     const uint64_t longest = costs.lightsWithin(work.loop);
     const double pixels = static_cast<double>(drawn.width_px) * drawn.height_px;
     const auto seen = seenPairs();
-    if (seen && (seen->pairs(whole) > room || seen->longest() > longest)) {
+    if (seen) {
+        // What moves between two frames is no reason to refuse the second.
+        const uint64_t told = seen_lists_->all_lights > 0
+                                  ? seen_lists_->all_lights
+                                  : std::ranges::max(seen_lists_->tile_longest);
+        load.longest_loop = told <= longest ? std::min(longest, seen->longest()) : seen->longest();
+    } else {
+        load.longest_loop = std::min(longest, load.longest_loop);
+    }
+    if (seen &&
+        (seen_lists_->too_long || seen->pairs(whole) > room || load.longest_loop > longest)) {
         load.pairs = *seen;
-        load.longest_loop = seen->longest();
-        device_lists_.limit(1.001 * seen->pairs(whole), seen->longest()); // floats are summed there
+        device_lists_.limit(1.001 * seen->pairs(whole), // floats are summed there
+                            std::max(longest, load.longest_loop));
     } else {
         load.pairs = PairBound::uniform(static_cast<uint64_t>(room / pixels));
-        load.longest_loop = std::min(longest, load.pairs.longest());
         device_lists_.limit(room, longest);
     }
     return {scene_.unit_costs, std::move(load)};

@@ -70,6 +70,7 @@ class FrameBuilder {
     // The longest list of each tile, as the device last told.
     struct SeenLists {
         view::GridSize grid;
+        bool too_long = false; // for what they were held against
         std::vector<uint32_t> tile_longest;
         uint32_t all_lights = 0; // what each pixel loops over instead; 0: lists
     };

@@ -27,7 +27,7 @@ vk::Extent2D extentOf(const view::Size& size) {
 }
 
 Seconds whole(const RegionCost& cost, const vk::Extent2D& extent) {
-    return cost.each + cost.of({{0, 0}, extent});
+    return cost.each + std::max(cost.of({{0, 0}, extent}), cost.least);
 }
 
 } // namespace
@@ -70,6 +70,11 @@ Seconds FrameCosts::loop(const PairCost& unit) const {
     return Seconds(static_cast<double>(load_.longest_loop) * unit.loop);
 }
 
+RegionCost FrameCosts::shading(const PairCost& unit) const {
+    return {Seconds(0), [this, &unit](const auto& region) { return Seconds(lit(region, unit)); },
+            loop(unit)};
+}
+
 RegionCost FrameCosts::depthPrepass() const {
     return {Seconds(load_.draws.triangle_count * unit_.triangle / 2),
             [this](const auto& region) { return Seconds(pixels(region) * unit_.depth_pixel); }};
@@ -78,11 +83,12 @@ RegionCost FrameCosts::depthPrepass() const {
 RegionCost FrameCosts::forward() const {
     // Behind a prepass each pixel is shaded once.
     const double each = load_.plan.depth_prepass ? 1.0 : load_.overdraw;
-    return {Seconds(load_.draws.triangle_count * unit_.triangle) + loop(unit_.fragment),
+    return {Seconds(load_.draws.triangle_count * unit_.triangle),
             [this, each](const auto& region) {
                 return Seconds(
                     each * (pixels(region) * unit_.surface_pixel + lit(region, unit_.fragment)));
-            }};
+            },
+            loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::gbuffer() const {
@@ -96,35 +102,34 @@ RegionCost FrameCosts::ids() const {
 }
 
 RegionCost FrameCosts::resolve() const {
-    return {
-        load_.plan.visibility_shade ? loop(unit_.compute) : Seconds(0), [this](const auto& region) {
-            const double surface =
-                pixels(region) * (unit_.surface_pixel + load_.resolve_count * unit_.resolve_pixel);
-            return Seconds(surface +
-                           (load_.plan.visibility_shade ? lit(region, unit_.compute) : 0.0));
-        }};
+    const bool shades = load_.plan.visibility_shade;
+    return {Seconds(0),
+            [this, shades](const auto& region) {
+                const double surface = pixels(region) * (unit_.surface_pixel +
+                                                         load_.resolve_count * unit_.resolve_pixel);
+                return Seconds(surface + (shades ? lit(region, unit_.compute) : 0.0));
+            },
+            shades ? loop(unit_.compute) : Seconds(0)};
 }
 
 RegionCost FrameCosts::lighting() const {
     const PairCost& unit = load_.plan.lighting_compute ? unit_.compute : unit_.fragment;
-    return {loop(unit), [this, &unit](const auto& region) { return Seconds(lit(region, unit)); }};
+    return shading(unit);
 }
 
 RegionCost FrameCosts::countPairs() const {
-    return {loop(unit_.counting),
-            [this](const auto& region) { return Seconds(lit(region, unit_.counting)); }};
+    return shading(unit_.counting);
 }
 
 RegionCost FrameCosts::debugView() const {
     if (!view::testsLights(load_.plan.debug)) {
         return screen();
     }
-    return {loop(unit_.counting),
-            [this](const auto& region) { return Seconds(lit(region, unit_.counting)); }};
+    return shading(unit_.counting);
 }
 
 RegionCost FrameCosts::blended() const {
-    return {Seconds(load_.draws.transparent_triangle_count * unit_.triangle) + loop(unit_.fragment),
+    return {Seconds(load_.draws.transparent_triangle_count * unit_.triangle),
             [this](const auto& region) {
                 double sum = 0;
                 for (const vk::Rect2D& part : load_.draws.transparent_parts) {
@@ -134,7 +139,8 @@ RegionCost FrameCosts::blended() const {
                     }
                 }
                 return Seconds(sum + pixels(region) * unit_.depth_pixel);
-            }};
+            },
+            loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::screen() const {
@@ -143,7 +149,8 @@ RegionCost FrameCosts::screen() const {
 }
 
 RegionCost FrameCosts::fogScatter() const {
-    return {loop(unit_.fog), [this](const vk::Rect2D& nodes) {
+    return {Seconds(0),
+            [this](const vk::Rect2D& nodes) {
                 const auto tile = load_.fog_tile_px;
                 const vk::Rect2D whole{{0, 0}, {load_.drawn.width_px, load_.drawn.height_px}};
                 const vk::Rect2D region =
@@ -154,7 +161,8 @@ RegionCost FrameCosts::fogScatter() const {
                 const double each = load_.fog_slice_count / (static_cast<double>(tile) * tile);
                 return Seconds(pixels(nodes) * load_.fog_slice_count * unit_.froxel +
                                each * lit(region, unit_.fog));
-            }};
+            },
+            loop(unit_.fog)};
 }
 
 RegionCost FrameCosts::bloom(size_t step) const {
@@ -320,7 +328,7 @@ double FrameCosts::pairsWithin(Seconds limit) const {
         return FrameCosts(unit_, std::move(load)).total();
     };
     constexpr uint64_t kEach = 1000;
-    constexpr double kAny = 1e30;
+    constexpr double kAny = 1e9;
     const Seconds rest = totalWith(0);
     const Seconds room = std::max(limit - rest, limit / 2);
     const double pairs = pixels({{0, 0}, extentOf(load_.drawn)}) * kEach;

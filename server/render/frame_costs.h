@@ -92,6 +92,8 @@ class FrameCosts {
 
   private:
     [[nodiscard]] double pixels(const vk::Rect2D& region) const;
+    // A pass that only adds up lights.
+    [[nodiscard]] RegionCost shading(const PairCost& unit) const;
     // The longest loop of one pixel, which cutting a region does not make shorter.
     [[nodiscard]] Seconds loop(const PairCost& unit) const;
     // Shading all lights, without materials.

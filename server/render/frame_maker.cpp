@@ -173,6 +173,7 @@ Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, cons
         auto recorded = recordNow(slot, inputs, slots);
         slot.uses = variants.endRecording(since);
         if (!recorded) {
+            builder_.forgetLists();
             slot.uses.giveUp();
             slot.uses.end();
             return recorded.error();
@@ -196,6 +197,9 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
         return able;
     }
     const FramePlan plan = builder_.build(inputs);
+    if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
+        return tooManyToCap(builder_.localLightCount());
+    }
     if (plan.fog) {
         const uint64_t most_texels = scene_.device.limits().maxTexelBufferElements;
         if (auto fits = checkFroxels(builder_.fog(), most_texels); !fits) {
@@ -209,7 +213,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
     const BloomPlan* bloom_steps = *bloom_plan ? &**bloom_plan : nullptr;
     const FrameCosts costs = builder_.costs(plan, asked.settings.size, bloom_steps, work_);
     if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
-        builder_.forgetLists();
         return affordable;
     }
     if (auto taken = takeMemory(slot, plan, asked, bloom_steps, slots); !taken) {
@@ -271,8 +274,9 @@ RenderedFrame FrameMaker::finish(FrameSlot& slot) {
     if (slot.device_lists) {
         std::string why = std::move(slot.stats.lists.why);
         const uint32_t redraws = slot.stats.lists.redraw_count;
-        slot.stats.lists = listStats(slot.assignment->totals(), slot.assignment->lightCount(),
-                                     slot.assignment->clusterCount());
+        slot.stats.lists =
+            listStats(slot.assignment->totals(), slot.assignment->frame().light_count,
+                      slot.assignment->frame().cluster_count);
         slot.stats.lists.why = std::move(why);
         slot.stats.lists.redraw_count = redraws;
     }

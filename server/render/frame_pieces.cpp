@@ -88,19 +88,19 @@ void FramePieces::over(const vk::Extent2D& size,
 }
 
 // A part's fixed cost is not made less by halving it: half of the limit is always left for the
-// rest.
+// rest, and what takes its least time is left whole.
 void FramePieces::overPart(const vk::Rect2D& part,
                            const RegionCost& cost,
                            const std::function<void(const vk::Rect2D&)>& record) {
     const Seconds own = cost.of(part);
-    const Seconds room = limit_ - std::min(cost.each, limit_ / 2);
+    const Seconds room = std::max(limit_ - std::min(cost.each, limit_ / 2), cost.least);
     const auto parts = own > room ? halves(part) : std::nullopt;
     if (parts) {
         overPart((*parts)[0], cost, record);
         overPart((*parts)[1], cost, record);
         return;
     }
-    add(cost.each + own);
+    add(cost.each + std::max(own, cost.least));
     record(part);
 }
 

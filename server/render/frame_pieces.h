@@ -15,6 +15,7 @@ namespace froxel::render {
 struct RegionCost {
     Seconds each{0};
     std::function<Seconds(const vk::Rect2D&)> of;
+    Seconds least{0}; // that a region takes besides `each`, however small it is
 };
 
 // Keep one a frame slot: its command buffers are used again. Recorded in turn, submitted in turn.

@@ -88,10 +88,7 @@ void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
                        vk::Buffer upload,
                        const AssignOffsets& offsets) {
     buffers_ = std::move(buffers);
-    const io::AssignFrame& frame = data.frame[0];
-    light_count_ = frame.light_count;
-    cluster_count_ = frame.cluster_count;
-    priced_tiles_ = frame.max_pairs > 0 ? frame.grid_x * frame.grid_y : 0;
+    const io::AssignFrame& frame = frame_ = data.frame[0];
     const auto part = [&](vk::DeviceSize offset, vk::DeviceSize bytes) {
         return vk::DescriptorBufferInfo{upload, offset, std::max<vk::DeviceSize>(bytes, 16)};
     };
@@ -130,7 +127,7 @@ const io::AssignTotals& AssignSlot::totals() const {
 std::span<const uint32_t> AssignSlot::tileLongest() const {
     const auto* words =
         reinterpret_cast<const uint32_t*>(readback_.mapped + sizeof(io::AssignTotals));
-    return {words, priced_tiles_};
+    return {words, pricedTiles()};
 }
 
 GpuLightLists::GpuLightLists(const gpu::Device& device, const ListLimits& limits)

@@ -91,10 +91,12 @@ class AssignSlot {
     [[nodiscard]] const ListBuffers& buffers() const { return *buffers_; }
     [[nodiscard]] vk::DescriptorSet set() const { return *set_; }
     [[nodiscard]] vk::Buffer readback() const { return *readback_.handle; }
-    [[nodiscard]] uint32_t lightCount() const { return light_count_; }
-    [[nodiscard]] uint32_t clusterCount() const { return cluster_count_; }
+    // What was written last.
+    [[nodiscard]] const io::AssignFrame& frame() const { return frame_; }
     // Whether tiles are looked at.
-    [[nodiscard]] uint32_t pricedTiles() const { return priced_tiles_; }
+    [[nodiscard]] uint32_t pricedTiles() const {
+        return frame_.max_pairs > 0 ? frame_.grid_x * frame_.grid_y : 0;
+    }
     // Of the last frame, which has completed.
     [[nodiscard]] const io::AssignTotals& totals() const;
     // Likewise the longest list of each tile; empty where they were not looked at.
@@ -107,9 +109,7 @@ class AssignSlot {
     vk::raii::DescriptorPool pool_;
     vk::raii::DescriptorSet set_{nullptr};
     std::shared_ptr<ListBuffers> buffers_;
-    uint32_t light_count_ = 0;
-    uint32_t cluster_count_ = 0;
-    uint32_t priced_tiles_ = 0;
+    io::AssignFrame frame_{};
 };
 
 class GpuLightLists {

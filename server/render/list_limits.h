@@ -7,6 +7,10 @@
 
 namespace froxel::render {
 
+// What the host's lists may hold. It has a tenth of a second for them: so many entries take it, on
+// two cores as on sixteen, which wait for memory.
+inline constexpr uint64_t kHostListEntries = uint64_t{1} << 23U;
+
 // The defaults start small and grow by need; a test may start smaller.
 struct ListLimits {
     uint32_t first_entries = 1U << 18U;

@@ -3,6 +3,7 @@
 #include "interface/shadow_io.h"
 #include "render/frame_plan.h"
 #include "render/gbuffer_layout.h"
+#include "render/list_limits.h"
 #include "render/scene_resources.h"
 
 #include <string>
@@ -124,6 +125,13 @@ Error tooLongInPieces(const view::Size& size, const FramePieces& pieces, Seconds
                     "ask for fewer lights, fewer effects, or a smaller picture",
                     size.width_px, size.height_px, pieces.count(), pieces.estimate().count(),
                     limit.count())};
+}
+
+Error tooManyToCap(uint32_t light_count) {
+    return {ErrorCode::kCapacity,
+            fmt::format("list_cap: the lists of {} lights hold more than {} entries before they "
+                        "are capped; ask for fewer or smaller lights, or for fewer clusters",
+                        light_count, kHostListEntries)};
 }
 
 Error noMemoryFor(const view::ViewSettings& settings) {

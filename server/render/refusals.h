@@ -20,6 +20,9 @@ namespace froxel::render {
 [[nodiscard]] Error
 tooLongInPieces(const view::Size& size, const FramePieces& pieces, Seconds limit);
 
+// kCapacity: lists are to be capped, and the host cannot hold them whole.
+[[nodiscard]] Error tooManyToCap(uint32_t light_count);
+
 // kCapacity: targets of these settings did not fit the device's memory.
 [[nodiscard]] Error noMemoryFor(const view::ViewSettings& settings);
 

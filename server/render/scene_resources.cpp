@@ -4,6 +4,7 @@
 #include "gpu/pipeline.h"
 #include "interface/frame_io.h"
 #include "ltc/table.h"
+#include "render/list_limits.h"
 #include "scene/scene_check.h"
 
 #include <spdlog/spdlog.h>
@@ -21,10 +22,6 @@ namespace {
 constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
 constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
 constexpr size_t kTexturesOfMaterial = 5;
-
-// The host has a tenth of a second for a frame's lists: so many entries take it, on two cores as
-// on sixteen, which wait for memory.
-constexpr uint64_t kHostListEntries = uint64_t{1} << 23U;
 
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);

@@ -2,6 +2,8 @@
 // pictures to the bit.
 #include "hall/hall.h"
 #include "render/renderer.h"
+#include "render/scene_resources.h"
+#include "render/unit_costs.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
@@ -277,6 +279,45 @@ TEST_F(Pieces, ListsThatHoldNearlyAllLights_CountAsWhatTheyHold) {
         }
         ASSERT_FALSE(begun) << begun->estimate.count() << " s";
         EXPECT_EQ(begun.error().code, ErrorCode::kCapacity);
+    }
+}
+
+// By a GPU's prices: there a loop over many lights takes long, however few pixels go through it.
+// Lists that the device makes are known after a first look; what one loop may take bounds them.
+TEST_F(Pieces, ListsLongerThanALoopMayBe_AreRefused_OthersDrawnAgainAndAgain) {
+    render::Renderer priced(device(), hall());
+    priced.resources().unit_costs = render::kGpuUnitCosts;
+    auto asked = inputs();
+    asked.settings.light_loop = view::LightLoop::kLists;
+    asked.assignment = render::AssignmentPlace::kDevice;
+    asked.settings.lighting = view::LightingStage::kFragment;
+    asked.settings.lights.radius_m = 5;
+    render::ViewRenderer whole(priced);
+    const Picture before = drawPixels(whole, asked);
+    const double longest = before.stats.lists.largest * render::kGpuUnitCosts.fragment.loop;
+    ASSERT_LT(before.stats.lists.largest, asked.settings.lights.count);
+
+    for (const double share : {1.02, 0.9}) {
+        render::ViewRenderer view(
+            priced, {},
+            {.frame = Seconds(100), .piece = Seconds(4e-6), .loop = Seconds(share * longest)});
+        int drawn = 0;
+        int again = 0;
+        bool refused = false;
+        for (int frame = 0; frame < 6 && !refused; ++frame) {
+            const auto work = view.begin(asked);
+            refused = !work;
+            for (uint32_t i = 0; work && i < work->piece_count; ++i) {
+                ASSERT_TRUE(view.submitPiece());
+                const auto piece = view.collectPiece();
+                ASSERT_TRUE(piece);
+                again += piece->again ? 1 : 0;
+                drawn += piece->frame ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(refused, share < 1) << share;
+        EXPECT_EQ(drawn, share < 1 ? 0 : 6 - again) << share;
+        EXPECT_LE(again, 2) << share;
     }
 }
 
