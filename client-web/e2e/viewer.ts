@@ -37,6 +37,22 @@ export function launch(): Promise<Browser> {
   });
 }
 
+interface SentCounter {
+  sentCount?: number;
+}
+
+/** Runs in the page, before its own scripts. */
+function countSent(): void {
+  const counter = globalThis as SentCounter;
+  counter.sentCount = 0;
+  globalThis.WebSocket = class extends WebSocket {
+    override send(message: Parameters<WebSocket['send']>[0]): void {
+      counter.sentCount = (counter.sentCount ?? 0) + 1;
+      super.send(message);
+    }
+  };
+}
+
 type Nothing = null | undefined | false;
 
 /** Waits until `probe` gives something, and returns it. */
@@ -57,6 +73,7 @@ export class Viewer {
   readonly received: ServerMessage[] = [];
   readonly sent: ClientMessage[] = [];
   readonly complaints: string[] = []; // errors on the console, exceptions
+  private sentCount = 0; // of any kind, as far as Chromium has told
   frameCount = 0;
   lastFrame: FrameHeader | null = null;
   connectionCount = 0;
@@ -70,6 +87,7 @@ export class Viewer {
       this.connectionCount += 1;
       socket.on('framereceived', ({ payload }) => this.heard(payload));
       socket.on('framesent', ({ payload }) => {
+        this.sentCount += 1;
         if (typeof payload !== 'string') {
           this.sent.push(fromBinary(ClientMessageSchema, new Uint8Array(payload)));
         }
@@ -86,6 +104,7 @@ export class Viewer {
       viewport: { width: 1280, height: 720 },
       ...options,
     });
+    await context.addInitScript(countSent);
     const viewer = new Viewer(await context.newPage());
     await viewer.page.goto(url);
     return viewer;
@@ -159,11 +178,20 @@ export class Viewer {
     return this.thumbnail();
   }
 
-  /** Lets what was chosen leave the page: a camera does at the next frame, and Chromium tells of a message once it is sent. */
-  private commandsSent(): Promise<number> {
-    return this.page.evaluate(
-      () => new Promise<number>((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  /**
+   * Waits until what was chosen has left the page, a camera at the next frame, and Chromium has told of it: it does by
+   * another way than it answers by, so on a busy machine later.
+   */
+  private async commandsSent(): Promise<void> {
+    const count = await this.page.evaluate(
+      () =>
+        new Promise<number>((done) => {
+          requestAnimationFrame(() =>
+            requestAnimationFrame(() => done((globalThis as SentCounter).sentCount ?? 0)),
+          );
+        }),
     );
+    await until('the messages that the page sent', () => this.sentCount >= count);
   }
 
   /** Waits for a picture that differs from `before` by more than JPEG noise. */
