@@ -10,16 +10,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from git_files import committed_files
+
 VERSION = "14"  # Debian 12's
 SOURCES = ("*.cpp", "*.h", "*.comp", "*.frag", "*.glsl", "*.vert")
 SKIPPED = 77
-
-
-def committed_sources(root):
-    """Paths of sources that git tracks."""
-    listing = subprocess.run(["git", "-C", root, "-c", f"safe.directory={root}", "ls-files", *SOURCES],
-                             check=True, capture_output=True, text=True)
-    return [root / path for path in listing.stdout.splitlines()]
 
 
 def unformatted(clang_format, paths):
@@ -37,10 +33,11 @@ def main():
     if not re.search(rf"version {VERSION}\.", version):
         print(f"skipped: formatted by clang-format {VERSION}, here is {version.strip()}")
         return SKIPPED
-    if not (root / ".git").exists():
+    sources = [root / path for path in committed_files(root, *SOURCES)]
+    if not sources:
         print("skipped: not a git checkout")
         return SKIPPED
-    found = unformatted(clang_format, committed_sources(root))
+    found = unformatted(clang_format, sources)
     for path in found:
         print(f"{Path(path).relative_to(root)}: not as clang-format has it")
     return 1 if found else 0

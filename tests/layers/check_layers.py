@@ -4,9 +4,11 @@ Usage: check_layers.py ROOT. Prints one line for each violation; exit 1 if there
 """
 
 import re
-import subprocess
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from git_files import committed_files
 
 # Names that are no folders of server/: shaders/interface, the embedded SPIR-V, and protocol/.
 SHADER_LAYERS = {"interface", "shaders"}
@@ -119,15 +121,6 @@ def check_tree(root):
             if path.suffix in SOURCES:
                 lines = path.read_text(encoding="utf-8").splitlines()
                 yield from check_file(str(path.relative_to(root)), layer, lines, may_include)
-
-
-def committed_files(root):
-    """Paths that git tracks; none outside a git checkout."""
-    if not (root / ".git").exists():
-        return []
-    listing = subprocess.run(["git", "-C", root, "-c", f"safe.directory={root}", "ls-files"],
-                             check=True, capture_output=True, text=True)
-    return listing.stdout.splitlines()
 
 
 def check_committed(paths):
