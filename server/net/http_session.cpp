@@ -28,11 +28,11 @@ HttpSession::HttpSession(boost::asio::ip::tcp::socket socket,
                          boost::asio::ssl::context* tls,
                          std::shared_ptr<const HttpSite> site,
                          ConnectionTicket ticket)
-    : stream_(std::move(socket), tls), request_deadline_(stream_.get_executor()),
+    : strand_(socket.get_executor()), stream_(std::move(socket), tls), request_deadline_(strand_),
       site_(std::move(site)), ticket_(std::move(ticket)) {}
 
 void HttpSession::start() {
-    boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] {
+    boost::asio::dispatch(strand_, [self = shared_from_this()] {
         if (!guarded("http start", [&] {
                 if (Service* service = self->site_->drainsWith()) {
                     service->subscribe(self);
@@ -62,7 +62,7 @@ void HttpSession::shakeHands() {
 }
 
 void HttpSession::onServiceChanged() {
-    boost::asio::dispatch(stream_.get_executor(), [self = shared_from_this()] {
+    boost::asio::dispatch(strand_, [self = shared_from_this()] {
         const bool waiting = self->reading_ && !self->parser_->got_some();
         if (waiting && self->draining()) {
             self->close();

@@ -44,6 +44,7 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     void linger();
     void close();
 
+    const PeerStream::executor_type strand_; // the stream's own, which goes away with an upgrade
     PeerStream stream_;
     boost::asio::steady_timer request_deadline_;
     bool reading_ = false;

@@ -51,6 +51,12 @@ class Access(unittest.IsolatedAsyncioTestCase):
         cls.url = cls.server.stdout.readline().strip()
         cls.admin = cls.server.stdout.readline().strip().removesuffix("metrics")
 
+    def tearDown(self):
+        """Says what a server that ended by itself has said: each later test fails for it."""
+        if self.server.poll():
+            self.log.seek(0)
+            self.fail(f"the server ended with {self.server.returncode}:\n{self.log.read()[-3000:]}")
+
     def context(self, version=None):
         context = ssl.create_default_context(cafile=self.folder / "cert.pem")
         if version:

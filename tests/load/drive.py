@@ -1,4 +1,5 @@
-"""Drives a server by JSON alone: circles the camera for 3 s. Usage: drive.py [URL]"""
+"""Drives a server by JSON alone: circles the camera for 3 s from the first
+picture on. Usage: drive.py [URL]"""
 
 import asyncio, itertools, json, math, sys, time
 
@@ -6,18 +7,20 @@ import websockets
 
 
 async def drive(url="ws://127.0.0.1:8080/ws"):
-    frames, seq, start = 0, itertools.count(1), time.monotonic()
+    frames, seq, start, angle = 0, itertools.count(1), None, 0
     async with websockets.connect(url, subprotocols=["froxel.v1"], max_size=2**26) as socket:
 
         async def say(**command):
             await socket.send(json.dumps({"seq": next(seq), **command}))
 
         await say(hello={"protocolMajor": 1, "clientName": "drive.py"})
-        while (angle := time.monotonic() - start) < 3:
+        while angle < 3:
             message = await asyncio.wait_for(socket.recv(), 60)
             if isinstance(message, str):
                 print(*json.loads(message))  # welcome, state, error
                 continue
+            start = start or time.monotonic()
+            angle = time.monotonic() - start
             # 4 bytes, then a FrameHeader in protobuf; its field 1: a tag, then 7 bits a byte.
             end = next(at for at in range(5, 15) if message[at] < 0x80)
             frame_id = sum((message[at] & 0x7F) << (7 * (at - 5)) for at in range(5, end + 1))
