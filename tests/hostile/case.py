@@ -46,17 +46,17 @@ class Case:
     name: str = ""
     group: str = ""
 
-    def missed(self, figures):
-        """The bounds that figures break, in words."""
+    def missed(self, figures, slack):
+        """The bounds that figures break by more than `slack` times, in words."""
         most = {**MOST, **self.most}
         if "ping_p99_ms" in most:  # where the machine itself takes longer, twice what it takes
             most["ping_p99_ms"] = max(most["ping_p99_ms"], 2 * figures["alone_ping_p99_ms"])
         for name, bound in {**LEAST, **self.least}.items():
-            if figures[name] < bound:
-                yield f"{name} {figures[name]:.3g}, at least {bound:.3g}"
+            if figures[name] < bound / slack:
+                yield f"{name} {figures[name]:.3g}, at least {bound / slack:.3g}"
         for name, bound in most.items():
-            if figures[name] > bound:
-                yield f"{name} {figures[name]:.3g}, at most {bound:.3g}"
+            if figures[name] > bound * slack:
+                yield f"{name} {figures[name]:.3g}, at most {bound * slack:.3g}"
 
 
 CASES = {}
@@ -209,8 +209,8 @@ async def measure(case, server, begin, fellow):
             "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
 
 
-def play(case, froxel, options, judged):
-    """(figures, what is wrong) of one run with a server of its own. Not judged: bounds may be broken."""
+def play(case, froxel, options, slack):
+    """(figures, what is wrong) of one run with a server of its own."""
     spawn = multiprocessing.get_context("spawn")
     ready, begin = spawn.Event(), spawn.Event()
     ours, theirs = spawn.Pipe()
@@ -222,7 +222,7 @@ def play(case, froxel, options, judged):
         ready.wait(30)
         try:
             figures = asyncio.run(measure(case, server, begin, fellow))
-            wrong += case.missed(figures) if judged else ()
+            wrong += case.missed(figures, slack)
             if not figures.pop("fellow_alive"):
                 wrong.append("the hostile viewers ended by themselves")
         except (OSError, asyncio.TimeoutError, websockets.exceptions.WebSocketException) as error:
