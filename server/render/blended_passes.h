@@ -1,7 +1,7 @@
 // The passes of weighted and peeled surfaces; as in passes.h, the order is in blended_recorder.cpp.
 #pragma once
 
-#include "render/frame_recorder.h"
+#include "render/frame_context.h"
 
 namespace froxel::render {
 

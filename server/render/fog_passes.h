@@ -1,7 +1,7 @@
 // The passes of fog, as those of passes.h.
 #pragma once
 
-#include "render/frame_recorder.h"
+#include "render/frame_context.h"
 
 namespace froxel::render {
 

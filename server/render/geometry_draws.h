@@ -1,7 +1,7 @@
 // Draws of the scene's geometry, for the passes that raster it.
 #pragma once
 
-#include "render/frame_recorder.h"
+#include "render/frame_context.h"
 
 #include <functional>
 #include <span>

@@ -3,6 +3,7 @@
 #include "render/blend_targets.h"
 #include "render/bloom.h"
 #include "render/fog_plan.h"
+#include "render/renderer.h"
 #include "render/shadow_pass.h"
 
 namespace froxel::render {

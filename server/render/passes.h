@@ -2,7 +2,7 @@
 // slot's command buffer, and no barrier; the order is in frame_recorder.cpp.
 #pragma once
 
-#include "render/frame_recorder.h"
+#include "render/frame_context.h"
 
 namespace froxel::render {
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/error.h"
+#include "render/frame_inputs.h"
 #include "render/frame_pieces.h"
-#include "render/renderer.h"
 
 #include <string>
 
 namespace froxel::render {
+
+class SceneResources;
 
 // Whether this device and these settings can give what is asked for. Errors: kUnsupported, saying
 // what lacks and what would do.

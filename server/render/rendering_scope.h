@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/memory.h"
-#include "render/frame_recorder.h"
+#include "render/frame_context.h"
 
 #include <span>
 

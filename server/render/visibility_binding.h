@@ -1,7 +1,7 @@
 // What the compute passes of the visibility path bind, whatever rasters.
 #pragma once
 
-#include "render/frame_recorder.h"
+#include "render/frame_context.h"
 #include "render/visibility_scene.h"
 
 #include <array>

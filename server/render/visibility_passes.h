@@ -2,7 +2,7 @@
 // passes.h no barrier is here.
 #pragma once
 
-#include "render/frame_recorder.h"
+#include "render/frame_context.h"
 
 namespace froxel::render {
 
