@@ -151,11 +151,16 @@ export class Viewer {
     });
   }
 
-  /** Whether no better picture of a view that rests is to come. */
+  /** Whether no better picture of a view that rests is to come. A busy machine's link is slow, so that pictures give way. */
   private get refined(): boolean {
     const { state, lastFrame } = this;
     if (!state || !lastFrame) return false;
-    if (state.refine === Refine.NONE || (state.lightAnimate && state.lightCount > 0)) return true;
+    if (state.lightAnimate && state.lightCount > 0) return true;
+    if (state.refine === Refine.NONE) {
+      const { refinement, scale, chroma, quality } = lastFrame;
+      const asIs = scale === 1 && chroma === state.chroma && (quality === 0 || quality === state.quality);
+      return asIs || refinement >= Refinement.SETTLED;
+    }
     const last = state.refine === Refine.HIGH ? Refinement.HIGH : Refinement.LOSSLESS;
     return lastFrame.refinement === last;
   }
