@@ -84,7 +84,9 @@ class Bench(unittest.TestCase):
         report = json.loads(timings.read_text())
         self.assertEqual(report["settings"], row["settings"])
         self.assertEqual(report["frames"], row["frames"])
-        self.assertEqual(report["last_frame"]["light_lists"], row["light_lists"])
+        lists = [{name: value for name, value in told["light_lists"].items() if name != "why"}
+                 for told in (report["last_frame"], row)]  # words with a rounded sum, whose order is open
+        self.assertEqual(*lists)
 
     def test_report_holds_the_results(self):
         head, tail = TEMPLATE.split("null")
