@@ -66,8 +66,9 @@ std::set<std::string> toldBy(const Json& report) {
     return told;
 }
 
-// By everything that makes a row what it is, but for settings at their defaults that the other
-// report does not tell: it may be from before they came in. Those are added to `left_out`.
+// By everything that makes a row what it is. Settings at their defaults are no part of that: a
+// report may be from before they came in. Those that the other does not tell are added to
+// `left_out`.
 std::map<std::string, Row> rowsOf(const Json& report,
                                   const std::set<std::string>& told_by_other,
                                   std::set<std::string>& left_out) {
@@ -79,11 +80,10 @@ std::map<std::string, Row> rowsOf(const Json& report,
             auto key = nameOf(sweep, row) + row.at("scaled_to").dump();
             for (const auto& [path, value] : settingsOf(row)) {
                 const auto usual = defaults.find(path);
-                if (!told_by_other.contains(path) && usual != defaults.end() &&
-                    usual->second == value) {
-                    left_out.insert(path);
-                } else {
+                if (usual == defaults.end() || usual->second != value) {
                     key += path + value.dump();
+                } else if (!told_by_other.contains(path)) {
+                    left_out.insert(path);
                 }
             }
             if (const auto& stream = row.at("stream"); !stream.is_null()) {

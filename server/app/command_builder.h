@@ -50,12 +50,26 @@ class CommandBuilder {
                        Parse parse,
                        const std::string& shown_default,
                        const std::string& help) {
-        const auto store = [&target, parse, option](const std::string& text) {
-            const auto parsed = parse(text);
-            if (!parsed) {
-                throw CLI::ValidationError(option, parsed.error().message);
+        const auto set = [&target](const auto& parsed) {
+            target = static_cast<typename Unwrapped<T>::Type>(parsed);
+        };
+        return parsed(option, type, parse, set, shown_default, help);
+    }
+
+    // Likewise; `set` takes what was parsed.
+    template <class Parse, class Set>
+    CLI::Option* parsed(const std::string& option,
+                        const std::string& type,
+                        Parse parse,
+                        Set set,
+                        const std::string& shown_default,
+                        const std::string& help) {
+        const auto store = [set, parse, option](const std::string& text) {
+            const auto result = parse(text);
+            if (!result) {
+                throw CLI::ValidationError(option, result.error().message);
             }
-            target = static_cast<typename Unwrapped<T>::Type>(*parsed);
+            set(*result);
         };
         return declared(
             cli_.add_option_function<std::string>(option, store, withDefault(help, shown_default)),

@@ -54,7 +54,7 @@ load::RunOptions runOptions(const LoadOptions& options) {
     run.viewer.light_count = options.light_count;
     if (view::isVideo(options.codec) || options.video_kbps) {
         v1::SetEncoding& encoding = run.viewer.encoding.emplace();
-        encoding.set_codec(session::toProto(session::kCodecTable, options.codec));
+        encoding.set_codec(session::toProto<v1::Codec>(view::kCodecNames, options.codec));
         if (options.video_kbps) {
             encoding.set_video_kbps(*options.video_kbps);
         }

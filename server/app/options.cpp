@@ -4,15 +4,16 @@
 #include "app/command_builder.h"
 #include "app/load_arguments.h"
 #include "app/option_sources.h"
-#include "app/post_options.h"
 #include "app/probe_arguments.h"
 #include "app/serve_arguments.h"
-#include "app/view_arguments.h"
+#include "app/setting_options.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "encode/image_file.h"
+#include "session/delivery_rows.h"
 #include "session/session_context.h"
 #include "view/ranges.h"
+#include "view/setting_rows.h"
 
 #include <optional>
 #include <utility>
@@ -114,43 +115,36 @@ void addLensShift(CommandBuilder& command, std::optional<glm::dvec2>& target) {
                   "The picture's middle off the view axis, right and up, in half pictures");
 }
 
-void addDelivery(CommandBuilder& command, session::DeliverySettings& delivery) {
+// A switch that takes a word, as it did before there was a table.
+void addAdaptive(CommandBuilder& command,
+                 const view::SettingOf<session::DeliverySettings>& row,
+                 session::DeliverySettings& delivery) {
     static constexpr std::array kSwitchNames = {std::string_view("off"), std::string_view("on")};
-    command.name("--adaptive", delivery.adaptive, kSwitchNames,
-                 "Whether quality and resolution give way to a slow link");
-    command.number(
-        "--target-fps", delivery.target_fps, view::kTargetFpsRange,
-        "Frames a second that a moving view keeps at the expense of its resolution; 0: none");
-    command.name(
-        "--refine", delivery.refine, view::kRefineNames,
-        "How far a resting picture is refined; lossless: by PNG, which viewers must decode");
+    command.name("--adaptive", delivery.adaptive, kSwitchNames, std::string(row.words.help));
+}
+
+void addDelivery(CommandBuilder& command, session::DeliverySettings& delivery) {
+    for (const auto& row : session::kDeliveryRows) {
+        if (row.kind == view::SettingKind::kSwitch) {
+            addAdaptive(command, row, delivery);
+        } else {
+            addSetting(command, row, delivery);
+        }
+    }
 }
 
 // What a viewer starts with; each may change it.
 void addFirstView(CommandBuilder& command, ServeOptions& options) {
     using Defaults = session::SessionDefaults;
     command.value("--size", "WxH", options.size, parseSize,
-                  byDevice([](const Defaults& d) { return textOf(d.size); }),
+                  byDevice([](const Defaults& d) { return textOf(d.settings.size); }),
                   sizeHelp("First picture"));
     command.number(
         "--quality", options.quality, view::kQualityRange,
         byDevice([](const Defaults& d) { return fmt::format("{}", d.encoding.quality); }),
         "JPEG quality");
-    command.number("--lights", options.light_count, view::kLightCountRange,
-                   byDevice([](const Defaults& d) { return fmt::format("{}", d.light_count); }),
-                   "Seeded lights");
-    command.number("--light-radius", options.light_radius_m, view::kLightRadiusRange,
-                   byDevice([](const Defaults& d) { return fmt::format("{}", d.light_radius_m); }),
-                   "Where a light reaches exactly 0, in metres");
-    command.name(
-        "--renderer", options.renderer, view::kRendererNames,
-        byDevice([](const Defaults& d) { return textOf(view::kRendererNames, d.renderer); }),
-        "First renderer");
-    addLightDetails(command, options.other.lights, "The lights stand still");
-    addLightSet(command, options.other.lights.placed, options.light_set);
     addDelivery(command, options.delivery);
-    addShading(command, options.other);
-    addPost(command, options.other);
+    addViewSettings(command, options.first_view, options.light_set);
     addLensShift(command, options.lens_shift);
 }
 
@@ -170,8 +164,11 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.value("--out", "FILE", options.out, parsePicturePath, "",
                   "Last frame: .png, .jpg or .pfm (linear, before the exposure)");
     auto& encoding = options.encoding;
-    command.number("--quality", encoding.quality, view::kQualityRange, "JPEG quality");
-    command.name("--chroma", encoding.chroma, view::kChromaNames, "JPEG colour resolution");
+    for (const auto& row : view::kEncodingRows) {
+        if (row.name == "quality" || row.name == "chroma") { // a file is no stream
+            addSetting(command, row, encoding);
+        }
+    }
     command.number("--frames", options.frame_count, kFramesRange, "Frames to draw, 1/30 s apart");
     command.number("--warmup", options.warmup_count, kWarmupRange,
                    "Frames drawn before those and not counted");
@@ -185,9 +182,7 @@ void addRender(CLI::App& app, Targets& targets) {
     addSceneOption(command, options.scene, options.scene);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
-    command.name("--renderer", settings.renderer, view::kRendererNames, "How to draw");
-    addShading(command, settings);
-    addLights(command, settings.lights, options.light_set);
+    addViewSettings(command, settings, options.light_set);
     command.number("--time", options.time_s, view::kTimeRange, "The lights' clock in seconds");
     command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),
                   sizeHelp("Picture"));
@@ -196,8 +191,6 @@ void addRender(CLI::App& app, Targets& targets) {
     addLensShift(command, options.lens_shift);
     command.value("--grid-camera", "CAMERA", options.grid_camera, parseCamera, "the view's",
                   "Whose cluster grid --debug-view cluster_wires shows, as --camera");
-    addToneMap(command, settings);
-    addPost(command, settings);
     addOutputs(command, options);
     finish(command, options, LogLevel::kWarn, targets);
 }
@@ -249,7 +242,7 @@ void addBench(CLI::App& app, Targets& targets) {
         });
     command.value("--size", "WxH", options.settings.size, parseSize, textOf(options.settings.size),
                   sizeHelp("Picture"));
-    addLights(command, options.settings.lights, options.light_set);
+    addLights(command, options.settings, options.light_set);
     addBenchMethod(command, options);
     command.text("--out", "FILE", options.out, "", "JSON; see tests/bench/results/README.md");
     command.text("--report", "FILE", options.report, "", "HTML with plots, in one file");

@@ -1,13 +1,14 @@
 #include "app/render_arguments.h"
 
+#include "app/setting_options.h"
 #include "core/assert.h"
 #include "core/text.h"
+#include "view/setting_rows.h"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cctype>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -38,7 +39,7 @@ std::string textOf(const view::Grid& grid) {
 
 class Arguments {
   public:
-    void always(const char* option, const std::string& value) {
+    void always(const std::string& option, const std::string& value) {
         texts_.insert(texts_.end(), {option, value});
     }
     // Where it is not as in a run without the option.
@@ -48,99 +49,37 @@ class Arguments {
             always(option, textOf(value));
         }
     }
-    template <class Enum>
-    void changedName(const char* option,
-                     std::span<const std::string_view> names,
-                     Enum value,
-                     Enum usual) {
-        if (value != usual) {
-            always(option, std::string(names[static_cast<size_t>(value)]));
-        }
-    }
-    void flag(const char* option, bool given) {
-        if (given) {
-            texts_.emplace_back(option);
-        }
-    }
+    void flag(const std::string& option) { texts_.push_back(option); }
     [[nodiscard]] std::vector<std::string>& texts() { return texts_; }
 
   private:
     std::vector<std::string> texts_;
 };
 
-void addShading(Arguments& arguments,
-                const view::ViewSettings& settings,
-                const view::ViewSettings& usual) {
-    arguments.changedName("--lighting", view::kLightingStageNames, settings.lighting,
-                          usual.lighting);
-    arguments.changedName("--shading", view::kShadingModelNames, settings.shading, usual.shading);
+// Told even at their defaults: what people look for first.
+bool isTold(const view::Setting& setting) {
+    return setting.name == "renderer" || setting.name == "lights" || setting.name == "light_radius";
+}
+
+void addSettings(Arguments& arguments, const view::ViewSettings& settings) {
+    const view::ViewSettings usual;
+    for (const auto& row : view::kSettingRows) {
+        const view::SettingValue value = row.get(settings);
+        const view::SettingValue usual_value = row.get(usual);
+        if (value == usual_value && !isTold(row)) {
+            continue;
+        }
+        const std::string option = optionName(row, usual_value);
+        if (row.kind == view::SettingKind::kSwitch) {
+            arguments.flag(option);
+        } else {
+            arguments.always(option, view::textOf(row, value));
+        }
+    }
     arguments.changed("--grid", settings.grid, view::Grid{true, {}, settings.grid.law});
-    arguments.changedName("--grid-law", view::kGridLawNames, settings.grid.law, usual.grid.law);
-    arguments.changedName("--light-loop", view::kLightLoopNames, settings.light_loop,
-                          usual.light_loop);
-    arguments.changed("--list-cap", settings.list_cap, usual.list_cap);
-    arguments.changedName("--gbuffer-normal", view::kNormalEncodingNames, settings.gbuffer.normal,
-                          usual.gbuffer.normal);
-    arguments.changedName("--gbuffer-position", view::kPositionSourceNames,
-                          settings.gbuffer.position, usual.gbuffer.position);
-    arguments.changedName("--transparency", view::kTransparencyNames, settings.transparency,
-                          usual.transparency);
-    arguments.changed("--peel-layers", settings.peel_layers, usual.peel_layers);
-    arguments.flag("--count-pairs", settings.count_pairs);
-    arguments.changedName("--debug-view", view::kDebugViewNames, settings.debug.view,
-                          usual.debug.view);
-    arguments.changed("--debug-scale-max", settings.debug.scale_max, usual.debug.scale_max);
-}
-
-void addLights(Arguments& arguments, const view::Lights& lights, const view::Lights& usual) {
-    arguments.always("--lights", numberText(lights.count));
-    arguments.always("--light-radius", numberText(lights.radius_m));
-    arguments.changed("--light-intensity", lights.intensity, usual.intensity);
-    arguments.changed("--light-cutoff", lights.cutoff, usual.cutoff);
-    arguments.flag("--light-cutoff-compensated", lights.cutoff_compensated);
-    if (lights.box) {
-        arguments.always("--light-box", textOf(*lights.box));
+    if (settings.lights.box) {
+        arguments.always("--light-box", textOf(*settings.lights.box));
     }
-    arguments.changed("--light-speed", lights.speed, usual.speed);
-    arguments.changed("--seed", lights.seed, usual.seed);
-    arguments.changed("--ambient", lights.ambient, usual.ambient);
-    arguments.flag("--no-scene-lights", !lights.scene_lights);
-    arguments.flag("--no-animate", !lights.animate);
-}
-
-void addFog(Arguments& arguments, const view::Fog& fog, const view::Fog& usual) {
-    arguments.changed("--fog-density", fog.density, usual.density);
-    arguments.changed("--fog-height-falloff", fog.height_falloff, usual.height_falloff);
-    arguments.changed("--fog-base-height", fog.base_height_m, usual.base_height_m);
-    arguments.changed("--fog-anisotropy", fog.anisotropy, usual.anisotropy);
-    if (fog.albedo != usual.albedo) {
-        arguments.always("--fog-albedo", numberText(fog.albedo.x) + "," + numberText(fog.albedo.y) +
-                                             "," + numberText(fog.albedo.z));
-    }
-    arguments.changed("--fog-tile", fog.tile_px, usual.tile_px);
-    arguments.changed("--fog-slices", fog.slice_count, usual.slice_count);
-    arguments.flag("--fog-half-rate", fog.half_rate);
-    arguments.flag("--fog-noise", fog.noise);
-}
-
-void addPost(Arguments& arguments,
-             const view::ViewSettings& settings,
-             const view::ViewSettings& usual) {
-    const auto& bloom = settings.bloom;
-    arguments.changedName("--bloom", view::kBloomKindNames, bloom.kind, usual.bloom.kind);
-    arguments.changed("--bloom-threshold", bloom.threshold, usual.bloom.threshold);
-    arguments.changed("--bloom-knee", bloom.knee, usual.bloom.knee);
-    arguments.changed("--bloom-strength", bloom.strength, usual.bloom.strength);
-    arguments.changed("--bloom-radius", bloom.radius, usual.bloom.radius);
-    arguments.changedName("--antialiasing", view::kAntialiasingNames, settings.antialiasing,
-                          usual.antialiasing);
-    addFog(arguments, settings.fog, usual.fog);
-    const auto& shadows = settings.shadows;
-    arguments.changed("--shadow-lights", shadows.light_count, usual.shadows.light_count);
-    arguments.changed("--shadow-size", shadows.size_px, usual.shadows.size_px);
-    const auto& outline = settings.toon_outline;
-    arguments.changed("--outline-strength", outline.strength, usual.toon_outline.strength);
-    arguments.changed("--outline-width", outline.width, usual.toon_outline.width);
 }
 
 bool plainInShell(char c) {
@@ -170,17 +109,10 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
                                              numberText(options.lens_shift->y));
     }
     arguments.always("--size", textOf(settings.size));
-    arguments.always("--renderer",
-                     std::string(view::kRendererNames[static_cast<size_t>(settings.renderer)]));
-    addShading(arguments, settings, usual.settings);
-    addLights(arguments, settings.lights, usual.settings.lights);
+    addSettings(arguments, settings);
     if (!options.light_set.empty()) {
         arguments.always("--light-set", options.light_set.string());
     }
-    arguments.changed("--exposure", settings.exposure, usual.settings.exposure);
-    arguments.changedName("--tone-map", view::kToneMapNames, settings.tone_map,
-                          usual.settings.tone_map);
-    addPost(arguments, settings, usual.settings);
     arguments.changed("--time", options.time_s, usual.time_s);
     arguments.always("--frames", numberText(options.frame_count));
     arguments.changed("--warmup", options.warmup_count, usual.warmup_count);

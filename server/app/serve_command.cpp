@@ -42,15 +42,12 @@ std::chrono::milliseconds milliseconds(double seconds) {
 session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_cpu) {
     auto defaults =
         session::defaultsFor(device_is_cpu ? session::DeviceKind::kCpu : session::DeviceKind::kGpu);
-    defaults.size = options.size.value_or(defaults.size);
+    const view::Size size = options.size.value_or(defaults.settings.size);
+    defaults.settings = options.first_view;
+    defaults.settings.size = size;
     defaults.encoding.quality = options.quality.value_or(defaults.encoding.quality);
-    defaults.light_count = options.light_count.value_or(defaults.light_count);
-    defaults.light_radius_m = static_cast<float>(
-        options.light_radius_m.value_or(static_cast<double>(defaults.light_radius_m)));
-    defaults.renderer = options.renderer.value_or(defaults.renderer);
     defaults.min_rate_hz = options.min_rate_hz.value_or(defaults.min_rate_hz);
     defaults.delivery = options.delivery;
-    defaults.other = options.other;
     defaults.lens_shift = options.lens_shift;
     return defaults;
 }

@@ -47,13 +47,10 @@ struct ServeOptions {
     // What a viewer gets before asking for anything; absent: session::defaultsFor(the device).
     std::optional<view::Size> size;
     std::optional<uint32_t> quality; // view::kQualityRange
-    std::optional<uint32_t> light_count;
-    std::optional<double> light_radius_m;
-    std::optional<view::Renderer> renderer;
     session::DeliverySettings delivery =
         session::defaultsFor(session::DeviceKind::kCpu).delivery; // the same on both
-    view::ViewSettings other; // of the first view, what the fields above and the camera do not say
-    std::filesystem::path light_set; // that other.lights.placed was read from; empty: none
+    view::ViewSettings first_view;   // but for its camera, and its size where that is given above
+    std::filesystem::path light_set; // that first_view.lights.placed was read from; empty: none
     std::optional<glm::dvec2> lens_shift;
     // The built page. Empty: web/ beside the binary, else where this build made it.
     std::filesystem::path web_root;

@@ -1,6 +1,7 @@
 #include "app/timings_report.h"
 
 #include "measure/statistics.h"
+#include "view/setting_rows.h"
 
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
@@ -8,7 +9,9 @@
 #include <algorithm>
 #include <string_view>
 #include <thread>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace froxel::app {
 
@@ -46,21 +49,25 @@ Json sizeOf(const Sides& sides) {
     return {sides.x, sides.y, sides.z};
 }
 
-Json toJson(const view::Lights& lights) {
-    return {{"count", lights.count},
-            {"radius_m", lights.radius_m},
-            {"intensity", lights.intensity},
-            {"cutoff", lights.cutoff},
-            {"cutoff_compensated", lights.cutoff_compensated},
-            {"seed", lights.seed},
-            {"animate", lights.animate},
-            {"speed", lights.speed},
-            {"box_m", lights.box
-                          ? Json{{"min", toJson(lights.box->min)}, {"max", toJson(lights.box->max)}}
-                          : Json(nullptr)},
-            {"ambient", lights.ambient},
-            {"scene_lights", lights.scene_lights},
-            {"placed", lights.placed.lights().size()}};
+// Where a report has a setting: "/lights/radius_m" of "lights.radius_m".
+Json::json_pointer pointerTo(const view::Setting& setting) {
+    std::string path = "/" + std::string(setting.path);
+    std::replace(path.begin(), path.end(), '.', '/');
+    return Json::json_pointer(path);
+}
+
+Json toJson(const view::Setting& setting, const view::SettingValue& value) {
+    const auto plain = [&setting](const auto& of_kind) -> Json {
+        using Value = std::decay_t<decltype(of_kind)>;
+        if constexpr (std::is_same_v<Value, view::Choice>) {
+            return setting.names[of_kind.index];
+        } else if constexpr (std::is_same_v<Value, glm::dvec3>) {
+            return toJson(of_kind);
+        } else {
+            return of_kind;
+        }
+    };
+    return std::visit(plain, value);
 }
 
 Json toJson(const view::ToonRamp& ramp) {
@@ -163,66 +170,20 @@ Json memoryOf(const FrameDetails& details) {
 } // namespace
 
 Json settingsReport(const view::ViewSettings& settings) {
-    const auto nameOf = [](const auto& names, auto value) {
-        return std::string(names[static_cast<size_t>(value)]);
-    };
-    Json json = {{"renderer", nameOf(view::kRendererNames, settings.renderer)},
-                 {"lighting", nameOf(view::kLightingStageNames, settings.lighting)},
-                 {"shading", nameOf(view::kShadingModelNames, settings.shading)},
-                 {"gbuffer",
-                  {{"normal", nameOf(view::kNormalEncodingNames, settings.gbuffer.normal)},
-                   {"position", nameOf(view::kPositionSourceNames, settings.gbuffer.position)}}},
-                 {"width_px", settings.size.width_px},
-                 {"height_px", settings.size.height_px},
-                 {"grid", settings.grid.automatic ? Json("auto") : sizeOf(settings.grid.size)},
-                 {"grid_law", nameOf(view::kGridLawNames, settings.grid.law)},
-                 {"light_loop", nameOf(view::kLightLoopNames, settings.light_loop)},
-                 {"count_pairs", settings.count_pairs},
-                 {"debug_view", view::nameOf(settings.debug.view)},
-                 {"camera", toJson(settings.camera)},
-                 {"lights", toJson(settings.lights)},
-                 {"exposure", settings.exposure},
-                 {"tone_map", nameOf(view::kToneMapNames, settings.tone_map)}};
-    // Only what is on, so that runs without it compare with those of before it was there.
-    if (const auto& bloom = settings.bloom; bloom.kind != view::BloomKind::kNone) {
-        json["bloom"] = {{"kind", nameOf(view::kBloomKindNames, bloom.kind)},
-                         {"threshold", bloom.threshold},
-                         {"knee", bloom.knee},
-                         {"strength", bloom.strength},
-                         {"radius", bloom.radius}};
+    Json json;
+    for (const auto& row : view::kSettingRows) {
+        json[pointerTo(row)] = toJson(row, row.get(settings));
     }
-    if (const auto& fog = settings.fog; fog.present()) {
-        json["fog"] = {{"density", fog.density},
-                       {"height_falloff", fog.height_falloff},
-                       {"base_height_m", fog.base_height_m},
-                       {"anisotropy", fog.anisotropy},
-                       {"albedo", toJson(glm::dvec3(fog.albedo))},
-                       {"tile_px", fog.tile_px},
-                       {"slices", fog.slice_count},
-                       {"half_rate", fog.half_rate},
-                       {"noise", fog.noise}};
-    }
-    if (settings.antialiasing != view::Antialiasing::kNone) {
-        json["antialiasing"] = nameOf(view::kAntialiasingNames, settings.antialiasing);
-    }
-    if (settings.transparency != view::Transparency::kSorted) {
-        json["transparency"] = nameOf(view::kTransparencyNames, settings.transparency);
-    }
-    if (settings.transparency == view::Transparency::kPeeled) {
-        json["peel_layers"] = settings.peel_layers;
-    }
-    if (const auto& shadows = settings.shadows; shadows.light_count > 0) {
-        json["shadows"] = {{"lights", shadows.light_count}, {"size_px", shadows.size_px}};
-    }
-    if (const auto& outline = settings.toon_outline; outline.strength > 0) {
-        json["toon_outline"] = {{"strength", outline.strength}, {"width", outline.width}};
-    }
-    if (settings.list_cap > 0) {
-        json["list_cap"] = settings.list_cap;
-    }
-    if (settings.debug.scale_max > 0) {
-        json["debug_scale_max"] = settings.debug.scale_max;
-    }
+    const view::Lights& lights = settings.lights;
+    json["lights"]["box_m"] =
+        lights.box ? Json{{"min", toJson(lights.box->min)}, {"max", toJson(lights.box->max)}}
+                   : Json(nullptr);
+    json["lights"]["placed"] = lights.placed.lights().size();
+    json["width_px"] = settings.size.width_px;
+    json["height_px"] = settings.size.height_px;
+    json["grid"] = settings.grid.automatic ? Json("auto") : sizeOf(settings.grid.size);
+    json["camera"] = toJson(settings.camera);
+    // Only what is not usual: few ever change them.
     if (settings.debug.grid_camera) {
         json["grid_camera"] = toJson(*settings.debug.grid_camera);
     }

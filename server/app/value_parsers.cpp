@@ -157,19 +157,19 @@ Result<glm::dvec2> parseLensShift(std::string_view text) {
                                      view::kLensShiftXRange.min, view::kLensShiftXRange.max));
 }
 
-Result<glm::dvec3> parseAlbedo(std::string_view text) {
+Result<glm::dvec3> parseColor(std::string_view text, const view::Range<double>& range) {
     const auto parts = split(text, ',');
     if (parts.size() == 3) {
-        const auto red = readInRange(parts[0], view::kFogAlbedoRange);
-        const auto green = readInRange(parts[1], view::kFogAlbedoRange);
-        const auto blue = readInRange(parts[2], view::kFogAlbedoRange);
+        const auto red = readInRange(parts[0], range);
+        const auto green = readInRange(parts[1], range);
+        const auto blue = readInRange(parts[2], range);
         if (red && green && blue) {
             return glm::dvec3(*red, *green, *blue);
         }
     }
     return invalid(text, fmt::format("\"red,green,blue\", each from {} to {}, such as "
                                      "\"0.9,0.9,1\"",
-                                     view::kFogAlbedoRange.min, view::kFogAlbedoRange.max));
+                                     range.min, range.max));
 }
 
 Result<BoundsD3> parseBox(std::string_view text) {

@@ -52,8 +52,9 @@ inline constexpr view::Range<uint32_t> kPortRange{"port", 0, 65535};
 // "0.5,-1": right and up, in half pictures.
 [[nodiscard]] Result<glm::dvec2> parseLensShift(std::string_view text);
 
-// "0.9,0.9,1": red, green and blue.
-[[nodiscard]] Result<glm::dvec3> parseAlbedo(std::string_view text);
+// "0.9,0.9,1": red, green and blue, each in the range.
+[[nodiscard]] Result<glm::dvec3> parseColor(std::string_view text,
+                                            const view::Range<double>& range);
 
 // "x,y,z;x,y,z" in metres: the least corner, then the greatest, apart on every axis.
 [[nodiscard]] Result<BoundsD3> parseBox(std::string_view text);

@@ -1,5 +1,7 @@
 #include "load/random_values.h"
 
+#include "froxel/v1/options.pb.h"
+
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
@@ -13,48 +15,11 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-// Which range of Welcome a number keeps to.
-const std::map<std::string_view, std::string_view> kRangeOf = {
-    {"SetLights.count", "lights"},
-    {"SetLights.radius_m", "light_radius"},
-    {"SetLights.intensity", "light_intensity"},
-    {"SetLights.speed", "light_speed"},
-    {"SetLights.ambient", "ambient"},
-    {"SetLights.time_s", "time"},
-    {"SetLights.cutoff", "light_cutoff"},
-    {"SetLights.list_cap", "list_cap"},
-    {"Grid.x", "grid.x"},
-    {"Grid.y", "grid.y"},
-    {"Grid.z", "grid.z"},
-    {"SetExposure.exposure", "exposure"},
-    {"SetToon.outline_strength", "outline_strength"},
-    {"SetToon.outline_width", "outline_width"},
-    {"SetPost.bloom_threshold", "bloom_threshold"},
-    {"SetPost.bloom_knee", "bloom_knee"},
-    {"SetPost.bloom_strength", "bloom_strength"},
-    {"SetPost.bloom_radius", "bloom_radius"},
-    {"Fog.density", "fog_density"},
-    {"Fog.height_falloff", "fog_height_falloff"},
-    {"Fog.base_height", "fog_base_height"},
-    {"Fog.anisotropy", "fog_anisotropy"},
-    {"Fog.tile", "fog_tile"},
-    {"Fog.slices", "fog_slices"},
-    {"SetShadows.lights", "shadow_lights"},
-    {"SetShadows.size", "shadow_size"},
-    {"SetDebugView.scale_max", "debug_scale_max"},
-    {"SetTransparency.peel_layers", "peel_layers"},
-    {"SetSize.width", "width"},
-    {"SetSize.height", "height"},
-    {"SetEncoding.quality", "quality"},
-    {"SetEncoding.video_kbps", "video_kbps"},
-    {"SetDelivery.target_fps", "target_fps"},
-    {"PlacedLight.intensity", "light_intensity"},
-    {"PlacedLight.radius_m", "light_radius"},
-    {"PlacedLight.outer_cone_deg", "lights.cone_deg"},
-    {"PlacedLight.width_m", "lights.side_m"},
-    {"PlacedLight.height_m", "lights.side_m"},
-    {"PlacedLight.roll_deg", "lights.roll_deg"},
-};
+// Which range of Welcome a number keeps to; empty: none.
+std::string_view rangeOf(const FieldDescriptor& field) {
+    const std::string& setting = field.options().GetExtension(v1::setting);
+    return setting.empty() ? field.options().GetExtension(v1::range) : setting;
+}
 
 } // namespace
 
@@ -86,16 +51,13 @@ double RandomValues::within(std::string_view range) {
 }
 
 v1::Vec3 RandomValues::place() {
-    v1::Vec3 made;
     if (once(8)) {
-        made.set_x(within("position"));
-        made.set_y(within("position"));
-        made.set_z(within("position"));
-    } else {
-        made.set_x(real(box_.min().x(), box_.max().x()));
-        made.set_y(real(box_.min().y(), box_.max().y()));
-        made.set_z(real(box_.min().z(), box_.max().z()));
+        return vecWithin("position");
     }
+    v1::Vec3 made;
+    made.set_x(real(box_.min().x(), box_.max().x()));
+    made.set_y(real(box_.min().y(), box_.max().y()));
+    made.set_z(real(box_.min().z(), box_.max().z()));
     return made;
 }
 
@@ -114,7 +76,7 @@ void RandomValues::fill(Message& message, Fields which) {
             fillName(message, field);
             break;
         case FieldDescriptor::CPPTYPE_MESSAGE:
-            fill(*message.GetReflection()->MutableMessage(&message, &field), which);
+            fillMessage(*message.GetReflection()->MutableMessage(&message, &field), field, which);
             break;
         default:
             fillNumber(message, field);
@@ -122,12 +84,29 @@ void RandomValues::fill(Message& message, Fields which) {
     }
 }
 
+// A colour is a setting of three numbers.
+void RandomValues::fillMessage(Message& message, const FieldDescriptor& field, Fields which) {
+    if (const std::string_view range = rangeOf(field); range.empty()) {
+        fill(message, which);
+    } else {
+        static_cast<v1::Vec3&>(message) = vecWithin(range);
+    }
+}
+
+v1::Vec3 RandomValues::vecWithin(std::string_view range) {
+    v1::Vec3 made;
+    made.set_x(within(range));
+    made.set_y(within(range));
+    made.set_z(within(range));
+    return made;
+}
+
 void RandomValues::fillNumber(Message& message, const FieldDescriptor& field) {
-    const auto range = kRangeOf.find(field.containing_type()->name() + "." + field.name());
-    if (range == kRangeOf.end()) {
+    const std::string_view range = rangeOf(field);
+    if (range.empty()) {
         return;
     }
-    const double value = within(range->second);
+    const double value = within(range);
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) {
         message.GetReflection()->SetDouble(&message, &field, value);
     } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_UINT32) {

@@ -25,6 +25,8 @@ class RandomValues {
     [[nodiscard]] bool once(uint32_t in) { return whole(1, in) == 1; }
     // Of a FieldRange: an end of it in a third of the cases. 0 where the server told no such range.
     [[nodiscard]] double within(std::string_view range);
+    // Each of three numbers.
+    [[nodiscard]] v1::Vec3 vecWithin(std::string_view range);
     // Where lights are; rarely anywhere at all.
     [[nodiscard]] v1::Vec3 place();
 
@@ -34,6 +36,9 @@ class RandomValues {
     void fill(google::protobuf::Message& message, Fields which);
 
   private:
+    void fillMessage(google::protobuf::Message& message,
+                     const google::protobuf::FieldDescriptor& field,
+                     Fields which);
     void fillNumber(google::protobuf::Message& message,
                     const google::protobuf::FieldDescriptor& field);
     void fillName(google::protobuf::Message& message,

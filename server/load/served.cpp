@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "session/proto_enums.h"
+#include "session/settings.h"
 
 #include <array>
 #include <filesystem>
@@ -12,10 +13,10 @@ namespace {
 
 constexpr size_t kMostBytes = 200;
 
-template <class Table, class Proto, size_t N>
-std::string nameOf(const Table& table, const std::array<std::string_view, N>& names, Proto value) {
-    const auto ours = session::fromProto(table, value);
-    return ours ? std::string(names[static_cast<size_t>(*ours)]) : "unknown";
+template <class Proto, size_t N>
+std::string nameOf(const std::array<std::string_view, N>& names, Proto value) {
+    const auto ours = session::fromProto<size_t>(names, value);
+    return ours ? std::string(names[*ours]) : "unknown";
 }
 
 } // namespace
@@ -30,8 +31,8 @@ Served servedOf(const v1::Welcome& welcome, const v1::ViewState& state) {
             state.height(),
             state.light_count(),
             !state.has_light_time_s() && state.light_count() > 0,
-            nameOf(session::kRendererTable, view::kRendererNames, state.renderer()),
-            nameOf(session::kCodecTable, view::kCodecNames, state.codec()),
+            nameOf(view::kRendererNames, state.renderer()),
+            nameOf(view::kCodecNames, state.codec()),
             state.quality(),
             state.video_kbps()};
 }

@@ -51,12 +51,6 @@ StormScript::StormScript(const v1::Welcome& welcome, uint32_t viewer)
       cameras_(welcome.scene().cameras().begin(), welcome.scene().cameras().end()),
       values_(welcome, viewer) {}
 
-v1::Vec3 StormScript::color(std::string_view range) {
-    const double red = values_.within(range);
-    const double green = values_.within(range);
-    return vec(red, green, values_.within(range));
-}
-
 void StormScript::fillCamera(v1::SetCamera& command) {
     command = orbitPose(start_, values_.real(0, 2 * std::numbers::pi));
     if (values_.once(4)) { // from somewhere, as far ahead as may be
@@ -115,8 +109,7 @@ void StormScript::fillGrid(v1::SetGrid& command) {
 
 void StormScript::fillFog(v1::Fog& fog) {
     values_.fill(fog, kSome);
-    *fog.mutable_albedo() = color("fog_albedo");
-    if (values_.once(4)) {
+    if (fog.ByteSizeLong() == 0 || values_.once(4)) {
         fog.set_density(0);
     }
 }
@@ -150,7 +143,6 @@ void StormScript::fillPlacedLights(v1::PlacedLights& command) {
         light.set_id(id);
         *light.mutable_position() = values_.place();
         *light.mutable_direction() = vec(values_.real(-1, 1), -1, values_.real(-1, 1));
-        *light.mutable_color() = color("lights.color");
         light.set_inner_cone_deg(light.outer_cone_deg() * values_.real(0, 1));
         light.set_radius_m(std::max(light.radius_m(), light.width_m() + light.height_m()));
         if (values_.once(2)) {

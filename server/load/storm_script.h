@@ -14,7 +14,6 @@ class StormScript final : public Script {
     [[nodiscard]] std::optional<Step> next() override;
 
   private:
-    [[nodiscard]] v1::Vec3 color(std::string_view range);
     // Those whose fields have to do with one another.
     void fillCamera(v1::SetCamera& command);
     void fillLights(v1::SetLights& command);

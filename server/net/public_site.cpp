@@ -4,6 +4,7 @@
 #include "net/origin.h"
 #include "net/ws_connection.h"
 #include "protocol/limits.h"
+#include "session/setting_words.h"
 
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -120,6 +121,12 @@ whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& 
 Response PublicSite::answer(const Request& request, std::string_view path) const {
     if (path == "/healthz") {
         return health(site_->service->status());
+    }
+    if (path == "/settings.json") { // the page's tooltips
+        Response response =
+            makeResponse(http::status::ok, "application/json", session::settingWords());
+        response.set(http::field::cache_control, "no-cache");
+        return response;
     }
     if (path == "/metrics") {
         return textResponse(http::status::not_found,

@@ -1,8 +1,9 @@
-// What a viewer asked for, after validation: every number is finite and in its range of
-// view/ranges.h, every enum is known. Only command_decode makes these from outside bytes.
+// What a viewer asked for, after validation: every number is finite and in its range, every enum is
+// known. Only command_decode makes these from outside bytes.
 // Absent fields keep the session's values.
 #pragma once
 
+#include "session/settings.h"
 #include "view/settings.h"
 
 #include <cstdint>
@@ -36,31 +37,16 @@ struct SelectSceneCamera {
     std::string name;
 };
 
-struct SetRenderer {
-    view::Renderer renderer = view::Renderer::kNaive;
-    std::optional<view::LightingStage> lighting;
-    std::optional<view::ShadingModel> shading;
-    std::optional<view::NormalEncoding> normal;
-    std::optional<view::PositionSource> position;
+// Settings of the table; every command that gives nothing else.
+struct SetSettings {
+    SettingChanges changes;
 };
 
-struct SetLights {
-    std::optional<uint32_t> count;
-    std::optional<double> radius_m;
-    std::optional<double> intensity;
-    std::optional<double> cutoff;
-    std::optional<bool> cutoff_compensated = std::nullopt;
-    std::optional<uint32_t> list_cap = std::nullopt;
-    std::optional<uint32_t> seed;
-    std::optional<bool> animate;
-    std::optional<double> speed;
-    std::optional<double> ambient;
-    std::optional<bool> scene_lights;
-    std::optional<BoundsD3> box; // min < max on every axis
-    bool clear_box = false;      // never together with box
-    std::optional<view::LightLoop> light_loop;
-    std::optional<bool> count_pairs;
-    std::optional<double> time_s; // of the lights' clock
+// These give what no row of the table holds, besides settings.
+struct SetLights : SetSettings {
+    std::optional<BoundsD3> box = std::nullopt;  // min < max on every axis
+    bool clear_box = false;                      // never together with box
+    std::optional<double> time_s = std::nullopt; // of the lights' clock
 };
 
 struct PlacedLightChange {
@@ -92,76 +78,22 @@ struct PickLight {
     glm::dvec2 at{0}; // right and up of the picture's middle, in half pictures
 };
 
-struct SetGrid {
-    std::optional<view::GridSize> size; // turns automatic off
-    std::optional<bool> automatic;      // never true together with size
-    std::optional<view::GridLaw> law;
+struct SetGrid : SetSettings {
+    std::optional<view::GridSize> size = std::nullopt; // turns automatic off
+    std::optional<bool> automatic = std::nullopt;      // never true together with size
 };
 
-struct SetExposure {
-    std::optional<double> exposure;
-    std::optional<view::ToneMap> tone_map;
+struct SetToon : SetSettings {
+    std::optional<view::ToonRamp> fragment = std::nullopt;
+    std::optional<view::ToonRamp> compute = std::nullopt;
 };
 
-struct SetToon {
-    std::optional<view::ToonRamp> fragment;
-    std::optional<view::ToonRamp> compute;
-    std::optional<double> outline_strength = std::nullopt;
-    std::optional<double> outline_width = std::nullopt;
-};
-
-struct SetPost {
-    std::optional<view::BloomKind> bloom;
-    std::optional<double> bloom_threshold;
-    std::optional<double> bloom_knee;
-    std::optional<double> bloom_strength;
-    std::optional<double> bloom_radius;
-    std::optional<view::Antialiasing> antialiasing;
-};
-
-struct SetTransparency {
-    std::optional<view::Transparency> transparency;
-    std::optional<uint32_t> peel_layers;
-};
-
-struct SetFog {
-    std::optional<double> density;
-    std::optional<double> height_falloff;
-    std::optional<double> base_height_m;
-    std::optional<double> anisotropy;
-    std::optional<glm::dvec3> albedo;
-    std::optional<uint32_t> tile_px;
-    std::optional<uint32_t> slice_count;
-    std::optional<bool> half_rate;
-    std::optional<bool> noise;
-};
-
-struct SetShadows {
-    std::optional<uint32_t> lights;
-    std::optional<uint32_t> size_px;
-};
-
-struct SetDebugView {
-    std::optional<view::DebugView> view;
-    std::optional<double> scale_max;
-    std::optional<bool> freeze;
+struct SetDebugView : SetSettings {
+    std::optional<bool> freeze = std::nullopt;
 };
 
 struct SetSize {
     view::Size size;
-};
-
-struct SetEncoding {
-    std::optional<uint32_t> quality;
-    std::optional<view::Chroma> chroma;
-    std::optional<view::Codec> codec = std::nullopt;
-    std::optional<uint32_t> video_kbps = std::nullopt;
-};
-
-struct SetDelivery {
-    std::optional<bool> adaptive;
-    std::optional<double> target_fps;
-    std::optional<view::Refine> refine;
 };
 
 // The next frame is to be a key frame.
@@ -190,21 +122,14 @@ struct Pause {
 using Command = std::variant<Hello,
                              SetCamera,
                              SelectSceneCamera,
-                             SetRenderer,
+                             SetSettings,
                              SetLights,
                              SetPlacedLights,
                              PickLight,
                              SetGrid,
-                             SetExposure,
                              SetToon,
-                             SetPost,
-                             SetFog,
-                             SetShadows,
                              SetDebugView,
-                             SetTransparency,
                              SetSize,
-                             SetEncoding,
-                             SetDelivery,
                              RequestKeyFrame,
                              Ack,
                              Ping,

@@ -2,14 +2,13 @@
 
 #include "froxel/v1/client.pb.h"
 #include "protocol/limits.h"
-#include "session/enum_field.h"
 #include "session/field_validator.h"
 #include "session/json_input.h"
-#include "session/look_decode.h"
 #include "session/placed_lights.h"
 #include "session/proto_enums.h"
 #include "session/proto_vec.h"
 #include "session/room.h"
+#include "session/setting_fields.h"
 
 #include <climits>
 #include <google/protobuf/io/coded_stream.h>
@@ -47,7 +46,8 @@ Command decode(const v1::Hello& hello, FieldValidator& fields) {
     command.resume_token = hello.resume_token();
     command.token = fields.text("token", hello.token(), protocol::kMaxTokenBytes);
     for (const int codec : hello.codecs()) {
-        if (const auto known = fromProto(kCodecTable, static_cast<v1::Codec>(codec))) {
+        if (const auto known =
+                fromProto<view::Codec>(view::kCodecNames, static_cast<v1::Codec>(codec))) {
             command.codecs.set(static_cast<size_t>(*known));
         }
     }
@@ -92,28 +92,6 @@ Command decode(const v1::SelectSceneCamera& select, FieldValidator& fields) {
     return SelectSceneCamera{select.name()};
 }
 
-Command decode(const v1::SetRenderer& renderer, FieldValidator& fields) {
-    SetRenderer command;
-    command.renderer = enumeration(fields, "renderer", kRendererTable, renderer.renderer());
-    if (renderer.has_lighting()) {
-        command.lighting =
-            enumeration(fields, "lighting", kLightingStageTable, renderer.lighting());
-    }
-    if (renderer.has_shading()) {
-        command.shading = enumeration(fields, "shading", kShadingModelTable, renderer.shading());
-    }
-    const v1::GbufferLayout& layout = renderer.gbuffer();
-    if (layout.has_normal()) {
-        command.normal =
-            enumeration(fields, "gbuffer.normal", kNormalEncodingTable, layout.normal());
-    }
-    if (layout.has_position()) {
-        command.position =
-            enumeration(fields, "gbuffer.position", kPositionSourceTable, layout.position());
-    }
-    return command;
-}
-
 BoundsD3 decodeBox(const v1::Box& box, FieldValidator& fields) {
     fields.require(box.has_min(), "light_box.min");
     fields.require(box.has_max(), "light_box.max");
@@ -132,53 +110,13 @@ BoundsD3 decodeBox(const v1::Box& box, FieldValidator& fields) {
 }
 
 Command decode(const v1::SetLights& lights, FieldValidator& fields) {
-    SetLights command;
-    if (lights.has_count()) {
-        command.count = fields.number(view::kLightCountRange, lights.count());
-    }
-    if (lights.has_radius_m()) {
-        command.radius_m = fields.number(view::kLightRadiusRange, lights.radius_m());
-    }
-    if (lights.has_intensity()) {
-        command.intensity = fields.number(view::kLightIntensityRange, lights.intensity());
-    }
-    if (lights.has_cutoff()) {
-        command.cutoff = fields.number(view::kLightCutoffRange, lights.cutoff());
-    }
-    if (lights.has_cutoff_compensated()) {
-        command.cutoff_compensated = lights.cutoff_compensated();
-    }
-    if (lights.has_list_cap()) {
-        command.list_cap = fields.number(view::kListCapRange, lights.list_cap());
-    }
-    if (lights.has_seed()) {
-        command.seed = lights.seed();
-    }
-    if (lights.has_animate()) {
-        command.animate = lights.animate();
-    }
-    if (lights.has_speed()) {
-        command.speed = fields.number(view::kLightSpeedRange, lights.speed());
-    }
-    if (lights.has_ambient()) {
-        command.ambient = fields.number(view::kAmbientRange, lights.ambient());
-    }
-    if (lights.has_scene_lights()) {
-        command.scene_lights = lights.scene_lights();
-    }
+    SetLights command{{decodeSettings(lights, fields)}};
     if (lights.has_box()) {
         command.box = decodeBox(lights.box(), fields);
     }
     command.clear_box = lights.clear_box();
     if (command.box && command.clear_box) {
         fields.fail(RejectCode::kOutOfRange, "clear_box", "comes together with box; send one");
-    }
-    if (lights.has_light_loop()) {
-        command.light_loop =
-            enumeration(fields, "light_loop", kLightLoopTable, lights.light_loop());
-    }
-    if (lights.has_count_pairs()) {
-        command.count_pairs = lights.count_pairs();
     }
     if (lights.has_time_s()) {
         command.time_s = fields.number(view::kTimeRange, lights.time_s());
@@ -196,7 +134,7 @@ Command decode(const v1::PickLight& pick, FieldValidator& fields) {
 
 Command decode(const v1::SetGrid& set, FieldValidator& fields) {
     fields.require(set.has_grid() || set.has_automatic() || set.has_law(), "grid");
-    SetGrid command;
+    SetGrid command{{decodeSettings(set, fields)}};
     if (set.has_grid()) {
         const v1::Grid& grid = set.grid();
         command.size = {fields.number(view::kGridXRange, grid.x()),
@@ -206,9 +144,6 @@ Command decode(const v1::SetGrid& set, FieldValidator& fields) {
     if (set.has_automatic()) {
         command.automatic = set.automatic();
     }
-    if (set.has_law()) {
-        command.law = enumeration(fields, "law", kGridLawTable, set.law());
-    }
     if (command.size && command.automatic.value_or(false)) {
         fields.fail(RejectCode::kOutOfRange, "automatic",
                     "is true and comes together with grid; send one");
@@ -216,26 +151,51 @@ Command decode(const v1::SetGrid& set, FieldValidator& fields) {
     return command;
 }
 
-Command decode(const v1::SetExposure& set, FieldValidator& fields) {
-    SetExposure command;
-    if (set.has_exposure()) {
-        command.exposure = fields.number(view::kExposureRange, set.exposure());
+view::ToonRamp
+decodeRamp(const std::string& name, const v1::ToonRamp& ramp, FieldValidator& fields) {
+    const auto count = static_cast<uint32_t>(ramp.points_size());
+    if (count < 2 || count > view::ToonRamp::kMaxPoints) {
+        fields.fail(RejectCode::kOutOfRange, name,
+                    "has " + numberText(count) + " points; it must have 2 to " +
+                        numberText(view::ToonRamp::kMaxPoints));
+        return {};
     }
-    if (set.has_tone_map()) {
-        command.tone_map = enumeration(fields, "tone_map", kToneMapTable, set.tone_map());
+    view::ToonRamp command;
+    command.count = count;
+    command.points = {};
+    for (uint32_t i = 0; i < count; ++i) {
+        const v1::ToonRamp::Point& point = ramp.points(static_cast<int>(i));
+        const std::string field = name + ".points[" + numberText(i) + "]";
+        const auto number = [&](const char* part, const view::Range<double>& range, double value) {
+            return static_cast<float>(fields.number(field + part, range, value));
+        };
+        command.points[i] = {number(".x", view::kToonRange, point.x()),
+                             number(".y", view::kToonRange, point.y()),
+                             number(".slope", view::kToonSlopeRange, point.slope())};
+        // In float, as the shader will see them: equal neighbours would divide by zero.
+        if (i > 0 && !(command.points[i].x > command.points[i - 1].x)) {
+            fields.fail(RejectCode::kOutOfRange, field + ".x",
+                        "is " + numberText(point.x()) + "; it must be above " +
+                            numberText(command.points[i - 1].x) + ", the one before it");
+        }
+    }
+    return command;
+}
+
+Command decode(const v1::SetToon& toon, FieldValidator& fields) {
+    SetToon command{{decodeSettings(toon, fields)}};
+    if (toon.has_fragment()) {
+        command.fragment = decodeRamp("toon_fragment", toon.fragment(), fields);
+    }
+    if (toon.has_compute()) {
+        command.compute = decodeRamp("toon_compute", toon.compute(), fields);
     }
     return command;
 }
 
 Command decode(const v1::SetDebugView& set, FieldValidator& fields) {
     fields.require(set.has_view() || set.has_scale_max() || set.has_freeze(), "debug_view");
-    SetDebugView command;
-    if (set.has_view()) {
-        command.view = enumeration(fields, "debug_view", kDebugViewTable, set.view());
-    }
-    if (set.has_scale_max()) {
-        command.scale_max = fields.number(view::kDebugScaleRange, set.scale_max());
-    }
+    SetDebugView command{{decodeSettings(set, fields)}};
     if (set.has_freeze()) {
         command.freeze = set.freeze();
     }
@@ -247,38 +207,6 @@ Command decode(const v1::SetSize& size, FieldValidator& fields) {
                     fields.number(view::kHeightRange, size.height())}};
 }
 
-Command decode(const v1::SetEncoding& encoding, FieldValidator& fields) {
-    SetEncoding command;
-    if (encoding.has_quality()) {
-        command.quality = fields.number(view::kQualityRange, encoding.quality());
-    }
-    if (encoding.has_chroma()) {
-        command.chroma = enumeration(fields, "chroma", kChromaTable, encoding.chroma());
-    }
-    if (encoding.has_codec()) {
-        command.codec = enumeration(fields, "codec", kCodecTable, encoding.codec());
-    }
-    if (encoding.has_video_kbps()) {
-        command.video_kbps = fields.number(view::kVideoKbpsRange, encoding.video_kbps());
-    }
-    return command;
-}
-
-Command decode(const v1::SetDelivery& set, FieldValidator& fields) {
-    fields.require(set.has_adaptive() || set.has_target_fps() || set.has_refine(), "adaptive");
-    SetDelivery command;
-    if (set.has_adaptive()) {
-        command.adaptive = set.adaptive();
-    }
-    if (set.has_target_fps()) {
-        command.target_fps = fields.number(view::kTargetFpsRange, set.target_fps());
-    }
-    if (set.has_refine()) {
-        command.refine = enumeration(fields, "refine", kRefineTable, set.refine());
-    }
-    return command;
-}
-
 Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
     switch (message.body_case()) {
     case v1::ClientMessage::kHello:
@@ -288,7 +216,21 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
     case v1::ClientMessage::kSelectSceneCamera:
         return decode(message.select_scene_camera(), fields);
     case v1::ClientMessage::kSetRenderer:
-        return decode(message.set_renderer(), fields);
+        return SetSettings{decodeSettings(message.set_renderer(), fields)};
+    case v1::ClientMessage::kSetExposure:
+        return SetSettings{decodeSettings(message.set_exposure(), fields)};
+    case v1::ClientMessage::kSetPost:
+        return SetSettings{decodeSettings(message.set_post(), fields)};
+    case v1::ClientMessage::kSetFog:
+        return SetSettings{decodeSettings(message.set_fog(), fields)};
+    case v1::ClientMessage::kSetShadows:
+        return SetSettings{decodeSettings(message.set_shadows(), fields)};
+    case v1::ClientMessage::kSetTransparency:
+        return SetSettings{decodeSettings(message.set_transparency(), fields)};
+    case v1::ClientMessage::kSetEncoding:
+        return SetSettings{decodeSettings(message.set_encoding(), fields)};
+    case v1::ClientMessage::kSetDelivery:
+        return SetSettings{decodeSettings(message.set_delivery(), fields)};
     case v1::ClientMessage::kSetLights:
         return decode(message.set_lights(), fields);
     case v1::ClientMessage::kSetPlacedLights:
@@ -297,26 +239,12 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.pick_light(), fields);
     case v1::ClientMessage::kSetGrid:
         return decode(message.set_grid(), fields);
-    case v1::ClientMessage::kSetExposure:
-        return decode(message.set_exposure(), fields);
     case v1::ClientMessage::kSetToon:
-        return decodeToon(message.set_toon(), fields);
-    case v1::ClientMessage::kSetPost:
-        return decodePost(message.set_post(), fields);
-    case v1::ClientMessage::kSetFog:
-        return decodeFog(message.set_fog().fog(), fields);
-    case v1::ClientMessage::kSetShadows:
-        return decodeShadows(message.set_shadows(), fields);
+        return decode(message.set_toon(), fields);
     case v1::ClientMessage::kSetDebugView:
         return decode(message.set_debug_view(), fields);
-    case v1::ClientMessage::kSetTransparency:
-        return decodeTransparency(message.set_transparency(), fields);
     case v1::ClientMessage::kSetSize:
         return decode(message.set_size(), fields);
-    case v1::ClientMessage::kSetEncoding:
-        return decode(message.set_encoding(), fields);
-    case v1::ClientMessage::kSetDelivery:
-        return decode(message.set_delivery(), fields);
     case v1::ClientMessage::kAck:
         return Ack{message.ack().frame_id(), message.ack().receive_to_paint_us(),
                    message.ack().decode_us()};

@@ -7,9 +7,11 @@
 #include "view/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace froxel::session {
 
@@ -28,6 +30,9 @@ enum class Refinement : uint8_t {
     kHigh,        // kRefinedEncoding, or as asked for where that is better
     kLossless,
 };
+inline constexpr std::array kRefinementNames = {
+    std::string_view("interactive"), std::string_view("settled"), std::string_view("high"),
+    std::string_view("lossless")};
 
 // The limits on frames of a moving view, from link and rate.
 struct Delivery {

@@ -1,8 +1,8 @@
 #include "session/placed_lights.h"
 
 #include "core/assert.h"
-#include "session/enum_field.h"
 #include "session/json_input.h"
+#include "session/proto_enums.h"
 #include "session/proto_vec.h"
 
 #include <google/protobuf/util/json_util.h>
@@ -45,7 +45,9 @@ decodeLight(const std::string& field, const v1::PlacedLight& light, FieldValidat
     PlacedLightChange change;
     change.id = fields.number(field + ".id", view::kPlacedIdRange, light.id());
     if (light.has_kind()) {
-        change.kind = enumeration(fields, field + ".kind", kLightKindTable, light.kind());
+        change.kind = static_cast<view::LightKind>(
+            enumIndex(fields, field + ".kind", *v1::LightKind_descriptor(),
+                      numbersOf<v1::LightKind>(view::kLightKindNames), light.kind()));
     }
     if (light.has_position()) {
         change.position_world = fields.position(field + ".position", vec(light.position()));
@@ -111,7 +113,7 @@ void apply(const PlacedLightChange& change, view::PlacedLight& light) {
 
 void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
     out.set_id(light.id);
-    out.set_kind(toProto(kLightKindTable, light.kind));
+    out.set_kind(toProto<v1::LightKind>(view::kLightKindNames, light.kind));
     fillVec(*out.mutable_position(), light.position_world);
     fillVec(*out.mutable_direction(), light.direction_world);
     fillVec(*out.mutable_color(), glm::dvec3(light.color));

@@ -29,11 +29,11 @@ SessionDefaults defaultsFor(DeviceKind kind) {
     defaults.delivery.refine = view::Refine::kHigh;
     if (kind == DeviceKind::kCpu) {
         // A software rasteriser's time goes with the pixels: a quarter of 1080p stays interactive.
-        defaults.size = {640, 360};
+        defaults.settings.size = {640, 360};
         defaults.encoding.quality = 75;
         defaults.min_rate_hz = 5; // slower, a camera cannot be steered by what is seen
     } else {
-        defaults.size = {1280, 720};
+        defaults.settings.size = {1280, 720};
         defaults.encoding.quality = 85;
         defaults.min_rate_hz = 30; // every second refresh of a usual display: still smooth
     }

@@ -33,13 +33,9 @@ enum class DeviceKind : uint8_t { kCpu, kGpu };
 
 // What a viewer gets before saying anything, and the largest picture that it may ask for.
 struct SessionDefaults {
-    view::Size size;
+    view::ViewSettings settings; // but for the camera
     view::Encoding encoding;
     DeliverySettings delivery;
-    uint32_t light_count = 1000;
-    float light_radius_m = 2.0F;
-    view::Renderer renderer = view::Renderer::kClusteredDeferred;
-    view::ViewSettings other;             // what the fields above and the camera do not say
     std::optional<glm::dvec2> lens_shift; // of the first camera; absent: its own
     // Frames a second below which no active session may fall when another one joins; 0: no matter.
     double min_rate_hz = 0;

@@ -68,39 +68,32 @@ struct Reducer {
         return {};
     }
 
-    Outcome operator()(const SetRenderer& command) const {
-        state.settings.renderer = command.renderer;
-        assignIfGiven(state.settings.lighting, command.lighting);
-        assignIfGiven(state.settings.shading, command.shading);
-        assignIfGiven(state.settings.gbuffer.normal, command.normal);
-        assignIfGiven(state.settings.gbuffer.position, command.position);
-        return {};
+    Outcome operator()(const SetSettings& command) const {
+        for (const SettingChange& change : command.changes) {
+            change.setting->set(state, change.value);
+        }
+        if (const auto* codec = givenIn(command.changes, "codec");
+            codec != nullptr && !state.decodable.test(std::get<view::Choice>(*codec).index)) {
+            return Rejection{RejectCode::kUnsupported, 0, "codec",
+                             "codec is " + std::string(nameOf(state.encoding.codec)) +
+                                 "; not every viewer's Hello.codecs lists it"};
+        }
+        return givenIn(command.changes, "antialiasing") != nullptr ? checkArea("antialiasing")
+                                                                   : Outcome{};
     }
 
     Outcome operator()(const SetLights& command) const {
         view::Lights& lights = state.settings.lights;
-        assignIfGiven(lights.count, command.count);
-        assignIfGiven(lights.radius_m, command.radius_m);
-        assignIfGiven(lights.intensity, command.intensity);
-        assignIfGiven(lights.cutoff, command.cutoff);
-        assignIfGiven(lights.cutoff_compensated, command.cutoff_compensated);
-        assignIfGiven(state.settings.list_cap, command.list_cap);
-        assignIfGiven(lights.seed, command.seed);
-        assignIfGiven(lights.animate, command.animate);
-        assignIfGiven(lights.speed, command.speed);
-        assignIfGiven(lights.ambient, command.ambient);
-        assignIfGiven(lights.scene_lights, command.scene_lights);
         assignIfGiven(lights.box, command.box);
         if (command.clear_box) {
             lights.box.reset();
         }
-        assignIfGiven(state.settings.light_loop, command.light_loop);
-        assignIfGiven(state.settings.count_pairs, command.count_pairs);
+        Outcome outcome = (*this)(static_cast<const SetSettings&>(command));
         state.light_clock = state.light_clock.withRate(now, lights.speed, lights.animate);
         if (command.time_s) {
             state.light_clock = state.light_clock.withTime(now, *command.time_s);
         }
-        return {};
+        return outcome;
     }
 
     Outcome operator()(const SetPlacedLights& command) const {
@@ -133,48 +126,23 @@ struct Reducer {
         view::Grid& grid = state.settings.grid;
         assignIfGiven(grid.size, command.size);
         grid.automatic = command.automatic.value_or(grid.automatic && !command.size);
-        assignIfGiven(grid.law, command.law);
-        return {};
-    }
-
-    Outcome operator()(const SetExposure& command) const {
-        assignIfGiven(state.settings.exposure, command.exposure);
-        assignIfGiven(state.settings.tone_map, command.tone_map);
-        return {};
+        return (*this)(static_cast<const SetSettings&>(command));
     }
 
     Outcome operator()(const SetToon& command) const {
         assignIfGiven(state.settings.toon_fragment, command.fragment);
         assignIfGiven(state.settings.toon_compute, command.compute);
-        assignIfGiven(state.settings.toon_outline.strength, command.outline_strength);
-        assignIfGiven(state.settings.toon_outline.width, command.outline_width);
-        return {};
-    }
-
-    Outcome operator()(const SetFog& command) const {
-        view::Fog& fog = state.settings.fog;
-        assignIfGiven(fog.density, command.density);
-        assignIfGiven(fog.height_falloff, command.height_falloff);
-        assignIfGiven(fog.base_height_m, command.base_height_m);
-        assignIfGiven(fog.anisotropy, command.anisotropy);
-        assignIfGiven(fog.albedo, command.albedo);
-        assignIfGiven(fog.tile_px, command.tile_px);
-        assignIfGiven(fog.slice_count, command.slice_count);
-        assignIfGiven(fog.half_rate, command.half_rate);
-        assignIfGiven(fog.noise, command.noise);
-        return {};
+        return (*this)(static_cast<const SetSettings&>(command));
     }
 
     Outcome operator()(const SetDebugView& command) const {
         view::Debug& debug = state.settings.debug;
-        assignIfGiven(debug.view, command.view);
-        assignIfGiven(debug.scale_max, command.scale_max);
         if (command.freeze && !*command.freeze) {
             debug.grid_camera.reset();
         } else if (command.freeze && !debug.grid_camera) {
             debug.grid_camera = state.settings.camera;
         }
-        return {};
+        return (*this)(static_cast<const SetSettings&>(command));
     }
 
     // What is drawn of a picture at most; `field` is the one that asked for more.
@@ -196,52 +164,9 @@ struct Reducer {
         return refused;
     }
 
-    Outcome operator()(const SetPost& command) const {
-        view::Bloom& bloom = state.settings.bloom;
-        assignIfGiven(bloom.kind, command.bloom);
-        assignIfGiven(bloom.threshold, command.bloom_threshold);
-        assignIfGiven(bloom.knee, command.bloom_knee);
-        assignIfGiven(bloom.strength, command.bloom_strength);
-        assignIfGiven(bloom.radius, command.bloom_radius);
-        assignIfGiven(state.settings.antialiasing, command.antialiasing);
-        return command.antialiasing ? checkArea("antialiasing") : Outcome{};
-    }
-
-    Outcome operator()(const SetTransparency& command) const {
-        assignIfGiven(state.settings.transparency, command.transparency);
-        assignIfGiven(state.settings.peel_layers, command.peel_layers);
-        return {};
-    }
-
-    Outcome operator()(const SetShadows& command) const {
-        assignIfGiven(state.settings.shadows.light_count, command.lights);
-        assignIfGiven(state.settings.shadows.size_px, command.size_px);
-        return {};
-    }
-
     Outcome operator()(const SetSize& command) const {
         state.settings.size = command.size;
         return checkArea("width");
-    }
-
-    Outcome operator()(const SetEncoding& command) const {
-        if (command.codec && !state.decodable.test(static_cast<size_t>(*command.codec))) {
-            return Rejection{RejectCode::kUnsupported, 0, "codec",
-                             "codec is " + std::string(nameOf(*command.codec)) +
-                                 "; not every viewer's Hello.codecs lists it"};
-        }
-        assignIfGiven(state.encoding.quality, command.quality);
-        assignIfGiven(state.encoding.chroma, command.chroma);
-        assignIfGiven(state.encoding.codec, command.codec);
-        assignIfGiven(state.encoding.video_kbps, command.video_kbps);
-        return {};
-    }
-
-    Outcome operator()(const SetDelivery& command) const {
-        assignIfGiven(state.delivery.adaptive, command.adaptive);
-        assignIfGiven(state.delivery.target_fps, command.target_fps);
-        assignIfGiven(state.delivery.refine, command.refine);
-        return {};
     }
 
     template <class Other>
@@ -260,13 +185,9 @@ bool holdsOneOf(const Command& command) {
 
 SessionState initialState(const SessionContext& context, TimePoint now) {
     const SessionDefaults& defaults = context.defaults;
-    view::ViewSettings settings = defaults.other;
+    view::ViewSettings settings = defaults.settings;
     settings.camera = scene::firstCamera(context.scene.cameras, context.scene.bounds_world);
     settings.camera.lens_shift = defaults.lens_shift.value_or(settings.camera.lens_shift);
-    settings.size = defaults.size;
-    settings.renderer = defaults.renderer;
-    settings.lights.count = defaults.light_count;
-    settings.lights.radius_m = defaults.light_radius_m;
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
     return {settings, defaults.encoding, defaults.delivery, clock, {}};
 }

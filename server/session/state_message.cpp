@@ -59,12 +59,26 @@ void fill(v1::RoomState& out, const Room& room, MemberId you) {
     }
 }
 
-template <class T>
-void addRange(v1::Welcome& welcome, const view::Range<T>& range) {
+void addRange(v1::Welcome& welcome, std::string_view field, double min, double max) {
     v1::FieldRange& out = *welcome.add_ranges();
-    out.set_field(std::string(range.field));
-    out.set_min(static_cast<double>(range.min));
-    out.set_max(static_cast<double>(range.max));
+    out.set_field(std::string(field));
+    out.set_min(min);
+    out.set_max(max);
+}
+
+// Every range that a client can run into.
+void addRanges(v1::Welcome& welcome) {
+    for (const SessionSetting& setting : sessionSettings()) {
+        const view::Setting& facts = setting.facts();
+        if (facts.min < facts.max) {
+            addRange(welcome, facts.name, facts.min, facts.max);
+        }
+    }
+    const auto add = [&welcome](const auto& range) {
+        addRange(welcome, range.field, static_cast<double>(range.min),
+                 static_cast<double>(range.max));
+    };
+    std::apply([&](const auto&... range) { (add(range), ...); }, view::kOtherRanges);
 }
 
 v1::ErrorCode protoCode(RejectCode code) {
@@ -95,7 +109,7 @@ void fill(v1::DebugLegend& out, const DebugLegend& legend) {
     const auto named =
         std::find(view::kDebugViewNames.begin(), view::kDebugViewNames.end(), legend.view) -
         view::kDebugViewNames.begin();
-    out.set_view(toProto(kDebugViewTable, static_cast<view::DebugView>(named)));
+    out.set_view(toProto<v1::DebugView>(view::kDebugViewNames, named));
     out.set_words(legend.words);
     out.set_min(legend.min);
     out.set_max(legend.max);
@@ -150,8 +164,8 @@ void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
     out.set_scale(delivered.scale);
     const bool jpeg = !lossless && !view::isVideo(delivered.encoding.codec);
     out.set_quality(jpeg ? delivered.encoding.quality : 0);
-    out.set_chroma(toProto(kChromaTable, delivered.encoding.chroma));
-    out.set_refinement(toProto(kRefinementTable, delivered.refinement));
+    out.set_chroma(toProto<v1::Chroma>(view::kChromaNames, delivered.encoding.chroma));
+    out.set_refinement(toProto<v1::Refinement>(kRefinementNames, delivered.refinement));
     out.set_rung(delivered.rung);
     out.set_queue_delay_us(saturated(record.queue_delay_us));
     // A link that nothing was measured of yet, or so fast that a double of its bits means nothing.
@@ -173,8 +187,7 @@ makeWelcome(uint64_t session_id, const SessionContext& context, const SessionSta
     fill(*welcome.mutable_scene(), context.scene);
     fillViewState(*welcome.mutable_state(), context, state);
     *welcome.mutable_placed_lights() = changeOf({}, state.settings.lights.placed);
-    std::apply([&](const auto&... range) { (addRange(welcome, range), ...); },
-               view::kCommandRanges);
+    addRanges(welcome);
     return message;
 }
 
@@ -277,7 +290,7 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     part.set_height(record.height_px);
     const bool lossless = record.delivered.refinement == Refinement::kLossless;
     const view::Codec codec = record.delivered.encoding.codec;
-    part.set_codec(lossless ? v1::CODEC_PNG : toProto(kCodecTable, codec));
+    part.set_codec(lossless ? v1::CODEC_PNG : toProto<v1::Codec>(view::kCodecNames, codec));
     part.set_key_frame(view::isVideo(codec) && record.key);
 
     header.set_queue_us(saturated(record.queue_us));

@@ -72,7 +72,7 @@ int serve(std::chrono::milliseconds wait, std::chrono::milliseconds watchdog) {
         session::SessionContext context;
         context.scene.name = "fake";
         context.scene.cameras = {{"front", view::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0})}};
-        context.defaults.size = {64, 48};
+        context.defaults.settings.size = {64, 48};
         return app::OpenedScene{std::make_unique<HangingSource>(wait), context,
                                 [] { return std::vector<MemoryUse>{}; }, Seconds(watchdog)};
     };

@@ -13,8 +13,8 @@ session::SessionContext contextFor(const TestServerOptions& options) {
     view::Camera side = view::lookAt({5, 0, 0}, {0, 0, 0}, {0, 1, 0});
     context.scene.cameras = {{"front", view::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0})},
                              {"side", side}};
-    context.defaults.size = options.size;
-    context.defaults.light_count = options.still ? 0 : 100;
+    context.defaults.settings.size = options.size;
+    context.defaults.settings.lights.count = options.still ? 0 : 100;
     context.defaults.min_rate_hz = options.min_rate_hz;
     context.server_version = "test";
     context.device_name = "fake device";

@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "session/command.h"
 #include "session/rejection.h"
+#include "support/setting_values.h"
 #include "view/ranges.h"
 
 #include <algorithm>
@@ -22,9 +23,14 @@ struct PromiseKept {
                c.eye_world != c.target_world && glm::length(c.up_world) > 0 &&
                (!c.yfov_rad || (*c.yfov_rad > 0 && *c.yfov_rad < 3.1));
     }
+    static bool kept(const session::SettingChange& change) {
+        return accepts(change.setting->facts(), change.value);
+    }
+    bool operator()(const session::SetSettings& c) const {
+        return std::all_of(c.changes.begin(), c.changes.end(), kept);
+    }
     bool operator()(const session::SetLights& c) const {
-        return (!c.count || view::kLightCountRange.contains(*c.count)) &&
-               (!c.radius_m || view::kLightRadiusRange.contains(*c.radius_m)) &&
+        return (*this)(static_cast<const session::SetSettings&>(c)) &&
                (!c.box || (finite(c.box->min) && finite(c.box->max) && !c.box->empty()));
     }
     bool operator()(const session::SetPlacedLights& c) const {
@@ -41,42 +47,18 @@ struct PromiseKept {
     bool operator()(const session::SetGrid& c) const {
         return (!c.size || (c.size->x > 0 && c.size->y > 0 && c.size->z > 0 && c.size->x <= 128)) &&
                !(c.size && c.automatic.value_or(false)) &&
-               (!c.law || static_cast<size_t>(*c.law) < view::kGridLawNames.size());
+               (*this)(static_cast<const session::SetSettings&>(c));
     }
     bool operator()(const session::SetDebugView& c) const {
-        return (!c.view || static_cast<size_t>(*c.view) < view::kDebugViewNames.size()) &&
-               (!c.scale_max || view::kDebugScaleRange.contains(*c.scale_max));
+        return (*this)(static_cast<const session::SetSettings&>(c));
     }
     bool operator()(const session::SetSize& c) const {
         return view::kWidthRange.contains(c.size.width_px) &&
                view::kHeightRange.contains(c.size.height_px);
     }
-    bool operator()(const session::SetRenderer& c) const {
-        return static_cast<size_t>(c.renderer) < view::kRendererNames.size();
-    }
     bool operator()(const session::SetToon& c) const {
-        return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2);
-    }
-    bool operator()(const session::SetShadows& c) const {
-        return (!c.lights || view::kShadowLightsRange.contains(*c.lights)) &&
-               (!c.size_px || view::kShadowSizeRange.contains(*c.size_px));
-    }
-    bool operator()(const session::SetPost& c) const {
-        return (!c.bloom || static_cast<size_t>(*c.bloom) < view::kBloomKindNames.size()) &&
-               (!c.bloom_radius || view::kBloomRadiusRange.contains(*c.bloom_radius)) &&
-               (!c.antialiasing ||
-                static_cast<size_t>(*c.antialiasing) < view::kAntialiasingNames.size());
-    }
-    bool operator()(const session::SetTransparency& c) const {
-        return (!c.transparency ||
-                static_cast<size_t>(*c.transparency) < view::kTransparencyNames.size()) &&
-               (!c.peel_layers || view::kPeelLayersRange.contains(*c.peel_layers));
-    }
-    bool operator()(const session::SetFog& c) const {
-        return (!c.density || view::kFogDensityRange.contains(*c.density)) &&
-               (!c.albedo || finite(*c.albedo)) &&
-               (!c.tile_px || view::kFogTileRange.contains(*c.tile_px)) &&
-               (!c.slice_count || view::kFogSlicesRange.contains(*c.slice_count));
+        return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2) &&
+               (*this)(static_cast<const session::SetSettings&>(c));
     }
     template <class Other>
     bool operator()(const Other& /*command*/) const {

@@ -6,7 +6,9 @@
 #include "app/options.h"
 #include "app/render_arguments.h"
 #include "session/placed_lights.h"
+#include "support/setting_values.h"
 #include "view/ranges.h"
+#include "view/setting_rows.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -76,13 +78,12 @@ TEST(BenchPresets, EveryRow_IsInRange) {
         const auto& s = row.settings;
         EXPECT_TRUE(view::kWidthRange.contains(s.size.width_px)) << row.label;
         EXPECT_TRUE(view::kHeightRange.contains(s.size.height_px)) << row.label;
-        EXPECT_TRUE(view::kLightCountRange.contains(s.lights.count)) << row.label;
-        EXPECT_TRUE(view::kLightRadiusRange.contains(static_cast<double>(s.lights.radius_m)));
-        EXPECT_TRUE(view::kLightCutoffRange.contains(static_cast<double>(s.lights.cutoff)));
+        for (const auto& setting : view::kSettingRows) {
+            EXPECT_TRUE(test::accepts(setting, setting.get(s))) << setting.name << row.label;
+        }
         EXPECT_TRUE(view::kGridXRange.contains(s.grid.size.x)) << row.label;
         EXPECT_TRUE(view::kGridYRange.contains(s.grid.size.y)) << row.label;
         EXPECT_TRUE(view::kGridZRange.contains(s.grid.size.z)) << row.label;
-        EXPECT_TRUE(view::kPeelLayersRange.contains(s.peel_layers)) << row.label;
         EXPECT_LT(row.timedView(), base().views.size());
         if (row.stream) {
             EXPECT_TRUE(view::kQualityRange.contains(row.stream->quality)) << row.label;
@@ -184,50 +185,6 @@ TEST(RenderArguments, EveryRow_ParsesBackToItsSettings) {
             EXPECT_EQ(std::get<std::string>(parsed.camera), view.name);
         }
     }
-}
-
-TEST(RenderArguments, EverySetting_ParsesBack) {
-    RenderOptions options;
-    auto& s = options.settings;
-    s.lighting = view::LightingStage::kFragment;
-    s.shading = view::ShadingModel::kLambert;
-    s.gbuffer = {view::NormalEncoding::kXy16, view::PositionSource::kFp32};
-    s.grid = {false, {3, 4, 5}, view::GridLaw::kLinear};
-    s.light_loop = view::LightLoop::kLists;
-    s.count_pairs = true;
-    s.lights.ambient = 0.3F;
-    s.lights.scene_lights = false;
-    s.lights.animate = false;
-    s.lights.cutoff = 0.1F;
-    s.lights.cutoff_compensated = true;
-    s.list_cap = 40;
-    s.lights.speed = 2.5F;
-    s.debug = {.view = view::DebugView::kDepth, .scale_max = 12.5, .grid_camera = {}};
-    s.exposure = 1.7F;
-    s.tone_map = view::ToneMap::kClamp;
-    s.bloom = {view::BloomKind::kSeparable, 0.5F, 0.25F, 0.75F, 0.02F};
-    s.fog = {0.5F, 0.25F, -3, 0.75F, {0.5F, 0.25F, 1}, 8, 32, true, true};
-    s.antialiasing = view::Antialiasing::kFxaa;
-    s.toon_outline = {0.5F, 0.005F};
-    s.transparency = view::Transparency::kPeeled;
-    s.peel_layers = 7;
-    const auto file = std::filesystem::path(testing::TempDir()) / "render_arguments_lights.json";
-    std::ofstream(file) << R"({"lights":[{"id":1,"position":{"x":2}}]})";
-    s.lights.placed = readLightSet(file).value();
-    options.light_set = file;
-    s.shadows = {8, 128};
-    options.lens_shift = glm::dvec2(0.1, -0.25);
-    options.timings = "t.json";
-    auto texts = renderArguments(options, "");
-    texts.insert(texts.begin(), "froxel");
-    std::vector<const char*> arguments;
-    std::ranges::transform(texts, std::back_inserter(arguments),
-                           [](const std::string& text) { return text.c_str(); });
-    const auto parsed = std::get<RenderOptions>(
-        parseOptions(static_cast<int>(arguments.size()), arguments.data()).command);
-    EXPECT_EQ(parsed.settings, s);
-    EXPECT_EQ(parsed.lens_shift, options.lens_shift);
-    EXPECT_EQ(parsed.camera, CameraChoice(DefaultCamera{}));
 }
 
 TEST(ShellCommand, WhatAShellWouldRead_IsQuoted) {

@@ -30,7 +30,7 @@ TEST_F(LightSetFile, OfEveryCommandThatDraws_IsRead) {
     EXPECT_EQ(render.light_set, file);
     const auto serve =
         std::get<ServeOptions>(parse({"serve", "--light-set", file.c_str()}).command);
-    EXPECT_EQ(serve.other.lights.placed.lights().size(), 1U);
+    EXPECT_EQ(serve.first_view.lights.placed.lights().size(), 1U);
     const auto bench = std::get<BenchOptions>(
         parse({"bench", "--out", "a.json", "--light-set", file.c_str()}).command);
     EXPECT_EQ(bench.settings.lights.placed.lights().size(), 1U);

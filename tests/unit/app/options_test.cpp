@@ -117,8 +117,8 @@ TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
     EXPECT_EQ(serve.address, "127.0.0.1");
     EXPECT_EQ(serve.admin, (net::BindAddress{"127.0.0.1", 9090}));
     EXPECT_FALSE(serve.agones);
-    EXPECT_FALSE(serve.size || serve.quality || serve.light_count || serve.renderer);
-    EXPECT_EQ(serve.other, view::ViewSettings{});
+    EXPECT_FALSE(serve.size || serve.quality);
+    EXPECT_EQ(serve.first_view, view::ViewSettings{});
     EXPECT_FALSE(serve.min_rate_hz);
     EXPECT_EQ(serve.resume_grace_s, 10);
     EXPECT_EQ(serve.delivery, (session::DeliverySettings{true, 0, view::Refine::kHigh}));
@@ -216,18 +216,18 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.scene, "a.glb");
     EXPECT_EQ(serve.size, (view::Size{320, 200}));
     EXPECT_EQ(serve.quality, 90U);
-    EXPECT_EQ(serve.light_count, 7U);
-    EXPECT_EQ(serve.light_radius_m, 3.0);
-    EXPECT_EQ(serve.renderer, view::Renderer::kNaive);
+    EXPECT_EQ(serve.first_view.lights.count, 7U);
+    EXPECT_EQ(serve.first_view.lights.radius_m, 3.0F);
+    EXPECT_EQ(serve.first_view.renderer, view::Renderer::kNaive);
     EXPECT_EQ(serve.delivery, (session::DeliverySettings{false, 12.5, view::Refine::kLossless}));
-    EXPECT_EQ(serve.other.lighting, view::LightingStage::kCompute);
-    EXPECT_EQ(serve.other.grid, (view::Grid{.automatic = false, .size = {4, 5, 6}}));
-    EXPECT_EQ(serve.other.light_loop, view::LightLoop::kLists);
-    EXPECT_EQ(serve.other.debug.view, view::DebugView::kOverdraw);
-    EXPECT_EQ(serve.other.lights.intensity, 3.0F);
-    EXPECT_EQ(serve.other.lights.speed, 0.5F);
-    EXPECT_EQ(serve.other.lights.box, (BoundsD3{{-1, -1, -1}, {1, 1, 1}}));
-    EXPECT_FALSE(serve.other.lights.animate);
+    EXPECT_EQ(serve.first_view.lighting, view::LightingStage::kCompute);
+    EXPECT_EQ(serve.first_view.grid, (view::Grid{.automatic = false, .size = {4, 5, 6}}));
+    EXPECT_EQ(serve.first_view.light_loop, view::LightLoop::kLists);
+    EXPECT_EQ(serve.first_view.debug.view, view::DebugView::kOverdraw);
+    EXPECT_EQ(serve.first_view.lights.intensity, 3.0F);
+    EXPECT_EQ(serve.first_view.lights.speed, 0.5F);
+    EXPECT_EQ(serve.first_view.lights.box, (BoundsD3{{-1, -1, -1}, {1, 1, 1}}));
+    EXPECT_FALSE(serve.first_view.lights.animate);
     EXPECT_EQ(serve.lens_shift, glm::dvec2(-1, 1));
     EXPECT_EQ(serve.sessions_max, 2U);
     EXPECT_EQ(serve.min_rate_hz, 12.5);
@@ -306,8 +306,8 @@ TEST(Options, InfoAndScene_AreParsed) {
 TEST(Options, Help_IsTextWithUnitsRangesAndDefaults) {
     const auto text = std::get<PrintText>(parse({"render", "--help"}).command).text;
     for (const char* part :
-         {"--light-radius N ", "in metres; 0.001 to 10000 [2]", "auto|XxYxZ", "[auto]",
-          "16x16 to 4096x4096", "[1]", "naive, forward_plus", "Exit codes: 0 done, 2 usage"}) {
+         {"--light-radius N ", "0.001 to 10000 m [2]", "auto|XxYxZ", "[auto]", "16x16 to 4096x4096",
+          "[1]", "naive, forward_plus", "Exit codes: 0 done, 2 usage"}) {
         EXPECT_THAT(text, HasSubstr(part));
     }
     EXPECT_THAT(std::get<PrintText>(parse({"--help"}).command).text, HasSubstr("serve"));

@@ -1,9 +1,11 @@
 #include "net/admin_site.h"
 #include "net/public_site.h"
 #include "session/resume_token.h"
+#include "session/settings.h"
 #include "support/fake_port.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -42,6 +44,19 @@ struct PublicSiteTest : testing::Test {
     const std::shared_ptr<Service> service = std::make_shared<Service>();
     std::optional<PublicSite> site;
 };
+
+TEST_F(PublicSiteTest, SettingsJson_HasTheWordsOfEverySetting) {
+    const Response answer =
+        site->answer(request(http::verb::get, "/settings.json"), "/settings.json");
+    EXPECT_EQ(answer.result(), http::status::ok);
+    EXPECT_EQ(answer[http::field::content_type], "application/json");
+    const auto words = nlohmann::json::parse(answer.body());
+    ASSERT_EQ(words.size(), session::sessionSettings().size());
+    for (size_t index = 0; index < words.size(); ++index) {
+        EXPECT_EQ(words[index].at("name"), session::sessionSettings()[index].facts().name);
+        EXPECT_FALSE(words[index].at("help").get<std::string>().empty());
+    }
+}
 
 TEST_F(PublicSiteTest, Upgrade_OfWhoWouldGetNoPlace_Is503WithRetryAfter) {
     service->setServing({std::make_shared<const session::SessionContext>(), &port});

@@ -4,6 +4,7 @@
 #include "froxel/v1/server.pb.h"
 #include "net/lobby.h"
 #include "support/fake_port.h"
+#include "support/settings.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ struct Guest {
 };
 
 inline session::CommandMessage exposure(float value, uint64_t seq = 2) {
-    return {{seq, 0}, session::SetExposure{value, {}}};
+    return {{seq, 0}, test::settings({{"exposure", static_cast<double>(value)}})};
 }
 
 class LobbyTest : public testing::Test {

@@ -1,6 +1,7 @@
 // Video in a session of several viewers.
 #include "net/lobby.h"
 #include "support/fake_port.h"
+#include "support/settings.h"
 
 #include <gtest/gtest.h>
 
@@ -33,8 +34,7 @@ class VideoSessionTest : public testing::Test {
         return lobby_.enter(serving_, hello, {}, viewer, kNow).value();
     }
     static bool setCodec(const Seat& seat, view::Codec codec) {
-        session::SetEncoding set;
-        set.codec = codec;
+        const auto set = test::settings({{"codec", test::chosen(codec)}});
         return seat.session->apply(seat.place, {{1, 0}, set}, kNow).has_value();
     }
     void deliver(uint64_t id, bool key) {

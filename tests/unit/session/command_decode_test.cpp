@@ -1,6 +1,7 @@
 // Binary messages: every command once, and what is wrong with a message as a whole.
 #include "core/text.h"
 #include "session/command_decode.h"
+#include "support/settings.h"
 #include "unit/session/messages.h"
 
 #include <cmath>
@@ -10,7 +11,7 @@
 namespace froxel::session {
 namespace {
 
-using ::testing::HasSubstr;
+using test::givenBy;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -121,62 +122,22 @@ TEST(DecodeCommand, SelectSceneCamera_NameIsBounded) {
     EXPECT_EQ(refused(decodeBinary(message)).field, "name");
 }
 
-TEST(DecodeCommand, SetRenderer_KnowsEveryNameAndNoOther) {
-    for (int value = v1::RENDERER_NAIVE; value <= v1::RENDERER_TOON_COMPUTE; ++value) {
-        v1::ClientMessage message = clientMessage();
-        message.mutable_set_renderer()->set_renderer(static_cast<v1::Renderer>(value));
-        const auto command = accepted<SetRenderer>(decodeBinary(message));
-        EXPECT_EQ(static_cast<int>(command.renderer), value - 1);
-        EXPECT_FALSE(command.lighting);
-    }
-    for (const int value : {0, 6, -1, 1'000'000}) {
-        v1::ClientMessage message = clientMessage(9);
-        message.mutable_set_renderer()->set_renderer(static_cast<v1::Renderer>(value));
-        const Rejection rejection = refused(decodeBinary(message));
-        EXPECT_EQ(rejection.code, RejectCode::kUnsupported) << value;
-        EXPECT_EQ(rejection.field, "renderer");
-        EXPECT_EQ(rejection.ref_seq, 9U);
-        EXPECT_THAT(rejection.message, HasSubstr("is " + std::to_string(value)));
-        EXPECT_THAT(rejection.message, HasSubstr("RENDERER_FORWARD_PLUS"));
-    }
-}
-
-TEST(DecodeCommand, OtherEnums_GivenButUnknown_AreUnsupported) {
-    v1::ClientMessage lighting = clientMessage();
-    lighting.mutable_set_renderer()->set_renderer(v1::RENDERER_NAIVE);
-    lighting.mutable_set_renderer()->set_lighting(static_cast<v1::LightingStage>(99));
-    EXPECT_EQ(refused(decodeBinary(lighting)).field, "lighting");
-    v1::ClientMessage tone_map = clientMessage();
-    tone_map.mutable_set_exposure()->set_tone_map(v1::TONE_MAP_UNSPECIFIED);
-    EXPECT_EQ(refused(decodeBinary(tone_map)).field, "tone_map");
-    v1::ClientMessage chroma = clientMessage();
-    chroma.mutable_set_encoding()->set_chroma(static_cast<v1::Chroma>(99));
-    EXPECT_EQ(refused(decodeBinary(chroma)).code, RejectCode::kUnsupported);
-    v1::ClientMessage codec = clientMessage();
-    codec.mutable_set_encoding()->set_codec(static_cast<v1::Codec>(9));
-    EXPECT_EQ(refused(decodeBinary(codec)).message, "codec is 9; known are CODEC_JPEG, CODEC_VP9");
-}
-
 TEST(DecodeCommand, SetLights_AbsentStaysAbsent_ZeroIsAValue) {
     v1::ClientMessage empty = clientMessage();
     empty.mutable_set_lights();
     const auto none = accepted<SetLights>(decodeBinary(empty));
-    EXPECT_FALSE(none.count || none.radius_m || none.intensity || none.cutoff || none.seed ||
-                 none.animate || none.speed || none.ambient || none.scene_lights || none.box ||
-                 none.clear_box);
+    EXPECT_FALSE(!none.changes.empty() || none.box || none.clear_box || none.time_s);
 
     v1::ClientMessage zeros = clientMessage();
     v1::SetLights& lights = *zeros.mutable_set_lights();
     lights.set_count(0);
     lights.set_intensity(0);
     lights.set_animate(false);
-    lights.set_speed(0);
     const auto command = accepted<SetLights>(decodeBinary(zeros));
-    EXPECT_EQ(command.count, 0U);
-    EXPECT_EQ(command.intensity, 0.0);
-    EXPECT_EQ(command.animate, false);
-    EXPECT_EQ(command.speed, 0.0);
-    EXPECT_FALSE(command.radius_m);
+    EXPECT_EQ(command.changes.size(), 3U);
+    EXPECT_EQ(givenBy<uint32_t>(command, "lights"), 0U);
+    EXPECT_EQ(givenBy<double>(command, "light_intensity"), 0.0);
+    EXPECT_EQ(givenBy<bool>(command, "animate"), false);
 }
 
 TEST(DecodeCommand, SetLights_BoxMustHaveVolume) {
@@ -199,12 +160,6 @@ TEST(DecodeCommand, SetLights_BoxMustHaveVolume) {
     EXPECT_EQ(refused(decodeBinary(message)).field, "clear_box");
 }
 
-TEST(DecodeCommand, SetGridWithoutGrid_IsRefused) {
-    v1::ClientMessage message = clientMessage();
-    message.mutable_set_grid();
-    EXPECT_EQ(refused(decodeBinary(message)).message, "grid is missing");
-}
-
 TEST(DecodeCommand, SetGridAutomatic_TogetherWithAGrid_OnlyWhereItIsOff) {
     v1::ClientMessage message = clientMessage();
     v1::SetGrid& set = *message.mutable_set_grid();
@@ -218,52 +173,7 @@ TEST(DecodeCommand, SetGridAutomatic_TogetherWithAGrid_OnlyWhereItIsOff) {
     EXPECT_EQ(accepted<SetGrid>(decodeBinary(message)).size, (view::GridSize{5, 5, 5}));
 }
 
-// Every enum of the schema: each value is taken, an unknown one and UNSPECIFIED are named.
-TEST(DecodeCommand, Enums_Unknown_AreNamedWithWhatIsKnown) {
-    struct Case {
-        std::string body;
-        std::string field;
-        std::string known;
-    };
-    const auto renderer = [](const std::string& rest) {
-        return R"("setRenderer":{"renderer":"RENDERER_NAIVE",)" + rest + "}";
-    };
-    const std::vector<Case> cases = {
-        {renderer(R"("lighting":VALUE)"), "lighting", "LIGHTING_STAGE_AUTO"},
-        {renderer(R"("shading":VALUE)"), "shading", "SHADING_MODEL_LAMBERT"},
-        {renderer(R"("gbuffer":{"normal":VALUE})"), "gbuffer.normal", "NORMAL_ENCODING_OCT12"},
-        {renderer(R"("gbuffer":{"position":VALUE})"), "gbuffer.position", "POSITION_SOURCE_FP16"},
-        {R"("setLights":{"lightLoop":VALUE})", "light_loop", "LIGHT_LOOP_ALL_LIGHTS"},
-        {R"("setGrid":{"law":VALUE})", "law", "GRID_LAW_HYPERBOLIC"},
-        {R"("setPost":{"bloom":VALUE})", "bloom", "BLOOM_KIND_MIP_CHAIN"},
-        {R"("setPost":{"antialiasing":VALUE})", "antialiasing", "ANTIALIASING_FXAA"},
-        {R"("setTransparency":{"transparency":VALUE})", "transparency", "TRANSPARENCY_PEELED"},
-    };
-    const auto with = [](const Case& test, const std::string& value) {
-        std::string body = test.body;
-        return decodeBody(body.replace(body.find("VALUE"), 5, value));
-    };
-    for (const Case& test : cases) {
-        EXPECT_TRUE(with(test, '"' + test.known + '"')) << test.known;
-        for (const char* value : {"0", "99"}) {
-            const Rejection rejection = refused(with(test, value));
-            EXPECT_EQ(rejection.code, RejectCode::kUnsupported);
-            EXPECT_EQ(rejection.field, test.field);
-            EXPECT_NE(rejection.message.find(test.known), std::string::npos) << rejection.message;
-        }
-    }
-}
-
-TEST(DecodeCommand, SetEncodingAndSizeAndAck_AreTaken) {
-    v1::ClientMessage encoding = clientMessage();
-    encoding.mutable_set_encoding()->set_quality(1);
-    encoding.mutable_set_encoding()->set_chroma(v1::CHROMA_444);
-    encoding.mutable_set_encoding()->set_codec(v1::CODEC_VP9);
-    encoding.mutable_set_encoding()->set_video_kbps(100);
-    EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).quality, 1U);
-    EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).chroma, view::Chroma::k444);
-    EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).codec, view::Codec::kVp9);
-    EXPECT_EQ(accepted<SetEncoding>(decodeBinary(encoding)).video_kbps, 100U);
+TEST(DecodeCommand, SizeAndAck_AreTaken) {
     v1::ClientMessage size = clientMessage();
     size.mutable_set_size()->set_width(1281);
     size.mutable_set_size()->set_height(17);
@@ -276,21 +186,6 @@ TEST(DecodeCommand, SetEncodingAndSizeAndAck_AreTaken) {
     ack.mutable_ack()->set_decode_us(678);
     EXPECT_EQ(accepted<Ack>(decodeBinary(ack)).receive_to_paint_us, 12'345U);
     EXPECT_EQ(accepted<Ack>(decodeBinary(ack)).decode_us, 678U);
-}
-
-TEST(DecodeCommand, SetDelivery_IsTakenInPartsAndNotEmpty) {
-    v1::ClientMessage message = clientMessage();
-    message.mutable_set_delivery()->set_adaptive(false);
-    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).adaptive, false);
-    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).refine, std::nullopt);
-    message.mutable_set_delivery()->set_refine(v1::REFINE_LOSSLESS);
-    message.mutable_set_delivery()->set_target_fps(24);
-    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).refine, view::Refine::kLossless);
-    EXPECT_EQ(accepted<SetDelivery>(decodeBinary(message)).target_fps, 24);
-    message.mutable_set_delivery()->set_refine(static_cast<v1::Refine>(9));
-    EXPECT_EQ(refused(decodeBinary(message)).code, RejectCode::kUnsupported);
-    message.mutable_set_delivery()->Clear();
-    EXPECT_EQ(refused(decodeBinary(message)).message, "adaptive is missing");
 }
 
 TEST(DecodeCommand, NoSeq_IsMalformed) {
@@ -317,7 +212,7 @@ TEST(DecodeCommand, UnknownFields_AreIgnored) {
         ->MutableUnknownFields(message.mutable_set_encoding())
         ->AddLengthDelimited(900, "later");
     message.GetReflection()->MutableUnknownFields(&message)->AddFixed64(901, 1);
-    EXPECT_EQ(accepted<SetEncoding>(decodeBinary(message)).quality, 60U);
+    EXPECT_EQ(givenBy<uint32_t>(accepted<SetSettings>(decodeBinary(message)), "quality"), 60U);
 }
 
 TEST(DecodeCommand, EveryTruncation_NeitherCrashesNorInventsValues) {

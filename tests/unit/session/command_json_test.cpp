@@ -1,4 +1,5 @@
 // Text messages: canonical JSON, what it may leave out, and what people and attackers type.
+#include "support/settings.h"
 #include "unit/session/messages.h"
 
 #include <gmock/gmock.h>
@@ -6,12 +7,17 @@
 namespace froxel::session {
 namespace {
 
+using test::givenBy;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 TEST(CommandJson, BothSpellingsOfAName_AreTaken) {
-    EXPECT_EQ(accepted<SetLights>(decodeBody(R"("setLights":{"radiusM":2.5})")).radius_m, 2.5);
-    EXPECT_EQ(accepted<SetLights>(decodeBody(R"("set_lights":{"radius_m":2.5})")).radius_m, 2.5);
+    EXPECT_EQ(givenBy<double>(accepted<SetLights>(decodeBody(R"("setLights":{"radiusM":2.5})")),
+                              "light_radius"),
+              2.5);
+    EXPECT_EQ(givenBy<double>(accepted<SetLights>(decodeBody(R"("set_lights":{"radius_m":2.5})")),
+                              "light_radius"),
+              2.5);
 }
 
 TEST(CommandJson, SixtyFourBitIntegers_AsStringOrNumber) {
@@ -24,12 +30,12 @@ TEST(CommandJson, SixtyFourBitIntegers_AsStringOrNumber) {
 }
 
 TEST(CommandJson, EnumsByNameOrNumber) {
-    EXPECT_EQ(
-        accepted<SetRenderer>(decodeBody(R"("setRenderer":{"renderer":"RENDERER_TOON_COMPUTE"})"))
-            .renderer,
-        view::Renderer::kToonCompute);
-    EXPECT_EQ(accepted<SetRenderer>(decodeBody(R"("setRenderer":{"renderer":2})")).renderer,
-              view::Renderer::kForwardPlus);
+    const auto given = [](const char* body) {
+        return givenBy<view::Renderer>(accepted<SetSettings>(decodeBody(body)), "renderer");
+    };
+    EXPECT_EQ(given(R"("setRenderer":{"renderer":"RENDERER_TOON_COMPUTE"})"),
+              view::Renderer::kToonCompute);
+    EXPECT_EQ(given(R"("setRenderer":{"renderer":2})"), view::Renderer::kForwardPlus);
 }
 
 TEST(CommandJson, UnknownEnumName_IsUnsupportedEvenWhereOptional) {
@@ -168,7 +174,7 @@ TEST(CommandJson, ClientText_ReachesMessagesEscapedAndCut) {
 TEST(CommandJson, Null_IsAbsent) {
     EXPECT_EQ(refused(decodeBody(R"("setCamera":{"eye":null,"target":{"x":1}})")).message,
               "eye is missing");
-    EXPECT_FALSE(accepted<SetLights>(decodeBody(R"("setLights":{"count":null})")).count);
+    EXPECT_TRUE(accepted<SetLights>(decodeBody(R"("setLights":{"count":null})")).changes.empty());
 }
 
 } // namespace

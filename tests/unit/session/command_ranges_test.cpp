@@ -1,6 +1,7 @@
 // Every ranged field, at both edges and one step beyond, in both encodings.
 #include "core/text.h"
-#include "unit/session/messages.h"
+#include "session/settings.h"
+#include "unit/session/setting_messages.h"
 #include "view/ranges.h"
 
 #include <google/protobuf/util/json_util.h>
@@ -71,14 +72,10 @@ v1::ToonRamp::Point& firstPoint(v1::ClientMessage& message) {
     return *ramp.mutable_points(0);
 }
 
-v1::Fog& fog(v1::ClientMessage& message) {
-    return *message.mutable_set_fog()->mutable_fog();
-}
-
 using M = v1::ClientMessage;
 
-const std::vector<RangedField>& fields() {
-    static const std::vector<RangedField> all = {
+std::vector<RangedField> byHand() {
+    return {
         ranged(view::kWidthRange,
                [](M& m, double v) {
                    m.mutable_set_size()->set_height(64);
@@ -89,29 +86,10 @@ const std::vector<RangedField>& fields() {
                    m.mutable_set_size()->set_width(64);
                    m.mutable_set_size()->set_height(u32(v));
                }),
-        ranged(view::kLightCountRange,
-               [](M& m, double v) { m.mutable_set_lights()->set_count(u32(v)); }),
-        ranged(view::kLightRadiusRange,
-               [](M& m, double v) { m.mutable_set_lights()->set_radius_m(v); }),
-        ranged(view::kLightIntensityRange,
-               [](M& m, double v) { m.mutable_set_lights()->set_intensity(v); }),
-        ranged(view::kLightCutoffRange,
-               [](M& m, double v) { m.mutable_set_lights()->set_cutoff(v); }),
-        ranged(view::kListCapRange,
-               [](M& m, double v) { m.mutable_set_lights()->set_list_cap(u32(v)); }),
-        ranged(view::kLightSpeedRange,
-               [](M& m, double v) { m.mutable_set_lights()->set_speed(v); }),
-        ranged(view::kAmbientRange, [](M& m, double v) { m.mutable_set_lights()->set_ambient(v); }),
         ranged(view::kGridXRange, [](M& m, double v) { grid(m).mutable_grid()->set_x(u32(v)); }),
         ranged(view::kGridYRange, [](M& m, double v) { grid(m).mutable_grid()->set_y(u32(v)); }),
         ranged(view::kGridZRange, [](M& m, double v) { grid(m).mutable_grid()->set_z(u32(v)); }),
-        ranged(view::kTargetFpsRange,
-               [](M& m, double v) { m.mutable_set_delivery()->set_target_fps(v); }),
         ranged(view::kTimeRange, [](M& m, double v) { m.mutable_set_lights()->set_time_s(v); }),
-        ranged(view::kDebugScaleRange,
-               [](M& m, double v) { m.mutable_set_debug_view()->set_scale_max(v); }),
-        ranged(view::kExposureRange,
-               [](M& m, double v) { m.mutable_set_exposure()->set_exposure(v); }),
         ranged(view::kFovRange, [](M& m, double v) { camera(m).set_fov_deg(v); }),
         ranged(view::kLensShiftXRange,
                [](M& m, double v) { camera(m).mutable_lens_shift()->set_x(v); }),
@@ -127,37 +105,6 @@ const std::vector<RangedField>& fields() {
         ranged(
             view::kPositionRange, [](M& m, double v) { unit(*camera(m).mutable_up()).set_y(v); },
             "up.y"),
-        ranged(view::kQualityRange,
-               [](M& m, double v) { m.mutable_set_encoding()->set_quality(u32(v)); }),
-        ranged(view::kVideoKbpsRange,
-               [](M& m, double v) { m.mutable_set_encoding()->set_video_kbps(u32(v)); }),
-        ranged(view::kPeelLayersRange,
-               [](M& m, double v) { m.mutable_set_transparency()->set_peel_layers(u32(v)); }),
-        ranged(view::kOutlineStrengthRange,
-               [](M& m, double v) { m.mutable_set_toon()->set_outline_strength(v); }),
-        ranged(view::kOutlineWidthRange,
-               [](M& m, double v) { m.mutable_set_toon()->set_outline_width(v); }),
-        ranged(view::kShadowLightsRange,
-               [](M& m, double v) { m.mutable_set_shadows()->set_lights(u32(v)); }),
-        ranged(view::kShadowSizeRange,
-               [](M& m, double v) { m.mutable_set_shadows()->set_size(u32(v)); }),
-        ranged(view::kBloomThresholdRange,
-               [](M& m, double v) { m.mutable_set_post()->set_bloom_threshold(v); }),
-        ranged(view::kBloomKneeRange,
-               [](M& m, double v) { m.mutable_set_post()->set_bloom_knee(v); }),
-        ranged(view::kBloomStrengthRange,
-               [](M& m, double v) { m.mutable_set_post()->set_bloom_strength(v); }),
-        ranged(view::kBloomRadiusRange,
-               [](M& m, double v) { m.mutable_set_post()->set_bloom_radius(v); }),
-        ranged(view::kFogDensityRange, [](M& m, double v) { fog(m).set_density(v); }),
-        ranged(view::kFogHeightFalloffRange, [](M& m, double v) { fog(m).set_height_falloff(v); }),
-        ranged(view::kFogBaseHeightRange, [](M& m, double v) { fog(m).set_base_height(v); }),
-        ranged(view::kFogAnisotropyRange, [](M& m, double v) { fog(m).set_anisotropy(v); }),
-        ranged(
-            view::kFogAlbedoRange, [](M& m, double v) { fog(m).mutable_albedo()->set_y(v); },
-            "fog_albedo.y"),
-        ranged(view::kFogTileRange, [](M& m, double v) { fog(m).set_tile(u32(v)); }),
-        ranged(view::kFogSlicesRange, [](M& m, double v) { fog(m).set_slices(u32(v)); }),
         ranged(
             view::kPlacedColorRange, [](M& m, double v) { placed(m).mutable_color()->set_z(v); },
             "lights[0].color"),
@@ -193,14 +140,45 @@ const std::vector<RangedField>& fields() {
             view::kToonSlopeRange, [](M& m, double v) { firstPoint(m).set_slope(v); },
             "toon_compute.points[0].slope"),
     };
+}
+
+// From their rows.
+void addSettings(std::vector<RangedField>& all) {
+    for (const SessionSetting& setting : sessionSettings()) {
+        const view::Setting& facts = setting.facts();
+        const auto add = [&](const std::string& field, bool whole, auto value_of) {
+            all.push_back({field, facts.min, facts.max, whole, [&facts, value_of](M& m, double v) {
+                               m.MergeFrom(commandOf(facts, value_of(v)));
+                           }});
+        };
+        const std::string name(facts.name);
+        if (facts.kind == view::SettingKind::kReal) {
+            add(name, false, [](double v) -> view::SettingValue { return v; });
+        } else if (facts.kind == view::SettingKind::kColor) {
+            add(name + ".y", false,
+                [](double v) -> view::SettingValue { return glm::dvec3(0, v, 0); });
+        } else if (facts.kind == view::SettingKind::kWhole &&
+                   facts.max < std::numeric_limits<uint32_t>::max()) {
+            add(name, true, [](double v) -> view::SettingValue { return u32(v); });
+        }
+    }
+}
+
+const std::vector<RangedField>& fields() {
+    static const std::vector<RangedField> all = [] {
+        std::vector<RangedField> every = byHand();
+        addSettings(every);
+        return every;
+    }();
     return all;
 }
 
 class RangedFields : public ::testing::TestWithParam<protocol::WireFormat> {
   protected:
     static CommandResult<CommandMessage> decode(const RangedField& field, double value) {
-        v1::ClientMessage message = clientMessage(5);
+        v1::ClientMessage message;
         field.set(message, value);
+        message.set_seq(5);
         return decodeCommand(protocol::bytesOf(protocol::encodeClientMessage(message, GetParam())),
                              GetParam());
     }

@@ -36,12 +36,11 @@ TEST(Summarize, Instances_AreCountedEach) {
 TEST(DefaultsFor, BothKinds_AreWithinTheRanges) {
     for (const DeviceKind kind : {DeviceKind::kCpu, DeviceKind::kGpu}) {
         const SessionDefaults defaults = defaultsFor(kind);
-        EXPECT_TRUE(view::kWidthRange.contains(defaults.size.width_px));
-        EXPECT_TRUE(view::kHeightRange.contains(defaults.size.height_px));
+        EXPECT_TRUE(view::kWidthRange.contains(defaults.settings.size.width_px));
+        EXPECT_TRUE(view::kHeightRange.contains(defaults.settings.size.height_px));
         EXPECT_TRUE(view::kQualityRange.contains(defaults.encoding.quality));
-        EXPECT_TRUE(view::kLightCountRange.contains(defaults.light_count));
-        EXPECT_TRUE(view::kLightRadiusRange.contains(defaults.light_radius_m));
-        EXPECT_LE(uint64_t{defaults.size.width_px} * defaults.size.height_px, defaults.max_area_px);
+        EXPECT_LE(uint64_t{defaults.settings.size.width_px} * defaults.settings.size.height_px,
+                  defaults.max_area_px);
         EXPECT_LE(defaults.max_area_px, uint64_t{4096} * 4096);
     }
 }

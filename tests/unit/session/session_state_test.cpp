@@ -1,3 +1,4 @@
+#include "support/settings.h"
 #include "unit/session/state_fixture.h"
 
 #include <gtest/gtest.h>
@@ -9,13 +10,20 @@ namespace froxel::session {
 namespace {
 
 using namespace std::chrono_literals;
+using test::changes;
+using test::chosen;
+using test::settings;
 using ::testing::HasSubstr;
+
+SetLights lights(std::initializer_list<std::pair<std::string_view, view::SettingValue>> values) {
+    return {{changes(values)}, {}, false, {}};
+}
 
 TEST_F(State, Initial_HasTheDefaultsAndTheFirstCamera) {
     EXPECT_EQ(initial.settings.camera, context.scene.cameras[0].camera);
-    EXPECT_EQ(initial.settings.size, context.defaults.size);
+    EXPECT_EQ(initial.settings.size, context.defaults.settings.size);
     EXPECT_EQ(initial.encoding, context.defaults.encoding);
-    EXPECT_EQ(initial.settings.lights.count, context.defaults.light_count);
+    EXPECT_EQ(initial.settings.lights.count, context.defaults.settings.lights.count);
     EXPECT_EQ(initial.applied, CommandStamp{});
     EXPECT_TRUE(initial.animating());
     EXPECT_EQ(initial.light_clock.secondsAt(kStart), 0);
@@ -94,10 +102,7 @@ TEST_F(State, SelectSceneCamera_Unknown_NamesWhatThereIs) {
 }
 
 TEST_F(State, SetLights_ChangesOnlyWhatIsGiven) {
-    const SessionState state = applied(initial, lights([](SetLights& c) {
-                                           c.count = 7;
-                                           c.ambient = 0.25;
-                                       }));
+    const SessionState state = applied(initial, lights({{"lights", 7U}, {"ambient", 0.25}}));
     EXPECT_EQ(state.settings.lights.count, 7U);
     EXPECT_EQ(state.settings.lights.ambient, 0.25F);
     EXPECT_EQ(state.settings.lights.radius_m, initial.settings.lights.radius_m);
@@ -109,17 +114,19 @@ TEST_F(State, SetLights_BoxIsSetAndCleared) {
     BoundsD3 box;
     box.add(glm::dvec3(-1));
     box.add(glm::dvec3(1));
-    const SessionState boxed = applied(initial, lights([&](SetLights& c) { c.box = box; }));
+    SetLights command;
+    command.box = box;
+    const SessionState boxed = applied(initial, command);
     EXPECT_EQ(boxed.settings.lights.box, box);
-    const SessionState cleared = applied(boxed, lights([](SetLights& c) { c.clear_box = true; }));
+    command = {};
+    command.clear_box = true;
+    const SessionState cleared = applied(boxed, command);
     EXPECT_FALSE(cleared.settings.lights.box);
 }
 
 TEST_F(State, LightClock_PausesResumesAndChangesSpeedWithoutJumps) {
-    const auto animate = [](bool on) { return lights([on](SetLights& c) { c.animate = on; }); };
-    const auto speed = [](double value) {
-        return lights([value](SetLights& c) { c.speed = value; });
-    };
+    const auto animate = [](bool on) { return lights({{"animate", on}}); };
+    const auto speed = [](double value) { return lights({{"light_speed", value}}); };
     SessionState state = applied(initial, animate(false), kStart + 10s);
     EXPECT_FALSE(state.animating());
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 99s), 10);
@@ -128,25 +135,26 @@ TEST_F(State, LightClock_PausesResumesAndChangesSpeedWithoutJumps) {
     state = applied(state, speed(2), kStart + 105s);
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 105s), 15);
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 110s), 25);
-    state = applied(state, lights([](SetLights& c) { c.count = 5; }), kStart + 110s);
+    state = applied(state, lights({{"lights", 5U}}), kStart + 110s);
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 111s), 27);
-    EXPECT_FALSE(applied(state, lights([](SetLights& c) { c.count = 0; })).animating());
+    EXPECT_FALSE(applied(state, lights({{"lights", 0U}})).animating());
     EXPECT_FALSE(applied(state, speed(0)).animating());
 }
 
 TEST_F(State, LightClock_TimeGiven_IsTakenWhetherItStandsOrRuns) {
-    const SetLights at_three = lights([](SetLights& c) { c.time_s = 3.0; });
+    SetLights at_three;
+    at_three.time_s = 3.0;
     const SessionState running = applied(initial, at_three, kStart + 10s);
     EXPECT_DOUBLE_EQ(running.light_clock.secondsAt(kStart + 11s), 4);
     EXPECT_FALSE(running.light_clock.stoppedAt());
-    const SessionState stopped = applied(initial, lights([](SetLights& c) {
-                                             c.animate = false;
-                                             c.time_s = 3.0;
-                                         }),
-                                         kStart + 10s);
+    SetLights stop = lights({{"animate", false}});
+    stop.time_s = 3.0;
+    const SessionState stopped = applied(initial, stop, kStart + 10s);
     EXPECT_EQ(stopped.light_clock.stoppedAt(), 3.0);
     EXPECT_EQ(applied(stopped, at_three, kStart + 20s).version, stopped.version);
-    const SessionState moved = applied(stopped, lights([](SetLights& c) { c.time_s = 5.0; }));
+    SetLights at_five;
+    at_five.time_s = 5.0;
+    const SessionState moved = applied(stopped, at_five);
     EXPECT_EQ(moved.version, stopped.version + 1) << "it looks different";
 }
 
@@ -154,8 +162,7 @@ TEST_F(State, SetGrid_ASizeTurnsAutomaticOff_TrueTurnsItOn) {
     EXPECT_TRUE(initial.settings.grid.automatic);
     SessionState state = applied(initial, gridOf({2, 3, 4}));
     EXPECT_FALSE(state.settings.grid.automatic);
-    SetGrid law;
-    law.law = view::GridLaw::kHyperbolic;
+    const SetGrid law{{changes({{"grid_law", chosen(view::GridLaw::kHyperbolic)}})}, {}, {}};
     state = applied(state, law);
     EXPECT_FALSE(state.settings.grid.automatic);
     EXPECT_EQ(state.settings.grid.law, view::GridLaw::kHyperbolic);
@@ -167,33 +174,6 @@ TEST_F(State, SetGrid_ASizeTurnsAutomaticOff_TrueTurnsItOn) {
     automatic.automatic = false;
     state = applied(state, automatic);
     EXPECT_EQ(state.settings.grid, (view::Grid{false, {2, 3, 4}, view::GridLaw::kHyperbolic}));
-}
-
-TEST_F(State, SetRenderer_PartsOfTheLayout_AreSetOneByOne) {
-    SetRenderer command;
-    command.renderer = view::Renderer::kNaive;
-    command.shading = view::ShadingModel::kLambert;
-    command.normal = view::NormalEncoding::kXyz16;
-    SessionState state = applied(initial, command);
-    EXPECT_EQ(state.settings.shading, view::ShadingModel::kLambert);
-    EXPECT_EQ(state.settings.gbuffer,
-              (view::GbufferLayout{view::NormalEncoding::kXyz16, view::PositionSource::kDepth}));
-    command = {};
-    command.position = view::PositionSource::kFp32;
-    state = applied(state, command);
-    EXPECT_EQ(state.settings.gbuffer,
-              (view::GbufferLayout{view::NormalEncoding::kXyz16, view::PositionSource::kFp32}));
-    EXPECT_EQ(state.settings.shading, view::ShadingModel::kLambert);
-}
-
-TEST_F(State, SetLights_LoopAndPairs_AreSetAndKept) {
-    const SessionState state = applied(initial, lights([](SetLights& c) {
-                                           c.light_loop = view::LightLoop::kAllLights;
-                                           c.count_pairs = true;
-                                       }));
-    EXPECT_EQ(state.settings.light_loop, view::LightLoop::kAllLights);
-    EXPECT_TRUE(state.settings.count_pairs);
-    EXPECT_EQ(applied(state, SetLights{}).settings, state.settings);
 }
 
 TEST_F(State, PickLight_PlacesWhatIsThere_UnlessNothingIs) {
@@ -217,36 +197,33 @@ TEST_F(State, PickLight_PlacesWhatIsThere_UnlessNothingIs) {
 TEST_F(State, TheOtherCommands_SetTheirFields) {
     view::ToonRamp ramp;
     ramp.count = 2;
+    SetToon toon{{changes({{"outline_strength", 0.5}})}, ramp, {}};
     SessionState state = applied(initial, gridOf({15, 15, 15}));
-    SetRenderer renderer;
-    renderer.renderer = view::Renderer::kToonFragment;
-    renderer.lighting = view::LightingStage::kFragment;
-    state = applied(state, renderer);
-    renderer = {};
-    renderer.renderer = view::Renderer::kNaive;
-    state = applied(state, renderer);
-    state = applied(state, SetExposure{2.0, {}});
-    state = applied(state, SetExposure{{}, view::ToneMap::kClamp});
-    state = applied(state, SetToon{ramp, {}});
+    state = applied(state, toon);
     state = applied(state, SetSize{{17, 4096}});
-    state = applied(state, SetEncoding{33, {}});
-    state = applied(state, SetEncoding{{}, view::Chroma::k444});
     EXPECT_EQ(state.settings.grid.size, (view::GridSize{15, 15, 15}));
-    EXPECT_EQ(state.settings.renderer, view::Renderer::kNaive);
-    EXPECT_EQ(state.settings.lighting, view::LightingStage::kFragment);
-    EXPECT_EQ(state.settings.exposure, 2.0F);
-    EXPECT_EQ(state.settings.tone_map, view::ToneMap::kClamp);
     EXPECT_EQ(state.settings.toon_fragment, ramp);
     EXPECT_EQ(state.settings.toon_compute, initial.settings.toon_compute);
+    EXPECT_EQ(state.settings.toon_outline.strength, 0.5F);
     EXPECT_EQ(state.settings.size, (view::Size{17, 4096}));
-    EXPECT_EQ(state.encoding, (view::Encoding{33, view::Chroma::k444}));
-    EXPECT_EQ(state.version, initial.version + 9);
+    EXPECT_EQ(state.version, initial.version + 3);
+}
+
+TEST_F(State, Settings_AreSetTogetherAndOneByOne) {
+    const SessionState both = applied(
+        initial, settings({{"fog_density", 0.5}, {"fog_albedo", glm::dvec3(0.5, 0.25, 1)}}));
+    SessionState one = applied(initial, settings({{"fog_density", 0.5}}));
+    one = applied(one, settings({{"fog_albedo", glm::dvec3(0.5, 0.25, 1)}}));
+    EXPECT_EQ(one.settings, both.settings);
+    EXPECT_EQ(one.version, both.version + 1);
+    EXPECT_EQ(both.settings.fog.density, 0.5F);
+    EXPECT_EQ(both.settings.fog.albedo, glm::vec3(0.5F, 0.25F, 1));
 }
 
 TEST_F(State, DebugView_Freeze_KeepsTheCameraOfThen) {
-    SetDebugView set;
-    set.view = view::DebugView::kClusterWires;
-    set.scale_max = 12;
+    const SetDebugView set{{changes({{"debug_view", chosen(view::DebugView::kClusterWires)},
+                                     {"debug_scale_max", 12.0}})},
+                           {}};
     SessionState state = applied(initial, set);
     EXPECT_EQ(state.settings.debug.view, view::DebugView::kClusterWires);
     EXPECT_EQ(state.settings.debug.scale_max, 12);
@@ -267,9 +244,8 @@ TEST_F(State, DebugView_Freeze_KeepsTheCameraOfThen) {
 }
 
 TEST_F(State, Codec_OnlyOneThatTheClientDecodes) {
-    SetEncoding video;
-    video.codec = view::Codec::kVp9;
-    video.video_kbps = 1234;
+    const SetSettings video =
+        settings({{"codec", chosen(view::Codec::kVp9)}, {"video_kbps", 1234U}});
     const auto refused = apply(initial, {{3, 0}, video}, context, kStart);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, RejectCode::kUnsupported);
@@ -280,8 +256,8 @@ TEST_F(State, Codec_OnlyOneThatTheClientDecodes) {
     EXPECT_EQ(state.encoding.codec, view::Codec::kVp9);
     EXPECT_EQ(state.encoding.video_kbps, 1234U);
     EXPECT_EQ(state.version, initial.version + 1);
-    video.codec = view::Codec::kJpeg;
-    EXPECT_EQ(applied(state, video).encoding.codec, view::Codec::kJpeg);
+    const SetSettings jpeg = settings({{"codec", chosen(view::Codec::kJpeg)}});
+    EXPECT_EQ(applied(state, jpeg).encoding.codec, view::Codec::kJpeg);
 }
 
 TEST_F(State, TooLargeAPicture_IsRefused) {
@@ -298,8 +274,7 @@ TEST_F(State, TooLargeAPicture_IsRefused) {
 
 TEST_F(State, SamplesOfAPixel_CountAsPixels) {
     context.defaults.max_area_px = 1'000'000;
-    SetPost smooth;
-    smooth.antialiasing = view::Antialiasing::kSsaa4;
+    const SetSettings smooth = settings({{"antialiasing", chosen(view::Antialiasing::kSsaa4)}});
     const SessionState small = applied(initial, SetSize{{500, 500}});
     const SessionState smoothed = applied(small, smooth);
     EXPECT_EQ(smoothed.settings.antialiasing, view::Antialiasing::kSsaa4);
@@ -326,9 +301,7 @@ TEST_F(State, SameCommands_GiveTheSameState) {
     const auto play = [&] {
         SessionState state = initial;
         state = apply(state, {{1, 0}, gridOf({3, 3, 3})}, context, kStart + 1s).value();
-        SetLights c;
-        c.speed = 0.5;
-        return apply(state, {{2, 0}, c}, context, kStart + 2s).value();
+        return apply(state, {{2, 0}, lights({{"light_speed", 0.5}})}, context, kStart + 2s).value();
     };
     EXPECT_EQ(play().settings, play().settings);
     EXPECT_EQ(play().light_clock.secondsAt(kStart + 9s), play().light_clock.secondsAt(kStart + 9s));
@@ -337,9 +310,8 @@ TEST_F(State, SameCommands_GiveTheSameState) {
 TEST(Apply, SetDelivery_ChangesThatAlone) {
     const SessionContext context = makeContext();
     const SessionState before = initialState(context, kStart);
-    SetDelivery command;
-    command.target_fps = 20.0;
-    command.refine = view::Refine::kLossless;
+    const SetSettings command =
+        settings({{"target_fps", 20.0}, {"refine", chosen(view::Refine::kLossless)}});
     const SessionState after = apply(before, {{1, 0}, command}, context, kStart).value();
     EXPECT_EQ(after.delivery, (DeliverySettings{true, 20.0, view::Refine::kLossless}));
     EXPECT_EQ(after.settings, before.settings);

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <utility>
 
 namespace froxel::session {
@@ -23,12 +22,6 @@ class State : public ::testing::Test {
         }
         return *result;
     }
-    static SetLights lights(const std::function<void(SetLights&)>& fill) {
-        SetLights command;
-        fill(command);
-        return command;
-    }
-
     static SetGrid gridOf(const view::GridSize& size) {
         SetGrid command;
         command.size = size;

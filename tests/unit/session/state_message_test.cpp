@@ -28,7 +28,7 @@ TEST(Welcome, TellsTheServerTheSceneAndTheState) {
     ASSERT_EQ(welcome.scene().cameras_size(), 2);
     EXPECT_EQ(welcome.scene().cameras(1), "plan");
     EXPECT_EQ(welcome.scene().bounds().max().y(), 12);
-    EXPECT_EQ(welcome.state().width(), context.defaults.size.width_px);
+    EXPECT_EQ(welcome.state().width(), context.defaults.settings.size.width_px);
     EXPECT_NEAR(welcome.state().eye().x(), -7, 1e-12);
     EXPECT_EQ(welcome.placed_lights().lights_size(), 0);
 }
@@ -49,22 +49,6 @@ TEST(Welcome, PlacedLights_AreToldWhole) {
     EXPECT_EQ(told.color().y(), 0.5);
     EXPECT_EQ(told.radius_m(), 2);
     EXPECT_NEAR(told.outer_cone_deg(), 45, 1e-9);
-}
-
-TEST(Welcome, Ranges_AreTheTablesOwn) {
-    const SessionContext context = makeContext();
-    const auto message = makeWelcome(1, context, initialState(context, TimePoint(1s)));
-    ASSERT_EQ(static_cast<size_t>(message.welcome().ranges_size()),
-              std::tuple_size_v<std::decay_t<decltype(view::kCommandRanges)>>);
-    bool found = false;
-    for (const v1::FieldRange& range : message.welcome().ranges()) {
-        if (range.field() == "light_radius") {
-            found = true;
-            EXPECT_EQ(range.min(), view::kLightRadiusRange.min);
-            EXPECT_EQ(range.max(), view::kLightRadiusRange.max);
-        }
-    }
-    EXPECT_TRUE(found);
 }
 
 TEST(StateChanged, CarriesEverySetting) {

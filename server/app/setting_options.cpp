@@ -1,0 +1,119 @@
+#include "app/setting_options.h"
+
+#include "app/light_set_file.h"
+#include "core/text.h"
+#include "view/setting_rows.h"
+
+#include <algorithm>
+
+namespace froxel::app {
+
+namespace {
+
+using view::SettingKind;
+using view::SettingValue;
+
+bool usuallyOn(const SettingValue& usual) {
+    const bool* on = std::get_if<bool>(&usual);
+    return on != nullptr && *on;
+}
+
+Result<SettingValue> parseSetting(const view::Setting& setting, const std::string& text) {
+    const auto value = [](const auto& parsed) -> Result<SettingValue> {
+        return parsed ? Result<SettingValue>(*parsed) : parsed.error();
+    };
+    const view::Range<double> range{setting.name, setting.min, setting.max};
+    switch (setting.kind) {
+    case SettingKind::kChoice: {
+        const auto index = parseName(text, setting.names);
+        return index ? Result<SettingValue>(view::Choice{*index}) : index.error();
+    }
+    case SettingKind::kWhole:
+        return value(parseNumber(text, view::Range<uint32_t>{setting.name,
+                                                             static_cast<uint32_t>(setting.min),
+                                                             static_cast<uint32_t>(setting.max)}));
+    case SettingKind::kColor:
+        return value(parseColor(text, range));
+    case SettingKind::kReal:
+    case SettingKind::kSwitch:
+        break;
+    }
+    return value(parseNumber(text, range));
+}
+
+std::string helpOf(const view::Setting& setting) {
+    std::string help(setting.words.help);
+    if (setting.kind == SettingKind::kChoice) {
+        return help + ": " + describe(setting.names);
+    }
+    help += "; " + numberText(setting.min) + " to " + numberText(setting.max);
+    return setting.words.unit.empty() ? help : help + " " + std::string(setting.words.unit);
+}
+
+void addGrid(CommandBuilder& command, view::Grid& target) {
+    const auto parse = [&target](const std::string& text) { return parseGridChoice(text, target); };
+    command.value("--grid", "auto|XxYxZ", target, parse, "auto",
+                  fmt::format("Clusters across, down and deep, up to {}x{}x{}",
+                              view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+}
+
+void addLightPlaces(CommandBuilder& command, view::Lights& lights, std::filesystem::path& file) {
+    command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
+                  "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
+    const auto parse = [&file](const std::string& text) {
+        file = text;
+        return readLightSet(file);
+    };
+    command.value("--light-set", "FILE", lights.placed, parse, "none",
+                  "Lights with places of their own, as the page saves them");
+}
+
+} // namespace
+
+std::string optionName(const view::Setting& setting, const SettingValue& usual) {
+    std::string name(setting.name);
+    std::replace(name.begin(), name.end(), '_', '-');
+    return (usuallyOn(usual) ? "--no-" : "--") + name;
+}
+
+void addSetting(CommandBuilder& command,
+                const view::Setting& setting,
+                const SettingValue& usual,
+                const std::function<void(const SettingValue&)>& set) {
+    const std::string option = optionName(setting, usual);
+    if (setting.kind == SettingKind::kSwitch) {
+        const bool given = !usuallyOn(usual);
+        command.cli().add_flag_callback(
+            option, [set, given] { set(given); },
+            (given ? "" : "Turns off: ") + std::string(setting.words.help));
+        return;
+    }
+    const auto parse = [&setting](const std::string& text) { return parseSetting(setting, text); };
+    const char* type = setting.kind == SettingKind::kChoice  ? "NAME"
+                       : setting.kind == SettingKind::kColor ? "R,G,B"
+                                                             : "N";
+    command.parsed(option, type, parse, set, textOf(setting, usual), helpOf(setting));
+}
+
+void addViewSettings(CommandBuilder& command,
+                     view::ViewSettings& settings,
+                     std::filesystem::path& light_set) {
+    for (const auto& row : view::kSettingRows) {
+        addSetting(command, row, settings);
+    }
+    addGrid(command, settings.grid);
+    addLightPlaces(command, settings.lights, light_set);
+}
+
+void addLights(CommandBuilder& command,
+               view::ViewSettings& settings,
+               std::filesystem::path& light_set) {
+    for (const auto& row : view::kSettingRows) {
+        if (row.member_of == view::membersOf<view::Lights>()) {
+            addSetting(command, row, settings);
+        }
+    }
+    addLightPlaces(command, settings.lights, light_set);
+}
+
+} // namespace froxel::app

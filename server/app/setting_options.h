@@ -1,0 +1,41 @@
+// Options of what is drawn, for the subcommands that draw: of the table's settings, from their
+// rows, and of the few that are by hand.
+#pragma once
+
+#include "app/command_builder.h"
+#include "view/setting.h"
+#include "view/settings.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace froxel::app {
+
+// "--fog-density" of "fog_density"; "--no-animate" of a switch that is usually on.
+[[nodiscard]] std::string optionName(const view::Setting& setting, const view::SettingValue& usual);
+
+// The option of one setting. `set` is called with what was given.
+void addSetting(CommandBuilder& command,
+                const view::Setting& setting,
+                const view::SettingValue& usual,
+                const std::function<void(const view::SettingValue&)>& set);
+
+// Of `target`, which has its default.
+template <class Whole>
+void addSetting(CommandBuilder& command, const view::SettingOf<Whole>& row, Whole& target) {
+    addSetting(command, row, row.get(target),
+               [&row, &target](const view::SettingValue& value) { row.set(target, value); });
+}
+
+// All settings of the view's table, its grid and its lights; `light_set` becomes the file that
+// placed ones were read from.
+void addViewSettings(CommandBuilder& command,
+                     view::ViewSettings& settings,
+                     std::filesystem::path& light_set);
+// Of them the lights alone.
+void addLights(CommandBuilder& command,
+               view::ViewSettings& settings,
+               std::filesystem::path& light_set);
+
+} // namespace froxel::app

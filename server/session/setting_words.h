@@ -1,0 +1,11 @@
+// The words of the table of settings, for pages.
+#pragma once
+
+#include <string>
+
+namespace froxel::session {
+
+// JSON: a list of {"name", "help", "unit", "cost"}, in the table's order. Made once; any thread.
+[[nodiscard]] const std::string& settingWords();
+
+} // namespace froxel::session

@@ -1,0 +1,53 @@
+// Every setting of a session, found by its name, whichever part of the state it belongs to.
+#pragma once
+
+#include "session/delivery.h"
+#include "view/setting.h"
+#include "view/settings.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace froxel::session {
+
+struct SessionState;
+
+class SessionSetting {
+  public:
+    template <class Whole>
+    explicit SessionSetting(const view::SettingOf<Whole>& row) : row_(&row) {}
+
+    [[nodiscard]] const view::Setting& facts() const;
+    [[nodiscard]] view::SettingValue valueIn(const SessionState& state) const;
+    // The value is of the setting's kind and in its range.
+    void set(SessionState& state, const view::SettingValue& value) const;
+
+  private:
+    std::variant<const view::SettingOf<view::ViewSettings>*,
+                 const view::SettingOf<view::Encoding>*,
+                 const view::SettingOf<DeliverySettings>*>
+        row_;
+};
+
+// In the order of their tables: of the view, of encoding, of delivery.
+[[nodiscard]] std::span<const SessionSetting> sessionSettings();
+// Null: there is none of that name.
+[[nodiscard]] const SessionSetting* findSetting(std::string_view name);
+
+// "renderer=naive lights=5": those that are not as a struct has them, for the log.
+[[nodiscard]] std::string unusualSettings(const SessionState& state);
+
+struct SettingChange {
+    const SessionSetting* setting = nullptr; // never null in a command
+    view::SettingValue value;
+};
+using SettingChanges = std::vector<SettingChange>;
+
+// What is given for the setting of this name; null: nothing.
+[[nodiscard]] const view::SettingValue* givenIn(const SettingChanges& changes,
+                                                std::string_view name);
+
+} // namespace froxel::session

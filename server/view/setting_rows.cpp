@@ -1,0 +1,32 @@
+// Holds the table against the structs: a member without a row does not compile.
+#include "view/setting_rows.h"
+
+#include <boost/pfr/tuple_size.hpp>
+
+#include <algorithm>
+
+namespace froxel::view {
+namespace {
+
+template <class Struct, class Rows>
+constexpr bool covers(const Rows& rows, size_t by_hand) {
+    const auto held = std::count_if(rows.begin(), rows.end(), [](const auto& row) {
+        return row.member_of == membersOf<Struct>();
+    });
+    return static_cast<size_t>(held) + by_hand == boost::pfr::tuple_size_v<Struct>;
+}
+
+// The camera, the size, two ramps, and the structs below.
+static_assert(covers<ViewSettings>(kSettingRows, 4 + 8));
+static_assert(covers<GbufferLayout>(kSettingRows, 0));
+static_assert(covers<Grid>(kSettingRows, 2));   // whether it is automatic, and its size
+static_assert(covers<Debug>(kSettingRows, 1));  // whose grid
+static_assert(covers<Lights>(kSettingRows, 2)); // their box, and placed ones
+static_assert(covers<Shadows>(kSettingRows, 0));
+static_assert(covers<ToonOutline>(kSettingRows, 0));
+static_assert(covers<Bloom>(kSettingRows, 0));
+static_assert(covers<Fog>(kSettingRows, 0));
+static_assert(covers<Encoding>(kEncodingRows, 0));
+
+} // namespace
+} // namespace froxel::view

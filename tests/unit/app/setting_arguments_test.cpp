@@ -1,0 +1,101 @@
+// Every row of the table as an option and in command lines that repeat a picture.
+#include "app/light_set_file.h"
+#include "app/render_arguments.h"
+#include "app/setting_options.h"
+#include "support/settings.h"
+#include "unit/app/parsed_options.h"
+#include "view/setting_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <iterator>
+
+namespace froxel::app {
+namespace {
+
+RenderOptions parsedBack(const RenderOptions& options) {
+    auto texts = renderArguments(options, "");
+    texts.insert(texts.begin(), "froxel");
+    std::vector<const char*> arguments;
+    std::ranges::transform(texts, std::back_inserter(arguments),
+                           [](const std::string& text) { return text.c_str(); });
+    return std::get<RenderOptions>(
+        parseOptions(static_cast<int>(arguments.size()), arguments.data()).command);
+}
+
+TEST(SettingArguments, EachSettingAlone_ParsesBack) {
+    for (const auto& row : view::kSettingRows) {
+        RenderOptions options;
+        options.timings = "t.json";
+        row.set(options.settings, test::otherValue(row, row.get(options.settings)));
+        EXPECT_NE(options.settings, view::ViewSettings{}) << row.name;
+        EXPECT_EQ(parsedBack(options).settings, options.settings) << row.name;
+    }
+}
+
+TEST(SettingArguments, AllTogether_WithWhatIsByHand_ParseBack) {
+    RenderOptions options;
+    auto& settings = options.settings;
+    for (const auto& row : view::kSettingRows) {
+        row.set(settings, test::otherValue(row, row.get(settings)));
+    }
+    settings.grid.automatic = false;
+    settings.grid.size = {3, 4, 5};
+    settings.size = {64, 36};
+    settings.lights.box = BoundsD3{{-1, -2, -3}, {1, 2, 3}};
+    const auto file = std::filesystem::path(testing::TempDir()) / "setting_arguments_lights.json";
+    std::ofstream(file) << R"({"lights":[{"id":1,"position":{"x":2}}]})";
+    settings.lights.placed = readLightSet(file).value();
+    options.light_set = file;
+    options.lens_shift = glm::dvec2(0.1, -0.25);
+    options.timings = "t.json";
+    const RenderOptions parsed = parsedBack(options);
+    EXPECT_EQ(parsed.settings, settings);
+    EXPECT_EQ(parsed.lens_shift, options.lens_shift);
+    EXPECT_EQ(parsed.camera, CameraChoice(DefaultCamera{}));
+}
+
+TEST(SettingArguments, Serve_TakesThemForTheFirstView) {
+    for (const auto& row : view::kSettingRows) {
+        const view::ViewSettings usual;
+        const view::SettingValue value = test::otherValue(row, row.get(usual));
+        const std::string option = optionName(row, row.get(usual));
+        const std::string text = view::textOf(row, value);
+        std::vector<const char*> arguments{"serve", option.c_str()};
+        if (row.kind != view::SettingKind::kSwitch) {
+            arguments.push_back(text.c_str());
+        }
+        const auto parsed = parse(arguments);
+        EXPECT_EQ(row.get(std::get<ServeOptions>(parsed.command).first_view), value) << option;
+    }
+}
+
+TEST(SettingArguments, OutOfRangeOrUnknown_IsRefusedByOptionValueAndWhatWouldBeRight) {
+    for (const auto& row : view::kSettingRows) {
+        const std::string option = optionName(row, row.get(view::ViewSettings{}));
+        const bool color = row.kind == view::SettingKind::kColor;
+        const std::string bad = color ? "0,2,0" : "-100000000";
+        if (row.kind != view::SettingKind::kSwitch) {
+            const std::string why =
+                refusal({"render", "--out", "a.png", option.c_str(), bad.c_str()});
+            EXPECT_THAT(why, testing::HasSubstr(option));
+            EXPECT_THAT(why, testing::HasSubstr("'" + bad + "'"));
+        }
+    }
+}
+
+TEST(SettingArguments, Help_HasOptionsWithDefaultsRangesAndUnits) {
+    const auto text = std::get<PrintText>(parse({"render", "--help"}).command).text;
+    for (const auto& row : view::kSettingRows) {
+        EXPECT_THAT(text, testing::HasSubstr(optionName(row, row.get(view::ViewSettings{}))));
+    }
+    EXPECT_THAT(text, testing::HasSubstr("--no-animate"));
+    EXPECT_THAT(text, testing::HasSubstr("[0.015]"));
+}
+
+} // namespace
+} // namespace froxel::app
