@@ -1,11 +1,13 @@
 #include "core/text.h"
 #include "encode/memory.h"
 #include "session/render_scale.h"
+#include "session/settings.h"
 #include "stream/render_loop.h"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace froxel::stream {
@@ -20,6 +22,25 @@ constexpr Seconds kAhead{0.02};
 
 // How often a view whose shaders are being made is asked whether it can begin.
 constexpr std::chrono::milliseconds kVariantsPoll{20};
+
+// Others wait meanwhile. What was asked for tells whoever mends it where to look.
+constexpr Seconds kLongStep{1};
+
+void warnOfLongStep(std::string_view step,
+                    Seconds took,
+                    SessionId id,
+                    const session::SessionState& state) {
+    if (took < kLongStep) {
+        return;
+    }
+    const view::Size& size = state.settings.size;
+    const view::GridSize& grid = state.settings.grid.size;
+    spdlog::warn("event=long_step step={} seconds={:.2f} session={} size={}x{} grid={}x{}x{} "
+                 "placed={} settings={}",
+                 step, took.count(), id, size.width_px, size.height_px, grid.x, grid.y, grid.z,
+                 state.settings.lights.placed.lights().size(),
+                 logValue(session::unusualSettings(state)));
+}
 
 [[nodiscard]] bool isThisPictureAlone(const Error& error) {
     return error.code == ErrorCode::kCapacity || error.code == ErrorCode::kUnsupported;
@@ -62,6 +83,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     const Seconds host = spentSince(now);
     scheduler_.charge(id, host);
     options_.on_begun(host);
+    warnOfLongStep("begin", host, id, viewer.state);
     if (!work) {
         if (!isThisPictureAlone(work.error())) {
             throw StartupError(work.error());
@@ -169,6 +191,7 @@ void RenderLoop::finishOldest() {
     }
     const Seconds cost = spentSince(piece.submitted);
     options_.on_piece(cost);
+    warnOfLongStep("piece", cost, frame.id, frame.state);
     scheduler_.onFinished(frame.id, cost - piece.charged, accounted_);
     frame.cost += cost;
     frame.longest_piece = std::max(frame.longest_piece, cost);
