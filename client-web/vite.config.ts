@@ -22,6 +22,11 @@ export default defineConfig({
     },
   },
   worker: { format: 'es' },
-  server: { proxy: { '/ws': { target: 'ws://127.0.0.1:8080', ws: true } } },
+  server: {
+    proxy: {
+      '/ws': { target: 'ws://127.0.0.1:8080', ws: true },
+      '/settings.json': 'http://127.0.0.1:8080',
+    },
+  },
   test: { include: ['test/**/*.test.ts'] },
 });

@@ -3,50 +3,50 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import type { Field } from '../src/field';
+import type { Field, NumberField } from '../src/field';
 import { choicesFor, isGridSide, kAllFields } from '../src/fields';
 import { Renderer } from '../src/gen/froxel/v1/common_pb';
-import { settingsOf, type Settings } from '../src/settings';
+import { settingsOf, valueOf, type Settings } from '../src/settings';
 import { startServer, type Server } from './server';
 import { difference, launch, until, Viewer } from './viewer';
 
-/** A value other than the default for each number, and whether it shows in a still picture. */
-const kNumbers: Readonly<Record<string, readonly [number, boolean]>> = {
+/**
+ * Values for numbers that show in a still picture, in an order in which they do, and for those that
+ * this depends on or that cost much; with whether they show. The others' come from their ranges.
+ */
+const kGiven: Readonly<Record<string, readonly [number, boolean]>> = {
   fov_deg: [75, true],
   'lens_shift.x': [0.5, true],
   'lens_shift.y': [-0.25, true],
   exposure: [2, true],
-  lights: [300, true],
-  light_radius: [4, true],
-  light_intensity: [3, true],
-  light_cutoff: [0.01, true],
-  list_cap: [1, true],
   bloom_threshold: [0.25, false],
   bloom_knee: [1, false],
   bloom_strength: [1, true],
   bloom_radius: [0.05, true],
-  peel_layers: [2, false],
   fog_density: [0.25, true],
   fog_height_falloff: [2, true],
   fog_base_height: [1.5, true],
   fog_anisotropy: [0.5, true],
-  fog_tile: [8, false],
-  fog_slices: [128, false],
   shadow_lights: [4, false],
-  shadow_size: [64, false],
   outline_strength: [1, true],
   outline_width: [0.01, true],
-  light_speed: [2, false],
-  light_seed: [12_345_678, true],
+  lights: [300, true],
+  light_radius: [4, true],
+  light_intensity: [3, true],
+  light_cutoff: [0.01, true],
+  seed: [12_345_678, true],
   ambient: [5, true],
-  'grid.x': [32, false],
-  'grid.y': [16, false],
-  'grid.z': [64, false],
-  quality: [95, false],
-  video_kbps: [2500, false],
-  debug_scale_max: [12.5, false],
+  list_cap: [1, true],
   target_fps: [1, false], // which every picture meets: none is scaled
 };
+
+const kNumbers: readonly NumberField[] = kAllFields.filter((field) => field.kind === 'number');
+const kGivenNumbers = Object.keys(kGiven).map((name) => {
+  const field = kNumbers.find((candidate) => candidate.name === name);
+  if (!field) throw new Error(`no number ${name}`);
+  return field;
+});
+const kOtherNumbers = kNumbers.filter((field) => !kGivenNumbers.includes(field));
 
 /** What must be chosen so that fields of a prefix can be set. */
 const kNeeded = {
@@ -61,7 +61,7 @@ let viewer: Viewer;
 
 beforeAll(async () => {
   [server, browser] = await Promise.all([startServer(), launch()]);
-  const url = `${server.url}#size=320x180&light_animate=0&lights=100&renderer=clustered_deferred`;
+  const url = `${server.url}#size=320x180&animate=0&lights=100&renderer=clustered_deferred`;
   viewer = await Viewer.open(browser, url);
   await viewer.picture();
   await viewer.openPanel();
@@ -79,9 +79,24 @@ async function setSwitch(name: string, on: boolean): Promise<void> {
   await viewer.settled();
 }
 
+/** Another value than now, from the range that the server told. */
+function otherValue(field: NumberField): number {
+  const ranges = viewer.received.flatMap(({ body }) =>
+    body.case === 'welcome' ? body.value.ranges : [],
+  );
+  const range = ranges.find((candidate) => candidate.field === field.name);
+  const now = told();
+  if (!range || !now) throw new Error(`no range of ${field.name}`);
+  const part = (share: number): number => {
+    const value = range.min + (range.max - range.min) * share;
+    return field.integer ? Math.round(value) : value;
+  };
+  return part(0.25) === valueOf(now, field) ? part(0.5) : part(0.25);
+}
+
 async function expectState(field: Field, value: number | boolean): Promise<void> {
   await viewer.stateWith(`${field.name} = ${String(value)}`, (state) => {
-    const now = settingsOf(state, null, [])[field.key];
+    const now = valueOf(settingsOf(state, null, []), field);
     return typeof now === 'number' && typeof value === 'number'
       ? Math.abs(now - value) <= 1e-6 * Math.abs(value)
       : now === value;
@@ -89,11 +104,9 @@ async function expectState(field: Field, value: number | boolean): Promise<void>
 }
 
 describe('numbers', () => {
-  for (const field of kAllFields.filter(({ kind }) => kind === 'number')) {
+  for (const field of [...kGivenNumbers, ...kOtherNumbers]) {
     it(`Control_${field.name}_SetsIt`, async () => {
-      const entry = kNumbers[field.name];
-      if (!entry) throw new Error(`no test value for ${field.name}`);
-      const [value, visible] = entry;
+      const [value, visible] = kGiven[field.name] ?? [otherValue(field), false];
       if (isGridSide(field)) await setSwitch('grid.auto', false);
       const needed = Object.entries(kNeeded).find(([prefix]) => field.name.startsWith(prefix))?.[1];
       if (needed) await viewer.choose(needed.name, needed.label);
@@ -124,7 +137,7 @@ describe('choices', () => {
       for (const { name, value } of [...choices.slice(1), ...choices.slice(0, 1)]) {
         if (field.name !== 'renderer') await viewer.choose('renderer', 'clustered deferred');
         // Else there is no second target to show.
-        if (field.name === 'debug_view') await viewer.choose('gbuffer.position', 'fp32');
+        if (field.name === 'debug_view') await viewer.choose('gbuffer_position', 'fp32');
         await viewer.choose(field.name, name.replaceAll('_', ' '));
         await expectState(field, value);
       }
@@ -151,7 +164,7 @@ describe('choices', () => {
   it('GbufferOfAForwardRenderer_CannotBeChosen', async () => {
     await viewer.choose('renderer', 'naive');
     await viewer.stateWith('naive', ({ renderer }) => renderer === Renderer.NAIVE);
-    for (const name of ['gbuffer.normal', 'gbuffer.position']) {
+    for (const name of ['gbuffer_normal', 'gbuffer_position']) {
       expect(await viewer.control(name).getAttribute('class')).toContain('lil-disabled');
     }
     await viewer.choose('renderer', 'clustered deferred');
@@ -169,14 +182,14 @@ describe('choices', () => {
     for (const [name, label] of [
       ['light_loop', 'all lights'],
       ['light_loop', 'lists'],
-      ['grid.law', 'hyperbolic'],
-      ['grid.law', 'linear'],
+      ['grid_law', 'hyperbolic'],
+      ['grid_law', 'linear'],
     ] as const) {
       await viewer.choose(name, label);
       expect(difference(await viewer.settled(), before)).toBe(0);
     }
     await viewer.choose('light_loop', 'auto');
-    await viewer.choose('grid.law', 'logarithmic');
+    await viewer.choose('grid_law', 'logarithmic');
   });
 });
 
@@ -201,20 +214,22 @@ describe('debug views', () => {
 });
 
 describe('switches', () => {
-  it.each(['light_animate', 'scene_lights', 'count_pairs', 'grid.auto', 'debug_frozen', 'fog_half_rate', 'fog_noise'] as const)('Control_%s_GoesOnAndOff', async (name) => {
-    const field = kAllFields.find((candidate) => candidate.name === name);
-    if (!field) throw new Error(`no field ${name}`);
-    const before = told()?.[field.key] === true;
-    for (const value of [!before, before]) {
-      await viewer.control(name).locator('input').click();
-      await expectState(field, value);
-    }
-  });
+  for (const field of kAllFields) {
+    if (field.kind !== 'boolean') continue;
+    it(`Control_${field.name}_GoesOnAndOff`, async () => {
+      const now = told();
+      const before = now !== null && valueOf(now, field);
+      for (const value of [!before, before]) {
+        await viewer.control(field.name).locator('input').click();
+        await expectState(field, value);
+      }
+    });
+  }
 
   it('Animate_MovesThePicture', async () => {
-    await viewer.control('light_animate').locator('input').click();
+    await viewer.control('animate').locator('input').click();
     await viewer.changed('animation', await viewer.thumbnail());
-    await viewer.control('light_animate').locator('input').click();
+    await viewer.control('animate').locator('input').click();
     await viewer.stateWith('no animation', ({ lightAnimate }) => !lightAnimate);
   });
 });
@@ -242,6 +257,12 @@ describe('the grid', () => {
 });
 
 describe('others', () => {
+  it('Tooltip_HasTheServersWords', async () => {
+    await until('what bloom costs', async () =>
+      ((await viewer.control('bloom').getAttribute('title')) ?? '').includes('Costs: '),
+    );
+  });
+
   it('SceneCamera_IsGoneTo', async () => {
     const names = viewer.received.flatMap(({ body }) =>
       body.case === 'welcome' ? (body.value.scene?.cameras ?? []) : [],

@@ -27,7 +27,7 @@ it('AdvertisedServer_ThePageGoesThereAndComesBackThere', async () => {
     const viewer = await Viewer.open(browser, 'about:blank');
     const sockets: string[] = [];
     viewer.page.on('websocket', (socket) => sockets.push(socket.url()));
-    await viewer.page.goto(`${first.url}#size=320x180&light_animate=0&lights=50`);
+    await viewer.page.goto(`${first.url}#size=320x180&animate=0&lights=50`);
     await viewer.picture();
     await viewer.openPanel();
     await viewer.type('lights', 123);

@@ -113,7 +113,7 @@ it('PlacedLight_ColourAndKind_AreTheServers', async () => {
 });
 
 it('SeededLight_DoubleClicked_IsPlaced_Changed_AndGivenBack', async () => {
-  const viewer = await open('#size=640x360&lights=1000&light_animate=0&scene_lights=0&refine=lossless');
+  const viewer = await open('#size=640x360&lights=1000&animate=0&scene_lights=0&refine=lossless');
   const before = await viewer.settled();
   const canvas = await viewer.page.locator('canvas#view').boundingBox();
   if (!canvas) throw new Error('no canvas');

@@ -6,7 +6,7 @@ import { Renderer } from '../src/gen/froxel/v1/common_pb';
 import { usePages } from './pages';
 import { difference, until, type Viewer } from './viewer';
 
-const kStill = '#size=320x180&light_animate=0&lights=50';
+const kStill = '#size=320x180&animate=0&lights=50';
 
 const pages = usePages();
 

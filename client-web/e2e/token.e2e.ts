@@ -12,7 +12,7 @@ import { launch, until, Viewer } from './viewer';
 
 const kToken = 'the-right-token-0123456789';
 const kWrong = 'another-token-0123456789';
-const kStill = '#size=320x180&light_animate=0&lights=50';
+const kStill = '#size=320x180&animate=0&lights=50';
 
 const folder = mkdtempSync(join(tmpdir(), 'froxel-'));
 let server: Server;

@@ -8,7 +8,7 @@ import { ErrorCode } from '../src/gen/froxel/v1/server_pb';
 import { startServer, type Server } from './server';
 import { launch, until, Viewer } from './viewer';
 
-const kStill = '#size=320x180&light_animate=0&lights=50';
+const kStill = '#size=320x180&animate=0&lights=50';
 
 let server: Server;
 let browser: Browser;
@@ -80,7 +80,7 @@ it('SettingThatTheDeviceCannotDo_ShowsWhyAndKeepsTheLastGoodState', async () => 
 it('NumberThatIsNoWholeOne_IsRefusedHere', async () => {
   await open(kStill);
   await viewer.openPanel();
-  await viewer.type('light_seed', 1.5);
+  await viewer.type('seed', 1.5);
   await banner('whole number');
   expect(viewer.sent.some(({ body }) => body.case === 'setLights' && body.value.seed === 1)).toBe(false);
 });
@@ -92,7 +92,7 @@ it('LinkWithNonsense_IsNamedAndTheRestCounts', async () => {
 });
 
 it('LinkOutOfRange_ShowsTheServersWords', async () => {
-  await open('#size=320x180&light_animate=0&exposure=-1');
+  await open('#size=320x180&animate=0&exposure=-1');
   await banner('exposure');
   await viewer.stateWith('320 × 180', ({ width }) => width === 320);
 });

@@ -6,8 +6,8 @@ import { Codec } from '../src/gen/froxel/v1/common_pb';
 import { usePages } from './pages';
 import { until, type Viewer } from './viewer';
 
-const kStill = '#size=321x181&light_animate=0&lights=200&quality=100&chroma=444&codec=jpeg&refine=none';
-const kMoving = '#size=320x180&light_animate=1&lights=50&codec=vp9';
+const kStill = '#size=321x181&animate=0&lights=200&quality=100&chroma=444&codec=jpeg&refine=none';
+const kMoving = '#size=320x180&animate=1&lights=50&codec=vp9';
 
 const pages = usePages();
 

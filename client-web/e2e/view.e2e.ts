@@ -10,7 +10,7 @@ import { parseLink } from '../src/url_state';
 import { usePages } from './pages';
 import { difference, until, type Viewer } from './viewer';
 
-const kStill = '#size=320x180&light_animate=0&lights=50';
+const kStill = '#size=320x180&animate=0&lights=50';
 
 const pages = usePages();
 
@@ -29,7 +29,7 @@ it('Page_AsItOpens_ConnectsAndPaintsAndCounts', async () => {
 });
 
 it('Picture_FollowsTheWindow_WithinTheServersBudget', async () => {
-  const viewer = await open('#light_animate=0&lights=50&size=auto@0.25');
+  const viewer = await open('#animate=0&lights=50&size=auto@0.25');
   await viewer.stateWith('320 × 180', (state) => state.width === 320 && state.height === 180);
   await viewer.page.setViewportSize({ width: 800, height: 800 });
   await viewer.stateWith('200 × 200', (state) => state.width === 200 && state.height === 200);
@@ -171,7 +171,7 @@ it('RecordButton_SavesAScriptThatTheLoadToolPlays', async () => {
 });
 
 it('HiddenPage_PausesTheServerUntilItIsSeenAgain', async () => {
-  const viewer = await open('#size=160x90&lights=50&light_animate=1');
+  const viewer = await open('#size=160x90&lights=50&animate=1');
   const hide = (hidden: boolean): Promise<void> =>
     viewer.page.evaluate((value) => {
       Object.defineProperty(document, 'hidden', { configurable: true, get: () => value });
@@ -189,7 +189,7 @@ it('HiddenPage_PausesTheServerUntilItIsSeenAgain', async () => {
 });
 
 it('Details_InTheFold_SayListsGridMemoryAndPlan', async () => {
-  const viewer = await open('#size=640x360&light_animate=0&lights=1000&count_pairs=1&light_loop=lists');
+  const viewer = await open('#size=640x360&animate=0&lights=1000&count_pairs=1&light_loop=lists');
   const { page } = viewer;
   expect(await page.locator('#detail-lists').isVisible()).toBe(false);
   await page.locator('#stats-details summary').click();
@@ -209,7 +209,7 @@ it('Details_InTheFold_SayListsGridMemoryAndPlan', async () => {
 
 it('Lights_AMillion_AreWithinTheSlidersReach', async () => {
   // Small ones: a million that each light half the hall would take a CPU minutes.
-  const viewer = await open('#size=160x90&light_animate=0&lights=50&light_radius=0.05');
+  const viewer = await open('#size=160x90&animate=0&lights=50&light_radius=0.05');
   await viewer.openPanel();
   const slider = viewer.control('lights').locator('input[type=range]');
   await slider.press('End');

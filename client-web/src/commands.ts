@@ -23,7 +23,7 @@ import { download, type Picture } from './picture';
 import type { Recorder } from './recorder';
 import { choicesOf } from './schema_names';
 import { cameraCommand, settingCommands } from './setting_commands';
-import type { Settings } from './settings';
+import type { Settings, Value } from './settings';
 import { isUint32, type SizeMode } from './url_state';
 import type { Store } from './store';
 import { add, length, normalize, scale, sub } from './vec3';
@@ -46,9 +46,9 @@ export class Commands implements PanelActions, InputTarget, RoomActions {
     this.store.dispatch({ type: 'edit', patch });
   }
 
-  set(field: Field, value: number | boolean): void {
+  set(field: Field, value: Value): void {
     if (field.kind === 'number' && field.integer && !isUint32(Number(value))) {
-      this.refuse(`${field.name} = ${value}: a whole number from 0 to 4294967295 is needed`);
+      this.refuse(`${field.name} = ${Number(value)}: a whole number from 0 to 4294967295 is needed`);
       return;
     }
     this.edit(patchFor(field, value));
@@ -141,7 +141,7 @@ export class Commands implements PanelActions, InputTarget, RoomActions {
 
   toggleAnimation(): void {
     const { settings } = this.store.state;
-    if (settings) this.edit({ lightAnimate: !settings.lightAnimate });
+    if (settings) this.edit({ animate: !settings.animate });
   }
 
   nextRenderer(): void {

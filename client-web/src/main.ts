@@ -27,6 +27,7 @@ import { TokenPrompt } from './token_prompt';
 import { VideoFallback } from './video_fallback';
 import { decodesVp9, type LostSync } from './video_track';
 import { WindowSize } from './window_size';
+import { fetchWords } from './words';
 
 const kNarrowPx = 640;
 const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
@@ -216,6 +217,7 @@ function tellVisibility(newConnection: boolean): void {
   }
 }
 
+void fetchWords().then((words) => panel.tell(words));
 links.read();
 if ('problem' in wantedRoom) {
   store.dispatch({ type: 'link', link: { phase: 'refused', reason: wantedRoom.problem } });

@@ -4,27 +4,29 @@ import GUI, { type Controller } from 'lil-gui';
 
 import type { AppState, ServerInfo } from './app_state';
 import { BoxEditor } from './box_editor';
-import type { Field, NumberField, Section } from './field';
-import { choicesFor, isInUse, kFields } from './fields';
+import type { ColorField, Field, NumberField } from './field';
+import { choicesFor, fieldsOf, isInUse, isTyped, type Section } from './fields';
 import { gridText, tidy } from './format';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { FrameGrid } from './gen/froxel/v1/server_pb';
 import { LightEditor, type LightActions } from './light_editor';
-import { linearScale, logScale } from './range_scale';
-import type { Settings } from './settings';
+import { scaleFor } from './range_scale';
+import { valueOf, type Settings, type Value } from './settings';
 import { SizeEditor, type SizeActions } from './size_editor';
 import { attachSlider } from './slider';
 import { displayColor, linearColor } from './srgb';
 import { ToonEditor } from './toon_editor';
+import { labelOf, tipOf, type WordBook } from './words';
 
 export interface PanelActions extends SizeActions, LightActions {
   edit(patch: Partial<Settings>): void;
-  set(field: Field, value: number | boolean): void;
+  set(field: Field, value: Value): void;
   selectCamera(name: string): void;
   resetAll(): void;
 }
 
 type Show = (settings: Settings) => void;
+type Say = (words: WordBook) => void;
 
 const kTitles: Readonly<Record<Section, string>> = {
   camera: 'Camera',
@@ -39,6 +41,8 @@ const kTitles: Readonly<Record<Section, string>> = {
 export class Panel {
   private readonly gui: GUI;
   private shows: Show[] = [];
+  private says: Say[] = [];
+  private words: WordBook = new Map();
   private builtFor: ServerInfo | null = null;
   private shown: Settings | null = null;
   private sizeEditor: SizeEditor | null = null;
@@ -68,6 +72,12 @@ export class Panel {
     this.lightEditor?.show(settings.placedLights, chosenLight);
   }
 
+  /** The server's words, which come when they come. */
+  tell(words: WordBook): void {
+    this.words = words;
+    for (const say of this.says) say(words);
+  }
+
   /** The grid of the picture that is shown; none where no light is assigned to clusters. */
   showGrid(grid: FrameGrid | undefined): void {
     if (!this.gridInUse) return;
@@ -85,13 +95,12 @@ export class Panel {
   private build(server: ServerInfo): void {
     for (const child of [...this.gui.children]) child.destroy();
     this.shows = [];
+    this.says = [];
     this.shown = null;
     const camera = this.section('camera', server);
     this.addSceneCameras(camera, server);
     this.section('rendering', server);
-    const effects = this.section('effects', server);
-    this.addFogColor(effects, server);
-    effects.close();
+    this.section('effects', server).close();
     const lights = this.section('lights', server);
     this.addBox(lights, server);
     this.lightEditor = new LightEditor(lights, this.actions);
@@ -110,7 +119,7 @@ export class Panel {
 
   private section(section: Section, server: ServerInfo): GUI {
     const folder = this.gui.addFolder(kTitles[section]);
-    for (const field of kFields[section]) this.addField(folder, field, server);
+    for (const field of fieldsOf(section)) this.addField(folder, field, server);
     return folder;
   }
 
@@ -119,56 +128,67 @@ export class Panel {
       this.addNumber(folder, field, server);
       return;
     }
-    const model: Record<string, number | boolean> = { [field.key]: server.initial[field.key] };
+    if (field.kind === 'color') {
+      this.addColor(folder, field, server);
+      return;
+    }
+    const model = { value: valueOf(server.initial, field) };
     const options =
       field.kind === 'choice'
         ? Object.fromEntries(
             choicesFor(field)
-              .filter(({ value }) => field.key !== 'codec' || this.codecs.includes(value))
+              .filter(({ value }) => field.name !== 'codec' || this.codecs.includes(value))
               .map(({ name, value }) => [name.replaceAll('_', ' '), value]),
           )
         : undefined;
-    const controller = options
-      ? folder.add(model, field.key, options)
-      : folder.add(model, field.key);
+    const controller = options ? folder.add(model, 'value', options) : folder.add(model, 'value');
     controller.onChange((value: number | boolean) => this.actions.set(field, value));
-    this.finish(controller, field, (settings) => {
-      model[field.key] = settings[field.key];
+    this.finish(controller, field, '', (settings) => {
+      model.value = valueOf(settings, field);
       controller.updateDisplay();
-      controller.enable(isInUse(field, settings));
     });
   }
 
   private addNumber(folder: GUI, field: NumberField, server: ServerInfo): void {
-    const model = { value: tidy(server.initial[field.key]) };
+    const initial = valueOf(server.initial, field);
+    const model = { value: tidy(initial) };
     const controller = folder.add(model, 'value');
     controller.onFinishChange((value: number) => this.actions.set(field, value));
     const range = server.ranges.get(field.name);
-    let slide: (value: number) => void = () => undefined;
-    if (range && field.slider !== 'none') {
-      const scale =
-        field.slider === 'log'
-          ? logScale(range, field.integer, server.initial[field.key])
-          : linearScale(range, field.integer);
-      slide = attachSlider(controller, scale, (value) => this.actions.set(field, value));
-    }
-    const limits = range ? ` · ${range.min} to ${range.max}` : '';
-    this.finish(controller, { ...field, tip: field.tip + limits }, (settings) => {
-      controller.enable(isInUse(field, settings));
-      const value = tidy(settings[field.key]);
+    const scale = range && !isTyped(field) ? scaleFor(range, field.integer, initial) : null;
+    const slide = scale
+      ? attachSlider(controller, scale, (value) => this.actions.set(field, value))
+      : null;
+    const limits = range ? `${range.min} to ${range.max}` : '';
+    this.finish(controller, field, limits, (settings) => {
+      const value = tidy(valueOf(settings, field));
       // Left alone while equal: the viewer may be typing another one.
-      if (this.shown && tidy(this.shown[field.key]) === value) return;
+      if (this.shown && tidy(valueOf(this.shown, field)) === value) return;
       model.value = value;
       controller.updateDisplay();
-      slide(value);
+      slide?.(value);
     });
   }
 
-  private finish(controller: Controller, field: Pick<Field, 'label' | 'tip' | 'name'>, show: Show): void {
-    controller.name(field.label);
-    controller.domElement.title = field.tip;
-    controller.domElement.dataset.field = field.name;
-    this.shows.push(show);
+  private addColor(folder: GUI, field: ColorField, server: ServerInfo): void {
+    const model = { color: displayColor(valueOf(server.initial, field)) };
+    const controller = folder.addColor(model, 'color');
+    controller.onChange((color: string) => this.actions.set(field, linearColor(color)));
+    this.finish(controller, field, '', (settings) => {
+      model.color = displayColor(valueOf(settings, field));
+      controller.updateDisplay();
+    });
+  }
+
+  private finish(controller: Controller, field: Field, limits: string, show: Show): void {
+    const say: Say = (words) =>
+      mark(controller, field.name, labelOf(field.name, words), tipOf(field.name, words, limits));
+    say(this.words);
+    this.says.push(say);
+    this.shows.push((settings) => {
+      controller.enable(isInUse(field, settings));
+      show(settings);
+    });
   }
 
   private addSceneCameras(folder: GUI, server: ServerInfo): void {
@@ -183,25 +203,12 @@ export class Panel {
       controller.updateDisplay();
       if (name !== '') this.actions.selectCamera(name);
     });
-    const tip = "One of the scene's own cameras (keys 1 to 9)";
-    this.finish(controller, { label: 'Go to', tip, name: 'scene_camera' }, () => undefined);
+    mark(controller, 'scene_camera', 'Go to', "One of the scene's own cameras (keys 1 to 9)");
   }
 
   private addGridInUse(folder: GUI): void {
     this.gridInUse = folder.add({ text: '–' }, 'text').disable();
-    this.finish(this.gridInUse, { label: 'In use', tip: '', name: 'grid.in_use' }, () => undefined);
-  }
-
-  private addFogColor(folder: GUI, server: ServerInfo): void {
-    const model = { color: displayColor(server.initial.fogAlbedo) };
-    const controller = folder.addColor(model, 'color');
-    controller.onChange((color: string) => this.actions.edit({ fogAlbedo: linearColor(color) }));
-    const tip = 'What it scatters of light; the rest is swallowed. Costs nothing';
-    this.finish(controller, { label: 'Fog colour', tip, name: 'fog_albedo' }, (settings) => {
-      model.color = displayColor(settings.fogAlbedo);
-      controller.updateDisplay();
-      controller.enable(settings.fogDensity > 0);
-    });
+    mark(this.gridInUse, 'grid.in_use', 'In use', '');
   }
 
   private addBox(folder: GUI, server: ServerInfo): void {
@@ -225,6 +232,12 @@ export class Panel {
     }
     folder.close();
   }
+}
+
+function mark(controller: Controller, name: string, label: string, tip: string): void {
+  controller.name(label);
+  controller.domElement.title = tip;
+  controller.domElement.dataset.field = name;
 }
 
 /** Whether a panel built for one server fits another, as after most reconnects. */

@@ -6,6 +6,10 @@ export const kSliderSteps = 1000;
 /** A logarithmic slider whose range starts at 0 reaches down to this part of the usual value. */
 const kSmallestPart = 1e-3;
 const kDigits = 3;
+const kLogRatio = 1000; // of a range's ends, from which on its scale is logarithmic
+const kLogMax = 100; // the same for a range that starts at 0
+const kWidest = 1000; // a range further below 0 is no matter of sliding
+const kMaxUint32 = 0xffff_ffff;
 
 export interface Range {
   readonly min: number;
@@ -15,6 +19,14 @@ export interface Range {
 export interface Scale {
   toValue(position: number): number;
   toPosition(value: number): number;
+}
+
+/** The scale that suits a range; null: none does, its numbers are typed. */
+export function scaleFor(range: Range, integer: boolean, usual: number): Scale | null {
+  const { min, max } = range;
+  if (min < -kWidest || max >= kMaxUint32) return null;
+  const decades = min > 0 ? max / min >= kLogRatio : min === 0 && max >= kLogMax;
+  return decades ? logScale(range, integer, usual) : linearScale(range, integer);
 }
 
 export function linearScale({ min, max }: Range, integer: boolean): Scale {

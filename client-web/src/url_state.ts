@@ -1,10 +1,9 @@
 // Settings in the URL's fragment, so that a link reproduces a view. Values outside the server's
 // ranges are not judged here: the server refuses them and says why.
 
-import type { Settings } from './settings';
 import type { Field } from './field';
 import { choicesFor, isGridSide, kAllFields, patchFor } from './fields';
-import type { Bounds, Ramp } from './settings';
+import { valueOf, type Bounds, type Ramp, type Settings, type Value } from './settings';
 import { vec, type Vec } from './vec3';
 
 /** How the picture's size follows the window, or does not. */
@@ -21,7 +20,16 @@ export interface LinkState {
 
 type Writable<T> = { -readonly [Key in keyof T]: T[Key] };
 
-const kVectors = { eye: 'eye', target: 'target', up: 'up', fog_albedo: 'fogAlbedo' } as const;
+/** Names in links of earlier days: read, never written. */
+const kFormerNames: ReadonlyMap<string, string> = new Map([
+  ['gbuffer.normal', 'gbuffer_normal'],
+  ['gbuffer.position', 'gbuffer_position'],
+  ['light_seed', 'seed'],
+  ['light_animate', 'animate'],
+  ['grid.law', 'grid_law'],
+]);
+
+const kVectors = ['eye', 'target', 'up'] as const;
 const kRamps = { toon_fragment: 'toonFragment', toon_compute: 'toonCompute' } as const;
 
 /** The fragment, without '#', for these settings; ramps only where they differ from `initial`. */
@@ -36,7 +44,7 @@ export function formatLink(settings: Settings, size: SizeMode, initial: Settings
   if (settings.orthographic) put('half_height', short(settings.halfHeight));
   // To the last bit: two pages of a scene that stands still show the same picture.
   if (settings.lightTime !== null) put('light_time', String(settings.lightTime));
-  for (const [name, key] of Object.entries(kVectors)) put(name, formatVec(settings[key]));
+  for (const name of kVectors) put(name, formatVec(settings[name]));
   if (settings.lightBox) {
     put('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
   }
@@ -57,7 +65,7 @@ export function parseLink(fragment: string): LinkState {
   const problems: string[] = [];
   let size: SizeMode | null = null;
   for (const [name, text] of new URLSearchParams(fragment.replace(/^#/, ''))) {
-    const found = parseEntry(name, text);
+    const found = parseEntry(kFormerNames.get(name) ?? name, text);
     if (found === null) {
       problems.push(`link: ${name.slice(0, 30)}=${text.slice(0, 60)} is not understood`);
     } else {
@@ -89,10 +97,10 @@ function parseEntry(name: string, text: string): Entry | null {
     const lightBox = parseBox(text);
     return lightBox && { settings: { lightBox } };
   }
-  const vector = Object.entries(kVectors).find(([key]) => key === name);
+  const vector = kVectors.find((candidate) => candidate === name);
   if (vector) {
     const value = parseVec(text);
-    return value && { settings: { [vector[1]]: value } };
+    return value && { settings: { [vector]: value } };
   }
   if (name === 'toon_fragment' || name === 'toon_compute') {
     const ramp = parseRamp(text);
@@ -102,23 +110,26 @@ function parseEntry(name: string, text: string): Entry | null {
 }
 
 function formatField(field: Field, settings: Settings): string {
-  if (field.kind === 'boolean') return settings[field.key] ? '1' : '0';
-  if (field.kind === 'number') return short(settings[field.key]);
-  const value: number = settings[field.key];
+  if (field.kind === 'boolean') return valueOf(settings, field) ? '1' : '0';
+  if (field.kind === 'number') return short(valueOf(settings, field));
+  if (field.kind === 'color') return formatVec(valueOf(settings, field));
+  const value = valueOf(settings, field);
   return choicesFor(field).find((choice) => choice.value === value)?.name ?? String(value);
 }
 
 function parseField(field: Field, text: string): Entry | null {
-  if (field.kind === 'boolean') {
-    return text === '0' || text === '1' ? { settings: patchFor(field, text === '1') } : null;
-  }
+  const value = parseValue(field, text);
+  return value === null ? null : { settings: patchFor(field, value) };
+}
+
+function parseValue(field: Field, text: string): Value | null {
+  if (field.kind === 'boolean') return text === '0' || text === '1' ? text === '1' : null;
+  if (field.kind === 'color') return parseVec(text);
   if (field.kind === 'choice') {
-    const choice = choicesFor(field).find(({ name }) => name === text);
-    return choice ? { settings: patchFor(field, choice.value) } : null;
+    return choicesFor(field).find(({ name }) => name === text)?.value ?? null;
   }
   const value = parseNumber(text);
-  if (value === null || (field.integer && !isUint32(value))) return null;
-  return { settings: patchFor(field, value) };
+  return value === null || (field.integer && !isUint32(value)) ? null : value;
 }
 
 function parseSize(text: string): Entry | null {

@@ -2,12 +2,13 @@
 
 import { describe, expect, it } from 'vitest';
 
-import { kAllFields, patchFor } from '../src/fields';
+import { fieldsOf, isInUse, kAllFields, patchFor } from '../src/fields';
 import { bytes, count, gridText, ms, percent, tidy } from '../src/format';
-import { ChromaSchema, RendererSchema } from '../src/gen/froxel/v1/common_pb';
+import { BloomKind, ChromaSchema, Renderer, RendererSchema } from '../src/gen/froxel/v1/common_pb';
 import { dragged, evaluate, inserted, removed } from '../src/ramp';
-import { kSliderSteps, linearScale, logScale } from '../src/range_scale';
+import { kSliderSteps, linearScale, logScale, scaleFor } from '../src/range_scale';
 import { choicesOf } from '../src/schema_names';
+import { valueOf } from '../src/settings';
 import { autoSize, sizeModeFor } from '../src/size_policy';
 import { sampleSettings } from './sample';
 
@@ -33,6 +34,27 @@ describe('scales', () => {
     expect(scale.toValue(kSliderSteps)).toBe(1_000_000);
     expect(scale.toPosition(0)).toBe(0);
     expect(scale.toPosition(1e9)).toBe(kSliderSteps);
+  });
+});
+
+describe('a range', () => {
+  const middle = (min: number, max: number): number | undefined =>
+    scaleFor({ min, max }, false, 1)?.toValue(kSliderSteps / 2);
+
+  it('OfDecades_HasALogarithmicSlider', () => {
+    expect(middle(0.01, 100)).toBe(1);
+    expect(middle(0, 100)).toBeLessThan(1);
+  });
+
+  it('OfOneKindOfSize_HasALinearSlider', () => {
+    expect(middle(0, 1)).toBe(0.5);
+    expect(middle(-0.95, 0.95)).toBe(0);
+    expect(middle(64, 512)).toBe(288);
+  });
+
+  it('OfAnything_HasNone', () => {
+    expect(middle(-1e7, 1e7)).toBeUndefined();
+    expect(middle(0, 4_294_967_295)).toBeUndefined();
   });
 });
 
@@ -111,7 +133,26 @@ describe('names', () => {
   it('Fields_HaveEachNameOnceAndAValueInTheSettings', () => {
     const settings = sampleSettings();
     expect(new Set(kAllFields.map(({ name }) => name)).size).toBe(kAllFields.length);
-    for (const field of kAllFields) expect(settings[field.key]).toBeDefined();
+    for (const field of kAllFields) expect(valueOf(settings, field)).toBeDefined();
+  });
+
+  it('Sections_HaveEveryFieldOnce', () => {
+    const sections = ['camera', 'rendering', 'effects', 'lights', 'clusters', 'debug', 'stream'] as const;
+    const names = sections.flatMap((section) => fieldsOf(section).map(({ name }) => name));
+    expect(names.sort()).toEqual(kAllFields.map(({ name }) => name).sort());
+  });
+
+  it.each([
+    ['bloom_knee', { bloom: BloomKind.MIP_CHAIN }],
+    ['fog_albedo', { fogDensity: 1 }],
+    ['outline_width', { renderer: Renderer.TOON_COMPUTE }],
+    ['shadow_size', { shadowLights: 1 }],
+    ['grid.x', { gridAutomatic: false }],
+  ])('Field_%s_IsInUseOnlyWithWhatItBelongsTo', (name, change) => {
+    const field = kAllFields.find((candidate) => candidate.name === name);
+    if (!field) throw new Error(`no field ${name}`);
+    expect(isInUse(field, sampleSettings())).toBe(false);
+    expect(isInUse(field, sampleSettings(change))).toBe(true);
   });
 
   it('SideOfTheGrid_MakesItOneByHand', () => {

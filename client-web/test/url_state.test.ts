@@ -27,7 +27,7 @@ describe('links', () => {
       lighting: LightingStage.FRAGMENT,
       lights: 31_000,
       lightRadius: 0.125,
-      lightAnimate: false,
+      animate: false,
       lightBox: kBounds,
       gridAutomatic: false,
       gridZ: 64,
@@ -88,6 +88,23 @@ describe('links', () => {
     expect(parseLink('grid.x=5').settings).toEqual({ gridX: 5, gridAutomatic: false });
   });
 
+  it('FormerNames_AreReadAndNotWritten', () => {
+    const old =
+      'gbuffer.normal=oct8&gbuffer.position=fp32&light_seed=7&light_animate=0&grid.law=linear';
+    const link = parseLink(old);
+    expect(link.problems).toEqual([]);
+    expect(link.settings).toEqual({
+      gbufferNormal: NormalEncoding.OCT8,
+      gbufferPosition: PositionSource.FP32,
+      seed: 7,
+      animate: false,
+      gridLaw: GridLaw.LINEAR,
+    });
+    const written = new URLSearchParams(formatLink({ ...initial, ...link.settings }, kAuto, initial));
+    for (const [name] of new URLSearchParams(old)) expect(written.has(name)).toBe(false);
+    expect(written.get('grid_law')).toBe('linear');
+  });
+
   it('LightTime_WhileTheLightsMove_IsNotInTheLink', () => {
     expect(formatLink(initial, kAuto, initial)).not.toContain('light_time');
   });
@@ -104,9 +121,9 @@ describe('links', () => {
     expect(formatLink(sampleSettings({ exposure: float }), kAuto, initial)).toContain('exposure=0.1&');
   });
 
-  it.each([2_147_483_648, 4_294_967_295, 16_777_217])('WholeNumber_%i_StaysExact', (lightSeed) => {
-    const link = parseLink(formatLink(sampleSettings({ lightSeed }), kAuto, initial));
-    expect(link.settings.lightSeed).toBe(lightSeed);
+  it.each([2_147_483_648, 4_294_967_295, 16_777_217])('WholeNumber_%i_StaysExact', (seed) => {
+    const link = parseLink(formatLink(sampleSettings({ seed }), kAuto, initial));
+    expect(link.settings).toMatchObject({ seed });
   });
 
   it('NothingAfterTheHash_IsNothing', () => {
@@ -124,6 +141,7 @@ describe('links', () => {
     'exposure=',
     'renderer=fastest',
     'chroma=422',
+    'animate=yes',
     'light_animate=yes',
     'eye=1,2',
     'eye=1,2,3,4',
@@ -135,7 +153,9 @@ describe('links', () => {
     'toon_fragment=0,1',
     'half_height=x',
     'light_time=noon',
-    'gbuffer.normal=oct7',
+    'gbuffer_normal=oct7',
+    'fog_albedo=1,2',
+    'constructor=1',
     'grid.auto=maybe',
     'colour=red',
   ])('Nonsense_%s_IsNamedAndHasNoEffect', (entry) => {

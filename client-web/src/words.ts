@@ -1,0 +1,94 @@
+// What the panel says of its fields: the server's words for the settings of its table, and words of
+// the page's own for what stands beside it.
+
+export interface Words {
+  readonly help: string;
+  readonly unit: string;
+  readonly cost: string;
+}
+
+/** By the fields' names. */
+export type WordBook = ReadonlyMap<string, Words>;
+
+interface OwnWords {
+  readonly label: string;
+  readonly help: string;
+}
+
+const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
+  ['fov_deg', { label: 'Field of view °', help: 'Full vertical angle' }],
+  [
+    'lens_shift.x',
+    {
+      label: 'Lens shift →',
+      help: 'Moves the picture’s middle right of the view axis, in half widths',
+    },
+  ],
+  [
+    'lens_shift.y',
+    {
+      label: 'Lens shift ↑',
+      help: 'Moves the picture’s middle above the view axis, in half heights: straight verticals',
+    },
+  ],
+  [
+    'grid.auto',
+    { label: 'Automatic', help: 'The server chooses the grid; off: the size below' },
+  ],
+  ['grid.x', { label: 'Tiles across', help: 'Clusters along the width' }],
+  ['grid.y', { label: 'Tiles down', help: 'Clusters along the height' }],
+  ['grid.z', { label: 'Depth slices', help: 'Clusters along the depth' }],
+  [
+    'debug_frozen',
+    {
+      label: 'Freeze clusters',
+      help: 'Keeps this camera’s cluster grid for the cluster wires while the view moves on; costs the host a second grid',
+    },
+  ],
+]);
+
+/** "Fog base height m" of fog_base_height. */
+export function labelOf(name: string, book: WordBook): string {
+  const own = kOwnWords.get(name);
+  if (own) return own.label;
+  const text = name.replaceAll('_', ' ');
+  const unit = book.get(name)?.unit ?? '';
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)} ${unit}`.trimEnd();
+}
+
+/** What a field does, what that costs, and its limits, as far as they are known. */
+export function tipOf(name: string, book: WordBook, limits: string): string {
+  const words = book.get(name);
+  const help = kOwnWords.get(name)?.help ?? words?.help ?? '';
+  const cost = words?.cost ?? '';
+  return [help, cost && `Costs: ${cost}`, limits].filter((part) => part !== '').join(' · ');
+}
+
+const kNone: WordBook = new Map();
+
+/** The server's words; what is not as it should be is left out. */
+export function wordsOf(json: unknown): WordBook {
+  if (!Array.isArray(json)) return kNone;
+  return new Map(
+    json.flatMap((entry: unknown) => {
+      if (typeof entry !== 'object' || entry === null) return [];
+      const parts = new Map<string, unknown>(Object.entries(entry));
+      const text = (key: string): string => {
+        const value = parts.get(key);
+        return typeof value === 'string' ? value : '';
+      };
+      const words = { help: text('help'), unit: text('unit'), cost: text('cost') };
+      return text('name') === '' ? [] : [[text('name'), words] as const];
+    }),
+  );
+}
+
+/** Asks the server; without an answer there are no words. */
+export async function fetchWords(): Promise<WordBook> {
+  try {
+    const response = await fetch('settings.json');
+    return response.ok ? wordsOf(await response.json()) : kNone;
+  } catch {
+    return kNone; // no network, or a server that has none
+  }
+}
