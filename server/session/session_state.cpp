@@ -68,19 +68,20 @@ struct Reducer {
         return {};
     }
 
-    Outcome operator()(const SetSettings& command) const {
-        for (const SettingChange& change : command.changes) {
+    Outcome set(const SettingChanges& changes) const {
+        for (const SettingChange& change : changes) {
             change.setting->set(state, change.value);
         }
-        if (const auto* codec = givenIn(command.changes, "codec");
+        if (const auto* codec = givenIn(changes, "codec");
             codec != nullptr && !state.decodable.test(std::get<view::Choice>(*codec).index)) {
             return Rejection{RejectCode::kUnsupported, 0, "codec",
                              "codec is " + std::string(nameOf(state.encoding.codec)) +
                                  "; not every viewer's Hello.codecs lists it"};
         }
-        return givenIn(command.changes, "antialiasing") != nullptr ? checkArea("antialiasing")
-                                                                   : Outcome{};
+        return givenIn(changes, "antialiasing") != nullptr ? checkArea("antialiasing") : Outcome{};
     }
+
+    Outcome operator()(const SetSettings& command) const { return set(command.changes); }
 
     Outcome operator()(const SetLights& command) const {
         view::Lights& lights = state.settings.lights;
@@ -88,7 +89,7 @@ struct Reducer {
         if (command.clear_box) {
             lights.box.reset();
         }
-        Outcome outcome = (*this)(static_cast<const SetSettings&>(command));
+        Outcome outcome = set(command.changes);
         state.light_clock = state.light_clock.withRate(now, lights.speed, lights.animate);
         if (command.time_s) {
             state.light_clock = state.light_clock.withTime(now, *command.time_s);
@@ -126,13 +127,13 @@ struct Reducer {
         view::Grid& grid = state.settings.grid;
         assignIfGiven(grid.size, command.size);
         grid.automatic = command.automatic.value_or(grid.automatic && !command.size);
-        return (*this)(static_cast<const SetSettings&>(command));
+        return set(command.changes);
     }
 
     Outcome operator()(const SetToon& command) const {
         assignIfGiven(state.settings.toon_fragment, command.fragment);
         assignIfGiven(state.settings.toon_compute, command.compute);
-        return (*this)(static_cast<const SetSettings&>(command));
+        return set(command.changes);
     }
 
     Outcome operator()(const SetDebugView& command) const {
@@ -142,7 +143,7 @@ struct Reducer {
         } else if (command.freeze && !debug.grid_camera) {
             debug.grid_camera = state.settings.camera;
         }
-        return (*this)(static_cast<const SetSettings&>(command));
+        return set(command.changes);
     }
 
     // What is drawn of a picture at most; `field` is the one that asked for more.

@@ -2,12 +2,15 @@
 
 #include "session/delivery_rows.h"
 #include "session/session_state.h"
+#include "view/setting_cover.h"
 #include "view/setting_rows.h"
 
 #include <algorithm>
 
 namespace froxel::session {
 namespace {
+
+static_assert(view::covers<DeliverySettings>(kDeliveryRows, 0));
 
 // Which part of a state a table's rows are read and set in.
 template <class State>

@@ -1,20 +1,10 @@
 // Holds the table against the structs: a member without a row does not compile.
 #include "view/setting_rows.h"
 
-#include <boost/pfr/tuple_size.hpp>
-
-#include <algorithm>
+#include "view/setting_cover.h"
 
 namespace froxel::view {
 namespace {
-
-template <class Struct, class Rows>
-constexpr bool covers(const Rows& rows, size_t by_hand) {
-    const auto held = std::count_if(rows.begin(), rows.end(), [](const auto& row) {
-        return row.member_of == membersOf<Struct>();
-    });
-    return static_cast<size_t>(held) + by_hand == boost::pfr::tuple_size_v<Struct>;
-}
 
 // The camera, the size, two ramps, and the structs below.
 static_assert(covers<ViewSettings>(kSettingRows, 4 + 8));
