@@ -23,14 +23,14 @@ struct PromiseKept {
                c.eye_world != c.target_world && glm::length(c.up_world) > 0 &&
                (!c.yfov_rad || (*c.yfov_rad > 0 && *c.yfov_rad < 3.1));
     }
-    static bool kept(const session::SettingChange& change) {
-        return accepts(change.setting->facts(), change.value);
+    static bool inRange(const session::SettingChanges& changes) {
+        return std::all_of(changes.begin(), changes.end(), [](const auto& change) {
+            return accepts(change.setting->facts(), change.value);
+        });
     }
-    bool operator()(const session::SetSettings& c) const {
-        return std::all_of(c.changes.begin(), c.changes.end(), kept);
-    }
+    bool operator()(const session::SetSettings& c) const { return inRange(c.changes); }
     bool operator()(const session::SetLights& c) const {
-        return (*this)(static_cast<const session::SetSettings&>(c)) &&
+        return inRange(c.changes) &&
                (!c.box || (finite(c.box->min) && finite(c.box->max) && !c.box->empty()));
     }
     bool operator()(const session::SetPlacedLights& c) const {
@@ -46,19 +46,16 @@ struct PromiseKept {
     }
     bool operator()(const session::SetGrid& c) const {
         return (!c.size || (c.size->x > 0 && c.size->y > 0 && c.size->z > 0 && c.size->x <= 128)) &&
-               !(c.size && c.automatic.value_or(false)) &&
-               (*this)(static_cast<const session::SetSettings&>(c));
+               !(c.size && c.automatic.value_or(false)) && inRange(c.changes);
     }
-    bool operator()(const session::SetDebugView& c) const {
-        return (*this)(static_cast<const session::SetSettings&>(c));
-    }
+    bool operator()(const session::SetDebugView& c) const { return inRange(c.changes); }
     bool operator()(const session::SetSize& c) const {
         return view::kWidthRange.contains(c.size.width_px) &&
                view::kHeightRange.contains(c.size.height_px);
     }
     bool operator()(const session::SetToon& c) const {
         return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2) &&
-               (*this)(static_cast<const session::SetSettings&>(c));
+               inRange(c.changes);
     }
     template <class Other>
     bool operator()(const Other& /*command*/) const {

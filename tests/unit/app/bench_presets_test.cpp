@@ -3,10 +3,10 @@
 #include "app/bench_json.h"
 #include "app/bench_presets.h"
 #include "app/light_set_file.h"
-#include "app/options.h"
 #include "app/render_arguments.h"
 #include "session/placed_lights.h"
 #include "support/setting_values.h"
+#include "unit/app/parsed_options.h"
 #include "view/ranges.h"
 #include "view/setting_rows.h"
 
@@ -142,7 +142,7 @@ TEST(BenchPresets, ResolutionScale_IsScaledToTheBase) {
     }
 }
 
-// What the row's command line says, read by the program's own parser.
+// What the row's command line says.
 RenderOptions parsedCommand(const BenchResult& result, const BenchRow& row) {
     RenderOptions options;
     options.scene = result.scene_source;
@@ -155,13 +155,7 @@ RenderOptions parsedCommand(const BenchResult& result, const BenchRow& row) {
         options.light_set = std::filesystem::path(testing::TempDir()) / row.light_set;
         std::ofstream(options.light_set) << session::lightSetJson(row.settings.lights.placed);
     }
-    auto texts = renderArguments(options, result.base.views[row.timedView()].name);
-    texts.insert(texts.begin(), "froxel");
-    std::vector<const char*> arguments;
-    std::ranges::transform(texts, std::back_inserter(arguments),
-                           [](const std::string& text) { return text.c_str(); });
-    return std::get<RenderOptions>(
-        parseOptions(static_cast<int>(arguments.size()), arguments.data()).command);
+    return parsedBack(options, result.base.views[row.timedView()].name);
 }
 
 TEST(RenderArguments, EveryRow_ParsesBackToItsSettings) {

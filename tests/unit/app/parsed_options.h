@@ -2,10 +2,13 @@
 #pragma once
 
 #include "app/options.h"
+#include "app/render_arguments.h"
 #include "core/error.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +22,15 @@ inline Options parse(std::vector<const char*> arguments) {
 
 inline RenderOptions parseRender(std::vector<const char*> arguments) {
     arguments.insert(arguments.begin(), {"render", "--out", "a.png"});
+    return std::get<RenderOptions>(parse(std::move(arguments)).command);
+}
+
+// What the command line says that repeats a picture, read by the program's own parser.
+inline RenderOptions parsedBack(const RenderOptions& options, const std::string& camera = {}) {
+    const auto texts = renderArguments(options, camera);
+    std::vector<const char*> arguments;
+    std::ranges::transform(texts, std::back_inserter(arguments),
+                           [](const std::string& text) { return text.c_str(); });
     return std::get<RenderOptions>(parse(std::move(arguments)).command);
 }
 

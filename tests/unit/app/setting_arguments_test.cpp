@@ -1,6 +1,5 @@
 // Every row of the table as an option and in command lines that repeat a picture.
 #include "app/light_set_file.h"
-#include "app/render_arguments.h"
 #include "app/setting_options.h"
 #include "support/settings.h"
 #include "unit/app/parsed_options.h"
@@ -8,24 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
-#include <iterator>
 
 namespace froxel::app {
 namespace {
-
-RenderOptions parsedBack(const RenderOptions& options) {
-    auto texts = renderArguments(options, "");
-    texts.insert(texts.begin(), "froxel");
-    std::vector<const char*> arguments;
-    std::ranges::transform(texts, std::back_inserter(arguments),
-                           [](const std::string& text) { return text.c_str(); });
-    return std::get<RenderOptions>(
-        parseOptions(static_cast<int>(arguments.size()), arguments.data()).command);
-}
 
 TEST(SettingArguments, EachSettingAlone_ParsesBack) {
     for (const auto& row : view::kSettingRows) {
