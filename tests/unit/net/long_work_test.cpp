@@ -10,6 +10,8 @@ namespace {
 
 TEST(LongWork, Exception_CostsThatWorkAlone) {
     boost::asio::io_context home;
+    // Between the two nothing is under way, and a context without work stops.
+    auto both = boost::asio::make_work_guard(home);
     std::optional<int> made;
     LongWork long_work(1);
     long_work.run(
@@ -17,6 +19,7 @@ TEST(LongWork, Exception_CostsThatWorkAlone) {
         [&](int, Seconds) { made = 1; });
     long_work.run(
         home.get_executor(), [] { return 2; }, [&](int result, Seconds) { made = result; });
+    both.reset();
     home.run(); // until neither has anything to bring home
     EXPECT_EQ(made, 2);
 }
