@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace froxel::render {
 
@@ -186,6 +187,50 @@ std::vector<io::WireVertex> clusterWires(const cluster::ClusterGrid& grid,
         }
     }
     return std::move(maker.wires);
+}
+
+namespace {
+
+// Of a metre at a depth along the view axis.
+double pixelsAt(const view::Camera& camera, const view::Size& size, double depth_m) {
+    const double half_px = 0.5 * size.height_px;
+    return camera.projection == view::Projection::kPerspective
+               ? half_px / (std::tan(0.5 * camera.yfov_rad) * std::max(depth_m, camera.near_m))
+               : half_px / camera.half_height_m;
+}
+
+} // namespace
+
+double wirePixels(std::span<const io::WireVertex> wires,
+                  const view::Camera& camera,
+                  const view::Size& size) {
+    const glm::dvec2 half(0.5 * size.width_px, 0.5 * size.height_px);
+    const auto shown = [&](const io::WireVertex& vertex) {
+        const glm::dvec3 p(vertex.position_view);
+        return glm::clamp(glm::dvec2(p) * pixelsAt(camera, size, -p.z), -half, half);
+    };
+    double sum = 0;
+    for (size_t i = 0; i + 1 < wires.size(); i += 2) {
+        sum += glm::distance(shown(wires[i]), shown(wires[i + 1]));
+    }
+    return sum;
+}
+
+double lightWirePixels(const light::FrameLights& lights,
+                       const view::Camera& camera,
+                       const view::Size& size) {
+    constexpr double kCircles = 3;
+    const double most = 2.0 * (size.width_px + size.height_px); // of a circle, in the picture
+    double sum = 0;
+    for (size_t i = 0; i < lights.lights.size(); ++i) {
+        const auto radius = static_cast<double>(lights.radii_m[i]);
+        if (std::isfinite(radius)) { // another has no end to show
+            const double depth_m = glm::length(glm::dvec3(lights.lights[i].position_view));
+            const double around = 2 * std::numbers::pi * radius * pixelsAt(camera, size, depth_m);
+            sum += kCircles * std::min(around, most);
+        }
+    }
+    return sum;
 }
 
 } // namespace froxel::render

@@ -5,9 +5,11 @@
 #include "core/frame_stats.h"
 #include "core/math.h"
 #include "interface/debug_io.h"
+#include "light/frame_lights.h"
 #include "view/settings.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace froxel::render {
@@ -39,11 +41,21 @@ struct DebugFacts {
                                                        const view::Camera& grid_camera,
                                                        const view::Camera& camera);
 
+// Pixels that pairs of vertices cover as lines, about.
+[[nodiscard]] double wirePixels(std::span<const io::WireVertex> wires,
+                                const view::Camera& camera,
+                                const view::Size& size);
+// Likewise the three circles of each light, at most.
+[[nodiscard]] double lightWirePixels(const light::FrameLights& lights,
+                                     const view::Camera& camera,
+                                     const view::Size& size);
+
 // A frame's.
 struct DebugFrame {
     io::DebugFrame values{};
     uint32_t light_count = 0;          // of light_spheres
     std::vector<io::WireVertex> wires; // of cluster_wires
+    double wire_px = 0;                // that lines of either cover
     DebugLegend legend;
 };
 

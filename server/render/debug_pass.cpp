@@ -104,10 +104,11 @@ void DebugPass::recordClusters(const vk::raii::CommandBuffer& cmd,
                                const DebugSets& sets,
                                vk::Buffer vertices,
                                vk::DeviceSize offset,
+                               uint32_t first_vertex,
                                uint32_t vertex_count) {
     bindWires(cmd, sets, DebugShader::kClusterWires);
     cmd.bindVertexBuffers(0, vertices, offset);
-    cmd.draw(vertex_count, 1, 0, 0);
+    cmd.draw(vertex_count, 1, first_vertex, 0);
 }
 
 } // namespace froxel::render

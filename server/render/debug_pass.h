@@ -40,6 +40,7 @@ class DebugPass {
                         const DebugSets& sets,
                         vk::Buffer vertices, // io::WireVertex
                         vk::DeviceSize offset,
+                        uint32_t first_vertex,
                         uint32_t vertex_count);
 
   private:

@@ -279,6 +279,9 @@ void FrameBuilder::buildDebug(const FrameInputs& inputs, const FramePlan& plan, 
     if (plan.debug == view::DebugView::kClusterWires) {
         debug_.wires = buildWires(inputs, facts.slice_count);
     }
+    debug_.wire_px = plan.debug == view::DebugView::kLightSpheres
+                         ? lightWirePixels(lights_, settings.camera, settings.size)
+                         : wirePixels(debug_.wires, settings.camera, settings.size);
     debug_.light_count = facts.light_count;
     debug_.legend = makeLegend(settings.debug, facts);
     debug_.values = makeDebugValues(settings, scene_.bounds_world, debug_.legend,
@@ -336,7 +339,8 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .fog_tile_px = fog_.tile_px,
                    .fog_slice_count = fog_.slice_count,
                    .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
-                   .wire_lines = wireLines(plan)};
+                   .wire_lines = wireLines(plan),
+                   .wire_px = debug_.wire_px};
     if (plan.visibility) {
         const VisibilityScene& visible = scene_.visibility();
         load.device_triangles = visible.triangle_count;

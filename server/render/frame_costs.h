@@ -40,6 +40,7 @@ struct FrameLoad {
     uint32_t fog_slice_count = 0;
     uint32_t peel_layers = 0;
     uint64_t wire_lines = 0; // of an overlay
+    double wire_px = 0;      // that they cover
 };
 
 struct PassEstimate {
@@ -73,7 +74,9 @@ class FrameCosts {
     [[nodiscard]] RegionCost bloom(size_t step) const; // over its target
     [[nodiscard]] Seconds shadowFace() const;
     [[nodiscard]] Seconds wires(uint64_t line_count) const {
-        return Seconds(static_cast<double>(line_count) * unit_.wire_line);
+        const auto lines = static_cast<double>(std::max<uint64_t>(load_.wire_lines, 1));
+        return Seconds(static_cast<double>(line_count) *
+                       (unit_.wire_line + load_.wire_px / lines * unit_.wire_pixel));
     }
 
     // All of the plan, in order; what a frame takes that is not cut.

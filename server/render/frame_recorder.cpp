@@ -206,22 +206,23 @@ void recordReplacement(const FrameContext& frame) {
 
 // Lines over the lit picture. Later lights' blend over those before.
 void recordOverlay(const FrameContext& frame) {
-    const uint32_t lights =
-        frame.plan.debug == view::DebugView::kLightSpheres ? frame.debug->light_count : 0;
-    const Seconds each = frame.costs.wires(io::kLinesOfALight);
-    const auto at_once = static_cast<uint32_t>(std::min<size_t>(frame.pieces.fits(each), lights));
-    for (uint32_t first = 0; first < lights; first += at_once) {
-        const uint32_t count = std::min(at_once, lights - first);
+    const bool spheres = frame.plan.debug == view::DebugView::kLightSpheres;
+    const auto total =
+        spheres ? frame.debug->light_count : static_cast<uint32_t>(frame.debug->wires.size() / 2);
+    const Seconds each = frame.costs.wires(spheres ? io::kLinesOfALight : 1);
+    const auto at_once = static_cast<uint32_t>(std::min<size_t>(frame.pieces.fits(each), total));
+    for (uint32_t first = 0; first < total; first += at_once) {
+        const uint32_t count = std::min(at_once, total - first);
         frame.pieces.add(count * each);
-        recordLightWires(frame, first, count);
+        if (spheres) {
+            recordLightWires(frame, first, count);
+        } else {
+            recordClusterWires(frame, first, count);
+        }
         // lines so far -> those blended over them
         barrier(frame.slot.cmd, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
                 Stage::eColorAttachmentOutput,
                 Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
-    }
-    if (!frame.debug->wires.empty()) {
-        frame.pieces.add(frame.costs.wires(frame.debug->wires.size() / 2));
-        recordClusterWires(frame);
     }
 }
 

@@ -193,11 +193,10 @@ void recordLightWires(const FrameContext& frame, uint32_t first_light, uint32_t 
     });
 }
 
-void recordClusterWires(const FrameContext& frame) {
+void recordClusterWires(const FrameContext& frame, uint32_t first_line, uint32_t line_count) {
     inWires(frame, [&](const DebugSets& sets) {
         frame.scene.debug().recordClusters(frame.slot.cmd, sets, frame.slot.upload.buffer(),
-                                           frame.offsets.wires,
-                                           static_cast<uint32_t>(frame.debug->wires.size()));
+                                           frame.offsets.wires, 2 * first_line, 2 * line_count);
     });
 }
 

@@ -28,7 +28,7 @@ void recordDebugView(const FrameContext& frame,
                      const vk::Rect2D& region); // reads what the view shows, writes pixels
 // Blend lines over radiance, read depth.
 void recordLightWires(const FrameContext& frame, uint32_t first_light, uint32_t light_count);
-void recordClusterWires(const FrameContext& frame);
+void recordClusterWires(const FrameContext& frame, uint32_t first_line, uint32_t line_count);
 void recordFxaa(const FrameContext& frame,
                 const vk::Rect2D& region); // reads the display's picture, writes pixels
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region); // reads depth

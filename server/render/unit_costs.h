@@ -28,7 +28,8 @@ struct UnitCosts {
     double area_pair = 0;   // a rectangle
     double froxel = 0;      // of fog, without lights
     double bloom_tap = 0;
-    double wire_line = 0; // of an overlay
+    double wire_line = 0;  // of an overlay
+    double wire_pixel = 0; // that such a line covers
 };
 
 // Of a device that takes so many times as long for lights, and for surfaces.
@@ -39,8 +40,8 @@ struct UnitCosts {
     }
     for (double UnitCosts::*cost :
          {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::shadow_pair,
-          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap,
-          &UnitCosts::wire_line}) {
+          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap, &UnitCosts::wire_line,
+          &UnitCosts::wire_pixel}) {
         unit.*cost *= lights;
     }
     for (PairCost UnitCosts::*cost :
@@ -65,7 +66,8 @@ inline constexpr UnitCosts kCpuUnitCosts{.triangle = 3e-7,
                                          .area_pair = 1.5e-7,
                                          .froxel = 6e-8,
                                          .bloom_tap = 2e-9,
-                                         .wire_line = 2.5e-6};
+                                         .wire_line = 5e-7,
+                                         .wire_pixel = 2e-8};
 inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .depth_pixel = 1e-10,
                                          .surface_pixel = 6e-10,
@@ -80,6 +82,7 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .area_pair = 3e-11,
                                          .froxel = 1e-10,
                                          .bloom_tap = 5.5e-12,
-                                         .wire_line = 1e-8};
+                                         .wire_line = 1e-8,
+                                         .wire_pixel = 5e-11};
 
 } // namespace froxel::render

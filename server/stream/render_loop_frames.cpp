@@ -39,7 +39,7 @@ void warnOfLongStep(std::string_view step,
                  "placed={} settings={}",
                  step, took.count(), id, size.width_px, size.height_px, grid.x, grid.y, grid.z,
                  state.settings.lights.placed.lights().size(),
-                 logValue(session::unusualSettings(state)));
+                 logValue(session::unusualSettings(state), 1000));
 }
 
 [[nodiscard]] bool isThisPictureAlone(const Error& error) {
