@@ -142,7 +142,8 @@ TEST_F(Pieces, BlendedSurfaces_DrawTheSameBits) {
 
 TEST_F(Pieces, DebugViews_DrawTheSameBits) {
     for (const auto view : {view::DebugView::kDepth, view::DebugView::kEvaluatedLights,
-                            view::DebugView::kOverdraw, view::DebugView::kGbuffer}) {
+                            view::DebugView::kOverdraw, view::DebugView::kGbuffer,
+                            view::DebugView::kClusterWires, view::DebugView::kLightSpheres}) {
         auto asked = inputs();
         asked.settings.debug.view = view;
         expectSame(asked, false);

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <set>
+#include <vector>
 
 namespace froxel::render {
 
@@ -75,6 +79,39 @@ TEST(ClusterWires, FrozenCamera_IsWhereItWas) {
         EXPECT_LT(glm::distance(seen[i].position_view, expected), 1e-4F);
         EXPECT_EQ(seen[i].color, own[i].color);
     }
+}
+
+TEST(WirePixels, OfALineAcross_AreThePicturesWidth) {
+    const view::Size size{400, 200};
+    view::Camera camera;
+    const auto depth = static_cast<float>(100 / std::tan(camera.yfov_rad / 2)); // 1 m, 1 pixel
+    const auto at = [&](float x, float y) {
+        return io::WireVertex{.position_view = {x, y, -depth}, .color = {}};
+    };
+    const std::vector<io::WireVertex> lines{at(-50, 0), at(50, 0), at(0, -1e6F), at(0, 1e6F)};
+    EXPECT_NEAR(wirePixels(lines, camera, size), 100 + 200, 0.01);
+    camera.projection = view::Projection::kOrthographic;
+    camera.half_height_m = 50;
+    EXPECT_NEAR(wirePixels(lines, camera, size), 200 + 200, 0.01);
+    EXPECT_EQ(wirePixels({}, camera, size), 0);
+}
+
+TEST(WirePixels, OfLights_AreNoMoreThanThePictureShows) {
+    const view::Size size{400, 200};
+    const view::Camera camera;
+    const double depth = 100 / std::tan(camera.yfov_rad / 2);
+    light::FrameLights lights;
+    const auto add = [&](float radius_m) {
+        lights.lights.push_back({});
+        lights.lights.back().position_view = {0, 0, static_cast<float>(-depth)};
+        lights.radii_m.push_back(radius_m);
+    };
+    add(10);
+    EXPECT_NEAR(lightWirePixels(lights, camera, size), 3 * 20 * std::numbers::pi, 0.01);
+    add(std::numeric_limits<float>::infinity()); // has no end to show
+    EXPECT_NEAR(lightWirePixels(lights, camera, size), 3 * 20 * std::numbers::pi, 0.01);
+    add(1e9F);
+    EXPECT_NEAR(lightWirePixels(lights, camera, size), 3 * (20 * std::numbers::pi + 1200), 0.01);
 }
 
 } // namespace froxel::render

@@ -113,6 +113,19 @@ TEST(FrameCosts, PairsWithinALimit_FillIt) {
     EXPECT_NEAR(lit.total().count(), 0.05, 0.001);
 }
 
+// The same lines over a picture four times as wide and high take longer, and are cut smaller.
+TEST(FrameCosts, Lines_CountWhatTheyCover) {
+    const Load load;
+    FrameLoad lines = load.of({});
+    lines.wire_lines = 65'000;
+    lines.wire_px = 65'000 * 100.0;
+    const FrameCosts small(kCpuUnitCosts, lines);
+    lines.wire_px *= 16;
+    const FrameCosts large(kCpuUnitCosts, lines);
+    EXPECT_GT(large.wires(65'000), 10 * small.wires(65'000));
+    EXPECT_NEAR(large.wires(1).count() * 65'000, large.wires(65'000).count(), 1e-9);
+}
+
 // All passes that loop over lights share what there is.
 TEST(FrameCosts, PairsWithinALimit_CountEveryPass) {
     const Load lit;
