@@ -64,14 +64,17 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
     }
 }
 
+// A third of the weight of the render thread.
+constexpr int kCpuDeviceNiceness = 5;
+
 // On the render thread, which owns all of it from then on.
 OpenedScene openScene(const ServeOptions& options,
                       const std::function<void(net::LoadingProgress)>& report) {
     report({"opening the device", 0.0});
-    auto device =
-        std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = options.device,
-                                                         .pipeline_cache = options.pipeline_cache,
-                                                         .validation = options.validation});
+    auto device = gpu::openForServing({.choice = options.device,
+                                       .pipeline_cache = options.pipeline_cache,
+                                       .validation = options.validation},
+                                      kCpuDeviceNiceness);
     const gpu::DeviceTraits& traits = device->traits();
 
     report({"loading the scene", 0.1});

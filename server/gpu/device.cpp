@@ -1,13 +1,16 @@
 #include "gpu/device.h"
 
 #include "core/error.h"
+#include "core/thread_name.h"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <optional>
 #include <span>
+#include <unistd.h>
 #include <vector>
 
 namespace froxel::gpu {
@@ -108,6 +111,10 @@ int rank(vk::PhysicalDeviceType type) {
     }
 }
 
+bool isCpu(const vk::raii::PhysicalDevice& physical) {
+    return physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+}
+
 vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, DeviceChoice choice) {
     vk::raii::PhysicalDevices all(instance);
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
@@ -116,7 +123,7 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, DeviceChoice
     std::string reasons;
     for (auto& physical : all) {
         const auto properties = physical.getProperties();
-        const bool is_cpu = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+        const bool is_cpu = isCpu(physical);
         if ((choice == DeviceChoice::kGpu && is_cpu) || (choice == DeviceChoice::kCpu && !is_cpu)) {
             continue;
         }
@@ -300,6 +307,21 @@ void Device::nameObject(vk::ObjectType type, uint64_t handle, std::string_view n
     const std::string text(name);
     device_.setDebugUtilsObjectNameEXT(vk::DebugUtilsObjectNameInfoEXT{
         .objectType = type, .objectHandle = handle, .pObjectName = text.c_str()});
+}
+
+std::unique_ptr<Device> openForServing(const DeviceOptions& options, int cpu_niceness) {
+    const Instance instance(false);
+    if (!isCpu(choose(instance.handle(), options.choice))) {
+        return std::make_unique<Device>(options);
+    }
+    // Its threads inherit what the one has that opens it, which could not take it back.
+    return std::async(std::launch::async,
+                      [&] {
+                          nameThread("device");
+                          (void)nice(cpu_niceness); // of this thread alone, on Linux
+                          return std::make_unique<Device>(options);
+                      })
+        .get();
 }
 
 } // namespace froxel::gpu

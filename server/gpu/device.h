@@ -83,4 +83,10 @@ class Device {
     vk::PhysicalDeviceMemoryProperties memory_;
 };
 
+// Opens a device that gives way to the server: a software device's own threads, which would take
+// the processor from the thread that serves all viewers, run at this niceness, nice(2). Throws
+// StartupError(kDevice).
+[[nodiscard]] std::unique_ptr<Device> openForServing(const DeviceOptions& options,
+                                                     int cpu_niceness);
+
 } // namespace froxel::gpu

@@ -12,7 +12,7 @@
 namespace froxel::stream {
 namespace {
 
-// A CPU device draws with the cores that compile.
+// A CPU device draws with the cores that compile. A third of the weight of its threads.
 constexpr int kCpuNiceness = 10;
 
 class RendererView final : public ViewSource {

@@ -153,6 +153,19 @@ async def sizes_storm(arena):
             await viewer.acknowledge(heard[1])
 
 
+@case(needs=("frame",))
+async def lights_anew(arena):
+    """A million lights, then few, and so on, in a tiny picture: what the host makes of them is made anew."""
+    async with arena.viewer() as viewer:
+        await viewer.say(setSize={"width": 16, "height": 16})
+        await viewer.say(setGrid={"grid": {"x": 34, "y": 1, "z": 256}})
+        for count in itertools.cycle((1_000_000, 10)):
+            await viewer.say(setLights={"count": count, "radiusM": 0.001, "lightLoop": "LIGHT_LOOP_LISTS"})
+            while (heard := await viewer.hear())[0] != "frame":
+                pass
+            await viewer.acknowledge(heard[1])
+
+
 @case(seconds=20)
 async def storms(arena):
     """Two viewers that change every setting over its whole range, 200 times a second."""
