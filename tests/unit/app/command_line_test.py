@@ -14,15 +14,15 @@ import unittest
 from pathlib import Path
 
 FROXEL = os.environ["FROXEL_BINARY"]
+# All of these runs share it; this user's may hold what another build left there.
+CACHE = tempfile.TemporaryDirectory()
 SMALL = ["--device", "cpu", "--size", "64x36", "--lights", "20", "--warmup", "0"]
 
 
 def froxel(*arguments, **environment):
-    # Without the pipelines that another build may have left in this user's cache.
-    with tempfile.TemporaryDirectory() as cache:
-        return subprocess.run([FROXEL, *map(str, arguments)],
-                              env={**os.environ, "XDG_CACHE_HOME": cache, **environment},
-                              capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run([FROXEL, *map(str, arguments)],
+                          env={**os.environ, "XDG_CACHE_HOME": CACHE.name, **environment},
+                          capture_output=True, text=True, timeout=120, check=False)
 
 
 class CommandLine(unittest.TestCase):
