@@ -28,9 +28,12 @@ it('Page_AsItOpens_ConnectsAndPaintsAndCounts', async () => {
   await viewer.screenshot('wide');
 });
 
-it('Picture_FollowsTheWindow_WithinTheServersBudget', async () => {
+it('Picture_FollowsTheWindow_ToldOnce_WithinTheServersBudget', async () => {
   const viewer = await open('#animate=0&lights=50&size=auto@0.25');
   await viewer.stateWith('320 × 180', (state) => state.width === 320 && state.height === 180);
+  const told = viewer.sent.flatMap(({ body }) => (body.case?.startsWith('set') ? [body.case] : []));
+  expect(told).toContain('setLights');
+  expect(told).toEqual([...new Set(told)]);
   await viewer.page.setViewportSize({ width: 800, height: 800 });
   await viewer.stateWith('200 × 200', (state) => state.width === 200 && state.height === 200);
 });

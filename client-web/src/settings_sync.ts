@@ -23,7 +23,8 @@ export class SettingsSync {
     private readonly sender: Sender,
     private readonly nextFrame: (action: () => void) => void,
   ) {
-    store.listen((state) => this.changed(state));
+    // Between actions that wait, `sent` does not hold yet what went out: it would go out twice.
+    store.listenSettled((state) => this.changed(state));
   }
 
   private changed({ link, settings, sent, room }: AppState): void {

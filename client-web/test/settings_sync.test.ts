@@ -22,6 +22,11 @@ const sender = {
 const edit = (patch: Partial<Settings>): void => store.dispatch({ type: 'edit', patch });
 const cases = (): string[] => bodies.map((body) => String(body.case));
 
+function receiveWelcome(): void {
+  const message = serverMessage({ case: 'welcome', value: welcome() });
+  store.dispatch({ type: 'received', message });
+}
+
 beforeEach(() => {
   store = new Store();
   frames = new FakeFrames();
@@ -29,16 +34,31 @@ beforeEach(() => {
   open = true;
   sender.backlogBytes = 0;
   new SettingsSync(store, sender, frames.next);
-  store.dispatch({
-    type: 'received',
-    message: serverMessage({ case: 'welcome', value: welcome() }),
-  });
+  receiveWelcome();
 });
 
 describe('SettingsSync', () => {
   it('Welcome_WithNothingWanted_SendsNothing', () => {
     frames.run();
     expect(bodies).toEqual([]);
+  });
+
+  it('Welcome_AnsweredWithAnEditByOthers_SendsEachCommandOnce', () => {
+    store = new Store();
+    // As the picture's size follows the window.
+    store.listen(({ server }, before) => {
+      if (server !== before.server) edit({ width: 321 });
+    });
+    new SettingsSync(store, sender, frames.next);
+    edit({ lights: 9 });
+    receiveWelcome();
+    frames.run();
+    expect(bodies).toMatchObject([
+      { case: 'setSize', value: { width: 321 } },
+      { case: 'setLights', value: { count: 9 } },
+    ]);
+    expect(store.state.sent).toBe(store.state.settings);
+    expect(store.state.sentSeq).toBe(2n);
   });
 
   it('DiscreteChanges_GoOutAtOnceAndOneByOne', () => {
@@ -95,10 +115,7 @@ describe('SettingsSync', () => {
     edit({ quality: 3 });
     expect(bodies).toEqual([]);
     open = true;
-    store.dispatch({
-      type: 'received',
-      message: serverMessage({ case: 'welcome', value: welcome() }),
-    });
+    receiveWelcome();
     frames.run();
     expect(bodies).toMatchObject([
       { case: 'setLights', value: { count: 9 } },
