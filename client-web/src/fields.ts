@@ -68,9 +68,6 @@ export const choicesFor = ({ name, schema }: ChoiceField): Choice[] =>
 /** Whether a field is one of the grid's sides, which count only while it is not automatic. */
 export const isGridSide = ({ name }: Field): boolean => /^grid\.[xyz]$/.test(name);
 
-/** Whether a field's numbers are typed although its range, for walls of pictures, suits a slider. */
-export const isTyped = ({ name }: Field): boolean => name.startsWith('lens_shift.');
-
 /** When fields change something, by how their names begin; the first that fits says it. */
 const kUses: readonly (readonly [string, (settings: Settings) => boolean])[] = [
   ['gbuffer_', isDeferred],

@@ -5,7 +5,7 @@ import GUI, { type Controller } from 'lil-gui';
 import type { AppState, ServerInfo } from './app_state';
 import { BoxEditor } from './box_editor';
 import type { ColorField, Field, NumberField } from './field';
-import { choicesFor, fieldsOf, isInUse, isTyped, type Section } from './fields';
+import { choicesFor, fieldsOf, isInUse, type Section } from './fields';
 import { gridText, tidy } from './format';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { FrameGrid } from './gen/froxel/v1/server_pb';
@@ -155,7 +155,7 @@ export class Panel {
     const controller = folder.add(model, 'value');
     controller.onFinishChange((value: number) => this.actions.set(field, value));
     const range = server.ranges.get(field.name);
-    const scale = range && !isTyped(field) ? scaleFor(range, field.integer, initial) : null;
+    const scale = range ? scaleFor(range, field.integer, initial) : null;
     const slide = scale
       ? attachSlider(controller, scale, (value) => this.actions.set(field, value))
       : null;

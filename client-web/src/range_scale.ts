@@ -1,6 +1,6 @@
 // Slider positions to values. Ranges that span decades get a logarithmic scale; 0, where it is in
 // the range, is the slider's left end. Positions are 0 to kSliderSteps; values are rounded to what
-// a hand can mean.
+// a hand can mean, but for the range's ends.
 
 export const kSliderSteps = 1000;
 /** A logarithmic slider whose range starts at 0 reaches down to this part of the usual value. */
@@ -8,7 +8,7 @@ const kSmallestPart = 1e-3;
 const kDigits = 3;
 const kLogRatio = 1000; // of a range's ends, from which on its scale is logarithmic
 const kLogMax = 100; // the same for a range that starts at 0
-const kWidest = 1000; // a range further below 0 is no matter of sliding
+const kLowest = -10; // a range further below 0 spans decades on both sides, as no scale here does
 const kMaxUint32 = 0xffff_ffff;
 
 export interface Range {
@@ -21,17 +21,20 @@ export interface Scale {
   toPosition(value: number): number;
 }
 
-/** The scale that suits a range; null: none does, its numbers are typed. */
+/** The scale that suits a range, by its ends alone; null: none does, its numbers are typed. */
 export function scaleFor(range: Range, integer: boolean, usual: number): Scale | null {
   const { min, max } = range;
-  if (min < -kWidest || max >= kMaxUint32) return null;
+  if (min < kLowest || max >= kMaxUint32) return null;
   const decades = min > 0 ? max / min >= kLogRatio : min === 0 && max >= kLogMax;
   return decades ? logScale(range, integer, usual) : linearScale(range, integer);
 }
 
 export function linearScale({ min, max }: Range, integer: boolean): Scale {
   return {
-    toValue: (position) => tidy(min + ((max - min) * position) / kSliderSteps, integer, min, max),
+    toValue: (position) => {
+      if (position >= kSliderSteps) return max;
+      return tidy(min + ((max - min) * position) / kSliderSteps, integer, min, max);
+    },
     toPosition: (value) => clampPosition(((value - min) / (max - min)) * kSliderSteps),
   };
 }
@@ -42,6 +45,7 @@ export function logScale({ min, max }: Range, integer: boolean, usual: number): 
   return {
     toValue: (position) => {
       if (position <= 0) return min;
+      if (position >= kSliderSteps) return max;
       return tidy(floor * Math.exp((span * position) / kSliderSteps), integer, min, max);
     },
     toPosition: (value) => {

@@ -46,6 +46,16 @@ describe('a range', () => {
     expect(middle(0, 100)).toBeLessThan(1);
   });
 
+  it.each([
+    ['list_cap', { min: 0, max: 65_535 }, true, 256],
+    ['target_fps', { min: 0, max: 240 }, false, 0.49],
+  ])('OfDecadesFromNone_AsOf%s_HasALogarithmicSlider', (_, range, integer, middleValue) => {
+    const scale = scaleFor(range, integer, 0);
+    expect(scale?.toValue(0)).toBe(0);
+    expect(scale?.toValue(kSliderSteps / 2)).toBe(middleValue);
+    expect(scale?.toValue(kSliderSteps)).toBe(range.max);
+  });
+
   it('OfOneKindOfSize_HasALinearSlider', () => {
     expect(middle(0, 1)).toBe(0.5);
     expect(middle(-0.95, 0.95)).toBe(0);
@@ -54,6 +64,7 @@ describe('a range', () => {
 
   it('OfAnything_HasNone', () => {
     expect(middle(-1e7, 1e7)).toBeUndefined();
+    expect(middle(-64, 64)).toBeUndefined();
     expect(middle(0, 4_294_967_295)).toBeUndefined();
   });
 });
