@@ -4,8 +4,7 @@
 import { WebSocket } from 'ws';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 
-import { decodeBinary, encodeCommand, kProtocolMajor, type Frame } from '../src/framing';
-import type { ClientBody } from '../src/setting_commands';
+import { decodeBinary, encodeCommand, kProtocolMajor, type ClientBody, type Frame } from '../src/framing';
 import { startServer, type Server } from './server';
 import { until } from './viewer';
 

@@ -5,6 +5,7 @@
 // when nothing newer is under way, so that a slider never jumps back to where it was a round trip
 // ago. A refusal takes the settings back to the confirmed ones.
 
+import type { Link } from './connection';
 import {
   ErrorCode,
   type FieldRange,
@@ -16,15 +17,8 @@ import { Refine } from './gen/froxel/v1/common_pb';
 import { findLight, placedAfter, type PlacedLights } from './placed_lights';
 import { mayControl, roomOf, type Room } from './room';
 import { cameraOf, settingsOf, type Bounds, type Settings } from './settings';
-import type { SizeMode } from './url_state';
+import type { SizeMode } from './size_policy';
 import { vec } from './vec3';
-
-export type Link =
-  | { readonly phase: 'connecting' }
-  | { readonly phase: 'greeting' } // open, Welcome not yet there
-  | { readonly phase: 'live' }
-  | { readonly phase: 'waiting'; readonly reason: string; readonly retryAtMs: number }
-  | { readonly phase: 'refused'; readonly reason: string }; // trying again is pointless
 
 export interface ServerInfo {
   readonly version: string;

@@ -2,7 +2,7 @@
 
 import type { Pose } from './camera_controller';
 import type { Connection } from './connection';
-import type { Field } from './field';
+import { isUint32, type Field } from './field';
 import { patchFor } from './fields';
 import { RendererSchema } from './gen/froxel/v1/common_pb';
 import type { InputTarget, View } from './input';
@@ -24,7 +24,7 @@ import type { Recorder } from './recorder';
 import { choicesOf } from './schema_names';
 import { cameraCommand, settingCommands } from './setting_commands';
 import type { Settings, Value } from './settings';
-import { isUint32, type SizeMode } from './url_state';
+import type { SizeMode } from './size_policy';
 import type { Store } from './store';
 import { add, length, normalize, scale, sub } from './vec3';
 

@@ -8,13 +8,20 @@ import {
   kProtocolMajor,
   kProtocolMinor,
   kSubprotocol,
+  type ClientBody,
   type Frame,
 } from './framing';
 import type { Codec } from './gen/froxel/v1/common_pb';
 import type { ServerMessage } from './gen/froxel/v1/server_pb';
 import { announced, type Refusal } from './refusal';
-import type { ClientBody } from './setting_commands';
-import type { Link } from './app_state';
+
+/** How it is with the connection. */
+export type Link =
+  | { readonly phase: 'connecting' }
+  | { readonly phase: 'greeting' } // open, Welcome not yet there
+  | { readonly phase: 'live' }
+  | { readonly phase: 'waiting'; readonly reason: string; readonly retryAtMs: number }
+  | { readonly phase: 'refused'; readonly reason: string }; // trying again is pointless
 
 export interface ConnectionEvents {
   link(link: Link): void;

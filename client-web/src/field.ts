@@ -17,3 +17,15 @@ export type Field = Named & Kind;
 export type NumberField = Extract<Field, { kind: 'number' }>;
 export type ChoiceField = Extract<Field, { kind: 'choice' }>;
 export type ColorField = Extract<Field, { kind: 'color' }>;
+
+/** What a setting's numbers may be, both ends included. */
+export interface Range {
+  readonly min: number;
+  readonly max: number;
+}
+
+export const kMaxUint32 = 0xffff_ffff;
+
+/** Whether a protobuf uint32 can carry it. */
+export const isUint32 = (value: number): boolean =>
+  Number.isInteger(value) && value >= 0 && value <= kMaxUint32;

@@ -5,7 +5,7 @@
 //
 // A client's binary message is a bare ClientMessage.
 
-import { create, fromBinary, toBinary } from '@bufbuild/protobuf';
+import { create, fromBinary, toBinary, type MessageInitShape } from '@bufbuild/protobuf';
 
 import { ClientMessageSchema } from './gen/froxel/v1/client_pb';
 import {
@@ -14,7 +14,6 @@ import {
   type FrameHeader,
   type ServerMessage,
 } from './gen/froxel/v1/server_pb';
-import type { ClientBody } from './setting_commands';
 
 export const kSubprotocol = 'froxel.v1';
 export const kProtocolMajor = 1;
@@ -25,6 +24,9 @@ const kKindFrame = 1;
 const kKindServerMessage = 2;
 const kPrefixBytes = 4;
 const kMaxHeaderBytes = 4096;
+
+/** A command, as what a client's message is made of. */
+export type ClientBody = NonNullable<MessageInitShape<typeof ClientMessageSchema>['body']>;
 
 /** A message that is not what the protocol says; the text is one line for a person. */
 export class FramingError extends Error {}
@@ -87,11 +89,7 @@ function parse<T>(name: string, decode: () => T): T {
 }
 
 /** One command as a binary WebSocket message. `nowMs` is the client's monotonic clock. */
-export function encodeCommand(
-  seq: bigint,
-  nowMs: number,
-  body: ClientBody,
-): Uint8Array {
+export function encodeCommand(seq: bigint, nowMs: number, body: ClientBody): Uint8Array {
   const clientTimeUs = BigInt(Math.round(nowMs * 1000));
   return toBinary(ClientMessageSchema, create(ClientMessageSchema, { seq, clientTimeUs, body }));
 }

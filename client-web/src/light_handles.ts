@@ -9,6 +9,7 @@ import { findLight, kindName, type PlacedLight } from './placed_lights';
 import { halfHeightAt, project, unproject, type PicturePoint } from './projection';
 import { mayControl } from './room';
 import type { Settings } from './settings';
+import type { Size } from './size';
 import { displayColor } from './srgb';
 
 export interface HandleActions {
@@ -27,15 +28,13 @@ const kArrows: ReadonlyMap<string, readonly [number, number]> = new Map([
   ['ArrowDown', [0, -kStep]],
 ]);
 
-interface Rect {
+interface Rect extends Size {
   readonly left: number;
   readonly top: number;
-  readonly width: number;
-  readonly height: number;
 }
 
 /** Where a picture of that size is in its box, as `object-fit: contain` puts it. */
-export function containedIn(box: Rect, picture: { width: number; height: number }): Rect {
+export function containedIn(box: Rect, picture: Size): Rect {
   const factor = Math.min(box.width / picture.width, box.height / picture.height);
   const [width, height] = [picture.width * factor, picture.height * factor];
   return {

@@ -1,9 +1,6 @@
 // The canvas: paints bitmaps and saves the picture.
 
-export interface Size {
-  readonly width: number;
-  readonly height: number;
-}
+import type { Size } from './size';
 
 /** The size that was asked for, by a picture of `scale` of it; the canvas has it already, mostly. */
 export function canvasSize(canvas: Size, picture: Size, scale: number): Size {

@@ -2,6 +2,8 @@
 // the range, is the slider's left end. Positions are 0 to kSliderSteps; values are rounded to what
 // a hand can mean, but for the range's ends.
 
+import { kMaxUint32, type Range } from './field';
+
 export const kSliderSteps = 1000;
 /** A logarithmic slider whose range starts at 0 reaches down to this part of the usual value. */
 const kSmallestPart = 1e-3;
@@ -9,12 +11,6 @@ const kDigits = 3;
 const kLogRatio = 1000; // of a range's ends, from which on its scale is logarithmic
 const kLogMax = 100; // the same for a range that starts at 0
 const kLowest = -10; // a range further below 0 spans decades on both sides, as no scale here does
-const kMaxUint32 = 0xffff_ffff;
-
-export interface Range {
-  readonly min: number;
-  readonly max: number;
-}
 
 export interface Scale {
   toValue(position: number): number;

@@ -3,8 +3,8 @@
 
 import { create, toJson } from '@bufbuild/protobuf';
 
+import type { ClientBody } from './framing';
 import { ClientMessageSchema } from './gen/froxel/v1/client_pb';
-import type { ClientBody } from './setting_commands';
 
 /** What a viewer that replays says by itself, or what belongs to one connection or room. */
 const kNotRecorded: ReadonlySet<ClientBody['case']> = new Set([

@@ -1,8 +1,6 @@
 // The commands that take one set of settings to another.
 
-import type { MessageInitShape } from '@bufbuild/protobuf';
-
-import type { ClientMessageSchema } from './gen/froxel/v1/client_pb';
+import type { ClientBody } from './framing';
 import { placedChanges } from './placed_lights';
 import { kRows, putAt, type CommandName, type Parts } from './setting_table';
 import {
@@ -14,8 +12,6 @@ import {
   type Settings,
 } from './settings';
 import { equal } from './vec3';
-
-export type ClientBody = NonNullable<MessageInitShape<typeof ClientMessageSchema>['body']>;
 
 function sameProjection(a: CameraSettings, b: CameraSettings): boolean {
   if (a.orthographic !== b.orthographic) return false;

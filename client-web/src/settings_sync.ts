@@ -2,8 +2,9 @@
 // camera at most once an animation frame, the latest pose only.
 
 import type { AppState } from './app_state';
+import type { ClientBody } from './framing';
 import { mayControl } from './room';
-import { cameraCommand, settingCommands, type ClientBody } from './setting_commands';
+import { cameraCommand, settingCommands } from './setting_commands';
 import { cameraOf, type Settings } from './settings';
 import type { Store } from './store';
 

@@ -6,8 +6,8 @@ import type { Controller } from 'lil-gui';
 import type { ServerInfo } from './app_state';
 import { linearScale } from './range_scale';
 import type { Settings } from './settings';
+import type { SizeMode } from './size_policy';
 import { attachSlider } from './slider';
-import type { SizeMode } from './url_state';
 
 export interface SizeActions {
   setSizeMode(mode: SizeMode): void;

@@ -1,22 +1,18 @@
 // The picture's size in pixels that fits a canvas.
 
-import type { SizeMode } from './url_state';
+import type { Range } from './field';
+import type { Size } from './size';
 
-export interface Size {
-  readonly width: number;
-  readonly height: number;
-}
-
-export interface Limits {
-  readonly min: number;
-  readonly max: number;
-}
+/** How the picture's size follows the window, or does not. */
+export type SizeMode =
+  | { readonly kind: 'auto'; readonly scale: number }
+  | { readonly kind: 'fixed' };
 
 /**
  * Canvas size in device pixels times `scale`, the shape kept: what would pass `max` on one side is
  * shrunk on both. Every side is at least `min`.
  */
-export function autoSize(canvas: Size, scale: number, width: Limits, height: Limits): Size {
+export function autoSize(canvas: Size, scale: number, width: Range, height: Range): Size {
   const fit = Math.min(scale, width.max / canvas.width, height.max / canvas.height);
   return {
     width: Math.max(width.min, Math.round(canvas.width * fit)),

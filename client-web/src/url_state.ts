@@ -1,15 +1,11 @@
 // Settings in the URL's fragment, so that a link reproduces a view. Values outside the server's
 // ranges are not judged here: the server refuses them and says why.
 
-import type { Field } from './field';
+import { isUint32, type Field } from './field';
 import { choicesFor, isGridSide, kAllFields, patchFor } from './fields';
 import { valueOf, type Bounds, type Ramp, type Settings, type Value } from './settings';
+import type { SizeMode } from './size_policy';
 import { vec, type Vec } from './vec3';
-
-/** How the picture's size follows the window, or does not. */
-export type SizeMode =
-  | { readonly kind: 'auto'; readonly scale: number }
-  | { readonly kind: 'fixed' };
 
 export interface LinkState {
   readonly settings: Partial<Settings>;
@@ -170,10 +166,6 @@ function parseNumber(text: string): number | null {
   const value = Number(text);
   return text.trim() !== '' && Number.isFinite(value) ? value : null;
 }
-
-/** What a protobuf uint32 can carry. */
-export const isUint32 = (value: number): boolean =>
-  Number.isInteger(value) && value >= 0 && value <= 0xffff_ffff;
 
 /**
  * The server's 32-bit floats by their shortest text ("0.1", not "0.10000000149"); others, such as

@@ -1,7 +1,8 @@
 // Keeps the picture's size with the window's while the size mode is automatic.
 
 import type { AppState } from './app_state';
-import { autoSize, sizeModeFor, type Size } from './size_policy';
+import type { Size } from './size';
+import { autoSize, sizeModeFor } from './size_policy';
 import type { Store } from './store';
 
 /** While a window is dragged to a new size only a few of the sizes on the way are asked for. */

@@ -1,7 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
-import type { Link } from '../src/app_state';
-import { Connection } from '../src/connection';
+import { Connection, type Link } from '../src/connection';
 import { FakeEnvironment } from './fakes';
 
 let env: FakeEnvironment;

@@ -2,8 +2,8 @@ import { readFileSync } from 'node:fs';
 
 import { beforeEach, describe, expect, it } from 'vitest';
 
+import type { ClientBody } from '../src/framing';
 import { Recorder } from '../src/recorder';
-import type { ClientBody } from '../src/setting_commands';
 
 let now: number;
 let recorder: Recorder;

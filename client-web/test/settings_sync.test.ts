@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
+import type { ClientBody } from '../src/framing';
 import type { Settings } from '../src/settings';
-import type { ClientBody } from '../src/setting_commands';
 import { SettingsSync } from '../src/settings_sync';
 import { Store } from '../src/store';
 import { FakeFrames, serverMessage } from './fakes';

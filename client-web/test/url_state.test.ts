@@ -13,7 +13,8 @@ import {
   ShadingModel,
   Transparency,
 } from '../src/gen/froxel/v1/common_pb';
-import { formatLink, parseLink, type SizeMode } from '../src/url_state';
+import type { SizeMode } from '../src/size_policy';
+import { formatLink, parseLink } from '../src/url_state';
 import { kBounds, sampleSettings } from './sample';
 
 const kAuto: SizeMode = { kind: 'auto', scale: 0.75 };
