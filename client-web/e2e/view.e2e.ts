@@ -6,7 +6,7 @@ import { promisify } from 'node:util';
 
 import { expect, it } from 'vitest';
 
-import { parseLink } from '../src/url_state';
+import { parseAddress } from '../src/address';
 import { usePages } from './pages';
 import { difference, until, type Viewer } from './viewer';
 
@@ -114,7 +114,7 @@ it('Link_ReproducesTheView', async () => {
   const { state } = first;
   const far = (a = 0, b = 0): boolean => Math.abs(a - b) > 1e-9;
   await until('the link', () => {
-    const { eye, lightTime } = parseLink(new URL(first.page.url()).hash).settings;
+    const { eye, lightTime } = parseAddress(new URL(first.page.url()).hash).settings;
     return eye && !far(eye.x, state?.eye?.x) && lightTime === state?.lightTimeS;
   });
   const second = await open(new URL(first.page.url()).hash);

@@ -54,7 +54,7 @@ export interface AppState {
   readonly sent: Settings | null;
   readonly sentSeq: bigint; // newest command that sets state
   readonly confirmed: Settings | null;
-  /** What the link asked for; merged into the first Welcome's state. */
+  /** What the address asked for; merged into the first Welcome's state. */
   readonly wanted: Partial<Settings>;
   readonly sizeMode: SizeMode | null; // null: until Welcome tells what the server can do
   readonly notice: Notice | null;
@@ -230,7 +230,7 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
   };
 }
 
-/** What to show after Welcome: as before the connection broke, or else as the link says. */
+/** What to show after Welcome: as before the connection broke, or else as the address says. */
 function desired(state: AppState, server: ServerInfo, present: Settings): Settings {
   const before = state.settings;
   if (!before) {

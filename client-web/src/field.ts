@@ -1,4 +1,4 @@
-// What a scalar setting is to the panel and to the URL.
+// What a scalar setting is to the panel and to the address.
 
 import type { DescEnum } from '@bufbuild/protobuf';
 
@@ -9,7 +9,7 @@ export type Kind =
   | { readonly kind: 'color' };
 
 interface Named {
-  readonly name: string; // in links, and of its control
+  readonly name: string; // in the address, and of its control
   readonly key: string; // in Settings
 }
 

@@ -1,4 +1,4 @@
-// The fields of the panel and of the URL: the schema's settings, and the few scalars that stand
+// The fields of the panel and of the address: the schema's settings, and the few scalars that stand
 // beside them. Under `name` Welcome.ranges tells what the server accepts.
 
 import type { ChoiceField, Field, Kind } from './field';

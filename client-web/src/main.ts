@@ -9,7 +9,7 @@ import { workerDecoder } from './decoder';
 import { element } from './dom';
 import { Legend } from './legend';
 import { LightHandles } from './light_handles';
-import { Overlay } from './overlay';
+import { StatsCard } from './stats_card';
 import { Panel } from './panel';
 import { Picture } from './picture';
 import { Presenter } from './presenter';
@@ -22,7 +22,7 @@ import { SettingsSync } from './settings_sync';
 import { isForControl, runShortcut } from './shortcuts';
 import { Stats } from './stats';
 import { Store } from './store';
-import { LinkKeeper } from './link_keeper';
+import { AddressKeeper } from './address_keeper';
 import { TokenPrompt } from './token_prompt';
 import { VideoFallback } from './video_fallback';
 import { decodesVp9, type LostSync } from './video_track';
@@ -107,7 +107,7 @@ const connection = new Connection(
 
 const commands = new Commands(store, connection, picture, recorder);
 const handles = new LightHandles(element('handles', HTMLElement), canvas, commands);
-const overlay = new Overlay(stats, () => presenter.droppedCount, !narrow);
+const statsCard = new StatsCard(stats, () => presenter.droppedCount, !narrow);
 const panel = new Panel(element('panel', HTMLElement), commands, narrow, codecs);
 const banner = new Banner({
   retry: () => connection.open(),
@@ -120,7 +120,7 @@ const help = element('help', HTMLDialogElement);
 
 new WindowSize(store, canvas);
 new SettingsSync(store, connection, nextFrame);
-const links = new LinkKeeper(store);
+const address = new AddressKeeper(store);
 store.listen((state) => {
   panel.show(state);
   banner.show(state);
@@ -133,7 +133,7 @@ store.listen(({ link }, before) => {
 });
 store.listen(({ details }, before) => {
   if (!details || details === before.details) return;
-  overlay.showDetails(details);
+  statsCard.showDetails(details);
   legend.show(details.legend);
 });
 store.listen(({ server }, before) => {
@@ -161,12 +161,12 @@ function lostSync({ message, broken }: LostSync): void {
 
 const shortcuts = {
   screenshot: () => void commands.screenshot(),
-  copyLink: () => void links.copy(),
+  copyLink: () => void address.copy(),
   record: () => {
     const recording = commands.toggleRecording();
     element('tool-record', HTMLButtonElement).setAttribute('aria-pressed', String(recording));
   },
-  toggleStats: () => overlay.toggle(),
+  toggleStats: () => statsCard.toggle(),
   togglePanel: () => panel.toggle(),
   toggleHelp: () => (help.open ? help.close() : help.showModal()),
   toggleAnimation: () => commands.toggleAnimation(),
@@ -218,7 +218,7 @@ function tellVisibility(newConnection: boolean): void {
 }
 
 void fetchWords().then((words) => panel.tell(words));
-links.read();
+address.read();
 if ('problem' in wantedRoom) {
   store.dispatch({ type: 'link', link: { phase: 'refused', reason: wantedRoom.problem } });
 } else {

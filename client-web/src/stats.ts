@@ -1,4 +1,4 @@
-// What the overlay shows, gathered from painted frames. No DOM, no clock of its own.
+// What the statistics card shows, gathered from painted frames. No DOM, no clock of its own.
 
 import type { FrameHeader } from './gen/froxel/v1/server_pb';
 import { InputLatency, RateMeter, SampleWindow } from './latency';

@@ -8,7 +8,7 @@ import { ClientMessageSchema } from '../src/gen/froxel/v1/client_pb';
 import { settingCommands } from '../src/setting_commands';
 import { kRows, putAt, valueAt, type Row } from '../src/setting_table';
 import { settingsOf, valueOf, type Settings, type Value } from '../src/settings';
-import { formatLink, parseLink } from '../src/url_state';
+import { formatAddress, parseAddress } from '../src/address';
 import { kBounds, sampleSettings, viewState } from './sample';
 
 const base = sampleSettings();
@@ -83,9 +83,9 @@ describe.each(kRows.map((row) => [row.name, row] as const))('setting %s', (_, ro
     expect(settingsOf(state, kBounds, [])).toEqual(changed);
   });
 
-  it('Link_BringsItAlong', () => {
-    const link = parseLink(formatLink(changed, { kind: 'fixed' }, base));
-    expect(link.problems).toEqual([]);
-    expect({ ...base, ...link.settings }).toEqual(changed);
+  it('Address_BringsItAlong', () => {
+    const address = parseAddress(formatAddress(changed, { kind: 'fixed' }, base));
+    expect(address.problems).toEqual([]);
+    expect({ ...base, ...address.settings }).toEqual(changed);
   });
 });

@@ -1,14 +1,14 @@
-// Keeps the URL's fragment and the settings alike: reads it when the page opens or it is edited,
-// writes it a moment after a change.
+// Keeps the address and the settings alike: reads it when the page opens or it is edited, writes it
+// a moment after a change.
 
+import { formatAddress, parseAddress } from './address';
 import type { AppState } from './app_state';
 import { cameraCommand, settingCommands } from './setting_commands';
-import { formatLink, parseLink } from './url_state';
 import type { Store } from './store';
 
 const kWriteDelayMs = 400; // browsers limit how often an address may change
 
-export class LinkKeeper {
+export class AddressKeeper {
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly store: Store) {
@@ -17,7 +17,7 @@ export class LinkKeeper {
   }
 
   read(): void {
-    const { settings, size, problems } = parseLink(location.hash);
+    const { settings, size, problems } = parseAddress(location.hash);
     this.store.dispatch({ type: 'restored', wanted: settings, size });
     if (problems.length > 0) {
       this.store.dispatch({ type: 'notice', tone: 'error', text: problems.join('; ') });
@@ -46,7 +46,7 @@ export class LinkKeeper {
     clearTimeout(this.timer);
     const { settings, sizeMode, server } = this.store.state;
     if (!settings || !sizeMode || !server) return;
-    history.replaceState(null, '', `#${formatLink(settings, sizeMode, server.initial)}`);
+    history.replaceState(null, '', `#${formatAddress(settings, sizeMode, server.initial)}`);
   }
 }
 

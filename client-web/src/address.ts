@@ -1,5 +1,5 @@
-// Settings in the URL's fragment, so that a link reproduces a view. Values outside the server's
-// ranges are not judged here: the server refuses them and says why.
+// Settings in the page's address, as its fragment, so that a link reproduces a view. Values outside
+// the server's ranges are not judged here: the server refuses them and says why.
 
 import { isUint32, type Field } from './field';
 import { choicesFor, isGridSide, kAllFields, patchFor } from './fields';
@@ -7,16 +7,16 @@ import { valueOf, type Bounds, type Ramp, type Settings, type Value } from './se
 import type { SizeMode } from './size_policy';
 import { vec, type Vec } from './vec3';
 
-export interface LinkState {
+export interface Address {
   readonly settings: Partial<Settings>;
-  readonly size: SizeMode | null; // null: the link does not say
+  readonly size: SizeMode | null; // null: the address does not say
   /** One line for each key or value that makes no sense; they have no effect. */
   readonly problems: readonly string[];
 }
 
 type Writable<T> = { -readonly [Key in keyof T]: T[Key] };
 
-/** Names in links of earlier days: read, never written. */
+/** Names in addresses of earlier days: read, never written. */
 const kFormerNames: ReadonlyMap<string, string> = new Map([
   ['gbuffer.normal', 'gbuffer_normal'],
   ['gbuffer.position', 'gbuffer_position'],
@@ -29,7 +29,7 @@ const kVectors = ['eye', 'target', 'up'] as const;
 const kRamps = { toon_fragment: 'toonFragment', toon_compute: 'toonCompute' } as const;
 
 /** The fragment, without '#', for these settings; ramps only where they differ from `initial`. */
-export function formatLink(settings: Settings, size: SizeMode, initial: Settings): string {
+export function formatAddress(settings: Settings, size: SizeMode, initial: Settings): string {
   const parts: string[] = [];
   const put = (name: string, value: string): void => void parts.push(`${name}=${value}`);
   for (const field of kAllFields) {
@@ -56,7 +56,7 @@ export function formatLink(settings: Settings, size: SizeMode, initial: Settings
 }
 
 /** Reads a fragment with or without its '#'. Never throws. */
-export function parseLink(fragment: string): LinkState {
+export function parseAddress(fragment: string): Address {
   const settings: Partial<Writable<Settings>> = {};
   const problems: string[] = [];
   let size: SizeMode | null = null;

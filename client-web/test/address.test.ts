@@ -14,13 +14,13 @@ import {
   Transparency,
 } from '../src/gen/froxel/v1/common_pb';
 import type { SizeMode } from '../src/size_policy';
-import { formatLink, parseLink } from '../src/url_state';
+import { formatAddress, parseAddress } from '../src/address';
 import { kBounds, sampleSettings } from './sample';
 
 const kAuto: SizeMode = { kind: 'auto', scale: 0.75 };
 const initial = sampleSettings();
 
-describe('links', () => {
+describe('addresses', () => {
   it('RoundTrip_OfEverything_IsTheSameView', () => {
     const settings = sampleSettings({
       eye: { x: 1.5, y: -2, z: 1e6 },
@@ -63,73 +63,73 @@ describe('links', () => {
       width: 333,
       height: 77,
     });
-    const link = parseLink(`#${formatLink(settings, { kind: 'fixed' }, initial)}`);
-    expect(link.problems).toEqual([]);
-    expect(link.size).toEqual({ kind: 'fixed' });
-    expect({ ...initial, ...link.settings }).toEqual(settings);
+    const address = parseAddress(`#${formatAddress(settings, { kind: 'fixed' }, initial)}`);
+    expect(address.problems).toEqual([]);
+    expect(address.size).toEqual({ kind: 'fixed' });
+    expect({ ...initial, ...address.settings }).toEqual(settings);
   });
 
   it('RoundTrip_OfAnOrthographicView_KeepsItsHeight', () => {
     const settings = sampleSettings({ orthographic: true, halfHeight: 3.5 });
-    const link = parseLink(formatLink(settings, kAuto, initial));
-    expect({ ...initial, ...link.settings }).toEqual(settings);
+    const address = parseAddress(formatAddress(settings, kAuto, initial));
+    expect({ ...initial, ...address.settings }).toEqual(settings);
   });
 
-  it('RampsAsTheyWere_AreNotInTheLink', () => {
-    expect(formatLink(initial, kAuto, initial)).not.toContain('toon');
+  it('RampsAsTheyWere_AreNotInTheAddress', () => {
+    expect(formatAddress(initial, kAuto, initial)).not.toContain('toon');
   });
 
-  it('AutomaticGrid_HasNoSizeInTheLink', () => {
-    const text = formatLink(initial, kAuto, initial);
+  it('AutomaticGrid_HasNoSizeInTheAddress', () => {
+    const text = formatAddress(initial, kAuto, initial);
     expect(text).toContain('grid.auto=1');
     expect(text).not.toContain('grid.x');
   });
 
-  it('GridSize_InAnOldLink_IsOneByHand', () => {
-    expect(parseLink('grid.x=5').settings).toEqual({ gridX: 5, gridAutomatic: false });
+  it('GridSize_InAnOldAddress_IsOneByHand', () => {
+    expect(parseAddress('grid.x=5').settings).toEqual({ gridX: 5, gridAutomatic: false });
   });
 
   it('FormerNames_AreReadAndNotWritten', () => {
     const old =
       'gbuffer.normal=oct8&gbuffer.position=fp32&light_seed=7&light_animate=0&grid.law=linear';
-    const link = parseLink(old);
-    expect(link.problems).toEqual([]);
-    expect(link.settings).toEqual({
+    const address = parseAddress(old);
+    expect(address.problems).toEqual([]);
+    expect(address.settings).toEqual({
       gbufferNormal: NormalEncoding.OCT8,
       gbufferPosition: PositionSource.FP32,
       seed: 7,
       animate: false,
       gridLaw: GridLaw.LINEAR,
     });
-    const written = new URLSearchParams(formatLink({ ...initial, ...link.settings }, kAuto, initial));
+    const written = new URLSearchParams(formatAddress({ ...initial, ...address.settings }, kAuto, initial));
     for (const [name] of new URLSearchParams(old)) expect(written.has(name)).toBe(false);
     expect(written.get('grid_law')).toBe('linear');
   });
 
-  it('LightTime_WhileTheLightsMove_IsNotInTheLink', () => {
-    expect(formatLink(initial, kAuto, initial)).not.toContain('light_time');
+  it('LightTime_WhileTheLightsMove_IsNotInTheAddress', () => {
+    expect(formatAddress(initial, kAuto, initial)).not.toContain('light_time');
   });
 
   it('AutomaticSize_IsItsScaleAndNoPixels', () => {
-    const text = formatLink(initial, kAuto, initial);
+    const text = formatAddress(initial, kAuto, initial);
     expect(text).toContain('size=auto@0.75');
-    expect(parseLink(text).settings.width).toBeUndefined();
-    expect(parseLink(text).size).toEqual(kAuto);
+    expect(parseAddress(text).settings.width).toBeUndefined();
+    expect(parseAddress(text).size).toEqual(kAuto);
   });
 
   it('Numbers_ReadAsPeopleWriteThem', () => {
     const float = Math.fround(0.1);
-    expect(formatLink(sampleSettings({ exposure: float }), kAuto, initial)).toContain('exposure=0.1&');
+    expect(formatAddress(sampleSettings({ exposure: float }), kAuto, initial)).toContain('exposure=0.1&');
   });
 
   it.each([2_147_483_648, 4_294_967_295, 16_777_217])('WholeNumber_%i_StaysExact', (seed) => {
-    const link = parseLink(formatLink(sampleSettings({ seed }), kAuto, initial));
-    expect(link.settings).toMatchObject({ seed });
+    const address = parseAddress(formatAddress(sampleSettings({ seed }), kAuto, initial));
+    expect(address.settings).toMatchObject({ seed });
   });
 
   it('NothingAfterTheHash_IsNothing', () => {
-    expect(parseLink('')).toEqual({ settings: {}, size: null, problems: [] });
-    expect(parseLink('#')).toEqual({ settings: {}, size: null, problems: [] });
+    expect(parseAddress('')).toEqual({ settings: {}, size: null, problems: [] });
+    expect(parseAddress('#')).toEqual({ settings: {}, size: null, problems: [] });
   });
 
   it.each([
@@ -160,12 +160,12 @@ describe('links', () => {
     'grid.auto=maybe',
     'colour=red',
   ])('Nonsense_%s_IsNamedAndHasNoEffect', (entry) => {
-    const link = parseLink(`#${entry}&quality=7`);
-    expect(link.problems).toEqual([`link: ${entry} is not understood`]);
-    expect(link.settings).toEqual({ quality: 7 });
+    const address = parseAddress(`#${entry}&quality=7`);
+    expect(address.problems).toEqual([`link: ${entry} is not understood`]);
+    expect(address.settings).toEqual({ quality: 7 });
   });
 
   it('ValueOutOfTheServersRange_IsLeftToTheServer', () => {
-    expect(parseLink('#lights=4000000000').settings).toEqual({ lights: 4_000_000_000 });
+    expect(parseAddress('#lights=4000000000').settings).toEqual({ lights: 4_000_000_000 });
   });
 });

@@ -25,7 +25,7 @@ interface Bar {
   readonly ms: number;
 }
 
-export class Overlay {
+export class StatsCard {
   private readonly card = element('stats', HTMLElement);
   private readonly list = element('stats-list', HTMLElement);
   private readonly fps = element('stat-fps', HTMLElement);
