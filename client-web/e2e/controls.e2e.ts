@@ -3,10 +3,10 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import type { Field, NumberField } from '../src/field';
-import { choicesFor, isGridSide, kAllFields } from '../src/fields';
 import { Renderer } from '../src/gen/froxel/v1/common_pb';
-import { settingsOf, valueOf, type Settings } from '../src/settings';
+import type { Field, NumberField } from '../src/settings/field';
+import { choicesFor, isGridSide, kAllFields } from '../src/settings/fields';
+import { settingsOf, valueOf, type Settings } from '../src/settings/settings';
 import { startServer, type Server } from './server';
 import { difference, launch, until, Viewer } from './viewer';
 

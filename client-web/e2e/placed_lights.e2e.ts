@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { expect, it } from 'vitest';
 
 import { LightKind } from '../src/gen/froxel/v1/common_pb';
-import { placedAfter, type PlacedLights } from '../src/placed_lights';
+import { placedAfter, type PlacedLights } from '../src/settings/placed_lights';
 import { usePages } from './pages';
 import { difference, until, type Viewer } from './viewer';
 

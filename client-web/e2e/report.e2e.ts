@@ -8,7 +8,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { kSamplePath, sample } from '../test/report_fakes';
+import { kSamplePath, sample } from '../test/report/fakes';
 import { launch, until } from './viewer';
 
 const kTemplate = fileURLToPath(new URL('../dist/report.html', import.meta.url));

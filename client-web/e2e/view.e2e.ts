@@ -6,7 +6,7 @@ import { promisify } from 'node:util';
 
 import { expect, it } from 'vitest';
 
-import { parseAddress } from '../src/address';
+import { parseAddress } from '../src/state/address';
 import { usePages } from './pages';
 import { difference, until, type Viewer } from './viewer';
 

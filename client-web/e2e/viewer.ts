@@ -12,10 +12,10 @@ import {
   type Page,
 } from 'playwright-core';
 
-import { decodeBinary } from '../src/framing';
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
 import { Refine, Refinement, type ViewState } from '../src/gen/froxel/v1/common_pb';
 import type { FrameHeader, ServerMessage } from '../src/gen/froxel/v1/server_pb';
+import { decodeBinary } from '../src/protocol/framing';
 
 const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
 const kPatienceMs = 60_000;

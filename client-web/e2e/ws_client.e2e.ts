@@ -4,7 +4,7 @@
 import { WebSocket } from 'ws';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 
-import { decodeBinary, encodeCommand, kProtocolMajor, type ClientBody, type Frame } from '../src/framing';
+import { decodeBinary, encodeCommand, kProtocolMajor, type ClientBody, type Frame } from '../src/protocol/framing';
 import { startServer, type Server } from './server';
 import { until } from './viewer';
 

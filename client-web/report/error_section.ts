@@ -1,6 +1,6 @@
 // Speed against error: the plots of both metrics for one workload, and their fronts as tables.
 
-import { make } from '../src/dom';
+import { make } from '../src/core/dom';
 import { errorPlot, errorPoints, kMetrics, workloadsOf, type ErrorPoint } from './error_plot';
 import { seriesColours, shapesOf, type Shape } from './marks';
 import { paretoFront } from './pareto';

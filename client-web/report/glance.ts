@@ -1,7 +1,7 @@
 // The report's head: what ran where, and what came out in four figures.
 
-import { make } from '../src/dom';
-import { count } from '../src/format';
+import { make } from '../src/core/dom';
+import { count } from '../src/core/format';
 import type { Clock, Results, Row } from './results';
 import { kClocks } from './results';
 import { durationText, errorText, kClockNames, kClockWords, kNone } from './text';

@@ -1,6 +1,6 @@
 // The report of `froxel bench`: reads the results that stand in the page and shows them.
 
-import { element, make } from '../src/dom';
+import { element, make } from '../src/core/dom';
 import { errorSection } from './error_section';
 import { showHead } from './glance';
 import { readResults, type Results } from './results';

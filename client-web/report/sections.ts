@@ -1,14 +1,14 @@
 // The report's sections: each an element that can draw its plots anew for a clock and a width.
 
-import { make } from '../src/dom';
-import { bytes, count } from '../src/format';
+import { make } from '../src/core/dom';
+import { bytes, count } from '../src/core/format';
 import { kDot, partColours, seriesColours } from './marks';
 import { memoryParts, partBars, passParts, shares, type Part } from './part_bars';
 import type { Clock, Published, PictureError, Results, Row, Skipped, Sweep } from './results';
 import { speedUp, timeMs } from './results';
 import { shortNumber } from './scales';
-import { referenceShapes, referencesOf, sweepPlot } from './sweep_plot';
 import { streamPlot, streamTable } from './stream_plot';
+import { referenceShapes, referencesOf, sweepPlot } from './sweep_plot';
 import { commandLines, legend, table, type Column } from './table';
 import { errorText, factorText, kNone, msText, psnrText, spreadText, words } from './text';
 

@@ -2,7 +2,7 @@
 
 import * as Plot from '@observablehq/plot';
 
-import { bytes } from '../src/format';
+import { bytes } from '../src/core/format';
 import { kMargin, xAxis, yAxis } from './axes';
 import type { Row, StreamError } from './results';
 import { logAxis, shortNumber } from './scales';

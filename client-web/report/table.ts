@@ -1,6 +1,6 @@
 // Tables whose numbers line up, and command lines that one click copies.
 
-import { make } from '../src/dom';
+import { make } from '../src/core/dom';
 
 export interface Column<R> {
   readonly head: string;

@@ -1,6 +1,6 @@
 // Numbers and names as the report writes them.
 
-import { ms } from '../src/format';
+import { ms } from '../src/core/format';
 import type { Clock, PictureError, Results, Summary } from './results';
 
 export const kNone = '–';

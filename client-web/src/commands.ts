@@ -1,12 +1,15 @@
 // What the panel, the keys and the pointer can do, as actions on the store and the connection.
 
-import type { Pose } from './camera_controller';
-import type { Connection } from './connection';
-import { isUint32, type Field } from './field';
-import { patchFor } from './fields';
+import type { RoomActions } from './cards/room_card';
+import { add, length, normalize, scale, sub } from './core/vec3';
 import { RendererSchema } from './gen/froxel/v1/common_pb';
-import type { InputTarget, View } from './input';
-import type { PanelActions } from './panel';
+import type { PanelActions } from './panel/panel';
+import { download, type Picture } from './picture/picture';
+import type { Connection } from './protocol/connection';
+import type { Recorder } from './protocol/recorder';
+import { choicesOf } from './protocol/schema_names';
+import { isUint32, type Field } from './settings/field';
+import { patchFor } from './settings/fields';
 import {
   findLight,
   freeId,
@@ -16,17 +19,14 @@ import {
   withLight,
   withoutLight,
   type PlacedLight,
-} from './placed_lights';
-import { mayControl, roomText } from './room';
-import type { RoomActions } from './room_card';
-import { download, type Picture } from './picture';
-import type { Recorder } from './recorder';
-import { choicesOf } from './schema_names';
-import { cameraCommand, settingCommands } from './setting_commands';
-import type { Settings, Value } from './settings';
-import type { SizeMode } from './size_policy';
-import type { Store } from './store';
-import { add, length, normalize, scale, sub } from './vec3';
+} from './settings/placed_lights';
+import { cameraCommand, settingCommands } from './settings/setting_commands';
+import type { Settings, Value } from './settings/settings';
+import { mayControl, roomText } from './state/room';
+import type { SizeMode } from './state/size_policy';
+import type { Store } from './state/store';
+import type { Pose } from './steering/camera_controller';
+import type { InputTarget, View } from './steering/input';
 
 /** Seconds that flying through a scene from end to end takes. */
 const kFlightSeconds = 12;

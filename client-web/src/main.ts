@@ -1,33 +1,33 @@
 // The composition root: puts the parts together and ties them to the page.
 
-import { Banner } from './banner';
-import { Codec } from './gen/froxel/v1/common_pb';
-import { CanvasInput } from './input';
+import { Banner } from './cards/banner';
+import { Legend } from './cards/legend';
+import { RoomCard } from './cards/room_card';
+import { TokenPrompt } from './cards/token_prompt';
 import { Commands } from './commands';
-import { Connection } from './connection';
-import { workerDecoder } from './decoder';
-import { element } from './dom';
-import { Legend } from './legend';
-import { LightHandles } from './light_handles';
-import { StatsCard } from './stats_card';
-import { Panel } from './panel';
-import { Picture } from './picture';
-import { Presenter } from './presenter';
-import { Recorder } from './recorder';
-import { askRefusal } from './refusal';
-import { Resume, tabShelf } from './resume';
-import { mayControl, roomFromAddress } from './room';
-import { RoomCard } from './room_card';
-import { SettingsSync } from './settings_sync';
-import { isForControl, runShortcut } from './shortcuts';
-import { Stats } from './stats';
-import { Store } from './store';
-import { AddressKeeper } from './address_keeper';
-import { TokenPrompt } from './token_prompt';
-import { VideoFallback } from './video_fallback';
-import { decodesVp9, type LostSync } from './video_track';
-import { WindowSize } from './window_size';
-import { fetchWords } from './words';
+import { element } from './core/dom';
+import { Codec } from './gen/froxel/v1/common_pb';
+import { Panel } from './panel/panel';
+import { fetchWords } from './panel/words';
+import { workerDecoder } from './picture/decoder';
+import { Picture } from './picture/picture';
+import { Presenter } from './picture/presenter';
+import { VideoFallback } from './picture/video_fallback';
+import { decodesVp9, type LostSync } from './picture/video_track';
+import { Connection } from './protocol/connection';
+import { Recorder } from './protocol/recorder';
+import { askRefusal } from './protocol/refusal';
+import { Resume, tabShelf } from './protocol/resume';
+import { AddressKeeper } from './state/address_keeper';
+import { mayControl, roomFromAddress } from './state/room';
+import { SettingsSync } from './state/settings_sync';
+import { Store } from './state/store';
+import { WindowSize } from './state/window_size';
+import { Stats } from './stats/stats';
+import { StatsCard } from './stats/stats_card';
+import { CanvasInput } from './steering/input';
+import { LightHandles } from './steering/light_handles';
+import { isForControl, runShortcut } from './steering/shortcuts';
 
 const kNarrowPx = 640;
 const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
@@ -47,7 +47,7 @@ const picture = new Picture(canvas);
 const codecs = (await decodesVp9()) ? [Codec.JPEG, Codec.VP9] : [Codec.JPEG];
 const videoFallback = new VideoFallback();
 const recorder = new Recorder(nowMs);
-const worker = new Worker(new URL('./decode_worker.ts', import.meta.url), { type: 'module' });
+const worker = new Worker(new URL('./picture/decode_worker.ts', import.meta.url), { type: 'module' });
 
 const presenter = new Presenter({
   decode: workerDecoder(worker),

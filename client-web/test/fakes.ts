@@ -2,16 +2,16 @@
 
 import { create, fromBinary, toBinary, type MessageInitShape } from '@bufbuild/protobuf';
 
-import type { Environment, Socket } from '../src/connection';
-import type { Refusal } from '../src/refusal';
-import { Codec } from '../src/gen/froxel/v1/common_pb';
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
+import { Codec } from '../src/gen/froxel/v1/common_pb';
 import {
   FrameHeaderSchema,
   ServerMessageSchema,
   type FrameHeader,
   type ServerMessage,
 } from '../src/gen/froxel/v1/server_pb';
+import type { Environment, Socket } from '../src/protocol/connection';
+import type { Refusal } from '../src/protocol/refusal';
 
 export class FakeSocket implements Socket {
   binaryType: BinaryType = 'blob';

@@ -9,9 +9,9 @@ import {
   type ViewState,
 } from '../src/gen/froxel/v1/common_pb';
 import type { WelcomeSchema } from '../src/gen/froxel/v1/server_pb';
-import { choicesOf } from '../src/schema_names';
-import { kRows, putAt, type Parts, type Row } from '../src/setting_table';
-import { settingsOf, type Settings, type Value } from '../src/settings';
+import { choicesOf } from '../src/protocol/schema_names';
+import { kRows, putAt, type Parts, type Row } from '../src/settings/setting_table';
+import { settingsOf, type Settings, type Value } from '../src/settings/settings';
 
 export const kBounds = { min: { x: -10, y: 0, z: -5 }, max: { x: 10, y: 8, z: 5 } };
 

@@ -1,0 +1,55 @@
+// The box that the moving lights keep to; the scene's bounds until a number is changed.
+
+import type GUI from 'lil-gui';
+import type { Controller } from 'lil-gui';
+
+import { tidy } from '../core/format';
+import { sameBounds, type Bounds } from '../settings/settings';
+
+const kSides = ['min', 'max'] as const;
+const kAxes = ['x', 'y', 'z'] as const;
+
+export class BoxEditor {
+  private readonly model = { min: zero(), max: zero() };
+  private readonly numbers: Controller[] = [];
+  private readonly whole: Controller;
+  private shown: Bounds | null = null;
+
+  constructor(
+    parent: GUI,
+    private readonly sceneBounds: Bounds | null,
+    onEdit: (box: Bounds | null) => void,
+  ) {
+    const folder = parent.addFolder('Light box').close();
+    for (const side of kSides) {
+      for (const axis of kAxes) {
+        const number = folder.add(this.model[side], axis).name(`${side} ${axis} m`);
+        number.domElement.title = 'The moving lights stay inside; metres in the world';
+        number.domElement.dataset.field = `light_box.${side}.${axis}`;
+        number.onFinishChange(() => onEdit({ min: { ...this.model.min }, max: { ...this.model.max } }));
+        this.numbers.push(number);
+      }
+    }
+    this.whole = folder.add({ clear: () => onEdit(null) }, 'clear').name('Whole scene');
+    this.whole.domElement.dataset.field = 'light_box.clear';
+    this.fill(null);
+  }
+
+  show(box: Bounds | null): void {
+    if (!sameBounds(box, this.shown)) this.fill(box);
+  }
+
+  private fill(box: Bounds | null): void {
+    this.shown = box;
+    const bounds = box ?? this.sceneBounds;
+    for (const side of kSides) {
+      for (const axis of kAxes) this.model[side][axis] = tidy(bounds?.[side][axis] ?? 0);
+    }
+    for (const number of this.numbers) number.updateDisplay();
+    this.whole.enable(box !== null);
+  }
+}
+
+function zero(): { x: number; y: number; z: number } {
+  return { x: 0, y: 0, z: 0 };
+}

@@ -1,0 +1,257 @@
+// The panel's part for placed lights: the chosen one's values, and sets as files.
+
+import type GUI from 'lil-gui';
+import type { Controller } from 'lil-gui';
+
+import { tidy } from '../core/format';
+import { displayColor, linearColor } from '../core/srgb';
+import { LightKind } from '../gen/froxel/v1/common_pb';
+import { findLight, kLightKinds, sameLight, type PlacedLight, type PlacedLights } from '../settings/placed_lights';
+import type { HandleActions } from '../steering/light_handles';
+
+export interface LightActions extends HandleActions {
+  addLight(): void;
+  loadLights(file: File): Promise<void>;
+  saveLights(): void;
+  showHandles(visible: boolean): void;
+}
+
+const kNone = 'none';
+/** Values that not every kind of light has. */
+const kKindsWith: Readonly<Record<string, readonly LightKind[]>> = {
+  innerConeDeg: [LightKind.SPOT],
+  outerConeDeg: [LightKind.SPOT],
+  directionX: [LightKind.SPOT, LightKind.AREA],
+  directionY: [LightKind.SPOT, LightKind.AREA],
+  directionZ: [LightKind.SPOT, LightKind.AREA],
+  widthM: [LightKind.AREA],
+  heightM: [LightKind.AREA],
+  rollDeg: [LightKind.AREA],
+};
+
+interface Model {
+  chosen: string;
+  handles: boolean;
+  kind: LightKind;
+  color: string;
+  intensity: number;
+  radius: number;
+  x: number;
+  y: number;
+  z: number;
+  innerConeDeg: number;
+  outerConeDeg: number;
+  directionX: number;
+  directionY: number;
+  directionZ: number;
+  widthM: number;
+  heightM: number;
+  rollDeg: number;
+}
+
+export class LightEditor {
+  private readonly model: Model = {
+    chosen: kNone,
+    handles: true,
+    kind: LightKind.POINT,
+    color: '#ffffff',
+    intensity: 1,
+    radius: 2,
+    x: 0,
+    y: 0,
+    z: 0,
+    innerConeDeg: 30,
+    outerConeDeg: 45,
+    directionX: 0,
+    directionY: -1,
+    directionZ: 0,
+    widthM: 1,
+    heightM: 1,
+    rollDeg: 0,
+  };
+  private readonly folder: GUI;
+  private chooser: Controller;
+  private readonly values: Controller[] = [];
+  private readonly ofKinds = new Map<Controller, readonly LightKind[]>();
+  private readonly remove: Controller;
+  private ids = '';
+  private shown: PlacedLight | null = null;
+
+  constructor(
+    parent: GUI,
+    private readonly actions: LightActions,
+  ) {
+    this.folder = parent.addFolder('Placed lights');
+    const folder = this.folder;
+    this.button('add', 'Add a light', 'A new light before the camera; each costs as a moving one does. A double click in the picture picks the light there', () =>
+      actions.addLight(),
+    );
+    this.chooser = this.addChooser([]);
+    const kind = folder.add(
+      this.model,
+      'kind',
+      Object.fromEntries(kLightKinds.map(({ name, value }) => [name, value])),
+    );
+    this.value(kind, 'kind', 'Kind', 'A spot’s cone costs a little in each pixel, an area light’s rectangle as much as ten points', () => ({
+      kind: this.model.kind,
+    }));
+    const color = folder.addColor(this.model, 'color');
+    this.value(color, 'color', 'Colour', 'As the screen shows it at full light', () => ({
+      color: linearColor(this.model.color),
+    }));
+    this.number('intensity', 'Intensity', 'Scales its colour', () => ({
+      intensity: this.model.intensity,
+    }));
+    this.number('radius', 'Radius m', 'Where it ends: what it costs grows with the pixels within', () => ({
+      radius: this.model.radius,
+    }));
+    for (const axis of ['x', 'y', 'z'] as const) {
+      this.number(axis, `Position ${axis}`, 'Metres in the world', () => ({
+        position: { x: this.model.x, y: this.model.y, z: this.model.z },
+      }));
+    }
+    this.number('innerConeDeg', 'Inner cone', 'Half angle in degrees of full light', () => ({
+      innerConeDeg: this.model.innerConeDeg,
+    }));
+    this.number('outerConeDeg', 'Outer cone', 'Half angle in degrees where it ends', () => ({
+      outerConeDeg: this.model.outerConeDeg,
+    }));
+    for (const key of ['directionX', 'directionY', 'directionZ'] as const) {
+      this.number(key, `Direction ${key.slice(-1).toLowerCase()}`, 'The way its light travels', () => ({
+        direction: {
+          x: this.model.directionX,
+          y: this.model.directionY,
+          z: this.model.directionZ,
+        },
+      }));
+    }
+    for (const [key, label, tip] of [
+      ['widthM', 'Width m', 'Of the rectangle; larger is softer, not brighter'],
+      ['heightM', 'Height m', 'Of the rectangle; larger is softer, not brighter'],
+      ['rollDeg', 'Roll', 'Degrees about its direction'],
+    ] as const) {
+      this.number(key, label, tip, () => ({ [key]: this.model[key] }));
+    }
+    this.remove = this.button('remove', 'Delete this light', 'Also the Delete key at its handle; a picked one goes back to what it was', () => {
+      if (this.shown) actions.removeLight(this.shown.id);
+    });
+    const handles = folder.add(this.model, 'handles').name('Handles');
+    handles.onChange((visible: boolean) => actions.showHandles(visible));
+    this.describe(handles, 'handles', 'Rings over the picture to choose and drag lights by');
+    this.button('load', 'Load a light set…', 'A JSON file in place of the lights that are there', () =>
+      this.load(),
+    );
+    this.button('save', 'Save the light set', 'As a JSON file, for Load and for --light-set', () =>
+      actions.saveLights(),
+    );
+    this.fill(null);
+    folder.close();
+  }
+
+  show(lights: PlacedLights, chosen: number | null): void {
+    const ids = lights.map(({ id }) => String(id)).join();
+    const light = findLight(lights, chosen);
+    if (ids !== this.ids) {
+      this.ids = ids;
+      this.chooser = this.addChooser(lights);
+    }
+    this.model.chosen = light ? String(light.id) : kNone;
+    this.chooser.updateDisplay();
+    if (light !== this.shown && !(light && this.shown && sameLight(light, this.shown))) {
+      this.fill(light);
+    }
+  }
+
+  private fill(light: PlacedLight | null): void {
+    this.shown = light;
+    if (light) {
+      const { position, direction, color, kind, intensity, radius } = light;
+      Object.assign(this.model, {
+        kind,
+        color: displayColor(color),
+        intensity: tidy(intensity),
+        radius: tidy(radius),
+        x: tidy(position.x),
+        y: tidy(position.y),
+        z: tidy(position.z),
+        innerConeDeg: tidy(light.innerConeDeg),
+        outerConeDeg: tidy(light.outerConeDeg),
+        directionX: tidy(direction.x),
+        directionY: tidy(direction.y),
+        directionZ: tidy(direction.z),
+        widthM: tidy(light.widthM),
+        heightM: tidy(light.heightM),
+        rollDeg: tidy(light.rollDeg),
+      });
+    }
+    for (const controller of [...this.values, this.remove]) {
+      controller.show(light !== null);
+      controller.updateDisplay();
+    }
+    for (const [controller, kinds] of this.ofKinds) {
+      controller.show(light !== null && kinds.includes(light.kind));
+    }
+  }
+
+  /** lil-gui makes a new controller for new options; it is put where the old one was. */
+  private addChooser(lights: PlacedLights): Controller {
+    const options = [kNone, ...lights.map(({ id }) => String(id))];
+    const before = this.chooser as Controller | undefined;
+    const chooser = before ? before.options(options) : this.folder.add(this.model, 'chosen', options);
+    chooser.name('Chosen');
+    chooser.onChange((id: string) => this.actions.chooseLight(id === kNone ? null : Number(id)));
+    this.describe(chooser, 'chosen', 'The light whose values follow; or choose by its handle');
+    return chooser;
+  }
+
+  private number(
+    key: keyof Model,
+    label: string,
+    tip: string,
+    patch: () => Partial<PlacedLight>,
+  ): void {
+    const controller = this.folder.add(this.model, key);
+    this.value(controller, key, label, tip, patch);
+    const kinds = kKindsWith[key];
+    if (kinds) this.ofKinds.set(controller, kinds);
+  }
+
+  private value(
+    controller: Controller,
+    key: string,
+    label: string,
+    tip: string,
+    patch: () => Partial<PlacedLight>,
+  ): void {
+    controller.name(label);
+    this.describe(controller, key, tip);
+    const edit = (): void => {
+      if (this.shown) this.actions.editLight(this.shown.id, patch());
+    };
+    if (key === 'color') controller.onChange(edit);
+    else controller.onFinishChange(edit);
+    this.values.push(controller);
+  }
+
+  private button(key: string, label: string, tip: string, action: () => void): Controller {
+    const controller = this.folder.add({ action }, 'action').name(label);
+    this.describe(controller, key, tip);
+    return controller;
+  }
+
+  private describe(controller: Controller, key: string, tip: string): void {
+    controller.domElement.title = tip;
+    controller.domElement.dataset.field = `placed_light.${key}`;
+  }
+
+  private load(): void {
+    const input = document.createElement('input');
+    input.type = 'file';
+    input.accept = 'application/json,.json';
+    input.addEventListener('change', () => {
+      const [file] = input.files ?? [];
+      if (file) void this.actions.loadLights(file);
+    });
+    input.click();
+  }
+}

@@ -1,0 +1,248 @@
+// The settings panel: every command of the protocol, with ranges as the server tells them.
+
+import GUI, { type Controller } from 'lil-gui';
+
+import { gridText, tidy } from '../core/format';
+import { displayColor, linearColor } from '../core/srgb';
+import type { Codec } from '../gen/froxel/v1/common_pb';
+import type { FrameGrid } from '../gen/froxel/v1/server_pb';
+import type { ColorField, Field, NumberField } from '../settings/field';
+import { choicesFor, fieldsOf, isInUse, type Section } from '../settings/fields';
+import { valueOf, type Settings, type Value } from '../settings/settings';
+import type { AppState, ServerInfo } from '../state/app_state';
+import { BoxEditor } from './box_editor';
+import { LightEditor, type LightActions } from './light_editor';
+import { scaleFor } from './range_scale';
+import { SizeEditor, type SizeActions } from './size_editor';
+import { attachSlider } from './slider';
+import { ToonEditor } from './toon_editor';
+import { labelOf, tipOf, type WordBook } from './words';
+
+export interface PanelActions extends SizeActions, LightActions {
+  edit(patch: Partial<Settings>): void;
+  set(field: Field, value: Value): void;
+  selectCamera(name: string): void;
+  resetAll(): void;
+}
+
+type Show = (settings: Settings) => void;
+type Say = (words: WordBook) => void;
+
+const kTitles: Readonly<Record<Section, string>> = {
+  camera: 'Camera',
+  rendering: 'Rendering',
+  effects: 'Effects',
+  lights: 'Lights',
+  clusters: 'Clusters',
+  debug: 'Debug view',
+  stream: 'Picture',
+};
+
+export class Panel {
+  private readonly gui: GUI;
+  private shows: Show[] = [];
+  private says: Say[] = [];
+  private words: WordBook = new Map();
+  private builtFor: ServerInfo | null = null;
+  private shown: Settings | null = null;
+  private sizeEditor: SizeEditor | null = null;
+  private lightEditor: LightEditor | null = null;
+  private gridInUse: Controller | null = null;
+
+  constructor(
+    private readonly parent: HTMLElement,
+    private readonly actions: PanelActions,
+    private readonly narrow: boolean,
+    private readonly codecs: readonly Codec[], // that this browser decodes
+  ) {
+    this.gui = this.makeGui();
+  }
+
+  toggle(): void {
+    this.gui.openAnimated(this.gui._closed);
+  }
+
+  show({ server, settings, sizeMode, chosenLight }: AppState): void {
+    if (!server || !settings) return;
+    if (!this.builtFor || !sameControls(server, this.builtFor)) this.build(server);
+    this.builtFor = server;
+    if (settings !== this.shown) for (const show of this.shows) show(settings);
+    this.shown = settings;
+    this.sizeEditor?.show(settings, sizeMode);
+    this.lightEditor?.show(settings.placedLights, chosenLight);
+  }
+
+  /** The server's words, which come when they come. */
+  tell(words: WordBook): void {
+    this.words = words;
+    for (const say of this.says) say(words);
+  }
+
+  /** The grid of the picture that is shown; none where no light is assigned to clusters. */
+  showGrid(grid: FrameGrid | undefined): void {
+    if (!this.gridInUse) return;
+    const text = grid ? gridText(grid) : 'none';
+    if (this.gridInUse.getValue() !== text) this.gridInUse.setValue(text);
+    this.gridInUse.domElement.title = grid?.why ?? 'No light is assigned to clusters';
+  }
+
+  private makeGui(): GUI {
+    const gui = new GUI({ container: this.parent, title: 'Settings', injectStyles: false });
+    if (this.narrow) gui.close();
+    return gui;
+  }
+
+  private build(server: ServerInfo): void {
+    for (const child of [...this.gui.children]) child.destroy();
+    this.shows = [];
+    this.says = [];
+    this.shown = null;
+    const camera = this.section('camera', server);
+    this.addSceneCameras(camera, server);
+    this.section('rendering', server);
+    this.section('effects', server).close();
+    const lights = this.section('lights', server);
+    this.addBox(lights, server);
+    this.lightEditor = new LightEditor(lights, this.actions);
+    const clusters = this.section('clusters', server);
+    this.addGridInUse(clusters);
+    clusters.close();
+    this.section('debug', server).close();
+    this.addToon();
+    const stream = this.section('stream', server);
+    this.sizeEditor = new SizeEditor(stream, server, this.actions);
+    if (this.narrow) for (const folder of this.gui.folders.slice(1)) folder.close();
+    this.gui
+      .add({ reset: () => this.actions.resetAll() }, 'reset')
+      .name('Back to the server’s defaults');
+  }
+
+  private section(section: Section, server: ServerInfo): GUI {
+    const folder = this.gui.addFolder(kTitles[section]);
+    for (const field of fieldsOf(section)) this.addField(folder, field, server);
+    return folder;
+  }
+
+  private addField(folder: GUI, field: Field, server: ServerInfo): void {
+    if (field.kind === 'number') {
+      this.addNumber(folder, field, server);
+      return;
+    }
+    if (field.kind === 'color') {
+      this.addColor(folder, field, server);
+      return;
+    }
+    const model = { value: valueOf(server.initial, field) };
+    const options =
+      field.kind === 'choice'
+        ? Object.fromEntries(
+            choicesFor(field)
+              .filter(({ value }) => field.name !== 'codec' || this.codecs.includes(value))
+              .map(({ name, value }) => [name.replaceAll('_', ' '), value]),
+          )
+        : undefined;
+    const controller = options ? folder.add(model, 'value', options) : folder.add(model, 'value');
+    controller.onChange((value: number | boolean) => this.actions.set(field, value));
+    this.finish(controller, field, '', (settings) => {
+      model.value = valueOf(settings, field);
+      controller.updateDisplay();
+    });
+  }
+
+  private addNumber(folder: GUI, field: NumberField, server: ServerInfo): void {
+    const initial = valueOf(server.initial, field);
+    const model = { value: tidy(initial) };
+    const controller = folder.add(model, 'value');
+    controller.onFinishChange((value: number) => this.actions.set(field, value));
+    const range = server.ranges.get(field.name);
+    const scale = range ? scaleFor(range, field.integer, initial) : null;
+    const slide = scale
+      ? attachSlider(controller, scale, (value) => this.actions.set(field, value))
+      : null;
+    const limits = range ? `${range.min} to ${range.max}` : '';
+    this.finish(controller, field, limits, (settings) => {
+      const value = tidy(valueOf(settings, field));
+      // Left alone while equal: the viewer may be typing another one.
+      if (this.shown && tidy(valueOf(this.shown, field)) === value) return;
+      model.value = value;
+      controller.updateDisplay();
+      slide?.(value);
+    });
+  }
+
+  private addColor(folder: GUI, field: ColorField, server: ServerInfo): void {
+    const model = { color: displayColor(valueOf(server.initial, field)) };
+    const controller = folder.addColor(model, 'color');
+    controller.onChange((color: string) => this.actions.set(field, linearColor(color)));
+    this.finish(controller, field, '', (settings) => {
+      model.color = displayColor(valueOf(settings, field));
+      controller.updateDisplay();
+    });
+  }
+
+  private finish(controller: Controller, field: Field, limits: string, show: Show): void {
+    const say: Say = (words) =>
+      mark(controller, field.name, labelOf(field.name, words), tipOf(field.name, words, limits));
+    say(this.words);
+    this.says.push(say);
+    this.shows.push((settings) => {
+      controller.enable(isInUse(field, settings));
+      show(settings);
+    });
+  }
+
+  private addSceneCameras(folder: GUI, server: ServerInfo): void {
+    const names = server.scene?.cameras ?? [];
+    if (names.length === 0) return;
+    const scene = Object.fromEntries(names.map((name) => [name, name]));
+    const choices: Record<string, string> = { 'choose…': '', ...scene };
+    const model = { camera: '' };
+    const controller = folder.add(model, 'camera', choices);
+    controller.onChange((name: string) => {
+      model.camera = ''; // a way to go to, not a state to be in
+      controller.updateDisplay();
+      if (name !== '') this.actions.selectCamera(name);
+    });
+    mark(controller, 'scene_camera', 'Go to', "One of the scene's own cameras (keys 1 to 9)");
+  }
+
+  private addGridInUse(folder: GUI): void {
+    this.gridInUse = folder.add({ text: '–' }, 'text').disable();
+    mark(this.gridInUse, 'grid.in_use', 'In use', '');
+  }
+
+  private addBox(folder: GUI, server: ServerInfo): void {
+    const editor = new BoxEditor(folder, server.bounds, (lightBox) =>
+      this.actions.edit({ lightBox }),
+    );
+    this.shows.push((settings) => editor.show(settings.lightBox));
+  }
+
+  private addToon(): void {
+    const folder = this.gui.addFolder('Toon ramps');
+    const editors = [
+      ['toonFragment', 'toon fragment: each light’s n·l'],
+      ['toonCompute', 'toon compute: brightness of the sum'],
+    ] as const;
+    for (const [key, caption] of editors) {
+      const editor = new ToonEditor(folder.$children, caption, (ramp) =>
+        this.actions.edit({ [key]: ramp }),
+      );
+      this.shows.push((settings) => editor.show(settings[key]));
+    }
+    folder.close();
+  }
+}
+
+function mark(controller: Controller, name: string, label: string, tip: string): void {
+  controller.name(label);
+  controller.domElement.title = tip;
+  controller.domElement.dataset.field = name;
+}
+
+/** Whether a panel built for one server fits another, as after most reconnects. */
+function sameControls(a: ServerInfo, b: ServerInfo): boolean {
+  const shape = ({ scene, bounds, ranges }: ServerInfo): string =>
+    JSON.stringify([scene?.cameras, bounds, [...ranges.values()]]);
+  return shape(a) === shape(b);
+}

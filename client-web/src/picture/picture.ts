@@ -1,0 +1,52 @@
+// The canvas: paints bitmaps and saves the picture.
+
+import type { Size } from '../core/size';
+
+/** The size that was asked for, by a picture of `scale` of it; the canvas has it already, mostly. */
+export function canvasSize(canvas: Size, picture: Size, scale: number): Size {
+  if (!(scale > 0) || scale >= 1) return { width: picture.width, height: picture.height };
+  const fits = (whole: number, part: number): boolean => Math.abs(whole * scale - part) <= 1;
+  if (fits(canvas.width, picture.width) && fits(canvas.height, picture.height)) return canvas;
+  return { width: Math.round(picture.width / scale), height: Math.round(picture.height / scale) };
+}
+
+export class Picture {
+  private readonly context: CanvasRenderingContext2D;
+  private painted = false;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    const context = canvas.getContext('2d', { alpha: false });
+    if (!context) throw new Error('this browser has no 2D canvas');
+    this.context = context;
+  }
+
+  /** `scale` is the picture's, of the size asked for: the canvas keeps that size, and its place. */
+  paint(bitmap: ImageBitmap, scale: number): void {
+    const { canvas } = this;
+    const size = canvasSize(canvas, bitmap, scale);
+    if (canvas.width !== size.width || canvas.height !== size.height) {
+      canvas.width = size.width;
+      canvas.height = size.height;
+    }
+    this.context.imageSmoothingQuality = 'high';
+    this.context.drawImage(bitmap, 0, 0, size.width, size.height);
+    this.painted = true;
+  }
+
+  /** The picture as it is shown, at its own size; null before the first. */
+  png(): Promise<Blob | null> {
+    if (!this.painted) return Promise.resolve(null);
+    return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+  }
+}
+
+/** Hands a file to the browser's downloads. */
+export function download(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = name;
+  link.click();
+  // The download holds the data once it has started, which takes a turn of the event loop or more.
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

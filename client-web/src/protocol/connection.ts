@@ -1,0 +1,236 @@
+// One viewer's connection: WebSocket, Hello, reconnects. Knows nothing of settings or pictures.
+
+import type { Codec } from '../gen/froxel/v1/common_pb';
+import type { ServerMessage } from '../gen/froxel/v1/server_pb';
+import { backoffMs } from './backoff';
+import {
+  decodeBinary,
+  encodeCommand,
+  FramingError,
+  kProtocolMajor,
+  kProtocolMinor,
+  kSubprotocol,
+  type ClientBody,
+  type Frame,
+} from './framing';
+import { announced, type Refusal } from './refusal';
+
+/** How it is with the connection. */
+export type Link =
+  | { readonly phase: 'connecting' }
+  | { readonly phase: 'greeting' } // open, Welcome not yet there
+  | { readonly phase: 'live' }
+  | { readonly phase: 'waiting'; readonly reason: string; readonly retryAtMs: number }
+  | { readonly phase: 'refused'; readonly reason: string }; // trying again is pointless
+
+export interface ConnectionEvents {
+  link(link: Link): void;
+  message(message: ServerMessage): void;
+  frame(frame: Frame, bytes: number): void;
+  /** A command that has left, whatever it was. */
+  sent?(body: ClientBody): void;
+  /** The server lets nobody in who knows none of its tokens. */
+  tokenWanted(): void;
+  /** Something from the server could not be read; the connection goes on. */
+  problem(text: string): void;
+}
+
+/** The part of WebSocket that is used. */
+export type Socket = Pick<
+  WebSocket,
+  'binaryType' | 'bufferedAmount' | 'close' | 'onclose' | 'onmessage' | 'onopen' | 'readyState' | 'send'
+>;
+
+export interface Environment {
+  openSocket(url: string, subprotocol: string): Socket;
+  nowMs(): number; // monotonic
+  random(): number; // [0, 1)
+  /** What Hello says besides the version: which room, which lost session to take up, who asks. */
+  hello(): { readonly room: string; readonly resumeToken: string; readonly token: string };
+  /** Why the server declines a socket at this URL; null: it does not, or nobody knows. */
+  askRefusal(url: string): Promise<Refusal | null>;
+  after(delayMs: number, action: () => void): () => void; // returns how to cancel
+  readonly codecs: readonly Codec[]; // that the page decodes
+}
+
+/** A connection that lived this long was a good one: the next delay starts small again. */
+const kStableMs = 5_000;
+const kPingEveryMs = 5_000;
+/** Nothing from the server for so long, in spite of pings: the way is broken. */
+const kSilenceMs = 15_000;
+const kOpen = 1;
+const kTokenRefused = 4003;
+const kResting = 4011;
+
+const kNoRetryReasons: Readonly<Record<number, string>> = {
+  1008: 'The server closed the connection: too many messages, too many refused ones, or no greeting in time.',
+  1009: 'The server closed the connection: a message was too big.',
+  4003: 'The server asks for a token.',
+  4009: 'This view is open in another tab or window now.',
+  4011: 'Nobody watched this view for a while, and the place was given away. Move it to have one again.',
+  4001: 'This page speaks another protocol version than the server. Reload it.',
+};
+
+const kRetryReasons: Readonly<Record<number, string>> = {
+  4008: 'This connection was too slow for the server.',
+  4010: 'The server is going down.',
+  4029: 'The server has no session left.',
+  4050: 'The server lost its rendering device.',
+};
+
+export class Connection {
+  private socket: Socket | null = null;
+  private seq = 0n;
+  private attempt = 0;
+  private openedAtMs = 0;
+  private heardAtMs = 0;
+  private at = ''; // the newest socket's URL
+  private refuge = ''; // another server's, if that was the last one to answer
+  private lostToken = ''; // a session that no server has any more
+  private resting = false; // the server took the place back since nobody watched
+  private cancelTimer: () => void = () => undefined;
+  private cancelLeave: () => void = () => undefined;
+
+  constructor(
+    private readonly url: string,
+    private readonly events: ConnectionEvents,
+    private readonly env: Environment,
+  ) {}
+
+  open(url = this.refuge || this.url): void {
+    this.cancelTimer();
+    this.cancelLeave();
+    this.resting = false;
+    this.openedAtMs = 0;
+    this.at = url;
+    this.events.link({ phase: 'connecting' });
+    const { room, resumeToken } = this.env.hello();
+    const resumable = resumeToken === this.lostToken ? '' : resumeToken;
+    const target = announced(url, room, resumable);
+    const socket = this.env.openSocket(target, kSubprotocol);
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => this.opened(socket);
+    socket.onmessage = (event: MessageEvent) => this.received(event.data);
+    socket.onclose = (event) => {
+      const declined = socket === this.socket && this.openedAtMs === 0;
+      this.closed(socket, event.code, event.reason);
+      if (declined) void this.explain(target, resumable);
+    };
+    this.socket = socket;
+  }
+
+  /** Somebody is here again: a view whose place was given away comes back. */
+  wake(): void {
+    if (this.resting) this.open();
+  }
+
+  /**
+   * The server goes down: goes to `url` (empty: the same address, where a proxy knows another
+   * server) at a random time in the first half of the deadline, so that not all go at once.
+   */
+  leave(deadlineMs: number, url: string): void {
+    this.cancelLeave();
+    this.cancelLeave = this.env.after((this.env.random() * deadlineMs) / 2, () => {
+      const before = this.socket;
+      this.open(url || undefined);
+      before?.close();
+    });
+  }
+
+  /** Bytes that wait to leave this machine. */
+  get backlogBytes(): number {
+    return this.socket?.bufferedAmount ?? 0;
+  }
+
+  /** Sends a command and returns its sequence number; null while there is no open connection. */
+  send(body: ClientBody): bigint | null {
+    if (this.socket?.readyState !== kOpen) return null;
+    this.seq += 1n;
+    this.socket.send(encodeCommand(this.seq, this.env.nowMs(), body));
+    this.events.sent?.(body);
+    return this.seq;
+  }
+
+  private opened(socket: Socket): void {
+    if (socket !== this.socket) return;
+    this.seq = 0n;
+    this.refuge = this.at === this.url ? '' : this.at;
+    this.openedAtMs = this.heardAtMs = this.env.nowMs();
+    this.events.link({ phase: 'greeting' });
+    const hello = { protocolMajor: kProtocolMajor, protocolMinor: kProtocolMinor };
+    const codecs = [...this.env.codecs];
+    const wanted = { ...hello, ...this.env.hello(), codecs };
+    this.send({ case: 'hello', value: { ...wanted, clientName: 'froxel web client' } });
+    this.keepAlive(socket);
+  }
+
+  private received(data: unknown): void {
+    this.heardAtMs = this.env.nowMs();
+    try {
+      if (!(data instanceof ArrayBuffer)) throw new FramingError('a text message from the server');
+      const received = decodeBinary(data);
+      if (received.kind === 'frame') this.events.frame(received.frame, data.byteLength);
+      else this.events.message(received.message);
+    } catch (error) {
+      if (!(error instanceof FramingError)) throw error;
+      this.events.problem(error.message);
+    }
+  }
+
+  private keepAlive(socket: Socket): void {
+    this.cancelTimer = this.env.after(kPingEveryMs, () => {
+      if (socket !== this.socket) return;
+      if (this.env.nowMs() - this.heardAtMs > kSilenceMs) {
+        // close() would wait for an answer that never comes; the browser finishes it later.
+        socket.close();
+        this.closed(socket, 1006, '');
+        return;
+      }
+      this.send({ case: 'ping', value: {} });
+      this.keepAlive(socket);
+    });
+  }
+
+  private closed(socket: Socket, code: number, reason: string): void {
+    if (socket !== this.socket) return; // an older one that the browser closes late
+    this.cancelTimer();
+    this.cancelLeave();
+    this.socket = null;
+    const now = this.env.nowMs();
+    const final = kNoRetryReasons[code];
+    if (final !== undefined) {
+      this.events.link({ phase: 'refused', reason: reason ? `${final} (${reason})` : final });
+      if (code === kTokenRefused) this.events.tokenWanted();
+      this.resting = code === kResting;
+      this.openedAtMs = 0;
+      return;
+    }
+    if (this.openedAtMs > 0 && now - this.openedAtMs >= kStableMs) this.attempt = 0;
+    this.openedAtMs = 0;
+    const delay = backoffMs(this.attempt, () => this.env.random());
+    this.attempt += 1;
+    this.wait(delay, kRetryReasons[code] ?? 'No connection to the server.');
+  }
+
+  private wait(delayMs: number, reason: string): void {
+    this.cancelTimer();
+    this.events.link({ phase: 'waiting', reason, retryAtMs: this.env.nowMs() + delayMs });
+    // This page's own server may be gone for good, or be the only one that comes back: in turns.
+    const next = this.attempt % 2 === 1 ? undefined : this.url;
+    this.cancelTimer = this.env.after(delayMs, () => this.open(next));
+  }
+
+  /** A socket was declined: says why, and waits for as long as it is told to. */
+  private async explain(target: string, resumable: string): Promise<void> {
+    const attempt = this.attempt;
+    const refusal = await this.env.askRefusal(target);
+    if (!refusal || this.socket !== null || this.attempt !== attempt) return;
+    if (resumable !== '') {
+      this.lostToken = resumable; // no server has that session any more: a new one
+      this.open(this.at);
+      return;
+    }
+    const delay = refusal.retryAfterMs * (1 + this.env.random());
+    this.wait(delay, `The server has no place: ${refusal.reason}.`);
+  }
+}

@@ -1,0 +1,182 @@
+// Settings in the page's address, as its fragment, so that a link reproduces a view. Values outside
+// the server's ranges are not judged here: the server refuses them and says why.
+
+import { vec, type Vec } from '../core/vec3';
+import { isUint32, type Field } from '../settings/field';
+import { choicesFor, isGridSide, kAllFields, patchFor } from '../settings/fields';
+import { valueOf, type Bounds, type Ramp, type Settings, type Value } from '../settings/settings';
+import type { SizeMode } from './size_policy';
+
+export interface Address {
+  readonly settings: Partial<Settings>;
+  readonly size: SizeMode | null; // null: the address does not say
+  /** One line for each key or value that makes no sense; they have no effect. */
+  readonly problems: readonly string[];
+}
+
+type Writable<T> = { -readonly [Key in keyof T]: T[Key] };
+
+/** Names in addresses of earlier days: read, never written. */
+const kFormerNames: ReadonlyMap<string, string> = new Map([
+  ['gbuffer.normal', 'gbuffer_normal'],
+  ['gbuffer.position', 'gbuffer_position'],
+  ['light_seed', 'seed'],
+  ['light_animate', 'animate'],
+  ['grid.law', 'grid_law'],
+]);
+
+const kVectors = ['eye', 'target', 'up'] as const;
+const kRamps = { toon_fragment: 'toonFragment', toon_compute: 'toonCompute' } as const;
+
+/** The fragment, without '#', for these settings; ramps only where they differ from `initial`. */
+export function formatAddress(settings: Settings, size: SizeMode, initial: Settings): string {
+  const parts: string[] = [];
+  const put = (name: string, value: string): void => void parts.push(`${name}=${value}`);
+  for (const field of kAllFields) {
+    if (field.key === 'fovDeg' && settings.orthographic) continue;
+    if (isGridSide(field) && settings.gridAutomatic) continue;
+    put(field.name, formatField(field, settings));
+  }
+  if (settings.orthographic) put('half_height', short(settings.halfHeight));
+  // To the last bit: two pages of a scene that stands still show the same picture.
+  if (settings.lightTime !== null) put('light_time', String(settings.lightTime));
+  for (const name of kVectors) put(name, formatVec(settings[name]));
+  if (settings.lightBox) {
+    put('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
+  }
+  put(
+    'size',
+    size.kind === 'auto' ? `auto@${short(size.scale)}` : `${settings.width}x${settings.height}`,
+  );
+  for (const [name, key] of Object.entries(kRamps)) {
+    const text = formatRamp(settings[key]);
+    if (text !== formatRamp(initial[key])) put(name, text);
+  }
+  return parts.join('&');
+}
+
+/** Reads a fragment with or without its '#'. Never throws. */
+export function parseAddress(fragment: string): Address {
+  const settings: Partial<Writable<Settings>> = {};
+  const problems: string[] = [];
+  let size: SizeMode | null = null;
+  for (const [name, text] of new URLSearchParams(fragment.replace(/^#/, ''))) {
+    const found = parseEntry(kFormerNames.get(name) ?? name, text);
+    if (found === null) {
+      problems.push(`link: ${name.slice(0, 30)}=${text.slice(0, 60)} is not understood`);
+    } else {
+      Object.assign(settings, found.settings);
+      size = found.size ?? size;
+    }
+  }
+  return { settings, size, problems };
+}
+
+interface Entry {
+  readonly settings: Partial<Settings>;
+  readonly size?: SizeMode;
+}
+
+function parseEntry(name: string, text: string): Entry | null {
+  const field = kAllFields.find((candidate) => candidate.name === name);
+  if (field) return parseField(field, text);
+  if (name === 'size') return parseSize(text);
+  if (name === 'half_height') {
+    const halfHeight = parseNumber(text);
+    return halfHeight === null ? null : { settings: { halfHeight, orthographic: true } };
+  }
+  if (name === 'light_time') {
+    const lightTime = parseNumber(text);
+    return lightTime === null ? null : { settings: { lightTime } };
+  }
+  if (name === 'light_box') {
+    const lightBox = parseBox(text);
+    return lightBox && { settings: { lightBox } };
+  }
+  const vector = kVectors.find((candidate) => candidate === name);
+  if (vector) {
+    const value = parseVec(text);
+    return value && { settings: { [vector]: value } };
+  }
+  if (name === 'toon_fragment' || name === 'toon_compute') {
+    const ramp = parseRamp(text);
+    return ramp && { settings: { [kRamps[name]]: ramp } };
+  }
+  return null;
+}
+
+function formatField(field: Field, settings: Settings): string {
+  if (field.kind === 'boolean') return valueOf(settings, field) ? '1' : '0';
+  if (field.kind === 'number') return short(valueOf(settings, field));
+  if (field.kind === 'color') return formatVec(valueOf(settings, field));
+  const value = valueOf(settings, field);
+  return choicesFor(field).find((choice) => choice.value === value)?.name ?? String(value);
+}
+
+function parseField(field: Field, text: string): Entry | null {
+  const value = parseValue(field, text);
+  return value === null ? null : { settings: patchFor(field, value) };
+}
+
+function parseValue(field: Field, text: string): Value | null {
+  if (field.kind === 'boolean') return text === '0' || text === '1' ? text === '1' : null;
+  if (field.kind === 'color') return parseVec(text);
+  if (field.kind === 'choice') {
+    return choicesFor(field).find(({ name }) => name === text)?.value ?? null;
+  }
+  const value = parseNumber(text);
+  return value === null || (field.integer && !isUint32(value)) ? null : value;
+}
+
+function parseSize(text: string): Entry | null {
+  const auto = /^auto@(.+)$/.exec(text);
+  if (auto) {
+    const factor = parseNumber(auto[1] ?? '');
+    if (factor === null || factor <= 0) return null;
+    return { settings: {}, size: { kind: 'auto', scale: factor } };
+  }
+  const [width, height] = text.split('x').map(parseNumber);
+  if (width == null || height == null || !isUint32(width) || !isUint32(height)) return null;
+  return { settings: { width, height }, size: { kind: 'fixed' } };
+}
+
+function parseBox(text: string): Bounds | null {
+  const [min, max, ...rest] = text.split(';').map(parseVec);
+  return min && max && rest.length === 0 ? { min, max } : null;
+}
+
+function formatRamp(ramp: Ramp): string {
+  return ramp.map((point) => [point.x, point.y, point.slope].map(short).join(',')).join(';');
+}
+
+function parseRamp(text: string): Ramp | null {
+  const points = text.split(';').map(parseVec);
+  const ramp = points.flatMap((p) => (p ? [{ x: p.x, y: p.y, slope: p.z }] : []));
+  return ramp.length === points.length ? ramp : null;
+}
+
+const formatVec = (v: Vec): string => [v.x, v.y, v.z].map(short).join(',');
+
+function parseVec(text: string): Vec | null {
+  const [x, y, z, ...rest] = text.split(',').map(parseNumber);
+  return x == null || y == null || z == null || rest.length > 0 ? null : vec(x, y, z);
+}
+
+function parseNumber(text: string): number | null {
+  const value = Number(text);
+  return text.trim() !== '' && Number.isFinite(value) ? value : null;
+}
+
+/**
+ * The server's 32-bit floats by their shortest text ("0.1", not "0.10000000149"); others, such as
+ * positions, with twelve digits: a micrometre at 1,000 km.
+ */
+function short(value: number): string {
+  if (Number.isInteger(value)) return String(value);
+  if (Math.fround(value) !== value) return String(Number(value.toPrecision(12)));
+  for (let digits = 6; digits < 9; digits += 1) {
+    const rounded = Number(value.toPrecision(digits));
+    if (Math.fround(rounded) === value) return String(rounded);
+  }
+  return String(Number(value.toPrecision(9)));
+}

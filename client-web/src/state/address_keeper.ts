@@ -1,0 +1,62 @@
+// Keeps the address and the settings alike: reads it when the page opens or it is edited, writes it
+// a moment after a change.
+
+import { cameraCommand, settingCommands } from '../settings/setting_commands';
+import { formatAddress, parseAddress } from './address';
+import type { AppState } from './app_state';
+import type { Store } from './store';
+
+const kWriteDelayMs = 400; // browsers limit how often an address may change
+
+export class AddressKeeper {
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly store: Store) {
+    store.listen((state, before) => this.changed(state, before));
+    window.addEventListener('hashchange', () => this.read());
+  }
+
+  read(): void {
+    const { settings, size, problems } = parseAddress(location.hash);
+    this.store.dispatch({ type: 'restored', wanted: settings, size });
+    if (problems.length > 0) {
+      this.store.dispatch({ type: 'notice', tone: 'error', text: problems.join('; ') });
+    }
+  }
+
+  async copy(): Promise<void> {
+    this.write();
+    let text = 'The link to this view is on the clipboard.';
+    try {
+      await navigator.clipboard.writeText(location.href);
+    } catch {
+      text = 'Copy the link from the address bar.'; // no clipboard without https, or forbidden
+    }
+    this.store.dispatch({ type: 'notice', tone: 'info', text });
+  }
+
+  private changed(state: AppState, before: AppState): void {
+    const sizeChosen = before.sizeMode !== null && state.sizeMode !== before.sizeMode;
+    if (!sizeChosen && !edited(before, state)) return;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.write(), kWriteDelayMs);
+  }
+
+  private write(): void {
+    clearTimeout(this.timer);
+    const { settings, sizeMode, server } = this.store.state;
+    if (!settings || !sizeMode || !server) return;
+    history.replaceState(null, '', `#${formatAddress(settings, sizeMode, server.initial)}`);
+  }
+}
+
+/** Whether more changed than what Welcome brings and what follows the window's size. */
+function edited({ settings: before }: AppState, { settings: after, sizeMode }: AppState): boolean {
+  if (!before || !after || before === after) return false;
+  const followsWindow = sizeMode?.kind !== 'fixed';
+  const commands = settingCommands(before, after);
+  return (
+    commands.some((command) => command.case !== 'setSize' || !followsWindow) ||
+    cameraCommand(before, after) !== null
+  );
+}

@@ -1,0 +1,250 @@
+// The page's state and its pure reducer. Effects (sockets, DOM) live elsewhere and only dispatch.
+//
+// `settings` is what the viewer wants, `sent` what the server has been told, `confirmed` what it
+// said last. The server answers every command with its complete state; an answer is adopted only
+// when nothing newer is under way, so that a slider never jumps back to where it was a round trip
+// ago. A refusal takes the settings back to the confirmed ones.
+
+import { vec } from '../core/vec3';
+import { Refine } from '../gen/froxel/v1/common_pb';
+import {
+  ErrorCode,
+  type FieldRange,
+  type FrameDetails,
+  type SceneInfo,
+  type ServerMessage,
+} from '../gen/froxel/v1/server_pb';
+import type { Link } from '../protocol/connection';
+import { findLight, placedAfter, type PlacedLights } from '../settings/placed_lights';
+import { cameraOf, settingsOf, type Bounds, type Settings } from '../settings/settings';
+import { mayControl, roomOf, type Room } from './room';
+import type { SizeMode } from './size_policy';
+
+export interface ServerInfo {
+  readonly version: string;
+  readonly protocolMinor: number;
+  readonly device: string;
+  readonly scene: SceneInfo | null;
+  readonly bounds: Bounds | null;
+  readonly ranges: ReadonlyMap<string, FieldRange>;
+  readonly initial: Settings;
+}
+
+export interface Loading {
+  readonly stage: string;
+  readonly fraction: number;
+}
+
+export interface Notice {
+  readonly text: string;
+  readonly tone: 'error' | 'info';
+}
+
+/** Of a PickLight: its seq, and the id that the light is to have. */
+export interface Pick {
+  readonly seq: bigint;
+  readonly id: number;
+}
+
+export interface AppState {
+  readonly link: Link;
+  readonly server: ServerInfo | null;
+  readonly loading: Loading | null;
+  readonly settings: Settings | null;
+  readonly sent: Settings | null;
+  readonly sentSeq: bigint; // newest command that sets state
+  readonly confirmed: Settings | null;
+  /** What the address asked for; merged into the first Welcome's state. */
+  readonly wanted: Partial<Settings>;
+  readonly sizeMode: SizeMode | null; // null: until Welcome tells what the server can do
+  readonly notice: Notice | null;
+  readonly details: FrameDetails | null; // of the frames from now on
+  readonly room: Room | null; // null: a session of one's own
+  readonly chosenLight: number | null; // id of the placed light that is being edited
+  readonly pick: Pick | null; // a light asked for, and not answered yet
+  readonly handles: boolean; // whether placed lights have handles over the picture
+}
+
+export type Action =
+  | { readonly type: 'link'; readonly link: Link }
+  | { readonly type: 'received'; readonly message: ServerMessage }
+  | { readonly type: 'edit'; readonly patch: Partial<Settings> }
+  | { readonly type: 'choose_light'; readonly id: number | null }
+  | { readonly type: 'picking'; readonly pick: Pick }
+  | { readonly type: 'show_handles'; readonly visible: boolean }
+  | { readonly type: 'size_mode'; readonly mode: SizeMode }
+  | { readonly type: 'sent'; readonly seq: bigint; readonly settings: Settings }
+  | { readonly type: 'restored'; readonly wanted: Partial<Settings>; readonly size: SizeMode | null }
+  | ({ readonly type: 'notice' } & Notice)
+  | { readonly type: 'dismiss' };
+
+export const kInitialState: AppState = {
+  link: { phase: 'connecting' },
+  server: null,
+  loading: null,
+  settings: null,
+  sent: null,
+  sentSeq: 0n,
+  confirmed: null,
+  wanted: {},
+  sizeMode: null,
+  notice: null,
+  details: null,
+  room: null,
+  chosenLight: null,
+  pick: null,
+  handles: true,
+};
+
+export function reduce(state: AppState, action: Action): AppState {
+  switch (action.type) {
+    case 'link':
+      return linked(state, action.link);
+    case 'received':
+      return received(state, action.message);
+    case 'edit':
+      if (!mayControl(state.room)) return state; // it follows who controls
+      return state.settings
+        ? { ...state, settings: { ...state.settings, ...action.patch } }
+        : { ...state, wanted: { ...state.wanted, ...action.patch } };
+    case 'choose_light':
+      return { ...state, chosenLight: action.id };
+    case 'picking':
+      return { ...state, pick: action.pick, sentSeq: action.pick.seq };
+    case 'show_handles':
+      return { ...state, handles: action.visible };
+    case 'size_mode':
+      return { ...state, sizeMode: action.mode };
+    case 'sent':
+      return { ...state, sent: action.settings, sentSeq: action.seq };
+    case 'restored':
+      return restored(state, action.wanted, action.size);
+    case 'notice':
+      return { ...state, notice: { text: action.text, tone: action.tone } };
+    case 'dismiss':
+      return { ...state, notice: null };
+  }
+}
+
+function linked(state: AppState, link: Link): AppState {
+  // A new connection knows nothing of what the last one was told.
+  const forget =
+    link.phase === 'live' ? {} : { sent: null, sentSeq: 0n, loading: null, pick: null };
+  return { ...state, ...forget, link };
+}
+
+function roomChanged(state: AppState, room: Room): AppState {
+  if (mayControl(room)) return { ...state, room };
+  // What was changed and not answered yet is no more than a wish now.
+  return { ...state, room, settings: state.confirmed, sent: state.confirmed };
+}
+
+function restored(state: AppState, wanted: Partial<Settings>, size: SizeMode | null): AppState {
+  if (!mayControl(state.room)) return { ...state, sizeMode: size ?? state.sizeMode };
+  const settings = state.settings && { ...state.settings, ...wanted };
+  return { ...state, wanted, settings, sizeMode: size ?? state.sizeMode };
+}
+
+function received(state: AppState, message: ServerMessage): AppState {
+  const { body } = message;
+  switch (body.case) {
+    case 'welcome':
+      return welcomed(state, body.value);
+    case 'state': {
+      const answer = body.value;
+      if (!answer.state) return state;
+      const placed = placedAfter(state.confirmed?.placedLights ?? [], answer.placedLights);
+      const confirmed = settingsOf(answer.state, state.server?.bounds ?? null, placed);
+      const stale =
+        mayControl(state.room) &&
+        (state.settings !== state.sent || answer.refSeq < state.sentSeq);
+      const told = { ...state, confirmed, ...picked(state, answer.refSeq, placed) };
+      return stale ? told : { ...told, settings: confirmed, sent: confirmed };
+    }
+    case 'error':
+      if (body.value.code === ErrorCode.TOKEN) return state; // the question for one says it
+      if (body.value.refSeq > 0n && body.value.refSeq === state.pick?.seq) {
+        // Nothing was wished for in the settings that would have to be taken back.
+        return { ...state, pick: null, notice: { text: body.value.message, tone: 'error' } };
+      }
+      return {
+        ...state,
+        ...(body.value.refSeq > 0n && { settings: state.confirmed, sent: state.confirmed }),
+        notice: { text: body.value.message, tone: 'error' },
+      };
+    case 'loading':
+      return { ...state, loading: { stage: body.value.stage, fraction: body.value.fraction } };
+    case 'details':
+      return { ...state, details: body.value };
+    case 'roomState':
+      return roomChanged(state, roomOf(body.value));
+    case 'draining':
+      return { ...state, notice: { text: 'The server is going down.', tone: 'info' } };
+    default:
+      return state;
+  }
+}
+
+/** What the answer to a pick changes: the light is chosen. */
+function picked({ pick }: AppState, refSeq: bigint, placed: PlacedLights): Partial<AppState> {
+  if (!pick || refSeq < pick.seq) return {};
+  return { pick: null, ...(findLight(placed, pick.id) && { chosenLight: pick.id }) };
+}
+
+type Welcome = Extract<ServerMessage['body'], { case: 'welcome' }>['value'];
+
+function welcomed(state: AppState, welcome: Welcome): AppState {
+  if (!welcome.state) {
+    return { ...state, link: { phase: 'refused', reason: 'Welcome without a state' } };
+  }
+  const scene = welcome.scene ?? null;
+  const bounds = boundsOf(scene);
+  const present = settingsOf(welcome.state, bounds, placedAfter([], welcome.placedLights));
+  const initial = welcome.defaults
+    ? settingsOf(welcome.defaults, bounds, placedAfter([], welcome.defaultPlacedLights))
+    : present;
+  const room = welcome.room ? roomOf(welcome.room) : null;
+  const server: ServerInfo = {
+    version: welcome.serverVersion,
+    protocolMinor: welcome.protocolMinor,
+    device: welcome.device,
+    scene,
+    bounds,
+    ranges: new Map(welcome.ranges.map((range) => [range.field, range])),
+    initial,
+  };
+  const settings = mayControl(room) ? desired(state, server, present) : present;
+  return {
+    ...state,
+    link: { phase: 'live' },
+    loading: null,
+    // News of the last connection, such as that the server goes down, is old now.
+    notice: state.notice?.tone === 'info' ? null : state.notice,
+    server,
+    settings,
+    room,
+    sent: present,
+    sentSeq: 0n,
+    confirmed: present,
+    wanted: {},
+  };
+}
+
+/** What to show after Welcome: as before the connection broke, or else as the address says. */
+function desired(state: AppState, server: ServerInfo, present: Settings): Settings {
+  const before = state.settings;
+  if (!before) {
+    // A server refines without loss only for clients that say that they decode it.
+    const refine = present.refine === Refine.HIGH ? Refine.LOSSLESS : present.refine;
+    return { ...present, refine, ...state.wanted };
+  }
+  if (state.server?.scene?.name === server.scene?.name) return before;
+  // Another scene: places of the old one mean nothing in it.
+  const { placedLights } = present;
+  return { ...before, ...cameraOf(present), lightBox: null, placedLights };
+}
+
+function boundsOf(scene: SceneInfo | null): Bounds | null {
+  const { min, max } = scene?.bounds ?? {};
+  return min && max ? { min: vec(min.x, min.y, min.z), max: vec(max.x, max.y, max.z) } : null;
+}

@@ -1,0 +1,60 @@
+// The GPU passes of a frame as one stacked bar, and as a table beneath it.
+
+import { element, make } from '../core/dom';
+import { ms, percent } from '../core/format';
+import type { PassShare } from './pass_meter';
+
+/** Hues a golden angle apart: neighbours differ, however many there are. */
+export const passColor = (index: number): string =>
+  `hsl(${((index * 137.508 + 215) % 360).toFixed(0)}deg 62% 54%)`;
+
+export class PassStack {
+  private readonly bar = element('passes-bar', HTMLElement);
+  private readonly table = element('passes-table', HTMLTableElement);
+  private readonly colors = new Map<string, string>(); // a pass keeps its own
+  private built = '';
+
+  show(passes: readonly PassShare[]): void {
+    const names = passes.map(({ name }) => name).join(' ');
+    if (names !== this.built) this.build(passes);
+    this.built = names;
+    passes.forEach((pass, index) => {
+      const segment = this.bar.children[index];
+      if (segment instanceof HTMLElement) segment.style.flexGrow = pass.share.toFixed(4);
+      this.fillRow(index, pass.ms, pass.share);
+    });
+    const whole = passes.reduce((sum, pass) => sum + pass.ms, 0);
+    this.fillRow(passes.length, whole, whole > 0 ? 1 : 0);
+  }
+
+  private build(passes: readonly PassShare[]): void {
+    const parts = passes.map(({ name }) => {
+      const color = this.colors.get(name) ?? passColor(this.colors.size);
+      this.colors.set(name, color);
+      const text = name.replaceAll('_', ' ');
+      const segment = make('span');
+      segment.style.background = color;
+      segment.title = text;
+      const row = this.makeRow(text);
+      row.style.setProperty('--key', color);
+      return { segment, row };
+    });
+    this.bar.replaceChildren(...parts.map(({ segment }) => segment));
+    this.table.replaceChildren(
+      ...parts.map(({ row }) => row),
+      ...(parts.length > 0 ? [this.makeRow('together')] : []),
+    );
+  }
+
+  private makeRow(name: string): HTMLTableRowElement {
+    const row = make('tr');
+    row.append(make('th', name), make('td'), make('td'));
+    return row;
+  }
+
+  private fillRow(index: number, timeMs: number, share: number): void {
+    const [, time, part] = this.table.rows[index]?.cells ?? [];
+    if (time) time.textContent = ms(timeMs);
+    if (part) part.textContent = percent(share, 1);
+  }
+}

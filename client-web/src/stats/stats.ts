@@ -1,0 +1,105 @@
+// What the statistics card shows, gathered from painted frames. No DOM, no clock of its own.
+
+import type { FrameHeader } from '../gen/froxel/v1/server_pb';
+import { InputLatency, RateMeter, SampleWindow } from './latency';
+import { PassMeter } from './pass_meter';
+
+const kRateSpanMs = 2_000;
+const kStageSamples = 64;
+const kHistory = 150;
+/** A longer pause is a still picture, not a slow one: the server sends only what changed. */
+const kIdleMs = 2_000;
+
+/** The way from a command to its picture. "network" is what the other stages leave of the whole. */
+export const kStages = [
+  'queue',
+  'render',
+  'encode wait',
+  'encode',
+  'send wait',
+  'network',
+  'decode',
+] as const;
+export type Stage = (typeof kStages)[number];
+
+export interface Figures {
+  readonly framesPerSecond: number;
+  readonly bytesPerSecond: number;
+  readonly latencyP50Ms: number | null;
+  readonly latencyP95Ms: number | null;
+  readonly stagesMs: Readonly<Record<Stage, number | null>>;
+  readonly last: FrameHeader | null;
+}
+
+export interface History {
+  readonly timeS: number[];
+  readonly intervalMs: (number | null)[];
+  readonly latencyMs: (number | null)[];
+}
+
+export class Stats {
+  readonly history: History = { timeS: [], intervalMs: [], latencyMs: [] };
+  readonly passes = new PassMeter();
+  private readonly frames = new RateMeter(kRateSpanMs);
+  private readonly bytes = new RateMeter(kRateSpanMs);
+  private readonly latency = new InputLatency();
+  private readonly stages = new Map(
+    kStages.map((stage) => [stage, new SampleWindow(kStageSamples)]),
+  );
+  private last: FrameHeader | null = null;
+  private lastPaintMs: number | null = null;
+
+  received(bytes: number, nowMs: number): void {
+    this.bytes.add(nowMs, bytes);
+  }
+
+  painted(header: FrameHeader, decodeMs: number, nowMs: number): void {
+    this.frames.add(nowMs, 1);
+    this.last = header;
+    this.passes.add(header);
+    const total = this.latency.painted(header.appliedSeq, header.appliedClientTimeUs, nowMs);
+    if (total !== null) this.addStages(header, decodeMs, total);
+    const pause = this.lastPaintMs === null ? Infinity : nowMs - this.lastPaintMs;
+    const interval = pause < kIdleMs ? pause : null;
+    this.lastPaintMs = nowMs;
+    const { timeS, intervalMs, latencyMs } = this.history;
+    timeS.push(nowMs / 1000);
+    intervalMs.push(interval);
+    latencyMs.push(total);
+    if (timeS.length > kHistory) for (const row of [timeS, intervalMs, latencyMs]) row.shift();
+  }
+
+  /** A new connection: its frames and commands count from 1 again. */
+  restart(): void {
+    this.latency.restart();
+    this.lastPaintMs = null;
+  }
+
+  figures(nowMs: number): Figures {
+    const median = ([stage, window]: [Stage, SampleWindow]): [Stage, number | null] => [
+      stage,
+      window.percentile(0.5),
+    ];
+    return {
+      framesPerSecond: this.frames.perSecond(nowMs),
+      bytesPerSecond: this.bytes.perSecond(nowMs),
+      latencyP50Ms: this.latency.window.percentile(0.5),
+      latencyP95Ms: this.latency.window.percentile(0.95),
+      stagesMs: Object.fromEntries([...this.stages].map(median)) as Figures['stagesMs'],
+      last: this.last,
+    };
+  }
+
+  private addStages(header: FrameHeader, decodeMs: number, totalMs: number): void {
+    const server = {
+      queue: header.queueUs / 1000,
+      render: header.renderUs / 1000,
+      'encode wait': header.encodeWaitUs / 1000,
+      encode: header.encodeUs / 1000,
+      'send wait': header.sendWaitUs / 1000,
+    };
+    const serverMs = Object.values(server).reduce((sum, ms) => sum + ms, 0);
+    const all = { ...server, network: totalMs - serverMs - decodeMs, decode: decodeMs };
+    for (const stage of kStages) this.stages.get(stage)?.push(all[stage]);
+  }
+}

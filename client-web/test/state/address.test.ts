@@ -1,0 +1,171 @@
+import { describe, expect, it } from 'vitest';
+
+import {
+  Antialiasing,
+  BloomKind,
+  DebugView,
+  GridLaw,
+  LightingStage,
+  LightLoop,
+  NormalEncoding,
+  PositionSource,
+  Renderer,
+  ShadingModel,
+  Transparency,
+} from '../../src/gen/froxel/v1/common_pb';
+import { formatAddress, parseAddress } from '../../src/state/address';
+import type { SizeMode } from '../../src/state/size_policy';
+import { kBounds, sampleSettings } from '../sample';
+
+const kAuto: SizeMode = { kind: 'auto', scale: 0.75 };
+const initial = sampleSettings();
+
+describe('addresses', () => {
+  it('RoundTrip_OfEverything_IsTheSameView', () => {
+    const settings = sampleSettings({
+      eye: { x: 1.5, y: -2, z: 1e6 },
+      renderer: Renderer.TOON_COMPUTE,
+      lighting: LightingStage.FRAGMENT,
+      lights: 31_000,
+      lightRadius: 0.125,
+      animate: false,
+      lightBox: kBounds,
+      gridAutomatic: false,
+      gridZ: 64,
+      gridLaw: GridLaw.HYPERBOLIC,
+      lightLoop: LightLoop.ALL_LIGHTS,
+      countPairs: true,
+      debugView: DebugView.CLUSTER_WIRES,
+      debugScaleMax: 12.5,
+      debugFrozen: true,
+      lightTime: 0.1 + 0.2,
+      shading: ShadingModel.BLINN_PHONG,
+      bloom: BloomKind.A_TROUS,
+      bloomRadius: 0.02,
+      antialiasing: Antialiasing.FXAA,
+      transparency: Transparency.PEELED,
+      peelLayers: 9,
+      shadowLights: 6,
+      shadowSize: 384,
+      outlineStrength: 0.75,
+      fogDensity: 0.05,
+      fogBaseHeight: -2.5,
+      fogHalfRate: true,
+      fogAlbedo: { x: 1, y: 0.25, z: 0 },
+      gbufferNormal: NormalEncoding.SPHEREMAP16,
+      gbufferPosition: PositionSource.STORED_DEPTH,
+      lensShiftX: -0.5,
+      lensShiftY: 1,
+      toonFragment: [
+        { x: 0, y: 0, slope: 0.5 },
+        { x: 1, y: 1, slope: -3 },
+      ],
+      width: 333,
+      height: 77,
+    });
+    const address = parseAddress(`#${formatAddress(settings, { kind: 'fixed' }, initial)}`);
+    expect(address.problems).toEqual([]);
+    expect(address.size).toEqual({ kind: 'fixed' });
+    expect({ ...initial, ...address.settings }).toEqual(settings);
+  });
+
+  it('RoundTrip_OfAnOrthographicView_KeepsItsHeight', () => {
+    const settings = sampleSettings({ orthographic: true, halfHeight: 3.5 });
+    const address = parseAddress(formatAddress(settings, kAuto, initial));
+    expect({ ...initial, ...address.settings }).toEqual(settings);
+  });
+
+  it('RampsAsTheyWere_AreNotInTheAddress', () => {
+    expect(formatAddress(initial, kAuto, initial)).not.toContain('toon');
+  });
+
+  it('AutomaticGrid_HasNoSizeInTheAddress', () => {
+    const text = formatAddress(initial, kAuto, initial);
+    expect(text).toContain('grid.auto=1');
+    expect(text).not.toContain('grid.x');
+  });
+
+  it('GridSize_InAnOldAddress_IsOneByHand', () => {
+    expect(parseAddress('grid.x=5').settings).toEqual({ gridX: 5, gridAutomatic: false });
+  });
+
+  it('FormerNames_AreReadAndNotWritten', () => {
+    const old =
+      'gbuffer.normal=oct8&gbuffer.position=fp32&light_seed=7&light_animate=0&grid.law=linear';
+    const address = parseAddress(old);
+    expect(address.problems).toEqual([]);
+    expect(address.settings).toEqual({
+      gbufferNormal: NormalEncoding.OCT8,
+      gbufferPosition: PositionSource.FP32,
+      seed: 7,
+      animate: false,
+      gridLaw: GridLaw.LINEAR,
+    });
+    const written = new URLSearchParams(formatAddress({ ...initial, ...address.settings }, kAuto, initial));
+    for (const [name] of new URLSearchParams(old)) expect(written.has(name)).toBe(false);
+    expect(written.get('grid_law')).toBe('linear');
+  });
+
+  it('LightTime_WhileTheLightsMove_IsNotInTheAddress', () => {
+    expect(formatAddress(initial, kAuto, initial)).not.toContain('light_time');
+  });
+
+  it('AutomaticSize_IsItsScaleAndNoPixels', () => {
+    const text = formatAddress(initial, kAuto, initial);
+    expect(text).toContain('size=auto@0.75');
+    expect(parseAddress(text).settings.width).toBeUndefined();
+    expect(parseAddress(text).size).toEqual(kAuto);
+  });
+
+  it('Numbers_ReadAsPeopleWriteThem', () => {
+    const float = Math.fround(0.1);
+    expect(formatAddress(sampleSettings({ exposure: float }), kAuto, initial)).toContain('exposure=0.1&');
+  });
+
+  it.each([2_147_483_648, 4_294_967_295, 16_777_217])('WholeNumber_%i_StaysExact', (seed) => {
+    const address = parseAddress(formatAddress(sampleSettings({ seed }), kAuto, initial));
+    expect(address.settings).toMatchObject({ seed });
+  });
+
+  it('NothingAfterTheHash_IsNothing', () => {
+    expect(parseAddress('')).toEqual({ settings: {}, size: null, problems: [] });
+    expect(parseAddress('#')).toEqual({ settings: {}, size: null, problems: [] });
+  });
+
+  it.each([
+    'lights=many',
+    'lights=1.5',
+    'lights=-1',
+    'lights=99999999999',
+    'light_radius=NaN',
+    'exposure=Infinity',
+    'exposure=',
+    'renderer=fastest',
+    'chroma=422',
+    'animate=yes',
+    'light_animate=yes',
+    'eye=1,2',
+    'eye=1,2,3,4',
+    'light_box=1,2,3',
+    'light_box=1,2,3;4,5,x',
+    'size=auto@0',
+    'size=100',
+    'size=10x-1',
+    'toon_fragment=0,1',
+    'half_height=x',
+    'light_time=noon',
+    'gbuffer_normal=oct7',
+    'fog_albedo=1,2',
+    'constructor=1',
+    'grid.auto=maybe',
+    'colour=red',
+  ])('Nonsense_%s_IsNamedAndHasNoEffect', (entry) => {
+    const address = parseAddress(`#${entry}&quality=7`);
+    expect(address.problems).toEqual([`link: ${entry} is not understood`]);
+    expect(address.settings).toEqual({ quality: 7 });
+  });
+
+  it('ValueOutOfTheServersRange_IsLeftToTheServer', () => {
+    expect(parseAddress('#lights=4000000000').settings).toEqual({ lights: 4_000_000_000 });
+  });
+});

@@ -1,0 +1,190 @@
+import { describe, expect, it } from 'vitest';
+
+import { Refine } from '../../src/gen/froxel/v1/common_pb';
+import { ErrorCode } from '../../src/gen/froxel/v1/server_pb';
+import { kInitialState, reduce, type Action, type AppState } from '../../src/state/app_state';
+import { serverMessage } from '../fakes';
+import { viewState, welcome } from '../sample';
+
+const run = (state: AppState, ...actions: Action[]): AppState => actions.reduce(reduce, state);
+const received = (body: Parameters<typeof serverMessage>[0]): Action => ({
+  type: 'received',
+  message: serverMessage(body),
+});
+const welcomed = (scene?: string): Action => received({ case: 'welcome', value: welcome(scene) });
+const answer = (refSeq: bigint, lightCount: number): Action =>
+  received({ case: 'state', value: { refSeq, state: viewState({ lightCount }) } });
+const edit = (lights: number): Action => ({ type: 'edit', patch: { lights } });
+
+/** As SettingsSync does after it has told the server. */
+function sent(state: AppState, seq: bigint): AppState {
+  if (!state.settings) throw new Error('nothing to send');
+  return reduce(state, { type: 'sent', seq, settings: state.settings });
+}
+
+const live = run(kInitialState, welcomed());
+
+describe('a pick', () => {
+  const asked = run(sent(live, 3n), { type: 'picking', pick: { seq: 4n, id: 2 } });
+  const placed = (refSeq: bigint): Action =>
+    received({
+      case: 'state',
+      value: { refSeq, state: viewState(), placedLights: { lights: [{ id: 2, position: {} }] } },
+    });
+
+  it('Answered_IsTheChosenLight', () => {
+    const state = run(asked, placed(4n));
+    expect(state.chosenLight).toBe(2);
+    expect(state.pick).toBeNull();
+    expect(state.settings?.placedLights.map(({ id }) => id)).toContain(2);
+  });
+
+  it('AnsweredBeforeItWasHeard_IsWaitedFor', () => {
+    const state = run(asked, answer(3n, 5));
+    expect(state.pick?.id).toBe(2);
+    expect(state.settings?.lights).toBe(1000); // a newer answer is to come
+  });
+
+  it('Missed_TakesNoEditBack', () => {
+    const value = { code: ErrorCode.OUT_OF_RANGE, refSeq: 4n, message: 'x is at no light' };
+    const state = run(asked, edit(7), received({ case: 'error', value }));
+    expect(state.settings?.lights).toBe(7);
+    expect(state.pick).toBeNull();
+    expect(state.chosenLight).toBe(live.chosenLight);
+    expect(state.notice?.text).toBe('x is at no light');
+  });
+});
+
+describe('details', () => {
+  it('HoldUntilTheNextOnes', () => {
+    expect(live.details).toBeNull();
+    const plan = (line: string): Action => received({ case: 'details', value: { plan: [line] } });
+    const state = run(live, plan('old'), plan('new'), answer(1n, 5));
+    expect(state.details?.plan).toEqual(['new']);
+  });
+});
+
+describe('welcome', () => {
+  it('BringsTheServersStateRangesAndScene', () => {
+    expect(live.link.phase).toBe('live');
+    expect(live.settings?.lights).toBe(1000);
+    expect(live.server?.ranges.get('lights')?.max).toBe(1_000_000);
+    expect(live.server?.scene?.cameras).toEqual(['nave', 'gallery']);
+    expect(live.sent).toBe(live.confirmed);
+  });
+
+  it('WhatTheLinkAskedFor_IsWantedOverTheServersState', () => {
+    const wanted: Action = { type: 'restored', wanted: { lights: 5 }, size: null };
+    const state = run(kInitialState, wanted, welcomed());
+    expect(state.settings?.lights).toBe(5);
+    expect(state.sent?.lights).toBe(1000);
+  });
+
+  it('AfterAReconnect_TheViewGoesOn', () => {
+    const before = sent(run(live, edit(7)), 1n);
+    const lost: Action = { type: 'link', link: { phase: 'connecting' } };
+    const state = run(before, lost, welcomed());
+    expect(state.settings?.lights).toBe(7);
+    expect(state.sent?.lights).toBe(1000);
+  });
+
+  it('AfterAReconnectToAnotherScene_OnlyPlacesAreForgotten', () => {
+    const moved: Action = {
+      type: 'edit',
+      patch: { lights: 7, eye: { x: 99, y: 99, z: 99 } },
+    };
+    const state = run(live, moved, welcomed('sponza'));
+    expect(state.settings?.lights).toBe(7);
+    expect(state.settings?.eye).toEqual({ x: -7, y: 2, z: 0 });
+  });
+
+  it('AfterAReconnect_TheWarningOfItIsGoneAndErrorsStay', () => {
+    const draining = received({ case: 'draining', value: { deadlineMs: 1 } });
+    expect(run(live, draining).notice?.tone).toBe('info');
+    expect(run(live, draining, welcomed()).notice).toBeNull();
+    const error: Action = { type: 'notice', tone: 'error', text: 'bad link' };
+    expect(run(kInitialState, error, welcomed()).notice?.text).toBe('bad link');
+  });
+
+  it('ServerThatRefines_IsAskedForTheLosslessPictureUnlessTheLinkSaysElse', () => {
+    const greeted = (refine: Refine): Action =>
+      received({ case: 'welcome', value: { ...welcome(), state: viewState({ refine }) } });
+    expect(run(kInitialState, greeted(Refine.HIGH)).settings?.refine).toBe(Refine.LOSSLESS);
+    expect(run(kInitialState, greeted(Refine.NONE)).settings?.refine).toBe(Refine.NONE);
+    const link: Action = { type: 'restored', wanted: { refine: Refine.NONE }, size: null };
+    expect(run(kInitialState, link, greeted(Refine.HIGH)).settings?.refine).toBe(Refine.NONE);
+  });
+
+  it('WithoutAState_IsRefused', () => {
+    const empty = received({ case: 'welcome', value: { protocolMajor: 1 } });
+    expect(run(kInitialState, empty).link.phase).toBe('refused');
+  });
+});
+
+describe('answers', () => {
+  it('ToTheNewestCommand_AreAdopted', () => {
+    const state = run(sent(run(live, edit(5)), 3n), answer(3n, 6));
+    expect(state.settings?.lights).toBe(6);
+    expect(state.sent).toBe(state.settings);
+  });
+
+  it('ToAnOlderCommand_DoNotMoveTheControlsBack', () => {
+    const state = run(sent(run(live, edit(5)), 3n), answer(2n, 4));
+    expect(state.settings?.lights).toBe(5);
+    expect(state.confirmed?.lights).toBe(4);
+  });
+
+  it('WhileAnEditIsUnsent_DoNotUndoIt', () => {
+    const state = run(sent(run(live, edit(5)), 3n), edit(9), answer(3n, 5));
+    expect(state.settings?.lights).toBe(9);
+  });
+});
+
+describe('errors', () => {
+  const error = (refSeq: bigint): Action =>
+    received({
+      case: 'error',
+      value: { code: ErrorCode.OUT_OF_RANGE, refSeq, message: 'lights = 1e9: 0 to 100000' },
+    });
+
+  it('OfACommand_TakeTheSettingsBackToTheLastGoodOnes', () => {
+    const state = run(sent(run(live, edit(1e9)), 1n), error(1n));
+    expect(state.settings?.lights).toBe(1000);
+    expect(state.sent?.lights).toBe(1000);
+    expect(state.notice).toEqual({ text: 'lights = 1e9: 0 to 100000', tone: 'error' });
+  });
+
+  it('OfNoCommand_OnlyShow', () => {
+    const before = run(live, edit(5));
+    expect(run(before, error(0n)).settings?.lights).toBe(5);
+  });
+
+  it('OfTheToken_ChangeNothing', () => {
+    const before = run(live, edit(5));
+    const value = { code: ErrorCode.TOKEN, refSeq: 1n, message: 'token is unknown' };
+    expect(run(before, received({ case: 'error', value }))).toEqual(before);
+  });
+
+  it('Dismiss_TakesTheNoticeAway', () => {
+    expect(run(live, error(0n), { type: 'dismiss' }).notice).toBeNull();
+  });
+});
+
+describe('others', () => {
+  it('Loading_IsShownUntilWelcome', () => {
+    const loading = received({ case: 'loading', value: { stage: 'textures', fraction: 0.5 } });
+    const state = run(kInitialState, loading);
+    expect(state.loading).toEqual({ stage: 'textures', fraction: 0.5 });
+    expect(run(state, welcomed()).loading).toBeNull();
+  });
+
+  it('Edit_BeforeWelcome_IsKeptForIt', () => {
+    expect(run(kInitialState, edit(3), welcomed()).settings?.lights).toBe(3);
+  });
+
+  it('Disconnect_ForgetsWhatTheServerWasTold', () => {
+    const state = run(live, { type: 'link', link: { phase: 'connecting' } });
+    expect(state.sent).toBeNull();
+    expect(state.settings?.lights).toBe(1000);
+  });
+});

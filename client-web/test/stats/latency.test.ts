@@ -1,0 +1,56 @@
+import { describe, expect, it } from 'vitest';
+
+import { InputLatency, RateMeter, SampleWindow } from '../../src/stats/latency';
+
+describe('SampleWindow', () => {
+  it('Percentile_OfNothing_IsNull', () => {
+    expect(new SampleWindow(4).percentile(0.5)).toBeNull();
+  });
+
+  it('Percentile_IsTheNearestRank', () => {
+    const window = new SampleWindow(100);
+    for (let i = 100; i >= 1; i -= 1) window.push(i);
+    expect(window.percentile(0)).toBe(1);
+    expect(window.percentile(0.5)).toBe(50);
+    expect(window.percentile(0.95)).toBe(95);
+    expect(window.percentile(1)).toBe(100);
+  });
+
+  it('Push_BeyondTheCapacity_ForgetsTheOldest', () => {
+    const window = new SampleWindow(2);
+    for (const value of [100, 1, 2]) window.push(value);
+    expect(window.percentile(1)).toBe(2);
+  });
+});
+
+describe('RateMeter', () => {
+  it('Rate_CountsOnlyTheSpan', () => {
+    const meter = new RateMeter(2000);
+    meter.add(0, 100);
+    meter.add(1500, 10);
+    expect(meter.perSecond(1600)).toBe(55);
+    expect(meter.perSecond(2100)).toBe(5);
+    expect(meter.perSecond(9000)).toBe(0);
+  });
+});
+
+describe('InputLatency', () => {
+  it('Sample_IsTakenOnlyFromTheFirstFrameThatShowsACommand', () => {
+    const latency = new InputLatency();
+    expect(latency.painted(1n, 100_000n, 150)).toBe(50);
+    expect(latency.painted(1n, 100_000n, 190)).toBeNull();
+    expect(latency.painted(3n, 180_000n, 200)).toBe(20);
+    expect(latency.window.percentile(1)).toBe(50);
+  });
+
+  it('Frame_ThatShowsNoCommand_GivesNoSample', () => {
+    expect(new InputLatency().painted(0n, 0n, 99)).toBeNull();
+  });
+
+  it('Restart_LetsSequencesBeginAgain', () => {
+    const latency = new InputLatency();
+    latency.painted(40n, 0n, 1);
+    latency.restart();
+    expect(latency.painted(1n, 1_000n, 3)).toBe(2);
+  });
+});

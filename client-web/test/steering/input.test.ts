@@ -1,0 +1,188 @@
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+
+import type { Pose } from '../../src/steering/camera_controller';
+import { CanvasInput, type View } from '../../src/steering/input';
+import { runShortcut, type ShortcutActions } from '../../src/steering/shortcuts';
+
+class FakeCanvas extends EventTarget {
+  clientHeight = 100;
+  setPointerCapture(): void {
+    // nothing to capture without a screen
+  }
+  focus(): void {
+    // nor to focus
+  }
+}
+
+let canvas: FakeCanvas;
+let input: CanvasInput;
+let view: View | null;
+let halfHeight: number | null;
+let frames: ((nowMs: number) => void)[];
+
+function send(type: string, fields: object): Event {
+  const event = Object.assign(new Event(type, { cancelable: true }), fields);
+  canvas.dispatchEvent(event);
+  return event;
+}
+
+const pointer = (type: string, pointerId: number, x: number, y: number, more: object = {}): void =>
+  void send(type, { pointerId, clientX: x, clientY: y, buttons: 1, shiftKey: false, altKey: false, ...more });
+
+const key = (code: string, shiftKey = false, ctrlKey = false): KeyboardEvent =>
+  ({ code, shiftKey, ctrlKey, metaKey: false, altKey: false }) as KeyboardEvent;
+
+function current(): View {
+  if (!view) throw new Error('no view');
+  return view;
+}
+
+beforeEach(() => {
+  vi.stubGlobal('WheelEvent', { DOM_DELTA_LINE: 1 });
+  canvas = new FakeCanvas();
+  frames = [];
+  halfHeight = null;
+  view = {
+    eye: { x: 0, y: 0, z: 10 },
+    target: { x: 0, y: 0, z: 0 },
+    up: { x: 0, y: 1, z: 0 },
+    fovDeg: 90,
+    orthographic: false,
+    halfHeight: 2,
+  };
+  const target = {
+    view: () => view,
+    setPose: (pose: Pose) => (view = view && { ...view, ...pose }),
+    setHalfHeight: (value: number) => (halfHeight = value),
+    flySpeed: () => 2,
+  };
+  input = new CanvasInput(canvas as unknown as HTMLElement, target, (action) => frames.push(action));
+});
+
+describe('pointers', () => {
+  it('Drag_Orbits', () => {
+    pointer('pointerdown', 1, 0, 0);
+    pointer('pointermove', 1, 50, 0);
+    expect(current().eye.x).toBeCloseTo(-10, 9);
+    expect(current().target).toEqual({ x: 0, y: 0, z: 0 });
+  });
+
+  it('MoveWithoutAButton_DoesNothing', () => {
+    pointer('pointermove', 1, 50, 0);
+    expect(current().eye.z).toBe(10);
+  });
+
+  it.each([
+    ['right button', { buttons: 2 }],
+    ['shift', { shiftKey: true }],
+  ])('DragWith_%s_Pans', (_, how) => {
+    pointer('pointerdown', 1, 0, 0);
+    pointer('pointermove', 1, 10, 0, how);
+    // The picture spans 20 m at the target; a tenth of it follows the pointer.
+    expect(current().target.x).toBeCloseTo(-2, 9);
+    expect(current().eye.x).toBeCloseTo(-2, 9);
+  });
+
+  it('AfterPointerUp_MovesDoNothing', () => {
+    pointer('pointerdown', 1, 0, 0);
+    pointer('pointerup', 1, 0, 0);
+    pointer('pointermove', 1, 50, 0);
+    expect(current().eye.z).toBe(10);
+  });
+
+  it('PinchApart_ComesCloser', () => {
+    pointer('pointerdown', 1, 40, 50);
+    pointer('pointerdown', 2, 60, 50);
+    pointer('pointermove', 2, 80, 50);
+    const { eye, target } = current();
+    expect(Math.hypot(eye.x - target.x, eye.z - target.z)).toBeCloseTo(5, 9);
+  });
+});
+
+describe('wheel', () => {
+  it('Perspective_ZoomsAndKeepsThePageStill', () => {
+    const event = send('wheel', { deltaY: -100, deltaMode: 0 });
+    expect(event.defaultPrevented).toBe(true);
+    expect(current().eye.z).toBeLessThan(10);
+  });
+
+  it('Orthographic_ChangesItsHeight', () => {
+    view = { ...current(), orthographic: true };
+    send('wheel', { deltaY: 100, deltaMode: 0 });
+    expect(halfHeight).toBeGreaterThan(2);
+  });
+});
+
+describe('flight', () => {
+  /** Runs one animation frame `seconds` after the last. */
+  const frame = (nowMs: number): void => frames.shift()?.(nowMs);
+
+  it('HeldKeys_MoveWithTimeUntilReleased', () => {
+    vi.spyOn(performance, 'now').mockReturnValue(0);
+    input.keyDown(key('KeyW'));
+    frame(50);
+    expect(current().eye.z).toBeCloseTo(10 - 2 * 0.05, 9);
+    input.keyUp(key('KeyW'));
+    frame(100);
+    expect(current().eye.z).toBeCloseTo(9.9, 9);
+    expect(frames.length).toBe(0);
+  });
+
+  it('Shift_IsFaster', () => {
+    vi.spyOn(performance, 'now').mockReturnValue(0);
+    input.keyDown(key('KeyD', true));
+    frame(50);
+    expect(current().eye.x).toBeCloseTo(4 * 2 * 0.05, 9);
+  });
+
+  it('AStall_IsNoLeap', () => {
+    vi.spyOn(performance, 'now').mockReturnValue(0);
+    input.keyDown(key('KeyE'));
+    frame(60_000);
+    expect(current().eye.y).toBeCloseTo(2 * 0.1, 9);
+  });
+
+  it('LostFocus_ReleasesTheKeys', () => {
+    input.keyDown(key('KeyW'));
+    input.releaseAll();
+    frame(1e9);
+    expect(current().eye.z).toBe(10);
+  });
+
+  it('OtherKeys_AreNotOurs', () => {
+    input.keyDown(key('KeyX'));
+    input.keyDown(key('KeyS', false, true));
+    expect(frames.length).toBe(0);
+  });
+});
+
+describe('shortcuts', () => {
+  const actions = {
+    screenshot: vi.fn(),
+    copyLink: vi.fn(),
+    record: vi.fn(),
+    toggleStats: vi.fn(),
+    togglePanel: vi.fn(),
+    toggleHelp: vi.fn(),
+    toggleAnimation: vi.fn(),
+    nextRenderer: vi.fn(),
+    sceneCamera: vi.fn(),
+  } satisfies ShortcutActions;
+
+  it('Keys_RunTheirActions', () => {
+    for (const letter of ['p', 'L', 'x', 'f', 'c', 'h', 'r', ' ']) {
+      expect(runShortcut(letter, actions)).toBe(true);
+    }
+    for (const action of Object.values(actions)) {
+      if (action !== actions.sceneCamera) expect(action).toHaveBeenCalledTimes(1);
+    }
+    expect(runShortcut('3', actions)).toBe(true);
+    expect(actions.sceneCamera).toHaveBeenCalledWith(2);
+  });
+
+  it('OtherKeys_AreNotTaken', () => {
+    for (const other of ['0', 'w', 'Enter', 'constructor']) {
+      expect(runShortcut(other, actions)).toBe(false);
+    }
+  });
+});
