@@ -2,7 +2,6 @@ import { create } from '@bufbuild/protobuf';
 import { describe, expect, it } from 'vitest';
 
 import { ErrorCode, RoomStateSchema, type RoomState } from '../../src/gen/froxel/v1/server_pb';
-import { Resume, type Shelf } from '../../src/protocol/resume';
 import { kInitialState, reduce, type Action, type AppState } from '../../src/state/app_state';
 import { isAsking, mayControl, roomFromAddress, roomOf, roomText, type Room } from '../../src/state/room';
 import { SettingsSync } from '../../src/state/settings_sync';
@@ -118,36 +117,6 @@ describe('resumed', () => {
     expect(state.room).toBeNull();
     expect(mayControl(state.room)).toBe(true);
     expect(state.server?.protocolMinor).toBe(0);
-  });
-
-  it('Token_IsKeptPerRoom_OutlivesAReload_AndGoesWhereTheServerKeepsNone', () => {
-    const items = new Map<string, string>();
-    const shelf: Shelf = {
-      getItem: (key) => items.get(key) ?? null,
-      removeItem: (key) => void items.delete(key),
-      setItem: (key, value) => void items.set(key, value),
-    };
-    new Resume(shelf, 'hall').keep('secret');
-    expect(new Resume(shelf, 'hall').token).toBe('secret');
-    expect(new Resume(shelf, '').token).toBe('');
-    new Resume(shelf, 'hall').keep('');
-    expect(new Resume(shelf, 'hall').token).toBe('');
-    expect(items.size).toBe(0);
-  });
-
-  it('Token_WithoutStorage_IsKeptInThePage', () => {
-    const full: Shelf = {
-      getItem: () => null,
-      removeItem: () => undefined,
-      setItem: () => {
-        throw new DOMException('full', 'QuotaExceededError');
-      },
-    };
-    for (const shelf of [null, full]) {
-      const resume = new Resume(shelf, 'hall');
-      resume.keep('secret');
-      expect(resume.token).toBe('secret');
-    }
   });
 });
 
