@@ -129,7 +129,7 @@ class Viewer:
             except (OSError, asyncio.TimeoutError, websockets.exceptions.WebSocketException) as error:
                 if not isinstance(error, websockets.exceptions.ConnectionClosed):
                     self.refused += 1
-            # As client-web/src/backoff.ts.
+            # As client-web/src/protocol/backoff.ts.
             attempt = 0 if self.pictured else attempt + 1
             self.pictured = False
             await asyncio.sleep(self.random.uniform(0.5, min(10, 2 ** attempt)))

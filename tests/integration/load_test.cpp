@@ -173,7 +173,7 @@ TEST_F(Load, Script_FromAFile_IsPlayed) {
     EXPECT_EQ(report["script"], "script.jsonl");
 }
 
-// client-web/test/recorder.test.ts holds the page to this very file.
+// client-web/test/protocol/recorder.test.ts holds the page to this very file.
 TEST_F(Load, Script_RecordedByThePage_IsPlayedWhole) {
     const TestServer server({.still = true});
     const Json report = measure(server.port(), {"--script", FROXEL_RECORDING, "--seconds", "2"});

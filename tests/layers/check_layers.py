@@ -9,6 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from git_files import committed_files
+from page_layers import PAGE, allowed_imports, check_page
 
 # Names that are no folders of server/: shaders/interface, the embedded SPIR-V, and protocol/.
 SHADER_LAYERS = {"interface", "shaders"}
@@ -55,12 +56,12 @@ def allowed_includes(root):
             for folder, file in lists.items() if file.exists()}
 
 
-def check_house(document, may_include):
-    """Yields the rows of ARCHITECTURE.md's table of layers that do not say what CMake says."""
-    rows = re.findall(r"^\| `(?:server/)?([a-z_]+)` \|.*\| ([^|]*) \|$", document, re.M)
+def check_house(document, may_include, folder="(?:server/)?"):
+    """Yields the rows of ARCHITECTURE.md's table of the layers under folder, a pattern, that say something else."""
+    rows = re.findall(rf"^\| `{folder}([a-z_]+)` \|.*\| ([^|]*) \|$", document, re.M)
     told = {layer: {name.strip() for name in names.split(",")} for layer, names in rows}
     for layer, allowed in may_include.items():
-        if told.get(layer, {"no row"}) != (allowed or {"nothing of ours"}):
+        if told.get(layer, {"no row"}) != (set(allowed) or {"nothing of ours"}):
             yield f"ARCHITECTURE.md: {layer} may include {', '.join(sorted(allowed)) or 'nothing of ours'}"
 
 
@@ -146,7 +147,8 @@ def main():
     root = Path(sys.argv[1]).resolve()
     committed = committed_files(root)
     architecture = (root / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    violations = [*check_tree(root), *check_house(architecture, allowed_includes(root)),
+    violations = [*check_tree(root), *check_house(architecture, allowed_includes(root)), *check_page(root),
+                  *check_house(architecture, allowed_imports(root), f"{PAGE}/(?:src/)?"),
                   *check_committed(committed),
                   *check_built(committed, lambda path: (root / path).read_text(encoding="utf-8"))]
     for violation in violations:

@@ -6,9 +6,13 @@ from pathlib import Path
 
 from check_layers import (check_built, check_committed, check_file, check_house, check_tree,
                           dependencies)
+from page_layers import check_module, check_order
 
 MAY_INCLUDE = {"core": set(), "view": {"core"}, "session": {"core", "view", "protocol"}, "render": {"gpu"},
                "gpu": {"core"}, "net": {"core"}, "load": {"core"}, "app": {"gpu"}, "stream": {"render"}, "protocol": set()}
+
+
+MAY_IMPORT = {"core": [], "protocol": [], "state": ["core", "protocol"], "report": ["core"]}
 
 
 def violations(layer, *lines, name="a.cpp"):
@@ -74,6 +78,37 @@ class CheckLayers(unittest.TestCase):
                 if layer != "server/util":
                     (root / layer / "CMakeLists.txt").write_text("")
             self.assertEqual(len(list(check_tree(root))), 1)
+
+    def test_table_of_the_pages_layers_is_its_own(self):
+        rows = "| `protocol` | a layer of the server | core |\n| `client-web/src/state` | what | core, protocol |\n"
+        found = list(check_house(rows, MAY_IMPORT, "client-web/(?:src/)?"))
+        self.assertEqual([line.split()[1] for line in found], ["core", "protocol", "report"])
+
+    def test_imports_of_the_page(self):
+        for path, line, allowed in [
+                ("src/state/a.ts", "import { b } from './b';", True),
+                ("src/state/a.ts", "import type { Vec } from '../core/vec3';", True),
+                ("src/state/a.ts", "} from '../gen/froxel/v1/common_pb';", True),
+                ("src/core/a.ts", "} from '../gen/froxel/v1/common_pb';", False),
+                ("src/core/a.ts", "import '../state/a';", False),
+                ("src/core/a.ts", "const a = await import('../state/a');", False),
+                ("src/core/a.ts", "new Worker(new URL('../state/a.ts', import.meta.url))", False),
+                ("src/state/a.ts", "import { main } from '../main';", False),
+                ("src/main.ts", "import { a } from './state/a';", True),
+                ("src/core/a.ts", "import uPlot from 'uplot';", True),
+                ("report/a.ts", "import { make } from '../src/core/dom';", True),
+                ("report/a.ts", "import { Store } from '../src/state/store';", False)]:
+            with self.subTest(path=path, line=line):
+                found = list(check_module(path, ["", line], MAY_IMPORT))
+                self.assertEqual([f"client-web/{path}:2" in each for each in found], [] if allowed else [True])
+
+    def test_folder_of_the_page_that_is_no_layer(self):
+        self.assertEqual(len(list(check_module("src/util/a.ts", [], MAY_IMPORT))), 1)
+
+    def test_layers_of_the_page_in_a_circle(self):
+        self.assertEqual(list(check_order(MAY_IMPORT)), [])
+        self.assertEqual(len(list(check_order({"a": ["b"], "b": ["a"]}))), 1)
+        self.assertEqual(len(list(check_order({"a": ["a"]}))), 1)
 
     def test_generated_code(self):
         built = ["protocol/a.pb.h", "client-web/src/gen/a_pb.ts", "shaders/a.spv"]
