@@ -321,6 +321,7 @@ std::optional<PairBound> FrameBuilder::seenPairs() const {
 FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                const view::Size& shown,
                                const BloomPlan* bloom,
+                               std::span<const ActiveEffect> effects,
                                const WorkLimits& work) {
     const view::Size& drawn = drawn_;
     FrameLoad load{.plan = plan,
@@ -340,7 +341,8 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .fog_slice_count = fog_.slice_count,
                    .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
                    .wire_lines = wireLines(plan),
-                   .wire_px = debug_.wire_px};
+                   .wire_px = debug_.wire_px,
+                   .effects = effects};
     if (plan.visibility) {
         const VisibilityScene& visible = scene_.visibility();
         load.device_triangles = visible.triangle_count;

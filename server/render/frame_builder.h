@@ -27,22 +27,23 @@ class FrameBuilder {
     [[nodiscard]] FramePlan build(const FrameInputs& inputs);
     // What the frame that was built takes. Where its lists are made on the device and could make it
     // longer than `piece`, the device looks at them before it shades, and leaves the frame without
-    // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `bloom` and
-    // this.
+    // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `bloom`,
+    // `effects` and this.
     [[nodiscard]] FrameCosts costs(const FramePlan& plan,
                                    const view::Size& shown,
                                    const BloomPlan* bloom,
+                                   std::span<const ActiveEffect> effects,
                                    const WorkLimits& work);
     // After a frame with lists from the device: whether they are whole. If not, the frame must be
     // built again, for which there will be room, and what its lists hold is known.
     [[nodiscard]] bool acceptLists(const AssignSlot& lists);
     // What lists held is of no use any more: the frame was refused, and another one comes.
     void forgetLists() { seen_lists_.reset(); }
-    // Adds what build() made to what will be uploaded; nothing is allocated yet.
-    void gather(FrameUpload& upload);
-    // Puts it into the slot's buffer and describes it to the shaders. Throws
-    // vk::OutOfDeviceMemoryError.
-    [[nodiscard]] UploadOffsets upload(FrameSlot& slot);
+    // Adds what build() and effects made to what will be uploaded; nothing is allocated yet.
+    void gather(FrameUpload& upload, std::span<const ActiveEffect> effects);
+    // Puts it into the slot's buffer, prepares effects and describes all of it to the shaders.
+    // Throws vk::SystemError.
+    [[nodiscard]] UploadOffsets upload(FrameSlot& slot, std::span<const ActiveEffect> effects);
     // Of what was built: light lists on the device; none: the host made them, or there are none.
     [[nodiscard]] ListCapacity listCapacity() const;
     // Kept on the host for the next frame, for what grows with the number of lights.
@@ -52,6 +53,7 @@ class FrameBuilder {
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const ShadowFrame& shadows() const { return shadows_; }
+    [[nodiscard]] const light::FrameLights& lights() const { return lights_; }
     // Point and spot lights of the frame.
     [[nodiscard]] uint32_t localLightCount() const {
         return static_cast<uint32_t>(lights_.lights.size());
@@ -78,14 +80,6 @@ class FrameBuilder {
     [[nodiscard]] PairBound knownPairs(const FramePlan& plan) const;
     [[nodiscard]] std::optional<PairBound> seenPairs() const;
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
-    // Where a binding's data lies in the upload buffer.
-    struct Block {
-        vk::DeviceSize offset = 0;
-        vk::DeviceSize bytes = 0;
-        vk::Buffer buffer = {}; // null: the upload buffer
-    };
-    using Blocks = std::array<Block, Pipelines::kFrameBindings>;
-
     [[nodiscard]] const cluster::GridCosts& gridCosts(const view::ViewSettings& settings) const;
     // Chooses the grid and fills the lists, or empties them.
     void assignLights(const FrameInputs& inputs);
@@ -124,7 +118,7 @@ class FrameBuilder {
     io::Frame uniforms_{};
     io::Fog fog_{};
     bool fogged_ = false;
-    Blocks blocks_; // of what was gathered, like the offsets
+    FrameBlocks blocks_; // of what was gathered, like the offsets
     UploadOffsets offsets_;
     AssignOffsets assign_offsets_;
     DebugFrame debug_;

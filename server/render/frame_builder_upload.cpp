@@ -9,11 +9,12 @@
 
 namespace froxel::render {
 
-void FrameBuilder::gather(FrameUpload& upload) {
+void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> effects) {
     upload.clear();
     blocks_ = {};
     const auto place = [&](size_t binding, auto span) {
-        blocks_[binding] = span.empty() ? Block{} : Block{upload.add(span), span.size_bytes()};
+        blocks_[binding] =
+            span.empty() ? FrameBlock{} : FrameBlock{upload.add(span), span.size_bytes()};
     };
     place(0, std::span<const io::Frame>(&uniforms_, 1));
     place(1, std::span<const io::Light>(lights_.lights));
@@ -50,6 +51,9 @@ void FrameBuilder::gather(FrameUpload& upload) {
             upload.add(std::span<const vk::DrawIndexedIndirectCommand>(shadows_.commands));
     }
     offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
+    for (const ActiveEffect& active : effects) {
+        active.effect->gather(upload, blocks_);
+    }
 }
 
 AssignOffsets FrameBuilder::gatherAssignment(FrameUpload& upload) const {
@@ -61,8 +65,11 @@ AssignOffsets FrameBuilder::gatherAssignment(FrameUpload& upload) const {
             .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
 }
 
-UploadOffsets FrameBuilder::upload(FrameSlot& slot) {
+UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect> effects) {
     slot.upload.commit();
+    for (const ActiveEffect& active : effects) {
+        active.effect->prepare(slot, blocks_);
+    }
     if (slot.fog) {
         blocks_[7] = {.bytes = kFroxelBytes * froxelCount(fog_),
                       .buffer = *slot.fog->froxels().handle};

@@ -41,7 +41,8 @@ struct FrameContext {
     const BloomPlan* bloom = nullptr;      // likewise
     const io::Fog* fog = nullptr;          // likewise
     const ShadowFrame* shadows = nullptr;  // likewise
-    FramePieces& pieces;                   // the slot's
+    std::span<const ActiveEffect> effects = {};
+    FramePieces& pieces; // the slot's
     const FrameCosts& costs;
 };
 

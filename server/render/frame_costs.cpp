@@ -26,11 +26,11 @@ vk::Extent2D extentOf(const view::Size& size) {
     return {size.width_px, size.height_px};
 }
 
-Seconds whole(const RegionCost& cost, const vk::Extent2D& extent) {
-    return cost.each + std::max(cost.of({{0, 0}, extent}), cost.least);
-}
-
 } // namespace
+
+Seconds timeOver(const RegionCost& cost, const view::Size& size) {
+    return cost.each + std::max(cost.of({{0, 0}, extentOf(size)}), cost.least);
+}
 
 Result<void>
 checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Seconds limit) {
@@ -181,9 +181,9 @@ Seconds FrameCosts::shadowFace() const {
 
 void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     const auto& plan = load_.plan;
-    const auto drawn = extentOf(load_.drawn);
+    const view::Size& drawn = load_.drawn;
     const auto add = [&](const char* name, const RegionCost& cost) {
-        passes.push_back({name, whole(cost, drawn)});
+        passes.push_back({name, timeOver(cost, drawn)});
     };
     if (plan.visibility) {
         add("visibility", ids());
@@ -212,18 +212,27 @@ void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     }
 }
 
+void FrameCosts::addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const {
+    for (const auto& [at, effect] : load_.effects) {
+        if (at == place) {
+            effect->addCosts(*this, passes);
+        }
+    }
+}
+
 void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
-    const auto drawn = extentOf(load_.drawn);
+    const view::Size& drawn = load_.drawn;
     if (load_.plan.fog_volume) {
-        passes.push_back({"fog_scatter", whole(fogScatter(), load_.fog_nodes)});
+        passes.push_back({"fog_scatter",
+                          timeOver(fogScatter(), {load_.fog_nodes.width, load_.fog_nodes.height})});
     }
     if (load_.plan.fog) {
-        passes.push_back({"fog", whole(screen(), drawn)});
+        passes.push_back({"fog", timeOver(screen(), drawn)});
     }
     if (load_.plan.transparent) {
         const bool peeled = load_.plan.transparency == view::Transparency::kPeeled;
         const double layers = peeled ? load_.peel_layers : 1;
-        passes.push_back({peeled ? "peel" : "transparent", layers * whole(blended(), drawn)});
+        passes.push_back({peeled ? "peel" : "transparent", layers * timeOver(blended(), drawn)});
     }
 }
 
@@ -232,7 +241,7 @@ void FrameCosts::addPost(std::vector<PassEstimate>& passes) const {
         Seconds sum{0};
         for (size_t step = 0; step < load_.bloom->steps.size(); ++step) {
             const auto& pass = load_.bloom->steps[step].pass;
-            sum += whole(bloom(step), {pass.target_width_px, pass.target_height_px});
+            sum += timeOver(bloom(step), {pass.target_width_px, pass.target_height_px});
         }
         passes.push_back({"bloom", sum});
     }
@@ -240,11 +249,9 @@ void FrameCosts::addPost(std::vector<PassEstimate>& passes) const {
         passes.push_back({"wires", wires(load_.wire_lines)});
     }
     if (load_.plan.tonemap) {
-        passes.push_back({"tonemap", whole(screen(), extentOf(load_.shown))});
+        passes.push_back({"tonemap", timeOver(screen(), load_.shown)});
     }
-    if (load_.plan.fxaa) {
-        passes.push_back({"fxaa", whole(screen(), extentOf(load_.shown))});
-    }
+    addEffects(EffectPlace::kPixels, passes);
 }
 
 std::vector<PassEstimate> FrameCosts::passes() const {
@@ -255,11 +262,11 @@ std::vector<PassEstimate> FrameCosts::passes() const {
     }
     if (view::replacesPicture(load_.plan.debug)) {
         if (load_.plan.debug == view::DebugView::kOverdraw) {
-            passes.push_back({"overdraw", whole(gbuffer(), extentOf(load_.drawn))});
+            passes.push_back({"overdraw", timeOver(gbuffer(), load_.drawn)});
         } else {
             addSurfaces(passes);
         }
-        passes.push_back({"debug_view", whole(debugView(), extentOf(load_.drawn))});
+        passes.push_back({"debug_view", timeOver(debugView(), load_.drawn)});
         return passes;
     }
     addSurfaces(passes);

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "render/bloom_plan.h"
 #include "render/draw_list.h"
+#include "render/effects/effect.h"
 #include "render/frame_pieces.h"
 #include "render/frame_plan.h"
 #include "render/pair_bound.h"
@@ -41,12 +42,16 @@ struct FrameLoad {
     uint32_t peel_layers = 0;
     uint64_t wire_lines = 0; // of an overlay
     double wire_px = 0;      // that they cover
+    std::span<const ActiveEffect> effects = {};
 };
 
 struct PassEstimate {
     const char* pass = "";
     Seconds time{0};
 };
+
+// Of a pass over all of a target.
+[[nodiscard]] Seconds timeOver(const RegionCost& cost, const view::Size& size);
 
 // Errors: kCapacity where looping over all lights, as these settings ask for, takes longer than
 // `limit` whatever there is to see: told before any light is looked at.
@@ -104,6 +109,7 @@ class FrameCosts {
     // Of the frame's passes, seconds a light.
     [[nodiscard]] double slowestLoop() const;
     void addSurfaces(std::vector<PassEstimate>& passes) const;
+    void addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const;
     void addBlended(std::vector<PassEstimate>& passes) const;
     void addPost(std::vector<PassEstimate>& passes) const;
 

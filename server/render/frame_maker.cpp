@@ -24,7 +24,7 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
                                     const FrameInputs& asked,
                                     const BloomPlan* bloom_plan,
                                     const Slots& slots) {
-    builder_.gather(slot.upload);
+    builder_.gather(slot.upload, effects_.ofFrame());
     target_needs_ = targetNeeds(plan, scene_.device, drawnSize(asked.settings), asked.settings.size,
                                 targets_.get());
     FrameMemory frame =
@@ -40,6 +40,7 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
         bloom_.reset();
         blend_.reset();
     }
+    effects_.freeUnfit(targets_.get());
     if (shadows_ &&
         (frame.shadows.light_count == 0 || !shadows_->fits(frame.shadows, frame.shadow_casters))) {
         shadows_.reset();
@@ -124,13 +125,8 @@ void FrameMaker::prepareParts(FrameSlot& slot,
     if (plan.shadows) {
         slot.shadow_slot->write(slot.upload.buffer(), offsets.shadow_uniforms);
     }
-    writeScreenSet(scene_.device, slot, plan.fxaa ? targets_->display : pixelsOf(slot));
-    if (plan.fxaa) {
-        if (!slot.fxaa) {
-            slot.fxaa = std::make_unique<FxaaSlot>(scene_.device, scene_.fxaa());
-        }
-        slot.fxaa->write(targets_->display, pixelsOf(slot));
-    }
+    writeScreenSet(scene_.device, slot,
+                   plan.hasEffect(EffectPlace::kPixels) ? targets_->display : pixelsOf(slot));
     if (plan.visibility) {
         writeVisibilitySet(slot, offsets);
     }
@@ -206,12 +202,17 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
             return fits;
         }
     }
+    if (auto built = effects_.build(plan, {inputs.settings, builder_.lights(), inputs.time_s});
+        !built) {
+        return built;
+    }
     const auto bloom_plan = bloomPlan(plan, inputs);
     if (!bloom_plan) {
         return bloom_plan.error();
     }
     const BloomPlan* bloom_steps = *bloom_plan ? &**bloom_plan : nullptr;
-    const FrameCosts costs = builder_.costs(plan, asked.settings.size, bloom_steps, work_);
+    const FrameCosts costs =
+        builder_.costs(plan, asked.settings.size, bloom_steps, effects_.ofFrame(), work_);
     if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
         return affordable;
     }
@@ -230,7 +231,7 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
                                                      froxelCount(builder_.fog()), std::move(fog_))
                                       : nullptr;
     prepareShadows(slot, plan, inputs.settings.shadows);
-    const UploadOffsets offsets = builder_.upload(slot);
+    const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
     recordFrame({.scene = scene_,
                  .slot = slot,
@@ -243,6 +244,7 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
                  .bloom = bloom_steps,
                  .fog = plan.fog ? &builder_.fog() : nullptr,
                  .shadows = plan.shadows ? &builder_.shadows() : nullptr,
+                 .effects = effects_.ofFrame(),
                  .pieces = slot.pieces,
                  .costs = costs},
                 work_.piece);
@@ -264,6 +266,7 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
 void FrameMaker::freeTargets() {
     blend_.reset();
     bloom_.reset();
+    effects_.freeTargets();
     fog_.reset();
     shadows_.reset();
     targets_.reset();

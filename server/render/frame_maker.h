@@ -2,6 +2,7 @@
 // the host's part, the targets that frames share, and what a slot needs. Render thread.
 #pragma once
 
+#include "render/effects/effects.h"
 #include "render/frame_builder.h"
 #include "render/frame_slot.h"
 #include "render/memory_report.h"
@@ -16,7 +17,7 @@ namespace froxel::render {
 class FrameMaker {
   public:
     FrameMaker(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
-        : scene_(scene_in), work_(work_limits), builder_(scene_in, limits),
+        : scene_(scene_in), work_(work_limits), builder_(scene_in, limits), effects_(scene_in),
           memory_(scene_in.memory) {}
 
     using Slots = std::vector<std::unique_ptr<FrameSlot>>;
@@ -71,6 +72,7 @@ class FrameMaker {
     SceneResources& scene_;
     const WorkLimits work_;
     FrameBuilder builder_;
+    ViewEffects effects_;
     MemoryShare memory_;
     TargetNeeds target_needs_; // of the frame that memory was taken for last
     std::shared_ptr<ViewTargets> targets_;

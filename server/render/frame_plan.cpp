@@ -3,7 +3,10 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
 #include "interface/gbuffer_io.h"
+#include "render/effects/effects.h"
 #include "render/gbuffer_layout.h"
+
+#include <algorithm>
 
 namespace froxel::render {
 
@@ -85,7 +88,8 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.transparency = view::Transparency::kSorted;
     plan.peel_layers = 0;
     plan.fog = plan.fog_volume = plan.fog_noise = false;
-    plan.outline = plan.samples = plan.fxaa = false; // nothing is done to what it shows
+    plan.outline = plan.samples = false; // nothing is done to what it shows
+    plan.effects.clear();
     plan.bloom = view::BloomKind::kNone;
     plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
 }
@@ -94,6 +98,16 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
 
 bool isForward(view::Renderer renderer) {
     return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
+}
+
+bool FramePlan::hasEffect(EffectPlace place) const {
+    return std::ranges::any_of(effects, [place](const auto& it) { return it.row->place == place; });
+}
+
+const EffectPlan* FramePlan::effect(const EffectRow& row) const {
+    const auto at =
+        std::ranges::find_if(effects, [&row](const auto& it) { return it.row == &row; });
+    return at != effects.end() ? &at->plan : nullptr;
 }
 
 FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
@@ -134,7 +148,11 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
                    settings.toon_outline.strength > 0;
     plan.bloom = settings.bloom.strength > 0 ? settings.bloom.kind : view::BloomKind::kNone;
     plan.samples = view::samplesAcross(settings.antialiasing) > 1;
-    plan.fxaa = settings.antialiasing == view::Antialiasing::kFxaa;
+    for (const EffectRow* row : effectRows()) {
+        if (const auto effect = row->plan(settings, facts)) {
+            plan.effects.push_back({row, *effect});
+        }
+    }
     plan.fog = settings.fog.present();
     plan.fog_volume = settings.fog.scatters() && facts.local_lights;
     plan.fog_noise = plan.fog_volume && settings.fog.noise;

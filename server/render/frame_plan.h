@@ -2,9 +2,11 @@
 // what there is to draw. What is not planned is neither recorded nor allocated.
 #pragma once
 
+#include "render/effects/effect_plan.h"
 #include "view/settings.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace froxel::render {
 
@@ -70,12 +72,13 @@ struct FramePlan {
     view::BloomKind bloom = view::BloomKind::kNone; // of the linear picture, blended surfaces too
     bool samples = false;  // four a pixel: everything is drawn at twice the sides
     bool tonemap = false;  // a pass of its own
-    bool fxaa = false;     // the last pass, over packed pixels
     bool lists = false;    // lights are assigned to clusters
     bool radiance = false; // the radiance target exists
     bool count_pairs = false;
     view::DebugView debug = view::DebugView::kNone; // its passes; view::replacesPicture(): and no
                                                     // lighting
+
+    std::vector<PlannedEffect> effects = {}; // in their order
 
     uint32_t forward_light_flags = 0;
     uint32_t lighting_light_flags = 0;
@@ -87,6 +90,11 @@ struct FramePlan {
     uint32_t toon_output_flags = 0;
     uint32_t tonemap_output_flags = 0;
     bool operator==(const FramePlan&) const = default;
+
+    // Whether it has any there.
+    [[nodiscard]] bool hasEffect(EffectPlace place) const;
+    // Null: it lacks that one.
+    [[nodiscard]] const EffectPlan* effect(const EffectRow& row) const;
 };
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.

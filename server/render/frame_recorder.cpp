@@ -183,6 +183,18 @@ void recordBloom(const FrameContext& frame) {
     }
 }
 
+// Effects of a place; before() has what lies between the picture and what each does to it.
+template <class Before>
+void recordEffects(const FrameContext& frame, EffectPlace place, const Before& before) {
+    for (const auto& [at, effect] : frame.effects) {
+        if (at == place) {
+            effect->recordOwn(frame);
+            before();
+            effect->record(frame);
+        }
+    }
+}
+
 // A debug view in the picture's place, with the surfaces that it shows.
 void recordReplacement(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
@@ -302,12 +314,11 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
         radianceToCompute(frame.slot.cmd);
         inParts(frame, shown(frame), frame.costs.screen(), recordTonemap);
     }
-    if (frame.plan.fxaa) {
+    recordEffects(frame, EffectPlace::kPixels, [&] {
         // packed pixels -> the filter's loads
         barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
                 Stage::eComputeShader, Access::eShaderSampledRead);
-        inParts(frame, shown(frame), frame.costs.screen(), recordFxaa);
-    }
+    });
     if (slot.targets->needs.device_pixels) {
         // packed pixels -> copy
         barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,

@@ -11,11 +11,11 @@
 #include "render/fog.h"
 #include "render/frame_inputs.h"
 #include "render/frame_pieces.h"
-#include "render/fxaa.h"
 #include "render/gpu_light_lists.h"
 #include "render/pair_counter.h"
 #include "render/pipelines.h"
 #include "render/shadow_pass.h"
+#include "render/typed_store.h"
 #include "render/view_targets.h"
 #include "render/visibility_scene.h"
 
@@ -98,6 +98,7 @@ struct FrameSlot {
     gpu::Timestamps timestamps;
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
+    TypedStore kept; // what effects keep of the slot
     std::shared_ptr<BloomTargets> bloom;    // null: the frame last recorded has none
     std::shared_ptr<BlendTargets> blend;    // likewise
     std::shared_ptr<FogVolume> fog;         // likewise: no volume
@@ -114,7 +115,6 @@ struct FrameSlot {
     bool counts_samples = false;                   // in the frame last recorded
     std::unique_ptr<gpu::SampleCounter> overflow;  // likewise
     bool counts_overflow = false;                  // of peeled layers, in the frame last recorded
-    std::unique_ptr<FxaaSlot> fxaa;                // likewise
     std::unique_ptr<ShadowSlot> shadow_slot;       // likewise
     std::unique_ptr<AssignSlot> assignment;        // likewise
     bool device_lists = false; // the frame last recorded had its lists made on the device

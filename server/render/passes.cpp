@@ -165,11 +165,6 @@ void recordTonemap(const FrameContext& frame, const vk::Rect2D& region) {
     dispatch(frame, ScreenPass::kTonemap, {0, 0, frame.plan.tonemap_output_flags}, region);
 }
 
-void recordFxaa(const FrameContext& frame, const vk::Rect2D& region) {
-    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fxaa");
-    frame.slot.fxaa->record(frame.slot.cmd, frame.scene.fxaa(), *frame.slot.frame_set, region);
-}
-
 void recordOverdraw(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "overdraw");
     const vk::ClearValue none = vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 0.0F});

@@ -29,8 +29,6 @@ void recordDebugView(const FrameContext& frame,
 // Blend lines over radiance, read depth.
 void recordLightWires(const FrameContext& frame, uint32_t first_light, uint32_t light_count);
 void recordClusterWires(const FrameContext& frame, uint32_t first_line, uint32_t line_count);
-void recordFxaa(const FrameContext& frame,
-                const vk::Rect2D& region); // reads the display's picture, writes pixels
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region); // reads depth
 void recordReadback(const FrameContext& frame); // copies pixels to the host
 

@@ -121,6 +121,14 @@ void addSolidWords(Lines& lines,
     }
 }
 
+void addEffectWords(Lines& lines, const FramePlan& plan, EffectPlace place) {
+    for (const auto& [row, effect] : plan.effects) {
+        if (row->place == place) {
+            lines.push_back(row->words(effect));
+        }
+    }
+}
+
 // What is done to the lit picture; nothing where nothing is asked for.
 void addPostWords(Lines& lines, const FramePlan& plan) {
     if (plan.outline) {
@@ -142,10 +150,7 @@ void addPostWords(Lines& lines, const FramePlan& plan) {
         lines.emplace_back(
             "ssaa4: four samples a pixel, drawn at twice the sides, each tone mapped");
     }
-    if (plan.fxaa) {
-        lines.emplace_back(
-            "fxaa: edges of the finished picture are filtered, in a pass of its own");
-    }
+    addEffectWords(lines, plan, EffectPlace::kPixels);
 }
 
 std::string transparentWords(const FramePlan& plan) {

@@ -193,13 +193,6 @@ BloomPipelines& SceneResources::bloom() {
     return *bloom_;
 }
 
-const FxaaPipeline& SceneResources::fxaa() {
-    if (!fxaa_) {
-        fxaa_ = std::make_unique<FxaaPipeline>(device, pipelines);
-    }
-    return *fxaa_;
-}
-
 FogPipelines& SceneResources::fog() {
     if (!fog_) {
         fog_ = std::make_unique<FogPipelines>(device, timeline, variants, pipelines);

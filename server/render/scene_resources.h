@@ -9,13 +9,13 @@
 #include "render/bloom.h"
 #include "render/debug_pass.h"
 #include "render/fog.h"
-#include "render/fxaa.h"
 #include "render/geometry_pack.h"
 #include "render/memory_budget.h"
 #include "render/pair_counter.h"
 #include "render/pipelines.h"
 #include "render/scene_needs.h"
 #include "render/texture_store.h"
+#include "render/typed_store.h"
 #include "render/unit_costs.h"
 #include "render/visibility_scene.h"
 
@@ -73,9 +73,14 @@ class SceneResources {
 
     // Made at the first call. Null: the device cannot assign lights as the host does.
     [[nodiscard]] const AssignPipelines* assignment();
+    // What views that ask for it share, such as pipelines: made from this at the first call. Throws
+    // vk::SystemError.
+    template <class T>
+    [[nodiscard]] T& shared() {
+        return shared_.findOrMake<T>(*this);
+    }
     // All made at the first call. Throw vk::SystemError.
     [[nodiscard]] BloomPipelines& bloom();
-    [[nodiscard]] const FxaaPipeline& fxaa();
     [[nodiscard]] FogPipelines& fog();
     [[nodiscard]] DebugPass& debug();
     [[nodiscard]] PairPipelines& pairs();
@@ -100,12 +105,12 @@ class SceneResources {
     bool assignment_tried_ = false;
     std::unique_ptr<AssignPipelines> assignment_;
     std::unique_ptr<BloomPipelines> bloom_;
-    std::unique_ptr<FxaaPipeline> fxaa_;
     std::unique_ptr<FogPipelines> fog_;
     std::unique_ptr<DebugPass> debug_;
     std::unique_ptr<PairPipelines> pairs_;
     std::unique_ptr<gpu::MemoryArena> ltc_arena_;
     gpu::Buffer ltc_table_;
+    TypedStore shared_;
 };
 
 } // namespace froxel::render

@@ -86,7 +86,7 @@ TargetNeeds targetNeeds(const FramePlan& plan,
                       .visibility = plan.visibility,
                       .compute_raster = plan.compute_raster,
                       .sampled_radiance = plan.bloom != view::BloomKind::kNone,
-                      .display = plan.fxaa,
+                      .display = plan.hasEffect(EffectPlace::kPixels),
                       .device_pixels = !device.traits().is_cpu};
     if (kept == nullptr || kept->size != drawn || kept->shown != shown) {
         return needs;

@@ -26,6 +26,14 @@ struct Load {
     }
 };
 
+class OnePassEffect final : public Effect {
+  public:
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back({"effect", timeOver(costs.screen(), costs.load().shown)});
+    }
+    void record(const FrameContext& /*frame*/) const override {}
+};
+
 } // namespace
 
 TEST(PairBound, Lists_CountEachPixelWithItsTilesLongest) {
@@ -96,12 +104,26 @@ TEST(FrameCosts, Loop_IsOfEveryPart) {
 TEST(FrameCosts, AllPasses_CountTogether) {
     const Load few;
     Load many;
-    many.plan.fxaa = many.plan.tonemap = many.plan.fog = true;
+    many.plan.outline = many.plan.tonemap = many.plan.fog = true;
     const FrameCosts one(kCpuUnitCosts, few.of(PairBound::uniform(500)));
     const FrameCosts more(kCpuUnitCosts, many.of(PairBound::uniform(500)));
     EXPECT_GT(more.total(), one.total());
     EXPECT_TRUE(one.check(one.total(), Seconds(1)));
     EXPECT_FALSE(more.check(one.total(), Seconds(1)));
+}
+
+TEST(FrameCosts, Effects_CountInTheirOrder) {
+    Load load;
+    load.plan.tonemap = true;
+    OnePassEffect filter;
+    FrameLoad with = load.of({});
+    const std::array effects = {ActiveEffect{EffectPlace::kPixels, &filter}};
+    with.effects = effects;
+    const auto passes = FrameCosts(kCpuUnitCosts, with).passes();
+    ASSERT_GE(passes.size(), 2U);
+    EXPECT_STREQ(passes[passes.size() - 2].pass, "tonemap");
+    EXPECT_STREQ(passes.back().pass, "effect");
+    EXPECT_EQ(passes.back().time, passes[passes.size() - 2].time);
 }
 
 TEST(FrameCosts, PairsWithinALimit_FillIt) {

@@ -1,5 +1,6 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
+#include "render/effects/fxaa.h"
 #include "render/frame_plan.h"
 
 #include <gtest/gtest.h>
@@ -153,7 +154,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "four samples where asked for"},
         {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
          "which the tone map averages"},
-        {p.fxaa == (settings.antialiasing == view::Antialiasing::kFxaa), "the filter asked for"},
+        {(p.effect(kFxaaEffect) != nullptr) == (settings.antialiasing == view::Antialiasing::kFxaa),
+         "the filter asked for"},
         {p.fog == settings.fog.present(), "fog where there is a medium"},
         {p.fog_volume == (settings.fog.scatters() && facts.local_lights),
          "a volume where it scatters lights"},

@@ -1,0 +1,54 @@
+// What effects draw into besides their view's targets.
+#pragma once
+
+#include "gpu/memory.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <typeindex>
+#include <utility>
+
+namespace froxel::render {
+
+// One effect's, of one view. Frames in flight keep theirs alive.
+class EffectTargets {
+  public:
+    using Visit = std::function<void(const gpu::Image& image, vk::ImageAspectFlags aspect)>;
+
+    EffectTargets() = default;
+    virtual ~EffectTargets() = default;
+    EffectTargets(const EffectTargets&) = delete;
+    EffectTargets& operator=(const EffectTargets&) = delete;
+
+    // All images end in the GENERAL layout, where they stay.
+    virtual void forEachImage(const Visit& /*visit*/) const {}
+
+    bool fresh = true; // the images still await their first transition
+};
+
+// Those that the frame last recorded into a slot draws into, by their type.
+class HeldTargets {
+  public:
+    template <class T>
+    void hold(std::shared_ptr<T> targets) {
+        held_[typeid(T)] = std::move(targets);
+    }
+    template <class T>
+    [[nodiscard]] const T& get() const {
+        return static_cast<const T&>(*held_.at(typeid(T)));
+    }
+    void clear() { held_.clear(); }
+
+    template <class Visit>
+    void forEach(Visit visit) const {
+        for (const auto& [type, targets] : held_) {
+            visit(*targets);
+        }
+    }
+
+  private:
+    std::map<std::type_index, std::shared_ptr<EffectTargets>> held_;
+};
+
+} // namespace froxel::render

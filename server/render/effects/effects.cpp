@@ -1,0 +1,46 @@
+#include "render/effects/effects.h"
+
+#include "render/effects/fxaa.h"
+
+#include <algorithm>
+#include <array>
+
+namespace froxel::render {
+
+std::span<const EffectRow* const> effectRows() {
+    static constexpr std::array kRows = {&kFxaaEffect};
+    return kRows;
+}
+
+Result<void> ViewEffects::build(const FramePlan& plan, const EffectInputs& inputs) {
+    of_frame_.clear();
+    for (const auto& [row, effect_plan] : plan.effects) {
+        auto& effect = made_[row];
+        if (!effect) {
+            effect = row->make(scene_);
+        }
+        if (auto built = effect->build(inputs, effect_plan); !built) {
+            return built;
+        }
+        of_frame_.push_back({row->place, effect.get()});
+    }
+    return {};
+}
+
+void ViewEffects::freeUnfit(const ViewTargets* view) {
+    for (const auto& [row, effect] : made_) {
+        const bool in_frame =
+            std::ranges::any_of(of_frame_, [&effect = effect](const ActiveEffect& active) {
+                return active.effect == effect.get();
+            });
+        in_frame ? effect->freeUnfit(view) : effect->freeTargets();
+    }
+}
+
+void ViewEffects::freeTargets() {
+    for (const auto& [row, effect] : made_) {
+        effect->freeTargets();
+    }
+}
+
+} // namespace froxel::render

@@ -1,0 +1,36 @@
+// All effects, and those of one view.
+#pragma once
+
+#include "render/effects/effect.h"
+#include "render/frame_plan.h"
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace froxel::render {
+
+// In the order of the frame.
+[[nodiscard]] std::span<const EffectRow* const> effectRows();
+
+// Effects that frames of a view have had. Render thread.
+class ViewEffects {
+  public:
+    explicit ViewEffects(SceneResources& scene) : scene_(scene) {}
+
+    // Builds those of the plan. Errors: kCapacity, kUnsupported. Throws vk::SystemError.
+    [[nodiscard]] Result<void> build(const FramePlan& plan, const EffectInputs& inputs);
+    // Of the frame built last, in its order.
+    [[nodiscard]] std::span<const ActiveEffect> ofFrame() const { return of_frame_; }
+    // Frees targets that this frame has no use for; see Effect::freeUnfit().
+    void freeUnfit(const ViewTargets* view);
+    void freeTargets();
+
+  private:
+    SceneResources& scene_;
+    std::map<const EffectRow*, std::unique_ptr<Effect>> made_;
+    std::vector<ActiveEffect> of_frame_;
+};
+
+} // namespace froxel::render

@@ -1,0 +1,125 @@
+#include "render/effects/fxaa.h"
+
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "render/effects/effect.h"
+#include "render/frame_context.h"
+#include "render/screen_groups.h"
+
+#include <array>
+
+namespace froxel::render {
+
+namespace {
+
+using Type = vk::DescriptorType;
+
+vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
+    const auto stage = vk::ShaderStageFlagBits::eCompute;
+    const std::array bindings = {
+        vk::DescriptorSetLayoutBinding{0, Type::eUniformTexelBuffer, 1, stage},
+        vk::DescriptorSetLayoutBinding{1, Type::eStorageBuffer, 1, stage}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+    const std::array sizes = {vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1},
+                              vk::DescriptorPoolSize{Type::eStorageBuffer, 1}};
+    return gpu::makeDescriptorPool(device, sizes);
+}
+
+// Shared by every view.
+struct FxaaPipeline {
+    explicit FxaaPipeline(const SceneResources& scene)
+        : set_layout(makeSetLayout(scene.device)),
+          layout(
+              gpu::makePipelineLayout(scene.device, {scene.pipelines.frameLayout(), *set_layout})),
+          pipeline(
+              gpu::makeComputePipeline(scene.device, shaders::fxaa_comp(), {}, *layout, "fxaa")) {}
+
+    vk::raii::DescriptorSetLayout set_layout;
+    vk::raii::PipelineLayout layout;
+    vk::raii::Pipeline pipeline;
+};
+
+// One a frame slot.
+struct FxaaSet {
+    FxaaSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
+        : pool(makePool(device)), set(gpu::makeSet(device, pool, layout)) {}
+
+    void write(const gpu::Device& device, const gpu::Buffer& display, const gpu::Buffer& pixels) {
+        texels = device.handle().createBufferView({.buffer = *display.handle,
+                                                   .format = vk::Format::eR32Uint,
+                                                   .offset = 0,
+                                                   .range = VK_WHOLE_SIZE});
+        const vk::DescriptorBufferInfo buffer{*pixels.handle, 0, VK_WHOLE_SIZE};
+        const std::array writes = {
+            vk::WriteDescriptorSet{.dstSet = *set,
+                                   .dstBinding = 0,
+                                   .descriptorCount = 1,
+                                   .descriptorType = Type::eUniformTexelBuffer,
+                                   .pTexelBufferView = &*texels},
+            vk::WriteDescriptorSet{.dstSet = *set,
+                                   .dstBinding = 1,
+                                   .descriptorCount = 1,
+                                   .descriptorType = Type::eStorageBuffer,
+                                   .pBufferInfo = &buffer}};
+        device.handle().updateDescriptorSets(writes, {});
+    }
+
+    vk::raii::DescriptorPool pool;
+    vk::raii::DescriptorSet set;
+    vk::raii::BufferView texels{nullptr};
+};
+
+class Fxaa final : public Effect {
+  public:
+    explicit Fxaa(SceneResources& scene) : scene_(scene) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back({"fxaa", timeOver(costs.screen(), costs.load().shown)});
+    }
+
+    void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
+        const auto& pipeline = scene_.shared<FxaaPipeline>();
+        slot.kept.findOrMake<FxaaSet>(scene_.device, *pipeline.set_layout)
+            .write(scene_.device, slot.targets->display, pixelsOf(slot));
+    }
+
+    void record(const FrameContext& frame) const override {
+        inParts(frame, frame.slot.targets->shown, frame.costs.screen(), recordPart);
+    }
+
+  private:
+    static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
+        const auto& cmd = frame.slot.cmd;
+        const gpu::PassScope scope(frame.slot.timestamps, cmd, "fxaa");
+        const auto& shared = frame.scene.shared<FxaaPipeline>();
+        cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *shared.pipeline);
+        const std::array sets = {*frame.slot.frame_set, *frame.slot.kept.get<FxaaSet>().set};
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *shared.layout, 0, sets, {});
+        dispatchOver(cmd, part);
+    }
+
+    SceneResources& scene_;
+};
+
+std::optional<EffectPlan> planFxaa(const view::ViewSettings& settings,
+                                   const FrameFacts& /*facts*/) {
+    return settings.antialiasing == view::Antialiasing::kFxaa ? std::optional(EffectPlan{})
+                                                              : std::nullopt;
+}
+
+} // namespace
+
+const EffectRow kFxaaEffect{
+    .place = EffectPlace::kPixels,
+    .plan = planFxaa,
+    .words =
+        [](const EffectPlan&) {
+            return std::string(
+                "fxaa: edges of the finished picture are filtered, in a pass of its own");
+        },
+    .make = makeEffect<Fxaa>};
+
+} // namespace froxel::render

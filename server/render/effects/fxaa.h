@@ -1,0 +1,11 @@
+// The antialiasing filter over the finished picture: from the picture before it to where pixels are
+// copied from or read.
+#pragma once
+
+#include "render/effects/effect_plan.h"
+
+namespace froxel::render {
+
+extern const EffectRow kFxaaEffect;
+
+} // namespace froxel::render

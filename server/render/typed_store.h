@@ -1,0 +1,32 @@
+// Objects that not everybody needs, one of a type.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <typeindex>
+#include <utility>
+
+namespace froxel::render {
+
+class TypedStore {
+  public:
+    // Made from `args` at the first call; what that throws leaves none.
+    template <class T, class... Args>
+    [[nodiscard]] T& findOrMake(Args&&... args) {
+        auto& made = made_[typeid(T)];
+        if (!made) {
+            made = std::make_shared<T>(std::forward<Args>(args)...);
+        }
+        return *static_cast<T*>(made.get());
+    }
+    // It was made.
+    template <class T>
+    [[nodiscard]] T& get() const {
+        return *static_cast<T*>(made_.at(typeid(T)).get());
+    }
+
+  private:
+    std::map<std::type_index, std::shared_ptr<void>> made_;
+};
+
+} // namespace froxel::render
