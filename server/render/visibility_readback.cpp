@@ -110,17 +110,13 @@ copyVisibility(SceneResources& resources, const ViewTargets& targets, const scen
 
 Result<Visibility>
 readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs) {
-    inputs.settings.renderer = view::Renderer::kClusteredDeferred;
-    inputs.settings.lighting = view::LightingStage::kAuto;
-    inputs.settings.shading = view::ShadingModel::kLambert;
-    inputs.settings.gbuffer = {};
-    inputs.settings.bloom = {};
-    inputs.settings.fog = {};
-    inputs.settings.shadows = {};
-    inputs.settings.antialiasing = view::Antialiasing::kNone;
-    inputs.settings.lights.count = 0;
-    inputs.settings.lights.scene_lights = false;
-    inputs.settings.lights.placed = {};
+    view::ViewSettings plain; // nothing but surfaces
+    plain.camera = inputs.settings.camera;
+    plain.size = inputs.settings.size;
+    plain.shading = view::ShadingModel::kLambert;
+    plain.lights.count = 0;
+    plain.lights.scene_lights = false;
+    inputs.settings = plain;
     inputs.geometry = GeometryPath::kVisibility;
     ViewRenderer view(renderer);
     if (const auto submitted = view.submit(inputs); !submitted) {
