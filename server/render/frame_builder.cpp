@@ -320,14 +320,12 @@ std::optional<PairBound> FrameBuilder::seenPairs() const {
 
 FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                const view::Size& shown,
-                               const BloomPlan* bloom,
                                std::span<const ActiveEffect> effects,
                                const WorkLimits& work) {
     const view::Size& drawn = drawn_;
     FrameLoad load{.plan = plan,
                    .draws = draws_,
                    .shadows = shadows_,
-                   .bloom = bloom,
                    .drawn = drawn,
                    .shown = shown,
                    .pairs = knownPairs(plan),

@@ -5,6 +5,7 @@
 #include "interface/frame_io.h"
 #include "light/frame_lights.h"
 #include "render/draw_list.h"
+#include "render/frame_blocks.h"
 #include "render/frame_context.h"
 #include "render/frame_costs.h"
 #include "render/frame_inputs.h"
@@ -14,6 +15,8 @@
 #include "render/light_grid.h"
 #include "render/scene_resources.h"
 #include "render/shadow_maps.h"
+
+#include <span>
 
 namespace froxel::render {
 
@@ -27,11 +30,10 @@ class FrameBuilder {
     [[nodiscard]] FramePlan build(const FrameInputs& inputs);
     // What the frame that was built takes. Where its lists are made on the device and could make it
     // longer than `piece`, the device looks at them before it shades, and leaves the frame without
-    // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `bloom`,
-    // `effects` and this.
+    // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `effects`
+    // and this.
     [[nodiscard]] FrameCosts costs(const FramePlan& plan,
                                    const view::Size& shown,
-                                   const BloomPlan* bloom,
                                    std::span<const ActiveEffect> effects,
                                    const WorkLimits& work);
     // After a frame with lists from the device: whether they are whole. If not, the frame must be

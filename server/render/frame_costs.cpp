@@ -52,16 +52,12 @@ checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Second
                              least.count(), limit.count())};
 }
 
-double FrameCosts::pixels(const vk::Rect2D& region) const {
-    return static_cast<double>(region.extent.width) * region.extent.height;
-}
-
 double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
     const uint64_t longest = load_.pairs.longest();
     const auto shadows = std::min<uint64_t>(load_.shadows.lights.size(), longest);
     const auto areas = std::min<uint64_t>(load_.area_count, longest);
     return load_.pairs.pairs(region) * unit.pair +
-           pixels(region) * (unit_.lit_pixel + load_.directional_count * unit.pair +
+           areaOf(region) * (unit_.lit_pixel + load_.directional_count * unit.pair +
                              static_cast<double>(shadows) * unit_.shadow_pair +
                              static_cast<double>(areas) * unit_.area_pair);
 }
@@ -77,7 +73,7 @@ RegionCost FrameCosts::shading(const PairCost& unit) const {
 
 RegionCost FrameCosts::depthPrepass() const {
     return {Seconds(load_.draws.triangle_count * unit_.triangle / 2),
-            [this](const auto& region) { return Seconds(pixels(region) * unit_.depth_pixel); }};
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
 }
 
 RegionCost FrameCosts::forward() const {
@@ -86,26 +82,26 @@ RegionCost FrameCosts::forward() const {
     return {Seconds(load_.draws.triangle_count * unit_.triangle),
             [this, each](const auto& region) {
                 return Seconds(
-                    each * (pixels(region) * unit_.surface_pixel + lit(region, unit_.fragment)));
+                    each * (areaOf(region) * unit_.surface_pixel + lit(region, unit_.fragment)));
             },
             loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::gbuffer() const {
     return {Seconds(load_.draws.triangle_count * unit_.triangle),
-            [this](const auto& region) { return Seconds(pixels(region) * unit_.surface_pixel); }};
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.surface_pixel); }};
 }
 
 RegionCost FrameCosts::ids() const {
     return {Seconds(load_.device_triangles * unit_.triangle),
-            [this](const auto& region) { return Seconds(pixels(region) * unit_.depth_pixel); }};
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
 }
 
 RegionCost FrameCosts::resolve() const {
     const bool shades = load_.plan.visibility_shade;
     return {Seconds(0),
             [this, shades](const auto& region) {
-                const double surface = pixels(region) * (unit_.surface_pixel +
+                const double surface = areaOf(region) * (unit_.surface_pixel +
                                                          load_.resolve_count * unit_.resolve_pixel);
                 return Seconds(surface + (shades ? lit(region, unit_.compute) : 0.0));
             },
@@ -135,17 +131,17 @@ RegionCost FrameCosts::blended() const {
                 for (const vk::Rect2D& part : load_.draws.transparent_parts) {
                     const vk::Rect2D both = common(part, region);
                     if (both.extent.width > 0) {
-                        sum += pixels(both) * unit_.surface_pixel + lit(both, unit_.fragment);
+                        sum += areaOf(both) * unit_.surface_pixel + lit(both, unit_.fragment);
                     }
                 }
-                return Seconds(sum + pixels(region) * unit_.depth_pixel);
+                return Seconds(sum + areaOf(region) * unit_.depth_pixel);
             },
             loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::screen() const {
     return {Seconds(0),
-            [this](const auto& region) { return Seconds(pixels(region) * unit_.screen_pixel); }};
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.screen_pixel); }};
 }
 
 RegionCost FrameCosts::fogScatter() const {
@@ -159,17 +155,10 @@ RegionCost FrameCosts::fogScatter() const {
                                    {nodes.extent.width * tile, nodes.extent.height * tile}});
                 // Pairs are of the tiles' pixels, and a tile has one froxel a slice.
                 const double each = load_.fog_slice_count / (static_cast<double>(tile) * tile);
-                return Seconds(pixels(nodes) * load_.fog_slice_count * unit_.froxel +
+                return Seconds(areaOf(nodes) * load_.fog_slice_count * unit_.froxel +
                                each * lit(region, unit_.fog));
             },
             loop(unit_.fog)};
-}
-
-RegionCost FrameCosts::bloom(size_t step) const {
-    const double taps = tapsOf(load_.bloom->steps[step]);
-    return {Seconds(0), [this, taps](const auto& region) {
-                return Seconds(pixels(region) * taps * unit_.bloom_tap);
-            }};
 }
 
 Seconds FrameCosts::shadowFace() const {
@@ -237,14 +226,7 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
 }
 
 void FrameCosts::addPost(std::vector<PassEstimate>& passes) const {
-    if (load_.bloom != nullptr) {
-        Seconds sum{0};
-        for (size_t step = 0; step < load_.bloom->steps.size(); ++step) {
-            const auto& pass = load_.bloom->steps[step].pass;
-            sum += timeOver(bloom(step), {pass.target_width_px, pass.target_height_px});
-        }
-        passes.push_back({"bloom", sum});
-    }
+    addEffects(EffectPlace::kPicture, passes);
     if (load_.wire_lines > 0) {
         passes.push_back({"wires", wires(load_.wire_lines)});
     }
@@ -338,7 +320,7 @@ double FrameCosts::pairsWithin(Seconds limit) const {
     constexpr double kAny = 1e9;
     const Seconds rest = totalWith(0);
     const Seconds room = std::max(limit - rest, limit / 2);
-    const double pairs = pixels({{0, 0}, extentOf(load_.drawn)}) * kEach;
+    const double pairs = areaOf({{0, 0}, extentOf(load_.drawn)}) * kEach;
     const Seconds taken = totalWith(kEach) - rest;
     return pairs * (room.count() / std::max(taken.count(), room.count() / kAny));
 }

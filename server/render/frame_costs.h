@@ -4,7 +4,6 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "render/bloom_plan.h"
 #include "render/draw_list.h"
 #include "render/effects/effect.h"
 #include "render/frame_pieces.h"
@@ -25,7 +24,6 @@ struct FrameLoad {
     const FramePlan& plan;
     const DrawList& draws;
     const ShadowFrame& shadows;
-    const BloomPlan* bloom = nullptr; // none: no bloom
     view::Size drawn;
     view::Size shown;
     PairBound pairs;
@@ -49,6 +47,10 @@ struct PassEstimate {
     const char* pass = "";
     Seconds time{0};
 };
+
+[[nodiscard]] inline double areaOf(const vk::Rect2D& region) {
+    return static_cast<double>(region.extent.width) * region.extent.height;
+}
 
 // Of a pass over all of a target.
 [[nodiscard]] Seconds timeOver(const RegionCost& cost, const view::Size& size);
@@ -76,7 +78,6 @@ class FrameCosts {
     [[nodiscard]] RegionCost screen() const;
     // Over fog's nodes.
     [[nodiscard]] RegionCost fogScatter() const;
-    [[nodiscard]] RegionCost bloom(size_t step) const; // over its target
     [[nodiscard]] Seconds shadowFace() const;
     [[nodiscard]] Seconds wires(uint64_t line_count) const {
         const auto lines = static_cast<double>(std::max<uint64_t>(load_.wire_lines, 1));
@@ -97,9 +98,9 @@ class FrameCosts {
     [[nodiscard]] uint64_t lightsWithin(Seconds limit) const;
 
     [[nodiscard]] const FrameLoad& load() const { return load_; }
+    [[nodiscard]] const UnitCosts& unit() const { return unit_; }
 
   private:
-    [[nodiscard]] double pixels(const vk::Rect2D& region) const;
     // A pass that only adds up lights.
     [[nodiscard]] RegionCost shading(const PairCost& unit) const;
     // The longest loop of one pixel, which cutting a region does not make shorter.

@@ -22,13 +22,12 @@ double microsSince(Clock::time_point start) {
 Result<void> FrameMaker::takeMemory(FrameSlot& slot,
                                     const FramePlan& plan,
                                     const FrameInputs& asked,
-                                    const BloomPlan* bloom_plan,
                                     const Slots& slots) {
     builder_.gather(slot.upload, effects_.ofFrame());
     target_needs_ = targetNeeds(plan, scene_.device, drawnSize(asked.settings), asked.settings.size,
                                 targets_.get());
     FrameMemory frame =
-        frameMemory(builder_, plan, asked, target_needs_, bloom_plan, shadows_ != nullptr);
+        frameMemory(builder_, plan, asked, target_needs_, effects_.ofFrame(), shadows_ != nullptr);
     letGo(slots, slot, frame);
     if (auto taken = take(memory_, frame, scene_.device, pictureWords(asked.settings)); !taken) {
         builder_.letGo();
@@ -37,7 +36,6 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
     // What does not fit goes before anything else is made; frames in flight keep theirs.
     if (targets_ && !targets_->fits(frame.drawn, frame.shown, target_needs_)) {
         targets_.reset();
-        bloom_.reset();
         blend_.reset();
     }
     effects_.freeUnfit(targets_.get());
@@ -104,19 +102,6 @@ void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offset
          .raster = t.rastered_in_compute ? &scene_.visibility().computeRaster() : nullptr,
          .words = *t.words.handle,
          .depth = *t.compute_depth.view});
-}
-
-Result<std::optional<BloomPlan>> FrameMaker::bloomPlan(const FramePlan& plan,
-                                                       const FrameInputs& inputs) const {
-    if (plan.bloom == view::BloomKind::kNone) {
-        return std::optional<BloomPlan>();
-    }
-    const auto& settings = inputs.settings;
-    BloomPlan bloom_plan = planBloom(settings.bloom, settings.size, settings.exposure);
-    if (auto able = checkKernels(bloom_plan, scene_.device.traits().is_cpu); !able) {
-        return able.error();
-    }
-    return std::optional(std::move(bloom_plan));
 }
 
 void FrameMaker::prepareParts(FrameSlot& slot,
@@ -206,25 +191,14 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
         !built) {
         return built;
     }
-    const auto bloom_plan = bloomPlan(plan, inputs);
-    if (!bloom_plan) {
-        return bloom_plan.error();
-    }
-    const BloomPlan* bloom_steps = *bloom_plan ? &**bloom_plan : nullptr;
-    const FrameCosts costs =
-        builder_.costs(plan, asked.settings.size, bloom_steps, effects_.ofFrame(), work_);
+    const FrameCosts costs = builder_.costs(plan, asked.settings.size, effects_.ofFrame(), work_);
     if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
         return affordable;
     }
-    if (auto taken = takeMemory(slot, plan, asked, bloom_steps, slots); !taken) {
+    if (auto taken = takeMemory(slot, plan, asked, slots); !taken) {
         return taken;
     }
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
-    slot.bloom.reset(); // its last frame has finished
-    slot.bloom = bloom_ = bloom_steps != nullptr
-                              ? bloomTargetsFor(scene_.device, scene_.bloom(), *bloom_steps,
-                                                targets_, std::move(bloom_))
-                              : nullptr;
     prepareBlend(slot, plan);
     slot.fog.reset(); // its last frame has finished
     slot.fog = fog_ = plan.fog_volume ? fogVolumeFor(scene_.device, scene_.fog(),
@@ -241,7 +215,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
                  .background = builder_.background(),
                  .visibility = plan.visibility ? &scene_.visibility() : nullptr,
                  .debug = plan.debug != view::DebugView::kNone ? &builder_.debugFrame() : nullptr,
-                 .bloom = bloom_steps,
                  .fog = plan.fog ? &builder_.fog() : nullptr,
                  .shadows = plan.shadows ? &builder_.shadows() : nullptr,
                  .effects = effects_.ofFrame(),
@@ -265,7 +238,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
 
 void FrameMaker::freeTargets() {
     blend_.reset();
-    bloom_.reset();
     effects_.freeTargets();
     fog_.reset();
     shadows_.reset();

@@ -53,7 +53,6 @@ class FrameMaker {
     [[nodiscard]] Result<void> takeMemory(FrameSlot& slot,
                                           const FramePlan& plan,
                                           const FrameInputs& asked,
-                                          const BloomPlan* bloom_plan,
                                           const Slots& slots);
     void prepareTargets(FrameSlot& slot,
                         const FramePlan& plan,
@@ -63,8 +62,6 @@ class FrameMaker {
     // Kept while settings ask for them, also with no light in view.
     void prepareShadows(FrameSlot& slot, const FramePlan& plan, const view::Shadows& settings);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
-    [[nodiscard]] Result<std::optional<BloomPlan>> bloomPlan(const FramePlan& plan,
-                                                             const FrameInputs& inputs) const;
     // What a slot needs besides targets. Throws vk::SystemError.
     void prepareParts(FrameSlot& slot, const FramePlan& plan, const UploadOffsets& offsets);
     void noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs);
@@ -76,8 +73,7 @@ class FrameMaker {
     MemoryShare memory_;
     TargetNeeds target_needs_; // of the frame that memory was taken for last
     std::shared_ptr<ViewTargets> targets_;
-    std::shared_ptr<BloomTargets> bloom_;    // null: the last frame has none
-    std::shared_ptr<BlendTargets> blend_;    // likewise
+    std::shared_ptr<BlendTargets> blend_;    // null: the last frame has none
     std::shared_ptr<ShadowTargets> shadows_; // likewise
     std::shared_ptr<FogVolume> fog_;         // likewise
     FrameDetailsKeeper details_;

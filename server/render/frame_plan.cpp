@@ -90,7 +90,6 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.fog = plan.fog_volume = plan.fog_noise = false;
     plan.outline = plan.samples = false; // nothing is done to what it shows
     plan.effects.clear();
-    plan.bloom = view::BloomKind::kNone;
     plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
 }
 
@@ -146,7 +145,6 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.toon_pass = renderer == Renderer::kToonCompute;
     plan.outline = (renderer == Renderer::kToonFragment || renderer == Renderer::kToonCompute) &&
                    settings.toon_outline.strength > 0;
-    plan.bloom = settings.bloom.strength > 0 ? settings.bloom.kind : view::BloomKind::kNone;
     plan.samples = view::samplesAcross(settings.antialiasing) > 1;
     for (const EffectRow* row : effectRows()) {
         if (const auto effect = row->plan(settings, facts)) {
@@ -176,7 +174,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
     const bool follows = plan.transparent || plan.outline || plan.fog || plan.samples ||
-                         plan.bloom != view::BloomKind::kNone || view::isOverlay(plan.debug);
+                         plan.hasEffect(EffectPlace::kPicture) || view::isOverlay(plan.debug);
     const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
     plan.tonemap = !compute_ends && !replaced;
     plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance ||

@@ -69,7 +69,6 @@ struct FramePlan {
     bool transparent = false;
     view::Transparency transparency = view::Transparency::kSorted; // where transparent
     uint32_t peel_layers = 0;                                      // at most; 0: nothing is peeled
-    view::BloomKind bloom = view::BloomKind::kNone; // of the linear picture, blended surfaces too
     bool samples = false;  // four a pixel: everything is drawn at twice the sides
     bool tonemap = false;  // a pass of its own
     bool lists = false;    // lights are assigned to clusters

@@ -169,20 +169,6 @@ void recordFog(const FrameContext& frame) {
     inParts(frame, drawn(frame), frame.costs.screen(), recordFogApply);
 }
 
-void recordBloom(const FrameContext& frame) {
-    for (size_t step = 0; step < frame.bloom->steps.size(); ++step) {
-        // the picture, what steps before left -> this one's loads; their loads -> its stores
-        radianceToCompute(frame.slot.cmd);
-        const auto& pass = frame.bloom->steps[step].pass;
-        inParts(frame, {pass.target_width_px, pass.target_height_px}, frame.costs.bloom(step),
-                [step](const FrameContext& at, const vk::Rect2D& part) {
-                    const gpu::PassScope scope(at.slot.timestamps, at.slot.cmd, "bloom");
-                    recordBloomStep(at.slot.cmd, at.scene.bloom(), *at.slot.bloom, *at.bloom, step,
-                                    part);
-                });
-    }
-}
-
 // Effects of a place; before() has what lies between the picture and what each does to it.
 template <class Before>
 void recordEffects(const FrameContext& frame, EffectPlace place, const Before& before) {
@@ -297,9 +283,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
     if (frame.plan.transparent) {
         recordBlended(frame);
     }
-    if (frame.bloom != nullptr) {
-        recordBloom(frame);
-    }
+    recordEffects(frame, EffectPlace::kPicture, [&] { radianceToCompute(slot.cmd); });
     if (view::isOverlay(frame.plan.debug)) {
         // the picture's radiance and depth -> blending, loads
         barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,

@@ -105,7 +105,7 @@ void FrameSlot::makeReadback(const gpu::Device& device, vk::DeviceSize size_byte
 
 void FrameSlot::letGo(vk::DeviceSize readback_bytes, vk::DeviceSize upload_bytes) {
     targets.reset();
-    bloom.reset();
+    effect_targets.clear();
     blend.reset();
     fog.reset();
     shadows.reset();

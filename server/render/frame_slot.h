@@ -7,7 +7,7 @@
 #include "gpu/sample_counter.h"
 #include "gpu/timestamps.h"
 #include "render/blend_targets.h"
-#include "render/bloom.h"
+#include "render/effects/effect_targets.h"
 #include "render/fog.h"
 #include "render/frame_inputs.h"
 #include "render/frame_pieces.h"
@@ -99,8 +99,8 @@ struct FrameSlot {
     FrameUpload upload;
     std::shared_ptr<ViewTargets> targets;
     TypedStore kept; // what effects keep of the slot
-    std::shared_ptr<BloomTargets> bloom;    // null: the frame last recorded has none
-    std::shared_ptr<BlendTargets> blend;    // likewise
+    HeldTargets effect_targets;
+    std::shared_ptr<BlendTargets> blend;    // null: the frame last recorded has none
     std::shared_ptr<FogVolume> fog;         // likewise: no volume
     std::shared_ptr<ShadowTargets> shadows; // likewise
     std::shared_ptr<Readback> readback;

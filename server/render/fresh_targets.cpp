@@ -41,11 +41,11 @@ void recordFreshTargets(FrameSlot& slot) {
     if (slot.shadows && std::exchange(slot.shadows->fresh, false)) {
         add(slot.shadows->atlas, vk::ImageAspectFlagBits::eDepth);
     }
-    if (slot.bloom && std::exchange(slot.bloom->fresh, false)) {
-        for (const auto& image : slot.bloom->images()) {
-            add(image, vk::ImageAspectFlagBits::eColor);
+    slot.effect_targets.forEach([&](EffectTargets& effect) {
+        if (std::exchange(effect.fresh, false)) {
+            effect.forEachImage(add);
         }
-    }
+    });
     if (!barriers.empty()) {
         slot.cmd.pipelineBarrier2(
             {.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
@@ -62,7 +62,7 @@ void markFresh(FrameSlot& slot) {
     mark(slot.targets);
     mark(slot.blend);
     mark(slot.shadows);
-    mark(slot.bloom);
+    slot.effect_targets.forEach([](EffectTargets& effect) { effect.fresh = true; });
 }
 
 } // namespace froxel::render

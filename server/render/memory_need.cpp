@@ -1,7 +1,6 @@
 #include "render/memory_need.h"
 
 #include "render/blend_targets.h"
-#include "render/bloom.h"
 #include "render/fog_plan.h"
 #include "render/renderer.h"
 #include "render/shadow_pass.h"
@@ -24,7 +23,7 @@ FrameMemory frameMemory(const FrameBuilder& builder,
                         const FramePlan& plan,
                         const FrameInputs& asked,
                         const TargetNeeds& targets,
-                        const BloomPlan* bloom,
+                        std::span<const ActiveEffect> effects,
                         bool atlas_is_kept) {
     FrameMemory frame{.drawn = drawnSize(asked.settings),
                       .shown = asked.settings.size,
@@ -32,12 +31,10 @@ FrameMemory frameMemory(const FrameBuilder& builder,
                       .shadows = asked.settings.shadows,
                       .shadow_casters = builder.localLightCount(),
                       .lists = builder.listCapacity(),
-                      .host_bytes = builder.hostBytes() + asked.beside_bytes};
+                      .host_bytes = builder.hostBytes() + asked.beside_bytes,
+                      .effects = effects};
     if (plan.transparent && plan.transparency != view::Transparency::kSorted) {
         frame.blend = plan.transparency;
-    }
-    if (bloom != nullptr) {
-        frame.bloom = bloom->images;
     }
     if (!plan.shadows && !atlas_is_kept) {
         frame.shadows.light_count = 0;
@@ -48,47 +45,45 @@ FrameMemory frameMemory(const FrameBuilder& builder,
     return frame;
 }
 
+void NeedList::buffer(const std::string& purpose, uint64_t bytes) {
+    if (bytes > 0) {
+        uses.push_back({purpose, (bytes + kBufferStep - 1) / kBufferStep * kBufferStep});
+    }
+}
+
 std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& image_bytes) {
-    std::vector<MemoryUse> uses;
-    const auto image = [&](const std::string& purpose, const gpu::ImageInfo& info) {
-        uses.push_back({purpose, image_bytes(info)});
-    };
-    const auto buffer = [&](const std::string& purpose, uint64_t bytes) {
-        if (bytes > 0) {
-            uses.push_back({purpose, (bytes + kBufferStep - 1) / kBufferStep * kBufferStep});
-        }
-    };
+    NeedList need(image_bytes);
     const uint64_t drawn_px = uint64_t{frame.drawn.width_px} * frame.drawn.height_px;
     const uint64_t packed_bytes = packedBytes(frame.shown);
     for (const auto& target : targetImages(frame.drawn, frame.targets)) {
-        image(target.name, target.info);
+        need.image(target.name, target.info);
     }
-    buffer("depth and id words", frame.targets.compute_raster ? kWordBytes * drawn_px : 0);
-    buffer("display", frame.targets.display ? packed_bytes : 0);
-    buffer("pixels", frame.targets.device_pixels ? packed_bytes : 0);
+    need.buffer("depth and id words", frame.targets.compute_raster ? kWordBytes * drawn_px : 0);
+    need.buffer("display", frame.targets.display ? packed_bytes : 0);
+    need.buffer("pixels", frame.targets.device_pixels ? packed_bytes : 0);
     if (frame.blend) {
         for (const auto& [name, info] : blendImages(*frame.blend, frame.drawn)) {
-            image(name, info);
+            need.image(name, info);
         }
     }
-    for (const auto& size : frame.bloom) {
-        image("bloom", bloomImage(size));
+    for (const auto& [place, effect] : frame.effects) {
+        effect->addMemory(need);
     }
-    buffer("fog volume", kFroxelBytes * frame.froxel_count);
+    need.buffer("fog volume", kFroxelBytes * frame.froxel_count);
     if (frame.shadows.light_count > 0) {
-        image("shadow atlas", shadowImage(frame.shadows, frame.shadow_casters));
+        need.image("shadow atlas", shadowImage(frame.shadows, frame.shadow_casters));
     }
-    buffer(kReadback, packed_bytes * ViewRenderer::kReadbackSlots);
-    buffer(kUpload, frame.upload_bytes);
+    need.buffer(kReadback, packed_bytes * ViewRenderer::kReadbackSlots);
+    need.buffer(kUpload, frame.upload_bytes);
     if (frame.lists.clusters > 0) {
         for (const auto& part : listParts(frame.lists)) {
-            buffer(part.name, part.bytes);
+            need.buffer(part.name, part.bytes);
         }
-        buffer("light list counters", kTotalsBytes * ViewRenderer::kReadbackSlots);
+        need.buffer("light list counters", kTotalsBytes * ViewRenderer::kReadbackSlots);
     }
-    buffer("counters", kSlotBytes * ViewRenderer::kReadbackSlots);
-    buffer(kHost, frame.host_bytes);
-    return uses;
+    need.buffer("counters", kSlotBytes * ViewRenderer::kReadbackSlots);
+    need.buffer(kHost, frame.host_bytes);
+    return std::move(need.uses);
 }
 
 MemoryTaken totalOf(const std::vector<MemoryUse>& uses, bool device_is_cpu) {

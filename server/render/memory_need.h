@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,13 @@ struct FrameMemory {
     view::Size shown;
     TargetNeeds targets;
     std::optional<view::Transparency> blend = {}; // weighted or peeled surfaces are in sight
-    std::vector<view::Size> bloom = {};           // BloomPlan::images
     uint64_t froxel_count = 0;                    // of the fog's volume
     view::Shadows shadows;                        // light_count 0: no atlas
     uint32_t shadow_casters = 0;                  // lights that may have maps
     uint64_t upload_bytes = 0;                    // of all slots together
     ListCapacity lists;                           // on the device
     uint64_t host_bytes = 0;                      // kept by the host, encoders with it
+    std::span<const ActiveEffect> effects = {};
 };
 
 // Of a frame that was built and gathered; what slots hold is not yet in it.
@@ -35,16 +36,32 @@ struct FrameMemory {
                                       const FramePlan& plan,
                                       const FrameInputs& asked,
                                       const TargetNeeds& targets,
-                                      const BloomPlan* bloom, // null: none
+                                      std::span<const ActiveEffect> effects,
                                       bool atlas_is_kept);
 
 // What an image takes: gpu::imageBytes.
 using ImageBytes = std::function<uint64_t(const gpu::ImageInfo&)>;
 
+// Collects what a frame needs.
+class NeedList {
+  public:
+    explicit NeedList(const ImageBytes& image_bytes) : image_bytes_(image_bytes) {}
+
+    void image(const std::string& purpose, const gpu::ImageInfo& info) {
+        uses.push_back({purpose, image_bytes_(info)});
+    }
+    void buffer(const std::string& purpose, uint64_t bytes); // 0: none
+
+    std::vector<MemoryUse> uses;
+
+  private:
+    const ImageBytes& image_bytes_;
+};
+
 // Steady state: every readback slot has been used. Old targets that a frame in flight still draws
 // into come on top until it is done, which is never on a CPU device.
-[[nodiscard]] std::vector<MemoryUse>
-memoryNeed(const FrameMemory& frame, uint32_t slot_count, const ImageBytes& image_bytes);
+[[nodiscard]] std::vector<MemoryUse> memoryNeed(const FrameMemory& frame,
+                                                const ImageBytes& image_bytes);
 
 // Where it is: what the host reads, writes and keeps is the host's, but on a CPU device.
 [[nodiscard]] MemoryTaken totalOf(const std::vector<MemoryUse>& uses, bool device_is_cpu);

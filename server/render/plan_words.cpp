@@ -142,10 +142,7 @@ void addPostWords(Lines& lines, const FramePlan& plan) {
                                : "fog: no light to scatter, no froxel volume; all is seen through "
                                  "it, in a pass of its own");
     }
-    if (plan.bloom != view::BloomKind::kNone) {
-        lines.push_back("bloom by " + nameOf(view::kBloomKindNames, plan.bloom) +
-                        ": bright light is spread over the linear picture");
-    }
+    addEffectWords(lines, plan, EffectPlace::kPicture);
     if (plan.samples) {
         lines.emplace_back(
             "ssaa4: four samples a pixel, drawn at twice the sides, each tone mapped");
@@ -180,7 +177,7 @@ std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     if (view::isOverlay(plan.debug)) {
         return "tone map in a pass of its own, after the debug view's lines";
     }
-    if (plan.samples || plan.outline || plan.fog || plan.bloom != view::BloomKind::kNone) {
+    if (plan.samples || plan.outline || plan.fog || plan.hasEffect(EffectPlace::kPicture)) {
         return "tone map in a pass of its own, after those over the lit picture";
     }
     return "tone map in a pass of its own, after a fragment stage";

@@ -1,6 +1,7 @@
 #include "render/refusals.h"
 
 #include "interface/shadow_io.h"
+#include "render/effects/effects.h"
 #include "render/frame_plan.h"
 #include "render/gbuffer_layout.h"
 #include "render/list_limits.h"
@@ -105,8 +106,12 @@ std::string pictureWords(const view::ViewSettings& settings) {
         more.push_back("shadow maps of " + std::to_string(settings.shadows.light_count) +
                        " lights");
     }
-    if (settings.bloom.kind != view::BloomKind::kNone) {
-        more.emplace_back("bloom");
+    for (const EffectRow* row : effectRows()) {
+        if (row->memory_words != nullptr) {
+            if (auto words = row->memory_words(settings)) {
+                more.push_back(std::move(*words));
+            }
+        }
     }
     if (settings.lights.count > 10'000) { // fewer take next to nothing
         more.push_back(std::to_string(settings.lights.count) + " lights");

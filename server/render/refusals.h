@@ -15,7 +15,7 @@ class SceneResources;
 // what lacks and what would do.
 [[nodiscard]] Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene);
 
-// What takes memory of a picture, in words: "a picture of 640x360 with bloom".
+// What takes memory of a picture, in words: "a picture of 640x360 with 20000 lights".
 [[nodiscard]] std::string pictureWords(const view::ViewSettings& settings);
 
 // kCapacity: cut into its pieces the frame would take longer than the limit.

@@ -186,13 +186,6 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     }
 }
 
-BloomPipelines& SceneResources::bloom() {
-    if (!bloom_) {
-        bloom_ = std::make_unique<BloomPipelines>(device, timeline, variants);
-    }
-    return *bloom_;
-}
-
 FogPipelines& SceneResources::fog() {
     if (!fog_) {
         fog_ = std::make_unique<FogPipelines>(device, timeline, variants, pipelines);

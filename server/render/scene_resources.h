@@ -6,7 +6,6 @@
 #include "gpu/memory.h"
 #include "light/light_rig.h"
 #include "render/assign_pipelines.h"
-#include "render/bloom.h"
 #include "render/debug_pass.h"
 #include "render/fog.h"
 #include "render/geometry_pack.h"
@@ -80,7 +79,6 @@ class SceneResources {
         return shared_.findOrMake<T>(*this);
     }
     // All made at the first call. Throw vk::SystemError.
-    [[nodiscard]] BloomPipelines& bloom();
     [[nodiscard]] FogPipelines& fog();
     [[nodiscard]] DebugPass& debug();
     [[nodiscard]] PairPipelines& pairs();
@@ -104,7 +102,6 @@ class SceneResources {
     std::unique_ptr<VisibilityScene> visibility_;
     bool assignment_tried_ = false;
     std::unique_ptr<AssignPipelines> assignment_;
-    std::unique_ptr<BloomPipelines> bloom_;
     std::unique_ptr<FogPipelines> fog_;
     std::unique_ptr<DebugPass> debug_;
     std::unique_ptr<PairPipelines> pairs_;

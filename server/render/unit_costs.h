@@ -14,6 +14,8 @@ struct PairCost {
 
 // Seconds.
 struct UnitCosts {
+    bool is_cpu = false;      // the kind of device
+    double lights_scale = 1;  // by which scaled() has multiplied
     double triangle = 0;      // culled, set up, rastered, without its pixels
     double depth_pixel = 0;   // depth alone
     double surface_pixel = 0; // a material's textures, with depth
@@ -27,9 +29,8 @@ struct UnitCosts {
     double shadow_pair = 0; // more, where the light has a shadow map
     double area_pair = 0;   // a rectangle
     double froxel = 0;      // of fog, without lights
-    double bloom_tap = 0;
-    double wire_line = 0;  // of an overlay
-    double wire_pixel = 0; // that such a line covers
+    double wire_line = 0;   // of an overlay
+    double wire_pixel = 0;  // that such a line covers
 };
 
 // Of a device that takes so many times as long for lights, and for surfaces.
@@ -38,9 +39,10 @@ struct UnitCosts {
                                     &UnitCosts::surface_pixel, &UnitCosts::resolve_pixel}) {
         unit.*cost *= surfaces;
     }
+    unit.lights_scale *= lights;
     for (double UnitCosts::*cost :
          {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::shadow_pair,
-          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::bloom_tap, &UnitCosts::wire_line,
+          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::wire_line,
           &UnitCosts::wire_pixel}) {
         unit.*cost *= lights;
     }
@@ -52,7 +54,20 @@ struct UnitCosts {
     return unit;
 }
 
-inline constexpr UnitCosts kCpuUnitCosts{.triangle = 3e-7,
+// What an effect takes for one of a unit of its own.
+template <class Cost>
+struct Measured {
+    Cost cpu;
+    Cost gpu;
+};
+
+// On the device of these costs.
+[[nodiscard]] constexpr double onDevice(const UnitCosts& unit, const Measured<double>& cost) {
+    return (unit.is_cpu ? cost.cpu : cost.gpu) * unit.lights_scale;
+}
+
+inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
+                                         .triangle = 3e-7,
                                          .depth_pixel = 1.2e-8,
                                          .surface_pixel = 6e-8,
                                          .resolve_pixel = 3e-8,
@@ -65,7 +80,6 @@ inline constexpr UnitCosts kCpuUnitCosts{.triangle = 3e-7,
                                          .shadow_pair = 6e-8,
                                          .area_pair = 1.5e-7,
                                          .froxel = 6e-8,
-                                         .bloom_tap = 2e-9,
                                          .wire_line = 5e-7,
                                          .wire_pixel = 2e-8};
 inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
@@ -81,7 +95,6 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .shadow_pair = 3e-11,
                                          .area_pair = 3e-11,
                                          .froxel = 1e-10,
-                                         .bloom_tap = 5.5e-12,
                                          .wire_line = 1e-8,
                                          .wire_pixel = 5e-11};
 

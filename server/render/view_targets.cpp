@@ -4,6 +4,8 @@
 #include "render/pipelines.h"
 #include "render/visibility_pipelines.h"
 
+#include <algorithm>
+
 namespace froxel::render {
 
 std::vector<TargetImage> targetImages(const view::Size& drawn, const TargetNeeds& needs) {
@@ -85,7 +87,8 @@ TargetNeeds targetNeeds(const FramePlan& plan,
                       .radiance = plan.radiance,
                       .visibility = plan.visibility,
                       .compute_raster = plan.compute_raster,
-                      .sampled_radiance = plan.bloom != view::BloomKind::kNone,
+                      .sampled_radiance = std::ranges::any_of(
+                          plan.effects, [](const auto& it) { return it.plan.samples_radiance; }),
                       .display = plan.hasEffect(EffectPlace::kPixels),
                       .device_pixels = !device.traits().is_cpu};
     if (kept == nullptr || kept->size != drawn || kept->shown != shown) {

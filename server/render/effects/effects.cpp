@@ -1,5 +1,6 @@
 #include "render/effects/effects.h"
 
+#include "render/effects/bloom.h"
 #include "render/effects/fxaa.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace froxel::render {
 
 std::span<const EffectRow* const> effectRows() {
-    static constexpr std::array kRows = {&kFxaaEffect};
+    static constexpr std::array kRows = {&kBloomEffect, &kFxaaEffect};
     return kRows;
 }
 

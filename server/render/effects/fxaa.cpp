@@ -104,8 +104,7 @@ class Fxaa final : public Effect {
     SceneResources& scene_;
 };
 
-std::optional<EffectPlan> planFxaa(const view::ViewSettings& settings,
-                                   const FrameFacts& /*facts*/) {
+std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& /*facts*/) {
     return settings.antialiasing == view::Antialiasing::kFxaa ? std::optional(EffectPlan{})
                                                               : std::nullopt;
 }
@@ -114,7 +113,7 @@ std::optional<EffectPlan> planFxaa(const view::ViewSettings& settings,
 
 const EffectRow kFxaaEffect{
     .place = EffectPlace::kPixels,
-    .plan = planFxaa,
+    .plan = planOf,
     .words =
         [](const EffectPlan&) {
             return std::string(

@@ -1,4 +1,4 @@
-#include "render/bloom_plan.h"
+#include "render/effects/bloom_plan.h"
 
 #include <gtest/gtest.h>
 

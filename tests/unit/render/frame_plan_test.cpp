@@ -1,5 +1,6 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
+#include "render/effects/bloom.h"
 #include "render/effects/fxaa.h"
 #include "render/frame_plan.h"
 
@@ -21,6 +22,11 @@ plan(Renderer renderer, const FrameFacts& facts, LightingStage stage = LightingS
     settings.renderer = renderer;
     settings.lighting = stage;
     return planFrame(settings, facts);
+}
+
+view::BloomKind bloomOf(const FramePlan& p) {
+    const EffectPlan* bloom = p.effect(kBloomEffect);
+    return bloom != nullptr ? static_cast<view::BloomKind>(bloom->way) : view::BloomKind::kNone;
 }
 
 constexpr FrameFacts kLit{.local_lights = true, .compute_batches = true};
@@ -148,7 +154,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "the tone map asked for"},
         {p.outline == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
-        {p.bloom == settings.bloom.kind, "the bloom asked for"},
+        {bloomOf(p) == settings.bloom.kind, "the bloom asked for"},
         {p.shadows == (facts.shadows && facts.local_lights), "maps of lights that have them"},
         {p.samples == (settings.antialiasing == view::Antialiasing::kSsaa4),
          "four samples where asked for"},
@@ -168,7 +174,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         {(p.fog_light_flags & ~p.forward_light_flags & ~p.lighting_light_flags) == 0,
          "lights as surfaces have them"},
         {p.tonemap || !p.fog, "tones are mapped after fog"},
-        {p.tonemap || !(p.outline || p.samples || p.bloom != view::BloomKind::kNone),
+        {p.tonemap || !(p.outline || p.samples || p.hasEffect(EffectPlace::kPicture)),
          "tones are mapped after all that is done to the lit picture"},
     };
     for (const auto& [holds, rule] : rules) {
@@ -307,7 +313,7 @@ TEST(FramePlan, BloomOfNoStrength_IsNone) {
     view::ViewSettings settings;
     settings.bloom.kind = view::BloomKind::kSeparable;
     settings.bloom.strength = 0;
-    EXPECT_EQ(planFrame(settings, {}).bloom, view::BloomKind::kNone);
+    EXPECT_EQ(bloomOf(planFrame(settings, {})), view::BloomKind::kNone);
 }
 
 TEST(FramePlan, DrawnSize_IsTwiceTheSidesForFourSamples) {

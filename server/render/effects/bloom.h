@@ -1,0 +1,11 @@
+// Bloom: bright light of the linear picture is spread over it.
+#pragma once
+
+#include "render/effects/effect_plan.h"
+
+namespace froxel::render {
+
+// EffectPlan::way is a view::BloomKind.
+extern const EffectRow kBloomEffect;
+
+} // namespace froxel::render
