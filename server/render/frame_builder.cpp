@@ -1,9 +1,7 @@
 #include "render/frame_builder.h"
 
-#include "cluster/depth_range.h"
 #include "cluster/list_cap.h"
 #include "render/blended_recorder.h"
-#include "render/fog_plan.h"
 #include "render/frame_facts.h"
 #include "render/gbuffer_layout.h"
 #include "render/grown_lights.h"
@@ -233,15 +231,6 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
     uniforms_.first_area = lights_.first_area;
-    fogged_ = plan.fog;
-    fog_ = {};
-    if (plan.fog) {
-        fog_ = makeFog(
-            settings,
-            cluster::litDepthRange(lights_, camera, scene_.bounds_world, cluster::Lit::kMedium)
-                .far_m,
-            inputs.time_s);
-    }
     debug_.wires.clear();
     if (plan.debug != view::DebugView::kNone) {
         buildDebug(inputs, plan, farthest_m);
@@ -334,9 +323,6 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .area_count = static_cast<uint32_t>(lights_.areas.size()),
                    .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
                    .shadow_size_px = shadow_size_px_,
-                   .fog_nodes = {fog_.node_count_x, fog_.node_count_y},
-                   .fog_tile_px = fog_.tile_px,
-                   .fog_slice_count = fog_.slice_count,
                    .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
                    .wire_lines = wireLines(plan),
                    .wire_px = debug_.wire_px,

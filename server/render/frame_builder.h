@@ -66,8 +66,6 @@ class FrameBuilder {
     [[nodiscard]] const DebugFrame& debugFrame() const { return debug_; }
     [[nodiscard]] const LightListStats& listStats() const { return lists_.stats; }
     [[nodiscard]] GridStats gridStats() const { return light_grid_.stats(); }
-    // Of a frame with fog.
-    [[nodiscard]] const io::Fog& fog() const { return fog_; }
     [[nodiscard]] glm::vec3 background() const { return uniforms_.background; }
 
   private:
@@ -118,8 +116,6 @@ class FrameBuilder {
     std::vector<io::InstanceView> instances_; // for the visibility passes
     std::vector<uint32_t> meshlet_order_;
     io::Frame uniforms_{};
-    io::Fog fog_{};
-    bool fogged_ = false;
     FrameBlocks blocks_; // of what was gathered, like the offsets
     UploadOffsets offsets_;
     AssignOffsets assign_offsets_;

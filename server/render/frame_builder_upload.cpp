@@ -1,6 +1,5 @@
 // What a frame's host data becomes on the device.
 #include "ltc/table.h"
-#include "render/fog.h"
 #include "render/frame_builder.h"
 
 #include <array>
@@ -22,7 +21,6 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
     place(3, std::span<const uint32_t>(lists_.indices));
     place(4, std::span<const io::Spot>(lights_.spots));
     place(5, std::span<const io::DirectionalLight>(lights_.directionals));
-    place(6, std::span<const io::Fog>(&fog_, fogged_ ? 1 : 0));
     place(8, std::span<const uint32_t>(shadows_.shadow_of_light));
     place(9, std::span<const io::ShadowLight>(shadows_.lights));
     place(11, std::span<const io::AreaLight>(lights_.areas));
@@ -69,10 +67,6 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect
     slot.upload.commit();
     for (const ActiveEffect& active : effects) {
         active.effect->prepare(slot, blocks_);
-    }
-    if (slot.fog) {
-        blocks_[7] = {.bytes = kFroxelBytes * froxelCount(fog_),
-                      .buffer = *slot.fog->froxels().handle};
     }
     if (!lights_.areas.empty()) {
         const gpu::Buffer& table = scene_.ltcTable();

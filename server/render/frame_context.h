@@ -38,7 +38,6 @@ struct FrameContext {
     glm::vec3 background{0};
     VisibilityScene* visibility = nullptr; // where the plan has it
     const DebugFrame* debug = nullptr;     // likewise
-    const io::Fog* fog = nullptr;          // likewise
     const ShadowFrame* shadows = nullptr;  // likewise
     std::span<const ActiveEffect> effects = {};
     FramePieces& pieces; // the slot's

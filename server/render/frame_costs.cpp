@@ -7,6 +7,12 @@
 namespace froxel::render {
 namespace {
 
+vk::Extent2D extentOf(const view::Size& size) {
+    return {size.width_px, size.height_px};
+}
+
+} // namespace
+
 vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
     const auto end = [](int32_t at, uint32_t side) { return at + static_cast<int32_t>(side); };
     const int32_t left = std::max(a.offset.x, b.offset.x);
@@ -21,12 +27,6 @@ vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
     return {{left, top},
             {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
 }
-
-vk::Extent2D extentOf(const view::Size& size) {
-    return {size.width_px, size.height_px};
-}
-
-} // namespace
 
 Seconds timeOver(const RegionCost& cost, const view::Size& size) {
     return cost.each + std::max(cost.of({{0, 0}, extentOf(size)}), cost.least);
@@ -144,23 +144,6 @@ RegionCost FrameCosts::screen() const {
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.screen_pixel); }};
 }
 
-RegionCost FrameCosts::fogScatter() const {
-    return {Seconds(0),
-            [this](const vk::Rect2D& nodes) {
-                const auto tile = load_.fog_tile_px;
-                const vk::Rect2D whole{{0, 0}, {load_.drawn.width_px, load_.drawn.height_px}};
-                const vk::Rect2D region =
-                    common(whole, {{nodes.offset.x * static_cast<int32_t>(tile),
-                                    nodes.offset.y * static_cast<int32_t>(tile)},
-                                   {nodes.extent.width * tile, nodes.extent.height * tile}});
-                // Pairs are of the tiles' pixels, and a tile has one froxel a slice.
-                const double each = load_.fog_slice_count / (static_cast<double>(tile) * tile);
-                return Seconds(areaOf(nodes) * load_.fog_slice_count * unit_.froxel +
-                               each * lit(region, unit_.fog));
-            },
-            loop(unit_.fog)};
-}
-
 Seconds FrameCosts::shadowFace() const {
     const auto faces = std::max<size_t>(load_.shadows.faces.size(), 1);
     const double triangles = load_.shadows.triangle_count / static_cast<double>(faces);
@@ -211,13 +194,7 @@ void FrameCosts::addEffects(EffectPlace place, std::vector<PassEstimate>& passes
 
 void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
     const view::Size& drawn = load_.drawn;
-    if (load_.plan.fog_volume) {
-        passes.push_back({"fog_scatter",
-                          timeOver(fogScatter(), {load_.fog_nodes.width, load_.fog_nodes.height})});
-    }
-    if (load_.plan.fog) {
-        passes.push_back({"fog", timeOver(screen(), drawn)});
-    }
+    addEffects(EffectPlace::kSolid, passes);
     if (load_.plan.transparent) {
         const bool peeled = load_.plan.transparency == view::Transparency::kPeeled;
         const double layers = peeled ? load_.peel_layers : 1;
@@ -300,7 +277,9 @@ double FrameCosts::slowestLoop() const {
     add(!replaced && (plan.lighting_compute || plan.visibility_shade), unit_.compute);
     add(!replaced && (plan.forward || plan.lighting_fragment || plan.transparent), unit_.fragment);
     add(plan.count_pairs || (replaced && view::testsLights(plan.debug)), unit_.counting);
-    add(!replaced && plan.fog_volume, unit_.fog);
+    for (const auto& [place, effect] : load_.effects) {
+        slowest = std::max(slowest, effect->loopCost(unit_));
+    }
     return slowest;
 }
 

@@ -34,9 +34,6 @@ struct FrameLoad {
     uint32_t device_triangles = 0; // that the host does not cull
     uint32_t resolve_count = 1;    // dispatches over the picture where ids are resolved
     uint32_t shadow_size_px = 0;
-    vk::Extent2D fog_nodes;
-    uint32_t fog_tile_px = 0;
-    uint32_t fog_slice_count = 0;
     uint32_t peel_layers = 0;
     uint64_t wire_lines = 0; // of an overlay
     double wire_px = 0;      // that they cover
@@ -48,6 +45,10 @@ struct PassEstimate {
     Seconds time{0};
 };
 
+// What two parts of a picture have in common.
+[[nodiscard]] vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b);
+
+// In pixels.
 [[nodiscard]] inline double areaOf(const vk::Rect2D& region) {
     return static_cast<double>(region.extent.width) * region.extent.height;
 }
@@ -74,16 +75,19 @@ class FrameCosts {
     [[nodiscard]] RegionCost countPairs() const;
     [[nodiscard]] RegionCost debugView() const;
     [[nodiscard]] RegionCost blended() const; // one pass over what is blended
-    // Over another one: tone map, filters, fog's application, what blending came to.
+    // Over another one: tone map, filters, what blending came to.
     [[nodiscard]] RegionCost screen() const;
-    // Over fog's nodes.
-    [[nodiscard]] RegionCost fogScatter() const;
     [[nodiscard]] Seconds shadowFace() const;
     [[nodiscard]] Seconds wires(uint64_t line_count) const {
         const auto lines = static_cast<double>(std::max<uint64_t>(load_.wire_lines, 1));
         return Seconds(static_cast<double>(line_count) *
                        (unit_.wire_line + load_.wire_px / lines * unit_.wire_pixel));
     }
+
+    // For effects that loop over lights: shading all of them, without materials, seconds; and the
+    // longest loop of one pixel, which cutting a region does not make shorter.
+    [[nodiscard]] double lit(const vk::Rect2D& region, const PairCost& unit) const;
+    [[nodiscard]] Seconds loop(const PairCost& unit) const;
 
     // All of the plan, in order; what a frame takes that is not cut.
     [[nodiscard]] std::vector<PassEstimate> passes() const;
@@ -103,10 +107,6 @@ class FrameCosts {
   private:
     // A pass that only adds up lights.
     [[nodiscard]] RegionCost shading(const PairCost& unit) const;
-    // The longest loop of one pixel, which cutting a region does not make shorter.
-    [[nodiscard]] Seconds loop(const PairCost& unit) const;
-    // Shading all lights, without materials.
-    [[nodiscard]] double lit(const vk::Rect2D& region, const PairCost& unit) const;
     // Of the frame's passes, seconds a light.
     [[nodiscard]] double slowestLoop() const;
     void addSurfaces(std::vector<PassEstimate>& passes) const;

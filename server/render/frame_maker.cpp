@@ -1,7 +1,6 @@
 #include "render/frame_maker.h"
 
 #include "render/blended_recorder.h"
-#include "render/fog_plan.h"
 #include "render/frame_recorder.h"
 #include "render/fresh_targets.h"
 #include "render/memory_need.h"
@@ -42,9 +41,6 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
     if (shadows_ &&
         (frame.shadows.light_count == 0 || !shadows_->fits(frame.shadows, frame.shadow_casters))) {
         shadows_.reset();
-    }
-    if (fog_ && fog_->froxels().size_bytes != kFroxelBytes * frame.froxel_count) {
-        fog_.reset();
     }
     return {};
 }
@@ -181,12 +177,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
     if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
         return tooManyToCap(builder_.localLightCount());
     }
-    if (plan.fog) {
-        const uint64_t most_texels = scene_.device.limits().maxTexelBufferElements;
-        if (auto fits = checkFroxels(builder_.fog(), most_texels); !fits) {
-            return fits;
-        }
-    }
     if (auto built = effects_.build(plan, {inputs.settings, builder_.lights(), inputs.time_s});
         !built) {
         return built;
@@ -200,10 +190,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
     }
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBlend(slot, plan);
-    slot.fog.reset(); // its last frame has finished
-    slot.fog = fog_ = plan.fog_volume ? fogVolumeFor(scene_.device, scene_.fog(),
-                                                     froxelCount(builder_.fog()), std::move(fog_))
-                                      : nullptr;
     prepareShadows(slot, plan, inputs.settings.shadows);
     const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
@@ -215,7 +201,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
                  .background = builder_.background(),
                  .visibility = plan.visibility ? &scene_.visibility() : nullptr,
                  .debug = plan.debug != view::DebugView::kNone ? &builder_.debugFrame() : nullptr,
-                 .fog = plan.fog ? &builder_.fog() : nullptr,
                  .shadows = plan.shadows ? &builder_.shadows() : nullptr,
                  .effects = effects_.ofFrame(),
                  .pieces = slot.pieces,
@@ -239,7 +224,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
 void FrameMaker::freeTargets() {
     blend_.reset();
     effects_.freeTargets();
-    fog_.reset();
     shadows_.reset();
     targets_.reset();
 }

@@ -75,7 +75,6 @@ class FrameMaker {
     std::shared_ptr<ViewTargets> targets_;
     std::shared_ptr<BlendTargets> blend_;    // null: the last frame has none
     std::shared_ptr<ShadowTargets> shadows_; // likewise
-    std::shared_ptr<FogVolume> fog_;         // likewise
     FrameDetailsKeeper details_;
 };
 

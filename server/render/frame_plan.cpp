@@ -1,7 +1,6 @@
 #include "render/frame_plan.h"
 
 #include "interface/constants.h"
-#include "interface/fog_io.h"
 #include "interface/gbuffer_io.h"
 #include "render/effects/effects.h"
 #include "render/gbuffer_layout.h"
@@ -64,14 +63,6 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
     return flags;
 }
 
-// The part that says how lights are fetched, each invocation by itself.
-uint32_t fogLightFlags(uint32_t light_flags) {
-    return light_flags &
-           (io::kLightLocal | io::kLightLists | io::kLightSpots | io::kLightAreas |
-            io::kLightShadows | io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
-            io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
-}
-
 // A debug view in the picture's place: the surfaces that it shows, and no lighting.
 void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const FrameFacts& facts) {
     const view::DebugView debug = settings.debug.view;
@@ -87,7 +78,6 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.toon_pass = plan.transparent = false;
     plan.transparency = view::Transparency::kSorted;
     plan.peel_layers = 0;
-    plan.fog = plan.fog_volume = plan.fog_noise = false;
     plan.outline = plan.samples = false; // nothing is done to what it shows
     plan.effects.clear();
     plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
@@ -151,9 +141,6 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
             plan.effects.push_back({row, *effect});
         }
     }
-    plan.fog = settings.fog.present();
-    plan.fog_volume = settings.fog.scatters() && facts.local_lights;
-    plan.fog_noise = plan.fog_volume && settings.fog.noise;
     plan.transparent = facts.transparent_visible;
     if (plan.transparent) {
         plan.transparency = settings.transparency;
@@ -173,7 +160,8 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
-    const bool follows = plan.transparent || plan.outline || plan.fog || plan.samples ||
+    const bool follows = plan.transparent || plan.outline || plan.samples ||
+                         plan.hasEffect(EffectPlace::kSolid) ||
                          plan.hasEffect(EffectPlace::kPicture) || view::isOverlay(plan.debug);
     const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
     plan.tonemap = !compute_ends && !replaced;
@@ -183,9 +171,8 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
 
-    if (plan.fog) {
-        plan.fog_light_flags = fogLightFlags(plan.forward_light_flags);
-        plan.fog_output_flags = io::kOutputFog | (plan.fog_volume ? io::kOutputFogVolume : 0U);
+    for (const auto& [row, effect] : plan.effects) {
+        plan.blended_output_flags |= effect.blended_output_flags;
     }
 
     const uint32_t wide = facts.wide_gbuffer

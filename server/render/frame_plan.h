@@ -62,10 +62,7 @@ struct FramePlan {
     bool lighting_compute = false;
     bool lighting_fragment = false;
     bool toon_pass = false;
-    bool outline = false;    // edges darkened, before anything is blended
-    bool fog = false;        // what is drawn is seen through a medium
-    bool fog_volume = false; // in which lights are scattered
-    bool fog_noise = false;  // at jittered places
+    bool outline = false; // edges darkened, before anything is blended
     bool transparent = false;
     view::Transparency transparency = view::Transparency::kSorted; // where transparent
     uint32_t peel_layers = 0;                                      // at most; 0: nothing is peeled
@@ -81,8 +78,7 @@ struct FramePlan {
 
     uint32_t forward_light_flags = 0;
     uint32_t lighting_light_flags = 0;
-    uint32_t fog_light_flags = 0;  // of the volume
-    uint32_t fog_output_flags = 0; // of what looks through the medium
+    uint32_t blended_output_flags = 0; // what effects ask of blended surfaces
     uint32_t gbuffer_output_flags = 0;
     uint32_t gbuffer_unused_material_flags = 0; // what the shading model has no use for
     uint32_t lighting_output_flags = 0;

@@ -2,7 +2,6 @@
 
 #include "render/barrier.h"
 #include "render/blended_recorder.h"
-#include "render/fog_passes.h"
 #include "render/fresh_targets.h"
 #include "render/passes.h"
 #include "render/raster_passes.h"
@@ -146,29 +145,6 @@ void recordDeferred(const FrameContext& frame) {
     }
 }
 
-// Solid surfaces and empty pixels, seen through fog.
-void recordFog(const FrameContext& frame) {
-    const auto& cmd = frame.slot.cmd;
-    if (frame.plan.fog_volume) {
-        inParts(frame, {frame.fog->node_count_x, frame.fog->node_count_y}, frame.costs.fogScatter(),
-                recordFogScatter);
-        // the slices' scattering -> their sums, in place
-        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
-                Access::eShaderStorageRead | Access::eShaderStorageWrite);
-        recordFogIntegrate(frame);
-        // the sums -> texel loads of this pass and of blended surfaces
-        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
-                Access::eShaderSampledRead);
-    }
-    // radiance and depth of solid surfaces -> loads and stores
-    barrier(cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
-            Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |
-                Access::eShaderStorageWrite,
-            Stage::eComputeShader,
-            Access::eShaderSampledRead | Access::eShaderStorageRead | Access::eShaderStorageWrite);
-    inParts(frame, drawn(frame), frame.costs.screen(), recordFogApply);
-}
-
 // Effects of a place; before() has what lies between the picture and what each does to it.
 template <class Before>
 void recordEffects(const FrameContext& frame, EffectPlace place, const Before& before) {
@@ -277,9 +253,15 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
                     Access::eShaderSampledRead);
         inParts(frame, drawn(frame), frame.costs.countPairs(), recordCountPairs);
     }
-    if (frame.plan.fog) {
-        recordFog(frame);
-    }
+    recordEffects(frame, EffectPlace::kSolid, [&] {
+        // radiance and depth of solid surfaces -> loads and stores
+        barrier(slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
+                Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |
+                    Access::eShaderStorageWrite,
+                Stage::eComputeShader,
+                Access::eShaderSampledRead | Access::eShaderStorageRead |
+                    Access::eShaderStorageWrite);
+    });
     if (frame.plan.transparent) {
         recordBlended(frame);
     }

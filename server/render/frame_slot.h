@@ -8,7 +8,6 @@
 #include "gpu/timestamps.h"
 #include "render/blend_targets.h"
 #include "render/effects/effect_targets.h"
-#include "render/fog.h"
 #include "render/frame_inputs.h"
 #include "render/frame_pieces.h"
 #include "render/gpu_light_lists.h"
@@ -101,7 +100,6 @@ struct FrameSlot {
     TypedStore kept; // what effects keep of the slot
     HeldTargets effect_targets;
     std::shared_ptr<BlendTargets> blend;    // null: the frame last recorded has none
-    std::shared_ptr<FogVolume> fog;         // likewise: no volume
     std::shared_ptr<ShadowTargets> shadows; // likewise
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;

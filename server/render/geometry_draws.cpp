@@ -41,10 +41,10 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
     case GeometryPass::kGbufferAfterDepth:
         return {group.material_flags & ~plan.gbuffer_unused_material_flags, 0,
                 plan.gbuffer_output_flags};
-    case GeometryPass::kTransparent: // solid surfaces are seen through fog in a pass of its own
+    case GeometryPass::kTransparent: // effects have passes of their own for solid surfaces
     case GeometryPass::kWeighted:
     case GeometryPass::kPeelShade:
-        return {group.material_flags, plan.forward_light_flags, plan.fog_output_flags};
+        return {group.material_flags, plan.forward_light_flags, plan.blended_output_flags};
     default:
         return {group.material_flags, plan.forward_light_flags, 0};
     }

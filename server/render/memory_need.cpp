@@ -1,7 +1,6 @@
 #include "render/memory_need.h"
 
 #include "render/blend_targets.h"
-#include "render/fog_plan.h"
 #include "render/renderer.h"
 #include "render/shadow_pass.h"
 
@@ -39,9 +38,6 @@ FrameMemory frameMemory(const FrameBuilder& builder,
     if (!plan.shadows && !atlas_is_kept) {
         frame.shadows.light_count = 0;
     }
-    if (plan.fog_volume) {
-        frame.froxel_count = froxelCount(builder.fog());
-    }
     return frame;
 }
 
@@ -69,7 +65,6 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
     for (const auto& [place, effect] : frame.effects) {
         effect->addMemory(need);
     }
-    need.buffer("fog volume", kFroxelBytes * frame.froxel_count);
     if (frame.shadows.light_count > 0) {
         need.image("shadow atlas", shadowImage(frame.shadows, frame.shadow_casters));
     }

@@ -22,7 +22,6 @@ struct FrameMemory {
     view::Size shown;
     TargetNeeds targets;
     std::optional<view::Transparency> blend = {}; // weighted or peeled surfaces are in sight
-    uint64_t froxel_count = 0;                    // of the fog's volume
     view::Shadows shadows;                        // light_count 0: no atlas
     uint32_t shadow_casters = 0;                  // lights that may have maps
     uint64_t upload_bytes = 0;                    // of all slots together

@@ -186,13 +186,6 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     }
 }
 
-FogPipelines& SceneResources::fog() {
-    if (!fog_) {
-        fog_ = std::make_unique<FogPipelines>(device, timeline, variants, pipelines);
-    }
-    return *fog_;
-}
-
 DebugPass& SceneResources::debug() {
     if (!debug_) {
         debug_ = std::make_unique<DebugPass>(device, timeline, variants, pipelines);

@@ -7,7 +7,6 @@
 #include "light/light_rig.h"
 #include "render/assign_pipelines.h"
 #include "render/debug_pass.h"
-#include "render/fog.h"
 #include "render/geometry_pack.h"
 #include "render/memory_budget.h"
 #include "render/pair_counter.h"
@@ -79,7 +78,6 @@ class SceneResources {
         return shared_.findOrMake<T>(*this);
     }
     // All made at the first call. Throw vk::SystemError.
-    [[nodiscard]] FogPipelines& fog();
     [[nodiscard]] DebugPass& debug();
     [[nodiscard]] PairPipelines& pairs();
     // The highlights of rectangular lights: ltc::table().
@@ -102,7 +100,6 @@ class SceneResources {
     std::unique_ptr<VisibilityScene> visibility_;
     bool assignment_tried_ = false;
     std::unique_ptr<AssignPipelines> assignment_;
-    std::unique_ptr<FogPipelines> fog_;
     std::unique_ptr<DebugPass> debug_;
     std::unique_ptr<PairPipelines> pairs_;
     std::unique_ptr<gpu::MemoryArena> ltc_arena_;

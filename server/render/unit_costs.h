@@ -12,6 +12,11 @@ struct PairCost {
     double loop = 0; // the next light of one pixel's loop, however few pixels go through it
 };
 
+[[nodiscard]] constexpr PairCost scaled(const PairCost& cost, double lights) {
+    // A loop waits: more of it at once is no quicker.
+    return {cost.pair * lights, cost.loop * std::max(lights, 1.0)};
+}
+
 // Seconds.
 struct UnitCosts {
     bool is_cpu = false;      // the kind of device
@@ -24,11 +29,9 @@ struct UnitCosts {
     double screen_pixel = 0;  // another pass over the picture
     PairCost compute;
     PairCost fragment;
-    PairCost counting; // pairs that are counted, by debug views too
-    PairCost fog;
+    PairCost counting;      // pairs that are counted, by debug views too
     double shadow_pair = 0; // more, where the light has a shadow map
     double area_pair = 0;   // a rectangle
-    double froxel = 0;      // of fog, without lights
     double wire_line = 0;   // of an overlay
     double wire_pixel = 0;  // that such a line covers
 };
@@ -42,14 +45,12 @@ struct UnitCosts {
     unit.lights_scale *= lights;
     for (double UnitCosts::*cost :
          {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::shadow_pair,
-          &UnitCosts::area_pair, &UnitCosts::froxel, &UnitCosts::wire_line,
-          &UnitCosts::wire_pixel}) {
+          &UnitCosts::area_pair, &UnitCosts::wire_line, &UnitCosts::wire_pixel}) {
         unit.*cost *= lights;
     }
     for (PairCost UnitCosts::*cost :
-         {&UnitCosts::compute, &UnitCosts::fragment, &UnitCosts::counting, &UnitCosts::fog}) {
-        (unit.*cost).pair *= lights;
-        (unit.*cost).loop *= std::max(lights, 1.0); // it waits: more of it at once is no quicker
+         {&UnitCosts::compute, &UnitCosts::fragment, &UnitCosts::counting}) {
+        unit.*cost = scaled(unit.*cost, lights);
     }
     return unit;
 }
@@ -65,6 +66,9 @@ struct Measured {
 [[nodiscard]] constexpr double onDevice(const UnitCosts& unit, const Measured<double>& cost) {
     return (unit.is_cpu ? cost.cpu : cost.gpu) * unit.lights_scale;
 }
+[[nodiscard]] constexpr PairCost onDevice(const UnitCosts& unit, const Measured<PairCost>& cost) {
+    return scaled(unit.is_cpu ? cost.cpu : cost.gpu, unit.lights_scale);
+}
 
 inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
                                          .triangle = 3e-7,
@@ -76,10 +80,8 @@ inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
                                          .compute = {5e-9, 0},
                                          .fragment = {2.2e-8, 0},
                                          .counting = {1.2e-8, 0},
-                                         .fog = {5e-9, 0},
                                          .shadow_pair = 6e-8,
                                          .area_pair = 1.5e-7,
-                                         .froxel = 6e-8,
                                          .wire_line = 5e-7,
                                          .wire_pixel = 2e-8};
 inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
@@ -91,10 +93,8 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .compute = {8e-12, 1.3e-7},
                                          .fragment = {4.2e-10, 1.1e-6},
                                          .counting = {9e-11, 1e-6},
-                                         .fog = {8e-12, 1e-6},
                                          .shadow_pair = 3e-11,
                                          .area_pair = 3e-11,
-                                         .froxel = 1e-10,
                                          .wire_line = 1e-8,
                                          .wire_pixel = 5e-11};
 

@@ -1,6 +1,7 @@
 #include "render/effects/effects.h"
 
 #include "render/effects/bloom.h"
+#include "render/effects/fog.h"
 #include "render/effects/fxaa.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace froxel::render {
 
 std::span<const EffectRow* const> effectRows() {
-    static constexpr std::array kRows = {&kBloomEffect, &kFxaaEffect};
+    static constexpr std::array kRows = {&kFogEffect, &kBloomEffect, &kFxaaEffect};
     return kRows;
 }
 

@@ -21,8 +21,7 @@ struct Load {
                 .shadows = shadows,
                 .drawn = {640, 360},
                 .shown = {640, 360},
-                .pairs = pairs,
-                .fog_nodes = {}};
+                .pairs = pairs};
     }
 };
 
@@ -104,7 +103,7 @@ TEST(FrameCosts, Loop_IsOfEveryPart) {
 TEST(FrameCosts, AllPasses_CountTogether) {
     const Load few;
     Load many;
-    many.plan.outline = many.plan.tonemap = many.plan.fog = true;
+    many.plan.outline = many.plan.tonemap = true;
     const FrameCosts one(kCpuUnitCosts, few.of(PairBound::uniform(500)));
     const FrameCosts more(kCpuUnitCosts, many.of(PairBound::uniform(500)));
     EXPECT_GT(more.total(), one.total());

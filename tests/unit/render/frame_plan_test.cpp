@@ -1,6 +1,8 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
 #include "render/effects/bloom.h"
+#include "render/effects/fog.h"
+#include "render/effects/fog_plan.h"
 #include "render/effects/fxaa.h"
 #include "render/frame_plan.h"
 
@@ -112,6 +114,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
     const bool lighting_stores = has(p.lighting_output_flags, io::kOutputRadiance);
     const bool toon_stores = has(p.toon_output_flags, io::kOutputRadiance);
+    const EffectPlan* fog = p.effect(kFogEffect);
+    const uint32_t fog_way = fog != nullptr ? fog->way : 0;
     const std::pair<bool, const char*> rules[] = {
         {p.forward + p.gbuffer + p.visibility_shade == 1, "solid surfaces are shaded in one way"},
         {p.gbuffer == (p.lighting_compute || p.lighting_fragment), "a G-buffer is lit"},
@@ -162,18 +166,18 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "which the tone map averages"},
         {(p.effect(kFxaaEffect) != nullptr) == (settings.antialiasing == view::Antialiasing::kFxaa),
          "the filter asked for"},
-        {p.fog == settings.fog.present(), "fog where there is a medium"},
-        {p.fog_volume == (settings.fog.scatters() && facts.local_lights),
+        {(fog != nullptr) == settings.fog.present(), "fog where there is a medium"},
+        {has(fog_way, kFogVolume) == (settings.fog.scatters() && facts.local_lights),
          "a volume where it scatters lights"},
-        {p.fog_noise == (p.fog_volume && settings.fog.noise), "jittered where asked for"},
-        {has(p.fog_output_flags, io::kOutputFog) == p.fog &&
-             has(p.fog_output_flags, io::kOutputFogVolume) == p.fog_volume,
+        {has(fog_way, kFogNoise) == (has(fog_way, kFogVolume) && settings.fog.noise),
+         "jittered where asked for"},
+        {has(p.blended_output_flags, io::kOutputFog) == (fog != nullptr) &&
+             has(p.blended_output_flags, io::kOutputFogVolume) == has(fog_way, kFogVolume),
          "who looks through it knows what there is"},
-        {p.fog || p.fog_light_flags == 0, "no lights for fog that is not there"},
-        {!p.fog || has(p.fog_light_flags, io::kLightLists) == p.lists, "the same lists"},
-        {(p.fog_light_flags & ~p.forward_light_flags & ~p.lighting_light_flags) == 0,
+        {has(fogLightFlags(p.forward_light_flags), io::kLightLists) == p.lists, "the same lists"},
+        {(fogLightFlags(p.forward_light_flags) & ~p.lighting_light_flags) == 0,
          "lights as surfaces have them"},
-        {p.tonemap || !p.fog, "tones are mapped after fog"},
+        {p.tonemap || fog == nullptr, "tones are mapped after fog"},
         {p.tonemap || !(p.outline || p.samples || p.hasEffect(EffectPlace::kPicture)),
          "tones are mapped after all that is done to the lit picture"},
     };

@@ -20,6 +20,10 @@ inline constexpr double kOpaqueDepth = 16;
 // of constant density ends the volume earlier, where it lets nothing through.
 [[nodiscard]] io::Fog makeFog(const view::ViewSettings& settings, double lit_far_m, double time_s);
 
+// Of the light flags of surfaces the part that says how lights are fetched, each invocation by
+// itself.
+[[nodiscard]] uint32_t fogLightFlags(uint32_t surface_light_flags);
+
 [[nodiscard]] uint64_t froxelCount(const io::Fog& fog);
 
 // Errors: kCapacity where the volume is larger than kMostFroxelBytes or `most_texels`.

@@ -1,5 +1,6 @@
-#include "render/fog_plan.h"
+#include "render/effects/fog_plan.h"
 
+#include "interface/constants.h"
 #include "view/environment.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -22,6 +23,13 @@ uint32_t seedOf(double time_s) {
 }
 
 } // namespace
+
+uint32_t fogLightFlags(uint32_t surface_light_flags) {
+    return surface_light_flags &
+           (io::kLightLocal | io::kLightLists | io::kLightSpots | io::kLightAreas |
+            io::kLightShadows | io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
+            io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
+}
 
 io::Fog makeFog(const view::ViewSettings& settings, double lit_far_m, double time_s) {
     const view::Fog& medium = settings.fog;

@@ -1,0 +1,296 @@
+#include "render/effects/fog.h"
+
+#include "cluster/depth_range.h"
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "render/barrier.h"
+#include "render/effects/effect.h"
+#include "render/effects/effect_targets.h"
+#include "render/effects/fog_plan.h"
+#include "render/frame_context.h"
+#include "render/memory_need.h"
+#include "render/screen_groups.h"
+
+#include <algorithm>
+#include <array>
+
+namespace froxel::render {
+
+namespace {
+
+using Access = vk::AccessFlagBits2;
+using Stage = vk::PipelineStageFlagBits2;
+using Type = vk::DescriptorType;
+
+// Of the frame set.
+constexpr size_t kFogBinding = 6;
+constexpr size_t kVolumeBinding = 7;
+
+constexpr Measured<PairCost> kPair{.cpu = {5e-9, 0}, .gpu = {8e-12, 1e-6}};
+constexpr Measured<double> kFroxel{.cpu = 6e-8, .gpu = 1e-10}; // without lights
+
+enum class FogShader : uint8_t { kScatter, kIntegrate, kApply };
+
+vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
+    const std::array bindings = {vk::DescriptorSetLayoutBinding{0, Type::eStorageBuffer, 1,
+                                                                vk::ShaderStageFlagBits::eCompute}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+    const vk::DescriptorPoolSize size{Type::eStorageBuffer, 1};
+    return gpu::makeDescriptorPool(device, std::array{size});
+}
+
+// Shared by every view; a pipeline is made when first needed.
+class FogPipelines {
+  public:
+    explicit FogPipelines(SceneResources& scene)
+        : device_(scene.device), screen_layout_(scene.pipelines.screenPipelineLayout()),
+          set_layout_(makeSetLayout(device_)),
+          volume_layout_(
+              gpu::makePipelineLayout(device_, {scene.pipelines.frameLayout(), *set_layout_})),
+          made_(scene.timeline, scene.variants, Pipelines::kKeptScreen) {}
+
+    [[nodiscard]] vk::Pipeline pipeline(FogShader shader, const VariantKey& key);
+    // Of set 1 where the volume is written.
+    [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
+    // kApply has the screen passes' layout.
+    [[nodiscard]] vk::PipelineLayout volumeLayout() const { return *volume_layout_; }
+
+  private:
+    const gpu::Device& device_;
+    vk::PipelineLayout screen_layout_;
+    vk::raii::DescriptorSetLayout set_layout_;
+    vk::raii::PipelineLayout volume_layout_;
+    VariantCache<std::pair<FogShader, VariantKey>> made_;
+};
+
+vk::Pipeline FogPipelines::pipeline(FogShader shader, const VariantKey& key) {
+    return *made_.findOrMake(std::pair(shader, key), [=, this] {
+        const gpu::SpecConstants constants = {key.material_flags, key.light_flags, key.output_flags,
+                                              std::max(1U, device_.traits().subgroup_size)};
+        switch (shader) {
+        case FogShader::kScatter:
+            return gpu::makeComputePipeline(device_, shaders::fog_scatter_comp(), constants,
+                                            *volume_layout_, "fog scatter");
+        case FogShader::kIntegrate:
+            return gpu::makeComputePipeline(device_, shaders::fog_integrate_comp(), constants,
+                                            *volume_layout_, "fog integrate");
+        case FogShader::kApply:
+            break;
+        }
+        return gpu::makeComputePipeline(device_, shaders::fog_comp(), constants, screen_layout_,
+                                        "fog");
+    });
+}
+
+// One view's froxels.
+class FogVolume final : public EffectTargets {
+  public:
+    FogVolume(const gpu::Device& device, vk::DescriptorSetLayout layout, uint64_t bytes)
+        : arena_(device),
+          froxels_(arena_.makeBuffer(bytes,
+                                     vk::BufferUsageFlagBits::eStorageBuffer |
+                                         vk::BufferUsageFlagBits::eUniformTexelBuffer,
+                                     gpu::MemoryUse::kDevice,
+                                     "fog volume")),
+          pool_(makePool(device)), set_(gpu::makeSet(device, pool_, layout)) {
+        const vk::DescriptorBufferInfo buffer{*froxels_.handle, 0, VK_WHOLE_SIZE};
+        device.handle().updateDescriptorSets(
+            vk::WriteDescriptorSet{.dstSet = *set_,
+                                   .dstBinding = 0,
+                                   .descriptorCount = 1,
+                                   .descriptorType = Type::eStorageBuffer,
+                                   .pBufferInfo = &buffer},
+            {});
+    }
+
+    [[nodiscard]] const gpu::Buffer& froxels() const { return froxels_; }
+    [[nodiscard]] vk::DescriptorSet set() const { return *set_; }
+
+  private:
+    gpu::MemoryArena arena_;
+    gpu::Buffer froxels_;
+    vk::raii::DescriptorPool pool_;
+    vk::raii::DescriptorSet set_;
+};
+
+class Fog final : public Effect {
+  public:
+    explicit Fog(SceneResources& scene) : scene_(scene) {}
+
+    Result<void> build(const EffectInputs& inputs, const EffectPlan& plan) override {
+        plan_ = plan;
+        const auto& settings = inputs.settings;
+        const auto lit = cluster::litDepthRange(inputs.lights, settings.camera, scene_.bounds_world,
+                                                cluster::Lit::kMedium);
+        fog_ = makeFog(settings, lit.far_m, inputs.time_s);
+        return checkFroxels(fog_, scene_.device.limits().maxTexelBufferElements);
+    }
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        if (hasVolume()) {
+            passes.push_back({"fog_scatter", timeOver(scatterCost(costs), nodes())});
+        }
+        passes.push_back({"fog", timeOver(costs.screen(), costs.load().drawn)});
+    }
+    double loopCost(const UnitCosts& unit) const override {
+        return hasVolume() ? onDevice(unit, kPair).loop : 0;
+    }
+    void addMemory(NeedList& need) const override { need.buffer("fog volume", volumeBytes()); }
+    void gather(FrameUpload& upload, FrameBlocks& blocks) override {
+        blocks[kFogBinding] = {upload.add(std::span<const io::Fog>(&fog_, 1)), sizeof(fog_)};
+    }
+
+    void freeUnfit(const ViewTargets* /*view*/) override {
+        if (volume_ && volume_->froxels().size_bytes != volumeBytes()) {
+            volume_.reset();
+        }
+    }
+    void freeTargets() override { volume_.reset(); }
+    void prepare(FrameSlot& slot, FrameBlocks& blocks) override;
+
+    void recordOwn(const FrameContext& frame) const override;
+    void record(const FrameContext& frame) const override;
+
+  private:
+    [[nodiscard]] bool hasVolume() const { return (plan_.way & kFogVolume) != 0; }
+    [[nodiscard]] uint64_t volumeBytes() const {
+        return hasVolume() ? kFroxelBytes * froxelCount(fog_) : 0;
+    }
+    [[nodiscard]] view::Size nodes() const { return {fog_.node_count_x, fog_.node_count_y}; }
+    [[nodiscard]] RegionCost scatterCost(const FrameCosts& costs) const; // over the nodes
+    static void bind(const FrameContext& frame,
+                     FogShader shader,
+                     const VariantKey& key,
+                     vk::PipelineLayout layout,
+                     vk::DescriptorSet second);
+    void recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) const;
+    void recordIntegrate(const FrameContext& frame) const;
+    void recordApply(const FrameContext& frame, const vk::Rect2D& region) const;
+
+    SceneResources& scene_;
+    EffectPlan plan_;
+    io::Fog fog_{};
+    std::shared_ptr<FogVolume> volume_; // null: the last frame has none
+};
+
+RegionCost Fog::scatterCost(const FrameCosts& costs) const {
+    const PairCost pair = onDevice(costs.unit(), kPair);
+    const double froxel = onDevice(costs.unit(), kFroxel);
+    return {Seconds(0),
+            [&costs, &fog = fog_, pair, froxel](const vk::Rect2D& nodes) {
+                const uint32_t tile = fog.tile_px;
+                const auto& drawn = costs.load().drawn;
+                const vk::Rect2D whole{{0, 0}, {drawn.width_px, drawn.height_px}};
+                const vk::Rect2D region =
+                    common(whole, {{nodes.offset.x * static_cast<int32_t>(tile),
+                                    nodes.offset.y * static_cast<int32_t>(tile)},
+                                   {nodes.extent.width * tile, nodes.extent.height * tile}});
+                // Pairs are of the tiles' pixels, and a tile has one froxel a slice.
+                const double each = fog.slice_count / (static_cast<double>(tile) * tile);
+                return Seconds(areaOf(nodes) * fog.slice_count * froxel +
+                               each * costs.lit(region, pair));
+            },
+            costs.loop(pair)};
+}
+
+void Fog::prepare(FrameSlot& slot, FrameBlocks& blocks) {
+    if (!hasVolume()) {
+        return;
+    }
+    if (!volume_) {
+        volume_ = std::make_shared<FogVolume>(
+            scene_.device, scene_.shared<FogPipelines>().setLayout(), volumeBytes());
+    }
+    slot.effect_targets.hold(volume_);
+    blocks[kVolumeBinding] = {.bytes = volumeBytes(), .buffer = *volume_->froxels().handle};
+}
+
+void Fog::recordOwn(const FrameContext& frame) const {
+    if (!hasVolume()) {
+        return;
+    }
+    inParts(frame, nodes(), scatterCost(frame.costs),
+            [this](const FrameContext& at, const vk::Rect2D& part) { recordScatter(at, part); });
+    // the slices' scattering -> their sums, in place
+    barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+            Stage::eComputeShader, Access::eShaderStorageRead | Access::eShaderStorageWrite);
+    recordIntegrate(frame);
+    // the sums -> texel loads of the last pass and of blended surfaces
+    barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+            Stage::eComputeShader | Stage::eFragmentShader, Access::eShaderSampledRead);
+}
+
+void Fog::record(const FrameContext& frame) const {
+    inParts(frame, frame.slot.targets->size, frame.costs.screen(),
+            [this](const FrameContext& at, const vk::Rect2D& part) { recordApply(at, part); });
+}
+
+void Fog::bind(const FrameContext& frame,
+               FogShader shader,
+               const VariantKey& key,
+               vk::PipelineLayout layout,
+               vk::DescriptorSet second) {
+    const auto& cmd = frame.slot.cmd;
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
+                     frame.scene.shared<FogPipelines>().pipeline(shader, key));
+    const std::array sets = {*frame.slot.frame_set, second};
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, sets, {});
+}
+
+// Reads lights and lists; writes the volume.
+void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) const {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog_scatter");
+    const uint32_t noise = (plan_.way & kFogNoise) != 0 ? io::kOutputFogNoise : 0U;
+    const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & ~io::kLightDirectional;
+    bind(frame, FogShader::kScatter, {0, lights, noise},
+         scene_.shared<FogPipelines>().volumeLayout(),
+         frame.slot.effect_targets.get<FogVolume>().set());
+    dispatchOver(frame.slot.cmd, nodes, fog_.slice_count);
+}
+
+// Adds it up from front to back.
+void Fog::recordIntegrate(const FrameContext& frame) const {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog_integrate");
+    bind(frame, FogShader::kIntegrate, {}, scene_.shared<FogPipelines>().volumeLayout(),
+         frame.slot.effect_targets.get<FogVolume>().set());
+    frame.slot.cmd.dispatch(screenGroups(fog_.node_count_x), screenGroups(fog_.node_count_y), 1);
+}
+
+// Reads volume and depth; radiance is seen through fog.
+void Fog::recordApply(const FrameContext& frame, const vk::Rect2D& region) const {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog");
+    const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & io::kLightDirectional;
+    bind(frame, FogShader::kApply, {0, lights, plan_.blended_output_flags},
+         frame.scene.pipelines.screenPipelineLayout(), *frame.slot.screen_set);
+    dispatchOver(frame.slot.cmd, region);
+}
+
+std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& facts) {
+    if (!settings.fog.present()) {
+        return {};
+    }
+    EffectPlan plan{.blended_output_flags = io::kOutputFog};
+    if (settings.fog.scatters() && facts.local_lights) {
+        plan.way = kFogVolume | (settings.fog.noise ? kFogNoise : 0U);
+        plan.blended_output_flags |= io::kOutputFogVolume;
+    }
+    return plan;
+}
+
+std::string wordsOf(const EffectPlan& plan) {
+    return (plan.way & kFogVolume) != 0
+               ? "fog: lights are scattered in a froxel volume by the same lists, in two passes, "
+                 "and all is seen through it, in one"
+               : "fog: no light to scatter, no froxel volume; all is seen through it, in a pass of "
+                 "its own";
+}
+
+} // namespace
+
+const EffectRow kFogEffect{
+    .place = EffectPlace::kSolid, .plan = planOf, .words = wordsOf, .make = makeEffect<Fog>};
+
+} // namespace froxel::render
