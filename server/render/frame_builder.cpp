@@ -2,6 +2,7 @@
 
 #include "cluster/list_cap.h"
 #include "render/blended_recorder.h"
+#include "render/effects/effects.h"
 #include "render/frame_facts.h"
 #include "render/gbuffer_layout.h"
 #include "render/grown_lights.h"
@@ -91,7 +92,6 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
             .areas = !lights_.areas.empty(),
-            .shadows = !shadows_.lights.empty(),
             .equal_radii = equalRadii(lights_, inputs.settings.lights),
             .long_loops = traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
             .directional = !lights_.directionals.empty(),
@@ -187,7 +187,7 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
 }
 
-FramePlan FrameBuilder::build(const FrameInputs& inputs) {
+FramePlan FrameBuilder::build(const FrameInputs& inputs, ViewEffects& effects) {
     const auto& settings = inputs.settings;
     const auto& camera = settings.camera;
     const double farthest_m = farthestDepth(camera, scene_.bounds_world);
@@ -217,13 +217,10 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs) {
     scene_.light_rig.evaluate(lights, camera, inputs.time_s, lights_);
     assignLights(inputs);
     culling.get();
-    shadows_.clear();
-    if (settings.shadows.light_count > 0 && !view::replacesPicture(settings.debug.view)) {
-        buildShadows(scene_, lights_, settings, inputs.time_s, shadows_);
-    }
     drawn_ = settings.size;
-    shadow_size_px_ = settings.shadows.size_px;
-    planned_ = generalised(facts(inputs), inputs.generic);
+    FrameFacts found = facts(inputs);
+    effects.look({settings, lights_, inputs.time_s}, found);
+    planned_ = generalised(found, inputs.generic);
     const FramePlan plan = planFrame(settings, planned_);
     uniforms_ = makeFrameUniforms(settings, projection, plan.lists ? &light_grid_.grid() : nullptr,
                                   static_cast<uint32_t>(lights_.lights.size()),
@@ -314,7 +311,6 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     const view::Size& drawn = drawn_;
     FrameLoad load{.plan = plan,
                    .draws = draws_,
-                   .shadows = shadows_,
                    .drawn = drawn,
                    .shown = shown,
                    .pairs = knownPairs(plan),
@@ -322,7 +318,6 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
                    .area_count = static_cast<uint32_t>(lights_.areas.size()),
                    .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
-                   .shadow_size_px = shadow_size_px_,
                    .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
                    .wire_lines = wireLines(plan),
                    .wire_px = debug_.wire_px,
@@ -333,6 +328,9 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
         load.resolve_count = visible.pipelines.bindless()
                                  ? 1
                                  : static_cast<uint32_t>(visible.materials_in_use.size());
+    }
+    for (const auto& [place, effect] : effects) {
+        effect->addLoad(load);
     }
     load.longest_loop = load.pairs.longest();
     FrameCosts costs(scene_.unit_costs, load);

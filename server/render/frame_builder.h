@@ -14,11 +14,12 @@
 #include "render/gpu_light_lists.h"
 #include "render/light_grid.h"
 #include "render/scene_resources.h"
-#include "render/shadow_maps.h"
 
 #include <span>
 
 namespace froxel::render {
+
+class ViewEffects;
 
 // Keep one a viewer and build into it again: its buffers are reused.
 class FrameBuilder {
@@ -26,8 +27,8 @@ class FrameBuilder {
     FrameBuilder(SceneResources& scene, const ListLimits& limits)
         : scene_(scene), device_lists_(scene.device, limits) {}
 
-    // Culls, evaluates lights, plans, assigns lights to clusters.
-    [[nodiscard]] FramePlan build(const FrameInputs& inputs);
+    // Culls, evaluates lights, assigns them to clusters, lets effects look, plans.
+    [[nodiscard]] FramePlan build(const FrameInputs& inputs, ViewEffects& effects);
     // What the frame that was built takes. Where its lists are made on the device and could make it
     // longer than `piece`, the device looks at them before it shades, and leaves the frame without
     // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `effects`
@@ -54,7 +55,6 @@ class FrameBuilder {
     void letGo();
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
-    [[nodiscard]] const ShadowFrame& shadows() const { return shadows_; }
     [[nodiscard]] const light::FrameLights& lights() const { return lights_; }
     // Point and spot lights of the frame.
     [[nodiscard]] uint32_t localLightCount() const {
@@ -107,9 +107,7 @@ class FrameBuilder {
     std::optional<SeenLists> seen_lists_;
     view::ViewSettings refused_; // what the device's lists were too small for
     DrawList draws_;
-    ShadowFrame shadows_;
     view::Size drawn_;
-    uint32_t shadow_size_px_ = 0;
     FrameFacts planned_;
     bool visibility_ = false;
     bool compute_raster_ = false;

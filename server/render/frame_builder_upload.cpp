@@ -21,8 +21,6 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
     place(3, std::span<const uint32_t>(lists_.indices));
     place(4, std::span<const io::Spot>(lights_.spots));
     place(5, std::span<const io::DirectionalLight>(lights_.directionals));
-    place(8, std::span<const uint32_t>(shadows_.shadow_of_light));
-    place(9, std::span<const io::ShadowLight>(shadows_.lights));
     place(11, std::span<const io::AreaLight>(lights_.areas));
     assign_offsets_ = on_device_ ? gatherAssignment(upload) : AssignOffsets{};
     UploadOffsets& offsets = offsets_;
@@ -41,12 +39,6 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
     }
     if (!debug_.wires.empty()) {
         offsets.wires = upload.add(std::span<const io::WireVertex>(debug_.wires));
-    }
-    if (!shadows_.lights.empty()) {
-        offsets.shadow_uniforms = upload.add(std::span<const io::Frame>(&shadows_.uniforms, 1));
-        offsets.shadow_rows = upload.add(std::span<const InstanceRows>(shadows_.rows));
-        offsets.shadow_commands =
-            upload.add(std::span<const vk::DrawIndexedIndirectCommand>(shadows_.commands));
     }
     offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
     for (const ActiveEffect& active : effects) {
@@ -94,21 +86,22 @@ void FrameBuilder::writeAssignment(FrameSlot& slot) {
 
 void FrameBuilder::writeFrameSet(FrameSlot& slot) const {
     std::array<vk::DescriptorBufferInfo, Pipelines::kFrameBindings> infos;
+    std::array<vk::DescriptorImageInfo, Pipelines::kFrameBindings> images;
     std::array<vk::BufferView, Pipelines::kFrameBindings> views;
     std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
     slot.texel_views.clear();
-    const vk::DescriptorImageInfo atlas = atlasInfo(slot.shadows.get());
     for (uint32_t i = 0; i < infos.size(); ++i) {
         // What the frame lacks is described as none.
-        const auto& [offset, bytes, own] = blocks_[i];
+        const auto& [offset, bytes, own, image] = blocks_[i];
         const vk::Buffer buffer = own ? own : slot.upload.buffer();
         infos[i] = bytes > 0 ? vk::DescriptorBufferInfo{buffer, offset, bytes}
                              : vk::DescriptorBufferInfo{.buffer = {}, .range = VK_WHOLE_SIZE};
+        images[i] = {.imageView = image, .imageLayout = vk::ImageLayout::eGeneral};
         writes[i] = {.dstSet = *slot.frame_set,
                      .dstBinding = i,
                      .descriptorCount = 1,
                      .descriptorType = Pipelines::kFrameBindingTypes[i],
-                     .pImageInfo = &atlas,
+                     .pImageInfo = &images[i],
                      .pBufferInfo = &infos[i]};
         if (Pipelines::kFrameTexelFormats[i] != vk::Format::eUndefined) {
             if (bytes > 0) {

@@ -8,7 +8,6 @@
 #include "render/frame_plan.h"
 #include "render/frame_slot.h"
 #include "render/scene_resources.h"
-#include "render/shadow_maps.h"
 
 #include <algorithm>
 #include <span>
@@ -24,9 +23,6 @@ struct UploadOffsets {
     vk::DeviceSize instances = 0;
     vk::DeviceSize meshlet_order = 0;
     vk::DeviceSize wires = 0; // of the cluster grid
-    vk::DeviceSize shadow_uniforms = 0;
-    vk::DeviceSize shadow_rows = 0;
-    vk::DeviceSize shadow_commands = 0;
 };
 
 struct FrameContext {
@@ -38,7 +34,6 @@ struct FrameContext {
     glm::vec3 background{0};
     VisibilityScene* visibility = nullptr; // where the plan has it
     const DebugFrame* debug = nullptr;     // likewise
-    const ShadowFrame* shadows = nullptr;  // likewise
     std::span<const ActiveEffect> effects = {};
     FramePieces& pieces; // the slot's
     const FrameCosts& costs;

@@ -54,7 +54,7 @@ checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Second
 
 double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
     const uint64_t longest = load_.pairs.longest();
-    const auto shadows = std::min<uint64_t>(load_.shadows.lights.size(), longest);
+    const auto shadows = std::min<uint64_t>(load_.shadowed_count, longest);
     const auto areas = std::min<uint64_t>(load_.area_count, longest);
     return load_.pairs.pairs(region) * unit.pair +
            areaOf(region) * (unit_.lit_pixel + load_.directional_count * unit.pair +
@@ -144,13 +144,6 @@ RegionCost FrameCosts::screen() const {
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.screen_pixel); }};
 }
 
-Seconds FrameCosts::shadowFace() const {
-    const auto faces = std::max<size_t>(load_.shadows.faces.size(), 1);
-    const double triangles = load_.shadows.triangle_count / static_cast<double>(faces);
-    const auto side = static_cast<double>(load_.shadow_size_px);
-    return Seconds(triangles * unit_.triangle / 2 + side * side * unit_.depth_pixel);
-}
-
 void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     const auto& plan = load_.plan;
     const view::Size& drawn = load_.drawn;
@@ -215,10 +208,7 @@ void FrameCosts::addPost(std::vector<PassEstimate>& passes) const {
 
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
-    if (load_.plan.shadows) {
-        passes.push_back(
-            {"shadows", static_cast<double>(load_.shadows.faces.size()) * shadowFace()});
-    }
+    addEffects(EffectPlace::kLights, passes);
     if (view::replacesPicture(load_.plan.debug)) {
         if (load_.plan.debug == view::DebugView::kOverdraw) {
             passes.push_back({"overdraw", timeOver(gbuffer(), load_.drawn)});

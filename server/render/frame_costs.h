@@ -9,7 +9,6 @@
 #include "render/frame_pieces.h"
 #include "render/frame_plan.h"
 #include "render/pair_bound.h"
-#include "render/shadow_maps.h"
 #include "render/unit_costs.h"
 
 #include <cstdint>
@@ -23,17 +22,16 @@ namespace froxel::render {
 struct FrameLoad {
     const FramePlan& plan;
     const DrawList& draws;
-    const ShadowFrame& shadows;
     view::Size drawn;
     view::Size shown;
     PairBound pairs;
     uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;
     uint32_t area_count = 0;
+    uint32_t shadowed_count = 0;   // lights with shadow maps
     double overdraw = 1;           // of solid surfaces, in fragments per pixel
     uint32_t device_triangles = 0; // that the host does not cull
     uint32_t resolve_count = 1;    // dispatches over the picture where ids are resolved
-    uint32_t shadow_size_px = 0;
     uint32_t peel_layers = 0;
     uint64_t wire_lines = 0; // of an overlay
     double wire_px = 0;      // that they cover
@@ -77,7 +75,6 @@ class FrameCosts {
     [[nodiscard]] RegionCost blended() const; // one pass over what is blended
     // Over another one: tone map, filters, what blending came to.
     [[nodiscard]] RegionCost screen() const;
-    [[nodiscard]] Seconds shadowFace() const;
     [[nodiscard]] Seconds wires(uint64_t line_count) const {
         const auto lines = static_cast<double>(std::max<uint64_t>(load_.wire_lines, 1));
         return Seconds(static_cast<double>(line_count) *

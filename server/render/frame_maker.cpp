@@ -25,8 +25,7 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
     builder_.gather(slot.upload, effects_.ofFrame());
     target_needs_ = targetNeeds(plan, scene_.device, drawnSize(asked.settings), asked.settings.size,
                                 targets_.get());
-    FrameMemory frame =
-        frameMemory(builder_, plan, asked, target_needs_, effects_.ofFrame(), shadows_ != nullptr);
+    FrameMemory frame = frameMemory(builder_, plan, asked, target_needs_, effects_.ofFrame());
     letGo(slots, slot, frame);
     if (auto taken = take(memory_, frame, scene_.device, pictureWords(asked.settings)); !taken) {
         builder_.letGo();
@@ -38,10 +37,6 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
         blend_.reset();
     }
     effects_.freeUnfit(targets_.get());
-    if (shadows_ &&
-        (frame.shadows.light_count == 0 || !shadows_->fits(frame.shadows, frame.shadow_casters))) {
-        shadows_.reset();
-    }
     return {};
 }
 
@@ -67,20 +62,6 @@ void FrameMaker::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     }
 }
 
-void FrameMaker::prepareShadows(FrameSlot& slot,
-                                const FramePlan& plan,
-                                const view::Shadows& settings) {
-    slot.shadows.reset(); // its last frame has finished
-    shadows_ = shadowTargetsFor(scene_.device, settings, builder_.localLightCount(), plan.shadows,
-                                std::move(shadows_));
-    if (plan.shadows) {
-        slot.shadows = shadows_;
-        if (!slot.shadow_slot) {
-            slot.shadow_slot = std::make_unique<ShadowSlot>(scene_.device, scene_.pipelines);
-        }
-    }
-}
-
 void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
     if (!slot.visibility) {
         slot.visibility = std::make_unique<VisibilityFrame>(scene_.device, scene_.visibility());
@@ -103,9 +84,6 @@ void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offset
 void FrameMaker::prepareParts(FrameSlot& slot,
                               const FramePlan& plan,
                               const UploadOffsets& offsets) {
-    if (plan.shadows) {
-        slot.shadow_slot->write(slot.upload.buffer(), offsets.shadow_uniforms);
-    }
     writeScreenSet(scene_.device, slot,
                    plan.hasEffect(EffectPlace::kPixels) ? targets_->display : pixelsOf(slot));
     if (plan.visibility) {
@@ -126,7 +104,9 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
         slot.stats.triangle_count += scene_.visibility().triangle_count;
     }
     slot.stats.draw_count = static_cast<uint32_t>(builder_.draws().commands.size());
-    slot.stats.shadows = builder_.shadows().stats();
+    for (const auto& [place, effect] : effects_.ofFrame()) {
+        effect->addStats(slot.stats);
+    }
     slot.stats.lists = builder_.listStats();
     slot.stats.peel.layer_count = peelLayers(plan, builder_.draws());
     slot.stats.details = details_.update(
@@ -173,7 +153,7 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
     if (auto able = checkAllLights(scene_.unit_costs, inputs.settings, work_.frame); !able) {
         return able;
     }
-    const FramePlan plan = builder_.build(inputs);
+    const FramePlan plan = builder_.build(inputs, effects_);
     if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
         return tooManyToCap(builder_.localLightCount());
     }
@@ -190,7 +170,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
     }
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBlend(slot, plan);
-    prepareShadows(slot, plan, inputs.settings.shadows);
     const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
     recordFrame({.scene = scene_,
@@ -201,7 +180,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
                  .background = builder_.background(),
                  .visibility = plan.visibility ? &scene_.visibility() : nullptr,
                  .debug = plan.debug != view::DebugView::kNone ? &builder_.debugFrame() : nullptr,
-                 .shadows = plan.shadows ? &builder_.shadows() : nullptr,
                  .effects = effects_.ofFrame(),
                  .pieces = slot.pieces,
                  .costs = costs},
@@ -224,7 +202,6 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
 void FrameMaker::freeTargets() {
     blend_.reset();
     effects_.freeTargets();
-    shadows_.reset();
     targets_.reset();
 }
 

@@ -41,8 +41,7 @@ class FrameMaker {
 
     // Of the frame recorded last; null: none, or none of that.
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
-    [[nodiscard]] const ShadowTargets* shadows() const { return shadows_.get(); }
-    [[nodiscard]] const ShadowFrame& shadowFrame() const { return builder_.shadows(); }
+    [[nodiscard]] const ViewEffects& effects() const { return effects_; }
 
   private:
     // Throws VariantsMissing besides.
@@ -59,8 +58,6 @@ class FrameMaker {
                         const view::Size& drawn,
                         const view::Size& shown);
     void prepareBlend(FrameSlot& slot, const FramePlan& plan);
-    // Kept while settings ask for them, also with no light in view.
-    void prepareShadows(FrameSlot& slot, const FramePlan& plan, const view::Shadows& settings);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     // What a slot needs besides targets. Throws vk::SystemError.
     void prepareParts(FrameSlot& slot, const FramePlan& plan, const UploadOffsets& offsets);
@@ -73,8 +70,7 @@ class FrameMaker {
     MemoryShare memory_;
     TargetNeeds target_needs_; // of the frame that memory was taken for last
     std::shared_ptr<ViewTargets> targets_;
-    std::shared_ptr<BlendTargets> blend_;    // null: the last frame has none
-    std::shared_ptr<ShadowTargets> shadows_; // likewise
+    std::shared_ptr<BlendTargets> blend_; // null: the last frame has none
     FrameDetailsKeeper details_;
 };
 

@@ -79,7 +79,8 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.transparency = view::Transparency::kSorted;
     plan.peel_layers = 0;
     plan.outline = plan.samples = false; // nothing is done to what it shows
-    plan.effects.clear();
+    std::erase_if(plan.effects,
+                  [](const auto& it) { return it.row->place != EffectPlace::kLights; });
     plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
 }
 
@@ -147,7 +148,6 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
         plan.peel_layers =
             settings.transparency == view::Transparency::kPeeled ? settings.peel_layers : 0;
     }
-    plan.shadows = facts.shadows && facts.local_lights;
     plan.debug = settings.debug.view;
     const bool replaced = view::replacesPicture(plan.debug);
     plan.lists = (renderer != Renderer::kNaive || view::showsClusters(plan.debug)) &&

@@ -52,7 +52,6 @@ struct GenericParts {
 struct FramePlan {
     bool depth_prepass = false;
     bool count_samples = false;    // that pass the depth test where depth is drawn first
-    bool shadows = false;          // depths are drawn from lights
     bool forward = false;          // solid surfaces by the forward shader
     bool gbuffer = false;          // else by geometry pass and lighting pass
     bool visibility = false;       // solid surfaces by ids of triangles, culled on the device

@@ -225,12 +225,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
     if (slot.device_lists) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
     }
-    if (frame.plan.shadows) {
-        recordShadows(frame);
-        // depths as lights see them -> lighting's loads
-        barrier(slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, kShaders,
-                Access::eShaderSampledRead);
-    }
+    recordEffects(frame, EffectPlace::kLights, [] {}); // there is no picture yet
 
     if (view::replacesPicture(frame.plan.debug)) {
         recordReplacement(frame);

@@ -107,7 +107,6 @@ void FrameSlot::letGo(vk::DeviceSize readback_bytes, vk::DeviceSize upload_bytes
     targets.reset();
     effect_targets.clear();
     blend.reset();
-    shadows.reset();
     if (readback && readback->buffer.size_bytes != readback_bytes) {
         readback.reset(); // a lease keeps its own
     }

@@ -13,7 +13,6 @@
 #include "render/gpu_light_lists.h"
 #include "render/pair_counter.h"
 #include "render/pipelines.h"
-#include "render/shadow_pass.h"
 #include "render/typed_store.h"
 #include "render/view_targets.h"
 #include "render/visibility_scene.h"
@@ -99,8 +98,7 @@ struct FrameSlot {
     std::shared_ptr<ViewTargets> targets;
     TypedStore kept; // what effects keep of the slot
     HeldTargets effect_targets;
-    std::shared_ptr<BlendTargets> blend;    // null: the frame last recorded has none
-    std::shared_ptr<ShadowTargets> shadows; // likewise
+    std::shared_ptr<BlendTargets> blend; // null: the frame last recorded has none
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet frame_set{nullptr};
@@ -113,7 +111,6 @@ struct FrameSlot {
     bool counts_samples = false;                   // in the frame last recorded
     std::unique_ptr<gpu::SampleCounter> overflow;  // likewise
     bool counts_overflow = false;                  // of peeled layers, in the frame last recorded
-    std::unique_ptr<ShadowSlot> shadow_slot;       // likewise
     std::unique_ptr<AssignSlot> assignment;        // likewise
     bool device_lists = false; // the frame last recorded had its lists made on the device
     bool stale = false;        // an older frame was drawn again after this one

@@ -38,9 +38,6 @@ void recordFreshTargets(FrameSlot& slot) {
             add(keys, vk::ImageAspectFlagBits::eColor);
         }
     }
-    if (slot.shadows && std::exchange(slot.shadows->fresh, false)) {
-        add(slot.shadows->atlas, vk::ImageAspectFlagBits::eDepth);
-    }
     slot.effect_targets.forEach([&](EffectTargets& effect) {
         if (std::exchange(effect.fresh, false)) {
             effect.forEachImage(add);
@@ -61,7 +58,6 @@ void markFresh(FrameSlot& slot) {
     };
     mark(slot.targets);
     mark(slot.blend);
-    mark(slot.shadows);
     slot.effect_targets.forEach([](EffectTargets& effect) { effect.fresh = true; });
 }
 

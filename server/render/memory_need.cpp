@@ -2,7 +2,6 @@
 
 #include "render/blend_targets.h"
 #include "render/renderer.h"
-#include "render/shadow_pass.h"
 
 namespace froxel::render {
 
@@ -22,21 +21,15 @@ FrameMemory frameMemory(const FrameBuilder& builder,
                         const FramePlan& plan,
                         const FrameInputs& asked,
                         const TargetNeeds& targets,
-                        std::span<const ActiveEffect> effects,
-                        bool atlas_is_kept) {
+                        std::span<const ActiveEffect> effects) {
     FrameMemory frame{.drawn = drawnSize(asked.settings),
                       .shown = asked.settings.size,
                       .targets = targets,
-                      .shadows = asked.settings.shadows,
-                      .shadow_casters = builder.localLightCount(),
                       .lists = builder.listCapacity(),
                       .host_bytes = builder.hostBytes() + asked.beside_bytes,
                       .effects = effects};
     if (plan.transparent && plan.transparency != view::Transparency::kSorted) {
         frame.blend = plan.transparency;
-    }
-    if (!plan.shadows && !atlas_is_kept) {
-        frame.shadows.light_count = 0;
     }
     return frame;
 }
@@ -64,9 +57,6 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
     }
     for (const auto& [place, effect] : frame.effects) {
         effect->addMemory(need);
-    }
-    if (frame.shadows.light_count > 0) {
-        need.image("shadow atlas", shadowImage(frame.shadows, frame.shadow_casters));
     }
     need.buffer(kReadback, packed_bytes * ViewRenderer::kReadbackSlots);
     need.buffer(kUpload, frame.upload_bytes);

@@ -22,8 +22,6 @@ struct FrameMemory {
     view::Size shown;
     TargetNeeds targets;
     std::optional<view::Transparency> blend = {}; // weighted or peeled surfaces are in sight
-    view::Shadows shadows;                        // light_count 0: no atlas
-    uint32_t shadow_casters = 0;                  // lights that may have maps
     uint64_t upload_bytes = 0;                    // of all slots together
     ListCapacity lists;                           // on the device
     uint64_t host_bytes = 0;                      // kept by the host, encoders with it
@@ -35,8 +33,7 @@ struct FrameMemory {
                                       const FramePlan& plan,
                                       const FrameInputs& asked,
                                       const TargetNeeds& targets,
-                                      std::span<const ActiveEffect> effects,
-                                      bool atlas_is_kept);
+                                      std::span<const ActiveEffect> effects);
 
 // What an image takes: gpu::imageBytes.
 using ImageBytes = std::function<uint64_t(const gpu::ImageInfo&)>;

@@ -47,6 +47,18 @@ std::string lightWords(const FrameFacts& facts, const FramePlan& plan, bool naiv
                  : "lists do not pay or are not asked for: every pixel loops over all lights";
 }
 
+void addEffectWords(Lines& lines,
+                    const view::ViewSettings& settings,
+                    const FramePlan& plan,
+                    EffectPlace place) {
+    for (const auto& [row, effect] : plan.effects) {
+        if (auto words = row->place == place ? row->words(settings, effect) : std::string();
+            !words.empty()) {
+            lines.push_back(std::move(words));
+        }
+    }
+}
+
 void addLightWords(Lines& lines,
                    const view::ViewSettings& settings,
                    const FrameFacts& facts,
@@ -72,12 +84,7 @@ void addLightWords(Lines& lines,
             lines.emplace_back("subgroups fetch lights together");
         }
     }
-    if (plan.shadows) {
-        lines.push_back("shadow maps: up to " +
-                        counted(settings.shadows.light_count, "light", "lights") + ", faces of " +
-                        std::to_string(settings.shadows.size_px) +
-                        " pixels a side, drawn each frame");
-    }
+    addEffectWords(lines, settings, plan, EffectPlace::kLights);
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
     }
@@ -121,27 +128,19 @@ void addSolidWords(Lines& lines,
     }
 }
 
-void addEffectWords(Lines& lines, const FramePlan& plan, EffectPlace place) {
-    for (const auto& [row, effect] : plan.effects) {
-        if (row->place == place) {
-            lines.push_back(row->words(effect));
-        }
-    }
-}
-
 // What is done to the lit picture; nothing where nothing is asked for.
-void addPostWords(Lines& lines, const FramePlan& plan) {
+void addPostWords(Lines& lines, const view::ViewSettings& settings, const FramePlan& plan) {
     if (plan.outline) {
         lines.emplace_back(
             "outline: edges of depth and normals are darkened, in a pass of its own");
     }
-    addEffectWords(lines, plan, EffectPlace::kSolid);
-    addEffectWords(lines, plan, EffectPlace::kPicture);
+    addEffectWords(lines, settings, plan, EffectPlace::kSolid);
+    addEffectWords(lines, settings, plan, EffectPlace::kPicture);
     if (plan.samples) {
         lines.emplace_back(
             "ssaa4: four samples a pixel, drawn at twice the sides, each tone mapped");
     }
-    addEffectWords(lines, plan, EffectPlace::kPixels);
+    addEffectWords(lines, settings, plan, EffectPlace::kPixels);
 }
 
 std::string transparentWords(const FramePlan& plan) {
@@ -230,7 +229,7 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     addSolidWords(lines, settings, facts, plan);
     addLightWords(lines, settings, facts, plan);
     lines.push_back(transparentWords(plan));
-    addPostWords(lines, plan);
+    addPostWords(lines, settings, plan);
     lines.push_back(toneMapWords(facts, plan));
     if (plan.count_pairs) {
         lines.emplace_back("light-pixel pairs are counted, in a pass of its own");

@@ -1,6 +1,5 @@
 #include "render/refusals.h"
 
-#include "interface/shadow_io.h"
 #include "render/effects/effects.h"
 #include "render/frame_plan.h"
 #include "render/gbuffer_layout.h"
@@ -80,12 +79,12 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
     if (auto peeled = peelable(inputs, scene); !peeled) {
         return peeled;
     }
-    const auto& shadows = inputs.settings.shadows;
-    const uint32_t limit_px = scene.device.limits().maxImageDimension2D;
-    if (shadows.light_count > 0 && io::kShadowColumns * shadows.size_px > limit_px) {
-        return Error{ErrorCode::kUnsupported, "shadow_size is " + std::to_string(shadows.size_px) +
-                                                  "; this device's images allow " +
-                                                  std::to_string(limit_px / io::kShadowColumns)};
+    for (const EffectRow* row : effectRows()) {
+        if (row->able != nullptr) {
+            if (auto able = row->able(inputs.settings, scene.device); !able) {
+                return able;
+            }
+        }
     }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
         !scene.visibility().compute_unusable.empty()) {
@@ -101,10 +100,6 @@ std::string pictureWords(const view::ViewSettings& settings) {
     std::vector<std::string> more;
     if (view::samplesAcross(settings.antialiasing) > 1) {
         more.emplace_back("four samples a pixel");
-    }
-    if (settings.shadows.light_count > 0) {
-        more.push_back("shadow maps of " + std::to_string(settings.shadows.light_count) +
-                       " lights");
     }
     for (const EffectRow* row : effectRows()) {
         if (row->memory_words != nullptr) {

@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "core/assert.h"
+#include "render/effects/shadows.h"
 #include "render/frame_maker.h"
 #include "render/frame_slot.h"
 #include "render/fresh_targets.h"
@@ -234,9 +235,10 @@ Result<LinearImage> ViewRenderer::readLinear() {
 }
 
 Result<ShadowAtlas> ViewRenderer::readShadows() {
-    FROXEL_ASSERT(impl_->maker.shadows(), "readShadows needs a frame with shadow maps");
+    const Effect* shadows = impl_->maker.effects().find(kShadowsEffect);
+    FROXEL_ASSERT(shadows != nullptr, "readShadows needs a frame with shadow maps");
     try {
-        return copyShadows(impl_->scene, *impl_->maker.shadows(), impl_->maker.shadowFrame());
+        return copyShadows(*shadows);
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice,
                      std::string("reading the shadow maps failed: ") + error.what()};

@@ -247,7 +247,7 @@ std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const Frame
     return EffectPlan{.way = static_cast<uint32_t>(settings.bloom.kind), .samples_radiance = true};
 }
 
-std::string wordsOf(const EffectPlan& plan) {
+std::string wordsOf(const view::ViewSettings& /*settings*/, const EffectPlan& plan) {
     return "bloom by " + std::string(view::kBloomKindNames[plan.way]) +
            ": bright light is spread over the linear picture";
 }

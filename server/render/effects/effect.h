@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/frame_stats.h"
 #include "light/frame_lights.h"
 #include "render/effects/effect_plan.h"
 #include "render/frame_blocks.h"
@@ -17,6 +18,7 @@ class FrameCosts;
 class FrameUpload;
 class NeedList;
 struct FrameContext;
+struct FrameLoad;
 struct FrameSlot;
 struct PassEstimate;
 struct UnitCosts;
@@ -38,11 +40,15 @@ class Effect {
     Effect(const Effect&) = delete;
     Effect& operator=(const Effect&) = delete;
 
+    // Before a frame is planned, where its row asks for it: tells the plan what there is.
+    virtual void look(const EffectInputs& /*inputs*/, FrameFacts& /*facts*/) {}
     // The host's part; all that follows is about that frame. Errors: kCapacity, kUnsupported.
     [[nodiscard]] virtual Result<void> build(const EffectInputs& /*inputs*/,
                                              const EffectPlan& /*plan*/) {
         return {};
     }
+    // What it is to the cost of other passes.
+    virtual void addLoad(FrameLoad& /*load*/) const {}
     // Its passes, in order.
     virtual void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const = 0;
     // Of one pixel's loop over lights, where it has one: seconds a light.
@@ -51,6 +57,7 @@ class Effect {
     virtual void addMemory(NeedList& /*need*/) const {}
     // What it uploads, and where the frame set finds it; nothing is allocated yet.
     virtual void gather(FrameUpload& /*upload*/, FrameBlocks& /*blocks*/) {}
+    virtual void addStats(FrameStats& /*stats*/) const {}
 
     // Frees targets that the frame has no use for, before others are made; `view`: the view's own
     // where they stay, else null.
@@ -64,7 +71,7 @@ class Effect {
     virtual void recordOwn(const FrameContext& /*frame*/) const {}
     // Records what it does to the picture, with barriers between its passes; those before the first
     // and after the last are frame_recorder's. Both may throw VariantsMissing.
-    virtual void record(const FrameContext& frame) const = 0;
+    virtual void record(const FrameContext& /*frame*/) const {}
 };
 
 // EffectRow::make of an effect whose constructor takes the scene.

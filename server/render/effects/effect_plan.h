@@ -2,12 +2,17 @@
 // theirs. Pure.
 #pragma once
 
+#include "core/error.h"
 #include "view/settings.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+
+namespace froxel::gpu {
+class Device;
+}
 
 namespace froxel::render {
 
@@ -17,6 +22,7 @@ struct FrameFacts;
 
 // When a frame has its turn for an effect; in this order.
 enum class EffectPlace : uint8_t {
+    kLights,  // before anything is lit: what lights look up
     kSolid,   // over the radiance of solid surfaces, before anything is blended with it
     kPicture, // over all of the linear picture
     kPixels,  // over packed pixels; a frame has one effect there at most
@@ -35,10 +41,14 @@ struct EffectRow {
     EffectPlace place;
     // None: the frame lacks it.
     std::optional<EffectPlan> (*plan)(const view::ViewSettings& settings, const FrameFacts& facts);
-    // What it does, in a line for people.
-    std::string (*words)(const EffectPlan& plan);
+    // What it does, in a line for people; empty: nothing to speak of.
+    std::string (*words)(const view::ViewSettings& settings, const EffectPlan& plan);
     // One view's. Throws vk::SystemError.
     std::unique_ptr<Effect> (*make)(SceneResources& scene);
+    // Whether Effect::look() has something to see before a frame is planned. Null: never.
+    bool (*looks)(const view::ViewSettings& settings) = nullptr;
+    // Whether the device can do what is asked for. Errors: kUnsupported. Null: always.
+    Result<void> (*able)(const view::ViewSettings& settings, const gpu::Device& device) = nullptr;
     // What it takes memory for, in words for people; none: for nothing of these settings. Null: for
     // nothing to speak of.
     std::optional<std::string> (*memory_words)(const view::ViewSettings& settings) = nullptr;

@@ -3,6 +3,7 @@
 #include "render/effects/bloom.h"
 #include "render/effects/fog.h"
 #include "render/effects/fxaa.h"
+#include "render/effects/shadows.h"
 
 #include <algorithm>
 #include <array>
@@ -10,21 +11,34 @@
 namespace froxel::render {
 
 std::span<const EffectRow* const> effectRows() {
-    static constexpr std::array kRows = {&kFogEffect, &kBloomEffect, &kFxaaEffect};
+    static constexpr std::array kRows = {&kShadowsEffect, &kFogEffect, &kBloomEffect, &kFxaaEffect};
     return kRows;
+}
+
+Effect& ViewEffects::findOrMake(const EffectRow& row) {
+    auto& effect = made_[&row];
+    if (!effect) {
+        effect = row.make(scene_);
+    }
+    return *effect;
+}
+
+void ViewEffects::look(const EffectInputs& inputs, FrameFacts& facts) {
+    for (const EffectRow* row : effectRows()) {
+        if (row->looks != nullptr && row->looks(inputs.settings)) {
+            findOrMake(*row).look(inputs, facts);
+        }
+    }
 }
 
 Result<void> ViewEffects::build(const FramePlan& plan, const EffectInputs& inputs) {
     of_frame_.clear();
     for (const auto& [row, effect_plan] : plan.effects) {
-        auto& effect = made_[row];
-        if (!effect) {
-            effect = row->make(scene_);
-        }
-        if (auto built = effect->build(inputs, effect_plan); !built) {
+        Effect& effect = findOrMake(*row);
+        if (auto built = effect.build(inputs, effect_plan); !built) {
             return built;
         }
-        of_frame_.push_back({row->place, effect.get()});
+        of_frame_.push_back({row->place, &effect});
     }
     return {};
 }

@@ -280,7 +280,7 @@ std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const Frame
     return plan;
 }
 
-std::string wordsOf(const EffectPlan& plan) {
+std::string wordsOf(const view::ViewSettings& /*settings*/, const EffectPlan& plan) {
     return (plan.way & kFogVolume) != 0
                ? "fog: lights are scattered in a froxel volume by the same lists, in two passes, "
                  "and all is seen through it, in one"

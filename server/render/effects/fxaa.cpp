@@ -115,7 +115,7 @@ const EffectRow kFxaaEffect{
     .place = EffectPlace::kPixels,
     .plan = planOf,
     .words =
-        [](const EffectPlan&) {
+        [](const view::ViewSettings&, const EffectPlan&) {
             return std::string(
                 "fxaa: edges of the finished picture are filtered, in a pass of its own");
         },

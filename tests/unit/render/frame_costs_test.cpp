@@ -14,14 +14,9 @@ cluster::ClusterGrid gridOf(const view::GridSize& size, const view::Size& image)
 struct Load {
     FramePlan plan{.gbuffer = true, .lighting_compute = true, .lists = true};
     DrawList draws;
-    ShadowFrame shadows;
     [[nodiscard]] FrameLoad of(const PairBound& pairs) const {
-        return {.plan = plan,
-                .draws = draws,
-                .shadows = shadows,
-                .drawn = {640, 360},
-                .shown = {640, 360},
-                .pairs = pairs};
+        return {
+            .plan = plan, .draws = draws, .drawn = {640, 360}, .shown = {640, 360}, .pairs = pairs};
     }
 };
 
@@ -30,7 +25,6 @@ class OnePassEffect final : public Effect {
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
         passes.push_back({"effect", timeOver(costs.screen(), costs.load().shown)});
     }
-    void record(const FrameContext& /*frame*/) const override {}
 };
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "render/effects/fog.h"
 #include "render/effects/fog_plan.h"
 #include "render/effects/fxaa.h"
+#include "render/effects/shadows.h"
 #include "render/frame_plan.h"
 
 #include <gtest/gtest.h>
@@ -114,6 +115,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
     const bool lighting_stores = has(p.lighting_output_flags, io::kOutputRadiance);
     const bool toon_stores = has(p.toon_output_flags, io::kOutputRadiance);
+    const EffectPlan* shadows = p.effect(kShadowsEffect);
     const EffectPlan* fog = p.effect(kFogEffect);
     const uint32_t fog_way = fog != nullptr ? fog->way : 0;
     const std::pair<bool, const char*> rules[] = {
@@ -159,7 +161,9 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
         {p.outline == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
         {bloomOf(p) == settings.bloom.kind, "the bloom asked for"},
-        {p.shadows == (facts.shadows && facts.local_lights), "maps of lights that have them"},
+        {has(shadows != nullptr ? shadows->way : 0, kShadowsDrawn) ==
+             (facts.shadows && facts.local_lights),
+         "maps of lights that have them"},
         {p.samples == (settings.antialiasing == view::Antialiasing::kSsaa4),
          "four samples where asked for"},
         {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
@@ -201,7 +205,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
             {lists == p.lists, "lists are read if they are made"},
             {has(flags, io::kLightSpots) == (local && facts.spots), "cones if there are spots"},
             {has(flags, io::kLightAreas) == (local && facts.areas), "rectangles if there are any"},
-            {has(flags, io::kLightShadows) == p.shadows, "maps are read if they are drawn"},
+            {has(flags, io::kLightShadows) == (facts.shadows && facts.local_lights),
+             "maps are read if they are drawn"},
             {has(flags, io::kLightEqualRadii) == (local && facts.equal_radii),
              "a constant radius if there is one"},
             {lists || (flags & laws) == 0, "no slices without lists"},

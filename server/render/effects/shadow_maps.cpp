@@ -1,4 +1,4 @@
-#include "render/shadow_maps.h"
+#include "render/effects/shadow_maps.h"
 
 #include "interface/constants.h"
 #include "light/shadow_choice.h"
