@@ -1,17 +1,18 @@
 #include "app/bench_command.h"
 
-#include "app/bench_compare.h"
-#include "app/bench_html.h"
-#include "app/bench_join.h"
-#include "app/bench_json.h"
-#include "app/bench_presets.h"
 #include "app/output_file.h"
+#include "app/row_command.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
+#include "bench/compare.h"
+#include "bench/html.h"
+#include "bench/join.h"
+#include "bench/json.h"
+#include "bench/presets.h"
+#include "bench/run.h"
 #include "net/stop_signal.h"
-#include "render/gbuffer_layout.h"
 #include "render/renderer.h"
-#include "render/scene_needs.h"
+#include "report/device_summary.h"
 #include "session/session_context.h"
 
 #include <nlohmann/json.hpp>
@@ -19,7 +20,6 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -30,13 +30,6 @@ namespace froxel::app {
 
 namespace {
 
-// Seconds of one row's reference, about: 9 ns a pair on two cores of a CPU device, a few ps in a
-// GPU's compute stage (70 in its fragment stage).
-constexpr double kR1PairsCpu = 2e9;
-constexpr double kR1PairsGpu = 1e11;
-constexpr double kR2PairsPerThread = 1e9;
-
-constexpr size_t kEncodeCount = 20;
 constexpr size_t kDefaultViews = 3;
 constexpr double kViewStepS = 5; // of the lights' clock, from one view to the next
 
@@ -55,7 +48,7 @@ class StopFlag {
     std::jthread thread_; // last: joins before the signal goes
 };
 
-std::vector<BenchView> viewsOf(const BenchOptions& options, const scene::Scene& scene) {
+std::vector<bench::View> viewsOf(const BenchOptions& options, const scene::Scene& scene) {
     auto names = options.cameras;
     for (const auto& camera : scene.cameras) {
         const auto parsed =
@@ -68,7 +61,7 @@ std::vector<BenchView> viewsOf(const BenchOptions& options, const scene::Scene& 
     if (names.empty()) {
         names.emplace_back();
     }
-    std::vector<BenchView> views;
+    std::vector<bench::View> views;
     for (const auto& name : names) {
         const auto choice = name.empty() ? CameraChoice{} : parseCamera(name).value();
         views.push_back({name, findCamera(choice, scene).value(),
@@ -82,101 +75,29 @@ std::string nowUtc() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
-bool isDeferred(view::Renderer renderer) {
-    return renderer != view::Renderer::kNaive && renderer != view::Renderer::kForwardPlus;
+bench::ErrorOptions errorOptionsOf(const BenchOptions& options, bool device_is_cpu) {
+    auto errors = bench::errorOptionsFor(device_is_cpu);
+    errors.size = options.error_size;
+    errors.r1_pairs_limit = options.r1_pairs_limit.value_or(errors.r1_pairs_limit);
+    errors.r2_pairs_limit = options.r2_pairs_limit.value_or(errors.r2_pairs_limit);
+    return errors;
 }
 
-std::optional<uint32_t> gbufferBytes(const view::ViewSettings& settings,
-                                     const render::SceneNeeds& needs) {
-    if (!isDeferred(settings.renderer)) {
-        return std::nullopt;
-    }
-    const bool lambert = settings.shading == view::ShadingModel::kLambert;
-    return render::gbufferBytesPerPixel(settings.gbuffer,
-                                        lambert ? needs.wide_lambert : needs.wide_gbuffer);
+// What is known before anything is measured.
+bench::RunResult
+startOf(const BenchOptions& options, const scene::Scene& scene, const gpu::DeviceTraits& device) {
+    const auto summary = session::summarize(scene);
+    bench::RunResult result;
+    result.date = nowUtc();
+    result.device = report::summarize(device);
+    result.scene_source = options.scene;
+    result.scene_name = summary.name;
+    result.triangle_count = summary.triangle_count;
+    result.budget = bench::budgetFor(device.is_cpu, options.seconds_per_row);
+    result.error_options = errorOptionsOf(options, device.is_cpu);
+    result.base = {options.settings, viewsOf(options, scene)};
+    return result;
 }
-
-// A run's parts, in the order they are made.
-class BenchRun {
-  public:
-    BenchRun(const BenchOptions& options, const std::atomic<bool>& stop)
-        : options_(options), stop_(stop), scene_(loadScene(options.scene).value()),
-          needs_(render::findNeeds(scene_)), device_(options.device), renderer_(device_, scene_) {
-        for (const auto& warning : scene_.warnings) {
-            spdlog::warn("scene {}", warning);
-        }
-        const auto& traits = device_.traits();
-        result_.date = nowUtc();
-        result_.device = summarize(traits);
-        result_.device_choice = options.device.choice;
-        result_.scene_source = options.scene;
-        result_.light_set = options.light_set;
-        const auto summary = session::summarize(scene_);
-        result_.scene_name = summary.name;
-        result_.triangle_count = summary.triangle_count;
-        result_.budget = budgetFor(traits.is_cpu, options.seconds_per_row);
-        const double threads = std::max(1U, std::thread::hardware_concurrency());
-        result_.error_options = {
-            options.error_size,
-            options.r1_pairs_limit.value_or(traits.is_cpu ? kR1PairsCpu : kR1PairsGpu),
-            options.r2_pairs_limit.value_or(kR2PairsPerThread * threads)};
-        result_.base = {options.settings, viewsOf(options, scene_)};
-    }
-
-    [[nodiscard]] const BenchResult& result() const { return result_; }
-
-    // `save` is called after every sweep.
-    template <class Save>
-    void measure(std::vector<Sweep> sweeps, const Save& save) {
-        size_t row_count = 0;
-        for (const auto& sweep : sweeps) {
-            row_count += sweep.rows.size();
-        }
-        BenchProgress progress(static_cast<double>(row_count));
-        BenchRunner runner(renderer_, result_.budget, stop_, progress);
-        ErrorMeter meter(renderer_, scene_, result_.base, result_.error_options, stop_);
-        const auto start = Clock::now();
-        for (auto& sweep : sweeps) {
-            auto times = runner.time(sweep, result_.base);
-            SweepResult found{std::move(sweep), {}};
-            for (size_t i = 0; i < times.size(); ++i) {
-                found.rows.push_back(finish(found.sweep, i, std::move(times[i]), meter, progress));
-            }
-            result_.sweeps.push_back(std::move(found));
-            result_.elapsed_s = Seconds(Clock::now() - start).count();
-            result_.complete = result_.sweeps.size() == sweeps.size() && !stop_;
-            save(result_);
-        }
-    }
-
-  private:
-    RowResult finish(const Sweep& sweep,
-                     size_t index,
-                     RowTimes times,
-                     ErrorMeter& meter,
-                     BenchProgress& progress) {
-        const auto& row = sweep.rows[index];
-        progress.at(sweep.name, "errors of " + row.series + ", " + row.label);
-        RowResult result{std::move(times), {}, gbufferBytes(row.settings, needs_), {}};
-        if (result.times.measured()) {
-            result.errors = meter.measure(row);
-            if (row.stream && !stop_) {
-                const auto picture = meter.picture(row).value();
-                result.stream = measureStream(picture->shown(), *row.stream, kEncodeCount).value();
-            }
-        }
-        progress.done(BenchProgress::kErrorShare);
-        return result;
-    }
-
-    const BenchOptions& options_;
-    const std::atomic<bool>& stop_;
-    scene::Scene scene_;
-    render::SceneNeeds needs_;
-    gpu::Device device_;
-    render::Renderer renderer_;
-    BenchResult result_;
-};
 
 // Told before anything is measured.
 std::string readTemplate(const BenchOptions& options) {
@@ -186,14 +107,14 @@ std::string readTemplate(const BenchOptions& options) {
                                             "--web-root names another"});
     }
     auto page = readText(root / "report.html").value();
-    fillReport(page, nullptr).value();
+    bench::fillReport(page, nullptr).value();
     return page;
 }
 
 int listPresets(const BenchOptions& options) {
-    const BenchBase base{options.settings, std::vector<BenchView>(1)};
-    for (const auto name : benchPresetNames()) {
-        const auto sweep = makeSweep(name, base);
+    const bench::Base base{options.settings, std::vector<bench::View>(1)};
+    for (const auto name : bench::presetNames()) {
+        const auto sweep = bench::makeSweep(name, base);
         fmt::print("{:<18}{:>4} rows  {}\n", name, sweep.rows.size(), sweep.title);
     }
     return 0;
@@ -211,8 +132,9 @@ nlohmann::ordered_json readReport(const std::filesystem::path& path) {
 
 int compareFiles(const BenchOptions& options) {
     const auto comparison =
-        compareReports(readReport(options.compare[0]), readReport(options.compare[1])).value();
-    std::fputs(toText(comparison).c_str(), stdout);
+        bench::compareReports(readReport(options.compare[0]), readReport(options.compare[1]))
+            .value();
+    std::fputs(bench::toText(comparison).c_str(), stdout);
     return comparison.worse() ? 1 : 0;
 }
 
@@ -221,7 +143,7 @@ void writeReport(const BenchOptions& options,
                  const nlohmann::ordered_json& report) {
     writeText(options.out, report.dump() + "\n");
     if (!options.report.empty()) {
-        writeText(options.report, fillReport(page, report).value());
+        writeText(options.report, bench::fillReport(page, report).value());
     }
 }
 
@@ -230,11 +152,11 @@ int joinFiles(const BenchOptions& options, const std::string& page) {
     for (const auto& path : options.join) {
         reports.push_back(readReport(path));
     }
-    writeReport(options, page, joinReports(reports).value());
+    writeReport(options, page, bench::joinReports(reports).value());
     return 0;
 }
 
-void printSummary(const BenchResult& result) {
+void printSummary(const bench::RunResult& result) {
     size_t measured = 0;
     size_t skipped = 0;
     for (const auto& sweep : result.sweeps) {
@@ -244,6 +166,45 @@ void printSummary(const BenchResult& result) {
     }
     fmt::print("{} rows measured, {} left out, {:.0f} s{}\n", measured, skipped, result.elapsed_s,
                result.complete ? "" : "; stopped before its end");
+}
+
+std::vector<bench::Sweep> sweepsOf(const BenchOptions& options, const bench::Base& base) {
+    std::vector<bench::Sweep> sweeps;
+    for (const auto name : bench::fullPresetNames()) {
+        if (options.presets.empty()) {
+            sweeps.push_back(bench::makeSweep(name, base));
+        }
+    }
+    for (const auto& name : options.presets) {
+        sweeps.push_back(bench::makeSweep(name, base));
+    }
+    return sweeps;
+}
+
+int measureSweeps(const BenchOptions& options, const std::string& page) {
+    const StopFlag stop;
+    const auto scene = loadScene(options.scene).value();
+    gpu::Device device(options.device);
+    render::Renderer renderer(device, scene);
+    for (const auto& warning : scene.warnings) {
+        spdlog::warn("scene {}", warning);
+    }
+    bench::Run run(renderer, scene, startOf(options, scene, device.traits()), stop.stopped());
+    run.measure(sweepsOf(options, run.result().base), [&](const bench::RunResult& result) {
+        const auto command_of = [&](const bench::Row& row, size_t frame_count) {
+            return rowCommand(options, result, row, frame_count);
+        };
+        writeReport(options, page, bench::runReport(result, command_of));
+    });
+    printSummary(run.result());
+    const auto inexact = bench::inexactRows(run.result());
+    for (const auto& line : inexact) {
+        fmt::print(stderr, "froxel: {}\n", line);
+    }
+    if (!inexact.empty()) {
+        return 1;
+    }
+    return run.result().complete ? 0 : kStoppedExitCode;
 }
 
 } // namespace
@@ -264,30 +225,7 @@ int runBench(const BenchOptions& options) try {
     if (!options.join.empty()) {
         return joinFiles(options, page);
     }
-    const StopFlag stop;
-    BenchRun run(options, stop.stopped());
-    const auto& names = options.presets;
-    std::vector<Sweep> sweeps;
-    for (const auto name : fullBenchPresetNames()) {
-        if (names.empty()) {
-            sweeps.push_back(makeSweep(name, run.result().base));
-        }
-    }
-    for (const auto& name : names) {
-        sweeps.push_back(makeSweep(name, run.result().base));
-    }
-    run.measure(std::move(sweeps), [&](const BenchResult& result) {
-        writeReport(options, page, benchReport(result));
-    });
-    printSummary(run.result());
-    const auto inexact = inexactRows(run.result());
-    for (const auto& line : inexact) {
-        fmt::print(stderr, "froxel: {}\n", line);
-    }
-    if (!inexact.empty()) {
-        return 1;
-    }
-    return run.result().complete ? 0 : kStoppedExitCode;
+    return measureSweeps(options, page);
 } catch (const vk::SystemError& error) {
     throw StartupError({ErrorCode::kDevice, fmt::format("Vulkan: {}", error.what())});
 }

@@ -1,15 +1,15 @@
 #include "app/info_command.h"
 
-#include "app/device_summary.h"
 #include "app/exit_codes.h"
 #include "app/info_report.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
 #include "app/serve_command.h"
-#include "app/timings_report.h"
 #include "gpu/device.h"
 #include "net/facts.h"
 #include "render/renderer.h"
+#include "report/device_summary.h"
+#include "report/frame_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -69,25 +69,25 @@ Json drawOnce(gpu::Device& device, const scene::Scene& scene) {
     render::ViewRenderer viewer(renderer);
     viewer.submit({.settings = settings}).value();
     const auto frame = viewer.collect();
-    Json report = frameReport(frame.value().stats);
-    report["size_px"] = {settings.size.width_px, settings.size.height_px};
-    return report;
+    Json drawn = report::frameReport(frame.value().stats);
+    drawn["size_px"] = {settings.size.width_px, settings.size.height_px};
+    return drawn;
 }
 
 } // namespace
 
 void runInfo(const InfoOptions& options) try {
-    Json report;
+    Json info;
     gpu::Device device(options.device);
     if (!options.scene.empty()) {
         const auto scene = loadScene(options.scene).value();
-        report["scene"] = sceneReport(scene);
-        report["frame"] = drawOnce(device, scene);
+        info["scene"] = sceneReport(scene);
+        info["frame"] = drawOnce(device, scene);
     }
-    report["device"] = toJson(summarize(device.traits()));
-    report["limits"] = limitsOf(device);
-    report["service"] = serviceReport();
-    const std::string text = options.json ? report.dump(2) + "\n" : toText(report);
+    info["device"] = report::toJson(report::summarize(device.traits()));
+    info["limits"] = limitsOf(device);
+    info["service"] = serviceReport();
+    const std::string text = options.json ? info.dump(2) + "\n" : toText(info);
     std::fputs(text.c_str(), stdout);
 } catch (const vk::SystemError& error) {
     throw StartupError({ErrorCode::kDevice, std::string("Vulkan: ") + error.what()});

@@ -1,12 +1,12 @@
 #include "app/options.h"
 
-#include "app/bench_presets.h"
 #include "app/command_builder.h"
 #include "app/load_arguments.h"
 #include "app/option_sources.h"
 #include "app/probe_arguments.h"
 #include "app/serve_arguments.h"
 #include "app/setting_options.h"
+#include "bench/presets.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "encode/image_file.h"
@@ -215,7 +215,7 @@ void addBench(CLI::App& app, Targets& targets) {
               "Sweep to measure, repeatable; --list names them")
         ->allow_extra_args(false)
         ->check([](const std::string& text) {
-            const auto preset = parseName(text, benchPresetNames());
+            const auto preset = parseName(text, bench::presetNames());
             return preset ? std::string() : preset.error().message;
         });
     command.cli().add_flag("--list", options.list, "Print the presets");

@@ -6,6 +6,7 @@
 #include "app/timings_report.h"
 #include "encode/image_file.h"
 #include "render/renderer.h"
+#include "report/frame_step.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -42,11 +43,11 @@ void writePicture(const RenderOptions& options,
 }
 
 TimedRun describeRun(const RenderOptions& options, const gpu::DeviceTraits& device) {
-    return {.device = summarize(device),
+    return {.device = report::summarize(device),
             .scene = options.scene,
             .settings = options.settings,
             .time_s = options.time_s,
-            .step_s = lightStepS(options.settings.lights),
+            .step_s = report::lightStepS(options.settings.lights),
             .warmup_count = options.warmup_count,
             .frames = {}};
 }
@@ -104,11 +105,11 @@ void runRender(const RenderOptions& options) try {
     if (!options.out.empty()) {
         writePicture(options, viewer, last.pixels.view());
     }
-    const auto report = timingsReport(run);
+    const auto timings = timingsReport(run);
     if (!options.timings.empty()) {
-        writeText(options.timings, report.dump(2) + "\n");
+        writeText(options.timings, timings.dump(2) + "\n");
     }
-    const auto& frame = report["frame"];
+    const auto& frame = timings["frame"];
     fmt::print("{} of {}x{}: median {:.1f} ms; GPU {:.1f} ms, host {:.1f} ms\n",
                run.frames.size() == 1 ? "1 frame" : fmt::format("{} frames", run.frames.size()),
                run.settings.size.width_px, run.settings.size.height_px,

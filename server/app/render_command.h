@@ -12,12 +12,6 @@
 
 namespace froxel::app {
 
-// Timed frames are this far apart, by a clock that `speed` makes the lights'.
-inline constexpr double kFrameStepS = 1.0 / 30.0;
-[[nodiscard]] inline double lightStepS(const view::Lights& lights) {
-    return lights.animate ? kFrameStepS * static_cast<double>(lights.speed) : 0.0;
-}
-
 struct RenderOptions {
     std::string scene = "builtin";
     gpu::DeviceOptions device;
@@ -29,7 +23,7 @@ struct RenderOptions {
     double time_s = 0;                       // the lights' clock of the first frame
     view::Encoding encoding;
     std::filesystem::path out; // empty: no picture; else .png, .jpg or .pfm, of the last frame
-    uint32_t frame_count = 1;  // frame k is drawn at time_s + k * lightStepS()
+    uint32_t frame_count = 1;  // frame k is drawn at time_s + k * report::lightStepS()
     // Drawn at time_s before the first frame and not counted: the first frame of a run compiles
     // pipelines and sizes the light lists.
     uint32_t warmup_count = 3;

@@ -51,35 +51,6 @@ TEST(TimingsReport, Settings_AreRecorded) {
     EXPECT_EQ(timingsReport(run)["settings"]["grid"], nlohmann::json({16, 9, 24}));
 }
 
-TEST(FrameReport, WhatAFrameDoesNotHave_IsNullOrEmpty) {
-    const auto report = frameReport({});
-    EXPECT_TRUE(report["grid"].is_null());
-    EXPECT_TRUE(report["pairs"].is_null());
-    EXPECT_TRUE(report["peel"].is_null());
-    EXPECT_TRUE(report["plan"].empty());
-    EXPECT_TRUE(report["memory_bytes"].is_object());
-}
-
-TEST(FrameReport, GridListsPairsPlanAndMemory_AreThere) {
-    FrameStats stats;
-    stats.grid = {30, 17, 32, 64, 60, 0.25, 40, true, "cheapest"};
-    stats.lists.p95 = 88;
-    stats.lists.why = "lists pay";
-    stats.pairs = {true, 100, 25};
-    stats.peel = {4, 9};
-    stats.details =
-        std::make_shared<const FrameDetails>(FrameDetails{{"no masks"}, {{"textures", 7}}, {}});
-    const auto report = frameReport(stats);
-    EXPECT_EQ(report["grid"]["size"], nlohmann::json({30, 17, 32}));
-    EXPECT_EQ(report["grid"]["why"], "cheapest");
-    EXPECT_EQ(report["light_lists"]["p95"], 88);
-    EXPECT_EQ(report["light_lists"]["why"], "lists pay");
-    EXPECT_EQ(report["pairs"]["contributing"], 25);
-    EXPECT_EQ(report["peel"]["overflow_pixels"], 9);
-    EXPECT_EQ(report["plan"][0], "no masks");
-    EXPECT_EQ(report["memory_bytes"]["textures"], 7);
-}
-
 scene::Scene triangleTwice() {
     scene::Scene scene;
     scene.name = "twins";

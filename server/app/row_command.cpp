@@ -1,0 +1,26 @@
+#include "app/row_command.h"
+
+#include "app/render_arguments.h"
+
+#include <cstdint>
+
+namespace froxel::app {
+
+std::string rowCommand(const BenchOptions& options,
+                       const bench::RunResult& result,
+                       const bench::Row& row,
+                       size_t frame_count) {
+    const auto& view = result.base.views[row.timedView()];
+    RenderOptions render;
+    render.scene = options.scene;
+    render.device.choice = options.device.choice;
+    render.settings = row.settings;
+    render.light_set = row.light_set.empty() ? options.light_set : row.light_set;
+    render.time_s = view.time_s;
+    render.frame_count = static_cast<uint32_t>(frame_count);
+    render.warmup_count = result.budget.warmup_first;
+    render.timings = "timings.json";
+    return shellCommand(renderArguments(render, view.name));
+}
+
+} // namespace froxel::app

@@ -1,0 +1,139 @@
+#include "bench/picture.h"
+
+#include "bench/shown_picture.h"
+#include "measure/flip.h"
+#include "reference/bloom.h"
+#include "reference/shade.h"
+#include "render/renderer.h"
+#include "render/visibility_readback.h"
+#include "report/settings_report.h"
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace froxel::bench {
+
+namespace {
+
+std::string keyOf(const char* how, const view::ViewSettings& settings, double time_s) {
+    return fmt::format("{} {} {}", how, time_s, report::settingsReport(settings).dump());
+}
+
+std::vector<std::byte> withoutPadding(const PixelView& pixels) {
+    std::vector<std::byte> rgba8;
+    const size_t row_bytes = size_t{pixels.width_px} * 4;
+    rgba8.reserve(row_bytes * pixels.height_px);
+    for (uint32_t y = 0; y < pixels.height_px; ++y) {
+        const std::byte* row = pixels.data + y * pixels.stride_bytes;
+        rgba8.insert(rgba8.end(), row, row + row_bytes);
+    }
+    return rgba8;
+}
+
+} // namespace
+
+template <class Make>
+Result<Pictures::Shared> Pictures::once(const std::string& key, const Make& make) {
+    const auto known = std::ranges::find(kept_, key, &Kept::key);
+    if (known != kept_.end()) {
+        return known->picture;
+    }
+    auto made = make();
+    if (made) {
+        if (kept_.size() == kKept) {
+            kept_.pop_front();
+        }
+        kept_.push_back({key, *made});
+    }
+    return made;
+}
+
+Result<Pictures::Shared> Pictures::draw(const view::ViewSettings& settings, double time_s) {
+    render::ViewRenderer viewer(renderer_);
+    render::FrameInputs inputs{.settings = settings, .time_s = time_s};
+    inputs.keep_radiance = true;
+    // As naive is drawn: a GPU's texture unit may round a sample by whether the pixels beside it
+    // passed the depth test (docs/figures/error.md), which says nothing of assignment or of the
+    // loop's order.
+    inputs.depth_prepass = false;
+    if (const auto submitted = viewer.submit(inputs); !submitted) {
+        return submitted.error();
+    }
+    const auto frame = viewer.collect();
+    if (!frame) {
+        return frame.error();
+    }
+    auto linear = viewer.readLinear();
+    if (!linear) {
+        return linear.error();
+    }
+    return std::make_shared<const Picture>(
+        Picture{std::move(*linear), withoutPadding(frame->pixels.view()), frame->stats.grid});
+}
+
+Result<Pictures::Shared> Pictures::drawOnce(const view::ViewSettings& settings, double time_s) {
+    return once(keyOf("drawn", settings, time_s), [&] { return draw(settings, time_s); });
+}
+
+Result<Pictures::Shared> Pictures::shade(const view::ViewSettings& settings, double time_s) {
+    const auto visibility =
+        render::readVisibility(renderer_, scene_, {.settings = settings, .time_s = time_s});
+    if (!visibility) {
+        return visibility.error();
+    }
+    auto linear = reference::shade(scene_, settings, time_s, *visibility);
+    if (!linear) {
+        return linear.error();
+    }
+    if (settings.bloom.kind != view::BloomKind::kNone) {
+        *linear =
+            reference::spread(*linear, settings.bloom, static_cast<double>(settings.exposure));
+    }
+    auto rgba8 = shownPicture(*linear, static_cast<double>(settings.exposure), settings.tone_map);
+    return std::make_shared<const Picture>(Picture{std::move(*linear), std::move(rgba8), {}});
+}
+
+Result<Pictures::Shared> Pictures::sample(const view::ViewSettings& settings, double time_s) {
+    const size_t value_count = size_t{settings.size.width_px} * settings.size.height_px * 3;
+    std::vector<double> linear(value_count);
+    std::vector<double> emitted(value_count);
+    for (uint32_t i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
+        const glm::dvec2 in_pixel(i % kSamplesAcross, i / kSamplesAcross);
+        const glm::dvec2 shift_px = (in_pixel + 0.5) / double{kSamplesAcross} - 0.5;
+        auto shifted = settings;
+        shifted.camera.lens_shift +=
+            2.0 * shift_px / glm::dvec2(settings.size.width_px, settings.size.height_px);
+        const auto picture = draw(shifted, time_s);
+        if (!picture) {
+            return picture;
+        }
+        for (size_t k = 0; k < value_count; ++k) {
+            linear[k] += static_cast<double>((*picture)->linear.rgb[k]);
+            const auto byte = std::to_integer<uint8_t>((*picture)->rgba8[k / 3 * 4 + k % 3]);
+            emitted[k] +=
+                static_cast<double>(measure::flip::linearFromSrgb(static_cast<float>(byte) / 255));
+        }
+    }
+    const auto mean = [&](const std::vector<double>& sums) {
+        LinearImage image{settings.size.width_px, settings.size.height_px, {}};
+        for (const double sum : sums) {
+            image.rgb.push_back(static_cast<float>(sum / (kSamplesAcross * kSamplesAcross)));
+        }
+        return image;
+    };
+    return std::make_shared<const Picture>(
+        Picture{mean(linear), shownPicture(mean(emitted), 1, view::ToneMap::kClamp), {}});
+}
+
+Result<Pictures::Shared> Pictures::sampleOnce(const view::ViewSettings& settings, double time_s) {
+    return once(keyOf("sampled", settings, time_s), [&] { return sample(settings, time_s); });
+}
+
+Result<Pictures::Shared> Pictures::shadeOnce(const view::ViewSettings& settings, double time_s) {
+    return once(keyOf("shaded", settings, time_s), [&] { return shade(settings, time_s); });
+}
+
+} // namespace froxel::bench

@@ -1,0 +1,69 @@
+// Pictures that errors are taken from, kept for rows that share them.
+#pragma once
+
+#include "core/error.h"
+#include "core/frame_stats.h"
+#include "core/linear_image.h"
+#include "core/pixel_view.h"
+#include "scene/scene.h"
+#include "view/settings.h"
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace froxel::render {
+class Renderer;
+}
+
+namespace froxel::bench {
+
+struct Picture {
+    LinearImage linear;
+    std::vector<std::byte> rgba8; // [height][width][4]
+    GridStats grid;
+
+    [[nodiscard]] PixelView shown() const {
+        return {rgba8.data(), linear.width_px, linear.height_px, size_t{linear.width_px} * 4};
+    }
+};
+
+class Pictures {
+  public:
+    // Both outlive it.
+    Pictures(render::Renderer& renderer, const scene::Scene& scene)
+        : renderer_(renderer), scene_(scene) {}
+
+    using Shared = std::shared_ptr<const Picture>;
+    // By the device, anew. Errors: those of ViewRenderer.
+    [[nodiscard]] Result<Shared> draw(const view::ViewSettings& settings, double time_s);
+    // The same, but one of the last kKept of it and shade() may serve again.
+    [[nodiscard]] Result<Shared> drawOnce(const view::ViewSettings& settings, double time_s);
+    // In double on the host, from the triangles that the device sees. Errors: those of
+    // ViewRenderer and reference::shade.
+    [[nodiscard]] Result<Shared> shadeOnce(const view::ViewSettings& settings, double time_s);
+    // The mean of 64 pictures by the device, each seen through a lens that is shifted by another
+    // part of a pixel, so that every pixel is sampled on a regular grid; of what the display emits,
+    // in `rgba8`. Errors: those of ViewRenderer.
+    [[nodiscard]] Result<Shared> sampleOnce(const view::ViewSettings& settings, double time_s);
+
+  private:
+    static constexpr size_t kKept = 32;
+    static constexpr uint32_t kSamplesAcross = 8; // 64 a pixel
+    struct Kept {
+        std::string key;
+        Shared picture;
+    };
+    template <class Make>
+    Result<Shared> once(const std::string& key, const Make& make);
+    Result<Shared> shade(const view::ViewSettings& settings, double time_s);
+    Result<Shared> sample(const view::ViewSettings& settings, double time_s);
+
+    render::Renderer& renderer_;
+    const scene::Scene& scene_;
+    std::deque<Kept> kept_;
+};
+
+} // namespace froxel::bench

@@ -1,0 +1,19 @@
+// Pictures scaled as a canvas scales them: bilinear between pixel centres, edges repeated. Pure.
+#pragma once
+
+#include "core/linear_image.h"
+#include "view/settings.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace froxel::bench {
+
+[[nodiscard]] LinearImage scaled(const LinearImage& picture, const view::Size& size);
+
+// RGBA8 without padding: the stored sRGB values are mixed, not the light they stand for; rounded to
+// nearest.
+[[nodiscard]] std::vector<std::byte>
+scaled(const std::vector<std::byte>& rgba8, const view::Size& from, const view::Size& size);
+
+} // namespace froxel::bench

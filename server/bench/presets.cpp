@@ -1,0 +1,287 @@
+#include "bench/presets.h"
+
+#include "bench/rows.h"
+#include "bench/tradeoffs.h"
+#include "core/assert.h"
+#include "core/text.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace froxel::bench {
+
+namespace {
+
+using view::LightingStage;
+using view::Renderer;
+
+Sweep lightCount(const Base& base) {
+    constexpr std::array kCounts = {0U,      1U,       10U,      100U,     500U,
+                                    1'000U,  2'500U,   5'000U,   10'000U,  25'000U,
+                                    50'000U, 100'000U, 250'000U, 500'000U, 1'000'000U};
+    Sweep sweep{"light_count",
+                "Frame time against the number of lights",
+                "lights",
+                "",
+                Axis::kLog,
+                "The radius stays, so lights overlap more the more there are.",
+                {}};
+    for (const auto& way : kWays) {
+        for (const uint32_t count : kCounts) {
+            sweep.rows.push_back(rowOf(base, way, grouped(count) + " lights", count,
+                                       [&](auto& s) { s.lights.count = count; }));
+        }
+    }
+    return sweep;
+}
+
+Sweep lightRadius(const Base& base) {
+    constexpr std::array kRadii = {0.25F, 0.5F, 1.0F, 2.0F, 5.0F, 10.0F, 20.0F, 50.0F};
+    Sweep sweep{"light_radius",
+                "Frame time against the lights' radius",
+                "radius",
+                "m",
+                Axis::kLog,
+                fmt::format("{} lights.", grouped(base.settings.lights.count)),
+                {}};
+    for (const auto& way : kWays) {
+        for (const float radius : kRadii) {
+            sweep.rows.push_back(rowOf(base, way, numberText(radius) + " m",
+                                       static_cast<double>(radius),
+                                       [&](auto& s) { s.lights.radius_m = radius; }));
+        }
+    }
+    return sweep;
+}
+
+Sweep resolution(const Base& base) {
+    constexpr std::array kSizes = {view::Size{640, 360},   view::Size{960, 540},
+                                   view::Size{1280, 720},  view::Size{1920, 1080},
+                                   view::Size{2560, 1440}, view::Size{3840, 2160}};
+    Sweep sweep{"resolution",
+                "Frame time against resolution",
+                "pixels",
+                "px",
+                Axis::kLog,
+                fmt::format("{} lights.", grouped(base.settings.lights.count)),
+                {}};
+    for (const auto& way : kWays) {
+        for (const auto& size : kSizes) {
+            sweep.rows.push_back(rowOf(base, way, nameOf(size),
+                                       static_cast<double>(size.width_px) * size.height_px,
+                                       [&](auto& s) { s.size = size; }));
+        }
+    }
+    return sweep;
+}
+
+// The seeds' grids, finer ones, and the one chosen by the cost model.
+Sweep grid(const Base& base) {
+    constexpr std::array kGrids = {
+        view::GridSize{1, 1, 1},    view::GridSize{8, 8, 16},   view::GridSize{16, 16, 8},
+        view::GridSize{16, 9, 24},  view::GridSize{15, 15, 15}, view::GridSize{16, 16, 16},
+        view::GridSize{16, 16, 24}, view::GridSize{32, 16, 16}, view::GridSize{32, 16, 32},
+        view::GridSize{32, 32, 16}, view::GridSize{32, 16, 64}, view::GridSize{32, 32, 32},
+        view::GridSize{28, 28, 42}, view::GridSize{32, 32, 64}, view::GridSize{64, 36, 32},
+        view::GridSize{128, 72, 64}};
+    Sweep sweep{"grid",     "Frame time against the grid",
+                "clusters", "",
+                Axis::kLog, "Lists are always used. The automatic grid stands at 0.",
+                {}};
+    for (const auto& way : kListWays) {
+        sweep.rows.push_back(rowOf(base, way, "auto", 0, [](auto& s) {
+            s.grid.automatic = true;
+            s.light_loop = view::LightLoop::kLists;
+        }));
+        for (const auto& size : kGrids) {
+            sweep.rows.push_back(rowOf(base, way, fmt::format("{}x{}x{}", size.x, size.y, size.z),
+                                       static_cast<double>(size.x) * size.y * size.z, [&](auto& s) {
+                                           s.grid.automatic = false;
+                                           s.grid.size = size;
+                                           s.light_loop = view::LightLoop::kLists;
+                                       }));
+        }
+    }
+    return sweep;
+}
+
+Sweep shading(const Base& base) {
+    Sweep sweep{"shading",
+                "Shading models",
+                "model",
+                "",
+                Axis::kCategory,
+                "Metallic-roughness, its diffuse part alone, and Blinn's highlight.",
+                {}};
+    for (const auto& way : kWays) {
+        for (const auto model : {view::ShadingModel::kLambert, view::ShadingModel::kBlinnPhong,
+                                 view::ShadingModel::kPbr}) {
+            sweep.rows.push_back(rowOf(base, way, nameOf(view::kShadingModelNames, model),
+                                       static_cast<double>(model),
+                                       [&](auto& s) { s.shading = model; }));
+        }
+    }
+    return sweep;
+}
+
+// Rows of one row a way, told apart by it.
+Sweep byWay(Sweep sweep, const Base& base, std::span<const Way> ways) {
+    for (const auto& way : ways) {
+        sweep.rows.push_back(rowOf(base, way, nameOf(way), static_cast<double>(sweep.rows.size())));
+    }
+    return sweep;
+}
+
+constexpr std::array kStages = {LightingStage::kCompute, LightingStage::kFragment};
+
+Sweep toon(const Base& base) {
+    std::vector<Way> ways;
+    for (const auto stage : kStages) {
+        ways.push_back({Renderer::kClusteredDeferred, stage});
+        ways.push_back({Renderer::kToonFragment, stage});
+        ways.push_back({Renderer::kToonCompute, stage});
+    }
+    return byWay({"toon",
+                  "Both toon variants by pass",
+                  "renderer",
+                  "",
+                  Axis::kCategory,
+                  "Beside the same renderer without a ramp.",
+                  {}},
+                 base, ways);
+}
+
+Sweep renderer(const Base& base) {
+    std::vector<Way> ways;
+    for (size_t name = 0; name < view::kRendererNames.size(); ++name) {
+        for (const auto stage : kStages) {
+            ways.push_back({static_cast<Renderer>(name), stage});
+        }
+    }
+    return byWay({"renderer",
+                  "Every renderer, lights added up in either stage",
+                  "renderer",
+                  "",
+                  Axis::kCategory,
+                  "By pass.",
+                  {}},
+                 base, ways);
+}
+
+Sweep cameraPath(const Base& base) {
+    Sweep sweep{"view",          "Frame time along the camera path", "view", "",
+                Axis::kCategory, "Every stop of the path.",          {}};
+    for (const auto& way : kListWays) {
+        for (size_t stop = 0; stop < base.views.size(); ++stop) {
+            auto row = rowOf(base, way, "", static_cast<double>(stop),
+                             [&](auto& s) { s.camera = base.views[stop].camera; });
+            row.only_view = stop;
+            row.label = fmt::format("stop {}", stop + 1);
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
+Sweep memory(const Base& base) {
+    struct Load {
+        view::Size size;
+        uint32_t light_count;
+    };
+    constexpr std::array kLoads = {Load{{640, 360}, 1'000}, Load{{1280, 720}, 1'000},
+                                   Load{{1280, 720}, 10'000}, Load{{1920, 1080}, 10'000},
+                                   Load{{3840, 2160}, 10'000}};
+    Sweep sweep{"memory",        "Device memory by purpose", "load", "",
+                Axis::kCategory, "Look at memory_bytes.",    {}};
+    for (const auto& way : kWays) {
+        double place = 0;
+        for (const auto& load : kLoads) {
+            sweep.rows.push_back(
+                rowOf(base, way, nameOf(load.size) + ", " + grouped(load.light_count) + " lights",
+                      place, [&](auto& s) {
+                          s.size = load.size;
+                          s.lights.count = load.light_count;
+                      }));
+            ++place;
+        }
+    }
+    return sweep;
+}
+
+// What each debug view costs, beside the picture itself.
+Sweep debugViews(const Base& base) {
+    Sweep sweep{"debug_view",
+                "Debug views",
+                "view",
+                "",
+                Axis::kCategory,
+                "Most take the place of the lighting.",
+                {}};
+    for (size_t view = 0; view < view::kDebugViewNames.size(); ++view) {
+        sweep.rows.push_back(rowOf(base, kDeferred, std::string(view::kDebugViewNames[view]),
+                                   static_cast<double>(view), [&](auto& s) {
+                                       s.debug.view = static_cast<view::DebugView>(view);
+                                       if (s.debug.view == view::DebugView::kGbufferExtra) {
+                                           s.gbuffer.position = view::PositionSource::kFp32;
+                                       }
+                                   }));
+    }
+    return sweep;
+}
+
+struct Preset {
+    std::string_view name;
+    Sweep (*make)(const Base&);
+};
+constexpr std::array kPresets = {
+    Preset{"light_count", lightCount},
+    Preset{"light_radius", lightRadius},
+    Preset{"resolution", resolution},
+    Preset{"grid", grid},
+    Preset{"gbuffer", gbufferSweep},
+    Preset{"shading", shading},
+    Preset{"toon", toon},
+    Preset{"renderer", renderer},
+    Preset{"view", cameraPath},
+    Preset{"memory", memory},
+    Preset{"debug_view", debugViews},
+    Preset{"resolution_scale", resolutionScaleSweep},
+    Preset{"cutoff", cutoffSweep},
+    Preset{"compensation", compensationSweep},
+    Preset{"list_cap", listCapSweep},
+    Preset{"bloom", bloomSweep},
+    Preset{"antialiasing", antialiasingSweep},
+    Preset{"transparency", transparencySweep},
+    Preset{"fog", fogSweep},
+    Preset{"shadows", shadowSweep},
+    Preset{"area_lights", areaSweep},
+    Preset{"stream", streamSweep},
+    Preset{"smoke", smokeSweep},
+};
+constexpr auto kPresetNames = [] {
+    std::array<std::string_view, kPresets.size()> names;
+    std::ranges::transform(kPresets, names.begin(), &Preset::name);
+    return names;
+}();
+
+} // namespace
+
+std::span<const std::string_view> presetNames() {
+    return kPresetNames;
+}
+
+std::span<const std::string_view> fullPresetNames() {
+    return std::span(kPresetNames).first(kPresetNames.size() - 1);
+}
+
+Sweep makeSweep(std::string_view name, const Base& base) {
+    FROXEL_ASSERT(!base.views.empty(), "a sweep needs a view");
+    const auto preset = std::ranges::find(kPresets, name, &Preset::name);
+    FROXEL_ASSERT(preset != kPresets.end(), "no such preset");
+    return preset->make(base);
+}
+
+} // namespace froxel::bench

@@ -1,0 +1,84 @@
+#include "app/render_arguments.h"
+#include "app/row_command.h"
+#include "session/placed_lights.h"
+#include "unit/app/parsed_options.h"
+#include "unit/bench/every_row.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <string>
+#include <variant>
+
+namespace froxel::app {
+namespace {
+
+// What the row's command line says.
+RenderOptions parsedCommand(const bench::RunResult& result, const bench::Row& row) {
+    RenderOptions options;
+    options.scene = result.scene_source;
+    options.device.choice = result.device_choice;
+    options.settings = row.settings;
+    options.time_s = result.base.views[row.timedView()].time_s;
+    options.frame_count = 40;
+    options.timings = "timings.json";
+    if (!row.light_set.empty()) {
+        options.light_set = std::filesystem::path(testing::TempDir()) / row.light_set;
+        std::ofstream(options.light_set) << session::lightSetJson(row.settings.lights.placed);
+    }
+    return parsedBack(options, result.base.views[row.timedView()].name);
+}
+
+TEST(RenderArguments, EveryRow_ParsesBackToItsSettings) {
+    bench::RunResult result;
+    result.scene_source = "my scene.gltf";
+    result.device_choice = gpu::DeviceChoice::kCpu;
+    result.base = bench::base();
+    for (const auto& row : bench::everyRow()) {
+        const auto parsed = parsedCommand(result, row);
+        auto settings = parsed.settings;
+        const auto& view = result.base.views[row.timedView()];
+        settings.camera = row.settings.camera; // chosen apart from the settings
+        EXPECT_EQ(settings, row.settings) << row.series << ", " << row.label;
+        EXPECT_EQ(parsed.scene, result.scene_source);
+        EXPECT_EQ(parsed.device.choice, result.device_choice);
+        EXPECT_EQ(parsed.time_s, view.time_s);
+        EXPECT_EQ(parsed.frame_count, 40U);
+        if (const auto* camera = std::get_if<view::Camera>(&parsed.camera)) {
+            EXPECT_EQ(*camera, std::get<view::Camera>(parseCamera(view.name).value()));
+        } else {
+            EXPECT_EQ(std::get<std::string>(parsed.camera), view.name);
+        }
+    }
+}
+
+TEST(RowCommand, Row_IsDrawnAsItWasTimed) {
+    BenchOptions options;
+    options.scene = "my scene.gltf";
+    options.light_set = "placed.json";
+    bench::RunResult result;
+    result.base = bench::base();
+    result.budget.warmup_first = 7;
+    bench::Row row;
+    row.settings.lights.count = 12;
+    row.only_view = 0;
+    EXPECT_EQ(rowCommand(options, result, row, 40),
+              "froxel render --scene 'my scene.gltf' --device auto --camera '-7,2,0;0,2,0.3;45' "
+              "--size 1280x720 --renderer clustered_deferred --lights 12 --light-radius 2 "
+              "--light-set placed.json --frames 40 --warmup 7 --timings timings.json");
+    row.only_view = 1;
+    row.light_set = "own.json";
+    EXPECT_THAT(rowCommand(options, result, row, 40),
+                testing::HasSubstr("--light-set own.json --time 2.5 "));
+}
+
+TEST(ShellCommand, WhatAShellWouldRead_IsQuoted) {
+    EXPECT_EQ(
+        shellCommand({"render", "--size", "64x36", "--camera", "-7,2,0;0,2,0;45", "it's", ""}),
+        "froxel render --size 64x36 --camera '-7,2,0;0,2,0;45' 'it'\\''s' ''");
+}
+
+} // namespace
+} // namespace froxel::app
