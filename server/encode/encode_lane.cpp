@@ -4,8 +4,8 @@
 #include "core/thread_name.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/jpeg_stripes.h"
-#include "encode/png_encoder.h"
 #include "encode/video_encoder.h"
+#include "png/writer.h"
 
 #include <algorithm>
 #include <atomic>
@@ -55,7 +55,7 @@ struct EncodeLane::Work {
         const auto begin = threadTime();
         auto part = withinMemory([&] {
             return job.video      ? encodeVideo()
-                   : job.lossless ? encodePng(stripes[stripe])
+                   : job.lossless ? png::write(stripes[stripe])
                                   : encoder.encode(stripes[stripe], job.encoding);
         });
         if (part) {

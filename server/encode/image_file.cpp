@@ -2,7 +2,7 @@
 
 #include "core/text.h"
 #include "encode/jpeg_encoder.h"
-#include "encode/png_encoder.h"
+#include "png/writer.h"
 
 #include <algorithm>
 #include <bit>
@@ -70,12 +70,12 @@ class OutputFile {
 };
 
 Result<void> writePng(const path& file, const PixelView& pixels) {
-    const auto png = encodePng(pixels);
-    if (!png) {
-        return ioError(file, png.error().message);
+    const auto bytes = png::write(pixels);
+    if (!bytes) {
+        return ioError(file, bytes.error().message);
     }
     OutputFile output(file);
-    output.write(png->data(), png->size());
+    output.write(bytes->data(), bytes->size());
     return output.close();
 }
 

@@ -3,7 +3,7 @@
 #include "core/text.h"
 #include "gltf/failure.h"
 #include "gltf/limits.h"
-#include "gltf/png_reader.h"
+#include "png/reader.h"
 
 #include <turbojpeg.h>
 
@@ -74,11 +74,12 @@ decodeJpeg(std::span<const std::byte> file, const std::string& user, scene::Imag
 
 ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {
     ImageSize size;
-    if (isPng(file)) {
-        std::string reason;
-        if (!readPngSize(file, size.width_px, size.height_px, reason)) {
-            failBroken(user, "PNG", reason);
+    if (png::isPng(file)) {
+        const auto told = png::readSize(file);
+        if (!told) {
+            failBroken(user, "PNG", told.error().message);
         }
+        size = {told->width_px, told->height_px};
     } else if (isJpeg(file)) {
         size = jpegSize(Decompressor(tjInitDecompress()), file, user);
     } else {
@@ -102,9 +103,8 @@ decodeImage(std::span<const std::byte> file, const std::string& user, scene::Ima
     if (isJpeg(file)) {
         return decodeJpeg(file, user, image);
     }
-    std::string reason;
-    if (!readPngPixels(file, image.rgba8, reason)) {
-        failBroken(user, "PNG", reason);
+    if (const auto read = png::readPixels(file, image.rgba8); !read) {
+        failBroken(user, "PNG", read.error().message);
     }
     return "";
 }

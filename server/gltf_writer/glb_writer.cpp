@@ -131,7 +131,7 @@ class Document {
   private:
     Result<void> addImages(const scene::Scene& scene) {
         for (const scene::Image& image : scene.images) {
-            const auto png = encodePng(image);
+            const auto png = pngImage(image);
             if (png.has_error()) {
                 return png.error();
             }

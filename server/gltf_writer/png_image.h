@@ -11,6 +11,6 @@ namespace froxel::gltf_writer {
 
 // 8-bit RGB where every pixel is opaque, else RGBA; without colour-space chunks, which glTF tells
 // readers to ignore. Errors: kScene for an image without pixels or of the wrong size.
-[[nodiscard]] Result<std::vector<std::byte>> encodePng(const scene::Image& image);
+[[nodiscard]] Result<std::vector<std::byte>> pngImage(const scene::Image& image);
 
 } // namespace froxel::gltf_writer

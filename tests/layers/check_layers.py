@@ -29,6 +29,7 @@ RESTRICTED = [
     (re.compile(r'#include (<vulkan/|"gpu/vulkan\.h")'), {"gpu", "render"},
      "Vulkan belongs to gpu and render"),
     (re.compile(r"#include <(tiny_gltf|stb_)"), {"gltf"}, "file formats belong to gltf"),
+    (re.compile(r"#include <png\.h>"), {"png"}, "libpng belongs to png"),
 ]
 BANNED = [
     (re.compile(r"#include <iostream>"), "it adds static constructors; log or print"),

@@ -1,4 +1,4 @@
-// PNG and JPEG files made in memory.
+// Image files made in memory, and how text holds them.
 #pragma once
 
 #include "unit/gltf/scene_file.h"
@@ -9,25 +9,6 @@
 #include <vector>
 
 namespace froxel::gltf::test {
-
-struct PngSpec {
-    uint32_t width_px = 1;
-    uint32_t height_px = 1;
-    int bit_depth = 8;
-    int color_type = 2;                 // PNG_COLOR_TYPE_RGB
-    std::vector<uint8_t> rows;          // as the file stores them, one after the other
-    std::vector<uint8_t> palette;       // RGB triples, for a palette image
-    std::vector<uint8_t> palette_alpha; // may be shorter than the palette
-    bool interlaced = false;
-};
-
-[[nodiscard]] Bytes pngFile(const PngSpec& spec);
-
-// An RGB image of one colour.
-[[nodiscard]] Bytes plainPng(uint8_t red, uint8_t green, uint8_t blue);
-
-// A well-formed PNG header that claims this size, with the data of a single pixel.
-[[nodiscard]] Bytes pngClaiming(uint32_t width_px, uint32_t height_px);
 
 // An image of one colour; grey where `grey`.
 [[nodiscard]] Bytes jpegFile(uint32_t side_px, uint8_t red, uint8_t green, uint8_t blue, bool grey);

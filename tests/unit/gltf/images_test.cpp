@@ -1,20 +1,21 @@
 // Image files: formats, sources and broken ones.
 #include "unit/gltf/image_files.h"
 #include "unit/gltf/scene_file.h"
+#include "unit/png/png_file.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <gmock/gmock.h>
 
 namespace froxel::gltf {
 namespace {
 
+using froxel::test::plainPng;
+using froxel::test::pngClaiming;
 using test::Bytes;
 using test::failure;
 using test::Json;
 using test::loaded;
-using test::PngSpec;
 using test::SceneFile;
 using test::TempFolder;
 using testing::ElementsAre;
@@ -50,52 +51,8 @@ std::vector<int> pixelsOf(const Bytes& image) {
     return values;
 }
 
-PngSpec spec(int color_type, int bit_depth, uint32_t width_px, std::vector<uint8_t> rows) {
-    PngSpec result;
-    result.width_px = width_px;
-    result.bit_depth = bit_depth;
-    result.color_type = color_type;
-    result.rows = std::move(rows);
-    return result;
-}
-
-TEST(Images, RgbPng_GetsAlpha255) {
-    EXPECT_THAT(pixelsOf(test::plainPng(1, 2, 3)), ElementsAre(1, 2, 3, 255));
-}
-
-TEST(Images, RgbaPng_KeepsItsAlpha) {
-    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_RGB_ALPHA, 8, 1, {1, 2, 3, 4}))),
-                ElementsAre(1, 2, 3, 4));
-}
-
-TEST(Images, GreyPng_BecomesRgb) {
-    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY, 8, 2, {7, 200}))),
-                ElementsAre(7, 7, 7, 255, 200, 200, 200, 255));
-    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY, 1, 2, {0x40}))),
-                ElementsAre(0, 0, 0, 255, 255, 255, 255, 255));
-    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY_ALPHA, 8, 1, {9, 8}))),
-                ElementsAre(9, 9, 9, 8));
-}
-
-TEST(Images, SixteenBitPng_BecomesEight) {
-    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_RGB, 16, 1, {255, 255, 128, 128, 0, 0}))),
-                ElementsAre(255, 128, 0, 255));
-    EXPECT_THAT(pixelsOf(pngFile(spec(PNG_COLOR_TYPE_GRAY, 16, 1, {64, 64}))),
-                ElementsAre(64, 64, 64, 255));
-}
-
-TEST(Images, PalettePng_IsLookedUp) {
-    PngSpec image = spec(PNG_COLOR_TYPE_PALETTE, 8, 2, {1, 0});
-    image.palette = {10, 20, 30, 40, 50, 60};
-    image.palette_alpha = {99};
-    EXPECT_THAT(pixelsOf(pngFile(image)), ElementsAre(40, 50, 60, 255, 10, 20, 30, 99));
-}
-
-TEST(Images, InterlacedPng_HasTopRowFirst) {
-    PngSpec image = spec(PNG_COLOR_TYPE_GRAY, 8, 1, {5, 6});
-    image.height_px = 2;
-    image.interlaced = true;
-    EXPECT_THAT(pixelsOf(pngFile(image)), ElementsAre(5, 5, 5, 255, 6, 6, 6, 255));
+TEST(Images, Png_BecomesRgba) {
+    EXPECT_THAT(pixelsOf(plainPng(1, 2, 3)), ElementsAre(1, 2, 3, 255));
 }
 
 TEST(Images, Jpeg_BecomesRgba) {
@@ -118,7 +75,7 @@ TEST(Images, GreyJpeg_BecomesRgba) {
 TEST(Images, FileInASubfolder_IsRead) {
     const TempFolder folder;
     std::filesystem::create_directory(folder.path() / "my textures");
-    folder.write("my textures/a.png", test::plainPng(1, 2, 3));
+    folder.write("my textures/a.png", plainPng(1, 2, 3));
     SceneFile file = withImages(1);
     file.json["images"][0]["uri"] = "my%20textures/a.png";
     const scene::Scene scene = loaded(file.loadIn(folder));
@@ -128,8 +85,7 @@ TEST(Images, FileInASubfolder_IsRead) {
 
 TEST(Images, DataUri_IsRead) {
     SceneFile file = withImages(2);
-    file.json["images"][0]["uri"] =
-        "data:image/png;base64," + test::base64(test::plainPng(1, 2, 3));
+    file.json["images"][0]["uri"] = "data:image/png;base64," + test::base64(plainPng(1, 2, 3));
     file.json["images"][1]["uri"] =
         "data:image/jpeg;base64," + test::base64(test::jpegFile(8, 9, 9, 9, true));
     const scene::Scene scene = loaded(file.load());
@@ -154,7 +110,7 @@ TEST(Images, OtherFormat_IsRefused) {
 }
 
 TEST(Images, TruncatedPng_IsRefused) {
-    Bytes image = test::plainPng(1, 2, 3);
+    Bytes image = plainPng(1, 2, 3);
     image.resize(image.size() - 20);
     EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
     image.resize(20);
@@ -162,7 +118,7 @@ TEST(Images, TruncatedPng_IsRefused) {
 }
 
 TEST(Images, DamagedPng_IsRefused) {
-    Bytes image = test::plainPng(1, 2, 3);
+    Bytes image = plainPng(1, 2, 3);
     image.at(45) ^= std::byte{0xFF};
     EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
 }
@@ -178,7 +134,7 @@ TEST(Images, TruncatedJpeg_WarnsOrIsRefused) {
 }
 
 TEST(Images, SideTooLong_IsRefusedByItsHeader) {
-    EXPECT_THAT(failure(withImage(test::pngClaiming(100'000, 2)).load()),
+    EXPECT_THAT(failure(withImage(pngClaiming(100'000, 2)).load()),
                 HasSubstr("image 0 has 100000x2 pixels; a side may have 1 to 16384"));
 }
 
@@ -192,7 +148,7 @@ TEST(Images, SumTooLarge_IsRefusedByTheHeaders) {
         file.json["textures"].push_back({{"source", 3 + i}});
         file.json["images"].push_back(Json::object());
     }
-    const int view = file.addView(test::pngClaiming(16384, 16384));
+    const int view = file.addView(pngClaiming(16384, 16384));
     for (Json& image : file.json["images"]) {
         image["bufferView"] = view;
     }
@@ -201,9 +157,9 @@ TEST(Images, SumTooLarge_IsRefusedByTheHeaders) {
 
 TEST(Images, LowestBrokenOne_IsNamed) {
     SceneFile file = withImages(3);
-    Bytes broken = test::plainPng(1, 2, 3);
+    Bytes broken = plainPng(1, 2, 3);
     broken.at(45) ^= std::byte{0xFF};
-    file.json["images"][0]["bufferView"] = file.addView(test::plainPng(1, 2, 3));
+    file.json["images"][0]["bufferView"] = file.addView(plainPng(1, 2, 3));
     file.json["images"][1]["bufferView"] = file.addView(broken);
     file.json["images"][2]["bufferView"] = file.addView(broken);
     // Slots are met in the order normal, occlusion, emissive.

@@ -1,6 +1,6 @@
 // Materials, textures, samplers.
-#include "unit/gltf/image_files.h"
 #include "unit/gltf/scene_file.h"
+#include "unit/png/png_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 namespace froxel::gltf {
 namespace {
 
+using froxel::test::plainPng;
 using test::failure;
 using test::Json;
 using test::loaded;
@@ -28,7 +29,7 @@ SceneFile withMaterial(const char* material) {
 SceneFile textured(const char* material) {
     SceneFile file = withMaterial(material);
     for (int i = 0; i < 2; ++i) {
-        const int view = file.addView(test::plainPng(static_cast<uint8_t>(10 + i), 20, 30));
+        const int view = file.addView(plainPng(static_cast<uint8_t>(10 + i), 20, 30));
         file.add("images", {{"bufferView", view},
                             {"mimeType", "image/png"},
                             {"name", "image" + std::to_string(i)}});
