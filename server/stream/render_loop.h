@@ -100,7 +100,7 @@ class RenderLoop final : public session::StreamPort {
     void drain();
     void finishPictures();
 
-    // In render_loop_frames.cpp. Whatever ends the device's work throws StartupError.
+    // Whatever ends the device's work throws StartupError.
     [[nodiscard]] bool deviceTakesMore() const;
     [[nodiscard]] Seconds spentSince(TimePoint begin);
     [[nodiscard]] bool startNext();

@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 from check_layers import (check_built, check_committed, check_file, check_house, check_tree,
-                          dependencies)
+                          dependencies, hints)
 from page_layers import check_module, check_order
 
 MAY_INCLUDE = {"core": set(), "view": {"core"}, "session": {"core", "view", "protocol"}, "render": {"gpu"},
@@ -66,9 +66,18 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(len(violations("core", "int a;", name="a.h")), 1)
         self.assertEqual(violations("core", "#pragma once", name="a.h"), [])
 
-    def test_long_file(self):
-        self.assertEqual(violations("core", *[""] * 400), [])
-        self.assertEqual(len(violations("core", *[""] * 401)), 1)
+    def test_long_file_is_a_hint_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for layer in ("server/core", "protocol", "tests"):
+                (root / layer).mkdir(parents=True)
+                (root / layer / "CMakeLists.txt").write_text("")
+            file = root / "server/core/a.cpp"
+            file.write_text("\n" * 600)
+            self.assertEqual(list(hints(root)), [])
+            file.write_text("\n" * 601)
+            self.assertEqual(list(hints(root)), ["hint: server/core/a.cpp: 601 lines; is it one matter?"])
+            self.assertEqual(list(check_tree(root)), [])
 
     def test_unknown_folder_is_no_layer(self):
         with tempfile.TemporaryDirectory() as folder:
