@@ -9,11 +9,12 @@ import { element } from './core/dom';
 import { Codec } from './gen/froxel/v1/common_pb';
 import { Panel } from './panel/panel';
 import { fetchWords } from './panel/words';
+import { decodableCodecs, kPlainCodec } from './picture/codecs';
 import { workerDecoder } from './picture/decoder';
 import { Picture } from './picture/picture';
 import { Presenter } from './picture/presenter';
 import { VideoFallback } from './picture/video_fallback';
-import { decodesVp9, type LostSync } from './picture/video_track';
+import type { LostSync } from './picture/video_track';
 import { Connection } from './protocol/connection';
 import { Recorder } from './protocol/recorder';
 import { askRefusal } from './protocol/refusal';
@@ -44,7 +45,7 @@ const token = new TokenPrompt(tabShelf(), () => connection.open());
 const store = new Store();
 const stats = new Stats();
 const picture = new Picture(canvas);
-const codecs = (await decodesVp9()) ? [Codec.JPEG, Codec.VP9] : [Codec.JPEG];
+const codecs = await decodableCodecs();
 const videoFallback = new VideoFallback();
 const recorder = new Recorder(nowMs);
 const worker = new Worker(new URL('./picture/decode_worker.ts', import.meta.url), { type: 'module' });
@@ -143,16 +144,16 @@ store.listen(({ server }, before) => {
   element('about', HTMLElement).textContent = about;
 });
 
-/** JPEG stays until the viewer chooses video again: by itself it would swing to and fro. */
+/** The plain codec stays until the viewer chooses video again: by itself it would swing to and fro. */
 function lostSync({ message, broken }: LostSync): void {
   switch (videoFallback.lost(broken, nowMs())) {
     case 'key frame':
       connection.send({ case: 'requestKeyFrame', value: {} });
       break;
-    case 'jpeg': {
-      const text = `${message}, again and again: back to JPEG`;
+    case 'plain codec': {
+      const text = `${message}, again and again: back to ${Codec[kPlainCodec]}`;
       store.dispatch({ type: 'notice', tone: 'error', text });
-      commands.edit({ codec: Codec.JPEG });
+      commands.edit({ codec: kPlainCodec });
       break;
     }
     case 'wait':

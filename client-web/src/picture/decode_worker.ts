@@ -1,25 +1,20 @@
 // Worker: encoded parts to one bitmap.
 
-import { stillType, type DecodeRequest, type DecodeReply } from './decoder';
-import { Codec } from '../gen/froxel/v1/common_pb';
-import { LostSync, VideoTrack } from './video_track';
+import { rowOf } from './codecs';
+import type { DecodeReply, DecodeRequest } from './decoder';
+import type { Codec } from '../gen/froxel/v1/common_pb';
+import type { PartDecoder } from './part_decoder';
+import { LostSync } from './video_track';
 
 const scope = self as unknown as {
   onmessage: ((event: MessageEvent<DecodeRequest>) => void) | null;
   postMessage(reply: DecodeReply, transfer: Transferable[]): void;
 };
 
-const video = new VideoTrack({
-  open: (init) => new VideoDecoder(init),
-  after: (delayMs, action) => {
-    const timer = setTimeout(action, delayMs);
-    return () => clearTimeout(timer);
-  },
-});
+const decoders = new Map<Codec, PartDecoder>();
 
 scope.onmessage = ({ data }) => {
-  const [part] = data.parts;
-  (part?.codec === Codec.VP9 ? decodeVideo(data, part.keyFrame) : decode(data)).then(
+  decode(data).then(
     (bitmap) => scope.postMessage({ id: data.id, bitmap }, [bitmap]),
     (error: unknown) => {
       if (error instanceof LostSync) {
@@ -32,23 +27,18 @@ scope.onmessage = ({ data }) => {
   );
 };
 
-async function decodeVideo(
-  { width, height, bytes }: DecodeRequest,
-  key: boolean,
-): Promise<ImageBitmap> {
-  const frame = await video.decode({ key, width, height, bytes });
-  try {
-    return await createImageBitmap(frame);
-  } finally {
-    frame.close();
-  }
+function decoderOf(codec: Codec): PartDecoder {
+  const decoder = decoders.get(codec) ?? rowOf(codec)?.makeDecoder();
+  if (!decoder) throw new Error(`no decoder of codec ${codec}`);
+  decoders.set(codec, decoder);
+  return decoder;
 }
 
 async function decode({ width, height, parts, bytes }: DecodeRequest): Promise<ImageBitmap> {
   const images = await Promise.all(
-    parts.map((part) => {
-      const encoded = bytes.subarray(part.offset, part.offset + part.length);
-      return createImageBitmap(new Blob([encoded], { type: stillType(part.codec) ?? '' }));
+    parts.map(({ offset, length, codec, keyFrame }) => {
+      const encoded = bytes.subarray(offset, offset + length);
+      return decoderOf(codec).decode({ key: keyFrame, width, height, bytes: encoded });
     }),
   );
   const [first] = images;

@@ -2,6 +2,7 @@
 
 import type { Frame } from '../protocol/framing';
 import type { FrameHeader } from '../gen/froxel/v1/server_pb';
+import { kCodecs, rowOf } from './codecs';
 import { Codec } from '../gen/froxel/v1/common_pb';
 import { LostSync } from './video_track';
 
@@ -42,16 +43,13 @@ export interface WorkerPort {
   onerror: ((event: ErrorEvent) => void) | null;
 }
 
-const kStillTypes: Readonly<Partial<Record<Codec, string>>> = {
-  [Codec.JPEG]: 'image/jpeg',
-  [Codec.PNG]: 'image/png',
-};
+const isVideo = ({ parts }: FrameHeader): boolean =>
+  parts.some(({ codec }) => rowOf(codec)?.framesDepend);
 
-/** The media type of a codec whose frames are pictures by themselves. */
-export const stillType = (codec: Codec): string | undefined => kStillTypes[codec];
-
-export const isVideo = ({ parts }: FrameHeader): boolean =>
-  parts.some(({ codec }) => codec === Codec.VP9);
+function decodedCodecs(): string {
+  const names = kCodecs.map(({ codec }) => Codec[codec]);
+  return `${names.slice(0, -1).join(', ')} and ${names.at(-1)}`;
+}
 
 /** Whether a frame is of use only after all since the last one that is not. */
 export const needsOthers = (header: FrameHeader): boolean =>
@@ -83,9 +81,9 @@ export function workerDecoder(worker: WorkerPort): Decode {
         reject(new Error(`frame ${header.frameId} has no picture in it`));
         return;
       }
-      const odd = header.parts.find(({ codec }) => codec !== Codec.VP9 && !stillType(codec));
+      const odd = header.parts.find(({ codec }) => !rowOf(codec));
       if (odd) {
-        reject(new Error(`frame of codec ${odd.codec}; this page decodes JPEG, PNG and VP9`));
+        reject(new Error(`frame of codec ${odd.codec}; this page decodes ${decodedCodecs()}`));
         return;
       }
       if (isVideo(header) && header.parts.length > 1) {

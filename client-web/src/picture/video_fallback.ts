@@ -6,7 +6,7 @@ const kForgetMs = 30_000;
 /** A key frame that was asked for and did not come is asked for again. */
 const kPatienceMs = 2_000;
 
-export type Remedy = 'key frame' | 'jpeg' | 'wait';
+export type Remedy = 'key frame' | 'plain codec' | 'wait';
 
 export class VideoFallback {
   private failures: number[] = []; // when
@@ -18,7 +18,7 @@ export class VideoFallback {
       this.failures = [...this.failures.filter((at) => nowMs - at < kForgetMs), nowMs];
       if (this.failures.length >= kFailures) {
         this.failures = [];
-        return 'jpeg';
+        return 'plain codec';
       }
     } else if (nowMs - this.askedAtMs < kPatienceMs) {
       return 'wait';

@@ -1,13 +1,7 @@
 // One viewer's video, by WebCodecs: frames go in as they came and each comes out at once. Runs in
 // the decode worker; knows no messages.
 
-/** One frame of VP9 (Codec.VP9 in the protocol). */
-export interface VideoChunk {
-  readonly key: boolean;
-  readonly width: number;
-  readonly height: number;
-  readonly bytes: Uint8Array<ArrayBuffer>;
-}
+import type { EncodedPart } from './part_decoder';
 
 /** The frame cannot be decoded before a key frame has come. */
 export class LostSync extends Error {
@@ -24,6 +18,8 @@ export class LostSync extends Error {
 export type Decoder = Pick<VideoDecoder, 'configure' | 'decode' | 'close'>;
 
 export interface VideoEnvironment {
+  /** WebCodecs' name of what a key frame begins. */
+  readonly nameOf: (keyFrame: Uint8Array) => string;
   readonly open: (init: VideoDecoderInit) => Decoder;
   /** Returns how to cancel. */
   readonly after: (delayMs: number, action: () => void) => () => void;
@@ -37,8 +33,6 @@ interface Waiting {
 
 /** A decoder that gives nothing for so long holds its frames back, and would for ever. */
 const kHeldMs = 2_000;
-// Of the level, which bounds size and rate: the highest that WebCodecs names.
-const kLevel = '62';
 
 /** As the protocol says. Chromium takes it for limited-range BT.709 when not told, whatever a frame says. */
 const kColorSpace: VideoColorSpaceInit = {
@@ -47,9 +41,6 @@ const kColorSpace: VideoColorSpaceInit = {
   matrix: 'smpte170m',
   fullRange: true,
 };
-
-/** WebCodecs' name of what the protocol's VP9 is. */
-export const vp9Name = (profile: number): string => `vp09.0${profile}.${kLevel}.08`;
 
 export class VideoTrack {
   private decoder: Decoder | null = null; // null: only a key frame will do
@@ -60,7 +51,7 @@ export class VideoTrack {
   constructor(private readonly env: VideoEnvironment) {}
 
   /** The caller closes the frame. Rejects with LostSync. */
-  decode(chunk: VideoChunk): Promise<VideoFrame> {
+  decode(chunk: EncodedPart): Promise<VideoFrame> {
     return new Promise((resolve, reject) => {
       if (chunk.key) this.prepare(chunk);
       const { decoder } = this;
@@ -83,9 +74,8 @@ export class VideoTrack {
   }
 
   /** Makes the decoder ready for what the key frame begins; what is in it still comes out. */
-  private prepare({ bytes, width, height }: VideoChunk): void {
-    const first = bytes[0] ?? 0;
-    const codec = vp9Name(((first >> 5) & 1) | ((first >> 3) & 2));
+  private prepare({ bytes, width, height }: EncodedPart): void {
+    const codec = this.env.nameOf(bytes);
     const configuration = `${codec} ${width}x${height}`;
     if (this.decoder && this.configured === configuration) return;
     this.decoder ??= this.open();
@@ -137,16 +127,4 @@ export class VideoTrack {
       // An error has closed it already.
     }
   }
-}
-
-/** Whether this browser does, with both chroma formats; never outside secure contexts. */
-export async function decodesVp9(): Promise<boolean> {
-  if (typeof VideoDecoder === 'undefined') return false;
-  const answers = [0, 1].map((profile) =>
-    VideoDecoder.isConfigSupported({ codec: vp9Name(profile), optimizeForLatency: true }).then(
-      ({ supported }) => supported === true,
-      () => false,
-    ),
-  );
-  return (await Promise.all(answers)).every(Boolean);
 }

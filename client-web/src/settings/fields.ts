@@ -1,7 +1,8 @@
 // The fields of the panel and of the address: the schema's settings, and the few scalars that stand
 // beside them. Under `name` Welcome.ranges tells what the server accepts.
 
-import { BloomKind, Codec, Transparency } from '../gen/froxel/v1/common_pb';
+import { BloomKind, Transparency } from '../gen/froxel/v1/common_pb';
+import { rowOf } from '../picture/codecs';
 import { choicesOf, type Choice } from '../protocol/schema_names';
 import type { ChoiceField, Field, Kind } from './field';
 import { kRows, type CommandName, type Row } from './setting_table';
@@ -59,11 +60,9 @@ export const fieldsOf = (section: Section): readonly Field[] => [
 
 export const kAllFields: readonly Field[] = [...kRows, ...Object.values(kByHand).flat()];
 
-const kPng: number = Codec.PNG;
-
-/** The values that a viewer may choose; PNG is the server's own choice, for a resting picture. */
+/** The values that a viewer may choose. */
 export const choicesFor = ({ name, schema }: ChoiceField): Choice[] =>
-  choicesOf(schema).filter(({ value }) => name !== 'codec' || value !== kPng);
+  choicesOf(schema).filter(({ value }) => name !== 'codec' || rowOf(value)?.chosen);
 
 /** Whether a field is one of the grid's sides, which count only while it is not automatic. */
 export const isGridSide = ({ name }: Field): boolean => /^grid\.[xyz]$/.test(name);

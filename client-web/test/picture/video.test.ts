@@ -2,8 +2,10 @@
 
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
+import type { EncodedPart } from '../../src/picture/part_decoder';
 import { VideoFallback } from '../../src/picture/video_fallback';
-import { LostSync, VideoTrack, type Decoder, type VideoChunk } from '../../src/picture/video_track';
+import { LostSync, VideoTrack, type Decoder } from '../../src/picture/video_track';
+import { vp9NameOf } from '../../src/picture/vp9';
 
 class FakeDecoder implements Decoder {
   readonly configurations: VideoDecoderConfig[] = [];
@@ -47,7 +49,7 @@ let decoders: FakeDecoder[];
 let timers: Set<() => void>;
 let track: VideoTrack;
 
-const chunk = (key: boolean, width = 64, first = 0x82): VideoChunk => ({
+const chunk = (key: boolean, width = 64, first = 0x82): EncodedPart => ({
   key,
   width,
   height: 32,
@@ -74,6 +76,7 @@ beforeEach(() => {
   decoders = [];
   timers = new Set();
   track = new VideoTrack({
+    nameOf: vp9NameOf,
     open: (init) => {
       const decoder = new FakeDecoder(init);
       decoders.push(decoder);
@@ -149,7 +152,7 @@ describe('VideoFallback', () => {
     expect([0, 1000, 2000].map((at) => fallback.lost(true, at))).toEqual([
       'key frame',
       'key frame',
-      'jpeg',
+      'plain codec',
     ]);
     expect(fallback.lost(true, 2500)).toBe('key frame'); // chosen again by hand: a new start
   });
