@@ -72,7 +72,7 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
     command.value("--size", "WxH", options.size, parseSize, "the server's", "Picture in pixels");
     command.number("--lights", options.light_count, view::kLightCountRange, "the server's",
                    "Seeded lights");
-    command.name("--codec", options.codec, view::kCodecNames, "How pictures are encoded");
+    command.name("--codec", options.codec, view::kChosenCodecNames, "How pictures are encoded");
     command.number("--video-kbps", options.video_kbps, view::kVideoKbpsRange, "the server's",
                    "Of a video codec: 1000 bits a second");
     command.number(

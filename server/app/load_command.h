@@ -22,7 +22,7 @@ struct LoadOptions {
     std::optional<double> min_fps;        // of each viewer
     std::optional<view::Size> size;       // absent: the server's
     std::optional<uint32_t> light_count;  // likewise
-    view::Codec codec = view::Codec::kJpeg;
+    view::Codec codec = view::kPlainCodec;
     std::optional<uint32_t> video_kbps;    // of a video codec; absent: the server's
     std::string room;                      // shared by all viewers; empty: none
     std::filesystem::path token_file;      // empty: no token is shown

@@ -2,10 +2,6 @@
 
 #include "core/assert.h"
 #include "core/thread_name.h"
-#include "encode/jpeg_encoder.h"
-#include "encode/jpeg_stripes.h"
-#include "encode/video_encoder.h"
-#include "png/writer.h"
 
 #include <algorithm>
 #include <atomic>
@@ -39,52 +35,44 @@ std::chrono::microseconds threadTime() {
 
 } // namespace
 
-// One picture in the lane. Stripes are taken under the lane's mutex; whoever finishes the last one
-// joins them.
+// One picture in the lane. Its parts are taken under the lane's mutex; whoever finishes the last
+// one joins them.
 struct EncodeLane::Work {
     Work(EncodeJob its_job, TimePoint at) : job(std::move(its_job)), queued_at(at) {}
 
-    void begin(size_t thread_count) {
-        started_at = Clock::now();
-        stripes = job.video || job.lossless
-                      ? std::vector<PixelView>{job.pixels.view()}
-                      : cutStripes(job.pixels.view(), job.encoding.chroma, thread_count);
-        parts.resize(stripes.size());
+    [[nodiscard]] Encoder& encoderOf(const Encoders& own) const {
+        return job.video ? *job.video->encoder : *own[static_cast<size_t>(job.encoding.codec)];
     }
-    void encode(JpegEncoder& encoder, size_t stripe) {
+    void begin(const Encoder& encoder, size_t thread_count) {
+        started_at = Clock::now();
+        views = encoder.cut(job.pixels.view(), job.encoding, thread_count);
+        parts.resize(views.size());
+    }
+    void encode(Encoder& encoder, size_t part) {
         const auto begin = threadTime();
-        auto part = withinMemory([&] {
-            return job.video      ? encodeVideo()
-                   : job.lossless ? png::write(stripes[stripe])
-                                  : encoder.encode(stripes[stripe], job.encoding);
-        });
-        if (part) {
-            parts[stripe] = std::move(*part);
+        const VideoJob video = job.video.value_or(VideoJob{});
+        auto encoded = withinMemory(
+            [&] { return encoder.encode(views[part], job.encoding, video.key, video.drawn_at); });
+        if (encoded) {
+            parts[part] = std::move(encoded->bytes);
+            if (!encoded->key) {
+                key = false;
+            }
         } else if (!failed.exchange(true)) {
-            error = part.error();
+            error = encoded.error();
         }
         busy_us += (threadTime() - begin).count();
-        if (finished.fetch_add(1) + 1 == stripes.size()) {
-            auto frame = withinMemory([this] { return join(); });
+        if (finished.fetch_add(1) + 1 == views.size()) {
+            auto frame = withinMemory([&] { return join(encoder); });
             job.pixels.end();
             job.done(std::move(frame));
         }
     }
-    Result<std::vector<std::byte>> encodeVideo() {
-        const VideoJob& video = *job.video;
-        auto frame =
-            video.encoder->encode(job.pixels.view(), job.encoding, video.key, video.drawn_at);
-        if (!frame) {
-            return frame.error();
-        }
-        key = frame->key;
-        return std::move(frame->bytes);
-    }
-    Result<EncodedFrame> join() {
+    Result<EncodedFrame> join(const Encoder& encoder) {
         const PixelView pixels = job.pixels.view();
         auto picture = failed              ? Result<std::vector<std::byte>>(error)
                        : parts.size() == 1 ? std::move(parts.front())
-                                           : joinStripes(parts, pixels.height_px);
+                                           : encoder.join(parts, pixels.height_px);
         if (!picture) {
             return picture.error();
         }
@@ -95,21 +83,21 @@ struct EncodeLane::Work {
         frame.key = key;
         frame.wait_us = Microseconds(started_at - queued_at).count();
         frame.encode_us = Microseconds(Clock::now() - started_at).count();
-        frame.busy_us = job.video ? frame.encode_us : static_cast<double>(busy_us);
+        frame.busy_us = encoder.hasThreads() ? frame.encode_us : static_cast<double>(busy_us);
         return frame;
     }
 
     EncodeJob job;
     TimePoint queued_at;
     TimePoint started_at{};
-    std::vector<PixelView> stripes;
-    std::vector<std::vector<std::byte>> parts; // of each stripe
-    size_t taken = 0;                          // stripes that a thread has; under the mutex
+    std::vector<PixelView> views;
+    std::vector<std::vector<std::byte>> parts; // of each view
+    size_t taken = 0;                          // views that a thread has; under the mutex
     std::atomic<size_t> finished = 0;
     std::atomic<int64_t> busy_us = 0; // of all threads, before joining
     std::atomic<bool> failed = false;
-    bool key = true; // of video; written before the last stripe is counted
-    Error error;     // written once, by whom set `failed`; read after the last stripe
+    std::atomic<bool> key = true; // all parts are
+    Error error;                  // written once, by whom set `failed`; read after the last part
 };
 
 EncodeLane::EncodeLane(size_t thread_count, size_t queue_limit, int niceness)
@@ -118,13 +106,12 @@ EncodeLane::EncodeLane(size_t thread_count, size_t queue_limit, int niceness)
     threads_.reserve(thread_count);
     for (size_t i = 0; i < thread_count; ++i) {
         // Made here, where a failure can still be thrown.
-        threads_.emplace_back(
-            [this, niceness, encoder = JpegEncoder()](const std::stop_token& stop) mutable {
-                nameThread("encode");
-                // On Linux of this thread alone, and of those that a video encoder starts on it.
-                (void)nice(niceness);
-                run(stop, encoder);
-            });
+        threads_.emplace_back([this, niceness, own = makeEncoders()](const std::stop_token& stop) {
+            nameThread("encode");
+            // On Linux of this thread alone, and of those that a video encoder starts on it.
+            (void)nice(niceness);
+            run(stop, own);
+        });
     }
 }
 
@@ -140,14 +127,16 @@ EncodeLane::~EncodeLane() {
 }
 
 bool EncodeLane::submit(EncodeJob&& job) {
+    FROXEL_ASSERT(view::rowOf(job.encoding.codec).frames_depend == job.video.has_value(),
+                  "video alone brings its encoder");
     {
         const std::lock_guard lock(mutex_);
         if (queue_.size() >= queue_limit_) {
             return false;
         }
         const auto first_lossless = std::find_if(
-            queue_.begin(), queue_.end(), [](const auto& work) { return work->job.lossless; });
-        const auto place = job.lossless ? queue_.end() : first_lossless;
+            queue_.begin(), queue_.end(), [](const auto& work) { return work->job.lossless(); });
+        const auto place = job.lossless() ? queue_.end() : first_lossless;
         queue_.insert(place, std::make_shared<Work>(std::move(job), Clock::now()));
     }
     wake_.notify_one();
@@ -158,7 +147,7 @@ bool EncodeLane::withdrawLossless(const void* owner) {
     std::shared_ptr<Work> withdrawn; // ends without the mutex
     const std::lock_guard lock(mutex_);
     const auto found = std::find_if(queue_.begin(), queue_.end(), [owner](const auto& work) {
-        return work->job.lossless && work->job.owner == owner;
+        return work->job.lossless() && work->job.owner == owner;
     });
     if (found == queue_.end()) {
         return false;
@@ -168,13 +157,24 @@ bool EncodeLane::withdrawLossless(const void* owner) {
     return true;
 }
 
-void EncodeLane::run(const std::stop_token& stop, JpegEncoder& encoder) {
-    while (const auto share = takeShare(stop)) {
-        share->work->encode(encoder, share->stripe);
+EncodeLane::Encoders EncodeLane::makeEncoders() {
+    Encoders own;
+    for (const view::CodecRow& row : view::kCodecRows) {
+        if (!row.frames_depend) {
+            own[static_cast<size_t>(row.codec)] = makeEncoder(row.codec, 1);
+        }
+    }
+    return own;
+}
+
+void EncodeLane::run(const std::stop_token& stop, const Encoders& own) {
+    while (const auto share = takeShare(stop, own)) {
+        share->work->encode(share->work->encoderOf(own), share->part);
     }
 }
 
-std::optional<EncodeLane::Share> EncodeLane::takeShare(const std::stop_token& stop) {
+std::optional<EncodeLane::Share> EncodeLane::takeShare(const std::stop_token& stop,
+                                                       const Encoders& own) {
     std::unique_lock lock(mutex_);
     ++idle_count_;
     wake_.wait(lock, stop, [this] { return !begun_.empty() || !queue_.empty(); });
@@ -183,13 +183,14 @@ std::optional<EncodeLane::Share> EncodeLane::takeShare(const std::stop_token& st
         if (stop.stop_requested() || queue_.empty()) {
             return std::nullopt;
         }
-        queue_.front()->begin(1 + idle_count_);
+        Work& next = *queue_.front();
+        next.begin(next.encoderOf(own), 1 + idle_count_);
         begun_.push_back(std::move(queue_.front()));
         queue_.pop_front();
         wake_.notify_all();
     }
     Share share{begun_.front(), begun_.front()->taken++};
-    if (share.work->taken == share.work->stripes.size()) {
+    if (share.work->taken == share.work->views.size()) {
         begun_.pop_front();
     }
     return share;

@@ -1,14 +1,12 @@
 // Encoder threads of one priority with one bounded queue, first in first out but for lossless ones.
-// A large picture is shared by as many threads as are idle when its turn comes
-// (encode/jpeg_stripes.h).
+// A large picture is shared by as many threads as are idle when its turn comes, where its codec has
+// parts.
 #pragma once
 
-#include "core/clock.h"
 #include "core/encoded_frame.h"
-#include "core/error.h"
-#include "core/pixel_view.h"
-#include "view/settings.h"
+#include "encode/encoder.h"
 
+#include <array>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -22,25 +20,23 @@
 
 namespace froxel::encode {
 
-class JpegEncoder;
-class VideoEncoder;
-
 // How a picture becomes the next frame of a video.
 struct VideoJob {
-    std::shared_ptr<VideoEncoder> encoder; // in no other job meanwhile
-    bool key = false;                      // a key frame is asked for
+    std::shared_ptr<Encoder> encoder; // in no other job meanwhile
+    bool key = false;                 // a key frame is asked for
     TimePoint drawn_at{};
 };
 
 struct EncodeJob {
-    PixelLease pixels; // ends before `done` is called, so that rendering can go on
-    view::Encoding encoding;
+    PixelLease pixels;       // ends before `done` is called, so that rendering can go on
+    view::Encoding encoding; // lossless codecs wait behind the others, whose viewers move
     // Called once, on an encoder thread; must not throw and should return soon. Jobs of one viewer
     // may finish out of order when several are queued.
     std::function<void(Result<EncodedFrame>)> done;
-    std::optional<VideoJob> video = std::nullopt; // with a video codec
-    bool lossless = false;       // PNG instead of JPEG; waits behind those, whose viewers move
-    const void* owner = nullptr; // whoever may withdraw it
+    std::optional<VideoJob> video = std::nullopt; // with a codec whose frames depend on others
+    const void* owner = nullptr;                  // whoever may withdraw it
+
+    [[nodiscard]] bool lossless() const { return view::rowOf(encoding.codec).lossless; }
 };
 
 class EncodeLane {
@@ -60,21 +56,24 @@ class EncodeLane {
     [[nodiscard]] size_t threadCount() const { return threads_.size(); }
 
   private:
+    // A thread's own, of codecs whose frames stand alone.
+    using Encoders = std::array<std::unique_ptr<Encoder>, view::kCodecRows.size()>;
     struct Work;
     struct Share {
         std::shared_ptr<Work> work;
-        size_t stripe = 0;
+        size_t part = 0;
     };
 
-    void run(const std::stop_token& stop, JpegEncoder& encoder);
+    [[nodiscard]] static Encoders makeEncoders();
+    void run(const std::stop_token& stop, const Encoders& own);
     // What to encode next; none: the pool stops. Waits.
-    [[nodiscard]] std::optional<Share> takeShare(const std::stop_token& stop);
+    [[nodiscard]] std::optional<Share> takeShare(const std::stop_token& stop, const Encoders& own);
 
     const size_t queue_limit_;
     std::mutex mutex_;
     std::condition_variable_any wake_;
     std::deque<std::shared_ptr<Work>> queue_; // not begun
-    std::deque<std::shared_ptr<Work>> begun_; // have stripes that nobody has taken
+    std::deque<std::shared_ptr<Work>> begun_; // have parts that nobody has taken
     size_t idle_count_ = 0;
     std::vector<std::jthread> threads_; // last: stops before the queue goes
 };

@@ -1,6 +1,7 @@
 #include "encode/jpeg_encoder.h"
 
 #include "core/text.h"
+#include "encode/jpeg_stripes.h"
 #include "view/ranges.h"
 
 #include <climits>
@@ -37,6 +38,31 @@ Result<void> check(const PixelView& pixels, const view::Encoding& encoding) {
     }
     return {};
 }
+
+class StripedJpegEncoder final : public Encoder {
+  public:
+    [[nodiscard]] Result<EncodedPart> encode(const PixelView& part,
+                                             const view::Encoding& encoding,
+                                             bool /*key*/,
+                                             TimePoint /*drawn_at*/) override {
+        auto bytes = jpeg_.encode(part, encoding);
+        if (!bytes) {
+            return bytes.error();
+        }
+        return EncodedPart{std::move(*bytes)};
+    }
+    [[nodiscard]] std::vector<PixelView>
+    cut(const PixelView& pixels, const view::Encoding& encoding, size_t wanted) const override {
+        return cutStripes(pixels, encoding.chroma, wanted);
+    }
+    [[nodiscard]] Result<std::vector<std::byte>> join(std::span<const std::vector<std::byte>> parts,
+                                                      uint32_t height_px) const override {
+        return joinStripes(parts, height_px);
+    }
+
+  private:
+    JpegEncoder jpeg_;
+};
 
 } // namespace
 
@@ -75,6 +101,10 @@ Result<std::vector<std::byte>> JpegEncoder::encode(const PixelView& pixels,
     }
     const auto* bytes = reinterpret_cast<const std::byte*>(out);
     return std::vector<std::byte>(bytes, bytes + out_bytes);
+}
+
+std::unique_ptr<Encoder> makeJpegEncoder(size_t /*thread_count*/) {
+    return std::make_unique<StripedJpegEncoder>();
 }
 
 } // namespace froxel::encode

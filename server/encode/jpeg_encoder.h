@@ -2,9 +2,7 @@
 // milliseconds) and its scratch memory.
 #pragma once
 
-#include "core/error.h"
-#include "core/pixel_view.h"
-#include "view/settings.h"
+#include "encode/encoder.h"
 
 #include <cstddef>
 #include <memory>
@@ -29,5 +27,8 @@ class JpegEncoder {
     std::unique_ptr<unsigned char[]> scratch_;
     size_t scratch_bytes_ = 0;
 };
+
+// In stripes (encode/jpeg_stripes.h).
+[[nodiscard]] std::unique_ptr<Encoder> makeJpegEncoder(size_t thread_count);
 
 } // namespace froxel::encode

@@ -7,9 +7,8 @@
 
 namespace froxel::encode {
 
-// Upper bound, in bytes, of what is kept from picture to picture and of pictures on their way.
-// Measured with libvpx 1.12 from 640x360 to 4096x4096: 92 to 146 bytes a pixel, the most where
-// pictures are small.
+// Upper bound, in bytes, of what is kept from picture to picture (view::EncoderMemory) and of
+// pictures on their way.
 [[nodiscard]] uint64_t memoryBytes(const view::Encoding& encoding, const view::Size& size);
 
 } // namespace froxel::encode

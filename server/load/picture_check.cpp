@@ -2,6 +2,12 @@
 
 #include "core/text.h"
 #include "load/jpeg_check.h"
+#include "session/proto_enums.h"
+#include "session/settings.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
 
 namespace froxel::load {
 namespace {
@@ -36,17 +42,47 @@ class BitReader {
 };
 
 Result<void>
-checkSize(const char* what, uint32_t width_px, uint32_t height_px, const v1::Part& part) {
-    if (width_px == part.width() && height_px == part.height()) {
+checkSize(const std::string& what, const PictureHeader& picture, const v1::Part& part) {
+    if (picture.width_px == part.width() && picture.height_px == part.height()) {
         return {};
     }
-    return broken(std::string(what) + " of " + numberText(width_px) + "x" + numberText(height_px) +
-                  " for a part of " + numberText(part.width()) + "x" + numberText(part.height()));
+    return broken(what + " of " + numberText(picture.width_px) + "x" +
+                  numberText(picture.height_px) + " for a part of " + numberText(part.width()) +
+                  "x" + numberText(part.height()));
+}
+
+Result<PictureHeader> readJpeg(protocol::ByteSpan bytes) {
+    const auto size = checkJpeg(bytes);
+    if (!size) {
+        return size.error();
+    }
+    return PictureHeader{true, size->width_px, size->height_px};
+}
+
+// The codecs whose headers are read.
+struct Reader {
+    v1::Codec codec;
+    Result<PictureHeader> (*read)(protocol::ByteSpan bytes);
+};
+constexpr std::array kReaders = {Reader{v1::CODEC_JPEG, readJpeg}, Reader{v1::CODEC_VP9, checkVp9}};
+
+Result<PictureHeader> readHeader(const v1::Part& part, protocol::ByteSpan bytes) {
+    const auto reader =
+        std::find_if(kReaders.begin(), kReaders.end(),
+                     [&part](const Reader& known) { return known.codec == part.codec(); });
+    return reader != kReaders.end() ? reader->read(bytes)
+                                    : PictureHeader{part.key_frame(), part.width(), part.height()};
+}
+
+// As people write it: VP9.
+std::string nameOf(v1::Codec codec) {
+    std::string name = v1::Codec_Name(codec);
+    return name.substr(name.find('_') + 1);
 }
 
 } // namespace
 
-Result<Vp9Header> checkVp9(protocol::ByteSpan bytes) {
+Result<PictureHeader> checkVp9(protocol::ByteSpan bytes) {
     BitReader bits(bytes);
     if (bits.read(2) != kFrameMarker) {
         return broken("VP9: no frame marker in " + numberText(bytes.size()) + " bytes");
@@ -59,7 +95,7 @@ Result<Vp9Header> checkVp9(protocol::ByteSpan bytes) {
     if (bits.flag()) {
         return broken("VP9: shows a frame again");
     }
-    Vp9Header header;
+    PictureHeader header;
     header.key = !bits.flag();
     const bool shown = bits.flag();
     bits.flag(); // error_resilient_mode
@@ -67,7 +103,7 @@ Result<Vp9Header> checkVp9(protocol::ByteSpan bytes) {
         return broken("VP9: a hidden frame");
     }
     if (!header.key) {
-        return bits.beyondEnd() ? Result<Vp9Header>(broken("VP9: ends in its header")) : header;
+        return bits.beyondEnd() ? Result<PictureHeader>(broken("VP9: ends in its header")) : header;
     }
     if (bits.read(24) != kSyncCode) {
         return broken("VP9: a key frame without sync code");
@@ -81,20 +117,19 @@ Result<Vp9Header> checkVp9(protocol::ByteSpan bytes) {
     }
     header.width_px = bits.read(16) + 1;
     header.height_px = bits.read(16) + 1;
-    return bits.beyondEnd() ? Result<Vp9Header>(broken("VP9: ends in its header")) : header;
+    return bits.beyondEnd() ? Result<PictureHeader>(broken("VP9: ends in its header")) : header;
 }
 
 Result<void> PictureCheck::onFrame(const v1::FrameHeader& header, protocol::ByteSpan payload) {
     for (const v1::Part& part : header.parts()) {
-        const auto bytes = payload.subspan(part.offset(), part.length());
-        Result<void> checked;
-        if (part.codec() == v1::CODEC_JPEG) {
-            const auto size = checkJpeg(bytes);
-            checked = size ? checkSize("a JPEG", size->width_px, size->height_px, part)
-                           : Result<void>(size.error());
-        } else if (part.codec() == v1::CODEC_VP9) {
-            checked = checkVideo(header, part, bytes);
+        const auto picture = readHeader(part, payload.subspan(part.offset(), part.length()));
+        if (!picture) {
+            return picture.error();
         }
+        const auto codec = session::fromProto<view::Codec>(view::kCodecNames, part.codec());
+        const bool depends = codec && view::rowOf(*codec).frames_depend;
+        const auto checked = depends ? checkOrder(header, part, *picture)
+                                     : checkSize("a " + nameOf(part.codec()), *picture, part);
         if (!checked) {
             return checked;
         }
@@ -102,27 +137,24 @@ Result<void> PictureCheck::onFrame(const v1::FrameHeader& header, protocol::Byte
     return {};
 }
 
-Result<void> PictureCheck::checkVideo(const v1::FrameHeader& header,
+Result<void> PictureCheck::checkOrder(const v1::FrameHeader& header,
                                       const v1::Part& part,
-                                      protocol::ByteSpan bytes) {
-    const auto video = checkVp9(bytes);
-    if (!video) {
-        return video.error();
+                                      const PictureHeader& picture) {
+    const std::string codec = nameOf(part.codec()) + ": ";
+    if (picture.key != part.key_frame()) {
+        return broken(codec + (picture.key ? "a key frame that is not said to be one"
+                                           : "said to be a key frame, and is none"));
     }
-    if (video->key != part.key_frame()) {
-        return broken(video->key ? "VP9: a key frame that is not said to be one"
-                                 : "VP9: said to be a key frame, and is none");
-    }
-    if (video->key) {
+    if (picture.key) {
         ++key_count_;
         dropped_count_ = header.dropped_frames();
-        return checkSize("a key frame", video->width_px, video->height_px, part);
+        return checkSize("a key frame", picture, part);
     }
     if (!dropped_count_) {
-        return broken("VP9: no key frame before it");
+        return broken(codec + "no key frame before it");
     }
     if (*dropped_count_ != header.dropped_frames()) {
-        return broken("VP9: refers to a frame that was dropped");
+        return broken(codec + "refers to a frame that was dropped");
     }
     return {};
 }

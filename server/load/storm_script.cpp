@@ -1,6 +1,8 @@
 #include "load/storm_script.h"
 
 #include "load/orbit_script.h"
+#include "session/proto_enums.h"
+#include "session/settings.h"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -114,10 +116,11 @@ void StormScript::fillFog(v1::Fog& fog) {
     }
 }
 
-// What every client decodes, and the video that this one said it does.
+// All that viewers may choose: this one said that it decodes them.
 void StormScript::fillEncoding(v1::SetEncoding& command) {
     values_.fill(command, kSome);
-    command.set_codec(values_.once(2) ? v1::CODEC_JPEG : v1::CODEC_VP9);
+    const uint32_t chosen = values_.whole(1, view::kChosenCodecNames.size()) - 1;
+    command.set_codec(session::toProto<v1::Codec>(view::kCodecNames, chosen));
 }
 
 void StormScript::fillToon(v1::SetToon& command) {

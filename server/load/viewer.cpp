@@ -5,6 +5,8 @@
 #include "load/opening.h"
 #include "protocol/framing.h"
 #include "protocol/limits.h"
+#include "session/proto_enums.h"
+#include "session/settings.h"
 
 #include <boost/asio/connect.hpp>
 #include <boost/beast/http/field.hpp>
@@ -159,7 +161,12 @@ void Viewer::onUpgraded() {
     message.mutable_hello()->set_protocol_major(protocol::kMajor);
     message.mutable_hello()->set_protocol_minor(protocol::kMinor);
     message.mutable_hello()->set_client_name("froxel load " + numberText(number_));
-    message.mutable_hello()->add_codecs(v1::CODEC_VP9);
+    for (const view::CodecRow& row : view::kCodecRows) {
+        if (row.announced) {
+            message.mutable_hello()->add_codecs(
+                session::toProto<v1::Codec>(view::kCodecNames, row.codec));
+        }
+    }
     message.mutable_hello()->set_room(options_.room);
     if (const auto& tokens = options_.tokens; !tokens.empty()) {
         message.mutable_hello()->set_token(tokens[(number_ - 1) % tokens.size()]);

@@ -126,8 +126,7 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
     updateDelivery();
     auto picture = plainSuffices() ? plain_ : picture_;
     const auto decodes = [&codecs](const session::ReadyFrame& frame) {
-        return frame.record.key &&
-               codecs.test(static_cast<size_t>(frame.record.delivered.encoding.codec));
+        return frame.record.key && view::contains(codecs, frame.record.delivered.encoding.codec);
     };
     if (!picture || !decodes(*picture)) {
         return {};
@@ -283,14 +282,15 @@ void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
 }
 
 void LiveSession::keepDecodable() {
-    if (!state_.decodable.test(static_cast<size_t>(state_.encoding.codec))) {
-        state_.encoding.codec = view::Codec::kJpeg;
+    if (!view::contains(state_.decodable, state_.encoding.codec)) {
+        state_.encoding.codec = view::kPlainCodec;
     }
 }
 
 std::optional<TimePoint> LiveSession::requestKeyFrame(const Place& place, TimePoint now) {
     const std::lock_guard lock(mutex_);
-    if (find(place) == nullptr || !view::isVideo(state_.encoding.codec) || key_wanted_) {
+    if (find(place) == nullptr || !view::rowOf(state_.encoding.codec).frames_depend ||
+        key_wanted_) {
         return {};
     }
     if (!keys_.take(now)) {
@@ -433,7 +433,7 @@ void LiveSession::deliver(session::ReadyFrame frame) {
     Mail mail;
     const std::lock_guard lock(mutex_);
     ++delivered_;
-    key_wanted_ = key_wanted_ && view::isVideo(state_.encoding.codec) &&
+    key_wanted_ = key_wanted_ && view::rowOf(state_.encoding.codec).frames_depend &&
                   !(frame.record.key && frame.isVideo());
     if (!refined(frame)) {
         plain_ = frame;

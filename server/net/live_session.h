@@ -99,7 +99,7 @@ class LiveSession final : public session::FrameSink,
     // bits.
     static constexpr double kKeysAtOnce = 3;
     static constexpr double kKeysPerSecond = 1;
-    // The viewer can go on with video only from a key frame; nothing while pictures are JPEG. Those
+    // The viewer can go on with video only from a key frame; nothing while there is no video. Those
     // who ask before it is there share one. Too early: not done, and when to ask again.
     [[nodiscard]] std::optional<TimePoint> requestKeyFrame(const Place& place, TimePoint now);
     // As StreamPort::grant, in pictures that this connection was told of.

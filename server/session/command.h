@@ -20,8 +20,8 @@ struct Hello {
     std::string client_name;  // untrusted text: escape it before it is logged
     std::string room;         // of isRoomName(), or empty: a session of one's own
     std::string resume_token; // untrusted text, a secret if it is right: never logged; or empty
-    view::CodecSet codecs{1}; // what the client decodes; JPEG is in it
-    std::string token{};      // untrusted text, a secret if it is right: never logged; or empty
+    view::CodecSet codecs = view::commonCodecs(); // what the client decodes
+    std::string token{}; // untrusted text, a secret if it is right: never logged; or empty
 };
 
 struct SetCamera {

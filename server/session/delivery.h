@@ -55,7 +55,7 @@ struct Delivery {
 // What a frame was made with.
 struct Delivered {
     double scale = 1;
-    view::Encoding encoding;
+    view::Encoding encoding; // with the frame's own codec: of a refined one another than asked for
     Refinement refinement = Refinement::kInteractive;
     uint32_t rung = 0;
 };
@@ -106,7 +106,8 @@ delivered(const view::Encoding& asked, const Delivery& delivery, Refinement stag
     }
     return {1,
             {std::max(asked.quality, kRefinedEncoding.quality),
-             std::max(asked.chroma, kRefinedEncoding.chroma)},
+             std::max(asked.chroma, kRefinedEncoding.chroma),
+             stage == Refinement::kLossless ? view::kLosslessCodec : view::kPlainCodec},
             stage,
             0};
 }

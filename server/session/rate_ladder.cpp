@@ -33,22 +33,23 @@ class Builder {
 
     void add() {
         next_.rung = static_cast<uint32_t>(ladder_.size());
-        const double bits =
-            video_ ? videoBits() : bitsOf(limited(asked_, next_), next_.scale) / bitsOf(asked_, 1);
+        const double bits = by_rate_
+                                ? videoBits()
+                                : bitsOf(limited(asked_, next_), next_.scale) / bitsOf(asked_, 1);
         ladder_.push_back({next_, bits, alone_});
     }
     std::vector<Rung> build() {
-        video_ ? addShares() : addQualities();
+        by_rate_ ? addShares() : addQualities();
         for (size_t i = 0; i < kScales.size(); ++i) {
             next_.scale = kScales[i];
-            next_.video_share = video_ ? kShareAtScales[i] : 1;
+            next_.video_share = by_rate_ ? kShareAtScales[i] : 1;
             add();
         }
         alone_ = true;
         add();
         for (size_t i = 0; i < kIntervals.size(); ++i) {
             next_.min_interval = kIntervals[i];
-            next_.video_share = video_ ? kShareAtIntervals[i] : 1;
+            next_.video_share = by_rate_ ? kShareAtIntervals[i] : 1;
             add();
         }
         return std::move(ladder_);
@@ -80,7 +81,7 @@ class Builder {
     }
 
     const view::Encoding asked_;
-    const bool video_ = view::isVideo(asked_.codec);
+    const bool by_rate_ = view::rowOf(asked_.codec).rate_control == view::RateControl::kBitrate;
     Delivery next_;
     bool alone_ = false;
     std::vector<Rung> ladder_;

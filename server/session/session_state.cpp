@@ -18,10 +18,6 @@ void assignIfGiven(Target& target, const std::optional<Value>& value) {
     }
 }
 
-std::string_view nameOf(view::Codec codec) {
-    return view::kCodecNames[static_cast<size_t>(codec)];
-}
-
 // One overload a command; each changes the state or says why not.
 struct Reducer {
     SessionState& state;
@@ -75,7 +71,7 @@ struct Reducer {
         if (const auto* codec = givenIn(changes, "codec");
             codec != nullptr && !state.decodable.test(std::get<view::Choice>(*codec).index)) {
             return Rejection{RejectCode::kUnsupported, 0, "codec",
-                             "codec is " + std::string(nameOf(state.encoding.codec)) +
+                             "codec is " + std::string(view::rowOf(state.encoding.codec).name) +
                                  "; not every viewer's Hello.codecs lists it"};
         }
         return givenIn(changes, "antialiasing") != nullptr ? checkArea("antialiasing") : Outcome{};

@@ -17,8 +17,8 @@ struct SessionState {
     LightClock light_clock;
     CommandStamp applied; // newest accepted command that sets state
     uint64_t version = 1; // grows whenever anything above but `applied` is set anew, or below
-    view::CodecSet decodable{1}; // by all who see it; JPEG is in it
-    uint64_t key_requests = 0;   // key frames asked for so far
+    view::CodecSet decodable = view::commonCodecs(); // by all who see it
+    uint64_t key_requests = 0;                       // key frames asked for so far
 
     // Whether the picture changes without a command.
     [[nodiscard]] bool animating() const {

@@ -160,10 +160,10 @@ uint32_t saturated(T value) {
 
 void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
     const Delivered& delivered = record.delivered;
-    const bool lossless = delivered.refinement == Refinement::kLossless;
     out.set_scale(delivered.scale);
-    const bool jpeg = !lossless && !view::isVideo(delivered.encoding.codec);
-    out.set_quality(jpeg ? delivered.encoding.quality : 0);
+    const view::CodecRow& codec = view::rowOf(delivered.encoding.codec);
+    out.set_quality(codec.rate_control == view::RateControl::kQuality ? delivered.encoding.quality
+                                                                      : 0);
     out.set_chroma(toProto<v1::Chroma>(view::kChromaNames, delivered.encoding.chroma));
     out.set_refinement(toProto<v1::Refinement>(kRefinementNames, delivered.refinement));
     out.set_rung(delivered.rung);
@@ -288,10 +288,9 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     part.set_length(saturated(record.encoded_bytes));
     part.set_width(record.width_px);
     part.set_height(record.height_px);
-    const bool lossless = record.delivered.refinement == Refinement::kLossless;
     const view::Codec codec = record.delivered.encoding.codec;
-    part.set_codec(lossless ? v1::CODEC_PNG : toProto<v1::Codec>(view::kCodecNames, codec));
-    part.set_key_frame(view::isVideo(codec) && record.key);
+    part.set_codec(toProto<v1::Codec>(view::kCodecNames, codec));
+    part.set_key_frame(view::rowOf(codec).frames_depend && record.key);
 
     header.set_queue_us(saturated(record.queue_us));
     header.set_render_us(saturated(record.render_us));

@@ -25,7 +25,10 @@ struct ReadyFrame {
     Seconds cost{0};      // what a frame costs where the server is slowest, for CreditWindow
     TimePoint ready_at{}; // when it left the encoder
 
-    [[nodiscard]] bool isVideo() const { return view::isVideo(record.delivered.encoding.codec); }
+    // Of a codec whose frames depend on those before them.
+    [[nodiscard]] bool isVideo() const {
+        return view::rowOf(record.delivered.encoding.codec).frames_depend;
+    }
 };
 
 // One viewer's connection, as the stream sees it.

@@ -2,7 +2,6 @@
 
 #include "core/assert.h"
 #include "core/text.h"
-#include "encode/video_encoder.h"
 
 #include <spdlog/spdlog.h>
 
@@ -12,8 +11,8 @@
 namespace froxel::stream {
 namespace {
 
-bool isLossless(const DrawnFrame& frame) {
-    return frame.record.delivered.refinement == session::Refinement::kLossless;
+view::Codec codecOf(const DrawnFrame& frame) {
+    return frame.record.delivered.encoding.codec;
 }
 
 } // namespace
@@ -43,7 +42,7 @@ Seconds FramePipeline::takeWork() {
 }
 
 void FramePipeline::push(DrawnFrame frame) {
-    const bool lossless = isLossless(frame);
+    const bool lossless = view::rowOf(codecOf(frame)).lossless;
     bool waits = false;
     {
         const std::lock_guard lock(mutex_);
@@ -63,14 +62,11 @@ void FramePipeline::startEncoding() {
     bool taken = false;
     {
         const session::Delivered& with = encoding_->record.delivered;
-        encode::EncodeJob job{std::move(encoding_->pixels),
-                              with.encoding,
+        encode::EncodeJob job{std::move(encoding_->pixels), with.encoding,
                               [self = shared_from_this()](Result<EncodedFrame> result) {
                                   self->onEncoded(std::move(result));
                               },
-                              videoJob(*encoding_),
-                              isLossless(*encoding_),
-                              this};
+                              videoJob(*encoding_), this};
         taken = pool_.submit(std::move(job));
     } // a lease that was not taken ends here
     if (!taken) {
@@ -80,7 +76,8 @@ void FramePipeline::startEncoding() {
 
 // A request is served when its key frame is there: until then the pool may refuse the job.
 std::optional<encode::VideoJob> FramePipeline::videoJob(const DrawnFrame& frame) {
-    if (!view::isVideo(frame.record.delivered.encoding.codec)) {
+    const view::Codec codec = codecOf(frame);
+    if (!view::rowOf(codec).frames_depend) {
         // After a refined still the video goes on where it was.
         const session::Refinement refinement = frame.record.delivered.refinement;
         if (refinement < session::Refinement::kHigh) {
@@ -88,8 +85,9 @@ std::optional<encode::VideoJob> FramePipeline::videoJob(const DrawnFrame& frame)
         }
         return {};
     }
-    if (!video_) {
-        video_ = std::make_shared<encode::VideoEncoder>(pool_.threadCount());
+    if (!video_ || video_codec_ != codec) {
+        video_ = encode::makeEncoder(codec, pool_.threadCount());
+        video_codec_ = codec;
     }
     return encode::VideoJob{video_, frame.key_requests != key_requests_, frame.drawn_at};
 }

@@ -187,7 +187,7 @@ inline constexpr std::array kEncodingRows = {
                            "chroma",
                            {"Colour resolution of pictures", "", "444: more bytes"}),
     row<&Encoding::codec>(
-        Names{"codec", kCodecNames},
+        Names{"codec", kChosenCodecNames},
         "codec",
         {"How pictures are encoded for the stream", "", "vp9: a few times fewer bytes, more work"}),
     row<&Encoding::video_kbps>(kVideoKbpsRange,

@@ -4,11 +4,11 @@
 
 #include "core/math.h"
 #include "view/camera.h"
+#include "view/codecs.h"
 #include "view/debug_view.h"
 #include "view/placed_lights.h"
 
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -103,15 +103,6 @@ inline constexpr std::array kChromaNames = {std::string_view("420"), std::string
 enum class Refine : uint8_t { kNone, kHigh, kLossless };
 inline constexpr std::array kRefineNames = {std::string_view("none"), std::string_view("high"),
                                             std::string_view("lossless")};
-
-// How pictures are encoded for the stream. vp9: frames that refer to those before them.
-enum class Codec : uint8_t { kJpeg, kVp9 };
-inline constexpr std::array kCodecNames = {std::string_view("jpeg"), std::string_view("vp9")};
-[[nodiscard]] constexpr bool isVideo(Codec codec) {
-    return codec == Codec::kVp9;
-}
-// Which of them a client decodes, by the enumerator's number.
-using CodecSet = std::bitset<kCodecNames.size()>;
 
 struct Size {
     uint32_t width_px = 1280;
@@ -257,10 +248,10 @@ struct ViewSettings {
 };
 
 struct Encoding {
-    uint32_t quality = 80; // TurboJPEG's 1..100
+    uint32_t quality = 80; // 1..100, with RateControl::kQuality
     Chroma chroma = Chroma::k420;
-    Codec codec = Codec::kJpeg;
-    uint32_t video_kbps = 6000; // of a video codec: 1000 bits a second, aimed at
+    Codec codec = kPlainCodec;
+    uint32_t video_kbps = 6000; // with RateControl::kBitrate: 1000 bits a second, aimed at
     bool operator==(const Encoding&) const = default;
 };
 

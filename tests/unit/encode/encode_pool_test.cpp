@@ -1,6 +1,5 @@
 #include "encode/encode_pool.h"
 #include "encode/jpeg_encoder.h"
-#include "encode/video_encoder.h"
 #include "unit/encode/picture.h"
 
 #include <gtest/gtest.h>
@@ -22,6 +21,10 @@ EncodeJob job(PixelLease pixels, std::function<void(Result<EncodedFrame>)> done)
     return {std::move(pixels), kEncoding, std::move(done)};
 }
 
+view::Codec codecOf(bool lossless) {
+    return lossless ? view::kLosslessCodec : view::kPlainCodec;
+}
+
 // An encoder thread that waits in a job's `done` until told to go on.
 class HeldThread {
   public:
@@ -32,7 +35,7 @@ class HeldThread {
             entered->set_value();
             go.wait();
         });
-        held.lossless = patient;
+        held.encoding.codec = codecOf(patient);
         EXPECT_TRUE(pool.submit(std::move(held)));
         entered->get_future().wait();
     }
@@ -61,7 +64,7 @@ TEST(EncodePool, VideoJobs_ContinueTheirEncodersStream) {
     const Picture picture = makePicture(640, 400); // enough for stripes, were it a JPEG
     view::Encoding encoding;
     encoding.codec = view::Codec::kVp9;
-    const auto encoder = std::make_shared<VideoEncoder>(1);
+    const auto encoder = std::shared_ptr(makeEncoder(view::Codec::kVp9, 1));
     EncodePool pool(2, 4);
     std::vector<bool> keys;
     for (int i = 0; i < 3; ++i) {
@@ -163,7 +166,7 @@ TEST(EncodePool, WithdrawLossless_TakesBackTheOwnersThatWaits_AndNothingElse) {
     const auto submit = [&](const void* owner, bool lossless) {
         EncodeJob next =
             job({picture.view(), [&] { ++leases; }}, [&](Result<EncodedFrame>) { ++done; });
-        next.lossless = lossless;
+        next.encoding.codec = codecOf(lossless);
         next.owner = owner;
         ASSERT_TRUE(pool.submit(std::move(next)));
     };
@@ -192,7 +195,7 @@ TEST(EncodePool, LargeAndLossless_DoNotKeepOthersWaiting) {
     std::promise<void> quick;
     const auto count = [&](const Result<EncodedFrame>& frame) { patient += frame ? 1 : 0; };
     auto lossless = job({picture.view(), nullptr}, count);
-    lossless.lossless = true;
+    lossless.encoding.codec = view::kLosslessCodec;
     ASSERT_TRUE(pool.submit(std::move(lossless)));
     ASSERT_TRUE(pool.submit(job({large.view(), nullptr}, count)));
     ASSERT_TRUE(pool.submit(
@@ -213,7 +216,7 @@ TEST(EncodePool, LargeAndLossless_RunAtALowerPriority) {
         auto next = job({picture.view(), nullptr}, [&](const Result<EncodedFrame>&) {
             niceness.set_value(getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())));
         });
-        next.lossless = lossless;
+        next.encoding.codec = codecOf(lossless);
         ASSERT_TRUE(pool.submit(std::move(next)));
         const int own = getpriority(PRIO_PROCESS, 0);
         const int expected = lossless ? std::min(own + 10, 19) : own;
@@ -240,7 +243,7 @@ TEST(EncodePool, Lossless_IsAPngBehindWhatMoves) {
                     all.set_value();
                 }
             });
-            next.lossless = lossless;
+            next.encoding.codec = codecOf(lossless);
             ASSERT_TRUE(pool.submit(std::move(next)));
         }
         held.release();

@@ -49,9 +49,8 @@ class FramePipelineTest : public testing::Test {
     void occupy(encode::EncodePool& pool, std::latch& release, bool lossless = false) {
         encode::EncodeJob job{
             PixelLease({pixels_.data(), kSide, kSide, size_t{4} * kSide}, nullptr),
-            {},
+            {.codec = lossless ? view::kLosslessCodec : view::kPlainCodec},
             [&](const Result<EncodedFrame>&) { release.wait(); }};
-        job.lossless = lossless;
         while (!pool.submit(std::move(job))) {
             std::this_thread::yield(); // the thread has not taken the job before this one yet
         }
@@ -94,7 +93,7 @@ TEST_F(FramePipelineTest, Push_BehindALosslessThatWaits_TakesItsPlace) {
     occupy(pool, release, true);
     const auto pipeline = makePipeline(pool);
     DrawnFrame rest = frame(1);
-    rest.record.delivered.refinement = session::Refinement::kLossless;
+    rest.record.delivered = session::delivered({}, {}, session::Refinement::kLossless);
     pipeline->push(std::move(rest));
     EXPECT_EQ(pipeline->size(), 1U);
     pipeline->push(frame(2));

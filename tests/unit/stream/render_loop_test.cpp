@@ -316,7 +316,7 @@ TEST_F(RenderLoopTest, RestOfVideo_CountsTheEncoderThatIsKept) {
     state.delivery.refine = view::Refine::kHigh;
     join(sink, state, kPlenty);
     ASSERT_TRUE(sink->waitForFrames(2));
-    ASSERT_FALSE(view::isVideo(sink->frames()[1].record.delivered.encoding.codec));
+    ASSERT_FALSE(sink->frames()[1].isVideo());
     EXPECT_GE(device_->beside_bytes, encode::memoryBytes(state.encoding, state.settings.size));
 }
 

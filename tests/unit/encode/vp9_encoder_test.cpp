@@ -1,5 +1,5 @@
 #include "encode/memory.h"
-#include "encode/video_encoder.h"
+#include "encode/vp9_encoder.h"
 #include "unit/encode/picture.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ class Decoder {
     Decoder& operator=(const Decoder&) = delete;
 
     // Null where the frame cannot be decoded, or gives no picture at once.
-    const vpx_image_t* decode(const VideoFrame& frame) {
+    const vpx_image_t* decode(const EncodedPart& frame) {
         const auto* data = reinterpret_cast<const uint8_t*>(frame.bytes.data());
         if (vpx_codec_decode(&codec_, data, static_cast<unsigned>(frame.bytes.size()), nullptr,
                              0) != VPX_CODEC_OK) {
@@ -97,7 +97,7 @@ class Film {
   public:
     explicit Film(uint32_t width_px = 320, uint32_t height_px = 180)
         : width_px_(width_px), height_px_(height_px) {}
-    VideoFrame next(const view::Encoding& encoding, bool key = false) {
+    EncodedPart next(const view::Encoding& encoding, bool key = false) {
         picture = moving(width_px_, height_px_, number_++);
         if (noisy) {
             addNoise(picture, random_);
@@ -106,7 +106,7 @@ class Film {
         return encoder.encode(picture.view(), encoding, key, at).value();
     }
 
-    VideoEncoder encoder{2};
+    Vp9Encoder encoder{2};
     Picture picture;
     TimePoint at = kStart;
     bool noisy = false;
@@ -118,12 +118,12 @@ class Film {
     uint32_t number_ = 0;
 };
 
-TEST(VideoEncoder, Frames_EachDecodesAtOnceToItsPicture) {
+TEST(Vp9Encoder, Frames_EachDecodesAtOnceToItsPicture) {
     for (const view::Chroma chroma : {view::Chroma::k420, view::Chroma::k444}) {
         Film film(161, 99);
         Decoder decoder;
         for (int i = 0; i < 10; ++i) {
-            const VideoFrame frame = film.next(encoding(20'000, chroma));
+            const EncodedPart frame = film.next(encoding(20'000, chroma));
             EXPECT_EQ(frame.key, i == 0);
             const vpx_image_t* image = decoder.decode(frame);
             ASSERT_NE(image, nullptr) << i;
@@ -136,7 +136,7 @@ TEST(VideoEncoder, Frames_EachDecodesAtOnceToItsPicture) {
     }
 }
 
-TEST(VideoEncoder, SmallestAndOddSizes_AreEncoded) {
+TEST(Vp9Encoder, SmallestAndOddSizes_AreEncoded) {
     for (const view::Size size : {view::Size{16, 16}, {17, 33}, {1, 1}, {4096, 16}}) {
         Film film(size.width_px, size.height_px);
         Decoder decoder;
@@ -146,16 +146,16 @@ TEST(VideoEncoder, SmallestAndOddSizes_AreEncoded) {
     }
 }
 
-TEST(VideoEncoder, KeyAskedFor_OnlyThatFrameIsOne) {
+TEST(Vp9Encoder, KeyAskedFor_OnlyThatFrameIsOne) {
     Film film;
     EXPECT_TRUE(film.next(encoding(2000)).key);
     EXPECT_FALSE(film.next(encoding(2000)).key);
     EXPECT_TRUE(film.next(encoding(2000), true).key);
-    const VideoFrame after = film.next(encoding(2000));
+    const EncodedPart after = film.next(encoding(2000));
     EXPECT_FALSE(after.key);
 }
 
-TEST(VideoEncoder, KeyFrame_StandsAlone) {
+TEST(Vp9Encoder, KeyFrame_StandsAlone) {
     Film film;
     for (int i = 0; i < 5; ++i) {
         (void)film.next(encoding(4000));
@@ -168,8 +168,8 @@ TEST(VideoEncoder, KeyFrame_StandsAlone) {
     EXPECT_NE(late.decode(film.next(encoding(4000))), nullptr);
 }
 
-TEST(VideoEncoder, SizeOrChromaChanges_GivesAKeyFrame) {
-    VideoEncoder encoder(1);
+TEST(Vp9Encoder, SizeOrChromaChanges_GivesAKeyFrame) {
+    Vp9Encoder encoder(1);
     const Picture small = makePicture(64, 48);
     const Picture large = makePicture(65, 48);
     auto encode = [&, at = kStart](const Picture& picture, view::Chroma chroma) mutable {
@@ -183,7 +183,7 @@ TEST(VideoEncoder, SizeOrChromaChanges_GivesAKeyFrame) {
     EXPECT_FALSE(encode(large, view::Chroma::k444));
 }
 
-TEST(VideoEncoder, Rate_IsHeldAndFollowsWithoutAKeyFrame) {
+TEST(Vp9Encoder, Rate_IsHeldAndFollowsWithoutAKeyFrame) {
     Film film;
     film.noisy = true;
     EXPECT_TRUE(film.next(encoding(500)).key);
@@ -192,7 +192,7 @@ TEST(VideoEncoder, Rate_IsHeldAndFollowsWithoutAKeyFrame) {
         constexpr int kCounted = 60;
         size_t bytes = 0;
         for (int i = 0; i < kSettling + kCounted; ++i) {
-            const VideoFrame frame = film.next(encoding(kbps));
+            const EncodedPart frame = film.next(encoding(kbps));
             EXPECT_FALSE(frame.key);
             bytes += i < kSettling ? 0 : frame.bytes.size();
         }
@@ -203,7 +203,7 @@ TEST(VideoEncoder, Rate_IsHeldAndFollowsWithoutAKeyFrame) {
     EXPECT_NEAR(kbpsOf(500), 500, 100);
 }
 
-TEST(VideoEncoder, AfterAPause_AFrameTakesNoMoreThanATenthOfASecondDoes) {
+TEST(Vp9Encoder, AfterAPause_AFrameTakesNoMoreThanATenthOfASecondDoes) {
     Film film;
     film.noisy = true;
     for (int i = 0; i < 60; ++i) {
@@ -213,8 +213,8 @@ TEST(VideoEncoder, AfterAPause_AFrameTakesNoMoreThanATenthOfASecondDoes) {
     EXPECT_LT(film.next(encoding(400)).bytes.size(), 2 * 400'000 / 8 / 10);
 }
 
-TEST(VideoEncoder, WhatCannotBeEncoded_IsRefusedAndStartsAnew) {
-    VideoEncoder encoder(1);
+TEST(Vp9Encoder, WhatCannotBeEncoded_IsRefusedAndStartsAnew) {
+    Vp9Encoder encoder(1);
     const Picture picture = makePicture(64, 48);
     EXPECT_TRUE(encoder.encode(picture.view(), encoding(1000), false, kStart).value().key);
     PixelView narrow = picture.view();
@@ -238,7 +238,7 @@ TEST(VideoMemory, OfAnySize_IsNoMoreThanIsSaid) {
             };
             const Picture picture = makePicture(size.width_px, size.height_px);
             const size_t before = used();
-            VideoEncoder encoder(4);
+            Vp9Encoder encoder(4);
             for (int i = 0; i < 3; ++i) {
                 ASSERT_TRUE(encoder.encode(picture.view(), encoding(4000, chroma), false,
                                            kStart + i * kFrameTime));

@@ -4,38 +4,29 @@
 // error resilience to pay for: a client that lost a frame asks for a key frame.
 #pragma once
 
-#include "core/clock.h"
-#include "core/error.h"
-#include "core/pixel_view.h"
-#include "view/settings.h"
+#include "encode/encoder.h"
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 namespace froxel::encode {
 
-struct VideoFrame {
-    std::vector<std::byte> bytes;
-    bool key = false; // decodes without any frame before it
-};
-
-// One thread at a time.
-class VideoEncoder {
+class Vp9Encoder final : public Encoder {
   public:
     // Threads that libvpx may use within a frame; it takes fewer for small pictures.
-    explicit VideoEncoder(size_t thread_count);
-    ~VideoEncoder();
-    VideoEncoder(const VideoEncoder&) = delete;
-    VideoEncoder& operator=(const VideoEncoder&) = delete;
+    explicit Vp9Encoder(size_t thread_count);
+    ~Vp9Encoder() override;
 
     // The first frame is a key frame, and so is one of another size or chroma than the one before
     // it, one that `key` asks for, and the one after an error. Rate is bits over the time between
     // pictures by `drawn_at`; pauses save up no bits. Errors: kInvalidArgument for an empty or
     // inconsistent view, one too large for VP9, or a rate outside its range; kIo with the library's
     // text otherwise.
-    [[nodiscard]] Result<VideoFrame>
-    encode(const PixelView& pixels, const view::Encoding& encoding, bool key, TimePoint drawn_at);
+    [[nodiscard]] Result<EncodedPart> encode(const PixelView& pixels,
+                                             const view::Encoding& encoding,
+                                             bool key,
+                                             TimePoint drawn_at) override;
+    [[nodiscard]] bool hasThreads() const override { return true; }
 
   private:
     struct Stream;
@@ -43,5 +34,7 @@ class VideoEncoder {
     const size_t thread_count_;
     std::unique_ptr<Stream> stream_; // none: the next frame begins one
 };
+
+[[nodiscard]] std::unique_ptr<Encoder> makeVp9Encoder(size_t thread_count);
 
 } // namespace froxel::encode

@@ -1,4 +1,4 @@
-#include "encode/video_encoder.h"
+#include "encode/vp9_encoder.h"
 
 #include "core/assert.h"
 #include "core/text.h"
@@ -88,7 +88,7 @@ configure(const PixelView& pixels, const view::Encoding& encoding, size_t thread
 } // namespace
 
 // libvpx's encoder for pictures of one size and chroma.
-struct VideoEncoder::Stream {
+struct Vp9Encoder::Stream {
     Stream() = default;
     ~Stream() {
         vpx_img_free(&image);
@@ -110,7 +110,7 @@ struct VideoEncoder::Stream {
     }
     [[nodiscard]] Result<void> setRate(uint32_t kbps);
     [[nodiscard]] Result<void> convert(const PixelView& pixels);
-    [[nodiscard]] Result<VideoFrame> compress(bool key, TimePoint drawn_at);
+    [[nodiscard]] Result<EncodedPart> compress(bool key, TimePoint drawn_at);
     [[nodiscard]] Error failure(const char* what) {
         const char* detail = vpx_codec_error_detail(&codec);
         return {ErrorCode::kIo, std::string("libvpx: ") + what + ": " + vpx_codec_error(&codec) +
@@ -127,9 +127,9 @@ struct VideoEncoder::Stream {
     int64_t next_us = 0; // media time; 0: nothing encoded yet
 };
 
-Result<void> VideoEncoder::Stream::begin(const PixelView& pixels,
-                                         const view::Encoding& encoding,
-                                         size_t thread_count) {
+Result<void> Vp9Encoder::Stream::begin(const PixelView& pixels,
+                                       const view::Encoding& encoding,
+                                       size_t thread_count) {
     chroma = encoding.chroma;
     config = configure(pixels, encoding, thread_count);
     if (vpx_codec_enc_init(&codec, vpx_codec_vp9_cx(), &config, 0) != VPX_CODEC_OK) {
@@ -168,7 +168,7 @@ Result<void> VideoEncoder::Stream::begin(const PixelView& pixels,
     return {};
 }
 
-Result<void> VideoEncoder::Stream::setRate(uint32_t kbps) {
+Result<void> Vp9Encoder::Stream::setRate(uint32_t kbps) {
     if (config.rc_target_bitrate != kbps) {
         config.rc_target_bitrate = kbps;
         if (vpx_codec_enc_config_set(&codec, &config) != VPX_CODEC_OK) {
@@ -179,7 +179,7 @@ Result<void> VideoEncoder::Stream::setRate(uint32_t kbps) {
 }
 
 // Rows of chroma that an odd size leaves half are in the image's own padding.
-Result<void> VideoEncoder::Stream::convert(const PixelView& pixels) {
+Result<void> Vp9Encoder::Stream::convert(const PixelView& pixels) {
     const int status =
         tjEncodeYUVPlanes(converter, reinterpret_cast<const unsigned char*>(pixels.data),
                           static_cast<int>(pixels.width_px), static_cast<int>(pixels.stride_bytes),
@@ -191,7 +191,7 @@ Result<void> VideoEncoder::Stream::convert(const PixelView& pixels) {
     return {};
 }
 
-Result<VideoFrame> VideoEncoder::Stream::compress(bool key, TimePoint drawn_at) {
+Result<EncodedPart> Vp9Encoder::Stream::compress(bool key, TimePoint drawn_at) {
     const Seconds since = next_us == 0 ? kFirstInterval : Seconds(drawn_at - last_drawn_at);
     const auto interval_us =
         static_cast<int64_t>(Microseconds(std::clamp(since, kMinInterval, kMaxInterval)).count());
@@ -201,7 +201,7 @@ Result<VideoFrame> VideoEncoder::Stream::compress(bool key, TimePoint drawn_at) 
                          key ? VPX_EFLAG_FORCE_KF : 0, VPX_DL_REALTIME) != VPX_CODEC_OK) {
         return failure("a picture was refused");
     }
-    VideoFrame frame;
+    EncodedPart frame{{}, false};
     vpx_codec_iter_t iterator = nullptr;
     while (const vpx_codec_cx_pkt_t* packet = vpx_codec_get_cx_data(&codec, &iterator)) {
         if (packet->kind == VPX_CODEC_CX_FRAME_PKT) {
@@ -216,20 +216,19 @@ Result<VideoFrame> VideoEncoder::Stream::compress(bool key, TimePoint drawn_at) 
     return frame;
 }
 
-VideoEncoder::VideoEncoder(size_t thread_count)
-    : thread_count_(std::max<size_t>(thread_count, 1)) {}
+Vp9Encoder::Vp9Encoder(size_t thread_count) : thread_count_(std::max<size_t>(thread_count, 1)) {}
 
-VideoEncoder::~VideoEncoder() = default;
+Vp9Encoder::~Vp9Encoder() = default;
 
-Result<VideoFrame> VideoEncoder::encode(const PixelView& pixels,
-                                        const view::Encoding& encoding,
-                                        bool key,
-                                        TimePoint drawn_at) {
+Result<EncodedPart> Vp9Encoder::encode(const PixelView& pixels,
+                                       const view::Encoding& encoding,
+                                       bool key,
+                                       TimePoint drawn_at) {
     if (const auto valid = check(pixels, encoding); !valid) {
         stream_.reset();
         return valid.error();
     }
-    const auto frame = [&]() -> Result<VideoFrame> {
+    const auto frame = [&]() -> Result<EncodedPart> {
         if (!stream_ || !stream_->fits(pixels, encoding)) {
             stream_ = std::make_unique<Stream>();
             if (const auto begun = stream_->begin(pixels, encoding, thread_count_); !begun) {
@@ -248,6 +247,10 @@ Result<VideoFrame> VideoEncoder::encode(const PixelView& pixels,
         stream_.reset();
     }
     return frame;
+}
+
+std::unique_ptr<Encoder> makeVp9Encoder(size_t thread_count) {
+    return std::make_unique<Vp9Encoder>(thread_count);
 }
 
 } // namespace froxel::encode
