@@ -22,7 +22,7 @@ struct ErrorOptions {
     double r2_pairs_limit = 0;
 };
 
-// Seconds of one row's reference, about. Pure but for the number of threads.
+// Limits that a row's references keep in seconds, about: R1's on such a device, R2's on this host.
 [[nodiscard]] ErrorOptions errorOptionsFor(bool device_is_cpu);
 
 // Of the worst view, by linear.max_abs.

@@ -15,35 +15,35 @@
 namespace froxel::app {
 namespace {
 
+constexpr const char* kScene = "my scene.gltf";
+
 // What the row's command line says.
-RenderOptions parsedCommand(const bench::RunResult& result, const bench::Row& row) {
+RenderOptions parsedCommand(const bench::Base& base, const bench::Row& row) {
+    const auto& view = base.views[row.timedView()];
     RenderOptions options;
-    options.scene = result.scene_source;
-    options.device.choice = result.device_choice;
+    options.scene = kScene;
+    options.device.choice = gpu::DeviceChoice::kCpu;
     options.settings = row.settings;
-    options.time_s = result.base.views[row.timedView()].time_s;
+    options.time_s = view.time_s;
     options.frame_count = 40;
     options.timings = "timings.json";
     if (!row.light_set.empty()) {
         options.light_set = std::filesystem::path(testing::TempDir()) / row.light_set;
         std::ofstream(options.light_set) << session::lightSetJson(row.settings.lights.placed);
     }
-    return parsedBack(options, result.base.views[row.timedView()].name);
+    return parsedBack(options, view.name);
 }
 
 TEST(RenderArguments, EveryRow_ParsesBackToItsSettings) {
-    bench::RunResult result;
-    result.scene_source = "my scene.gltf";
-    result.device_choice = gpu::DeviceChoice::kCpu;
-    result.base = bench::base();
+    const auto base = bench::base();
     for (const auto& row : bench::everyRow()) {
-        const auto parsed = parsedCommand(result, row);
+        const auto parsed = parsedCommand(base, row);
         auto settings = parsed.settings;
-        const auto& view = result.base.views[row.timedView()];
+        const auto& view = base.views[row.timedView()];
         settings.camera = row.settings.camera; // chosen apart from the settings
         EXPECT_EQ(settings, row.settings) << row.series << ", " << row.label;
-        EXPECT_EQ(parsed.scene, result.scene_source);
-        EXPECT_EQ(parsed.device.choice, result.device_choice);
+        EXPECT_EQ(parsed.scene, kScene);
+        EXPECT_EQ(parsed.device.choice, gpu::DeviceChoice::kCpu);
         EXPECT_EQ(parsed.time_s, view.time_s);
         EXPECT_EQ(parsed.frame_count, 40U);
         if (const auto* camera = std::get_if<view::Camera>(&parsed.camera)) {
