@@ -1,7 +1,7 @@
 // Ways to the G-buffer and to radiance, timed side by side, and how far their pictures are apart:
 // bench_visibility [SCENE.gltf]; the built-in hall without. On a GPU where there is one.
+#include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
-#include "hall/hall.h"
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -203,7 +203,7 @@ int main(int argc, char** argv) try {
         scene.name = "Sponza";
         run(scene, view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), lights);
     } else {
-        const auto scene = hall::makeHall();
+        const auto scene = builtin_scene::makeHall();
         run(scene, scene.cameras.front().camera, lights);
     }
     return 0;

@@ -2,8 +2,8 @@
 //   gbuffer_layouts SCENE.gltf|builtin error|time [cpu|gpu] [frames]
 // error: radiance of each layout against the default and against forward shading (1,000 lights,
 // 640x360). time: each layout's passes and the process's CPU time a frame (0 lights, 1280x720).
+#include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
-#include "hall/hall.h"
 #include "render/gbuffer_layout.h"
 #include "render/renderer.h"
 #include "view/camera.h"
@@ -188,7 +188,7 @@ int main(int argc, char** argv) {
     const bool gpu = argc > 3 && std::string(argv[3]) == "gpu";
     const int frames = argc > 4 ? std::max(1, std::atoi(argv[4])) : 12;
     const bool builtin = path == "builtin";
-    const scene::Scene scene = builtin ? hall::makeHall() : gltf::load(path).value();
+    const scene::Scene scene = builtin ? builtin_scene::makeHall() : gltf::load(path).value();
     gpu::DeviceOptions options;
     options.choice = gpu ? gpu::DeviceChoice::kGpu : gpu::DeviceChoice::kCpu;
     gpu::Device device(options);

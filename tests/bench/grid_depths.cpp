@@ -1,9 +1,9 @@
 // What the automatic grid would gain from knowing at which depths the picture's pixels lie, instead
 // of taking any depth alike: frames of both choices in turns, and of a fixed grid. grid_depths
 // [SCENE.gltf|hall] [LIGHTS [RADIUS_M [WIDTH HEIGHT]]]; on a GPU where there is one.
+#include "builtin_scene/hall.h"
 #include "cluster/grid_choice.h"
 #include "gltf/gltf_loader.h"
-#include "hall/hall.h"
 #include "light/light_rig.h"
 #include "reference/geometry.h"
 #include "render/renderer.h"
@@ -141,7 +141,7 @@ int main(int argc, char** argv) try {
                       static_cast<uint32_t>(std::stoul(argv[5]))};
     }
     gpu::Device device({});
-    const auto scene = path == "hall" ? hall::makeHall() : gltf::load(path).value();
+    const auto scene = path == "hall" ? builtin_scene::makeHall() : gltf::load(path).value();
     render::Renderer renderer(device, scene);
     std::printf("%s, %ux%u, %u lights of %g m\n", scene.name.c_str(), asked.size.width_px,
                 asked.size.height_px, asked.light_count, static_cast<double>(asked.radius_m));

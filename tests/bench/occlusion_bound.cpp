@@ -3,8 +3,8 @@
 // such a triangle, and from these again behind a depth prepass of their own: what culling in two
 // passes comes to if the last frame showed the same and the tests cost nothing. occlusion_bound
 // [SCENE.gltf|hall]; on a GPU where there is one.
+#include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
-#include "hall/hall.h"
 #include "render/geometry_pack.h"
 #include "render/renderer.h"
 #include "render/visibility_readback.h"
@@ -171,7 +171,7 @@ void run(const scene::Scene& scene, const view::Camera& camera) {
 int main(int argc, char** argv) try {
     const std::string path = argc > 1 ? argv[1] : "hall";
     if (path == "hall") {
-        const auto scene = hall::makeHall();
+        const auto scene = builtin_scene::makeHall();
         run(scene, scene.cameras.front().camera);
     } else {
         const auto scene = gltf::load(path).value();

@@ -1,5 +1,5 @@
 // Ids rastered in compute against the rasteriser's, and exact among themselves.
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "reference/geometry.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
@@ -153,7 +153,7 @@ TEST_F(ComputeRaster, Room_Ids_AreTheRasterisers) {
 }
 
 TEST_F(ComputeRaster, Hall_Ids_AreTheRasterisers) {
-    expectSameIds(device(), hall::makeHall());
+    expectSameIds(device(), builtin_scene::makeHall());
 }
 
 TEST_F(ComputeRaster, Sponza_Ids_AreTheRasterisers) {
@@ -201,7 +201,7 @@ TEST_F(ComputeRaster, Room_ListsAndCulling_ChangeNothing) {
 }
 
 TEST_F(ComputeRaster, Hall_ListsAndCulling_ChangeNothing) {
-    expectExact(device(), hall::makeHall());
+    expectExact(device(), builtin_scene::makeHall());
 }
 
 // Paths take turns over one set of targets, which grows and is replaced.

@@ -1,5 +1,5 @@
 // The exactness contract on pictures: a difference is a bug, not noise.
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
@@ -51,7 +51,7 @@ void expectListsExact(render::Renderer& renderer, const scene::Scene& scene) {
 } // namespace
 
 TEST_F(Exactness, Lists_BuiltinScene_EqualAllLightsBitForBit) {
-    const auto scene = hall::makeHall();
+    const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
     expectListsExact(renderer, scene);
 }

@@ -1,6 +1,6 @@
 // Fog against closed forms, against lights integrated in double, and against itself.
+#include "builtin_scene/hall.h"
 #include "fog_pictures.h"
-#include "hall/hall.h"
 #include "reference/rays.h"
 #include "reference/shade.h"
 #include "render/visibility_readback.h"

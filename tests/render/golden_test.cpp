@@ -1,7 +1,7 @@
 // Pictures of the built-in scene against committed ones that a person has looked at.
 // FROXEL_UPDATE_GOLDEN=1 writes them anew: look at each before committing it, and say why.
+#include "builtin_scene/hall.h"
 #include "encode/image_file.h"
-#include "hall/hall.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/image_compare.h"
@@ -48,7 +48,7 @@ void expectAsCommitted(const Picture& picture, const std::string& name) {
 } // namespace
 
 TEST_F(Golden, EveryRenderer_BuiltinScene_LooksAsCommitted) {
-    const auto scene = hall::makeHall();
+    const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
     for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
         auto inputs = inputsFor(scene);
@@ -58,7 +58,7 @@ TEST_F(Golden, EveryRenderer_BuiltinScene_LooksAsCommitted) {
 }
 
 TEST_F(Golden, DebugViews_BuiltinScene_LookAsCommitted) {
-    const auto scene = hall::makeHall();
+    const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
     for (const auto debug :
@@ -115,7 +115,7 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
              s.renderer = view::Renderer::kToonFragment;
              s.toon_outline.strength = 0.9F;
          }}};
-    const auto scene = hall::makeHall();
+    const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
     for (const auto& [name, change] : options) {
         auto inputs = inputsFor(scene);
@@ -127,7 +127,7 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
 
 // Goblets within a case, beside two panes that cross.
 TEST_F(Golden, Transparency_BuiltinScene_LooksAsCommitted) {
-    const auto scene = hall::makeHall();
+    const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
     for (size_t kind = 0; kind < view::kTransparencyNames.size(); ++kind) {
         auto inputs = inputsFor(scene);
@@ -143,7 +143,7 @@ TEST_F(Golden, Transparency_BuiltinScene_LooksAsCommitted) {
 
 // Nothing else shines but the scene's lanterns.
 TEST_F(Golden, AreaLights_BuiltinScene_LookAsCommitted) {
-    const auto scene = hall::makeHall();
+    const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
     auto inputs = inputsFor(scene);
     inputs.settings.lights.count = 0;

@@ -1,6 +1,6 @@
 // Frames that are cut, so that the device can be taken back between their pieces, are the same
 // pictures to the bit.
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "render/renderer.h"
 #include "render/scene_resources.h"
 #include "render/unit_costs.h"
@@ -32,7 +32,7 @@ class Pieces : public SharedGpuTest {
         return *renderer_;
     }
     static const scene::Scene& hall() {
-        static const scene::Scene scene = hall::makeHall();
+        static const scene::Scene scene = builtin_scene::makeHall();
         return scene;
     }
     // Small enough for tens of pieces.

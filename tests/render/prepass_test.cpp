@@ -1,5 +1,5 @@
 // The depth prepass spares work where surfaces overlap and never changes the picture.
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "render/scene_resources.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
@@ -85,7 +85,7 @@ TEST_F(Prepass, Room_AnyRenderer_GivesTheSameBits) {
 }
 
 TEST_F(Prepass, Hall_AnyRenderer_GivesTheSameBits) {
-    expectSamePictures(device(), hall::makeHall());
+    expectSamePictures(device(), builtin_scene::makeHall());
 }
 
 TEST_F(Prepass, Overdraw_OneSurface_IsMeasuredByTheFirstFrame) {

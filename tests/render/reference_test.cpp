@@ -1,7 +1,7 @@
 // The device's pictures against the double-precision reference (R2). Bounds of untextured scenes
 // are derived from fp32 arithmetic; those of textured ones are what was measured and explained,
 // doubled.
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "reference/shade.h"
 #include "render/visibility_readback.h"
 #include "support/draw.h"
@@ -267,7 +267,7 @@ void expectFigures(gpu::Device& device,
 // base colour's: mip levels rounded to 8 bits, and a level of detail for four pixels at once
 // (without mip levels 0.00004, the driver's sRGB polynomial).
 TEST_F(Reference, Hall_IsWithinTheTextureFilter) {
-    const auto hall = hall::makeHall();
+    const auto hall = builtin_scene::makeHall();
     expectFigures(device(), hall, inputsFor(hall.cameras[0].camera, Renderer::kNaive), 0.041, 0.19);
 }
 

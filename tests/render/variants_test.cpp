@@ -1,6 +1,6 @@
 // Only what a scene needs: nothing is allocated or compiled for what is absent, and every
 // specialised variant gives the same bits as the generic one.
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "interface/constants.h"
 #include "render/scene_resources.h"
 #include "support/draw.h"
@@ -237,7 +237,7 @@ TEST_F(Variants, EveryPart_BareRoom_GivesTheSameBits) {
 }
 
 TEST_F(Variants, EveryPart_BuiltinScene_GivesTheSameBits) {
-    const auto scene = hall::makeHall();
+    const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
     expectEveryPartNeutral(renderer, scene, 200);
 }

@@ -1,5 +1,5 @@
 // Pictures by way of visible triangles' ids: against the rasteriser's, and exact among themselves.
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
@@ -90,7 +90,7 @@ TEST_F(Visibility, Room_ById_LooksAsRastered) {
 }
 
 TEST_F(Visibility, Hall_ById_LooksAsRastered) {
-    expectLikeRaster(device(), hall::makeHall());
+    expectLikeRaster(device(), builtin_scene::makeHall());
 }
 
 TEST_F(Visibility, Sponza_ById_LooksAsRastered) {
@@ -106,7 +106,7 @@ TEST_F(Visibility, Room_ListsAndCulling_ChangeNothing) {
 }
 
 TEST_F(Visibility, Hall_ListsAndCulling_ChangeNothing) {
-    expectExact(device(), hall::makeHall());
+    expectExact(device(), builtin_scene::makeHall());
 }
 
 TEST_F(Visibility, Sponza_ListsAndCulling_ChangeNothing) {

@@ -1,7 +1,7 @@
 // Draws: what errors are taken from, on a device.
 #include "bench/errors.h"
 #include "bench/shown_picture.h"
-#include "hall/hall.h"
+#include "builtin_scene/hall.h"
 #include "render/renderer.h"
 #include "support/gpu_fixture.h"
 
@@ -26,7 +26,7 @@ class BenchPictureTest : public test::SharedGpuTest {
         return meter.measure(row_);
     }
 
-    scene::Scene scene_ = hall::makeHall();
+    scene::Scene scene_ = builtin_scene::makeHall();
     render::Renderer renderer_{device(), scene_};
     Base base_;
     Row row_;

@@ -1,6 +1,6 @@
 // The built-in scene through the writer and back.
+#include "builtin_scene/hall.h"
 #include "gltf_writer/glb_writer.h"
-#include "hall/hall.h"
 #include "unit/gltf/scene_file.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ Totals placedTotals(const scene::Scene& scene) {
 class HallRoundTrip : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
-        hall_ = std::make_unique<scene::Scene>(hall::makeHall());
+        hall_ = std::make_unique<scene::Scene>(builtin_scene::makeHall());
         const TempFolder folder;
         const auto path = folder.path() / "hall.glb";
         const Result<void> written = gltf_writer::writeGlb(*hall_, path);

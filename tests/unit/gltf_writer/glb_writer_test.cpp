@@ -1,5 +1,5 @@
+#include "builtin_scene/hall.h"
 #include "gltf_writer/glb_writer.h"
-#include "hall/hall.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -249,7 +249,7 @@ TEST(GlbWriter, EmptyScene_ReadsAsAFileWithoutABuffer) {
 }
 
 TEST(GlbWriter, Hall_ReadsBackWhole) {
-    const scene::Scene hall = hall::makeHall();
+    const scene::Scene hall = builtin_scene::makeHall();
     const Glb glb = written(hall, "hall.glb");
     EXPECT_EQ(glb.document["meshes"].size(), hall.meshes.size());
     EXPECT_EQ(glb.document["images"].size(), hall.images.size());
