@@ -1,7 +1,7 @@
 #include "app/load_report.h"
 
 #include "app/load_verdict.h"
-#include "measure/statistics.h"
+#include "report/statistics.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -78,7 +78,7 @@ Json summaryOf(const std::vector<double>& samples) {
     if (samples.empty()) {
         return nullptr;
     }
-    const auto summary = measure::summarize(samples);
+    const auto summary = report::summarize(samples);
     return {{"count", summary.count}, {"min", summary.min}, {"median", summary.median},
             {"p95", summary.p95},     {"p99", summary.p99}, {"max", summary.max},
             {"mean", summary.mean}};
@@ -178,17 +178,17 @@ Json figuresOf(const ViewerResult& viewer) {
 }
 
 // "12.3", or "-" without a sample.
-std::string shown(const std::vector<double>& samples, double measure::Summary::*figure) {
-    return samples.empty() ? "-" : fmt::format("{:.1f}", measure::summarize(samples).*figure);
+std::string shown(const std::vector<double>& samples, double report::Summary::*figure) {
+    return samples.empty() ? "-" : fmt::format("{:.1f}", report::summarize(samples).*figure);
 }
 
 std::string rowOf(const std::string& name, const ViewerResult& viewer) {
-    using measure::Summary;
+    using report::Summary;
     const Measured& measured = viewer.measured;
     const load::Samples& samples = measured.samples;
     std::string jitter = "-";
     if (!samples.interval_ms.empty()) {
-        const auto interval = measure::summarize(samples.interval_ms);
+        const auto interval = report::summarize(samples.interval_ms);
         jitter = fmt::format("{:.1f}", interval.p99 - interval.median);
     }
     return fmt::format(
@@ -205,9 +205,9 @@ std::string stagesLine(const ViewerResult& all) {
     std::string line = "median ms:";
     for (size_t stage = 0; stage < load::kStageNames.size(); ++stage) {
         line += fmt::format("  {} {}", load::kStageNames[stage],
-                            shown(samples.stage_ms[stage], &measure::Summary::median));
+                            shown(samples.stage_ms[stage], &report::Summary::median));
     }
-    return line + fmt::format("  (gpu {})\n", shown(samples.gpu_ms, &measure::Summary::median));
+    return line + fmt::format("  (gpu {})\n", shown(samples.gpu_ms, &report::Summary::median));
 }
 
 } // namespace
@@ -268,7 +268,7 @@ std::string loadTable(const RunResult& result) {
     }
     table += stagesLine(all);
     table += fmt::format("longest wait for a due frame: {} ms; commands that none showed: {}\n",
-                         shown(all.measured.samples.interval_ms, &measure::Summary::max),
+                         shown(all.measured.samples.interval_ms, &report::Summary::max),
                          all.measured.commands_unshown);
     if (all.measured.refusal) {
         table += fmt::format("first refusal: {}\n", *all.measured.refusal);

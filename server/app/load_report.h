@@ -43,7 +43,7 @@
 //                     one's text or null
 //
 // Each *_ms is {count, min, median, p95, p99, max, mean} in milliseconds, nearest ranks
-// (measure/statistics.h), or null without a sample.
+// (report/statistics.h), or null without a sample.
 #pragma once
 
 #include "app/load_command.h"

@@ -1,6 +1,6 @@
 #include "app/load_verdict.h"
 
-#include "measure/statistics.h"
+#include "report/statistics.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -35,7 +35,7 @@ std::pair<double, const char*> worstOf(const ViewerResult& viewer) {
     const load::Samples& samples = viewer.measured.samples;
     std::pair<double, const char*> worst{stallMs(viewer.measured), "stalled for"};
     const auto consider = [&worst](const std::vector<double>& times_ms, const char* words) {
-        const double p95_ms = times_ms.empty() ? 0 : measure::summarize(times_ms).p95;
+        const double p95_ms = times_ms.empty() ? 0 : report::summarize(times_ms).p95;
         worst = p95_ms >= worst.first ? std::pair{p95_ms, words} : worst;
     };
     consider(samples.reaction_ms, "has a p95 reaction of");

@@ -1,8 +1,8 @@
 #include "app/timings_report.h"
 
-#include "measure/statistics.h"
 #include "report/frame_report.h"
 #include "report/settings_report.h"
+#include "report/statistics.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json toJson(std::vector<double> samples) {
-    const auto summary = measure::summarize(std::move(samples));
+    const auto summary = report::summarize(std::move(samples));
     return {{"min", summary.min},
             {"median", summary.median},
             {"p95", summary.p95},

@@ -2,8 +2,8 @@
 
 #include "bench/json.h"
 #include "core/text.h"
-#include "measure/statistics.h"
 #include "report/settings_report.h"
+#include "report/statistics.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -133,10 +133,10 @@ void compareError(const Json& a, const Json& b, const std::string& name, RowComp
 RowComparison compareRows(const ReportRow& a, const ReportRow& b, const std::string& measure) {
     const auto samples_a = samplesOf(*a.json, measure);
     const auto samples_b = samplesOf(*b.json, measure);
-    const auto times = measure::compareSamples(samples_a, samples_b);
+    const auto times = report::compareSamples(samples_a, samples_b);
     RowComparison row{.row = a.name,
-                      .median_a_us = measure::summarize(samples_a).median,
-                      .median_b_us = measure::summarize(samples_b).median,
+                      .median_a_us = report::summarize(samples_a).median,
+                      .median_b_us = report::summarize(samples_b).median,
                       .words = times.words,
                       .slower = times.differs && times.ratio > 1,
                       .faster = times.differs && times.ratio < 1,
@@ -239,8 +239,8 @@ std::string toText(const Comparison& comparison) {
     return text +
            fmt::format("{} rows: {} slower, {} faster, {} with another error (Mann-Whitney U, "
                        "p < {}, medians {:.0f} % apart)\n",
-                       comparison.rows.size(), slower, faster, changed, measure::kSignificance,
-                       100 * measure::kLeastEffect);
+                       comparison.rows.size(), slower, faster, changed, report::kSignificance,
+                       100 * report::kLeastEffect);
 }
 
 } // namespace froxel::bench

@@ -11,7 +11,7 @@
 
 namespace froxel::bench {
 
-// Frames beyond the noise by measure::compareSamples. The time compared is gpu_us on a GPU and
+// Frames beyond the noise by report::compareSamples. The time compared is gpu_us on a GPU and
 // cpu_us on a CPU device, whose wall time also measures its neighbours.
 struct RowComparison {
     std::string row; // "light_count: naive, 100 lights"

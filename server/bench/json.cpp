@@ -2,11 +2,11 @@
 
 #include "bench/published.h"
 #include "core/text.h"
-#include "measure/statistics.h"
 #include "report/frame_report.h"
 #include "report/frame_step.h"
 #include "report/host_summary.h"
 #include "report/settings_report.h"
+#include "report/statistics.h"
 #include "session/placed_lights.h"
 
 #include <nlohmann/json.hpp>
@@ -35,13 +35,13 @@ Json toJson(const view::Size& size) {
     return {size.width_px, size.height_px};
 }
 
-Json toJson(const measure::Summary& summary) {
+Json toJson(const report::Summary& summary) {
     return {{"min", summary.min}, {"p5", summary.p5},   {"median", summary.median},
             {"p95", summary.p95}, {"p99", summary.p99}, {"max", summary.max}};
 }
 
 Json summaryOf(const std::vector<double>& samples) {
-    return toJson(measure::summarize(samples));
+    return toJson(report::summarize(samples));
 }
 
 // Tenths: what a run stores of each frame.

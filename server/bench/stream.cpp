@@ -63,7 +63,7 @@ measureStream(const PixelView& shown, const view::Encoding& encoding, size_t enc
                        .bytes = bytes,
                        .bits_per_pixel = 8.0 * static_cast<double>(bytes) /
                                          (static_cast<double>(shown.width_px) * shown.height_px),
-                       .encode_us = measure::summarize(std::move(encode_us)),
+                       .encode_us = report::summarize(std::move(encode_us)),
                        .shown = measure::shownDifference(seen, shown),
                        .perceived = measure::perceivedDifference(seen, shown)};
 }

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/pixel_view.h"
 #include "measure/picture_error.h"
-#include "measure/statistics.h"
+#include "report/statistics.h"
 #include "view/settings.h"
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct StreamError {
     view::Encoding encoding;
     uint64_t bytes = 0;
     double bits_per_pixel = 0;
-    measure::Summary encode_us; // on this thread, one encoder, warmed up
+    report::Summary encode_us; // on this thread, one encoder, warmed up
     measure::DifferenceStats shown;
     measure::PerceivedStats perceived;
 };

@@ -1,4 +1,4 @@
-#include "measure/statistics.h"
+#include "report/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-namespace froxel::measure {
+namespace froxel::report {
 namespace {
 
 std::vector<double> logNormal(uint32_t seed, size_t count, double median) {
@@ -128,4 +128,4 @@ TEST(CompareSamples, OrderOfArguments_InvertsRatioAndKeepsPValue) {
 }
 
 } // namespace
-} // namespace froxel::measure
+} // namespace froxel::report

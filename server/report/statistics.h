@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace froxel::measure {
+namespace froxel::report {
 
 // Percentiles are nearest ranks, without interpolation: the least sample that at least p % of all
 // do not exceed, so each was measured. The median is the mean of the middle two for an even count.
@@ -46,4 +46,4 @@ inline constexpr size_t kLeastSamples = 8;
 // finite, not negative.
 [[nodiscard]] Comparison compareSamples(const std::vector<double>& a, const std::vector<double>& b);
 
-} // namespace froxel::measure
+} // namespace froxel::report

@@ -1,4 +1,4 @@
-#include "measure/statistics.h"
+#include "report/statistics.h"
 
 #include "core/assert.h"
 
@@ -10,7 +10,7 @@
 #include <limits>
 #include <numeric>
 
-namespace froxel::measure {
+namespace froxel::report {
 
 namespace {
 
@@ -125,4 +125,4 @@ Comparison compareSamples(const std::vector<double>& a, const std::vector<double
     return comparison;
 }
 
-} // namespace froxel::measure
+} // namespace froxel::report
