@@ -47,19 +47,19 @@ Picture scaledTo(const Picture& picture, const view::Size& size) {
 PictureError compare(const Picture& picture, const Picture& reference) {
     PictureError error;
     error.size = {picture.linear.width_px, picture.linear.height_px};
-    error.linear = measure::linearDifference(picture.linear, reference.linear);
-    error.shown = measure::shownDifference(picture.shown(), reference.shown());
+    error.linear = image_metrics::linearDifference(picture.linear, reference.linear);
+    error.shown = image_metrics::shownDifference(picture.shown(), reference.shown());
     const bool tiled = picture.grid.x > 0;
     if (error.exact()) { // and so are the rest, which take longer
         error.tile_edge_ratio = tiled ? std::optional(0.0) : std::nullopt;
         return error;
     }
-    error.perceived = measure::perceivedDifference(picture.shown(), reference.shown());
-    error.hdr_flip = measure::hdrFlip(picture.linear, reference.linear);
+    error.perceived = image_metrics::perceivedDifference(picture.shown(), reference.shown());
+    error.hdr_flip = image_metrics::hdrFlip(picture.linear, reference.linear);
     if (tiled) {
         error.tile_edge_ratio =
-            measure::tileEdgeRatio(picture.linear, reference.linear,
-                                   {picture.grid.tile_width_px, picture.grid.tile_height_px});
+            image_metrics::tileEdgeRatio(picture.linear, reference.linear,
+                                         {picture.grid.tile_width_px, picture.grid.tile_height_px});
     }
     return error;
 }

@@ -3,7 +3,7 @@
 
 #include "bench/picture.h"
 #include "bench/sweep.h"
-#include "measure/picture_error.h"
+#include "image_metrics/picture_error.h"
 #include "scene/scene.h"
 
 #include <atomic>
@@ -31,9 +31,9 @@ struct PictureError {
     view::Size size;
     size_t view = 0;
     size_t view_count = 0;
-    measure::DifferenceStats linear;
-    measure::DifferenceStats shown;
-    measure::PerceivedStats perceived;
+    image_metrics::DifferenceStats linear;
+    image_metrics::DifferenceStats shown;
+    image_metrics::PerceivedStats perceived;
     double hdr_flip = 0;
     std::optional<double> tile_edge_ratio; // none: no grid, or scaled
 

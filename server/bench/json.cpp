@@ -63,7 +63,7 @@ Json toJson(const std::vector<RowTimes::Pass>& passes) {
     return json;
 }
 
-Json toJson(const measure::DifferenceStats& stats) {
+Json toJson(const image_metrics::DifferenceStats& stats) {
     return {{"max_abs", stats.max_abs},
             {"p999_abs", stats.p999_abs},
             {"rmse", stats.rmse},
@@ -75,7 +75,7 @@ Json toJson(const measure::DifferenceStats& stats) {
             {"nonfinite", stats.nonfinite_count}};
 }
 
-Json toJson(const measure::PerceivedStats& stats) {
+Json toJson(const image_metrics::PerceivedStats& stats) {
     return {{"above_1_255", stats.above_1_255_count}, {"mssim", stats.mssim}, {"flip", stats.flip}};
 }
 
@@ -230,9 +230,9 @@ Json methodOf(const RunResult& result) {
             {"r2", kR2},
             {"r1_pairs_limit", result.error_options.r1_pairs_limit},
             {"r2_pairs_limit", result.error_options.r2_pairs_limit},
-            {"peak_linear", measure::DifferenceStats{}.peak},
-            {"peak_shown", measure::DifferenceStats{}.peak},
-            {"pixels_per_degree", measure::kPixelsPerDegree}};
+            {"peak_linear", image_metrics::DifferenceStats{}.peak},
+            {"peak_shown", image_metrics::DifferenceStats{}.peak},
+            {"pixels_per_degree", image_metrics::kPixelsPerDegree}};
 }
 
 Json viewsOf(const Base& base) {

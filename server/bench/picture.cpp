@@ -1,7 +1,7 @@
 #include "bench/picture.h"
 
 #include "bench/shown_picture.h"
-#include "measure/flip.h"
+#include "image_metrics/flip.h"
 #include "reference/bloom.h"
 #include "reference/shade.h"
 #include "render/renderer.h"
@@ -113,8 +113,8 @@ Result<Pictures::Shared> Pictures::sample(const view::ViewSettings& settings, do
         for (size_t k = 0; k < value_count; ++k) {
             linear[k] += static_cast<double>((*picture)->linear.rgb[k]);
             const auto byte = std::to_integer<uint8_t>((*picture)->rgba8[k / 3 * 4 + k % 3]);
-            emitted[k] +=
-                static_cast<double>(measure::flip::linearFromSrgb(static_cast<float>(byte) / 255));
+            emitted[k] += static_cast<double>(
+                image_metrics::flip::linearFromSrgb(static_cast<float>(byte) / 255));
         }
     }
     const auto mean = [&](const std::vector<double>& sums) {

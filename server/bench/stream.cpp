@@ -64,8 +64,8 @@ measureStream(const PixelView& shown, const view::Encoding& encoding, size_t enc
                        .bits_per_pixel = 8.0 * static_cast<double>(bytes) /
                                          (static_cast<double>(shown.width_px) * shown.height_px),
                        .encode_us = report::summarize(std::move(encode_us)),
-                       .shown = measure::shownDifference(seen, shown),
-                       .perceived = measure::perceivedDifference(seen, shown)};
+                       .shown = image_metrics::shownDifference(seen, shown),
+                       .perceived = image_metrics::perceivedDifference(seen, shown)};
 }
 
 } // namespace froxel::bench

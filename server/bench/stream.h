@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/pixel_view.h"
-#include "measure/picture_error.h"
+#include "image_metrics/picture_error.h"
 #include "report/statistics.h"
 #include "view/settings.h"
 
@@ -18,8 +18,8 @@ struct StreamError {
     uint64_t bytes = 0;
     double bits_per_pixel = 0;
     report::Summary encode_us; // on this thread, one encoder, warmed up
-    measure::DifferenceStats shown;
-    measure::PerceivedStats perceived;
+    image_metrics::DifferenceStats shown;
+    image_metrics::PerceivedStats perceived;
 };
 
 // Encodes as the stream does, `encode_count` (1 or more) times and once before to warm up, and

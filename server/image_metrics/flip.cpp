@@ -1,10 +1,10 @@
-#include "measure/flip.h"
+#include "image_metrics/flip.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace froxel::measure::flip {
+namespace froxel::image_metrics::flip {
 
 namespace {
 
@@ -235,4 +235,4 @@ errors(const RgbPlanes& picture, const RgbPlanes& reference, double pixels_per_d
     return result;
 }
 
-} // namespace froxel::measure::flip
+} // namespace froxel::image_metrics::flip

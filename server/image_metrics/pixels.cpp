@@ -1,11 +1,11 @@
-#include "measure/pixels.h"
+#include "image_metrics/pixels.h"
 
 #include "core/assert.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 void expectAlike(const LinearImage& picture, const LinearImage& reference) {
     FROXEL_ASSERT(picture.width_px == reference.width_px &&
@@ -31,4 +31,4 @@ bool isFinite(const Pixel& pixel) {
                        [](float value) { return std::isfinite(value); });
 }
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

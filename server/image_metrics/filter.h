@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 // [height][width], top row first.
 template <class Value>
@@ -33,4 +33,4 @@ template <class Value>
 template <class Value>
 [[nodiscard]] Plane<Value> filterColumns(const Plane<Value>& plane, std::span<const double> kernel);
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

@@ -15,7 +15,7 @@
 #include <numeric>
 #include <vector>
 
-namespace froxel::measure::oracle {
+namespace froxel::image_metrics::oracle {
 
 struct Colours {
     int width = 0;
@@ -218,4 +218,4 @@ inline double meanHdrFlip(const Colours& a, const Colours& b, double ppd) {
     return meanOf(worst);
 }
 
-} // namespace froxel::measure::oracle
+} // namespace froxel::image_metrics::oracle

@@ -1,14 +1,14 @@
-#include "measure/flip.h"
-#include "measure/picture_error.h"
-#include "unit/measure/flip_oracle.h"
-#include "unit/measure/pictures.h"
+#include "image_metrics/flip.h"
+#include "image_metrics/picture_error.h"
+#include "unit/image_metrics/flip_oracle.h"
+#include "unit/image_metrics/pictures.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 namespace {
 
 constexpr Bytes kBlack = {0, 0, 0};
@@ -268,4 +268,4 @@ TEST(HdrFlip, NonFiniteValue_IsNaN) {
 }
 
 } // namespace
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

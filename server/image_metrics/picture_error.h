@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 // Over all channels of all pixels, in the unit of the pictures compared: linear radiance, or 1/255
 // steps divided by 255. A pixel with a non-finite value in either picture is counted in pixel_count
@@ -63,4 +63,4 @@ linearDifference(const LinearImage& picture, const LinearImage& reference, doubl
 [[nodiscard]] double
 tileEdgeRatio(const LinearImage& picture, const LinearImage& reference, const TileGrid& tiles);
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

@@ -1,4 +1,4 @@
-#include "measure/filter.h"
+#include "image_metrics/filter.h"
 
 #include "core/assert.h"
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 namespace {
 
@@ -76,4 +76,4 @@ template Plane<float> filterColumns(const Plane<float>&, std::span<const double>
 template Plane<double> filterRows(const Plane<double>&, std::span<const double>);
 template Plane<double> filterColumns(const Plane<double>&, std::span<const double>);
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

@@ -7,11 +7,11 @@
 // Any thread.
 #pragma once
 
-#include "measure/filter.h"
+#include "image_metrics/filter.h"
 
 #include <array>
 
-namespace froxel::measure::flip {
+namespace froxel::image_metrics::flip {
 
 // Linear RGB of sRGB primaries, 0..1 each.
 using Rgb = std::array<float, 3>;
@@ -32,4 +32,4 @@ using RgbPlanes = std::array<Plane<float>, 3>;
 [[nodiscard]] Plane<float>
 errors(const RgbPlanes& picture, const RgbPlanes& reference, double pixels_per_degree);
 
-} // namespace froxel::measure::flip
+} // namespace froxel::image_metrics::flip

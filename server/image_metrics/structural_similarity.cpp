@@ -1,9 +1,9 @@
-#include "measure/structural_similarity.h"
+#include "image_metrics/structural_similarity.h"
 
 #include <algorithm>
 #include <functional>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 namespace {
 
@@ -65,4 +65,4 @@ double meanStructuralSimilarity(const Plane<double>& a, const Plane<double>& b) 
     return sum / static_cast<double>((a.width_px - 2 * kRadius) * (a.height_px - 2 * kRadius));
 }
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

@@ -1,12 +1,12 @@
-#include "measure/picture_error.h"
-#include "unit/measure/pictures.h"
+#include "image_metrics/picture_error.h"
+#include "unit/image_metrics/pictures.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -274,4 +274,4 @@ TEST(PictureErrorDeathTest, DifferentOrEmptyPictures_AreABug) {
 }
 
 } // namespace
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 using Pixel = std::array<float, 3>;
 
@@ -30,4 +30,4 @@ void expectAlike(const PixelView& picture, const PixelView& reference);
             std::to_integer<uint8_t>(pixel[2])};
 }
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

@@ -1,9 +1,9 @@
 // Structural similarity of two pictures.
 #pragma once
 
-#include "measure/filter.h"
+#include "image_metrics/filter.h"
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 // Mean SSIM of two luma pictures in 0..255: Wang, Bovik, Sheikh and Simoncelli, "Image quality
 // assessment: from error visibility to structural similarity", IEEE Trans. Image Processing 13(4),
@@ -13,4 +13,4 @@ namespace froxel::measure {
 // empty; any thread.
 [[nodiscard]] double meanStructuralSimilarity(const Plane<double>& a, const Plane<double>& b);
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 using Bytes = std::array<uint8_t, 3>;
 
@@ -93,4 +93,4 @@ inline LinearImage linearNoise(uint32_t width, uint32_t height, uint32_t seed) {
     return image;
 }
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

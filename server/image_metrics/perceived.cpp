@@ -1,8 +1,8 @@
 #include "core/assert.h"
-#include "measure/flip.h"
-#include "measure/picture_error.h"
-#include "measure/pixels.h"
-#include "measure/structural_similarity.h"
+#include "image_metrics/flip.h"
+#include "image_metrics/picture_error.h"
+#include "image_metrics/pixels.h"
+#include "image_metrics/structural_similarity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 namespace {
 
@@ -167,4 +167,4 @@ double hdrFlip(const LinearImage& picture, const LinearImage& reference) {
     return meanOf(worst);
 }
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics

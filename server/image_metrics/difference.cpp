@@ -1,6 +1,6 @@
 #include "core/assert.h"
-#include "measure/picture_error.h"
-#include "measure/pixels.h"
+#include "image_metrics/picture_error.h"
+#include "image_metrics/pixels.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace froxel::measure {
+namespace froxel::image_metrics {
 
 namespace {
 
@@ -152,4 +152,4 @@ tileEdgeRatio(const LinearImage& picture, const LinearImage& reference, const Ti
     return borders.mean() / elsewhere.mean();
 }
 
-} // namespace froxel::measure
+} // namespace froxel::image_metrics
