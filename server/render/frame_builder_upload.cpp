@@ -1,5 +1,5 @@
 // What a frame's host data becomes on the device.
-#include "ltc/table.h"
+#include "area_light_table/table.h"
 #include "render/frame_builder.h"
 
 #include <array>
@@ -62,7 +62,7 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect
     }
     if (!lights_.areas.empty()) {
         const gpu::Buffer& table = scene_.ltcTable();
-        blocks_[12] = {.bytes = ltc::table().size_bytes(), .buffer = *table.handle};
+        blocks_[12] = {.bytes = area_light_table::table().size_bytes(), .buffer = *table.handle};
     }
     slot.device_lists = on_device_;
     if (on_device_) {

@@ -1,9 +1,9 @@
 #include "render/scene_resources.h"
 
+#include "area_light_table/table.h"
 #include "core/error.h"
 #include "gpu/pipeline.h"
 #include "interface/frame_io.h"
-#include "ltc/table.h"
 #include "render/list_limits.h"
 #include "scene/scene_check.h"
 
@@ -210,7 +210,7 @@ VisibilityScene& SceneResources::visibility() {
 
 const gpu::Buffer& SceneResources::ltcTable() {
     if (!ltc_arena_) {
-        const auto bytes = std::as_bytes(ltc::table());
+        const auto bytes = std::as_bytes(area_light_table::table());
         auto made = std::make_unique<gpu::MemoryArena>(device);
         ltc_table_ = made->makeBuffer(bytes.size(),
                                       vk::BufferUsageFlagBits::eUniformTexelBuffer |

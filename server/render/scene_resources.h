@@ -80,7 +80,7 @@ class SceneResources {
     // All made at the first call. Throw vk::SystemError.
     [[nodiscard]] DebugPass& debug();
     [[nodiscard]] PairPipelines& pairs();
-    // The highlights of rectangular lights: ltc::table().
+    // The highlights of rectangular lights: area_light_table::table().
     [[nodiscard]] const gpu::Buffer& ltcTable();
     // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
     [[nodiscard]] VisibilityScene& visibility();

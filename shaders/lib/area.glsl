@@ -2,8 +2,8 @@
 // in closed form. What it scatters is the irradiance of the part above the surface: half the sum
 // over that polygon's edges of the angle that an edge takes, times its plane's unit normal (Lambert
 // 1760; Baum, Rushmeier and Winget 1989). A highlight is the same sum over the polygon under the
-// inverse of the lobe's fitted transform (server/ltc). Fresnel's term is the table's for
-// highlights, and for scattered light that of the mean direction.
+// inverse of the lobe's fitted transform (server/area_light_table). Fresnel's term is the table's
+// for highlights, and for scattered light that of the mean direction.
 #include "interface/area_io.h"
 
 struct AreaRect {

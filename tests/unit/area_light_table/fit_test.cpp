@@ -1,6 +1,6 @@
+#include "area_light_table/fit.h"
+#include "area_light_table/table.h"
 #include "interface/area_io.h"
-#include "ltc/fit.h"
-#include "ltc/table.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace froxel::ltc {
+namespace froxel::area_light_table {
 
 namespace {
 
@@ -118,4 +118,4 @@ TEST(LtcTable, Fit_PutsLittleLightElsewhere) {
     }
 }
 
-} // namespace froxel::ltc
+} // namespace froxel::area_light_table

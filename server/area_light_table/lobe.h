@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace froxel::ltc {
+namespace froxel::area_light_table {
 
 enum class Lobe : uint8_t { kGgx, kBlinnPhong };
 
@@ -21,4 +21,4 @@ evaluate(Lobe lobe, const glm::dvec3& to_eye, const glm::dvec3& to_light, double
 [[nodiscard]] glm::dvec3
 sampleLobe(Lobe lobe, const glm::dvec3& to_eye, double alpha, double u, double v);
 
-} // namespace froxel::ltc
+} // namespace froxel::area_light_table

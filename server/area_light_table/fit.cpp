@@ -1,4 +1,4 @@
-#include "ltc/fit.h"
+#include "area_light_table/fit.h"
 
 #include "interface/area_io.h"
 #include "reference/lobes.h"
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace froxel::ltc {
+namespace froxel::area_light_table {
 namespace {
 
 constexpr int kFitSamples = 24; // squared, of the lobe and of its fit
@@ -213,4 +213,4 @@ std::vector<Entry> fit(Lobe lobe) {
     return entries;
 }
 
-} // namespace froxel::ltc
+} // namespace froxel::area_light_table

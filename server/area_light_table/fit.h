@@ -4,11 +4,11 @@
 // Transformed Cosines").
 #pragma once
 
-#include "ltc/lobe.h"
+#include "area_light_table/lobe.h"
 
 #include <vector>
 
-namespace froxel::ltc {
+namespace froxel::area_light_table {
 
 // M^-1 = ((a, 0, b), (0, 1, 0), (c, 0, d)), where +x is the eye's side of the surface.
 struct Entry {
@@ -25,4 +25,4 @@ struct Entry {
 // Rows by roughness, least first; in each kSize entries by the angle to the eye, none first.
 [[nodiscard]] std::vector<Entry> fit(Lobe lobe);
 
-} // namespace froxel::ltc
+} // namespace froxel::area_light_table

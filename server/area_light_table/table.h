@@ -3,9 +3,9 @@
 
 #include <span>
 
-namespace froxel::ltc {
+namespace froxel::area_light_table {
 
 // Made at build time by make_table.cpp.
 [[nodiscard]] std::span<const float> table();
 
-} // namespace froxel::ltc
+} // namespace froxel::area_light_table

@@ -1,4 +1,4 @@
-#include "ltc/lobe.h"
+#include "area_light_table/lobe.h"
 
 #include "reference/lobes.h"
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace froxel::ltc {
+namespace froxel::area_light_table {
 
 LobeSample evaluate(Lobe lobe, const glm::dvec3& to_eye, const glm::dvec3& to_light, double alpha) {
     const glm::dvec3 half = glm::normalize(to_eye + to_light);
@@ -41,4 +41,4 @@ glm::dvec3 sampleLobe(Lobe lobe, const glm::dvec3& to_eye, double alpha, double 
     return half * (2 * glm::dot(half, to_eye)) - to_eye;
 }
 
-} // namespace froxel::ltc
+} // namespace froxel::area_light_table
