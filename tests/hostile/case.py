@@ -209,13 +209,19 @@ async def measure(case, server, begin, fellow):
             "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
 
 
+def served_with(options, own):
+    """Options of froxel serve, names and values in turn, where a case's own go before those of all cases."""
+    pairs = dict(zip(options[::2], options[1::2]))
+    return [word for pair in {**pairs, **dict(zip(own[::2], own[1::2]))}.items() for word in pair]
+
+
 def play(case, froxel, options, slack):
     """(figures, what is wrong) of one run with a server of its own."""
     spawn = multiprocessing.get_context("spawn")
     ready, begin = spawn.Event(), spawn.Event()
     ours, theirs = spawn.Pipe()
     figures, wrong = {}, []
-    with Server(froxel, "--drain-seconds", "1", *options, *case.serve) as server:
+    with Server(froxel, "--drain-seconds", "1", *served_with(options, case.serve)) as server:
         fellow = spawn.Process(target=play_hostile,
                                args=(case.name, server.url, froxel, ready, begin, theirs), daemon=True)
         fellow.start()
