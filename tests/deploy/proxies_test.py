@@ -69,7 +69,8 @@ class Server:
 
     def __init__(self, *options):
         self.port, self.admin = free_port(), free_port()
-        self.options = options
+        # Room for all viewers twice: nginx may send nearly everybody to one server.
+        self.options = options or ("--max-sessions", "100")
         self.start()
 
     def start(self):
