@@ -141,6 +141,14 @@ vk::raii::PhysicalDevice choose(const vk::raii::Instance& instance, DeviceChoice
     throw StartupError({ErrorCode::kDevice, wanted + reasons});
 }
 
+bool findsCpuDevice(DeviceChoice choice) {
+    if (choice != DeviceChoice::kAuto) {
+        return choice == DeviceChoice::kCpu;
+    }
+    const Instance instance(false);
+    return isCpu(choose(instance.handle(), choice));
+}
+
 DeviceTraits readTraits(const vk::raii::PhysicalDevice& physical, bool use_subgroups) {
     const auto chain =
         physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties,
@@ -310,8 +318,7 @@ void Device::nameObject(vk::ObjectType type, uint64_t handle, std::string_view n
 }
 
 std::unique_ptr<Device> openForServing(const DeviceOptions& options, int cpu_niceness) {
-    const Instance instance(false);
-    if (!isCpu(choose(instance.handle(), options.choice))) {
+    if (!findsCpuDevice(options.choice)) {
         return std::make_unique<Device>(options);
     }
     // Its threads inherit what the one has that opens it, which could not take it back.
