@@ -41,14 +41,19 @@ class BitReader {
     size_t at_ = 0;
 };
 
-Result<void>
-checkSize(const std::string& what, const PictureHeader& picture, const v1::Part& part) {
+// As people write it: VP9.
+std::string nameOf(v1::Codec codec) {
+    std::string name = v1::Codec_Name(codec);
+    return name.substr(name.find('_') + 1);
+}
+
+Result<void> checkSize(const PictureHeader& picture, const v1::Part& part, bool video) {
     if (picture.width_px == part.width() && picture.height_px == part.height()) {
         return {};
     }
-    return broken(what + " of " + numberText(picture.width_px) + "x" +
-                  numberText(picture.height_px) + " for a part of " + numberText(part.width()) +
-                  "x" + numberText(part.height()));
+    return broken((video ? "a key frame" : "a " + nameOf(part.codec())) + " of " +
+                  numberText(picture.width_px) + "x" + numberText(picture.height_px) +
+                  " for a part of " + numberText(part.width()) + "x" + numberText(part.height()));
 }
 
 Result<PictureHeader> readJpeg(protocol::ByteSpan bytes) {
@@ -72,12 +77,6 @@ Result<PictureHeader> readHeader(const v1::Part& part, protocol::ByteSpan bytes)
                      [&part](const Reader& known) { return known.codec == part.codec(); });
     return reader != kReaders.end() ? reader->read(bytes)
                                     : PictureHeader{part.key_frame(), part.width(), part.height()};
-}
-
-// As people write it: VP9.
-std::string nameOf(v1::Codec codec) {
-    std::string name = v1::Codec_Name(codec);
-    return name.substr(name.find('_') + 1);
 }
 
 } // namespace
@@ -128,8 +127,8 @@ Result<void> PictureCheck::onFrame(const v1::FrameHeader& header, protocol::Byte
         }
         const auto codec = session::fromProto<view::Codec>(view::kCodecNames, part.codec());
         const bool depends = codec && view::rowOf(*codec).frames_depend;
-        const auto checked = depends ? checkOrder(header, part, *picture)
-                                     : checkSize("a " + nameOf(part.codec()), *picture, part);
+        const auto checked =
+            depends ? checkOrder(header, part, *picture) : checkSize(*picture, part, false);
         if (!checked) {
             return checked;
         }
@@ -140,21 +139,23 @@ Result<void> PictureCheck::onFrame(const v1::FrameHeader& header, protocol::Byte
 Result<void> PictureCheck::checkOrder(const v1::FrameHeader& header,
                                       const v1::Part& part,
                                       const PictureHeader& picture) {
-    const std::string codec = nameOf(part.codec()) + ": ";
+    const auto wrong = [&part](const char* words) {
+        return broken(nameOf(part.codec()) + ": " + words);
+    };
     if (picture.key != part.key_frame()) {
-        return broken(codec + (picture.key ? "a key frame that is not said to be one"
-                                           : "said to be a key frame, and is none"));
+        return wrong(picture.key ? "a key frame that is not said to be one"
+                                 : "said to be a key frame, and is none");
     }
     if (picture.key) {
         ++key_count_;
         dropped_count_ = header.dropped_frames();
-        return checkSize("a key frame", picture, part);
+        return checkSize(picture, part, true);
     }
     if (!dropped_count_) {
-        return broken(codec + "no key frame before it");
+        return wrong("no key frame before it");
     }
     if (*dropped_count_ != header.dropped_frames()) {
-        return broken(codec + "refers to a frame that was dropped");
+        return wrong("refers to a frame that was dropped");
     }
     return {};
 }
