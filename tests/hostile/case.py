@@ -210,9 +210,13 @@ async def measure(case, server, begin, fellow):
 
 
 def served_with(options, own):
-    """Options of froxel serve, names and values in turn, where a case's own go before those of all cases."""
-    pairs = dict(zip(options[::2], options[1::2]))
-    return [word for pair in {**pairs, **dict(zip(own[::2], own[1::2]))}.items() for word in pair]
+    """Options of froxel serve, without those that `own` has too, and then `own`."""
+    groups = []  # a name and what follows it
+    for word in options:
+        if word.startswith("--") or not groups:
+            groups.append([])
+        groups[-1].append(word)
+    return [word for group in groups if group[0] not in own for word in group] + list(own)
 
 
 def play(case, froxel, options, slack):

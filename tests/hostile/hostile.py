@@ -23,7 +23,7 @@ from server import split_arguments
 
 ATTEMPTS = 3
 # Few enough pixels and lights that a software device draws it fluently; unless others are asked for.
-SERVE = {"--size": "320x180", "--lights": "50"}
+SERVE = ("--size", "320x180", "--lights", "50")
 # Heading, its width, and figures: alone, then beside hostile viewers.
 COLUMNS = [("frames/s", 14, "{alone_fps:.1f} {fps:.1f}"), ("kept", 6, "{kept:.0%}"),
            ("gap, s", 12, "{alone_gap_s:.2f} {gap_s:.2f}"),
@@ -77,12 +77,12 @@ def main():
             print(f"{case.group}.{case.name}: {(case.attack.__doc__ or '').splitlines()[0]}")
         return 0
     print(" " * 22 + "".join(f"{name:>{width}}" for name, width, _ in COLUMNS), flush=True)
-    defaults = [word for name, value in SERVE.items() if name not in serve for word in (name, value)]
+    serve = cases.served_with(SERVE, serve)
     if options.seconds:
         selected = [dataclasses.replace(case, seconds=options.seconds) for case in selected]
     if not options.slack >= 1:
         parser.error(f"--slack {options.slack:g} must be at least 1")
-    results = [play(case, options.froxel, [*defaults, *serve], options.slack) for case in selected]
+    results = [play(case, options.froxel, serve, options.slack) for case in selected]
     if options.out:
         options.out.write_text(json.dumps(results, indent=1) + "\n")
     failed = [result["case"] for result in results if not result["holds"]]
