@@ -13,6 +13,7 @@
 #include <array>
 #include <future>
 #include <span>
+#include <utility>
 
 namespace froxel::render {
 
@@ -154,16 +155,102 @@ const cluster::GridCosts& FrameBuilder::gridCosts(const view::ViewSettings& sett
     return in_fragments ? cluster::kGpuFragmentCosts : cluster::kGpuCosts;
 }
 
-void FrameBuilder::assignLights(const FrameInputs& inputs) {
-    const auto& settings = inputs.settings;
-    const bool grown = storesHalves(settings);
-    if (grown) {
+void FrameBuilder::start(const FrameInputs& inputs, uint32_t lights_at_once) {
+    culling_ = {}; // reads the inputs
+    inputs_ = inputs;
+    const auto& settings = inputs_.settings;
+    farthest_m_ = farthestDepth(settings.camera, scene_.bounds_world);
+    projection_ = makeProjection(settings.camera, settings.size, farthest_m_);
+    visibility_ = choosesVisibility(inputs_);
+    compute_raster_ = visibility_ && choosesComputeRaster(inputs_);
+    startCulling(settings.lights.count <= lights_at_once);
+    stage_ = Stage::kLights;
+}
+
+// On a CPU device culling and light assignment, which do not need each other, go side by side:
+// 7 becomes 5 ms on two cores (Sponza). Elsewhere the host has too little to do for a thread.
+void FrameBuilder::startCulling(bool aside) {
+    const bool is_cpu = scene_.device.traits().is_cpu;
+    culling_ =
+        std::async(is_cpu && aside ? std::launch::async : std::launch::deferred, [this, is_cpu] {
+            const auto& settings = inputs_.settings;
+            buildDrawList(scene_, settings.camera, settings.size, projection_, is_cpu, !visibility_,
+                          settings.transparency == view::Transparency::kSorted
+                              ? TransparentOrder::kByDistance
+                              : TransparentOrder::kOfTheScene,
+                          draws_);
+            if (visibility_) {
+                placeInstances(scene_, settings.camera, draws_.rows, instances_);
+                orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
+            }
+        });
+}
+
+void FrameBuilder::advance(ViewEffects& effects) {
+    // Whatever throws ends what was begun.
+    switch (*std::exchange(stage_, std::nullopt)) {
+    case Stage::kLights:
+        evaluateLights();
+        stage_ = Stage::kGrid;
+        break;
+    case Stage::kGrid:
+        chooseGrid();
+        stage_ = Stage::kLists;
+        break;
+    case Stage::kLists:
+        assignLights();
+        stage_ = capsLists() ? Stage::kCap : Stage::kPlan;
+        break;
+    case Stage::kCap:
+        cluster::capLists(light_grid_.grid(), reach(), inputs_.settings.list_cap,
+                          scene_.light_assigner.crew(), lists_);
+        stage_ = Stage::kPlan;
+        break;
+    case Stage::kPlan:
+        culling_.get();
+        plan_ = plan(effects);
+        stage_ = Stage::kBuilt;
+        break;
+    case Stage::kBuilt:
+        break;
+    }
+}
+
+FramePlan FrameBuilder::take() {
+    stage_.reset();
+    return plan_;
+}
+
+const light::FrameLights& FrameBuilder::reach() const {
+    return storesHalves(inputs_.settings) ? grown_ : lights_;
+}
+
+void FrameBuilder::evaluateLights() {
+    view::Lights lights = inputs_.settings.lights;
+    if (!needsLights(inputs_.settings.debug.view)) {
+        lights.count = 0;
+        lights.scene_lights = false;
+        lights.placed = {};
+    }
+    scene_.light_rig.evaluate(lights, inputs_.settings.camera, inputs_.time_s, lights_);
+}
+
+void FrameBuilder::chooseGrid() {
+    const auto& settings = inputs_.settings;
+    if (storesHalves(settings)) {
         growForHalves(lights_, grown_);
     }
-    const light::FrameLights& reach = grown ? grown_ : lights_;
     light_grid_.choose(view::showsClusters(settings.debug.view) ? withLists(settings) : settings,
-                       reach, scene_.bounds_world, gridCosts(settings));
-    on_device_ = assignsOnDevice(inputs);
+                       reach(), scene_.bounds_world, gridCosts(settings));
+}
+
+bool FrameBuilder::capsLists() const {
+    return inputs_.settings.list_cap > 0 && !on_device_ && light_grid_.lists();
+}
+
+void FrameBuilder::assignLights() {
+    const auto& settings = inputs_.settings;
+    on_device_ = assignsOnDevice(inputs_);
     if (on_device_) {
         refused_ = settings;
         lists_.clusters.clear();
@@ -171,11 +258,7 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         lists_.stats = {};
         (void)device_lists_.prepare(light_grid_.grid(), lights_);
     } else if (light_grid_.lists()) {
-        scene_.light_assigner.assign(light_grid_.grid(), reach, lists_);
-        if (settings.list_cap > 0) {
-            cluster::capLists(light_grid_.grid(), reach, settings.list_cap,
-                              scene_.light_assigner.crew(), lists_);
-        }
+        scene_.light_assigner.assign(light_grid_.grid(), reach(), lists_);
     } else {
         lists_.clusters.clear();
         lists_.indices.clear();
@@ -183,46 +266,18 @@ void FrameBuilder::assignLights(const FrameInputs& inputs) {
         lists_.stats.light_count = static_cast<uint32_t>(lights_.lights.size());
         lists_.stats.all_lights = !lights_.lights.empty();
     }
-    lists_.stats.why =
-        needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
 }
 
-FramePlan FrameBuilder::build(const FrameInputs& inputs, ViewEffects& effects) {
-    const auto& settings = inputs.settings;
-    const auto& camera = settings.camera;
-    const double farthest_m = farthestDepth(camera, scene_.bounds_world);
-    const auto projection = makeProjection(camera, settings.size, farthest_m);
-    // On a CPU device culling and light assignment, which do not need each other, go side by side:
-    // 7 becomes 5 ms on two cores (Sponza). Elsewhere the host has too little to do for a thread.
-    const bool is_cpu = scene_.device.traits().is_cpu;
-    visibility_ = choosesVisibility(inputs);
-    compute_raster_ = visibility_ && choosesComputeRaster(inputs);
-    auto culling = std::async(is_cpu ? std::launch::async : std::launch::deferred, [&] {
-        buildDrawList(scene_, camera, settings.size, projection, is_cpu, !visibility_,
-                      settings.transparency == view::Transparency::kSorted
-                          ? TransparentOrder::kByDistance
-                          : TransparentOrder::kOfTheScene,
-                      draws_);
-        if (visibility_) {
-            placeInstances(scene_, camera, draws_.rows, instances_);
-            orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
-        }
-    });
-    view::Lights lights = settings.lights;
-    if (!needsLights(settings.debug.view)) {
-        lights.count = 0;
-        lights.scene_lights = false;
-        lights.placed = {};
-    }
-    scene_.light_rig.evaluate(lights, camera, inputs.time_s, lights_);
-    assignLights(inputs);
-    culling.get();
+FramePlan FrameBuilder::plan(ViewEffects& effects) {
+    const auto& settings = inputs_.settings;
+    lists_.stats.why =
+        needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
     drawn_ = settings.size;
-    FrameFacts found = facts(inputs);
-    effects.look({settings, lights_, inputs.time_s}, found);
-    planned_ = generalised(found, inputs.generic);
+    FrameFacts found = facts(inputs_);
+    effects.look({settings, lights_, inputs_.time_s}, found);
+    planned_ = generalised(found, inputs_.generic);
     const FramePlan plan = planFrame(settings, planned_);
-    uniforms_ = makeFrameUniforms(settings, projection, plan.lists ? &light_grid_.grid() : nullptr,
+    uniforms_ = makeFrameUniforms(settings, projection_, plan.lists ? &light_grid_.grid() : nullptr,
                                   static_cast<uint32_t>(lights_.lights.size()),
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
@@ -230,7 +285,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs, ViewEffects& effects) {
     uniforms_.first_area = lights_.first_area;
     debug_.wires.clear();
     if (plan.debug != view::DebugView::kNone) {
-        buildDebug(inputs, plan, farthest_m);
+        buildDebug(inputs_, plan, farthest_m_);
     }
     return plan;
 }

@@ -11,10 +11,13 @@
 #include "render/frame_inputs.h"
 #include "render/frame_plan.h"
 #include "render/frame_slot.h"
+#include "render/frame_uniforms.h"
 #include "render/gpu_light_lists.h"
 #include "render/light_grid.h"
 #include "render/scene_resources.h"
 
+#include <future>
+#include <optional>
 #include <span>
 
 namespace froxel::render {
@@ -27,8 +30,20 @@ class FrameBuilder {
     FrameBuilder(SceneResources& scene, const ListLimits& limits)
         : scene_(scene), device_lists_(scene.device, limits) {}
 
-    // Culls, evaluates lights, assigns them to clusters, lets effects look, plans.
-    [[nodiscard]] FramePlan build(const FrameInputs& inputs, ViewEffects& effects);
+    // Culls, evaluates lights, assigns them to clusters, lets effects look, plans: a stage at a
+    // time, so that whoever shares the thread waits for one of them at most. Starting anew forgets
+    // what was not taken. With more seeded lights than `lights_at_once` nothing runs between
+    // stages, either.
+    void start(const FrameInputs& inputs, uint32_t lights_at_once);
+    // Whether it was started for these and not taken.
+    [[nodiscard]] bool builds(const FrameInputs& inputs) const {
+        return stage_ && inputs_ == inputs;
+    }
+    // built() is false.
+    void advance(ViewEffects& effects);
+    [[nodiscard]] bool built() const { return stage_ == Stage::kBuilt; }
+    // built() is true; the next frame is to be started.
+    [[nodiscard]] FramePlan take();
     // What the frame that was built takes. Where its lists are made on the device and could make it
     // longer than `piece`, the device looks at them before it shades, and leaves the frame without
     // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `effects`
@@ -69,6 +84,7 @@ class FrameBuilder {
     [[nodiscard]] glm::vec3 background() const { return uniforms_.background; }
 
   private:
+    enum class Stage : uint8_t { kLights, kGrid, kLists, kCap, kPlan, kBuilt }; // what comes next
     // The longest list of each tile, as the device last told.
     struct SeenLists {
         view::GridSize grid;
@@ -81,8 +97,15 @@ class FrameBuilder {
     [[nodiscard]] std::optional<PairBound> seenPairs() const;
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     [[nodiscard]] const cluster::GridCosts& gridCosts(const view::ViewSettings& settings) const;
-    // Chooses the grid and fills the lists, or empties them.
-    void assignLights(const FrameInputs& inputs);
+    void startCulling(bool aside);
+    void evaluateLights();
+    void chooseGrid();
+    // Fills the lists, or empties them.
+    void assignLights();
+    [[nodiscard]] bool capsLists() const;
+    [[nodiscard]] FramePlan plan(ViewEffects& effects);
+    // What pixels loop over.
+    [[nodiscard]] const light::FrameLights& reach() const;
     [[nodiscard]] bool assignsOnDevice(const FrameInputs& inputs);
     // Where the device's assignment finds its data.
     [[nodiscard]] AssignOffsets gatherAssignment(FrameUpload& upload) const;
@@ -98,6 +121,11 @@ class FrameBuilder {
     void writeFrameSet(FrameSlot& slot) const;
 
     SceneResources& scene_;
+    FrameInputs inputs_;         // of what is built
+    std::optional<Stage> stage_; // none: nothing is
+    FramePlan plan_;
+    ViewProjection projection_;
+    double farthest_m_ = 0;
     light::FrameLights lights_;
     light::FrameLights grown_; // as lights_, for positions in halves
     LightGrid light_grid_;
@@ -120,6 +148,7 @@ class FrameBuilder {
     DebugFrame debug_;
     LightGrid wire_grid_;            // of a frozen camera
     light::FrameLights wire_lights_; // as it sees them
+    std::future<void> culling_;      // ends before what it writes to
 };
 
 } // namespace froxel::render

@@ -30,6 +30,8 @@ struct FrameInputs {
     AssignmentPlace assignment = AssignmentPlace::kAuto;
     // What the picture takes beside the renderer, to be encoded: of the view's memory, too.
     uint64_t beside_bytes = 0;
+
+    bool operator==(const FrameInputs&) const = default;
 };
 
 // How long frames and their pieces may take by their estimates. The defaults are for whoever has
@@ -38,6 +40,9 @@ struct WorkLimits {
     Seconds frame{100}; // beyond: refused, before anything is allocated
     Seconds piece{10};
     Seconds loop{10}; // one pixel's over its lights, which nothing cuts; beyond: refused
+    // Of point and spot lights. The host's part of a frame with more is done in stages, between
+    // which others get the thread.
+    uint32_t lights_at_once = UINT32_MAX;
 };
 
 } // namespace froxel::render

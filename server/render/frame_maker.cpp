@@ -118,42 +118,73 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     slot.stats.pairs.counted = inputs.settings.count_pairs; // without lights: as none
 }
 
-Result<bool> FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots) {
+Result<FrameMaker::Made>
+FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots) {
     VariantMaker& variants = scene_.variants;
     if (variants.busyFor(this)) {
-        return false;
+        return Made::kNothing;
     }
     variants.setAsker(this);
     variants.beginRecording();
     try {
         const uint64_t since = scene_.timeline.next();
-        auto recorded = recordNow(slot, inputs, slots);
+        const auto recorded = recordNow(slot, inputs, slots);
         slot.uses = variants.endRecording(since);
-        if (!recorded) {
-            builder_.forgetLists();
+        if (!recorded || !*recorded) {
             slot.uses.giveUp();
             slot.uses.end();
+        }
+        if (!recorded) {
+            builder_.forgetLists();
             return recorded.error();
         }
-        return true;
+        return *recorded ? Made::kFrame : Made::kHalf;
     } catch (const VariantsMissing&) {
         variants.endRecording(0).giveUp();
         markFresh(slot); // nothing of what was recorded runs
-        return false;
+        return Made::kNothing;
     } catch (...) {
         variants.endRecording(0).giveUp();
         throw;
     }
 }
 
-Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
+Result<bool> FrameMaker::build(const FrameInputs& asked) {
+    FrameInputs inputs = asked;
+    inputs.settings.size = drawnSize(asked.settings);
+    if (!builder_.builds(inputs)) {
+        if (auto able = checkAllLights(scene_.unit_costs, inputs.settings, work_.frame); !able) {
+            return able.error();
+        }
+        started_ = Clock::now();
+        built_us_ = 0;
+        builder_.start(inputs, work_.lights_at_once);
+    }
+    do {
+        builder_.advance(effects_);
+    } while (!builder_.built() && builder_.localLightCount() <= work_.lights_at_once);
+    return builder_.built();
+}
+
+Result<bool> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
+    const auto start = Clock::now();
+    const auto built = build(asked);
+    built_us_ += microsSince(start);
+    if (!built || !*built) {
+        return built;
+    }
+    if (auto recorded = recordBuilt(slot, asked, slots); !recorded) {
+        return recorded.error();
+    }
+    return true;
+}
+
+Result<void>
+FrameMaker::recordBuilt(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
     const auto start = Clock::now();
     FrameInputs inputs = asked;
     inputs.settings.size = drawnSize(asked.settings);
-    if (auto able = checkAllLights(scene_.unit_costs, inputs.settings, work_.frame); !able) {
-        return able;
-    }
-    const FramePlan plan = builder_.build(inputs, effects_);
+    const FramePlan plan = builder_.take();
     if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
         return tooManyToCap(builder_.localLightCount());
     }
@@ -189,8 +220,8 @@ Result<void> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, co
         return tooLongInPieces(asked.settings.size, slot.pieces, work_.frame);
     }
     noteBuilt(slot, plan, inputs);
-    slot.stats.host_us = microsSince(start);
-    slot.submitted = start;
+    slot.stats.host_us = built_us_ + microsSince(start);
+    slot.submitted = started_;
     slot.done_values.clear();
     slot.waited_count = 0;
     slot.given_up = false;

@@ -26,10 +26,14 @@ class FrameMaker {
     FrameMaker(const FrameMaker&) = delete;
     FrameMaker& operator=(const FrameMaker&) = delete;
 
+    enum class Made : uint8_t {
+        kFrame,  // in flight from now on
+        kHalf,   // goes on with the next call for the same inputs: see WorkLimits::lights_at_once
+        kNothing // variants that it needs are still being made
+    };
     // Builds a frame and records its pieces into a free slot, one of `slots`, which are all of the
-    // view's; it is in flight from then on; or not yet, where variants that it needs are still
-    // being made: false. Errors: kCapacity, kUnsupported. Throws vk::SystemError.
-    [[nodiscard]] Result<bool>
+    // view's. Errors: kCapacity, kUnsupported. Throws vk::SystemError.
+    [[nodiscard]] Result<Made>
     record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots);
     // Whether what the device told of a completed frame's lists lets it be shown.
     [[nodiscard]] bool accepts(const FrameSlot& slot) {
@@ -44,9 +48,15 @@ class FrameMaker {
     [[nodiscard]] const ViewEffects& effects() const { return effects_; }
 
   private:
+    // Whether the frame is recorded; else its host's part is not whole yet. Throws VariantsMissing
+    // besides.
+    [[nodiscard]] Result<bool>
+    recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots);
+    // The host's part, all of it or its next stage: whether it is done. Errors: kCapacity.
+    [[nodiscard]] Result<bool> build(const FrameInputs& inputs);
     // Throws VariantsMissing besides.
     [[nodiscard]] Result<void>
-    recordNow(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots);
+    recordBuilt(FrameSlot& slot, const FrameInputs& asked, const Slots& slots);
     // Asks the budget for a frame that was built, before anything is allocated for it. Errors:
     // kCapacity.
     [[nodiscard]] Result<void> takeMemory(FrameSlot& slot,
@@ -66,6 +76,8 @@ class FrameMaker {
     SceneResources& scene_;
     const WorkLimits work_;
     FrameBuilder builder_;
+    std::chrono::steady_clock::time_point started_; // what it builds
+    double built_us_ = 0;                           // of the host, spent on that
     ViewEffects effects_;
     MemoryShare memory_;
     TargetNeeds target_needs_; // of the frame that memory was taken for last

@@ -76,7 +76,8 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
         if (!recorded) {
             return recorded.error();
         }
-        FROXEL_ASSERT(*recorded, "whoever waits for frames makes variants at once");
+        FROXEL_ASSERT(*recorded == FrameMaker::Made::kFrame,
+                      "whoever waits for frames has them made at once");
         while (slot.unfinished()) {
             submitPiece(slot);
         }
@@ -119,8 +120,10 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
         if (!recorded) {
             return recorded.error();
         }
-        if (!*recorded) {
-            return FrameWork{.estimate = Seconds(0), .piece_count = 0};
+        if (*recorded != FrameMaker::Made::kFrame) {
+            return FrameWork{.estimate = Seconds(0),
+                             .piece_count = 0,
+                             .half_built = *recorded == FrameMaker::Made::kHalf};
         }
         impl_->pending.push_back(slot);
     } catch (const vk::OutOfDeviceMemoryError&) {
@@ -129,7 +132,7 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice, std::string("the device failed: ") + error.what()};
     }
-    return FrameWork{slot->pieces.estimate(), slot->pieces.count()};
+    return FrameWork{.estimate = slot->pieces.estimate(), .piece_count = slot->pieces.count()};
 }
 
 Result<void> ViewRenderer::submitPiece() {
@@ -189,7 +192,7 @@ Result<void> ViewRenderer::submit(const FrameInputs& inputs) {
     if (!begun) {
         return begun.error();
     }
-    FROXEL_ASSERT(begun->piece_count > 0, "whoever waits for frames makes variants at once");
+    FROXEL_ASSERT(begun->piece_count > 0, "whoever waits for frames has them made at once");
     while (impl_->pending.back()->unfinished()) {
         if (auto submitted = submitPiece(); !submitted) {
             return submitted;

@@ -26,7 +26,10 @@ class SceneResources;
 // What a frame will ask of the device.
 struct FrameWork {
     Seconds estimate{0};
-    uint32_t piece_count = 1; // 0: variants that it needs are being made, nothing has begun
+    uint32_t piece_count = 1; // 0: not yet, nothing runs
+    // Why not yet: the host's part has begun, and goes on when begin() gets the same inputs. Else
+    // variants that it needs are being made.
+    bool half_built = false;
 };
 
 struct RenderedFrame {

@@ -17,8 +17,11 @@ namespace froxel::stream {
 // What a frame will ask of the device, known when it begins.
 struct FrameWork {
     Seconds estimate{0}; // device time of all its pieces; 0: unknown
-    // 0: nothing has begun, since variants of shaders that it needs are being made; ask again.
+    // 0: not yet; ask again.
     uint32_t piece_count = 1;
+    // Why not yet: the host's part of the frame is done in stages, since it is long, and goes on
+    // with the next begin() for the same. Else variants of shaders that it needs are being made.
+    bool half_built = false;
 };
 
 struct SourceFrame {

@@ -32,7 +32,7 @@ constexpr Seconds kAhead{0.02};
 constexpr std::chrono::milliseconds kVariantsPoll{20};
 
 // Others wait meanwhile. What was asked for tells whoever mends it where to look.
-constexpr Seconds kLongStep{1};
+constexpr Seconds kLongStep{0.5};
 
 void warnOfLongStep(std::string_view step,
                     Seconds took,
@@ -284,18 +284,25 @@ bool RenderLoop::startNext() {
 }
 
 bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
-    const session::Delivered with = viewer.nextDelivered();
-    const auto work = beginWork(viewer, with, now);
+    const std::shared_ptr<BegunFrame> frame = viewer.build(id, now);
+    const auto work = beginWork(viewer, *frame);
     const Seconds host = spentSince(now);
     scheduler_.charge(id, host);
     options_.on_begun(host);
-    warnOfLongStep("begin", host, id, viewer.state);
+    warnOfLongStep("begin", host, id, frame->state);
+    frame->cost += host;
+    if (work && work->half_built) {
+        return false;
+    }
+    viewer.built.reset();
     if (!work) {
         if (!isThisPictureAlone(work.error())) {
             throw StartupError(work.error());
         }
         scheduler_.onFrame(id, now); // a refused one takes the host's time, too
-        refuse(id, viewer, work.error());
+        if (frame->state.version == viewer.state.version) {
+            refuse(id, viewer, work.error());
+        }
         return false;
     }
     if (work->piece_count == 0) {
@@ -303,28 +310,18 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
         return false;
     }
     scheduler_.onFrame(id, now);
-
-    auto frame = std::make_shared<BegunFrame>(BegunFrame{id, {}, viewer.state, now});
-    frame->cost = host;
     frame->piece_count = work->piece_count;
     const auto typical = viewer.frame_cost.value();
     const Seconds known = typical ? *typical : typical_cost_.value().value_or(Seconds(0));
     frame->piece_estimate =
         (work->estimate > Seconds(0) ? work->estimate : known) / work->piece_count;
     frame->record.frame_id = ++viewer.last_frame_id;
-    frame->record.applied = viewer.state.applied;
-    frame->record.delivered = with;
-    frame->record.time_s = viewer.state.light_clock.secondsAt(now);
-    if (!viewer.submitted || viewer.submitted->applied != viewer.state.applied) {
-        frame->record.queue_us = Microseconds(now - viewer.arrived).count();
-    }
-    viewer.noteBegun(with, now);
-    viewer.waiting = std::move(frame);
+    viewer.noteBegun(*frame, now);
+    viewer.waiting = frame;
     return true;
 }
 
-Result<FrameWork>
-RenderLoop::beginWork(Viewer& viewer, const session::Delivered& with, TimePoint now) {
+Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame) {
     if (!viewer.source) {
         auto source = source_->makeView();
         if (!source) {
@@ -332,13 +329,14 @@ RenderLoop::beginWork(Viewer& viewer, const session::Delivered& with, TimePoint 
         }
         viewer.source = std::move(*source);
     }
-    view::ViewSettings settings = viewer.state.settings;
+    const session::Delivered& with = frame.record.delivered;
+    view::ViewSettings settings = frame.state.settings;
     settings.size = session::scaled(settings.size, with.scale);
     // A refined still leaves the encoder of video as it is.
     const uint64_t encoding_bytes =
         std::max(encode::memoryBytes(with.encoding, settings.size),
-                 encode::memoryBytes(viewer.state.encoding, settings.size));
-    return viewer.source->begin(settings, viewer.state.light_clock.secondsAt(now), encoding_bytes);
+                 encode::memoryBytes(frame.state.encoding, settings.size));
+    return viewer.source->begin(settings, frame.record.time_s, encoding_bytes);
 }
 
 void RenderLoop::submitPiece(Viewer& viewer) {

@@ -105,8 +105,7 @@ class RenderLoop final : public session::StreamPort {
     [[nodiscard]] Seconds spentSince(TimePoint begin);
     [[nodiscard]] bool startNext();
     [[nodiscard]] bool beginFrame(session::SessionId id, Viewer& viewer, TimePoint now);
-    [[nodiscard]] Result<FrameWork>
-    beginWork(Viewer& viewer, const session::Delivered& with, TimePoint now);
+    [[nodiscard]] Result<FrameWork> beginWork(Viewer& viewer, const BegunFrame& frame);
     void submitPiece(Viewer& viewer);
     void abandon(Viewer& viewer);
     static void end(Viewer& viewer, BegunFrame& frame);

@@ -29,7 +29,7 @@ class RendererView final : public ViewSource {
         if (!work) {
             return work.error();
         }
-        return FrameWork{work->estimate, work->piece_count};
+        return FrameWork{work->estimate, work->piece_count, work->half_built};
     }
     [[nodiscard]] Result<void> submitPiece() override { return view_.submitPiece(); }
     void abandon() override { view_.abandon(); }
@@ -89,8 +89,9 @@ class RendererSource final : public FrameSource {
 
   private:
     [[nodiscard]] static render::WorkLimits limitsOf(const gpu::Device& device, Seconds frame) {
-        return device.traits().is_cpu ? render::WorkLimits{frame, kCpuPiece, kCpuPiece}
-                                      : render::WorkLimits{frame, kGpuPiece, kGpuLoop};
+        return device.traits().is_cpu
+                   ? render::WorkLimits{frame, kCpuPiece, kCpuPiece, kLightsAtOnce}
+                   : render::WorkLimits{frame, kGpuPiece, kGpuLoop, kLightsAtOnce};
     }
     [[nodiscard]] static Error noMemory(const std::string& whose) {
         return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};

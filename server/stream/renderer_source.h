@@ -22,6 +22,9 @@ inline constexpr Seconds kCpuPiece{0.25};
 inline constexpr Seconds kGpuPiece{0.025};
 // Likewise one pixel's loop over its lights, which nothing cuts.
 inline constexpr Seconds kGpuLoop{0.05};
+// More lights take the host so long that it builds their frames in stages: a million up to 0.5 s
+// beside a software device's threads.
+inline constexpr uint32_t kLightsAtOnce = 50'000;
 
 // Moves the scene to the device and measures how fast that is; frames that would take longer than
 // `frame_limit` are refused. The scene is not needed afterwards. On the render thread, which

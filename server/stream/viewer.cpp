@@ -31,14 +31,33 @@ session::Delivered Viewer::nextDelivered() const {
                               due ? due->stage : session::Refinement::kInteractive);
 }
 
-void Viewer::noteBegun(const session::Delivered& with, TimePoint now) {
-    const bool limited = with.scale < 1 || with.encoding != state.encoding;
+std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) {
+    if (built && built->state.version != state.version && !gave_up) {
+        gave_up = true;
+        built.reset();
+    }
+    if (!built) {
+        built = std::make_shared<BegunFrame>(BegunFrame{id, {}, state, now});
+        session::FrameRecord& record = built->record;
+        record.applied = state.applied;
+        record.delivered = nextDelivered();
+        record.time_s = state.light_clock.secondsAt(now);
+        if (!submitted || submitted->applied != state.applied) {
+            record.queue_us = Microseconds(now - arrived).count();
+        }
+    }
+    return built;
+}
+
+void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
+    const session::Delivered& with = frame.record.delivered;
+    const bool limited = with.scale < 1 || with.encoding != frame.state.encoding;
     refinement.onBegun(with.refinement, limited);
     if (moves()) {
         paced_until = now + std::chrono::duration_cast<Clock::duration>(delivery.min_interval);
     }
-    changed = false;
-    submitted = state;
+    changed = frame.state.version != state.version;
+    submitted = frame.state;
     ++under_way;
     ++started;
 }

@@ -42,6 +42,7 @@ struct Viewer {
     TimePoint arrived{};
     std::optional<session::SessionState> submitted; // what the device was last given
     std::optional<session::SessionState> drawn;     // what it last made a picture of
+    std::shared_ptr<BegunFrame> built;              // half: see FrameWork::half_built
     std::shared_ptr<BegunFrame> waiting;            // begun last, while pieces of it wait
     uint64_t last_frame_id = 0;
     uint64_t started = 0; // frames, without those lost on the way
@@ -65,7 +66,10 @@ struct Viewer {
     // drawn.
     [[nodiscard]] std::optional<TimePoint> wantsFrameAt() const;
     [[nodiscard]] session::Delivered nextDelivered() const;
-    void noteBegun(const session::Delivered& with, TimePoint now);
+    // The frame to go on with: the half built one, unless it is given up for what was asked for
+    // meanwhile, by the rule of waitsInVain(); or a new one.
+    [[nodiscard]] std::shared_ptr<BegunFrame> build(session::SessionId id, TimePoint now);
+    void noteBegun(const BegunFrame& frame, TimePoint now);
     [[nodiscard]] bool hasRoom() const;
     // Whether nobody wants the rest of the frame that waits. Where the one before it was given up
     // because of a change, the next change does not end this one: a camera that never rests gets

@@ -67,6 +67,29 @@ class Pieces : public SharedGpuTest {
         cut_view.abandon();
     }
 
+    // stages: calls that did not begin the frame.
+    [[nodiscard]] static Picture
+    drawInStages(render::ViewRenderer& view, const render::FrameInputs& inputs, int& stages) {
+        auto work = view.begin(inputs);
+        for (; work && work->half_built; ++stages) {
+            work = view.begin(inputs);
+        }
+        for (uint32_t i = 0; work && i < work->piece_count; ++i) {
+            EXPECT_TRUE(view.submitPiece());
+        }
+        auto frame = view.collect();
+        if (!frame) {
+            ADD_FAILURE() << frame.error().message;
+            return {};
+        }
+        const PixelView& pixels = frame->pixels.view();
+        return {.width_px = pixels.width_px,
+                .height_px = pixels.height_px,
+                .rgba8 = {pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px},
+                .radiance = {},
+                .stats = frame->stats};
+    }
+
   private:
     inline static std::unique_ptr<render::Renderer> renderer_;
 };
@@ -87,6 +110,54 @@ TEST_F(Pieces, Renderers_DrawTheSameBits) {
             expectSame(asked);
         }
     }
+}
+
+TEST_F(Pieces, HostsPartInStages_DrawsTheSameBits) {
+    const std::pair<const char*, Change> cases[] = {
+        {"lists", [](auto& in) { in.settings.light_loop = view::LightLoop::kLists; }},
+        {"all lights", [](auto& in) { in.settings.light_loop = view::LightLoop::kAllLights; }},
+        {"capped lists", [](auto& in) { in.settings.list_cap = 4; }},
+        {"halves",
+         [](auto& in) {
+             in.settings.renderer = Renderer::kClusteredDeferred;
+             in.settings.gbuffer.position = view::PositionSource::kFp16;
+         }},
+        {"wires", [](auto& in) { in.settings.debug.view = view::DebugView::kClusterWires; }},
+    };
+    for (const auto& [name, change] : cases) {
+        SCOPED_TRACE(name);
+        auto asked = inputs();
+        change(asked);
+        render::ViewRenderer at_once(renderer());
+        render::ViewRenderer view(renderer(), {}, {.lights_at_once = 299});
+        const Picture whole = drawPixels(at_once, asked);
+        int stages = 0;
+        const Picture staged = drawInStages(view, asked, stages);
+        EXPECT_EQ(whole.rgba8, staged.rgba8);
+        EXPECT_GE(stages, 3);
+        EXPECT_GT(staged.stats.host_us, 0);
+    }
+}
+
+TEST_F(Pieces, HalfBuilt_OtherInputs_AreBuiltAnew) {
+    auto asked = inputs();
+    render::ViewRenderer view(renderer(), {}, {.lights_at_once = 299});
+    ASSERT_TRUE(view.begin(asked)->half_built);
+    ASSERT_TRUE(view.begin(asked)->half_built);
+    for (const Change& change :
+         {Change([](auto& in) { in.time_s = 3; }),
+          Change([](auto& in) { in.settings.camera = hall().cameras.at(1).camera; }),
+          Change([](auto& in) { in.settings.lights.count = 100; }), // at once
+          Change([](auto& in) { in.settings.lights.count = 310; })}) {
+        change(asked);
+        ASSERT_TRUE(view.begin(asked)->half_built || asked.settings.lights.count == 100);
+        if (asked.settings.lights.count == 100) {
+            view.abandon();
+        }
+    }
+    int stages = 0;
+    render::ViewRenderer at_once(renderer());
+    EXPECT_EQ(drawInStages(view, asked, stages).rgba8, drawPixels(at_once, asked).rgba8);
 }
 
 TEST_F(Pieces, ListsOfAnyGrid_DrawTheSameBits) {

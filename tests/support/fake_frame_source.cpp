@@ -62,6 +62,10 @@ void fillStats(FrameStats& stats, const view::ViewSettings& settings) {
     stats.pairs = {settings.count_pairs, 1000, 250};
 }
 
+uint64_t areaOf(const view::Size& size) {
+    return uint64_t{size.width_px} * size.height_px;
+}
+
 class FakeView final : public stream::ViewSource {
   public:
     explicit FakeView(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {
@@ -80,7 +84,7 @@ class FakeView final : public stream::ViewSource {
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
-        if (uint64_t{settings.size.width_px} * settings.size.height_px > device_->max_area_px) {
+        if (areaOf(settings.size) > device_->max_area_px) {
             ++device_->unfit_count;
             return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
         }
@@ -91,6 +95,13 @@ class FakeView final : public stream::ViewSource {
             --device_->unready_count;
             return stream::FrameWork{Seconds(0), 0};
         }
+        built_count_ = settings == built_ ? built_count_ + 1 : 1;
+        built_ = settings;
+        if (built_count_ < device_->stage_count && areaOf(settings.size) > device_->small_area_px) {
+            ++device_->stage_calls;
+            return stream::FrameWork{Seconds(0), 0, true};
+        }
+        built_count_ = 0;
         ++device_->begun_count;
         waiting_ = device_->piece_count;
         frames_.push_back({settings, waiting_});
@@ -180,6 +191,8 @@ class FakeView final : public stream::ViewSource {
     std::shared_ptr<std::atomic<int>> own_leases_ = std::make_shared<std::atomic<int>>(0);
     std::deque<Frame> frames_; // oldest first
     uint32_t waiting_ = 0;     // pieces of the newest
+    view::ViewSettings built_; // what begin() was called for last
+    uint32_t built_count_ = 0; // how often
     uint32_t noise_ = 1;
 };
 

@@ -24,6 +24,9 @@ class FakeDevice {
     std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
     std::atomic<uint32_t> again_count = 0;   // that many frames need more than they were given
     std::atomic<uint32_t> unready_count = 0; // that many times nothing can begin yet
+    std::atomic<uint32_t> stage_count = 1;   // calls of begin() for the same that a frame takes,
+    std::atomic<uint64_t> small_area_px = 0; // unless it is this small
+    std::atomic<uint64_t> stage_calls = 0;   // that did not begin it
     std::atomic<bool> lost = false;
     std::atomic<bool> noisy = false; // pictures of noise, whose encoded size goes with all settings
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage

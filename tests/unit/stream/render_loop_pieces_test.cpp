@@ -57,6 +57,45 @@ TEST_F(RenderLoopPiecesTest, ShadersAreBeingMade_IsAskedAgain_WhileOthersAreDraw
     EXPECT_EQ(device_->begun_count, 2U); // one of them prices it
 }
 
+TEST_F(RenderLoopPiecesTest, HostBuildsInStages_OthersAreDrawnBetween) {
+    device_->stage_count = 100'000'000; // until the other one has its pictures
+    const auto slow = makeSink();
+    join(slow, still(), 1);
+    while (device_->stage_calls < 2) {
+        std::this_thread::yield();
+    }
+    const uint64_t before = device_->stage_calls;
+    device_->small_area_px = 24 * 16; // built at once
+    const auto quick = makeSink();
+    auto small = moving();
+    small.settings.size = {24, 16};
+    join(quick, small, 3);
+    ASSERT_TRUE(quick->waitForFrames(3));
+    EXPECT_GT(device_->stage_calls, before);
+    EXPECT_TRUE(slow->frames().empty());
+    device_->stage_count = 1;
+    ASSERT_TRUE(slow->waitForFrames(1));
+}
+
+// The first change gives up what was built, the second one waits until that is a picture.
+TEST_F(RenderLoopPiecesTest, BuiltInStages_SettingsEverChange_PicturesCome) {
+    device_->stage_count = 5;
+    const auto sink = makeSink();
+    auto state = moving();
+    const auto id = join(sink, state, kPlenty);
+    uint32_t count = 0;
+    while (sink->frames().size() < 3) {
+        state.settings.exposure = 1 + 0.001F * static_cast<float>(++count);
+        ++state.version;
+        loop_->update(id, state, Clock::now());
+        const uint64_t calls = device_->stage_calls;
+        while (device_->stage_calls == calls) {
+            std::this_thread::yield(); // so that no frame has all its stages between two changes
+        }
+    }
+    EXPECT_GT(count, 3U);
+}
+
 // The second comes while the first piece of four is on the device.
 TEST_F(RenderLoopPiecesTest, OfTwoViewers_AreMixed) {
     const auto first = makeSink();
