@@ -60,18 +60,7 @@ double keepStrongest(std::span<uint32_t> all,
                            [](double sum, const Candidate& gone) { return sum + gone.irradiance; });
 }
 
-// What capping some lists dropped.
-struct Dropped {
-    double irradiance = 0; // at most in any one cluster
-    uint64_t count = 0;
-    uint32_t list_count = 0;
-
-    void add(const Dropped& other) {
-        irradiance = std::max(irradiance, other.irradiance);
-        count += other.count;
-        list_count += other.list_count;
-    }
-};
+using Dropped = ListCap::Dropped;
 
 // Of one cluster, whose entries have their own place.
 Dropped capList(const ClusterGrid& grid,
@@ -111,52 +100,68 @@ double mostIrradiance(const light::FrameLights& lights,
     return light::strongestChannel(light.color) * window * window / (nearest * nearest);
 }
 
-void capLists(const ClusterGrid& grid,
-              const light::FrameLights& lights,
-              uint32_t cap,
-              Crew& crew,
-              LightLists& lists) {
-    if (lists.all_lights) {
-        return;
+void ListCap::Dropped::add(const Dropped& other) {
+    irradiance = std::max(irradiance, other.irradiance);
+    count += other.count;
+    list_count += other.list_count;
+}
+
+bool ListCap::advance(uint64_t entry_count) {
+    const uint32_t all = lists_.all_lights ? 0 : grid_.clusterCount();
+    const uint32_t first = next_;
+    for (uint64_t count = 0; next_ < all && count < entry_count; ++next_) {
+        const uint32_t listed = lists_.clusters[next_].count;
+        count += listed > cap_ ? listed : 0;
     }
+    capRange(first, next_);
+    if (next_ < all) {
+        return false;
+    }
+    if (all > 0) {
+        close();
+    }
+    return true;
+}
+
+void ListCap::capRange(uint32_t first, uint32_t end) {
     constexpr uint32_t kAtOnce = 16; // clusters that one of the crew takes
-    const auto step = std::clamp(grid.clusterCount() / crew.members(), 1U, kAtOnce);
-    std::atomic<uint32_t> next = 0;
-    std::vector<Dropped> dropped(crew.members());
-    crew.run(crew.members(), [&](unsigned member) {
+    const auto step = std::clamp((end - first) / crew_.members(), 1U, kAtOnce);
+    std::atomic<uint32_t> next = first;
+    std::vector<Dropped> dropped(crew_.members());
+    crew_.run(crew_.members(), [&](unsigned member) {
         std::vector<Candidate> candidates;
-        for (uint32_t first = next.fetch_add(step); first < grid.clusterCount();
-             first = next.fetch_add(step)) {
-            const uint32_t end = std::min(first + step, grid.clusterCount());
-            for (uint32_t cluster = first; cluster < end; ++cluster) {
-                dropped[member].add(capList(grid, lights, cap, cluster, lists, candidates));
+        for (uint32_t begin = next.fetch_add(step); begin < end; begin = next.fetch_add(step)) {
+            for (uint32_t cluster = begin; cluster < std::min(begin + step, end); ++cluster) {
+                dropped[member].add(capList(grid_, lights_, cap_, cluster, lists_, candidates));
             }
         }
     });
-    Dropped all;
     for (const Dropped& part : dropped) {
-        all.add(part);
+        dropped_.add(part);
     }
-    LightListStats& stats = lists.stats;
-    stats.dropped_irradiance = all.irradiance;
-    stats.dropped_count = all.count;
-    stats.capped_count = all.list_count;
+}
+
+void ListCap::close() {
+    LightListStats& stats = lists_.stats;
+    stats.dropped_irradiance = dropped_.irradiance;
+    stats.dropped_count = dropped_.count;
+    stats.capped_count = dropped_.list_count;
 
     // Lists only move towards the front.
     ListHistogram lengths;
     stats.largest = 0;
     uint32_t end = 0;
-    for (io::ClusterList& list : lists.clusters) {
-        std::copy_n(lists.indices.begin() + list.offset, list.count, lists.indices.begin() + end);
+    for (io::ClusterList& list : lists_.clusters) {
+        std::copy_n(lists_.indices.begin() + list.offset, list.count, lists_.indices.begin() + end);
         list.offset = end;
         end += list.count;
         lengths.add(list.count);
         stats.largest = std::max(stats.largest, list.count);
     }
-    lists.indices.resize(end);
+    lists_.indices.resize(end);
     stats.entry_count = end;
     stats.p95 = lengths.p95(stats.largest);
-    lists.finishStats();
+    lists_.finishStats();
 }
 
 } // namespace froxel::cluster

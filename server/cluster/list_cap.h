@@ -19,11 +19,38 @@ namespace froxel::cluster {
 // Leaves in each list the `cap` > 0 lights of most mostIrradiance() in the cluster's box, the first
 // ones where several have as much; indices still ascend, and lists still follow each other. Fills
 // the statistics anew, with what was dropped. Lists that name all lights stay as they are. The
-// result does not depend on how many the crew are.
-void capLists(const ClusterGrid& grid,
-              const light::FrameLights& lights,
-              uint32_t cap,
-              Crew& crew,
-              LightLists& lists);
+// result does not depend on how many the crew are, nor on how many entries are capped at once. What
+// it was made from must stay as it is until the end.
+class ListCap {
+  public:
+    ListCap(const ClusterGrid& grid,
+            const light::FrameLights& lights,
+            uint32_t cap,
+            Crew& crew,
+            LightLists& lists)
+        : grid_(grid), lights_(lights), cap_(cap), crew_(crew), lists_(lists) {}
+    // Goes through about so many more entries: whether all is done. Until then the lists are of no
+    // use.
+    [[nodiscard]] bool advance(uint64_t entry_count = UINT64_MAX);
+
+    struct Dropped {
+        double irradiance = 0; // at most in any one cluster
+        uint64_t count = 0;
+        uint32_t list_count = 0;
+        void add(const Dropped& other);
+    };
+
+  private:
+    void capRange(uint32_t first, uint32_t end); // clusters
+    void close();
+
+    const ClusterGrid& grid_;
+    const light::FrameLights& lights_;
+    const uint32_t cap_;
+    Crew& crew_;
+    LightLists& lists_;
+    uint32_t next_ = 0; // cluster
+    Dropped dropped_;
+};
 
 } // namespace froxel::cluster

@@ -1,6 +1,5 @@
 #include "render/frame_builder.h"
 
-#include "cluster/list_cap.h"
 #include "render/blended_recorder.h"
 #include "render/effects/effects.h"
 #include "render/frame_facts.h"
@@ -158,6 +157,8 @@ const cluster::GridCosts& FrameBuilder::gridCosts(const view::ViewSettings& sett
 void FrameBuilder::start(const FrameInputs& inputs, uint32_t lights_at_once) {
     culling_ = {}; // reads the inputs
     inputs_ = inputs;
+    lights_at_once_ = lights_at_once;
+    cap_.reset();
     const auto& settings = inputs_.settings;
     farthest_m_ = farthestDepth(settings.camera, scene_.bounds_world);
     projection_ = makeProjection(settings.camera, settings.size, farthest_m_);
@@ -202,9 +203,7 @@ void FrameBuilder::advance(ViewEffects& effects) {
         stage_ = capsLists() ? Stage::kCap : Stage::kPlan;
         break;
     case Stage::kCap:
-        cluster::capLists(light_grid_.grid(), reach(), inputs_.settings.list_cap,
-                          scene_.light_assigner.crew(), lists_);
-        stage_ = Stage::kPlan;
+        stage_ = capMore() ? Stage::kPlan : Stage::kCap;
         break;
     case Stage::kPlan:
         culling_.get();
@@ -242,6 +241,15 @@ void FrameBuilder::chooseGrid() {
     }
     light_grid_.choose(view::showsClusters(settings.debug.view) ? withLists(settings) : settings,
                        reach(), scene_.bounds_world, gridCosts(settings));
+}
+
+bool FrameBuilder::capMore() {
+    constexpr uint64_t kEntriesOfAStage = 2'000'000; // 0.1 s
+    if (!cap_) {
+        cap_.emplace(light_grid_.grid(), reach(), inputs_.settings.list_cap,
+                     scene_.light_assigner.crew(), lists_);
+    }
+    return cap_->advance(lights_.lights.size() > lights_at_once_ ? kEntriesOfAStage : UINT64_MAX);
 }
 
 bool FrameBuilder::capsLists() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cluster/light_assigner.h"
+#include "cluster/list_cap.h"
 #include "interface/frame_io.h"
 #include "light/frame_lights.h"
 #include "render/draw_list.h"
@@ -103,6 +104,8 @@ class FrameBuilder {
     // Fills the lists, or empties them.
     void assignLights();
     [[nodiscard]] bool capsLists() const;
+    // Whether all are capped.
+    [[nodiscard]] bool capMore();
     [[nodiscard]] FramePlan plan(ViewEffects& effects);
     // What pixels loop over.
     [[nodiscard]] const light::FrameLights& reach() const;
@@ -121,8 +124,10 @@ class FrameBuilder {
     void writeFrameSet(FrameSlot& slot) const;
 
     SceneResources& scene_;
-    FrameInputs inputs_;         // of what is built
-    std::optional<Stage> stage_; // none: nothing is
+    FrameInputs inputs_; // of what is built
+    uint32_t lights_at_once_ = 0;
+    std::optional<Stage> stage_;          // none: nothing is
+    std::optional<cluster::ListCap> cap_; // under way
     FramePlan plan_;
     ViewProjection projection_;
     double farthest_m_ = 0;

@@ -35,7 +35,8 @@ Capped cappedLists(uint32_t cap, view::Projection projection = view::Projection:
     LightAssigner assigner(2);
     assigner.assign(result.grid, result.lights, result.all);
     result.capped = result.all;
-    capLists(result.grid, result.lights, cap, assigner.crew(), result.capped);
+    ListCap whole(result.grid, result.lights, cap, assigner.crew(), result.capped);
+    EXPECT_TRUE(whole.advance());
     return result;
 }
 
@@ -132,11 +133,26 @@ TEST(ListCap, Strongest_Stays) {
     LightAssigner assigner(1);
     assigner.assign(grid, lights, lists);
     ASSERT_EQ(lists.clusters[0].count, 5U);
-    capLists(grid, lights, 1, assigner.crew(), lists);
+    EXPECT_TRUE(ListCap(grid, lights, 1, assigner.crew(), lists).advance());
     ASSERT_EQ(lists.clusters[0].count, 1U);
     EXPECT_EQ(lists.indices, std::vector<uint32_t>{3});
     const double window = 1 - 0.01 * 0.01;
     EXPECT_NEAR(lists.stats.dropped_irradiance, 4 * window * window, 1e-6);
+}
+
+TEST(ListCap, InParts_SameLists) {
+    const Capped whole = cappedLists(12);
+    LightLists lists = whole.all;
+    Crew crew(2);
+    ListCap parts(whole.grid, whole.lights, 12, crew, lists);
+    int count = 1;
+    for (; !parts.advance(1000); ++count) {
+    }
+    EXPECT_GT(count, 3);
+    EXPECT_EQ(lists.indices, whole.capped.indices);
+    EXPECT_EQ(lists.stats.p95, whole.capped.stats.p95);
+    EXPECT_EQ(lists.stats.dropped_count, whole.capped.stats.dropped_count);
+    EXPECT_EQ(lists.stats.dropped_irradiance, whole.capped.stats.dropped_irradiance);
 }
 
 TEST(MostIrradiance, IsTheShadersFalloffAtTheNearestPoint) {
