@@ -95,7 +95,6 @@ class FrameBuilder {
     [[nodiscard]] std::vector<io::WireVertex> buildWires(const FrameInputs& inputs,
                                                          uint32_t& slice_count);
     void buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m);
-    void writeFrameSet(FrameSlot& slot) const;
 
     SceneResources& scene_;
     light::FrameLights lights_;
