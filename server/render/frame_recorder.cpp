@@ -3,6 +3,7 @@
 #include "render/barrier.h"
 #include "render/blended_recorder.h"
 #include "render/fresh_targets.h"
+#include "render/host_copies.h"
 #include "render/passes.h"
 #include "render/raster_passes.h"
 #include "render/visibility_passes.h"
@@ -200,18 +201,6 @@ void recordOverlay(const FrameContext& frame) {
     }
 }
 
-void copyImage(const vk::raii::CommandBuffer& cmd,
-               const gpu::Image& image,
-               vk::ImageAspectFlags aspect,
-               const gpu::Buffer& to,
-               vk::DeviceSize offset) {
-    cmd.copyImageToBuffer(
-        *image.handle, vk::ImageLayout::eGeneral, *to.handle,
-        vk::BufferImageCopy{.bufferOffset = offset,
-                            .imageSubresource = {aspect, 0, 0, 1},
-                            .imageExtent = {image.extent.width, image.extent.height, 1}});
-}
-
 } // namespace
 
 void recordFrame(const FrameContext& frame, Seconds piece_limit) {
@@ -290,11 +279,6 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
     frame.pieces.end();
 }
 
-void recordHostRead(const vk::raii::CommandBuffer& cmd) {
-    barrier(cmd, Stage::eComputeShader | Stage::eCopy,
-            Access::eShaderStorageWrite | Access::eTransferWrite, Stage::eHost, Access::eHostRead);
-}
-
 void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) {
     const auto& cmd = assign.cmd;
     const auto next = [&] {
@@ -333,31 +317,6 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
     barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders | Stage::eCopy,
             Access::eShaderRead | Access::eTransferRead);
     recordAssignCopy(assign);
-}
-
-void recordTargetCopy(const vk::raii::CommandBuffer& cmd,
-                      const gpu::Image& target,
-                      vk::ImageAspectFlags aspect,
-                      const gpu::Buffer& to) {
-    // the frame's last write of the target -> copy
-    barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
-    copyImage(cmd, target, aspect, to, 0);
-    // copy -> host
-    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
-}
-
-void recordVisibilityCopy(const vk::raii::CommandBuffer& cmd,
-                          const ViewTargets& targets,
-                          const gpu::Buffer& to) {
-    // the frame's last writes of ids and depth -> copies
-    barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
-    copyImage(cmd, targets.ids, vk::ImageAspectFlagBits::eColor, to, 0);
-    copyImage(cmd, targets.solidDepth(),
-              targets.rastered_in_compute ? vk::ImageAspectFlagBits::eColor
-                                          : vk::ImageAspectFlagBits::eDepth,
-              to, vk::DeviceSize{4} * targets.size.width_px * targets.size.height_px);
-    // copies -> host
-    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
 } // namespace froxel::render
