@@ -11,7 +11,7 @@
 #include "render/frame_context.h"
 #include "render/frame_recorder.h"
 #include "render/geometry_draws.h"
-#include "render/memory_need.h"
+#include "render/need_list.h"
 
 #include <algorithm>
 #include <array>
