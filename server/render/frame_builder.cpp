@@ -317,7 +317,6 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .pairs = knownPairs(plan),
                    .longest_loop = 0,
                    .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
-                   .area_count = static_cast<uint32_t>(lights_.areas.size()),
                    .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
                    .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
                    .wire_lines = wireLines(plan),
@@ -330,8 +329,12 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                  ? 1
                                  : static_cast<uint32_t>(visible.materials_in_use.size());
     }
+    if (!lights_.areas.empty()) {
+        load.costly_lights.push_back({.count = static_cast<uint32_t>(lights_.areas.size()),
+                                      .pair = scene_.unit_costs.area_pair});
+    }
     for (const auto& [place, effect] : effects) {
-        effect->addLoad(load);
+        effect->addLoad(scene_.unit_costs, load);
     }
     load.longest_loop = load.pairs.longest();
     FrameCosts costs(scene_.unit_costs, load);

@@ -2,7 +2,6 @@
 
 #include "interface/constants.h"
 #include "interface/gbuffer_io.h"
-#include "render/effects/effects.h"
 #include "render/gbuffer_layout.h"
 
 #include <algorithm>
@@ -43,7 +42,6 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
         flags |= facts.spots ? io::kLightSpots : 0U;
         flags |= facts.areas ? io::kLightAreas : 0U;
-        flags |= facts.shadows ? io::kLightShadows : 0U;
         flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
         flags |= facts.long_loops ? io::kLightLong : 0U;
         if (compute) {
@@ -92,12 +90,6 @@ bool isForward(view::Renderer renderer) {
 
 bool FramePlan::hasEffect(EffectPlace place) const {
     return std::ranges::any_of(effects, [place](const auto& it) { return it.row->place == place; });
-}
-
-const EffectPlan* FramePlan::effect(const EffectRow& row) const {
-    const auto at =
-        std::ranges::find_if(effects, [&row](const auto& it) { return it.row == &row; });
-    return at != effects.end() ? &at->plan : nullptr;
 }
 
 FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
@@ -172,6 +164,8 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
 
     for (const auto& [row, effect] : plan.effects) {
+        plan.forward_light_flags |= effect.light_flags;
+        plan.lighting_light_flags |= effect.light_flags;
         plan.blended_output_flags |= effect.blended_output_flags;
     }
 

@@ -2,6 +2,7 @@
 // reference's rays.
 #include "interface/constants.h"
 #include "reference/shade.h"
+#include "render/effects/shadows.h"
 #include "render/scene_resources.h"
 #include "render/visibility_readback.h"
 #include "support/draw.h"
@@ -168,7 +169,7 @@ TEST_F(Shadows, ACameraThatMoves_LeavesTexelsAsTheyAre) {
         inputs.time_s = 3;
         render::ViewRenderer view(renderer);
         (void)draw(view, inputs);
-        return view.readShadows().value();
+        return render::copyShadows(view.effects());
     };
     render::Renderer renderer(device(), room);
     const auto first = mapsFrom(renderer, {0.5, 2.2, 7});
