@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -27,8 +28,15 @@ plan(Renderer renderer, const FrameFacts& facts, LightingStage stage = LightingS
     return planFrame(settings, facts);
 }
 
+// Null: the frame lacks it.
+const EffectPlan* effectOf(const FramePlan& p, const EffectRow& row) {
+    const auto at =
+        std::ranges::find_if(p.effects, [&row](const auto& it) { return it.row == &row; });
+    return at != p.effects.end() ? &at->plan : nullptr;
+}
+
 view::BloomKind bloomOf(const FramePlan& p) {
-    const EffectPlan* bloom = p.effect(kBloomEffect);
+    const EffectPlan* bloom = effectOf(p, kBloomEffect);
     return bloom != nullptr ? static_cast<view::BloomKind>(bloom->way) : view::BloomKind::kNone;
 }
 
@@ -115,8 +123,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
     const bool lighting_stores = has(p.lighting_output_flags, io::kOutputRadiance);
     const bool toon_stores = has(p.toon_output_flags, io::kOutputRadiance);
-    const EffectPlan* shadows = p.effect(kShadowsEffect);
-    const EffectPlan* fog = p.effect(kFogEffect);
+    const EffectPlan* shadows = effectOf(p, kShadowsEffect);
+    const EffectPlan* fog = effectOf(p, kFogEffect);
     const uint32_t fog_way = fog != nullptr ? fog->way : 0;
     const std::pair<bool, const char*> rules[] = {
         {p.forward + p.gbuffer + p.visibility_shade == 1, "solid surfaces are shaded in one way"},
@@ -168,7 +176,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "four samples where asked for"},
         {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
          "which the tone map averages"},
-        {(p.effect(kFxaaEffect) != nullptr) == (settings.antialiasing == view::Antialiasing::kFxaa),
+        {(effectOf(p, kFxaaEffect) != nullptr) ==
+             (settings.antialiasing == view::Antialiasing::kFxaa),
          "the filter asked for"},
         {(fog != nullptr) == settings.fog.present(), "fog where there is a medium"},
         {has(fog_way, kFogVolume) == (settings.fog.scatters() && facts.local_lights),
