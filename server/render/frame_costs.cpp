@@ -194,17 +194,6 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
     }
 }
 
-void FrameCosts::addFinish(std::vector<PassEstimate>& passes) const {
-    addEffects(EffectPlace::kPicture, passes);
-    if (load_.wire_lines > 0) {
-        passes.push_back({"wires", wires(load_.wire_lines)});
-    }
-    if (load_.plan.tonemap) {
-        passes.push_back({"tonemap", timeOver(screen(), load_.shown)});
-    }
-    addEffects(EffectPlace::kPixels, passes);
-}
-
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
     addEffects(EffectPlace::kLights, passes);
@@ -219,7 +208,14 @@ std::vector<PassEstimate> FrameCosts::passes() const {
     }
     addSurfaces(passes);
     addBlended(passes);
-    addFinish(passes);
+    addEffects(EffectPlace::kPicture, passes);
+    if (load_.wire_lines > 0) {
+        passes.push_back({"wires", wires(load_.wire_lines)});
+    }
+    if (load_.plan.tonemap) {
+        passes.push_back({"tonemap", timeOver(screen(), load_.shown)});
+    }
+    addEffects(EffectPlace::kPixels, passes);
     return passes;
 }
 

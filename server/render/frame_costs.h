@@ -114,7 +114,6 @@ class FrameCosts {
     void addSurfaces(std::vector<PassEstimate>& passes) const;
     void addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const;
     void addBlended(std::vector<PassEstimate>& passes) const;
-    void addFinish(std::vector<PassEstimate>& passes) const;
 
     UnitCosts unit_;
     FrameLoad load_;

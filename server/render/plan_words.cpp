@@ -53,10 +53,10 @@ void addWords(Lines& lines, const PlannedEffect& effect, const view::ViewSetting
     }
 }
 
-void addEffectWords(Lines& lines,
-                    const view::ViewSettings& settings,
-                    const FramePlan& plan,
-                    EffectPlace place) {
+void addWordsAt(Lines& lines,
+                const view::ViewSettings& settings,
+                const FramePlan& plan,
+                EffectPlace place) {
     for (const PlannedEffect& effect : plan.effects) {
         if (effect.row->place == place) {
             addWords(lines, effect, settings);
@@ -89,7 +89,7 @@ void addLightWords(Lines& lines,
             lines.emplace_back("subgroups fetch lights together");
         }
     }
-    addEffectWords(lines, settings, plan, EffectPlace::kLights);
+    addWordsAt(lines, settings, plan, EffectPlace::kLights);
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
     }
@@ -133,19 +133,19 @@ void addSolidWords(Lines& lines,
     }
 }
 
-// Of what follows lighting and blending; nothing where nothing is asked for.
-void addFinishWords(Lines& lines, const view::ViewSettings& settings, const FramePlan& plan) {
+// Of what is done to the picture once it is lit.
+void addEffectWords(Lines& lines, const view::ViewSettings& settings, const FramePlan& plan) {
     if (plan.outline) {
         lines.emplace_back(
             "outline: edges of depth and normals are darkened, in a pass of its own");
     }
-    addEffectWords(lines, settings, plan, EffectPlace::kSolid);
-    addEffectWords(lines, settings, plan, EffectPlace::kPicture);
+    addWordsAt(lines, settings, plan, EffectPlace::kSolid);
+    addWordsAt(lines, settings, plan, EffectPlace::kPicture);
     if (plan.samples) {
         lines.emplace_back(
             "ssaa4: four samples a pixel, drawn at twice the sides, each tone mapped");
     }
-    addEffectWords(lines, settings, plan, EffectPlace::kPixels);
+    addWordsAt(lines, settings, plan, EffectPlace::kPixels);
 }
 
 std::string transparentWords(const FramePlan& plan) {
@@ -234,7 +234,7 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     addSolidWords(lines, settings, facts, plan);
     addLightWords(lines, settings, facts, plan);
     lines.push_back(transparentWords(plan));
-    addFinishWords(lines, settings, plan);
+    addEffectWords(lines, settings, plan);
     lines.push_back(toneMapWords(facts, plan));
     if (plan.count_pairs) {
         lines.emplace_back("light-pixel pairs are counted, in a pass of its own");

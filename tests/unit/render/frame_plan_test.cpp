@@ -192,7 +192,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "lights as surfaces have them"},
         {p.tonemap || fog == nullptr, "tones are mapped after fog"},
         {p.tonemap || !(p.outline || p.samples || p.hasEffect(EffectPlace::kPicture)),
-         "tones are mapped after all that is done to the lit picture"},
+         "tones are mapped after all effects on the linear picture"},
     };
     for (const auto& [holds, rule] : rules) {
         if (!holds) {
