@@ -309,10 +309,9 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                const view::Size& shown,
                                std::span<const ActiveEffect> effects,
                                const WorkLimits& work) {
-    const view::Size& drawn = drawn_;
     FrameLoad load{.plan = plan,
                    .draws = draws_,
-                   .drawn = drawn,
+                   .drawn = drawn_,
                    .shown = shown,
                    .pairs = knownPairs(plan),
                    .longest_loop = 0,
@@ -341,11 +340,15 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     if (!on_device_ || costs.total() <= std::min(work.piece, work.loop)) {
         return costs;
     }
-    // What the device is told to hold its lists against, since nobody knows them yet.
-    const vk::Rect2D whole{{0, 0}, {drawn.width_px, drawn.height_px}};
+    limitLists(costs, work, load);
+    return {scene_.unit_costs, std::move(load)};
+}
+
+void FrameBuilder::limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load) {
+    const vk::Rect2D whole{{0, 0}, {drawn_.width_px, drawn_.height_px}};
     const double room = costs.pairsWithin(work.piece);
     const uint64_t longest = costs.lightsWithin(work.loop);
-    const double pixels = static_cast<double>(drawn.width_px) * drawn.height_px;
+    const double pixels = static_cast<double>(drawn_.width_px) * drawn_.height_px;
     const auto seen = seenPairs();
     if (seen) {
         // What moves between two frames is no reason to refuse the second.
@@ -365,7 +368,6 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
         load.pairs = PairBound::uniform(static_cast<uint64_t>(room / pixels));
         device_lists_.limit(room, longest);
     }
-    return {scene_.unit_costs, std::move(load)};
 }
 
 void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> effects) {

@@ -79,6 +79,9 @@ class FrameBuilder {
     // What is known of pairs before the device has made lists.
     [[nodiscard]] PairBound knownPairs(const FramePlan& plan) const;
     [[nodiscard]] std::optional<PairBound> seenPairs() const;
+    // Tells the device what to hold its lists against, since nobody knows them yet, and the frame's
+    // load what they come to at most; `costs` are by what is known.
+    void limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load);
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     [[nodiscard]] const cluster::GridCosts& gridCosts(const view::ViewSettings& settings) const;
     // Chooses the grid and fills the lists, or empties them.

@@ -201,6 +201,32 @@ void recordOverlay(const FrameContext& frame) {
     }
 }
 
+// What there is to see, solid, or what a debug view shows in its place.
+void recordSurfaces(const FrameContext& frame) {
+    if (view::replacesPicture(frame.plan.debug)) {
+        recordReplacement(frame);
+    } else if (frame.plan.visibility_shade) {
+        recordVisible(frame);
+        inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityShade);
+    } else if (frame.plan.forward) {
+        recordForward(frame);
+    } else {
+        recordDeferred(frame);
+    }
+}
+
+void recordPairs(const FrameContext& frame) {
+    auto& slot = frame.slot;
+    slot.pairs->recordClear(slot.cmd);
+    // cleared counters, depth -> counting
+    barrier(slot.cmd, Stage::eClear | kDepthStages | Stage::eComputeShader,
+            Access::eTransferWrite | Access::eDepthStencilAttachmentWrite |
+                Access::eShaderStorageWrite,
+            Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eShaderSampledRead);
+    inParts(frame, drawn(frame), frame.costs.countPairs(), recordCountPairs);
+}
+
 } // namespace
 
 void recordFrame(const FrameContext& frame, Seconds piece_limit) {
@@ -215,27 +241,9 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
     }
     recordEffects(frame, EffectPlace::kLights, [] {}); // there is no picture yet
-
-    if (view::replacesPicture(frame.plan.debug)) {
-        recordReplacement(frame);
-    } else if (frame.plan.visibility_shade) {
-        recordVisible(frame);
-        inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityShade);
-    } else if (frame.plan.forward) {
-        recordForward(frame);
-    } else {
-        recordDeferred(frame);
-    }
+    recordSurfaces(frame);
     if (frame.plan.count_pairs) {
-        slot.pairs->recordClear(slot.cmd);
-        // cleared counters, depth -> counting
-        barrier(slot.cmd, Stage::eClear | kDepthStages | Stage::eComputeShader,
-                Access::eTransferWrite | Access::eDepthStencilAttachmentWrite |
-                    Access::eShaderStorageWrite,
-                Stage::eComputeShader,
-                Access::eShaderStorageRead | Access::eShaderStorageWrite |
-                    Access::eShaderSampledRead);
-        inParts(frame, drawn(frame), frame.costs.countPairs(), recordCountPairs);
+        recordPairs(frame);
     }
     recordEffects(frame, EffectPlace::kSolid, [&] {
         // radiance and depth of solid surfaces -> loads and stores

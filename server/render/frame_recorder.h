@@ -1,5 +1,5 @@
 // The frame: which pass follows which, and the barriers between them. Others have only
-// blended_recorder.cpp and, between their own passes, effects.
+// blended_recorder.cpp, host_copies.cpp and, between their own passes, effects.
 #pragma once
 
 #include "render/assign_passes.h"
