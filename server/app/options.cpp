@@ -12,6 +12,7 @@
 #include "encode/image_file.h"
 #include "session/delivery_rows.h"
 #include "session/session_context.h"
+#include "session/settings.h"
 #include "view/ranges.h"
 #include "view/setting_rows.h"
 
@@ -139,10 +140,10 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
     command.value("--size", "WxH", options.size, parseSize,
                   byDevice([](const Defaults& d) { return textOf(d.settings.size); }),
                   sizeHelp("First picture"));
-    command.number(
-        "--quality", options.quality, view::kQualityRange,
+    addSettingValue(
+        command, session::findSetting("quality")->facts(),
         byDevice([](const Defaults& d) { return fmt::format("{}", d.encoding.quality); }),
-        "JPEG quality");
+        [&options](const auto& value) { options.quality = std::get<uint32_t>(value); });
     addDelivery(command, options.delivery);
     addViewSettings(command, options.first_view, options.light_set);
     addLensShift(command, options.lens_shift);

@@ -41,6 +41,12 @@ Result<SettingValue> parseSetting(const view::Setting& setting, const std::strin
     return value(parseNumber(text, range));
 }
 
+std::string dashed(const view::Setting& setting) {
+    std::string name(setting.name);
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+}
+
 std::string helpOf(const view::Setting& setting) {
     std::string help(setting.words.help);
     if (setting.kind == SettingKind::kChoice) {
@@ -71,28 +77,32 @@ void addLightPlaces(CommandBuilder& command, view::Lights& lights, std::filesyst
 } // namespace
 
 std::string optionName(const view::Setting& setting, const SettingValue& usual) {
-    std::string name(setting.name);
-    std::replace(name.begin(), name.end(), '_', '-');
-    return (usuallyOn(usual) ? "--no-" : "--") + name;
+    return (usuallyOn(usual) ? "--no-" : "--") + dashed(setting);
 }
 
 void addSetting(CommandBuilder& command,
                 const view::Setting& setting,
                 const SettingValue& usual,
                 const std::function<void(const SettingValue&)>& set) {
-    const std::string option = optionName(setting, usual);
     if (setting.kind == SettingKind::kSwitch) {
         const bool given = !usuallyOn(usual);
         command.cli().add_flag_callback(
-            option, [set, given] { set(given); },
+            optionName(setting, usual), [set, given] { set(given); },
             (given ? "" : "Turns off: ") + std::string(setting.words.help));
         return;
     }
+    addSettingValue(command, setting, textOf(setting, usual), set);
+}
+
+void addSettingValue(CommandBuilder& command,
+                     const view::Setting& setting,
+                     const std::string& shown_default,
+                     const std::function<void(const SettingValue&)>& set) {
     const auto parse = [&setting](const std::string& text) { return parseSetting(setting, text); };
     const char* type = setting.kind == SettingKind::kChoice  ? "NAME"
                        : setting.kind == SettingKind::kColor ? "R,G,B"
                                                              : "N";
-    command.parsed(option, type, parse, set, textOf(setting, usual), helpOf(setting));
+    command.parsed("--" + dashed(setting), type, parse, set, shown_default, helpOf(setting));
 }
 
 void addViewSettings(CommandBuilder& command,

@@ -21,6 +21,12 @@ void addSetting(CommandBuilder& command,
                 const view::SettingValue& usual,
                 const std::function<void(const view::SettingValue&)>& set);
 
+// Of a setting that is no switch, where words tell its default.
+void addSettingValue(CommandBuilder& command,
+                     const view::Setting& setting,
+                     const std::string& shown_default,
+                     const std::function<void(const view::SettingValue&)>& set);
+
 // Of `target`, which has its default.
 template <class Whole>
 void addSetting(CommandBuilder& command, const view::SettingOf<Whole>& row, Whole& target) {

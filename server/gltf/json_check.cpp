@@ -44,8 +44,8 @@ enum Kind : unsigned {
 
 // A name means the same kind of thing wherever glTF and the supported extensions use it, or one of
 // a few.
-const std::unordered_map<std::string_view, unsigned>& kinds() {
-    static const std::unordered_map<std::string_view, unsigned> table{
+struct KindTable {
+    std::unordered_map<std::string_view, unsigned> of_name{
         {"accessors", kObjects},
         {"alphaCutoff", kNumber},
         {"alphaMode", kText},
@@ -134,7 +134,11 @@ const std::unordered_map<std::string_view, unsigned>& kinds() {
         {"zfar", kNumber},
         {"znear", kNumber},
     };
-    return table;
+};
+
+const std::unordered_map<std::string_view, unsigned>& kinds() {
+    static const KindTable table;
+    return table.of_name;
 }
 
 struct Required {

@@ -174,6 +174,44 @@ DeviceTraits readTraits(const vk::raii::PhysicalDevice& physical, bool use_subgr
     return traits;
 }
 
+// What is turned on: what all need, and what these say.
+Features featuresFor(const DeviceTraits& traits) {
+    Features enabled;
+    auto& core = enabled.get<vk::PhysicalDeviceFeatures2>().features;
+    core.setShaderFloat64(traits.float64 ? VK_TRUE : VK_FALSE);
+    core.setShaderInt64(traits.int64_atomics ? VK_TRUE : VK_FALSE);
+    core.setOcclusionQueryPrecise(traits.counts_samples ? VK_TRUE : VK_FALSE);
+    core.setIndependentBlend(VK_TRUE)
+        .setMultiDrawIndirect(VK_TRUE)
+        .setDrawIndirectFirstInstance(VK_TRUE)
+        .setSamplerAnisotropy(VK_TRUE);
+    enabled.get<vk::PhysicalDeviceVulkan12Features>()
+        .setScalarBlockLayout(VK_TRUE)
+        .setTimelineSemaphore(VK_TRUE)
+        .setHostQueryReset(VK_TRUE)
+        .setShaderBufferInt64Atomics(traits.int64_atomics ? VK_TRUE : VK_FALSE);
+    if (traits.visibility_lacks.empty()) {
+        core.setGeometryShader(VK_TRUE)
+            .setShaderStorageImageExtendedFormats(VK_TRUE)
+            .setShaderStorageImageWriteWithoutFormat(VK_TRUE);
+    }
+    enabled.get<vk::PhysicalDeviceVulkan12Features>().setDrawIndirectCount(
+        traits.draw_indirect_count);
+    if (traits.descriptor_indexing) {
+        enabled.get<vk::PhysicalDeviceVulkan12Features>()
+            .setDescriptorIndexing(VK_TRUE)
+            .setRuntimeDescriptorArray(VK_TRUE)
+            .setShaderSampledImageArrayNonUniformIndexing(VK_TRUE);
+    }
+    enabled.get<vk::PhysicalDeviceVulkan13Features>()
+        .setSynchronization2(VK_TRUE)
+        .setDynamicRendering(VK_TRUE)
+        .setMaintenance4(VK_TRUE);
+    // What a frame lacks is described by nothing, rather than by a stand-in.
+    enabled.get<vk::PhysicalDeviceRobustness2FeaturesEXT>().setNullDescriptor(VK_TRUE);
+    return enabled;
+}
+
 } // namespace
 
 Device::Device(const DeviceOptions& options) try : instance_(options.validation) {
@@ -198,44 +236,12 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
         present.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics == VK_TRUE;
     traits_.counts_samples =
         present.get<vk::PhysicalDeviceFeatures2>().features.occlusionQueryPrecise == VK_TRUE;
-
-    Features enabled;
-    auto& core = enabled.get<vk::PhysicalDeviceFeatures2>().features;
-    core.setShaderFloat64(traits_.float64 ? VK_TRUE : VK_FALSE);
-    core.setShaderInt64(traits_.int64_atomics ? VK_TRUE : VK_FALSE);
-    core.setOcclusionQueryPrecise(traits_.counts_samples ? VK_TRUE : VK_FALSE);
-    core.setIndependentBlend(VK_TRUE)
-        .setMultiDrawIndirect(VK_TRUE)
-        .setDrawIndirectFirstInstance(VK_TRUE)
-        .setSamplerAnisotropy(VK_TRUE);
-    enabled.get<vk::PhysicalDeviceVulkan12Features>()
-        .setScalarBlockLayout(VK_TRUE)
-        .setTimelineSemaphore(VK_TRUE)
-        .setHostQueryReset(VK_TRUE)
-        .setShaderBufferInt64Atomics(traits_.int64_atomics ? VK_TRUE : VK_FALSE);
-    if (traits_.visibility_lacks.empty()) {
-        core.setGeometryShader(VK_TRUE)
-            .setShaderStorageImageExtendedFormats(VK_TRUE)
-            .setShaderStorageImageWriteWithoutFormat(VK_TRUE);
-    }
     // lavapipe 22.3 takes the counts of such a draw for all later indirect draws.
     traits_.draw_indirect_count =
         !traits_.is_cpu &&
         present.get<vk::PhysicalDeviceVulkan12Features>().drawIndirectCount == VK_TRUE;
-    enabled.get<vk::PhysicalDeviceVulkan12Features>().setDrawIndirectCount(
-        traits_.draw_indirect_count);
-    if (traits_.descriptor_indexing) {
-        enabled.get<vk::PhysicalDeviceVulkan12Features>()
-            .setDescriptorIndexing(VK_TRUE)
-            .setRuntimeDescriptorArray(VK_TRUE)
-            .setShaderSampledImageArrayNonUniformIndexing(VK_TRUE);
-    }
-    enabled.get<vk::PhysicalDeviceVulkan13Features>()
-        .setSynchronization2(VK_TRUE)
-        .setDynamicRendering(VK_TRUE)
-        .setMaintenance4(VK_TRUE);
-    // What a frame lacks is described by nothing, rather than by a stand-in.
-    enabled.get<vk::PhysicalDeviceRobustness2FeaturesEXT>().setNullDescriptor(VK_TRUE);
+
+    const Features enabled = featuresFor(traits_);
     const std::array extensions = {VK_EXT_ROBUSTNESS_2_EXTENSION_NAME};
 
     const float priority = 1.0F;

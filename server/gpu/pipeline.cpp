@@ -47,6 +47,13 @@ vk::PipelineColorBlendAttachmentState attachmentState(Blend blend) {
             .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
 }
 
+vk::PipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineInfo& info) {
+    const bool depth = info.depth_format != vk::Format::eUndefined;
+    return {.depthTestEnable = depth,
+            .depthWriteEnable = depth && info.depth_write,
+            .depthCompareOp = info.depth_compare};
+}
+
 } // namespace
 
 vk::raii::Pipeline makeGraphicsPipeline(const Device& device,
@@ -76,15 +83,10 @@ vk::raii::Pipeline makeGraphicsPipeline(const Device& device,
         .topology =
             info.lines ? vk::PrimitiveTopology::eLineList : vk::PrimitiveTopology::eTriangleList};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-    const vk::PipelineRasterizationStateCreateInfo raster{.polygonMode = vk::PolygonMode::eFill,
-                                                          .lineWidth = 1.0F};
+    const vk::PipelineRasterizationStateCreateInfo raster{.lineWidth = 1.0F};
     const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples =
                                                              vk::SampleCountFlagBits::e1};
-    const bool depth = info.depth_format != vk::Format::eUndefined;
-    const vk::PipelineDepthStencilStateCreateInfo depth_state{.depthTestEnable = depth,
-                                                              .depthWriteEnable =
-                                                                  depth && info.depth_write,
-                                                              .depthCompareOp = info.depth_compare};
+    const auto depth_state = depthState(info);
     const std::vector blends(info.color_formats.size(), attachmentState(info.blend));
     const vk::PipelineColorBlendStateCreateInfo blend{
         .attachmentCount = static_cast<uint32_t>(blends.size()), .pAttachments = blends.data()};

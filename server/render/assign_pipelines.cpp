@@ -4,7 +4,7 @@
 #include "gpu/memory.h"
 #include "gpu/pipeline.h"
 #include "interface/assign_math.h"
-#include "render/frame_recorder.h"
+#include "render/host_copies.h"
 
 #include <array>
 #include <bit>

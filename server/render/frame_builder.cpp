@@ -1,5 +1,6 @@
 #include "render/frame_builder.h"
 
+#include "area_light_table/table.h"
 #include "render/blended_recorder.h"
 #include "render/effects/effects.h"
 #include "render/frame_facts.h"
@@ -9,8 +10,8 @@
 #include "render/visibility_instances.h"
 
 #include <algorithm>
-#include <array>
 #include <future>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -371,15 +372,13 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                const view::Size& shown,
                                std::span<const ActiveEffect> effects,
                                const WorkLimits& work) {
-    const view::Size& drawn = drawn_;
     FrameLoad load{.plan = plan,
                    .draws = draws_,
-                   .drawn = drawn,
+                   .drawn = drawn_,
                    .shown = shown,
                    .pairs = knownPairs(plan),
                    .longest_loop = 0,
                    .directional_count = static_cast<uint32_t>(lights_.directionals.size()),
-                   .area_count = static_cast<uint32_t>(lights_.areas.size()),
                    .overdraw = std::max(kUsualOverdraw, scene_.overdraw.value_or(0)),
                    .peel_layers = peelLayers(plan, draws_) + (countsOverflow(plan, draws_) ? 1 : 0),
                    .wire_lines = wireLines(plan),
@@ -392,19 +391,27 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                  ? 1
                                  : static_cast<uint32_t>(visible.materials_in_use.size());
     }
+    if (!lights_.areas.empty()) {
+        load.costly_lights.push_back({.count = static_cast<uint32_t>(lights_.areas.size()),
+                                      .pair = scene_.unit_costs.area_pair});
+    }
     for (const auto& [place, effect] : effects) {
-        effect->addLoad(load);
+        effect->addLoad(scene_.unit_costs, load);
     }
     load.longest_loop = load.pairs.longest();
     FrameCosts costs(scene_.unit_costs, load);
     if (!on_device_ || costs.total() <= std::min(work.piece, work.loop)) {
         return costs;
     }
-    // What the device is told to hold its lists against, since nobody knows them yet.
-    const vk::Rect2D whole{{0, 0}, {drawn.width_px, drawn.height_px}};
+    limitLists(costs, work, load);
+    return {scene_.unit_costs, std::move(load)};
+}
+
+void FrameBuilder::limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load) {
+    const vk::Rect2D whole{{0, 0}, {drawn_.width_px, drawn_.height_px}};
     const double room = costs.pairsWithin(work.piece);
     const uint64_t longest = costs.lightsWithin(work.loop);
-    const double pixels = static_cast<double>(drawn.width_px) * drawn.height_px;
+    const double pixels = static_cast<double>(drawn_.width_px) * drawn_.height_px;
     const auto seen = seenPairs();
     if (seen) {
         // What moves between two frames is no reason to refuse the second.
@@ -424,7 +431,106 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
         load.pairs = PairBound::uniform(static_cast<uint64_t>(room / pixels));
         device_lists_.limit(room, longest);
     }
-    return {scene_.unit_costs, std::move(load)};
+}
+
+void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> effects) {
+    upload.clear();
+    blocks_ = {};
+    const auto place = [&](size_t binding, auto span) {
+        blocks_[binding] =
+            span.empty() ? FrameBlock{} : FrameBlock{upload.add(span), span.size_bytes()};
+    };
+    place(0, std::span<const io::Frame>(&uniforms_, 1));
+    place(1, std::span<const io::Light>(lights_.lights));
+    place(2, std::span<const io::ClusterList>(lists_.clusters));
+    place(3, std::span<const uint32_t>(lists_.indices));
+    place(4, std::span<const io::Spot>(lights_.spots));
+    place(5, std::span<const io::DirectionalLight>(lights_.directionals));
+    place(11, std::span<const io::AreaLight>(lights_.areas));
+    assign_offsets_ = on_device_ ? gatherAssignment(upload) : AssignOffsets{};
+    UploadOffsets& offsets = offsets_;
+    offsets = {};
+    offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));
+    if (!draws_.indices.empty()) {
+        // lavapipe 22.3 ignores an index buffer's offset in indirect draws: count from 0 instead.
+        const auto first = upload.add(std::span<const uint32_t>(draws_.indices)) / sizeof(uint32_t);
+        for (auto& command : draws_.commands) {
+            command.firstIndex += static_cast<uint32_t>(first);
+        }
+    }
+    if (visibility_) {
+        offsets.instances = upload.add(std::span<const io::InstanceView>(instances_));
+        offsets.meshlet_order = upload.add(std::span<const uint32_t>(meshlet_order_));
+    }
+    if (!debug_.wires.empty()) {
+        offsets.wires = upload.add(std::span<const io::WireVertex>(debug_.wires));
+    }
+    offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
+    for (const ActiveEffect& active : effects) {
+        active.effect->gather(upload, blocks_);
+    }
+}
+
+AssignOffsets FrameBuilder::gatherAssignment(FrameUpload& upload) const {
+    const AssignData& data = device_lists_.data();
+    return {.frame = upload.add(std::span<const io::AssignFrame>(data.frame)),
+            .tables = upload.add(std::span<const double>(data.tables)),
+            .lights = blocks_[1].offset,
+            .radii = upload.add(data.radii_m),
+            .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
+}
+
+UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect> effects) {
+    slot.upload.commit();
+    for (const ActiveEffect& active : effects) {
+        active.effect->prepare(slot, blocks_);
+    }
+    if (!lights_.areas.empty()) {
+        const gpu::Buffer& table = scene_.ltcTable();
+        blocks_[12] = {.bytes = area_light_table::table().size_bytes(), .buffer = *table.handle};
+    }
+    slot.device_lists = on_device_;
+    if (on_device_) {
+        writeAssignment(slot);
+    }
+    writeFrameSet(scene_.device, slot, blocks_);
+    return offsets_;
+}
+
+void FrameBuilder::writeAssignment(FrameSlot& slot) {
+    const auto& buffers = device_lists_.makeBuffers();
+    blocks_[2] = {.bytes = device_lists_.data().frame[0].cluster_count * sizeof(io::ClusterList),
+                  .buffer = *buffers->lists.handle};
+    blocks_[3] = {.bytes = uint64_t{buffers->capacity.entries} * sizeof(uint32_t),
+                  .buffer = *buffers->indices.handle};
+    if (!slot.assignment) {
+        slot.assignment = std::make_unique<AssignSlot>(scene_.device, *scene_.assignment());
+    }
+    slot.assignment->write(buffers, device_lists_.data(), slot.upload.buffer(), assign_offsets_);
+}
+
+ListCapacity FrameBuilder::listCapacity() const {
+    // Kept for the next frame that has its lists made there.
+    return on_device_                ? device_lists_.capacity()
+           : device_lists_.buffers() ? device_lists_.buffers()->capacity
+                                     : ListCapacity{};
+}
+
+uint64_t FrameBuilder::hostBytes() const {
+    const auto kept = [](const auto& items) { return items.capacity() * sizeof(items[0]); };
+    uint64_t bytes = kept(lists_.clusters) + kept(lists_.indices);
+    for (const auto* lights : {&lights_, &grown_, &wire_lights_}) {
+        bytes += kept(lights->lights) + kept(lights->radii_m) + kept(lights->spots) +
+                 kept(lights->cones);
+    }
+    return bytes;
+}
+
+void FrameBuilder::letGo() {
+    lists_ = {};
+    lights_ = {};
+    grown_ = {};
+    wire_lights_ = {};
 }
 
 } // namespace froxel::render

@@ -96,6 +96,9 @@ class FrameBuilder {
     // What is known of pairs before the device has made lists.
     [[nodiscard]] PairBound knownPairs(const FramePlan& plan) const;
     [[nodiscard]] std::optional<PairBound> seenPairs() const;
+    // Tells the device what to hold its lists against, since nobody knows them yet, and the frame's
+    // load what they come to at most; `costs` are by what is known.
+    void limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load);
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     [[nodiscard]] const cluster::GridCosts& gridCosts(const view::ViewSettings& settings) const;
     void startCulling(bool aside);
@@ -121,7 +124,6 @@ class FrameBuilder {
     [[nodiscard]] std::vector<io::WireVertex> buildWires(const FrameInputs& inputs,
                                                          uint32_t& slice_count);
     void buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m);
-    void writeFrameSet(FrameSlot& slot) const;
 
     SceneResources& scene_;
     FrameInputs inputs_; // of what is built

@@ -54,12 +54,11 @@ checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Second
 
 double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
     const uint64_t longest = load_.pairs.longest();
-    const auto shadows = std::min<uint64_t>(load_.shadowed_count, longest);
-    const auto areas = std::min<uint64_t>(load_.area_count, longest);
-    return load_.pairs.pairs(region) * unit.pair +
-           areaOf(region) * (unit_.lit_pixel + load_.directional_count * unit.pair +
-                             static_cast<double>(shadows) * unit_.shadow_pair +
-                             static_cast<double>(areas) * unit_.area_pair);
+    double each = unit_.lit_pixel + load_.directional_count * unit.pair;
+    for (const auto& [count, pair] : load_.costly_lights) {
+        each += static_cast<double>(std::min<uint64_t>(count, longest)) * pair;
+    }
+    return load_.pairs.pairs(region) * unit.pair + areaOf(region) * each;
 }
 
 Seconds FrameCosts::loop(const PairCost& unit) const {
@@ -195,17 +194,6 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
     }
 }
 
-void FrameCosts::addPost(std::vector<PassEstimate>& passes) const {
-    addEffects(EffectPlace::kPicture, passes);
-    if (load_.wire_lines > 0) {
-        passes.push_back({"wires", wires(load_.wire_lines)});
-    }
-    if (load_.plan.tonemap) {
-        passes.push_back({"tonemap", timeOver(screen(), load_.shown)});
-    }
-    addEffects(EffectPlace::kPixels, passes);
-}
-
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
     addEffects(EffectPlace::kLights, passes);
@@ -220,7 +208,14 @@ std::vector<PassEstimate> FrameCosts::passes() const {
     }
     addSurfaces(passes);
     addBlended(passes);
-    addPost(passes);
+    addEffects(EffectPlace::kPicture, passes);
+    if (load_.wire_lines > 0) {
+        passes.push_back({"wires", wires(load_.wire_lines)});
+    }
+    if (load_.plan.tonemap) {
+        passes.push_back({"tonemap", timeOver(screen(), load_.shown)});
+    }
+    addEffects(EffectPlace::kPixels, passes);
     return passes;
 }
 

@@ -20,6 +20,12 @@ namespace froxel::render {
 
 // The host's facts of a frame that was built.
 struct FrameLoad {
+    // Lights that take more than others, wherever they are.
+    struct CostlyLights {
+        uint32_t count = 0;
+        double pair = 0; // seconds more, at a pixel
+    };
+
     const FramePlan& plan;
     const DrawList& draws;
     view::Size drawn;
@@ -27,8 +33,7 @@ struct FrameLoad {
     PairBound pairs;
     uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;
-    uint32_t area_count = 0;
-    uint32_t shadowed_count = 0;   // lights with shadow maps
+    std::vector<CostlyLights> costly_lights = {};
     double overdraw = 1;           // of solid surfaces, in fragments per pixel
     uint32_t device_triangles = 0; // that the host does not cull
     uint32_t resolve_count = 1;    // dispatches over the picture where ids are resolved
@@ -109,7 +114,6 @@ class FrameCosts {
     void addSurfaces(std::vector<PassEstimate>& passes) const;
     void addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const;
     void addBlended(std::vector<PassEstimate>& passes) const;
-    void addPost(std::vector<PassEstimate>& passes) const;
 
     UnitCosts unit_;
     FrameLoad load_;

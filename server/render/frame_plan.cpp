@@ -2,7 +2,6 @@
 
 #include "interface/constants.h"
 #include "interface/gbuffer_io.h"
-#include "render/effects/effects.h"
 #include "render/gbuffer_layout.h"
 
 #include <algorithm>
@@ -43,7 +42,6 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
         flags |= facts.spots ? io::kLightSpots : 0U;
         flags |= facts.areas ? io::kLightAreas : 0U;
-        flags |= facts.shadows ? io::kLightShadows : 0U;
         flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
         flags |= facts.long_loops ? io::kLightLong : 0U;
         if (compute) {
@@ -94,12 +92,6 @@ bool FramePlan::hasEffect(EffectPlace place) const {
     return std::ranges::any_of(effects, [place](const auto& it) { return it.row->place == place; });
 }
 
-const EffectPlan* FramePlan::effect(const EffectRow& row) const {
-    const auto at =
-        std::ranges::find_if(effects, [&row](const auto& it) { return it.row == &row; });
-    return at != effects.end() ? &at->plan : nullptr;
-}
-
 FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
     facts.spots |= parts.spots && facts.local_lights;
     facts.directional |= parts.directional;
@@ -118,7 +110,10 @@ view::Size drawnSize(const view::ViewSettings& settings) {
     return {settings.size.width_px * across, settings.size.height_px * across};
 }
 
-FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts) {
+namespace {
+
+// Which passes there are.
+FramePlan planPasses(const view::ViewSettings& settings, const FrameFacts& facts) {
     using view::Renderer;
     FramePlan plan;
     const Renderer renderer = settings.renderer;
@@ -149,14 +144,20 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
             settings.transparency == view::Transparency::kPeeled ? settings.peel_layers : 0;
     }
     plan.debug = settings.debug.view;
-    const bool replaced = view::replacesPicture(plan.debug);
     plan.lists = (renderer != Renderer::kNaive || view::showsClusters(plan.debug)) &&
                  facts.local_lights && !facts.all_lights;
     plan.count_pairs = settings.count_pairs && facts.local_lights;
 
-    if (replaced) {
+    if (view::replacesPicture(plan.debug)) {
         replacePicture(plan, settings, facts);
     }
+    return plan;
+}
+
+} // namespace
+
+FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts) {
+    FramePlan plan = planPasses(settings, facts);
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
@@ -164,7 +165,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
                          plan.hasEffect(EffectPlace::kSolid) ||
                          plan.hasEffect(EffectPlace::kPicture) || view::isOverlay(plan.debug);
     const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
-    plan.tonemap = !compute_ends && !replaced;
+    plan.tonemap = !compute_ends && !view::replacesPicture(plan.debug);
     plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance ||
                     plan.debug == view::DebugView::kOverdraw;
 
@@ -172,6 +173,8 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
 
     for (const auto& [row, effect] : plan.effects) {
+        plan.forward_light_flags |= effect.light_flags;
+        plan.lighting_light_flags |= effect.light_flags;
         plan.blended_output_flags |= effect.blended_output_flags;
     }
 
@@ -182,7 +185,7 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     const uint32_t tone = settings.tone_map == view::ToneMap::kClamp ? io::kOutputClamp : 0U;
     const uint32_t pixels = io::kOutputPixels | tone;
     const view::GbufferLayout layout = // a forward renderer's, for a debug view: the default
-        isForward(renderer) ? view::GbufferLayout{} : settings.gbuffer;
+        isForward(settings.renderer) ? view::GbufferLayout{} : settings.gbuffer;
     plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(layout) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
     if (settings.shading == view::ShadingModel::kLambert) {

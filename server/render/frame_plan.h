@@ -87,8 +87,6 @@ struct FramePlan {
 
     // Whether it has any there.
     [[nodiscard]] bool hasEffect(EffectPlace place) const;
-    // Null: it lacks that one.
-    [[nodiscard]] const EffectPlan* effect(const EffectRow& row) const;
 };
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.

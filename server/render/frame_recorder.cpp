@@ -3,6 +3,7 @@
 #include "render/barrier.h"
 #include "render/blended_recorder.h"
 #include "render/fresh_targets.h"
+#include "render/host_copies.h"
 #include "render/passes.h"
 #include "render/raster_passes.h"
 #include "render/visibility_passes.h"
@@ -200,16 +201,30 @@ void recordOverlay(const FrameContext& frame) {
     }
 }
 
-void copyImage(const vk::raii::CommandBuffer& cmd,
-               const gpu::Image& image,
-               vk::ImageAspectFlags aspect,
-               const gpu::Buffer& to,
-               vk::DeviceSize offset) {
-    cmd.copyImageToBuffer(
-        *image.handle, vk::ImageLayout::eGeneral, *to.handle,
-        vk::BufferImageCopy{.bufferOffset = offset,
-                            .imageSubresource = {aspect, 0, 0, 1},
-                            .imageExtent = {image.extent.width, image.extent.height, 1}});
+// What there is to see, solid, or what a debug view shows in its place.
+void recordSurfaces(const FrameContext& frame) {
+    if (view::replacesPicture(frame.plan.debug)) {
+        recordReplacement(frame);
+    } else if (frame.plan.visibility_shade) {
+        recordVisible(frame);
+        inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityShade);
+    } else if (frame.plan.forward) {
+        recordForward(frame);
+    } else {
+        recordDeferred(frame);
+    }
+}
+
+void recordPairs(const FrameContext& frame) {
+    auto& slot = frame.slot;
+    slot.pairs->recordClear(slot.cmd);
+    // cleared counters, depth -> counting
+    barrier(slot.cmd, Stage::eClear | kDepthStages | Stage::eComputeShader,
+            Access::eTransferWrite | Access::eDepthStencilAttachmentWrite |
+                Access::eShaderStorageWrite,
+            Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eShaderSampledRead);
+    inParts(frame, drawn(frame), frame.costs.countPairs(), recordCountPairs);
 }
 
 } // namespace
@@ -226,27 +241,9 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
         recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
     }
     recordEffects(frame, EffectPlace::kLights, [] {}); // there is no picture yet
-
-    if (view::replacesPicture(frame.plan.debug)) {
-        recordReplacement(frame);
-    } else if (frame.plan.visibility_shade) {
-        recordVisible(frame);
-        inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityShade);
-    } else if (frame.plan.forward) {
-        recordForward(frame);
-    } else {
-        recordDeferred(frame);
-    }
+    recordSurfaces(frame);
     if (frame.plan.count_pairs) {
-        slot.pairs->recordClear(slot.cmd);
-        // cleared counters, depth -> counting
-        barrier(slot.cmd, Stage::eClear | kDepthStages | Stage::eComputeShader,
-                Access::eTransferWrite | Access::eDepthStencilAttachmentWrite |
-                    Access::eShaderStorageWrite,
-                Stage::eComputeShader,
-                Access::eShaderStorageRead | Access::eShaderStorageWrite |
-                    Access::eShaderSampledRead);
-        inParts(frame, drawn(frame), frame.costs.countPairs(), recordCountPairs);
+        recordPairs(frame);
     }
     recordEffects(frame, EffectPlace::kSolid, [&] {
         // radiance and depth of solid surfaces -> loads and stores
@@ -290,11 +287,6 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
     frame.pieces.end();
 }
 
-void recordHostRead(const vk::raii::CommandBuffer& cmd) {
-    barrier(cmd, Stage::eComputeShader | Stage::eCopy,
-            Access::eShaderStorageWrite | Access::eTransferWrite, Stage::eHost, Access::eHostRead);
-}
-
 void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) {
     const auto& cmd = assign.cmd;
     const auto next = [&] {
@@ -333,31 +325,6 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
     barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders | Stage::eCopy,
             Access::eShaderRead | Access::eTransferRead);
     recordAssignCopy(assign);
-}
-
-void recordTargetCopy(const vk::raii::CommandBuffer& cmd,
-                      const gpu::Image& target,
-                      vk::ImageAspectFlags aspect,
-                      const gpu::Buffer& to) {
-    // the frame's last write of the target -> copy
-    barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
-    copyImage(cmd, target, aspect, to, 0);
-    // copy -> host
-    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
-}
-
-void recordVisibilityCopy(const vk::raii::CommandBuffer& cmd,
-                          const ViewTargets& targets,
-                          const gpu::Buffer& to) {
-    // the frame's last writes of ids and depth -> copies
-    barrier(cmd, Stage::eAllCommands, Access::eMemoryWrite, Stage::eCopy, Access::eTransferRead);
-    copyImage(cmd, targets.ids, vk::ImageAspectFlagBits::eColor, to, 0);
-    copyImage(cmd, targets.solidDepth(),
-              targets.rastered_in_compute ? vk::ImageAspectFlagBits::eColor
-                                          : vk::ImageAspectFlagBits::eDepth,
-              to, vk::DeviceSize{4} * targets.size.width_px * targets.size.height_px);
-    // copies -> host
-    barrier(cmd, Stage::eCopy, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
 } // namespace froxel::render

@@ -120,6 +120,40 @@ const gpu::Buffer& pixelsOf(const FrameSlot& slot) {
     return slot.targets->needs.device_pixels ? slot.targets->pixels : slot.readback->buffer;
 }
 
+void writeFrameSet(const gpu::Device& device, FrameSlot& slot, const FrameBlocks& blocks) {
+    std::array<vk::DescriptorBufferInfo, Pipelines::kFrameBindings> infos;
+    std::array<vk::DescriptorImageInfo, Pipelines::kFrameBindings> images;
+    std::array<vk::BufferView, Pipelines::kFrameBindings> views;
+    std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
+    slot.texel_views.clear();
+    for (uint32_t i = 0; i < infos.size(); ++i) {
+        // What the frame lacks is described as none.
+        const auto& [offset, bytes, own, image] = blocks[i];
+        const vk::Buffer buffer = own ? own : slot.upload.buffer();
+        infos[i] = bytes > 0 ? vk::DescriptorBufferInfo{buffer, offset, bytes}
+                             : vk::DescriptorBufferInfo{.buffer = {}, .range = VK_WHOLE_SIZE};
+        images[i] = {.imageView = image, .imageLayout = vk::ImageLayout::eGeneral};
+        writes[i] = {.dstSet = *slot.frame_set,
+                     .dstBinding = i,
+                     .descriptorCount = 1,
+                     .descriptorType = Pipelines::kFrameBindingTypes[i],
+                     .pImageInfo = &images[i],
+                     .pBufferInfo = &infos[i]};
+        if (Pipelines::kFrameTexelFormats[i] != vk::Format::eUndefined) {
+            if (bytes > 0) {
+                slot.texel_views.push_back(
+                    device.handle().createBufferView({.buffer = buffer,
+                                                      .format = Pipelines::kFrameTexelFormats[i],
+                                                      .offset = offset,
+                                                      .range = bytes}));
+                views[i] = *slot.texel_views.back();
+            }
+            writes[i].pTexelBufferView = &views[i];
+        }
+    }
+    device.handle().updateDescriptorSets(writes, {});
+}
+
 void writeScreenSet(const gpu::Device& device, FrameSlot& slot, const gpu::Buffer& packed) {
     const auto image = [](const gpu::Image& target) {
         return vk::DescriptorImageInfo{.imageView = *target.view,

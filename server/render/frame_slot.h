@@ -8,6 +8,7 @@
 #include "gpu/timestamps.h"
 #include "render/blend_targets.h"
 #include "render/effects/effect_targets.h"
+#include "render/frame_blocks.h"
 #include "render/frame_inputs.h"
 #include "render/frame_pieces.h"
 #include "render/gpu_light_lists.h"
@@ -126,6 +127,10 @@ struct FrameSlot {
 
 // Where the slot's finished pixels are read from or copied from.
 [[nodiscard]] const gpu::Buffer& pixelsOf(const FrameSlot& slot);
+
+// Describes the blocks to all shaders of the frame; null buffers are the slot's upload, which was
+// committed. Throws vk::SystemError.
+void writeFrameSet(const gpu::Device& device, FrameSlot& slot, const FrameBlocks& blocks);
 
 // Describes the slot's targets and where packed pixels go to the screen passes; the slot is not in
 // flight.

@@ -10,8 +10,6 @@ namespace {
 constexpr const char* kReadback = "readback";
 constexpr const char* kUpload = "frame upload";
 constexpr const char* kHost = "host";
-// A device may round a buffer up to this much.
-constexpr uint64_t kBufferStep = 256;
 // Counters that come back, of each slot.
 constexpr uint64_t kSlotBytes = 16 << 10U;
 
@@ -32,12 +30,6 @@ FrameMemory frameMemory(const FrameBuilder& builder,
         frame.blend = plan.transparency;
     }
     return frame;
-}
-
-void NeedList::buffer(const std::string& purpose, uint64_t bytes) {
-    if (bytes > 0) {
-        uses.push_back({purpose, (bytes + kBufferStep - 1) / kBufferStep * kBufferStep});
-    }
 }
 
 std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& image_bytes) {

@@ -4,11 +4,11 @@
 
 #include "core/frame_stats.h"
 #include "render/frame_builder.h"
+#include "render/need_list.h"
 #include "render/view_targets.h"
 #include "view/settings.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -34,25 +34,6 @@ struct FrameMemory {
                                       const FrameInputs& asked,
                                       const TargetNeeds& targets,
                                       std::span<const ActiveEffect> effects);
-
-// What an image takes: gpu::imageBytes.
-using ImageBytes = std::function<uint64_t(const gpu::ImageInfo&)>;
-
-// Collects what a frame needs.
-class NeedList {
-  public:
-    explicit NeedList(const ImageBytes& image_bytes) : image_bytes_(image_bytes) {}
-
-    void image(const std::string& purpose, const gpu::ImageInfo& info) {
-        uses.push_back({purpose, image_bytes_(info)});
-    }
-    void buffer(const std::string& purpose, uint64_t bytes); // 0: none
-
-    std::vector<MemoryUse> uses;
-
-  private:
-    const ImageBytes& image_bytes_;
-};
 
 // Steady state: every readback slot has been used. Old targets that a frame in flight still draws
 // into come on top until it is done, which is never on a CPU device.

@@ -46,7 +46,7 @@ std::shared_ptr<const FrameDetails> FrameDetailsKeeper::update(const view::ViewS
     const Key key{settings.renderer,
                   settings.shading,
                   settings.gbuffer,
-                  settings.shadows,
+                  effectWords(settings, plan),
                   facts,
                   plan,
                   legend != nullptr ? std::optional(*legend) : std::nullopt};

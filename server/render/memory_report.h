@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace froxel::render {
@@ -33,7 +34,7 @@ class FrameDetailsKeeper {
         view::Renderer renderer{};
         view::ShadingModel shading{};
         view::GbufferLayout gbuffer;
-        view::Shadows shadows;
+        std::vector<std::string> effects; // what they say, which any setting may change
         FrameFacts facts;
         FramePlan plan;
         std::optional<DebugLegend> legend;

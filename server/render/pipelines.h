@@ -87,7 +87,6 @@ class Pipelines {
         vk::Format::eUndefined,
         vk::Format::eR32G32B32A32Sfloat,
         vk::Format::eR32G32B32A32Sfloat};
-    static constexpr uint32_t kShadowAtlasBinding = 10;
 
     // Variants kept: of surfaces, where a frame takes one for each kind of material, and of passes
     // over the picture. llvmpipe takes 4 MB for one.

@@ -47,14 +47,19 @@ std::string lightWords(const FrameFacts& facts, const FramePlan& plan, bool naiv
                  : "lists do not pay or are not asked for: every pixel loops over all lights";
 }
 
-void addEffectWords(Lines& lines,
-                    const view::ViewSettings& settings,
-                    const FramePlan& plan,
-                    EffectPlace place) {
-    for (const auto& [row, effect] : plan.effects) {
-        if (auto words = row->place == place ? row->words(settings, effect) : std::string();
-            !words.empty()) {
-            lines.push_back(std::move(words));
+void addWords(Lines& lines, const PlannedEffect& effect, const view::ViewSettings& settings) {
+    if (auto words = effect.row->words(settings, effect.plan); !words.empty()) {
+        lines.push_back(std::move(words));
+    }
+}
+
+void addWordsAt(Lines& lines,
+                const view::ViewSettings& settings,
+                const FramePlan& plan,
+                EffectPlace place) {
+    for (const PlannedEffect& effect : plan.effects) {
+        if (effect.row->place == place) {
+            addWords(lines, effect, settings);
         }
     }
 }
@@ -84,7 +89,7 @@ void addLightWords(Lines& lines,
             lines.emplace_back("subgroups fetch lights together");
         }
     }
-    addEffectWords(lines, settings, plan, EffectPlace::kLights);
+    addWordsAt(lines, settings, plan, EffectPlace::kLights);
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
     }
@@ -128,19 +133,19 @@ void addSolidWords(Lines& lines,
     }
 }
 
-// What is done to the lit picture; nothing where nothing is asked for.
-void addPostWords(Lines& lines, const view::ViewSettings& settings, const FramePlan& plan) {
+// Of what is done to the picture once it is lit.
+void addEffectWords(Lines& lines, const view::ViewSettings& settings, const FramePlan& plan) {
     if (plan.outline) {
         lines.emplace_back(
             "outline: edges of depth and normals are darkened, in a pass of its own");
     }
-    addEffectWords(lines, settings, plan, EffectPlace::kSolid);
-    addEffectWords(lines, settings, plan, EffectPlace::kPicture);
+    addWordsAt(lines, settings, plan, EffectPlace::kSolid);
+    addWordsAt(lines, settings, plan, EffectPlace::kPicture);
     if (plan.samples) {
         lines.emplace_back(
             "ssaa4: four samples a pixel, drawn at twice the sides, each tone mapped");
     }
-    addEffectWords(lines, settings, plan, EffectPlace::kPixels);
+    addWordsAt(lines, settings, plan, EffectPlace::kPixels);
 }
 
 std::string transparentWords(const FramePlan& plan) {
@@ -229,7 +234,7 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     addSolidWords(lines, settings, facts, plan);
     addLightWords(lines, settings, facts, plan);
     lines.push_back(transparentWords(plan));
-    addPostWords(lines, settings, plan);
+    addEffectWords(lines, settings, plan);
     lines.push_back(toneMapWords(facts, plan));
     if (plan.count_pairs) {
         lines.emplace_back("light-pixel pairs are counted, in a pass of its own");
@@ -240,6 +245,14 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     }
     if (!plan.radiance) {
         lines.emplace_back("nobody reads linear radiance: no target for it");
+    }
+    return lines;
+}
+
+std::vector<std::string> effectWords(const view::ViewSettings& settings, const FramePlan& plan) {
+    Lines lines;
+    for (const PlannedEffect& effect : plan.effects) {
+        addWords(lines, effect, settings);
     }
     return lines;
 }

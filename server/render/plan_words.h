@@ -16,4 +16,8 @@ namespace froxel::render {
 [[nodiscard]] std::vector<std::string>
 frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan);
 
+// What its effects say of that, in their order.
+[[nodiscard]] std::vector<std::string> effectWords(const view::ViewSettings& settings,
+                                                   const FramePlan& plan);
+
 } // namespace froxel::render

@@ -1,6 +1,7 @@
 #include "render/radiance_readback.h"
 
-#include "render/frame_recorder.h"
+#include "render/frame_slot.h"
+#include "render/host_copies.h"
 
 #include <cstring>
 

@@ -1,6 +1,5 @@
 #include "render/refusals.h"
 
-#include "render/effects/effects.h"
 #include "render/frame_plan.h"
 #include "render/gbuffer_layout.h"
 #include "render/list_limits.h"

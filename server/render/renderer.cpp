@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include "core/assert.h"
-#include "render/effects/shadows.h"
 #include "render/frame_maker.h"
 #include "render/frame_slot.h"
 #include "render/fresh_targets.h"
@@ -237,17 +236,6 @@ Result<LinearImage> ViewRenderer::readLinear() {
     }
 }
 
-Result<ShadowAtlas> ViewRenderer::readShadows() {
-    const Effect* shadows = impl_->maker.effects().find(kShadowsEffect);
-    FROXEL_ASSERT(shadows != nullptr, "readShadows needs a frame with shadow maps");
-    try {
-        return copyShadows(*shadows);
-    } catch (const vk::SystemError& error) {
-        return Error{ErrorCode::kDevice,
-                     std::string("reading the shadow maps failed: ") + error.what()};
-    }
-}
-
 Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
     FROXEL_ASSERT(impl_->maker.targets(), "readVisibility needs a frame");
     try {
@@ -256,6 +244,10 @@ Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
         return Error{ErrorCode::kDevice,
                      std::string("reading the visible triangles failed: ") + error.what()};
     }
+}
+
+const ViewEffects& ViewRenderer::effects() const {
+    return impl_->maker.effects();
 }
 
 } // namespace froxel::render

@@ -12,7 +12,6 @@
 #include "render/frame_inputs.h"
 #include "render/list_limits.h"
 #include "render/memory_budget.h"
-#include "render/shadow_atlas.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -22,6 +21,7 @@
 namespace froxel::render {
 
 class SceneResources;
+class ViewEffects;
 
 // What a frame will ask of the device.
 struct FrameWork {
@@ -100,12 +100,12 @@ class ViewRenderer {
     // The linear picture of the frame last submitted, which had keep_radiance (not a fast path:
     // waits and copies).
     [[nodiscard]] Result<LinearImage> readLinear();
-    // The shadow maps of the frame last submitted, which had some (not a fast path). Errors:
-    // kDevice.
-    [[nodiscard]] Result<ShadowAtlas> readShadows();
     // Which triangles the frame last collected shows, which took the visibility passes; `scene` is
     // the renderer's (not a fast path: see visibility_readback.h). Errors: kDevice.
     [[nodiscard]] Result<Visibility> readVisibility(const scene::Scene& scene);
+
+    // Those that its frames have had, for tests that look into one.
+    [[nodiscard]] const ViewEffects& effects() const;
 
   private:
     struct Impl;

@@ -29,11 +29,10 @@ struct UnitCosts {
     double screen_pixel = 0;  // another pass over the picture
     PairCost compute;
     PairCost fragment;
-    PairCost counting;      // pairs that are counted, by debug views too
-    double shadow_pair = 0; // more, where the light has a shadow map
-    double area_pair = 0;   // a rectangle
-    double wire_line = 0;   // of an overlay
-    double wire_pixel = 0;  // that such a line covers
+    PairCost counting;     // pairs that are counted, by debug views too
+    double area_pair = 0;  // more, where the light is a rectangle
+    double wire_line = 0;  // of an overlay
+    double wire_pixel = 0; // that such a line covers
 };
 
 // Of a device that takes so many times as long for lights, and for surfaces.
@@ -44,8 +43,8 @@ struct UnitCosts {
     }
     unit.lights_scale *= lights;
     for (double UnitCosts::*cost :
-         {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::shadow_pair,
-          &UnitCosts::area_pair, &UnitCosts::wire_line, &UnitCosts::wire_pixel}) {
+         {&UnitCosts::lit_pixel, &UnitCosts::screen_pixel, &UnitCosts::area_pair,
+          &UnitCosts::wire_line, &UnitCosts::wire_pixel}) {
         unit.*cost *= lights;
     }
     for (PairCost UnitCosts::*cost :
@@ -80,7 +79,6 @@ inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
                                          .compute = {5e-9, 0},
                                          .fragment = {2.2e-8, 0},
                                          .counting = {1.2e-8, 0},
-                                         .shadow_pair = 6e-8,
                                          .area_pair = 1.5e-7,
                                          .wire_line = 5e-7,
                                          .wire_pixel = 2e-8};
@@ -93,7 +91,6 @@ inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
                                          .compute = {8e-12, 1.3e-7},
                                          .fragment = {4.2e-10, 1.1e-6},
                                          .counting = {9e-11, 1e-6},
-                                         .shadow_pair = 3e-11,
                                          .area_pair = 3e-11,
                                          .wire_line = 1e-8,
                                          .wire_pixel = 5e-11};

@@ -1,9 +1,9 @@
 #include "render/visibility_readback.h"
 
 #include "core/assert.h"
-#include "render/frame_recorder.h"
 #include "render/frame_slot.h"
 #include "render/geometry_pack.h"
+#include "render/host_copies.h"
 #include "render/scene_resources.h"
 
 #include <algorithm>
@@ -90,7 +90,11 @@ copyVisibility(SceneResources& resources, const ViewTargets& targets, const scen
     }
     const Readback readback(resources.device, count * (sizeof(uint32_t) + sizeof(float)));
     resources.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
-        recordVisibilityCopy(cmd, targets, readback.buffer);
+        recordTargetCopy(cmd, targets.ids, vk::ImageAspectFlagBits::eColor, readback.buffer);
+        recordTargetCopy(cmd, targets.solidDepth(),
+                         targets.rastered_in_compute ? vk::ImageAspectFlagBits::eColor
+                                                     : vk::ImageAspectFlagBits::eDepth,
+                         readback.buffer, count * sizeof(uint32_t));
     });
     IdNames names(scene, resources.visibility());
     const std::byte* ids = readback.buffer.mapped;

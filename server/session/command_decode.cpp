@@ -207,7 +207,18 @@ Command decode(const v1::SetSize& size, FieldValidator& fields) {
                     fields.number(view::kHeightRange, size.height())}};
 }
 
+// Null: it gives something else, or besides.
+const google::protobuf::Message* settingsAlone(const v1::ClientMessage& message) {
+    const auto* body = v1::ClientMessage::descriptor()->FindFieldByNumber(message.body_case());
+    return body != nullptr && holdsSettingsAlone(*body->message_type())
+               ? &message.GetReflection()->GetMessage(message, body)
+               : nullptr;
+}
+
 Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
+    if (const auto* settings = settingsAlone(message)) {
+        return SetSettings{decodeSettings(*settings, fields)};
+    }
     switch (message.body_case()) {
     case v1::ClientMessage::kHello:
         return decode(message.hello(), fields);
@@ -215,22 +226,6 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_camera(), fields);
     case v1::ClientMessage::kSelectSceneCamera:
         return decode(message.select_scene_camera(), fields);
-    case v1::ClientMessage::kSetRenderer:
-        return SetSettings{decodeSettings(message.set_renderer(), fields)};
-    case v1::ClientMessage::kSetExposure:
-        return SetSettings{decodeSettings(message.set_exposure(), fields)};
-    case v1::ClientMessage::kSetPost:
-        return SetSettings{decodeSettings(message.set_post(), fields)};
-    case v1::ClientMessage::kSetFog:
-        return SetSettings{decodeSettings(message.set_fog(), fields)};
-    case v1::ClientMessage::kSetShadows:
-        return SetSettings{decodeSettings(message.set_shadows(), fields)};
-    case v1::ClientMessage::kSetTransparency:
-        return SetSettings{decodeSettings(message.set_transparency(), fields)};
-    case v1::ClientMessage::kSetEncoding:
-        return SetSettings{decodeSettings(message.set_encoding(), fields)};
-    case v1::ClientMessage::kSetDelivery:
-        return SetSettings{decodeSettings(message.set_delivery(), fields)};
     case v1::ClientMessage::kSetLights:
         return decode(message.set_lights(), fields);
     case v1::ClientMessage::kSetPlacedLights:
@@ -260,7 +255,7 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return Pause{message.pause().paused()};
     case v1::ClientMessage::kRequestKeyFrame:
         return RequestKeyFrame{};
-    case v1::ClientMessage::BODY_NOT_SET:
+    default:
         break;
     }
     fields.fail(RejectCode::kUnsupported, "body", "is no command that this server knows");

@@ -6,6 +6,7 @@
 #include "session/proto_enums.h"
 #include "session/proto_vec.h"
 
+#include <algorithm>
 #include <map>
 
 namespace froxel::session {
@@ -134,6 +135,14 @@ void addChanges(const Message& command, FieldValidator& fields, SettingChanges& 
 }
 
 } // namespace
+
+bool holdsSettingsAlone(const Descriptor& command) {
+    const HoldingFields& held = heldBy(command);
+    return !held.empty() && static_cast<int>(held.size()) == command.field_count() &&
+           std::ranges::all_of(held, [](const HoldingField& one) {
+               return one.setting != nullptr || holdsSettingsAlone(*one.field->message_type());
+           });
+}
 
 SettingChanges decodeSettings(const Message& command, FieldValidator& fields) {
     SettingChanges changes;

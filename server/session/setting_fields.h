@@ -9,6 +9,9 @@
 
 namespace froxel::session {
 
+// Whether a command holds settings and nothing else.
+[[nodiscard]] bool holdsSettingsAlone(const google::protobuf::Descriptor& command);
+
 // What a command gives, each number in its range and each name known, or refused by `fields`.
 // Absent fields give nothing; a command that needs one and has none is refused.
 [[nodiscard]] SettingChanges decodeSettings(const google::protobuf::Message& command,

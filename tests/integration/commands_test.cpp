@@ -83,7 +83,7 @@ TEST_F(CommandsTest, SetCamera_Valid_TurnsUpInTheStateAndInAFrame) {
     EXPECT_EQ(frame.header.applied_client_time_us(), 1000 * seq);
 }
 
-TEST_F(CommandsTest, EveryCommand_Valid_ChangesTheState) {
+TEST_F(CommandsTest, CommandsOfCameraLightsAndGrid_Valid_ChangeTheState) {
     client_.join();
     ClientMessage message;
     message.mutable_select_scene_camera()->set_name("side");
@@ -129,7 +129,11 @@ TEST_F(CommandsTest, EveryCommand_Valid_ChangesTheState) {
     const v1::ViewState automatic = change(message);
     EXPECT_TRUE(automatic.grid_automatic());
     EXPECT_EQ(automatic.grid_law(), v1::GRID_LAW_LINEAR);
+}
 
+TEST_F(CommandsTest, CommandsOfShadingAndEncoding_Valid_ChangeTheState) {
+    client_.join();
+    ClientMessage message;
     auto* renderer = message.mutable_set_renderer();
     renderer->set_renderer(v1::RENDERER_CLUSTERED_DEFERRED);
     renderer->set_lighting(v1::LIGHTING_STAGE_FRAGMENT);
@@ -141,7 +145,7 @@ TEST_F(CommandsTest, EveryCommand_Valid_ChangesTheState) {
     EXPECT_EQ(shaded.gbuffer().normal(), v1::NORMAL_ENCODING_OCT8);
     EXPECT_EQ(shaded.gbuffer().position(), v1::POSITION_SOURCE_STORED_DEPTH);
 
-    lights = message.mutable_set_lights();
+    auto* lights = message.mutable_set_lights();
     lights->set_light_loop(v1::LIGHT_LOOP_LISTS);
     lights->set_count_pairs(true);
     lights->set_time_s(12.5);

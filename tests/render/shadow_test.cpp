@@ -2,6 +2,7 @@
 // reference's rays.
 #include "interface/constants.h"
 #include "reference/shade.h"
+#include "render/effects/shadows.h"
 #include "render/scene_resources.h"
 #include "render/visibility_readback.h"
 #include "support/draw.h"
@@ -168,7 +169,7 @@ TEST_F(Shadows, ACameraThatMoves_LeavesTexelsAsTheyAre) {
         inputs.time_s = 3;
         render::ViewRenderer view(renderer);
         (void)draw(view, inputs);
-        return view.readShadows().value();
+        return render::copyShadows(view.effects());
     };
     render::Renderer renderer(device(), room);
     const auto first = mapsFrom(renderer, {0.5, 2.2, 7});
@@ -310,6 +311,19 @@ std::pair<uint32_t, uint32_t> surfaceOf(const Visibility& seen, size_t pixel) {
     return {seen.pixels[pixel].instance, seen.pixels[pixel].primitive};
 }
 
+// Whether something holds for a pixel around one of 240 x 135.
+template <class Holds>
+bool anyNear(int x, int y, Holds holds) {
+    constexpr int kNear_px = 4;
+    bool any = false;
+    for (int ny = std::max(y - kNear_px, 0); ny <= std::min(y + kNear_px, 134); ++ny) {
+        for (int nx = std::max(x - kNear_px, 0); nx <= std::min(x + kNear_px, 239); ++nx) {
+            any = any || holds(static_cast<size_t>(ny * 240 + nx));
+        }
+    }
+    return any;
+}
+
 } // namespace
 
 // Against rays in double: pixels differ only within two texels of a shadow's edge. A pixel's texels
@@ -343,7 +357,6 @@ TEST_F(Shadows, APlainRoom_IsAsRaysHaveIt_ButAtEdges) {
             size_t differing = 0;
             size_t away_from_edges = 0;
             size_t dark = 0;
-            constexpr int kNear_px = 4;
             for (int y = 0; y < 135; ++y) {
                 for (int x = 0; x < 240; ++x) {
                     const size_t pixel = static_cast<size_t>(y * 240 + x);
@@ -355,16 +368,10 @@ TEST_F(Shadows, APlainRoom_IsAsRaysHaveIt_ButAtEdges) {
                         continue;
                     }
                     ++differing;
-                    bool edge = false;
-                    for (int dy = -kNear_px; dy <= kNear_px; ++dy) {
-                        for (int dx = -kNear_px; dx <= kNear_px; ++dx) {
-                            const int nx = std::clamp(x + dx, 0, 239);
-                            const int ny = std::clamp(y + dy, 0, 134);
-                            const auto other = static_cast<size_t>(ny * 240 + nx);
-                            edge |= blocked(other) != blocked(pixel) ||
-                                    surfaceOf(*seen, other) != surfaceOf(*seen, pixel);
-                        }
-                    }
+                    const bool edge = anyNear(x, y, [&](size_t other) {
+                        return blocked(other) != blocked(pixel) ||
+                               surfaceOf(*seen, other) != surfaceOf(*seen, pixel);
+                    });
                     away_from_edges += edge ? 0U : 1U;
                 }
             }

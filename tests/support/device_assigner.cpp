@@ -2,6 +2,7 @@
 
 #include "render/frame_recorder.h"
 #include "render/frame_slot.h"
+#include "render/host_copies.h"
 
 #include <gtest/gtest.h>
 

@@ -87,7 +87,25 @@ export class LightEditor {
       actions.addLight(),
     );
     this.chooser = this.addChooser([]);
-    const kind = folder.add(
+    this.addValues();
+    this.remove = this.button('remove', 'Delete this light', 'Also the Delete key at its handle; a picked one goes back to what it was', () => {
+      if (this.shown) actions.removeLight(this.shown.id);
+    });
+    const handles = folder.add(this.model, 'handles').name('Handles');
+    handles.onChange((visible: boolean) => actions.showHandles(visible));
+    this.describe(handles, 'handles', 'Rings over the picture to choose and drag lights by');
+    this.button('load', 'Load a light set…', 'A JSON file in place of the lights that are there', () =>
+      this.load(),
+    );
+    this.button('save', 'Save the light set', 'As a JSON file, for Load and for --light-set', () =>
+      actions.saveLights(),
+    );
+    this.fill(null);
+    folder.close();
+  }
+
+  private addValues(): void {
+    const kind = this.folder.add(
       this.model,
       'kind',
       Object.fromEntries(kLightKinds.map(({ name, value }) => [name, value])),
@@ -95,7 +113,7 @@ export class LightEditor {
     this.value(kind, 'kind', 'Kind', 'A spot’s cone costs a little in each pixel, an area light’s rectangle as much as ten points', () => ({
       kind: this.model.kind,
     }));
-    const color = folder.addColor(this.model, 'color');
+    const color = this.folder.addColor(this.model, 'color');
     this.value(color, 'color', 'Colour', 'As the screen shows it at full light', () => ({
       color: linearColor(this.model.color),
     }));
@@ -132,20 +150,6 @@ export class LightEditor {
     ] as const) {
       this.number(key, label, tip, () => ({ [key]: this.model[key] }));
     }
-    this.remove = this.button('remove', 'Delete this light', 'Also the Delete key at its handle; a picked one goes back to what it was', () => {
-      if (this.shown) actions.removeLight(this.shown.id);
-    });
-    const handles = folder.add(this.model, 'handles').name('Handles');
-    handles.onChange((visible: boolean) => actions.showHandles(visible));
-    this.describe(handles, 'handles', 'Rings over the picture to choose and drag lights by');
-    this.button('load', 'Load a light set…', 'A JSON file in place of the lights that are there', () =>
-      this.load(),
-    );
-    this.button('save', 'Save the light set', 'As a JSON file, for Load and for --light-set', () =>
-      actions.saveLights(),
-    );
-    this.fill(null);
-    folder.close();
   }
 
   show(lights: PlacedLights, chosen: number | null): void {

@@ -155,7 +155,7 @@ export class Panel {
     const controller = folder.add(model, 'value');
     controller.onFinishChange((value: number) => this.actions.set(field, value));
     const range = server.ranges.get(field.name);
-    const scale = range ? scaleFor(range, field.integer, initial) : null;
+    const scale = range ? scaleFor(range, field, initial) : null;
     const slide = scale
       ? attachSlider(controller, scale, (value) => this.actions.set(field, value))
       : null;

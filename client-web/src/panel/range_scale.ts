@@ -2,10 +2,10 @@
 // the range, is the slider's left end. Positions are 0 to kSliderSteps; values are rounded to what
 // a hand can mean, but for the range's ends.
 
-import { kMaxUint32, type Range } from '../settings/field';
+import { kMaxUint32, type NumberKind, type Range } from '../settings/field';
 
 export const kSliderSteps = 1000;
-/** A logarithmic slider whose range starts at 0 reaches down to this part of the usual value. */
+/** Where nobody says how far down it reaches, one whose range starts at 0 does to this part of the usual value. */
 const kSmallestPart = 1e-3;
 const kDigits = 3;
 const kLogRatio = 1000; // of a range's ends, from which on its scale is logarithmic
@@ -17,12 +17,12 @@ export interface Scale {
   toPosition(value: number): number;
 }
 
-/** The scale that suits a range, by its ends alone; null: none does, its numbers are typed. */
-export function scaleFor(range: Range, integer: boolean, usual: number): Scale | null {
+/** The scale that suits a number's range; null: none does, its numbers are typed. */
+export function scaleFor(range: Range, number: NumberKind, usual: number): Scale | null {
   const { min, max } = range;
   if (min < kLowest || max >= kMaxUint32) return null;
   const decades = min > 0 ? max / min >= kLogRatio : min === 0 && max >= kLogMax;
-  return decades ? logScale(range, integer, usual) : linearScale(range, integer);
+  return decades ? logScale(range, number, usual) : linearScale(range, number.integer);
 }
 
 export function linearScale({ min, max }: Range, integer: boolean): Scale {
@@ -35,8 +35,10 @@ export function linearScale({ min, max }: Range, integer: boolean): Scale {
   };
 }
 
-export function logScale({ min, max }: Range, integer: boolean, usual: number): Scale {
-  const floor = min > 0 ? min : integer ? 1 : (usual > 0 ? usual : 1) * kSmallestPart;
+export function logScale({ min, max }: Range, number: NumberKind, usual: number): Scale {
+  const { integer, softMin } = number;
+  const least = softMin ?? (integer ? 1 : (usual > 0 ? usual : 1) * kSmallestPart);
+  const floor = min > 0 ? min : least;
   const span = Math.log(max / floor);
   return {
     toValue: (position) => {

@@ -3,7 +3,11 @@
 import type { DescEnum } from '@bufbuild/protobuf';
 
 export type Kind =
-  | { readonly kind: 'number'; readonly integer: boolean }
+  | {
+      readonly kind: 'number';
+      readonly integer: boolean;
+      readonly softMin?: number; // the least above 0 that is worth asking for; none: not known
+    }
   | { readonly kind: 'boolean' }
   | { readonly kind: 'choice'; readonly schema: DescEnum }
   | { readonly kind: 'color' };
@@ -13,6 +17,7 @@ interface Named {
   readonly key: string; // in Settings
 }
 
+export type NumberKind = Extract<Kind, { kind: 'number' }>;
 export type Field = Named & Kind;
 export type NumberField = Extract<Field, { kind: 'number' }>;
 export type ChoiceField = Extract<Field, { kind: 'choice' }>;

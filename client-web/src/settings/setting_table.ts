@@ -5,7 +5,7 @@ import { getOption, ScalarType, type DescField, type DescMessage } from '@bufbui
 
 import { ClientMessageSchema, type ClientMessage } from '../gen/froxel/v1/client_pb';
 import { Vec3Schema, ViewStateSchema } from '../gen/froxel/v1/common_pb';
-import { setting } from '../gen/froxel/v1/options_pb';
+import { setting, soft_min } from '../gen/froxel/v1/options_pb';
 import type { Field, Kind } from './field';
 
 export type CommandName = NonNullable<ClientMessage['body']['case']>;
@@ -37,6 +37,11 @@ function settingsBelow(message: DescMessage, groups: readonly string[] = []): Fo
   });
 }
 
+function softMinOf(field: DescField): { softMin?: number } {
+  const softMin = getOption(field, soft_min);
+  return softMin > 0 ? { softMin } : {};
+}
+
 function kindOf(field: DescField): Kind {
   if (field.fieldKind === 'enum') return { kind: 'choice', schema: field.enum };
   if (field.fieldKind === 'message' && field.message.typeName === Vec3Schema.typeName) {
@@ -48,7 +53,7 @@ function kindOf(field: DescField): Kind {
     case ScalarType.UINT32:
       return { kind: 'number', integer: true };
     case ScalarType.DOUBLE:
-      return { kind: 'number', integer: false };
+      return { kind: 'number', integer: false, ...softMinOf(field) };
     default:
       throw new Error(`${field.toString()} is of no kind that a setting can have`);
   }

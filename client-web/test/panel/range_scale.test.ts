@@ -2,12 +2,15 @@ import { describe, expect, it } from 'vitest';
 
 import { kSliderSteps, linearScale, logScale, scaleFor } from '../../src/panel/range_scale';
 
+const kReal = { kind: 'number', integer: false } as const;
+const kWhole = { kind: 'number', integer: true } as const;
+
 describe('scales', () => {
   it.each([
     ['linear', linearScale({ min: 1, max: 100 }, true)],
-    ['log', logScale({ min: 0.001, max: 10_000 }, false, 2)],
-    ['log from zero', logScale({ min: 0, max: 1000 }, false, 1)],
-    ['log of whole numbers from zero', logScale({ min: 0, max: 1_000_000 }, true, 1000)],
+    ['log', logScale({ min: 0.001, max: 10_000 }, kReal, 2)],
+    ['log from zero', logScale({ min: 0, max: 1000 }, kReal, 1)],
+    ['log of whole numbers from zero', logScale({ min: 0, max: 1_000_000 }, kWhole, 1000)],
   ])('%s_NeverFallsAndComesBackToItsPosition', (_, scale) => {
     let last = -Infinity;
     for (let position = 0; position <= kSliderSteps; position += 1) {
@@ -19,7 +22,7 @@ describe('scales', () => {
   });
 
   it('Ends_AreTheRange', () => {
-    const scale = logScale({ min: 0, max: 1_000_000 }, true, 1000);
+    const scale = logScale({ min: 0, max: 1_000_000 }, kWhole, 1000);
     expect(scale.toValue(0)).toBe(0);
     expect(scale.toValue(kSliderSteps)).toBe(1_000_000);
     expect(scale.toPosition(0)).toBe(0);
@@ -29,7 +32,7 @@ describe('scales', () => {
 
 describe('a range', () => {
   const middle = (min: number, max: number): number | undefined =>
-    scaleFor({ min, max }, false, 1)?.toValue(kSliderSteps / 2);
+    scaleFor({ min, max }, kReal, 1)?.toValue(kSliderSteps / 2);
 
   it('OfDecades_HasALogarithmicSlider', () => {
     expect(middle(0.01, 100)).toBe(1);
@@ -37,13 +40,21 @@ describe('a range', () => {
   });
 
   it.each([
-    ['list_cap', { min: 0, max: 65_535 }, true, 256],
-    ['target_fps', { min: 0, max: 240 }, false, 0.49],
-  ])('OfDecadesFromNone_AsOf%s_HasALogarithmicSlider', (_, range, integer, middleValue) => {
-    const scale = scaleFor(range, integer, 0);
+    ['list_cap', { min: 0, max: 65_535 }, kWhole, 256],
+    ['light_speed', { min: 0, max: 100 }, kReal, 0.316],
+  ])('OfDecadesFromNone_AsOf%s_HasALogarithmicSlider', (_, range, number, middleValue) => {
+    const scale = scaleFor(range, number, 0);
     expect(scale?.toValue(0)).toBe(0);
     expect(scale?.toValue(kSliderSteps / 2)).toBe(middleValue);
     expect(scale?.toValue(kSliderSteps)).toBe(range.max);
+  });
+
+  it('WithALeastValueThatIsWorthAskingFor_StartsThereAfterZero', () => {
+    const scale = scaleFor({ min: 0, max: 240 }, { ...kReal, softMin: 1 }, 0);
+    expect(scale?.toValue(0)).toBe(0);
+    expect(scale?.toValue(1)).toBeCloseTo(1, 1);
+    expect(scale?.toValue(kSliderSteps / 2)).toBe(15.5); // of 1 and 240, the geometric mean
+    expect(scale?.toPosition(0.2)).toBe(1); // what was typed
   });
 
   it('OfOneKindOfSize_HasALinearSlider', () => {

@@ -52,6 +52,7 @@ describe('the table', () => {
       inCommand: { groups: ['fog'], name: 'tile' },
       inState: { groups: ['fog'], name: 'tile' },
     });
+    expect(kRows.find(({ name }) => name === 'target_fps')).toMatchObject({ softMin: 1 });
     expect(kRows.find(({ name }) => name === 'seed')).toMatchObject({
       key: 'seed',
       command: 'setLights',

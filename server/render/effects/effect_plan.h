@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace froxel::gpu {
@@ -32,7 +33,8 @@ enum class EffectPlace : uint8_t {
 struct EffectPlan {
     uint32_t way = 0;                  // which of the effect's own ways
     bool samples_radiance = false;     // it looks at a pixel's neighbours
-    uint32_t blended_output_flags = 0; // what it asks of the variants of blended surfaces
+    uint32_t light_flags = 0;          // what it asks of the variants that light surfaces
+    uint32_t blended_output_flags = 0; // and of those of blended surfaces
     bool operator==(const EffectPlan&) const = default;
 };
 
@@ -53,6 +55,9 @@ struct EffectRow {
     // nothing to speak of.
     std::optional<std::string> (*memory_words)(const view::ViewSettings& settings) = nullptr;
 };
+
+// All that there are, in the order of the frame: effects.cpp.
+[[nodiscard]] std::span<const EffectRow* const> effectRows();
 
 struct PlannedEffect {
     const EffectRow* row = nullptr;

@@ -1,4 +1,4 @@
-// All effects, and those of one view.
+// The effects of one view.
 #pragma once
 
 #include "render/effects/effect.h"
@@ -10,9 +10,6 @@
 #include <vector>
 
 namespace froxel::render {
-
-// In the order of the frame.
-[[nodiscard]] std::span<const EffectRow* const> effectRows();
 
 // Effects that frames of a view have had. Render thread.
 class ViewEffects {

@@ -3,9 +3,13 @@
 #pragma once
 
 #include "render/effects/effect_plan.h"
-#include "render/shadow_atlas.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace froxel::render {
+
+class ViewEffects;
 
 // Of EffectPlan::way: the frame draws maps. Else it keeps the atlas for when a light with maps
 // comes back into view.
@@ -13,8 +17,16 @@ inline constexpr uint32_t kShadowsDrawn = 1U << 0U;
 
 extern const EffectRow kShadowsEffect;
 
-// A copy of the atlas as the last frame of this effect, which drew maps, left it. Waits; throws
-// vk::SystemError.
-[[nodiscard]] ShadowAtlas copyShadows(const Effect& shadows);
+// A view's shadow maps on the host, for tests.
+struct ShadowAtlas {
+    uint32_t size_px = 0;      // of a tile
+    uint32_t width_px = 0;     // of the atlas
+    std::vector<float> depths; // [height][width]: the reach's thousandth over the distance; 0: none
+    std::vector<uint32_t> shadow_of_light; // of each local light: into first_tiles; io::kNoShadow
+    std::vector<uint32_t> first_tiles;     // of each light with maps
+};
+
+// As its last frame with maps left them. Waits; throws vk::SystemError.
+[[nodiscard]] ShadowAtlas copyShadows(const ViewEffects& effects);
 
 } // namespace froxel::render

@@ -13,62 +13,20 @@ namespace {
 using testing::HasSubstr;
 
 TEST(Options, RenderWithAll_FillsEveryField) {
-    const auto options = parseRender({"--scene",
-                                      "sponza.glb",
-                                      "--renderer",
-                                      "forward_plus",
-                                      "--lights",
-                                      "5000",
-                                      "--light-radius",
-                                      "1.5",
-                                      "--light-box",
-                                      "-10,0,-5;10,8,5",
-                                      "--seed",
-                                      "9",
-                                      "--light-speed",
-                                      "2.5",
-                                      "--time",
-                                      "2.5",
-                                      "--size",
-                                      "640x361",
-                                      "--camera",
-                                      "-7,2,0;0,2,0;45",
-                                      "--grid",
-                                      "15x15x15",
-                                      "--grid-law",
-                                      "hyperbolic",
-                                      "--light-loop",
-                                      "all_lights",
-                                      "--shading",
-                                      "lambert",
-                                      "--gbuffer-normal",
-                                      "oct10",
-                                      "--gbuffer-position",
-                                      "fp16",
-                                      "--count-pairs",
-                                      "--debug-view",
-                                      "cluster_wires",
-                                      "--debug-scale-max",
-                                      "12.5",
-                                      "--grid-camera",
-                                      "nave",
-                                      "--lens-shift",
-                                      "0,0.5",
-                                      "--frames",
-                                      "20",
-                                      "--timings",
-                                      "t.json",
-                                      "--device",
-                                      "cpu",
-                                      "--exposure",
-                                      "0.5",
-                                      "--tone-map",
-                                      "clamp",
-                                      "--lighting",
-                                      "fragment",
-                                      "--no-scene-lights",
-                                      "--no-animate",
-                                      "--validation"});
+    const auto command =
+        parseLine(
+            "render --out a.png --scene sponza.glb --renderer forward_plus --lights 5000 "
+            "--light-radius 1.5 "
+            "--light-box -10,0,-5;10,8,5 --seed 9 --light-speed 2.5 --time 2.5 --size 640x361 "
+            "--camera -7,2,0;0,2,0;45 --grid 15x15x15 --grid-law hyperbolic --light-loop "
+            "all_lights "
+            "--shading lambert --gbuffer-normal oct10 --gbuffer-position fp16 --count-pairs "
+            "--debug-view cluster_wires --debug-scale-max 12.5 --grid-camera nave --lens-shift "
+            "0,0.5 "
+            "--frames 20 --timings t.json --device cpu --exposure 0.5 --tone-map clamp "
+            "--lighting fragment --no-scene-lights --no-animate --validation")
+            .command;
+    const auto& options = std::get<RenderOptions>(command);
     EXPECT_EQ(options.scene, "sponza.glb");
     EXPECT_EQ(options.settings.renderer, view::Renderer::kForwardPlus);
     EXPECT_EQ(options.settings.lights.count, 5000U);
@@ -131,84 +89,18 @@ TEST(Options, AdminBindNone_IsNoAddress) {
 }
 
 TEST(Options, ServeWithAll_FillsEveryField) {
-    const auto options = parse({"serve",
-                                "--address",
-                                "::1",
-                                "--port",
-                                "0",
-                                "--admin-bind",
-                                "[::1]:0",
-                                "--scene",
-                                "a.glb",
-                                "--size",
-                                "320x200",
-                                "--quality",
-                                "90",
-                                "--lights",
-                                "7",
-                                "--light-radius",
-                                "3",
-                                "--adaptive",
-                                "off",
-                                "--target-fps",
-                                "12.5",
-                                "--refine",
-                                "lossless",
-                                "--renderer",
-                                "naive",
-                                "--lighting",
-                                "compute",
-                                "--grid",
-                                "4x5x6",
-                                "--light-loop",
-                                "lists",
-                                "--debug-view",
-                                "overdraw",
-                                "--light-intensity",
-                                "3",
-                                "--light-speed",
-                                "0.5",
-                                "--light-box",
-                                "-1,-1,-1;1,1,1",
-                                "--no-animate",
-                                "--lens-shift",
-                                "-1,1",
-                                "--min-fps",
-                                "12.5",
-                                "--resume-grace",
-                                "0",
-                                "--max-sessions",
-                                "2",
-                                "--web-root",
-                                "page",
-                                "--allow-origin",
-                                "https://a.example",
-                                "--allow-origin",
-                                "https://b.example",
-                                "--max-sessions-per-address",
-                                "3",
-                                "--max-sessions-per-token",
-                                "4",
-                                "--max-viewers-per-room",
-                                "5",
-                                "--paused-seconds",
-                                "10",
-                                "--idle-seconds",
-                                "20",
-                                "--forget-seconds",
-                                "30",
-                                "--control-idle-seconds",
-                                "0",
-                                "--allow-host",
-                                "a.example",
-                                "--admin-token-file",
-                                "operators",
-                                "--trusted-proxies",
-                                "10.0.0.0/8,fd00::/8",
-                                "--log-level",
-                                "debug",
-                                "--device",
-                                "gpu"});
+    const auto options = parseLine(
+        "serve --address ::1 --port 0 --admin-bind [::1]:0 --scene a.glb --size 320x200 "
+        "--quality 90 --lights 7 --light-radius 3 --adaptive off --target-fps 12.5 --refine "
+        "lossless "
+        "--renderer naive --lighting compute --grid 4x5x6 --light-loop lists --debug-view overdraw "
+        "--light-intensity 3 --light-speed 0.5 --light-box -1,-1,-1;1,1,1 --no-animate "
+        "--lens-shift -1,1 --min-fps 12.5 --resume-grace 0 --max-sessions 2 --web-root page "
+        "--allow-origin https://a.example --allow-origin https://b.example "
+        "--max-sessions-per-address 3 --max-sessions-per-token 4 --max-viewers-per-room 5 "
+        "--paused-seconds 10 --idle-seconds 20 --forget-seconds 30 --control-idle-seconds 0 "
+        "--allow-host a.example --admin-token-file operators --trusted-proxies 10.0.0.0/8,fd00::/8 "
+        "--log-level debug --device gpu");
     const auto& serve = std::get<ServeOptions>(options.command);
     EXPECT_EQ(serve.address, "::1");
     EXPECT_EQ(serve.port, 0);

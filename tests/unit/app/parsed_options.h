@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,13 +26,22 @@ inline RenderOptions parseRender(std::vector<const char*> arguments) {
     return std::get<RenderOptions>(parse(std::move(arguments)).command);
 }
 
-// What the command line says that repeats a picture, read by the program's own parser.
-inline RenderOptions parsedBack(const RenderOptions& options, const std::string& camera = {}) {
-    const auto texts = renderArguments(options, camera);
+inline Options parseTexts(const std::vector<std::string>& texts) {
     std::vector<const char*> arguments;
     std::ranges::transform(texts, std::back_inserter(arguments),
                            [](const std::string& text) { return text.c_str(); });
-    return std::get<RenderOptions>(parse(std::move(arguments)).command);
+    return parse(std::move(arguments));
+}
+
+// Of a line in which every space is between two arguments.
+inline Options parseLine(const std::string& line) {
+    std::istringstream words(line);
+    return parseTexts({std::istream_iterator<std::string>(words), {}});
+}
+
+// What the command line says that repeats a picture, read by the program's own parser.
+inline RenderOptions parsedBack(const RenderOptions& options, const std::string& camera = {}) {
+    return std::get<RenderOptions>(parseTexts(renderArguments(options, camera)).command);
 }
 
 // The message of the usage error that the arguments must cause.

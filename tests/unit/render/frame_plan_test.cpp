@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace froxel::render {
@@ -27,8 +30,15 @@ plan(Renderer renderer, const FrameFacts& facts, LightingStage stage = LightingS
     return planFrame(settings, facts);
 }
 
+// Null: the frame lacks it.
+const EffectPlan* effectOf(const FramePlan& p, const EffectRow& row) {
+    const auto at =
+        std::ranges::find_if(p.effects, [&row](const auto& it) { return it.row == &row; });
+    return at != p.effects.end() ? &at->plan : nullptr;
+}
+
 view::BloomKind bloomOf(const FramePlan& p) {
-    const EffectPlan* bloom = p.effect(kBloomEffect);
+    const EffectPlan* bloom = effectOf(p, kBloomEffect);
     return bloom != nullptr ? static_cast<view::BloomKind>(bloom->way) : view::BloomKind::kNone;
 }
 
@@ -103,21 +113,28 @@ TEST(FramePlan, NoLights_AnyRenderer_NeitherListsNorLightCode) {
 
 namespace {
 
+bool has(uint32_t flags, uint32_t flag) {
+    return (flags & flag) != 0;
+}
+
+// The first that does not hold; empty: all do.
+std::string_view firstBroken(std::span<const std::pair<bool, const char*>> rules) {
+    for (const auto& [holds, rule] : rules) {
+        if (!holds) {
+            return rule;
+        }
+    }
+    return {};
+}
+
 // What must hold of every plan; empty when it does.
-std::string
-brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
-    const auto has = [](uint32_t flags, uint32_t flag) { return (flags & flag) != 0; };
+std::string_view
+brokenPassRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
     const bool compute_lights = p.lighting_compute || p.visibility_shade;
-    const bool lit_by_lighting = p.gbuffer || p.visibility_shade;
-    const bool is_toon =
-        settings.renderer == Renderer::kToonFragment || settings.renderer == Renderer::kToonCompute;
     const bool lighting_packs = has(p.lighting_output_flags, io::kOutputPixels);
     const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
     const bool lighting_stores = has(p.lighting_output_flags, io::kOutputRadiance);
     const bool toon_stores = has(p.toon_output_flags, io::kOutputRadiance);
-    const EffectPlan* shadows = p.effect(kShadowsEffect);
-    const EffectPlan* fog = p.effect(kFogEffect);
-    const uint32_t fog_way = fog != nullptr ? fog->way : 0;
     const std::pair<bool, const char*> rules[] = {
         {p.forward + p.gbuffer + p.visibility_shade == 1, "solid surfaces are shaded in one way"},
         {p.gbuffer == (p.lighting_compute || p.lighting_fragment), "a G-buffer is lit"},
@@ -155,6 +172,19 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "wide if the scene needs it"},
         {!p.gbuffer || (p.lighting_output_flags & p.gbuffer_output_flags) == p.gbuffer_output_flags,
          "lighting reads the layout that was written"},
+    };
+    return firstBroken(rules);
+}
+
+// The same of its effects.
+std::string_view
+brokenEffectRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
+    const bool is_toon =
+        settings.renderer == Renderer::kToonFragment || settings.renderer == Renderer::kToonCompute;
+    const EffectPlan* shadows = effectOf(p, kShadowsEffect);
+    const EffectPlan* fog = effectOf(p, kFogEffect);
+    const uint32_t fog_way = fog != nullptr ? fog->way : 0;
+    const std::pair<bool, const char*> rules[] = {
         {has(p.tonemap_output_flags, io::kOutputClamp) ==
              (settings.tone_map == view::ToneMap::kClamp),
          "the tone map asked for"},
@@ -168,7 +198,8 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "four samples where asked for"},
         {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
          "which the tone map averages"},
-        {(p.effect(kFxaaEffect) != nullptr) == (settings.antialiasing == view::Antialiasing::kFxaa),
+        {(effectOf(p, kFxaaEffect) != nullptr) ==
+             (settings.antialiasing == view::Antialiasing::kFxaa),
          "the filter asked for"},
         {(fog != nullptr) == settings.fog.present(), "fog where there is a medium"},
         {has(fog_way, kFogVolume) == (settings.fog.scatters() && facts.local_lights),
@@ -183,54 +214,62 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
          "lights as surfaces have them"},
         {p.tonemap || fog == nullptr, "tones are mapped after fog"},
         {p.tonemap || !(p.outline || p.samples || p.hasEffect(EffectPlace::kPicture)),
-         "tones are mapped after all that is done to the lit picture"},
+         "tones are mapped after all effects on the linear picture"},
     };
-    for (const auto& [holds, rule] : rules) {
-        if (!holds) {
-            return rule;
+    return firstBroken(rules);
+}
+
+// Of the flags of a pass that adds up lights.
+std::string_view brokenLightRule(const view::ViewSettings& settings,
+                                 const FrameFacts& facts,
+                                 const FramePlan& p,
+                                 uint32_t flags) {
+    const bool local = has(flags, io::kLightLocal);
+    const bool lists = has(flags, io::kLightLists);
+    const bool any = local || has(flags, io::kLightDirectional);
+    const uint32_t laws = io::kLightSlicesLinear | io::kLightSlicesHyperbolic;
+    const uint32_t of_local = io::kLightLists | io::kLightSpots | io::kLightBatched |
+                              io::kLightPartial | io::kLightEqualRadii | io::kLightCulled |
+                              io::kLightLong | io::kLightShadows | laws;
+    const std::pair<bool, const char*> rules[] = {
+        {local == facts.local_lights, "local light code if there are any"},
+        {local || (flags & of_local) == 0, "nothing of local lights without one"},
+        {has(flags, io::kLightDirectional) == facts.directional, "suns if there are any"},
+        {lists == p.lists, "lists are read if they are made"},
+        {has(flags, io::kLightSpots) == (local && facts.spots), "cones if there are spots"},
+        {has(flags, io::kLightAreas) == (local && facts.areas), "rectangles if there are any"},
+        {has(flags, io::kLightShadows) == (facts.shadows && facts.local_lights),
+         "maps are read if they are drawn"},
+        {has(flags, io::kLightEqualRadii) == (local && facts.equal_radii),
+         "a constant radius if there is one"},
+        {lists || (flags & laws) == 0, "no slices without lists"},
+        {(flags & laws) != laws, "one slice law"},
+        {!has(flags, io::kLightPartial) || has(flags, io::kLightBatched), "partial batches"},
+        {!has(flags, io::kLightCulled) || (lists && has(flags, io::kLightBatched)),
+         "only batches of lists are culled"},
+        {!has(flags, io::kLightBatched) || facts.compute_batches || facts.fragment_batches,
+         "batches if a subgroup can"},
+        {has(flags, io::kLightToon) == (any && settings.renderer == Renderer::kToonFragment),
+         "the ramp if there is light to bend"},
+        {has(flags, io::kLightLambert) == (settings.shading == view::ShadingModel::kLambert),
+         "lambert where it is asked for"},
+        {has(flags, io::kLightBlinnPhong) == (settings.shading == view::ShadingModel::kBlinnPhong),
+         "blinn_phong where it is asked for"},
+    };
+    return firstBroken(rules);
+}
+
+std::string_view
+brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
+    for (const std::string_view broken :
+         {brokenPassRule(settings, facts, p), brokenEffectRule(settings, facts, p),
+          brokenLightRule(settings, facts, p, p.forward_light_flags),
+          brokenLightRule(settings, facts, p, p.lighting_light_flags)}) {
+        if (!broken.empty()) {
+            return broken;
         }
     }
-    for (const uint32_t flags : {p.forward_light_flags, p.lighting_light_flags}) {
-        const bool local = has(flags, io::kLightLocal);
-        const bool lists = has(flags, io::kLightLists);
-        const bool any = local || has(flags, io::kLightDirectional);
-        const uint32_t laws = io::kLightSlicesLinear | io::kLightSlicesHyperbolic;
-        const uint32_t of_local = io::kLightLists | io::kLightSpots | io::kLightBatched |
-                                  io::kLightPartial | io::kLightEqualRadii | io::kLightCulled |
-                                  io::kLightLong | io::kLightShadows | laws;
-        const std::pair<bool, const char*> light_rules[] = {
-            {local == facts.local_lights, "local light code if there are any"},
-            {local || (flags & of_local) == 0, "nothing of local lights without one"},
-            {has(flags, io::kLightDirectional) == facts.directional, "suns if there are any"},
-            {lists == p.lists, "lists are read if they are made"},
-            {has(flags, io::kLightSpots) == (local && facts.spots), "cones if there are spots"},
-            {has(flags, io::kLightAreas) == (local && facts.areas), "rectangles if there are any"},
-            {has(flags, io::kLightShadows) == (facts.shadows && facts.local_lights),
-             "maps are read if they are drawn"},
-            {has(flags, io::kLightEqualRadii) == (local && facts.equal_radii),
-             "a constant radius if there is one"},
-            {lists || (flags & laws) == 0, "no slices without lists"},
-            {(flags & laws) != laws, "one slice law"},
-            {!has(flags, io::kLightPartial) || has(flags, io::kLightBatched), "partial batches"},
-            {!has(flags, io::kLightCulled) || (lists && has(flags, io::kLightBatched)),
-             "only batches of lists are culled"},
-            {!has(flags, io::kLightBatched) || facts.compute_batches || facts.fragment_batches,
-             "batches if a subgroup can"},
-            {has(flags, io::kLightToon) == (any && settings.renderer == Renderer::kToonFragment),
-             "the ramp if there is light to bend"},
-            {has(flags, io::kLightLambert) == (settings.shading == view::ShadingModel::kLambert),
-             "lambert where it is asked for"},
-            {has(flags, io::kLightBlinnPhong) ==
-                 (settings.shading == view::ShadingModel::kBlinnPhong),
-             "blinn_phong where it is asked for"},
-        };
-        for (const auto& [holds, rule] : light_rules) {
-            if (!holds) {
-                return rule;
-            }
-        }
-    }
-    const bool in_compute = lit_by_lighting && compute_lights;
+    const bool in_compute = p.lighting_compute || p.visibility_shade;
     if (in_compute && has(p.lighting_light_flags, io::kLightPartial)) {
         return "whole subgroups in compute";
     }

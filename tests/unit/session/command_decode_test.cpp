@@ -215,6 +215,16 @@ TEST(DecodeCommand, UnknownFields_AreIgnored) {
     EXPECT_EQ(givenBy<uint32_t>(accepted<SetSettings>(decodeBinary(message)), "quality"), 60U);
 }
 
+TEST(DecodeCommand, EveryCommandOfTheSchema_IsKnown) {
+    const auto& bodies = *v1::ClientMessage::descriptor()->FindOneofByName("body");
+    for (int i = 0; i < bodies.field_count(); ++i) {
+        v1::ClientMessage message = clientMessage();
+        message.GetReflection()->MutableMessage(&message, bodies.field(i));
+        const auto decoded = decodeBinary(message);
+        EXPECT_TRUE(decoded || decoded.error().field != "body") << bodies.field(i)->name();
+    }
+}
+
 TEST(DecodeCommand, EveryTruncation_NeitherCrashesNorInventsValues) {
     v1::ClientMessage message = cameraMessage();
     message.mutable_set_camera()->set_fov_deg(45);

@@ -6,8 +6,10 @@
 
 #include <google/protobuf/util/json_util.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 namespace froxel::session {
@@ -74,7 +76,7 @@ v1::ToonRamp::Point& firstPoint(v1::ClientMessage& message) {
 
 using M = v1::ClientMessage;
 
-std::vector<RangedField> byHand() {
+std::vector<RangedField> ofView() {
     return {
         ranged(view::kWidthRange,
                [](M& m, double v) {
@@ -106,6 +108,17 @@ std::vector<RangedField> byHand() {
             view::kPositionRange, [](M& m, double v) { unit(*camera(m).mutable_up()).set_y(v); },
             "up.y"),
         ranged(
+            view::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
+            "toon_compute.points[0].y"),
+        ranged(
+            view::kToonSlopeRange, [](M& m, double v) { firstPoint(m).set_slope(v); },
+            "toon_compute.points[0].slope"),
+    };
+}
+
+std::vector<RangedField> ofPlacedLights() {
+    return {
+        ranged(
             view::kPlacedColorRange, [](M& m, double v) { placed(m).mutable_color()->set_z(v); },
             "lights[0].color"),
         ranged(
@@ -133,12 +146,6 @@ std::vector<RangedField> byHand() {
         ranged(
             view::kPositionRange, [](M& m, double v) { placed(m).mutable_position()->set_x(v); },
             "lights[0].position.x"),
-        ranged(
-            view::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
-            "toon_compute.points[0].y"),
-        ranged(
-            view::kToonSlopeRange, [](M& m, double v) { firstPoint(m).set_slope(v); },
-            "toon_compute.points[0].slope"),
     };
 }
 
@@ -166,7 +173,8 @@ void addSettings(std::vector<RangedField>& all) {
 
 const std::vector<RangedField>& fields() {
     static const std::vector<RangedField> all = [] {
-        std::vector<RangedField> every = byHand();
+        std::vector<RangedField> every = ofView();
+        std::ranges::move(ofPlacedLights(), std::back_inserter(every));
         addSettings(every);
         return every;
     }();

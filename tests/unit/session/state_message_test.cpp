@@ -51,8 +51,8 @@ TEST(Welcome, PlacedLights_AreToldWhole) {
     EXPECT_NEAR(told.outer_cone_deg(), 45, 1e-9);
 }
 
-TEST(StateChanged, CarriesEverySetting) {
-    const SessionContext context = makeContext();
+// Every setting at an unusual value.
+SessionState unusualState(const SessionContext& context) {
     SessionState state = initialState(context, TimePoint(1s));
     state.applied = {44, 5};
     state.settings.camera = context.scene.cameras[1].camera;
@@ -81,7 +81,12 @@ TEST(StateChanged, CarriesEverySetting) {
     state.settings.shadows = {12, 320};
     state.delivery = {true, 12.5, view::Refine::kHigh};
     state.encoding = {42, view::Chroma::k444, view::Codec::kVp9, 777};
-    const v1::ServerMessage message = makeStateChanged(context, state, {});
+    return state;
+}
+
+TEST(StateChanged, CarriesEverySettingOfViewAndLights) {
+    const SessionContext context = makeContext();
+    const auto message = makeStateChanged(context, unusualState(context), {});
     EXPECT_EQ(message.state().ref_seq(), 44U);
     const v1::ViewState& view = message.state().state();
     EXPECT_TRUE(view.orthographic());
@@ -114,6 +119,12 @@ TEST(StateChanged, CarriesEverySetting) {
     EXPECT_EQ(view.debug_view(), v1::DEBUG_VIEW_OVERDRAW);
     EXPECT_EQ(view.debug_scale_max(), 6);
     EXPECT_TRUE(view.debug_frozen());
+}
+
+TEST(StateChanged, CarriesEverySettingOfPictureAndStream) {
+    const SessionContext context = makeContext();
+    const auto message = makeStateChanged(context, unusualState(context), {});
+    const v1::ViewState& view = message.state().state();
     EXPECT_EQ(view.exposure(), 0.5);
     EXPECT_EQ(view.tone_map(), v1::TONE_MAP_CLAMP);
     EXPECT_EQ(view.toon_fragment().points_size(), 8);

@@ -17,7 +17,7 @@ namespace {
 using view::Antialiasing;
 using view::Renderer;
 
-class Look : public SharedGpuTest {};
+class Effects : public SharedGpuTest {};
 
 constexpr view::Size kSize{96, 54};
 
@@ -81,7 +81,7 @@ size_t differingPixels(const Picture& a, const Picture& b) {
 } // namespace
 
 // Nothing but edges: flat colours, at many angles.
-TEST_F(Look, Antialiasing_AgainstManySamples_IsNearer) {
+TEST_F(Effects, Antialiasing_AgainstManySamples_IsNearer) {
     SceneMaker maker;
     for (int i = 0; i < 12; ++i) {
         scene::Material paint;
@@ -111,7 +111,7 @@ TEST_F(Look, Antialiasing_AgainstManySamples_IsNearer) {
 }
 
 // By the clamp, whose sums the host can do: samples are tone mapped, then averaged.
-TEST_F(Look, FourSamples_AreToneMappedOneByOne) {
+TEST_F(Effects, FourSamples_AreToneMappedOneByOne) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
@@ -149,7 +149,7 @@ TEST_F(Look, FourSamples_AreToneMappedOneByOne) {
     EXPECT_LT(worst_shown, 0.6); // rounded to the nearest byte
 }
 
-TEST_F(Look, FourSamples_AreCountedAsFour) {
+TEST_F(Effects, FourSamples_AreCountedAsFour) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
@@ -162,7 +162,7 @@ TEST_F(Look, FourSamples_AreCountedAsFour) {
     EXPECT_NEAR(static_cast<double>(four.evaluated) / static_cast<double>(one.evaluated), 4, 0.1);
 }
 
-TEST_F(Look, Everything_InEveryRenderer_IsDrawn) {
+TEST_F(Effects, Everything_InEveryRenderer_IsDrawn) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
@@ -185,7 +185,7 @@ TEST_F(Look, Everything_InEveryRenderer_IsDrawn) {
     }
 }
 
-TEST_F(Look, Fxaa_WhereNothingChanges_ChangesNothing) {
+TEST_F(Effects, Fxaa_WhereNothingChanges_ChangesNothing) {
     const scene::Scene nothing;
     render::Renderer renderer(device(), nothing);
     auto inputs = inputsFor({}, Renderer::kForwardPlus);
@@ -196,7 +196,7 @@ TEST_F(Look, Fxaa_WhereNothingChanges_ChangesNothing) {
 
 // Depth is affine over a plane, so that even one seen along its surface has no edge; nor has a
 // scene by a renderer that is no toon one.
-TEST_F(Look, Outline_OfAPlaneAtAnyAngle_IsNone) {
+TEST_F(Effects, Outline_OfAPlaneAtAnyAngle_IsNone) {
     SceneMaker maker;
     maker.add(quad({-400, -1, 10}, {800, 0, 0}, {0, 0.9F, -800}, 1, 0));
     maker.point({0, 0, -3}, 0, 3);
@@ -211,7 +211,7 @@ TEST_F(Look, Outline_OfAPlaneAtAnyAngle_IsNone) {
 }
 
 // A square before a wall: lines run along its silhouette, inside it, and nowhere else.
-TEST_F(Look, Outline_RunsAlongEdgesAlone) {
+TEST_F(Effects, Outline_RunsAlongEdgesAlone) {
     auto maker = wallAhead(8);
     glm::dmat4 placed(1);
     placed[3] = glm::dvec4(0, 0, -4, 1);
