@@ -62,6 +62,10 @@ void Timestamps::begin(const vk::raii::CommandBuffer& cmd, const char* name) {
     }
     cmd.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *pool_,
                         static_cast<uint32_t>(2 * names_.size()));
+    // llvmpipe queues it for its rasteriser but runs compute at once; a barrier clears the queue.
+    if (device_.traits().is_cpu) {
+        cmd.pipelineBarrier2({});
+    }
     names_.emplace_back(name);
 }
 

@@ -12,8 +12,7 @@
 namespace froxel::gpu {
 
 // Fills passes and gpu_us, as Timestamps::read() does, from the begin and end of each name in turn,
-// in ticks. 0 was not written: so does llvmpipe of Mesa 25 around compute. A time that needs it is
-// none. Pure.
+// in ticks. 0 was not written; a time that needs it is none. Pure.
 void addTimes(const std::vector<std::string>& names,
               std::span<const uint64_t> ticks,
               double us_per_tick,

@@ -6,6 +6,7 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstring>
 #include <sstream>
 
@@ -102,6 +103,27 @@ TEST(Renderer, DriverThatWritesNoTimestamps_TimesAreUnknownAndPicturesTheSame) {
     for (const PassTime& pass : after.stats.passes) {
         EXPECT_EQ(pass.gpu_us, std::nullopt) << pass.name;
     }
+    EXPECT_THAT(device->validationLog().messages(), ::testing::IsEmpty());
+}
+
+// Lighting that takes most of the frame, in compute: lavapipe would begin to count when it is done.
+TEST(Renderer, TimeOfCompute_IsItsPasses) {
+    const auto device = openTestDevice();
+    const scene::Scene scene = makeRoom();
+    render::Renderer renderer(*device, scene);
+    render::FrameInputs inputs;
+    inputs.settings.camera = scene.cameras[0].camera;
+    inputs.settings.size = {160, 90};
+    inputs.settings.lights.count = 2000;
+    inputs.settings.lights.radius_m = 1000;
+    inputs.settings.light_loop = view::LightLoop::kAllLights;
+    render::ViewRenderer view(renderer);
+    (void)drawPixels(view, inputs); // compiles
+    const FrameStats stats = drawPixels(view, inputs).stats;
+    const auto lighting = std::ranges::find(stats.passes, "lighting", &PassTime::name);
+    ASSERT_NE(lighting, stats.passes.end());
+    ASSERT_TRUE(lighting->gpu_us && stats.gpu_us);
+    EXPECT_GT(*lighting->gpu_us, 0.5 * *stats.gpu_us);
     EXPECT_THAT(device->validationLog().messages(), ::testing::IsEmpty());
 }
 

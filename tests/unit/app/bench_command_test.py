@@ -66,7 +66,7 @@ class Bench(unittest.TestCase):
         for row in self.rows():
             self.assertEqual(row["error_r1"]["exact"], True, row["label"])
             self.assertGreaterEqual(row["frames"], 8)
-            # A driver may write no timestamps (Mesa 25's lavapipe around compute).
+            # A driver may write no timestamps.
             told = ["gpu_us"] if row["gpu_us"] else []
             for time in (*told, "host_us", "frame_us", "cpu_us"):
                 values = [row[time][name] for name in ("min", "p5", "median", "p95", "p99", "max")]
