@@ -30,11 +30,11 @@ run_and_stop='
     coproc server { exec ./deploy/run.sh --device cpu --port 0 --admin-bind 127.0.0.1:0; }
     pid=$server_PID
     read -r page <&"${server[0]}" && read -r metrics <&"${server[0]}"
-    for ((i = 0; i < 60; ++i)); do
-        build/release/froxel probe "${metrics/metrics/readyz}" && break
+    for ((i = 0; i < 300; ++i)); do
+        build/release/froxel probe "${metrics/metrics/readyz}" >/dev/null && break
         sleep 1
     done
-    ((i < 60))
+    ((i < 300))
     echo "$page is ready"
     kill "$pid"
     wait "$pid"'
