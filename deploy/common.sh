@@ -8,12 +8,12 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# Names as in Debian 12.
+# Names as in Debian 12 and 13. A|B is A where the system offers it, else B.
 build_packages=(
     build-essential cmake ninja-build pkg-config
     libvulkan-dev glslang-tools spirv-tools
     libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev
-    libglm-dev libboost1.81-dev libspdlog-dev libcli11-dev
+    libglm-dev 'libboost-url1.81-dev|libboost-url-dev' libspdlog-dev libcli11-dev
     libturbojpeg0-dev libpng-dev libvpx-dev
     libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev
     ca-certificates
@@ -45,18 +45,33 @@ add_unless_on_path test_packages /usr/sbin/nginx nginx-light
 add_unless_on_path test_packages /usr/sbin/haproxy haproxy
 add_unless_on_path test_packages slowhttptest slowhttptest
 
-is_debian_12() {
+is_debian_12_or_13() {
     [[ -r /etc/os-release ]] || return 1
     (
         # shellcheck source=/dev/null
         . /etc/os-release
-        [[ ${ID:-} == debian && ${VERSION_ID:-} == 12 ]]
+        [[ ${ID:-} == debian && ${VERSION_ID:-} == 1[23] ]]
     )
 }
 
-# Prints those of the packages that are not installed.
+# Prints the packages by their names here: of A|B the first that is offered or installed, or the last.
+names_here() {
+    local names name
+    for names in "$@"; do
+        for name in ${names//|/ }; do
+            if [[ $name == "${names##*|}" || -n $(apt-cache show "$name" 2>/dev/null) ]]; then
+                printf '%s\n' "$name"
+                break
+            fi
+        done
+    done
+}
+
+# Prints those of the packages that are not installed, by their names here.
 missing_packages() {
     local installed
+    mapfile -t < <(names_here "$@")
+    set -- "${MAPFILE[@]}"
     # shellcheck disable=SC2016 # dpkg-query expands the format
     installed=$(dpkg-query --show --showformat '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null |
         sed -n 's/^installed //p' || true)
@@ -87,28 +102,48 @@ stop_daemons_among() { # PACKAGE...
     done
 }
 
-# On Debian 12 installs what is missing; elsewhere says what is needed and goes on if the tools are
+# On Debian 12 and 13 installs what is missing; elsewhere says what is needed and goes on if the tools are
 # there (CMake then names any library that is not).
 require_packages() {
     local missing
-    if is_debian_12; then
+    if is_debian_12_or_13; then
         mapfile -t missing < <(missing_packages "$@")
         ((${#missing[@]})) || return 0
         ((EUID == 0)) || command -v sudo >/dev/null ||
             die "needs root or sudo to install: ${missing[*]}"
-        say "installing (this takes minutes): ${missing[*]}"
         apt_get update
+        mapfile -t missing < <(missing_packages "$@") # now that it is known what is offered
+        say "installing (this takes minutes): ${missing[*]}"
         apt_get install --no-install-recommends "${missing[@]}"
         stop_daemons_among "${missing[@]}"
         return
     fi
-    say "not Debian 12, so nothing is installed; needed are, by their names there: $*"
+    say "neither Debian 12 nor 13, so nothing is installed; needed are, by their names there: $*"
     missing=()
     local tool
     for tool in "${build_tools[@]}"; do
         command -v "$tool" >/dev/null || missing+=("$tool")
     done
     ((${#missing[@]} == 0)) || die "not found: ${missing[*]}"
+}
+
+# Prints the packages of the libraries that a program is linked with, by their names here.
+linked_packages() { # PROGRAM
+    local program work
+    program=$(realpath "$1")
+    work=$(mktemp -d)
+    mkdir "$work/debian"
+    touch "$work/debian/control" # dpkg-shlibdeps works where a package is made
+    (cd "$work" && dpkg-shlibdeps -O -e"$program" 2>/dev/null) |
+        sed 's/^shlibs:Depends=//; s/ ([^)]*)//g; s/, /\n/g'
+    rm -r "$work"
+}
+
+# Makes Debian's smallest system in a folder; as root.
+make_debian() { # RELEASE FOLDER
+    require_packages debootstrap
+    say "making Debian $1"
+    debootstrap --variant=minbase "$1" "$2" >"$2.log" || die "debootstrap failed: $(tail -1 "$2.log")"
 }
 
 # One job a core, but no more than fit into memory: Vulkan's and Boost's headers take over 1 GB.

@@ -27,10 +27,8 @@ build() {
         --build-arg NODE_EXTRA_CA_CERTS=/opt/authorities.crt "$@" "$root"
 }
 
-require_packages buildah debootstrap
-say "making $base"
-debootstrap --variant=minbase bookworm "$work/base" >"$work/debootstrap.log" ||
-    die "debootstrap failed: $(tail -1 "$work/debootstrap.log")"
+require_packages buildah
+make_debian bookworm "$work/base"
 # What the slim image leaves out, too.
 rm -rf "$work/base"/{var/cache/apt/*,var/lib/apt/lists/*,usr/share/{doc,man,info,locale}/*}
 scratch=$(builder from scratch)
@@ -44,6 +42,8 @@ if (($# > 0)); then
     prebuilt=$(builder from scratch)
     containers+=("$prebuilt")
     builder copy --quiet "$prebuilt" "$1" /out >/dev/null
+    linked_packages "$1/usr/local/bin/froxel" >"$work/linked_packages.txt"
+    builder copy --quiet "$prebuilt" "$work/linked_packages.txt" /linked_packages.txt >/dev/null
     build --build-context "build=container-image://$(builder commit --quiet "$prebuilt" localhost/build)"
 else
     build

@@ -18,9 +18,21 @@ const partsOf = (sweep: Sweep, amounts: (row: Row) => (readonly [string, number]
     amounts(row).map(([name, value]) => ({ series: row.series, label: row.label, name, value })),
   );
 
-/** Median ms of each pass of each row. */
+/** Median ms of each pass of each row; nothing of a row with an unknown time, whose bar would look short. */
 export const passParts = (sweep: Sweep): Part[] =>
-  partsOf(sweep, ({ passes }) => passes.map(({ name, gpu_us }) => [name, gpu_us.median / 1000]));
+  partsOf(sweep, ({ passes }) => {
+    const known = passes.flatMap(({ name, gpu_us }) =>
+      gpu_us ? [[name, gpu_us.median / 1000] as const] : [],
+    );
+    return known.length === passes.length ? known : [];
+  });
+
+/** The passes whose time some row does not know. */
+export const unknownPasses = ({ rows }: Sweep): string[] => [
+  ...new Set(
+    rows.flatMap(({ passes }) => passes.flatMap(({ name, gpu_us }) => (gpu_us ? [] : name))),
+  ),
+];
 
 /** Megabytes of each purpose of each row. */
 export const memoryParts = (sweep: Sweep): Part[] =>

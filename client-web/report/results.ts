@@ -61,7 +61,7 @@ export interface Settings {
 
 export interface Pass {
   readonly name: string;
-  readonly gpu_us: Summary;
+  readonly gpu_us: Summary | null; // null: the driver wrote no timestamps
 }
 
 export const kClocks = ['gpu_us', 'frame_us', 'cpu_us', 'host_us'] as const;

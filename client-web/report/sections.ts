@@ -3,7 +3,7 @@
 import { make } from '../src/core/dom';
 import { bytes, count } from '../src/core/format';
 import { kDot, partColours, seriesColours } from './marks';
-import { memoryParts, partBars, passParts, shares, type Part } from './part_bars';
+import { memoryParts, partBars, passParts, shares, unknownPasses, type Part } from './part_bars';
 import type { Clock, Published, PictureError, Results, Row, Skipped, Sweep } from './results';
 import { speedUp, timeMs } from './results';
 import { shortNumber } from './scales';
@@ -128,6 +128,14 @@ function notes(rows: readonly Row[]): HTMLElement[] {
   return [...texts].map((text) => make('p', `* ${text}`, 'footnote'));
 }
 
+/** Which rows the bars of passes leave out, and why. */
+function untold(sweep: Sweep): HTMLElement[] {
+  const names = unknownPasses(sweep);
+  if (names.length === 0) return [];
+  const text = `Time of passes unknown where the driver wrote no timestamps: ${names.map(words).join(', ')}.`;
+  return [make('p', text, 'footnote')];
+}
+
 interface Bars {
   readonly title: string;
   readonly axis: string;
@@ -203,7 +211,8 @@ export function sweepSection(results: Results, sweep: Sweep): Section {
   ]);
   const holder = make('div', '', 'plot');
   const figures = make('div');
-  const bars = barBlock(sweep, sweep.name === 'memory' ? kMemoryBars : kPassBars);
+  const isMemory = sweep.name === 'memory';
+  const bars = barBlock(sweep, isMemory ? kMemoryBars : kPassBars);
   const stream = sweep.rows.filter((row) => row.stream !== null);
   if (stream.length > 0) {
     section.append(sweepLegend(sweep, colours, []), holder, streamTable(stream));
@@ -215,6 +224,7 @@ export function sweepSection(results: Results, sweep: Sweep): Section {
       ...notes(sweep.rows),
     );
     if (bars) section.append(bars.element);
+    if (!isMemory) section.append(...untold(sweep));
   } else {
     section.append(make('p', 'Nothing was measured.', 'faint'));
   }

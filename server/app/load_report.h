@@ -29,7 +29,7 @@
 //   stages_ms         {queue, render, encode_wait, encode, send_wait, network}: as in FrameHeader,
 //                     of frames in the measured time; queue and network of those that show a new
 //                     command
-//   gpu_ms            the part of render on the device
+//   gpu_ms            the part of render on the device, of frames that tell it
 //   timer_lag_ms      how late this process sent commands: where it is not small, the machine that
 //                     runs the viewers was too slow to measure
 //   received_bytes, sent_bytes, received_bytes_per_s   of the TCP connection, framing and pings too

@@ -79,6 +79,12 @@ std::string legendLine(const DebugLegend& legend) {
     return line;
 }
 
+// "12.3 ms" of a time of timingsReport().
+std::string medianText(const nlohmann::ordered_json& time) {
+    return time.is_null() ? "unknown"
+                          : fmt::format("{:.1f} ms", time["median"].get<double>() / 1000);
+}
+
 } // namespace
 
 void runRender(const RenderOptions& options) try {
@@ -110,12 +116,11 @@ void runRender(const RenderOptions& options) try {
         writeText(options.timings, timings.dump(2) + "\n");
     }
     const auto& frame = timings["frame"];
-    fmt::print("{} of {}x{}: median {:.1f} ms; GPU {:.1f} ms, host {:.1f} ms\n",
+    fmt::print("{} of {}x{}: median {}; GPU {}, host {}\n",
                run.frames.size() == 1 ? "1 frame" : fmt::format("{} frames", run.frames.size()),
                run.settings.size.width_px, run.settings.size.height_px,
-               frame["frame_us"]["median"].get<double>() / 1000,
-               frame["gpu_us"]["median"].get<double>() / 1000,
-               frame["host_us"]["median"].get<double>() / 1000);
+               medianText(frame["frame_us"]), medianText(frame["gpu_us"]),
+               medianText(frame["host_us"]));
     if (last.stats.details->legend) {
         fmt::print("{}\n", legendLine(*last.stats.details->legend));
     }

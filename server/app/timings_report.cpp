@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -17,7 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Null without a sample.
 Json toJson(std::vector<double> samples) {
+    if (samples.empty()) {
+        return nullptr;
+    }
     const auto summary = report::summarize(std::move(samples));
     return {{"min", summary.min},
             {"median", summary.median},
@@ -26,11 +31,13 @@ Json toJson(std::vector<double> samples) {
 }
 
 Json frameTimes(const std::vector<FrameStats>& frames) {
-    const auto collect = [&](double FrameStats::*time) {
+    const auto collect = [&](auto FrameStats::*time) {
         std::vector<double> samples;
         samples.reserve(frames.size());
         for (const auto& frame : frames) {
-            samples.push_back(frame.*time);
+            if (const std::optional<double> us = frame.*time) {
+                samples.push_back(*us);
+            }
         }
         return toJson(std::move(samples));
     };
@@ -40,21 +47,29 @@ Json frameTimes(const std::vector<FrameStats>& frames) {
 }
 
 Json passTimes(const std::vector<FrameStats>& frames) {
-    std::vector<std::pair<std::string_view, std::vector<double>>> passes;
+    struct Pass {
+        std::string_view name;
+        size_t frame_count = 0;
+        std::vector<double> gpu_us; // of the frames that tell it
+    };
+    std::vector<Pass> passes;
     for (const auto& frame : frames) {
         for (const auto& pass : frame.passes) {
-            auto known = std::find_if(passes.begin(), passes.end(),
-                                      [&](const auto& entry) { return entry.first == pass.name; });
+            auto known = std::ranges::find(passes, pass.name, &Pass::name);
             if (known == passes.end()) {
-                known = passes.insert(known, {pass.name, {}});
+                known = passes.insert(known, {pass.name, 0, {}});
             }
-            known->second.push_back(pass.gpu_us);
+            ++known->frame_count;
+            if (pass.gpu_us) {
+                known->gpu_us.push_back(*pass.gpu_us);
+            }
         }
     }
     Json json = Json::array();
-    for (auto& [name, samples] : passes) {
-        const size_t count = samples.size();
-        json.push_back({{"name", name}, {"frames", count}, {"gpu_us", toJson(std::move(samples))}});
+    for (auto& pass : passes) {
+        json.push_back({{"name", pass.name},
+                        {"frames", pass.frame_count},
+                        {"gpu_us", toJson(std::move(pass.gpu_us))}});
     }
     return json;
 }

@@ -15,7 +15,8 @@
 //   passes            [{name, frames, gpu_us}]: in the order of first use; frames: how many had it
 //   last_frame        report::frameReport()
 //
-// Each *_us under frame and passes is {min, median, p95, max} in microseconds.
+// Each *_us under frame and passes is {min, median, p95, max} in microseconds; gpu_us is null where
+// the driver wrote no timestamps.
 #pragma once
 
 #include "core/frame_stats.h"

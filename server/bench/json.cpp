@@ -40,8 +40,9 @@ Json toJson(const report::Summary& summary) {
             {"p95", summary.p95}, {"p99", summary.p99}, {"max", summary.max}};
 }
 
+// Null without a sample.
 Json summaryOf(const std::vector<double>& samples) {
-    return toJson(report::summarize(samples));
+    return samples.empty() ? Json(nullptr) : toJson(report::summarize(samples));
 }
 
 // Tenths: what a run stores of each frame.
@@ -57,7 +58,7 @@ Json toJson(const std::vector<RowTimes::Pass>& passes) {
     Json json = Json::array();
     for (const auto& pass : passes) {
         json.push_back({{"name", pass.name},
-                        {"frames", pass.gpu_us.size()},
+                        {"frames", pass.frame_count},
                         {"gpu_us", summaryOf(pass.gpu_us)}});
     }
     return json;

@@ -41,16 +41,21 @@ Result<FrameStats> drawFrame(render::ViewRenderer& viewer, const render::FrameIn
 }
 
 void add(RowTimes& times, FrameStats stats, double cpu_us) {
-    times.gpu_us.push_back(stats.gpu_us);
+    if (stats.gpu_us) {
+        times.gpu_us.push_back(*stats.gpu_us);
+    }
     times.host_us.push_back(stats.host_us);
     times.frame_us.push_back(stats.frame_us);
     times.cpu_us.push_back(cpu_us);
     for (const auto& pass : stats.passes) {
         auto known = std::ranges::find(times.passes, pass.name, &RowTimes::Pass::name);
         if (known == times.passes.end()) {
-            known = times.passes.insert(known, {pass.name, {}});
+            known = times.passes.insert(known, {pass.name, 0, {}});
         }
-        known->gpu_us.push_back(pass.gpu_us);
+        ++known->frame_count;
+        if (pass.gpu_us) {
+            known->gpu_us.push_back(*pass.gpu_us);
+        }
     }
     times.last = std::move(stats);
 }

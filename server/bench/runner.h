@@ -21,11 +21,12 @@ namespace froxel::bench {
 struct RowTimes {
     struct Pass {
         std::string name;
-        std::vector<double> gpu_us;
+        size_t frame_count = 0;
+        std::vector<double> gpu_us; // of the frames that tell it
     };
-    std::string skipped; // why there are no frames, else empty
-    std::string note;    // why there are fewer than wanted, else empty
-    std::vector<double> gpu_us;
+    std::string skipped;        // why there are no frames, else empty
+    std::string note;           // why there are fewer than wanted, else empty
+    std::vector<double> gpu_us; // of the frames that tell it
     std::vector<double> host_us;
     std::vector<double> frame_us;
     std::vector<double> cpu_us; // of all threads of this process

@@ -11,8 +11,8 @@
 namespace froxel {
 
 struct PassTime {
-    std::string name; // the pass's debug label
-    double gpu_us = 0;
+    std::string name;             // the pass's debug label
+    std::optional<double> gpu_us; // none: the driver wrote no timestamps
 };
 
 struct LightListStats {
@@ -96,7 +96,7 @@ struct FrameDetails {
 
 struct FrameStats {
     std::vector<PassTime> passes; // in the order recorded
-    double gpu_us = 0;            // first to last timestamp of the frame
+    std::optional<double> gpu_us; // first to last timestamp of the frame; none: not written
     double host_us = 0;           // host work: culling, lights, assignment, recording
     double frame_us = 0;          // from submit call to readable pixels, on the host's clock
     uint32_t triangle_count = 0;  // triangles sent to the rasteriser

@@ -13,14 +13,12 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/,
-                                         VkDebugUtilsMessageTypeFlagsEXT /*types*/,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                         void* log) {
+// Its parameters have C's types in Vulkan-Hpp 1.3, and Vulkan-Hpp's own in 1.4.
+constexpr auto kOnMessage = [](auto /*severity*/, auto /*types*/, const auto* data, void* log) {
     spdlog::error("validation: {}", data->pMessage);
     static_cast<ValidationLog*>(log)->add(data->pMessage);
-    return VK_FALSE;
-}
+    return VkBool32{VK_FALSE};
+};
 
 } // namespace
 
@@ -70,7 +68,7 @@ Instance::Instance(bool validation)
             instance_, vk::DebugUtilsMessengerCreateInfoEXT{
                            .messageSeverity = Severity::eWarning | Severity::eError,
                            .messageType = Type::eValidation | Type::eGeneral,
-                           .pfnUserCallback = &onMessage,
+                           .pfnUserCallback = kOnMessage,
                            .pUserData = log_.get()});
     }
 }

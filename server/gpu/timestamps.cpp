@@ -3,8 +3,43 @@
 #include "core/assert.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace froxel::gpu {
+
+namespace {
+
+using Time = std::optional<double>;
+
+Time sum(Time a, Time b) {
+    return a && b ? Time(*a + *b) : std::nullopt;
+}
+
+} // namespace
+
+void addTimes(const std::vector<std::string>& names,
+              std::span<const uint64_t> ticks,
+              double us_per_tick,
+              bool cut,
+              FrameStats& stats) {
+    const auto micros = [&](uint64_t from, uint64_t to) {
+        return from > 0 && to >= from ? Time(static_cast<double>(to - from) * us_per_tick)
+                                      : std::nullopt;
+    };
+    Time sum_us = 0;
+    for (size_t i = 0; i < names.size(); ++i) {
+        const Time us = micros(ticks[2 * i], ticks[2 * i + 1]);
+        sum_us = sum(sum_us, us);
+        const auto same = std::find_if(stats.passes.begin(), stats.passes.end(),
+                                       [&](const auto& pass) { return pass.name == names[i]; });
+        if (same == stats.passes.end()) {
+            stats.passes.push_back({names[i], us});
+        } else {
+            same->gpu_us = sum(same->gpu_us, us);
+        }
+    }
+    stats.gpu_us = cut ? sum_us : micros(ticks.front(), ticks.back());
+}
 
 Timestamps::Timestamps(const Device& device)
     : device_(device),
@@ -27,6 +62,10 @@ void Timestamps::begin(const vk::raii::CommandBuffer& cmd, const char* name) {
     }
     cmd.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *pool_,
                         static_cast<uint32_t>(2 * names_.size()));
+    // llvmpipe queues it for its rasteriser but runs compute at once; a barrier clears the queue.
+    if (device_.traits().is_cpu) {
+        cmd.pipelineBarrier2({});
+    }
     names_.emplace_back(name);
 }
 
@@ -47,23 +86,7 @@ void Timestamps::read(FrameStats& stats, bool cut) const {
         pool_.getResults<uint64_t>(0, count, count * sizeof(uint64_t), sizeof(uint64_t),
                                    vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     FROXEL_ASSERT(result == vk::Result::eSuccess, "timestamps of a completed frame are available");
-    const double us_per_tick = device_.traits().timestamp_period_ns * 1e-3;
-    const auto micros = [&](uint64_t from, uint64_t to) {
-        return to > from ? static_cast<double>(to - from) * us_per_tick : 0.0;
-    };
-    double sum_us = 0;
-    for (size_t i = 0; i < names_.size(); ++i) {
-        const double us = micros(ticks[2 * i], ticks[2 * i + 1]);
-        sum_us += us;
-        const auto same = std::find_if(stats.passes.begin(), stats.passes.end(),
-                                       [&](const auto& pass) { return pass.name == names_[i]; });
-        if (same == stats.passes.end()) {
-            stats.passes.push_back({names_[i], us});
-        } else {
-            same->gpu_us += us;
-        }
-    }
-    stats.gpu_us = cut ? sum_us : micros(ticks.front(), ticks.back());
+    addTimes(names_, ticks, device_.traits().timestamp_period_ns * 1e-3, cut, stats);
 }
 
 } // namespace froxel::gpu

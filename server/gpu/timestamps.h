@@ -4,10 +4,20 @@
 #include "core/frame_stats.h"
 #include "gpu/device.h"
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace froxel::gpu {
+
+// Fills passes and gpu_us, as Timestamps::read() does, from the begin and end of each name in turn,
+// in ticks. 0 was not written; a time that needs it is none. Pure.
+void addTimes(const std::vector<std::string>& names,
+              std::span<const uint64_t> ticks,
+              double us_per_tick,
+              bool cut,
+              FrameStats& stats);
 
 class Timestamps {
   public:

@@ -188,7 +188,9 @@ void ViewerMeter::addStages(const v1::FrameHeader& header, std::optional<double>
     add(Stage::kEncodeWait, msOfUs(header.encode_wait_us()));
     add(Stage::kEncode, msOfUs(header.encode_us()));
     add(Stage::kSendWait, msOfUs(header.send_wait_us()));
-    measured_.samples.gpu_ms.push_back(msOfUs(header.gpu_us()));
+    if (header.has_gpu_us()) {
+        measured_.samples.gpu_ms.push_back(msOfUs(header.gpu_us()));
+    }
     if (latency_ms) {
         add(Stage::kQueue, msOfUs(header.queue_us()));
         add(Stage::kNetwork, *latency_ms - msOfUs(header.queue_us()) - stagesMs(header));

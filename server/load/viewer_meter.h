@@ -55,7 +55,7 @@ struct Samples {
     std::vector<double> age_ms;
     std::vector<double> interval_ms;
     std::array<std::vector<double>, kStageNames.size()> stage_ms;
-    std::vector<double> gpu_ms;       // a part of the render stage
+    std::vector<double> gpu_ms;       // a part of the render stage, where it is known
     std::vector<double> timer_lag_ms; // how late this process sent a command
 };
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
@@ -36,25 +37,26 @@ const Histogram::BucketBoundaries kScales = {0.4, 0.5, 0.6, 0.7, 0.75, 0.85, 1.0
 constexpr std::array kRateReasons = {"congested", "recovered", "undone"};
 constexpr std::array kRefinements = {"interactive", "settled", "high", "lossless"};
 
-struct Stage {
-    const char* name;
-    double (*micros)(const FrameRecord&);
-};
-constexpr std::array kStages = {
-    // First, since frameSent() leaves it out where no new command is shown.
-    Stage{"queue", [](const FrameRecord& r) { return r.queue_us; }},
-    Stage{"render", [](const FrameRecord& r) { return r.render_us; }},
-    Stage{"host", [](const FrameRecord& r) { return r.stats.host_us; }},
-    Stage{"gpu", [](const FrameRecord& r) { return r.stats.gpu_us; }},
-    Stage{"encode_wait", [](const FrameRecord& r) { return r.encode_wait_us; }},
-    Stage{"encode", [](const FrameRecord& r) { return r.encode_us; }},
-    Stage{"send_wait", [](const FrameRecord& r) { return r.send_wait_us; }},
-};
-
 // The other pictures have waited for nothing that somebody asked for.
 bool showsNewCommand(const FrameRecord& record) {
     return record.applied.seq > 0 && record.queue_us > 0;
 }
+
+using Micros = std::optional<double>;
+struct Stage {
+    const char* name;
+    Micros (*micros)(const FrameRecord&); // none: not observed
+};
+constexpr std::array kStages = {
+    Stage{"queue",
+          [](const FrameRecord& r) { return showsNewCommand(r) ? Micros(r.queue_us) : Micros(); }},
+    Stage{"render", [](const FrameRecord& r) { return Micros(r.render_us); }},
+    Stage{"host", [](const FrameRecord& r) { return Micros(r.stats.host_us); }},
+    Stage{"gpu", [](const FrameRecord& r) { return r.stats.gpu_us; }},
+    Stage{"encode_wait", [](const FrameRecord& r) { return Micros(r.encode_wait_us); }},
+    Stage{"encode", [](const FrameRecord& r) { return Micros(r.encode_us); }},
+    Stage{"send_wait", [](const FrameRecord& r) { return Micros(r.send_wait_us); }},
+};
 
 struct ListGauge {
     const char* name;
@@ -194,7 +196,8 @@ Metrics::Metrics(const std::string& version, std::function<size_t()> session_cou
     auto& stages = prometheus::BuildHistogram()
                        .Name("froxel_stage_duration_seconds")
                        .Help("What the pictures sent took in each stage from command to socket, "
-                             "once for each viewer; queue: of those that show a new command.")
+                             "once for each viewer; queue: of those that show a new command; gpu: "
+                             "of those whose driver tells it.")
                        .Register(impl_->registry);
     for (size_t i = 0; i < kStages.size(); ++i) {
         impl_->stages[i] = &stages.Add({{"stage", kStages[i].name}}, kSeconds);
@@ -241,8 +244,10 @@ void Metrics::frameSent(const FrameRecord& record) {
     impl_->sent.Increment();
     impl_->redraws.Increment(static_cast<double>(record.stats.lists.redraw_count));
     impl_->peel_overflow.Increment(static_cast<double>(record.stats.peel.overflow_count));
-    for (size_t i = showsNewCommand(record) ? 0 : 1; i < kStages.size(); ++i) {
-        impl_->stages[i]->Observe(kStages[i].micros(record) / 1e6);
+    for (size_t i = 0; i < kStages.size(); ++i) {
+        if (const Micros micros = kStages[i].micros(record)) {
+            impl_->stages[i]->Observe(*micros / 1e6);
+        }
     }
     for (size_t i = 0; i < kListGauges.size(); ++i) {
         impl_->lists[i]->Set(kListGauges[i].value(record.stats.lists));

@@ -220,7 +220,7 @@ void VisibilityFrame::write(const Bindings& bindings) {
     const auto& r = bindings.resources;
     const auto& s = bindings.scene;
     // What the frame lacks is described as none.
-    constexpr vk::DescriptorBufferInfo kNone{.buffer = {}, .offset = 0, .range = VK_WHOLE_SIZE};
+    const vk::DescriptorBufferInfo none{.buffer = {}, .offset = 0, .range = VK_WHOLE_SIZE};
     const auto* raster = bindings.raster;
     std::array<vk::DescriptorBufferInfo, VisibilityPipelines::kBindings> buffers = {
         whole(r.position_buffer),
@@ -237,10 +237,10 @@ void VisibilityFrame::write(const Bindings& bindings) {
         whole(s.counts),
         bindings.order};
     buffers[15] =
-        raster != nullptr ? vk::DescriptorBufferInfo{bindings.words, 0, VK_WHOLE_SIZE} : kNone;
-    buffers[16] = raster != nullptr ? whole(raster->counts) : kNone;
-    buffers[17] = raster != nullptr ? whole(raster->meshlets) : kNone;
-    buffers[18] = raster != nullptr ? whole(raster->large) : kNone;
+        raster != nullptr ? vk::DescriptorBufferInfo{bindings.words, 0, VK_WHOLE_SIZE} : none;
+    buffers[16] = raster != nullptr ? whole(raster->counts) : none;
+    buffers[17] = raster != nullptr ? whole(raster->meshlets) : none;
+    buffers[18] = raster != nullptr ? whole(raster->large) : none;
     std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
     const auto image = [&](uint32_t binding, vk::ImageView view) {
         images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};

@@ -294,14 +294,18 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
 
     header.set_queue_us(saturated(record.queue_us));
     header.set_render_us(saturated(record.render_us));
-    header.set_gpu_us(saturated(record.stats.gpu_us));
+    if (record.stats.gpu_us) {
+        header.set_gpu_us(saturated(*record.stats.gpu_us));
+    }
     header.set_encode_wait_us(saturated(record.encode_wait_us));
     header.set_encode_us(saturated(record.encode_us));
     header.set_send_wait_us(saturated(record.send_wait_us));
     for (const PassTime& pass : record.stats.passes) {
         v1::PassTime& out = *header.add_passes();
         out.set_name(pass.name);
-        out.set_gpu_us(saturated(pass.gpu_us));
+        if (pass.gpu_us) {
+            out.set_gpu_us(saturated(*pass.gpu_us));
+        }
     }
     fillLists(header, record.stats.lists);
     if (record.stats.grid.x > 0) {

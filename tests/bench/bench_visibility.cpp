@@ -70,13 +70,13 @@ Picture drawTimed(render::ViewRenderer& view, render::FrameInputs inputs, const 
         if (i < kWarmup) {
             continue;
         }
-        gpu.push_back(frame.stats.gpu_us);
+        gpu.push_back(frame.stats.gpu_us.value_or(NAN));
         host.push_back(frame.stats.host_us);
         for (const auto& pass : frame.stats.passes) {
             if (passes[pass.name].empty()) {
                 order.push_back(pass.name);
             }
-            passes[pass.name].push_back(pass.gpu_us);
+            passes[pass.name].push_back(pass.gpu_us.value_or(NAN));
         }
     }
     std::printf("%-34s gpu %8.1f us, host %7.1f us:", name, median(gpu), median(host));

@@ -150,7 +150,9 @@ void timeFrames(render::Renderer& renderer,
         const auto frame = drawOne(view, inputs);
         cpu.push_back(processMs() - before);
         for (const auto& pass : frame.stats.passes) {
-            passes[pass.name].push_back(pass.gpu_us / 1000);
+            if (pass.gpu_us) {
+                passes[pass.name].push_back(*pass.gpu_us / 1000);
+            }
         }
     }
     std::printf("%-34s CPU %7.1f ms, least %7.1f;", name.c_str(), median(cpu),

@@ -113,7 +113,7 @@ void run(render::Renderer& renderer,
             inputs.time_s = 0.03 * i;
             variant.view.submit(inputs).value();
             const auto frame = variant.view.collect();
-            const double us = is_cpu ? frame->stats.frame_us : frame->stats.gpu_us;
+            const double us = is_cpu ? frame->stats.frame_us : frame->stats.gpu_us.value();
             if (i >= 0) {
                 variant.frame_us.push_back(us);
             }

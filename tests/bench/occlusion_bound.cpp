@@ -117,7 +117,9 @@ void draw(render::ViewRenderer& view, const render::FrameInputs& inputs, Timed* 
     timed->cpu_us.push_back(1e6 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     timed->triangle_count = frame->stats.triangle_count;
     for (const auto& pass : frame->stats.passes) {
-        timed->passes_us[pass.name].push_back(pass.gpu_us);
+        if (pass.gpu_us) {
+            timed->passes_us[pass.name].push_back(*pass.gpu_us);
+        }
     }
 }
 

@@ -23,7 +23,7 @@ import time
 import unittest
 from pathlib import Path
 
-import websockets
+import websockets.legacy.client  # the client that 10.4 (Debian 12) and 15 (Debian 13) share
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 import told_skips
@@ -120,7 +120,7 @@ class Viewer:
         while True:
             try:
                 headers = {"Cookie": self.cookie} if self.cookie else {}
-                async with websockets.connect(self.url, ssl=trust, subprotocols=["froxel.v1"],
+                async with websockets.legacy.client.connect(self.url, ssl=trust, subprotocols=["froxel.v1"],
                                               extra_headers=headers, max_size=2**26) as connection:
                     given = connection.response_headers.get("Set-Cookie")
                     self.cookie = given.split(";")[0] if given else self.cookie
@@ -169,7 +169,7 @@ class Session:
         """Comes back to the session of `before`, if it is given."""
         query = f"?resume={before.token[:16]}" if before else ""
         headers = {"Cookie": before.cookie} if before and before.cookie else {}
-        self.connection = await websockets.connect(
+        self.connection = await websockets.legacy.client.connect(
             url + query, ssl=trusting() if url.startswith("wss:") else None, extra_headers=headers,
             subprotocols=["froxel.v1"], max_size=2**26)
         given = self.connection.response_headers.get("Set-Cookie")

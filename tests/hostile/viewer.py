@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-import websockets
+import websockets.legacy.client  # the client that 10.4 (Debian 12) and 15 (Debian 13) share
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from viewer_protocol import frame_id
@@ -39,7 +39,7 @@ class Viewer:
         self.welcome, self.socket, self.seq = None, None, itertools.count(1)
 
     async def __aenter__(self):
-        self.socket = await websockets.connect(
+        self.socket = await websockets.legacy.client.connect(
             self.url, subprotocols=["froxel.v1"], max_size=2**26, ping_interval=None,
             local_addr=(self.address, 0), open_timeout=30, close_timeout=1, compression=None)
         await self.say(hello=self.hello)

@@ -17,7 +17,7 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
-import websockets
+import websockets.legacy.client  # the client that 10.4 (Debian 12) and 15 (Debian 13) share
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from viewer_protocol import make_certificate
@@ -65,7 +65,7 @@ class Access(unittest.IsolatedAsyncioTestCase):
 
     async def greet(self, **hello):
         """The connection, and the first Welcome or Error."""
-        socket = await websockets.connect(self.url.replace("https", "wss") + "ws", ssl=self.context(),
+        socket = await websockets.legacy.client.connect(self.url.replace("https", "wss") + "ws", ssl=self.context(),
                                           subprotocols=["froxel.v1"], max_size=2**26)
         await socket.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1, **hello}}))
         while True:
@@ -138,7 +138,7 @@ class Access(unittest.IsolatedAsyncioTestCase):
     async def test_3_old_tls_and_no_tls_are_refused(self):
         port = int(self.url.rsplit(":", 1)[1].strip("/"))
         with self.assertRaises((websockets.exceptions.InvalidMessage, OSError)):
-            await websockets.connect(f"ws://127.0.0.1:{port}/ws")
+            await websockets.legacy.client.connect(f"ws://127.0.0.1:{port}/ws")
         run = subprocess.run(["openssl", "s_client", "-connect", f"127.0.0.1:{port}", "-tls1_1",
                               "-cipher", "ALL@SECLEVEL=0"], input="", capture_output=True, text=True,
                              timeout=30, check=False)

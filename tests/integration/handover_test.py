@@ -8,7 +8,7 @@ import subprocess
 import sys
 import unittest
 
-import websockets
+import websockets.legacy.client  # the client that 10.4 (Debian 12) and 15 (Debian 13) share
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
 VIEWERS = 4
@@ -31,7 +31,7 @@ class Server:
 
 async def join(url):
     """A connection that has been welcomed and has had a picture."""
-    socket = await websockets.connect(url, subprotocols=["froxel.v1"], max_size=2**26)
+    socket = await websockets.legacy.client.connect(url, subprotocols=["froxel.v1"], max_size=2**26)
     await socket.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1}}))
     welcomed = False
     while not isinstance(message := await asyncio.wait_for(socket.recv(), 60), bytes):
@@ -51,7 +51,7 @@ class Handover(unittest.IsolatedAsyncioTestCase):
         first.process.send_signal(signal.SIGTERM)
         moved = await asyncio.gather(*(self.follow(socket, second) for socket in sockets))
         with self.assertRaises(websockets.exceptions.InvalidStatusCode) as refused:
-            await websockets.connect(first.socket_url, subprotocols=["froxel.v1"])
+            await websockets.legacy.client.connect(first.socket_url, subprotocols=["froxel.v1"])
         self.assertEqual(refused.exception.status_code, 503)
         self.assertIn("Retry-After", refused.exception.headers)
         for socket in sockets:

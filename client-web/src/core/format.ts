@@ -6,6 +6,9 @@ export function ms(value: number | null): string {
   return value < 9.95 ? value.toFixed(2) : value < 99.5 ? value.toFixed(1) : value.toFixed(0);
 }
 
+/** The same of a time that ought to be there. */
+export const timeText = (value: number | null): string => (value === null ? 'unknown' : ms(value));
+
 const kUnits = ['B', 'kB', 'MB', 'GB'] as const;
 
 export function bytes(value: number): string {

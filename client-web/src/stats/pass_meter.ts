@@ -4,11 +4,16 @@ import type { FrameHeader } from '../gen/froxel/v1/server_pb';
 
 const kFrames = 30;
 
+/** A driver may write no timestamps: the pass's time is null then, and the share of every pass. */
 export interface PassShare {
   readonly name: string;
-  readonly ms: number;
-  readonly share: number; // of all passes, 0..1
+  readonly ms: number | null;
+  readonly share: number | null; // of all passes, 0..1
 }
+
+/** The sum; null where a part is. */
+export const sumOf = (parts: readonly (number | null)[]): number | null =>
+  parts.reduce((sum, part) => (sum === null || part === null ? null : sum + part), 0);
 
 export class PassMeter {
   private frames: FrameHeader[] = [];
@@ -26,14 +31,20 @@ export class PassMeter {
     const { frames } = this;
     const passes = (frames.at(-1)?.passes ?? []).map(({ name }, index) => ({
       name,
-      ms:
-        frames.reduce((sum, frame) => sum + (frame.passes[index]?.gpuUs ?? 0), 0) /
-        frames.length /
-        1000,
+      ms: meanMs(frames.map((frame) => frame.passes[index]?.gpuUs)),
     }));
-    const whole = passes.reduce((sum, pass) => sum + pass.ms, 0);
-    return passes.map((pass) => ({ ...pass, share: whole > 0 ? pass.ms / whole : 0 }));
+    const whole = sumOf(passes.map(({ ms }) => ms));
+    return passes.map(({ name, ms }) => ({
+      name,
+      ms,
+      share: whole === null || ms === null ? null : whole > 0 ? ms / whole : 0,
+    }));
   }
+}
+
+function meanMs(times: readonly (number | undefined)[]): number | null {
+  const sum = sumOf(times.map((us) => us ?? null));
+  return sum === null ? null : sum / times.length / 1000;
 }
 
 const namesOf = ({ passes }: FrameHeader): string => passes.map(({ name }) => name).join(' ');

@@ -1,8 +1,8 @@
 // The GPU passes of a frame as one stacked bar, and as a table beneath it.
 
 import { element, make } from '../core/dom';
-import { ms, percent } from '../core/format';
-import type { PassShare } from './pass_meter';
+import { percent, timeText } from '../core/format';
+import { sumOf, type PassShare } from './pass_meter';
 
 /** Hues a golden angle apart: neighbours differ, however many there are. */
 export const passColor = (index: number): string =>
@@ -20,11 +20,11 @@ export class PassStack {
     this.built = names;
     passes.forEach((pass, index) => {
       const segment = this.bar.children[index];
-      if (segment instanceof HTMLElement) segment.style.flexGrow = pass.share.toFixed(4);
+      if (segment instanceof HTMLElement) segment.style.flexGrow = (pass.share ?? 0).toFixed(4);
       this.fillRow(index, pass.ms, pass.share);
     });
-    const whole = passes.reduce((sum, pass) => sum + pass.ms, 0);
-    this.fillRow(passes.length, whole, whole > 0 ? 1 : 0);
+    const whole = sumOf(passes.map(({ ms }) => ms));
+    this.fillRow(passes.length, whole, whole === null ? null : whole > 0 ? 1 : 0);
   }
 
   private build(passes: readonly PassShare[]): void {
@@ -52,9 +52,9 @@ export class PassStack {
     return row;
   }
 
-  private fillRow(index: number, timeMs: number, share: number): void {
+  private fillRow(index: number, timeMs: number | null, share: number | null): void {
     const [, time, part] = this.table.rows[index]?.cells ?? [];
-    if (time) time.textContent = ms(timeMs);
-    if (part) part.textContent = percent(share, 1);
+    if (time) time.textContent = timeText(timeMs);
+    if (part) part.textContent = share === null ? '' : percent(share, 1);
   }
 }

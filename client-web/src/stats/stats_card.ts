@@ -1,7 +1,7 @@
 // The statistics card.
 
 import { element, make } from '../core/dom';
-import { bits, bytes, count, gridText, ms } from '../core/format';
+import { bits, bytes, count, gridText, ms, timeText } from '../core/format';
 import { CodecSchema } from '../gen/froxel/v1/common_pb';
 import type { FrameDetails, FrameHeader } from '../gen/froxel/v1/server_pb';
 import { choicesOf } from '../protocol/schema_names';
@@ -79,7 +79,8 @@ export class StatsCard {
     this.value('Codec', '', `${codecName(last)} · ${bits(figures.bytesPerSecond * 8)}/s`);
     this.value('Picture', '', `${last.width} × ${last.height}`);
     for (const { name, value } of deliveryRows(last)) this.value(name, '', value);
-    this.value('GPU · encode', '', `${ms(last.gpuUs / 1000)} · ${ms(last.encodeUs / 1000)}`);
+    const gpu = timeText(last.gpuUs === undefined ? null : last.gpuUs / 1000);
+    this.value('GPU · encode', '', `${gpu} · ${ms(last.encodeUs / 1000)}`);
     this.value('Triangles', '', count(last.triangles));
     this.value('Lights', '', count(last.lightCount));
     const lists = !last.allLights && !last.listsOverflowed;

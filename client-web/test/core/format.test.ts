@@ -1,10 +1,14 @@
 import { describe, expect, it } from 'vitest';
 
-import { bytes, count, gridText, ms, percent, tidy } from '../../src/core/format';
+import { bytes, count, gridText, ms, percent, tidy, timeText } from '../../src/core/format';
 
 describe('format', () => {
   it('Milliseconds_HaveThreeDigitsOrSo', () => {
     expect([0, 1.234, 12.34, 123.4, null].map(ms)).toEqual(['0.00', '1.23', '12.3', '123', '–']);
+  });
+
+  it('TimeThatOughtToBeThere_IsUnknown', () => {
+    expect([0, 12.34, null].map(timeText)).toEqual(['0.00', '12.3', 'unknown']);
   });
 
   it('Bytes_HaveAUnit', () => {

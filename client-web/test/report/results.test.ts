@@ -5,7 +5,7 @@ import { frontRows } from '../../report/error_section';
 import { figuresOf } from '../../report/glance';
 import { seriesColours, shapesOf } from '../../report/marks';
 import { paretoFront } from '../../report/pareto';
-import { linesOf, passParts, shares } from '../../report/part_bars';
+import { linesOf, passParts, shares, unknownPasses } from '../../report/part_bars';
 import { layoutOf, readResults, speedUp, timeMs } from '../../report/results';
 import { referencesOf, timedRows } from '../../report/sweep_plot';
 import { durationText, errorText, factorText, psnrText, usualClock } from '../../report/text';
@@ -151,6 +151,15 @@ describe('sweeps', () => {
     ]);
     const lines = linesOf(passParts(sweep)).map(({ heading, label }) => heading ?? label);
     expect(lines).toEqual(['naive', '1', '3', 'clustered deferred', '2']);
+  });
+
+  it('RowWithAnUnknownPass_HasNoBar_AndThePassIsNamed', () => {
+    const known = rowOf('known', 1);
+    const passes = [...known.passes, { name: 'readback', gpu_us: null }];
+    const sweep = sweepOf([known, rowOf('unknown', 1, { passes })]);
+    expect(passParts(sweep).map(({ label }) => label)).toEqual(['known']);
+    expect(unknownPasses(sweep)).toEqual(['readback']);
+    expect(unknownPasses(sweepOf([known]))).toEqual([]);
   });
 
   it('BarsOfOneSeries_NeedNoHeading', () => {

@@ -1,11 +1,13 @@
 import { describe, expect, it } from 'vitest';
 
-import { PassMeter } from '../../src/stats/pass_meter';
+import { PassMeter, sumOf } from '../../src/stats/pass_meter';
 import { passColor } from '../../src/stats/pass_stack';
 import { frameHeader } from '../fakes';
 
-const frame = (...passes: [name: string, gpuUs: number][]): ReturnType<typeof frameHeader> =>
-  frameHeader({ passes: passes.map(([name, gpuUs]) => ({ name, gpuUs })) });
+const frame = (...passes: [name: string, gpuUs?: number][]): ReturnType<typeof frameHeader> =>
+  frameHeader({
+    passes: passes.map(([name, gpuUs]) => (gpuUs === undefined ? { name } : { name, gpuUs })),
+  });
 
 describe('PassMeter', () => {
   it('Shares_AreMeansInOrder_AndAddUpToOne', () => {
@@ -37,6 +39,24 @@ describe('PassMeter', () => {
     const meter = new PassMeter();
     meter.add(frame(['forward', 0]));
     expect(meter.shares()[0]?.share).toBe(0);
+  });
+});
+
+describe('PassMeter of a driver without timestamps', () => {
+  it('TimeOfAPass_IsUnknown_AndSoIsEveryShare', () => {
+    const meter = new PassMeter();
+    meter.add(frame(['gbuffer', 1000], ['lighting']));
+    expect(meter.shares()).toEqual([
+      { name: 'gbuffer', ms: 1, share: null },
+      { name: 'lighting', ms: null, share: null },
+    ]);
+    expect(sumOf(meter.shares().map(({ ms }) => ms))).toBeNull();
+  });
+
+  it('TimeOfNothing_IsKnown', () => {
+    const meter = new PassMeter();
+    meter.add(frame(['gbuffer', 0], ['lighting', 500]));
+    expect(meter.shares()[0]).toEqual({ name: 'gbuffer', ms: 0, share: 0 });
   });
 });
 

@@ -66,11 +66,13 @@ class Bench(unittest.TestCase):
         for row in self.rows():
             self.assertEqual(row["error_r1"]["exact"], True, row["label"])
             self.assertGreaterEqual(row["frames"], 8)
-            for time in ("gpu_us", "host_us", "frame_us", "cpu_us"):
+            # A driver may write no timestamps.
+            told = ["gpu_us"] if row["gpu_us"] else []
+            for time in (*told, "host_us", "frame_us", "cpu_us"):
                 values = [row[time][name] for name in ("min", "p5", "median", "p95", "p99", "max")]
                 self.assertEqual(values, sorted(values))
                 self.assertEqual(len(row["samples"][time]), row["frames"])
-            self.assertGreater(row["gpu_us"]["min"], 0)
+                self.assertGreater(row[time]["min"], 0)
             self.assertGreater(len(row["passes"]), 0)
 
     def test_a_rows_command_draws_its_settings(self):

@@ -123,12 +123,17 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(report["frames"], 3)
         self.assertEqual(report["device"]["kind"], "cpu")
         self.assertGreater(len(report["passes"]), 0)
-        for times in [*report["frame"].values(), *(p["gpu_us"] for p in report["passes"])]:
+        told = [*report["frame"].values(), *(p["gpu_us"] for p in report["passes"])]
+        # A driver may write no timestamps.
+        for times in filter(None, told):
             self.assertLessEqual(0, times["min"])
             self.assertLessEqual(times["min"], times["median"])
             self.assertLessEqual(times["median"], times["p95"])
             self.assertLessEqual(times["p95"], times["max"])
-        self.assertGreater(report["frame"]["gpu_us"]["min"], 0)
+        for time in ("host_us", "frame_us"):
+            self.assertGreater(report["frame"][time]["min"], 0)
+        if report["frame"]["gpu_us"]:
+            self.assertGreater(report["frame"]["gpu_us"]["min"], 0)
         last = report["last_frame"]
         self.assertTrue(last["grid"]["automatic"])
         self.assertEqual(len(last["grid"]["size"]), 3)

@@ -33,6 +33,17 @@ TEST(TimingsReport, PassInSomeFrames_CountsThose) {
     EXPECT_EQ(report["passes"][2]["frames"], 1);
 }
 
+TEST(TimingsReport, TimesThatTheDriverDoesNotTell_AreNull) {
+    TimedRun run;
+    run.frames = {frameOf({{"depth", 10}, {"light", std::nullopt}}, 50)};
+    const auto report = timingsReport(run);
+    EXPECT_TRUE(report["frame"]["gpu_us"].is_null());
+    EXPECT_EQ(report["frame"]["frame_us"]["median"], 50);
+    EXPECT_EQ(report["passes"][0]["gpu_us"]["median"], 10);
+    EXPECT_EQ(report["passes"][1]["frames"], 1);
+    EXPECT_TRUE(report["passes"][1]["gpu_us"].is_null());
+}
+
 TEST(TimingsReport, Settings_AreRecorded) {
     TimedRun run;
     run.frames.resize(1);

@@ -34,7 +34,7 @@ RunResult result(double frame_us) {
             row.times.frame_us.push_back(time_us * 2);
             row.times.cpu_us.push_back(time_us * 3);
         }
-        row.times.passes = {{"light", row.times.gpu_us}};
+        row.times.passes = {{"light", 40, row.times.gpu_us}};
         row.errors.r1.size = {96, 54};
         row.errors.r1.view = 1;
         row.errors.r1.view_count = 2;
@@ -95,6 +95,23 @@ TEST(RunReport, Row_HasTheSchemasFields) {
     EXPECT_EQ(row["workload"], "30 lights of 2 m, 96x54, pbr, Nave");
     EXPECT_EQ(row["settings"]["renderer"], "forward_plus");
     EXPECT_EQ(row["command"], "forward_plus in 40");
+}
+
+TEST(RunReport, TimesThatTheDriverDoesNotTell_AreNull) {
+    auto run = result(100);
+    run.device.kind = "cpu";
+    for (auto& row : run.sweeps[0].rows) {
+        row.times.gpu_us.clear();
+        row.times.passes = {{"light", 40, {}}};
+    }
+    const auto report = reportOf(run);
+    const auto row = report["sweeps"][0]["rows"][1];
+    EXPECT_TRUE(row["gpu_us"].is_null());
+    EXPECT_EQ(row["samples"]["gpu_us"], Json::array());
+    EXPECT_EQ(row["passes"][0]["frames"], 40);
+    EXPECT_TRUE(row["passes"][0]["gpu_us"].is_null());
+    EXPECT_EQ(row["cpu_us"]["median"], 300);
+    EXPECT_TRUE(compareReports(report, report));
 }
 
 TEST(RunReport, Errors_AreTheWorstViewsOrAReason) {

@@ -64,6 +64,14 @@ TEST(ViewerMeter, Frame_ShowingANewCommand_GivesLatencyAgeAndStages) {
     EXPECT_EQ(measured.seconds, 2.0);
 }
 
+TEST(ViewerMeter, Frame_WithoutATimeOnTheDevice_HasNoSampleOfIt) {
+    ViewerMeter meter;
+    meter.begin(kStart);
+    ASSERT_TRUE(meter.onFrame(frame(1, 3, kStart), 10, 4, kStart + 50ms));
+    EXPECT_TRUE(meter.measured().samples.gpu_ms.empty());
+    EXPECT_EQ(stage(meter, Stage::kRender).size(), 1U);
+}
+
 TEST(ViewerMeter, Frame_ShowingNothingNew_CountsButHasNoLatency) {
     ViewerMeter meter;
     ASSERT_TRUE(meter.onFrame(frame(1, 2, kStart), 10, 2, kStart + 1ms)); // before measuring

@@ -72,6 +72,19 @@ TEST(Metrics, Queue_OnlyOfFramesThatShowANewCommand) {
     EXPECT_THAT(text, HasSubstr("froxel_stage_duration_seconds_count{stage=\"render\"} 3\n"));
 }
 
+TEST(Metrics, TimeOnTheDevice_OnlyWhereItIsKnown) {
+    Metrics metrics;
+    auto record = aRecord();
+    record.stats.gpu_us = 3'000;
+    metrics.frameSent(record);
+    record.stats.gpu_us = std::nullopt;
+    metrics.frameSent(record);
+    const std::string text = metrics.text();
+    EXPECT_THAT(text, HasSubstr("froxel_stage_duration_seconds_count{stage=\"gpu\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("froxel_stage_duration_seconds_sum{stage=\"gpu\"} 0.003\n"));
+    EXPECT_THAT(text, HasSubstr("froxel_stage_duration_seconds_count{stage=\"render\"} 2\n"));
+}
+
 TEST(Metrics, Fates_AreReadWhenScraped) {
     const Metrics metrics;
     const auto fates = metrics.fates();

@@ -263,6 +263,19 @@ FrameRecord record() {
     return record;
 }
 
+TEST(FrameHeader, TimesThatAreUnknown_AreAbsent_AndNoneIsZero) {
+    FrameRecord untold = record();
+    untold.stats.passes = {{"depth", 0}, {"lighting", std::nullopt}};
+    untold.stats.gpu_us = std::nullopt;
+    const v1::FrameHeader header = makeFrameHeader(untold);
+    EXPECT_FALSE(header.has_gpu_us());
+    ASSERT_EQ(header.passes_size(), 2);
+    EXPECT_TRUE(header.passes(0).has_gpu_us());
+    EXPECT_EQ(header.passes(0).gpu_us(), 0U);
+    EXPECT_EQ(header.passes(1).name(), "lighting");
+    EXPECT_FALSE(header.passes(1).has_gpu_us());
+}
+
 TEST(FrameHeader, CarriesTheRecord) {
     const v1::FrameHeader header = makeFrameHeader(record());
     EXPECT_EQ(header.frame_id(), 4U);
