@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -126,7 +127,7 @@ TEST_F(Exposure, EveryRendererAndStage_AgainstDouble_IsWithinRounding) {
     const auto scene = roomWithASign();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    const std::array sizes = {view::Size{96, 64}, {97, 55}, {31, 130}};
+    const std::array<view::Size, 3> sizes = {{{96, 64}, {97, 55}, {31, 130}}};
     for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
         for (const auto stage : {LightingStage::kCompute, LightingStage::kFragment}) {
             SCOPED_TRACE(std::string(view::kRendererNames[kind]) + ", " +
