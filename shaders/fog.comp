@@ -15,7 +15,8 @@ void main() {
     if (insideScreen(pixel)) {
         float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
         float distance = depth > 0.0 ? distanceFromDepth(depth) : kFogFarthest_m;
-        vec3 radiance = imageLoad(radiance_image, ivec2(pixel)).rgb;
-        imageStore(radiance_image, ivec2(pixel), vec4(throughFog(radiance, pixel, distance), 1.0));
+        vec4 radiance = imageLoad(radiance_image, ivec2(pixel));
+        vec3 seen = throughFog(radiance.rgb, pixel, distance);
+        imageStore(radiance_image, ivec2(pixel), vec4(seen, radiance.a));
     }
 }

@@ -1,6 +1,7 @@
 // Forward shading of opaque, masked and transparent surfaces (naive, forward_plus, and the
 // transparent part of every renderer). Writes premultiplied linear radiance: where transparency is
-// weighted, times a weight of distance; where it is peeled, of the layer's own triangle alone.
+// weighted, times a weight of distance; where it is peeled, of the layer's own triangle alone. A
+// solid surface's alpha is radianceAlpha().
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -70,6 +71,11 @@ void main() {
     float alpha = hasMaterial(kMaterialBlend) ? clamp(base.a, 0.0, 1.0) : 1.0;
     if (g.unlit) {
         store(seen(g.base_color, pixel, distance), alpha, distance);
+#ifndef FROXEL_WEIGHTED
+        if (!hasMaterial(kMaterialBlend)) {
+            radiance.a = radianceAlpha(g);
+        }
+#endif
         return;
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);

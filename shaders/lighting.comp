@@ -25,13 +25,13 @@ layout(local_size_x = 64) in;
 void main() {
     uvec2 pixel = gl_WorkGroupID.xy * kScreenGroup + pixelInGroup(gl_LocalInvocationIndex);
     bool inside = insideScreen(pixel);
-    vec3 radiance = lightPixel(pixel, inside);
+    vec4 radiance = lightPixel(pixel, inside);
     if (inside) {
         if (hasOutput(kOutputRadiance)) {
-            imageStore(radiance_image, ivec2(pixel), vec4(radiance, 1.0));
+            imageStore(radiance_image, ivec2(pixel), radiance);
         }
         if (hasOutput(kOutputPixels)) {
-            storePixel(pixel, radiance);
+            storePixel(pixel, radiance.rgb);
         }
     }
 }

@@ -20,4 +20,4 @@
 
 layout(location = 0) out vec4 radiance;
 
-void main() { radiance = vec4(lightPixel(uvec2(gl_FragCoord.xy), true), 1.0); }
+void main() { radiance = lightPixel(uvec2(gl_FragCoord.xy), true); }

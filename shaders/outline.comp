@@ -61,7 +61,8 @@ void main() {
     float part = frame.outline_reach_px - float(whole);
     float edge = edgeWithin(at, whole) ? 1.0 : part > 0.0 && edgeWithin(at, whole + 1) ? part : 0.0;
     if (edge > 0.0) {
-        vec3 color = imageLoad(radiance_image, at).rgb;
-        imageStore(radiance_image, at, vec4(color * (1.0 - frame.outline_strength * edge), 1.0));
+        vec4 before = imageLoad(radiance_image, at);
+        vec3 color = before.rgb * (1.0 - frame.outline_strength * edge);
+        imageStore(radiance_image, at, vec4(color, before.a));
     }
 }

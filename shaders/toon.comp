@@ -14,14 +14,15 @@ void main() {
     if (!insideScreen(pixel)) {
         return;
     }
-    vec3 color = imageLoad(radiance_image, ivec2(pixel)).rgb;
+    vec4 before = imageLoad(radiance_image, ivec2(pixel));
+    vec3 color = before.rgb;
     if (texelFetch(depth_image, ivec2(pixel), 0).x > 0.0) {
         color = min(color, vec3(1e18)); // whose squares are finite
         float norm = length(color);
         color = norm > 0.0 ? color * (toonRamp(norm) / norm) : vec3(0.0);
     }
     if (hasOutput(kOutputRadiance)) {
-        imageStore(radiance_image, ivec2(pixel), vec4(color, 1.0));
+        imageStore(radiance_image, ivec2(pixel), vec4(color, before.a));
     }
     if (hasOutput(kOutputPixels)) {
         storePixel(pixel, color);

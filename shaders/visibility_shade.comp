@@ -58,7 +58,7 @@ void main() {
     }
     if (inside && (covered || (depth == 0.0 && last != 0u))) {
         if (hasOutput(kOutputRadiance)) {
-            imageStore(radiance_image, ivec2(pixel), vec4(lit, 1.0));
+            imageStore(radiance_image, ivec2(pixel), vec4(lit, radianceAlpha(g)));
         }
         if (hasOutput(kOutputPixels)) {
             storePixel(pixel, lit);

@@ -128,6 +128,7 @@ std::string workloadOf(const Row& row, const Base& base) {
         settings.renderer == view::Renderer::kToonCompute) {
         text += fmt::format(", {}", view::kRendererNames[static_cast<size_t>(settings.renderer)]);
     }
+    text += settings.exposure_mode == view::ExposureMode::kFrame ? ", metered exposure" : "";
     text += settings.bloom.kind != view::BloomKind::kNone ? ", bloom" : "";
     text += row.against_peeled ? ", against 16 peeled layers" : "";
     if (const auto& fog = settings.fog; fog.present()) {

@@ -3,6 +3,7 @@
 #include "bench/shown_picture.h"
 #include "image_metrics/flip.h"
 #include "reference/bloom.h"
+#include "reference/exposure.h"
 #include "reference/shade.h"
 #include "render/renderer.h"
 #include "render/visibility_readback.h"
@@ -88,11 +89,14 @@ Result<Pictures::Shared> Pictures::shade(const view::ViewSettings& settings, dou
     if (!linear) {
         return linear.error();
     }
-    if (settings.bloom.kind != view::BloomKind::kNone) {
-        *linear =
-            reference::spread(*linear, settings.bloom, static_cast<double>(settings.exposure));
+    auto exposure = static_cast<double>(settings.exposure);
+    if (settings.exposure_mode == view::ExposureMode::kFrame) {
+        exposure *= reference::meteredFactor(scene_, *linear, *visibility);
     }
-    auto rgba8 = shownPicture(*linear, static_cast<double>(settings.exposure), settings.tone_map);
+    if (settings.bloom.kind != view::BloomKind::kNone) {
+        *linear = reference::spread(*linear, settings.bloom, exposure);
+    }
+    auto rgba8 = shownPicture(*linear, exposure, settings.tone_map);
     return std::make_shared<const Picture>(Picture{std::move(*linear), std::move(rgba8), {}});
 }
 

@@ -344,6 +344,8 @@ Sweep smokeSweep(const Base& base) {
               [](auto& s) { s.gbuffer.normal = view::NormalEncoding::kOct8; }));
     add(rowOf(small, kDeferred, "bloom", 0,
               [](auto& s) { s.bloom.kind = view::BloomKind::kMipChain; }));
+    add(rowOf(small, kDeferred, "metered", 0,
+              [](auto& s) { s.exposure_mode = view::ExposureMode::kFrame; }));
     add(rowOf(small, kDeferred, "fog", 0, [](auto& s) { s.fog.density = 0.05F; }));
     auto smooth = rowOf(small, kDeferred, "ssaa4", 0,
                         [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; });

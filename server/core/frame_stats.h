@@ -106,6 +106,7 @@ struct FrameStats {
     PairStats pairs;
     PeelStats peel;
     ShadowStats shadows;
+    std::optional<double> metered_ev; // stops of exposure besides the one asked for; none: fixed
     std::shared_ptr<const FrameDetails> details; // another one only when something changed
 };
 

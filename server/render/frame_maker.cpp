@@ -104,7 +104,8 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
         slot.stats.triangle_count += scene_.visibility().triangle_count;
     }
     slot.stats.draw_count = static_cast<uint32_t>(builder_.draws().commands.size());
-    for (const auto& [place, effect] : effects_.ofFrame()) {
+    slot.effects.assign(effects_.ofFrame().begin(), effects_.ofFrame().end());
+    for (const auto& [place, effect] : slot.effects) {
         effect->addStats(slot.stats);
     }
     slot.stats.lists = builder_.listStats();
@@ -257,6 +258,9 @@ RenderedFrame FrameMaker::finish(FrameSlot& slot) {
         const auto& drawn = slot.targets->size;
         scene_.overdraw = static_cast<double>(slot.samples->read()) /
                           (static_cast<double>(drawn.width_px) * drawn.height_px);
+    }
+    for (const auto& [place, effect] : slot.effects) {
+        effect->addResults(slot, slot.stats);
     }
     slot.stats.frame_us = microsSince(slot.submitted);
     slot.readback->leased = true;

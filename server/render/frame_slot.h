@@ -7,6 +7,7 @@
 #include "gpu/sample_counter.h"
 #include "gpu/timestamps.h"
 #include "render/blend_targets.h"
+#include "render/effects/effect.h"
 #include "render/effects/effect_targets.h"
 #include "render/frame_blocks.h"
 #include "render/frame_inputs.h"
@@ -27,7 +28,8 @@
 
 namespace froxel::render {
 
-// Host-made data of one frame, placed in one buffer that the device reads.
+// Host-made data of one frame, placed in one buffer that the device reads; in the frame's uniforms
+// it may change the exposure.
 class FrameUpload {
   public:
     explicit FrameUpload(const gpu::Device& device);
@@ -47,6 +49,8 @@ class FrameUpload {
     // Forgets what was added.
     void clear();
     [[nodiscard]] vk::Buffer buffer() const { return *buffer_.handle; }
+    // Its bytes, once committed.
+    [[nodiscard]] const std::byte* mapped() const { return buffer_.mapped; }
 
   private:
     vk::DeviceSize addBytes(std::span<const std::byte> bytes);
@@ -99,6 +103,7 @@ struct FrameSlot {
     std::shared_ptr<ViewTargets> targets;
     TypedStore kept; // what effects keep of the slot
     HeldTargets effect_targets;
+    std::vector<ActiveEffect> effects;   // of the frame last recorded
     std::shared_ptr<BlendTargets> blend; // null: the frame last recorded has none
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;

@@ -81,6 +81,9 @@ Json frameReport(const FrameStats& stats) {
     if (stats.shadows.light_count > 0) {
         json["shadows"] = toJson(stats.shadows);
     }
+    if (stats.metered_ev) {
+        json["metered_ev"] = *stats.metered_ev;
+    }
     return json;
 }
 

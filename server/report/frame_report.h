@@ -16,6 +16,7 @@ namespace froxel::report {
 //   plan          a line each: what the frame's variant leaves out, and why
 //   memory_bytes  {purpose: bytes} of the device's memory
 //   shadows       {lights, maps, draws, triangles}; absent: no light casts any
+//   metered_ev    stops of exposure besides the one asked for; absent: it is fixed
 [[nodiscard]] nlohmann::ordered_json frameReport(const FrameStats& stats);
 
 } // namespace froxel::report

@@ -324,6 +324,9 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
         header.mutable_peel()->set_layers(peel.layer_count);
         header.mutable_peel()->set_overflow_pixels(peel.overflow_count);
     }
+    if (record.stats.metered_ev) {
+        header.set_metered_ev(*record.stats.metered_ev);
+    }
     fillDelivery(header, record);
     header.set_dropped_frames(record.dropped_count);
     header.set_time_s(record.time_s);

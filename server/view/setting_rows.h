@@ -94,6 +94,11 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::lights, &Lights::scene_lights>(
         Switch{"scene_lights"}, "lights.scene_lights", {"The scene's own lights"}),
 
+    row<&ViewSettings::exposure_mode>(
+        Names{"exposure_mode", kExposureModeNames},
+        "exposure_mode",
+        {"fixed: exposure alone; frame: times what brings this very picture to middle grey", "",
+         "frame: two passes over the picture"}),
     row<&ViewSettings::exposure>(
         Range<double>{"exposure", 0.0001, 10'000}, "exposure", {"Multiplies linear radiance"}),
     row<&ViewSettings::tone_map>(

@@ -67,6 +67,12 @@ inline constexpr std::array kPositionSourceNames = {
     std::string_view("depth"), std::string_view("stored_depth"), std::string_view("fp32"),
     std::string_view("fp16")};
 
+// What multiplies linear radiance. fixed: the setting `exposure` alone. frame: that, times what
+// brings the middle of this very frame's luminance to middle grey; no frame depends on another.
+enum class ExposureMode : uint8_t { kFixed, kFrame };
+inline constexpr std::array kExposureModeNames = {std::string_view("fixed"),
+                                                  std::string_view("frame")};
+
 enum class ToneMap : uint8_t { kPbrNeutral, kClamp };
 inline constexpr std::array kToneMapNames = {std::string_view("pbr_neutral"),
                                              std::string_view("clamp")};
@@ -227,6 +233,7 @@ struct ViewSettings {
     uint32_t peel_layers = 4; // at most, while peeled; pixels with more are counted
     Lights lights;
     Shadows shadows;
+    ExposureMode exposure_mode = ExposureMode::kFixed;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;
     ToonRamp toon_fragment; // over each light's n.l

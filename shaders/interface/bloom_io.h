@@ -7,8 +7,9 @@
 FROXEL_IO_NAMESPACE_BEGIN
 
 // Of the output flags of bloom's own shaders.
-FROXEL_CONST uint kBloomBright = 1U << 0; // the source is the picture: its bright part is read
-FROXEL_CONST uint kBloomAdds = 1U << 1;   // the target is the picture: what was spread moves in it
+FROXEL_CONST uint kBloomBright = 1U << 0;  // the source is the picture: its bright part is read
+FROXEL_CONST uint kBloomAdds = 1U << 1;    // the target is the picture: what was spread moves in it
+FROXEL_CONST uint kBloomMetered = 1U << 2; // threshold and knee are in exposed radiance
 
 struct BloomPass {
     uint source_width_px;
@@ -20,7 +21,8 @@ struct BloomPass {
     uint reach;      // Gaussians: taps on either side
     float falloff;   // Gaussians: a tap k away weighs 2^(falloff k^2)
     float share;     // of this pass in its result; the rest is what the one before had
-    float threshold; // radiance from which light is bright, and how far around it that sets in
+    float threshold; // radiance from which light is bright, and how far around it that sets in;
+                     // kBloomMetered: exposed
     float knee;
     float strength; // share of the bright part that is spread
 };

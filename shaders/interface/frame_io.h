@@ -45,8 +45,8 @@ struct Frame {
     uint slice_first;
     uint slice_scale;
     uint slice_shift;
-    vec3 up_view; // world up
-    float exposure;
+    vec3 up_view;       // world up
+    float exposure;     // where it is metered, as it was asked for until then
     vec3 ambient_sky;   // linear radiance from above
     float orthographic; // 1: all view rays are parallel
     vec3 ambient_ground;

@@ -4,24 +4,33 @@
 // light is moved, neither lost nor made, however many pixels it comes from.
 #include "interface/bloom_io.h"
 #include "interface/constants.h"
+#include "interface/frame_io.h"
 
 layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 layout(constant_id = 2) const uint BLOOM_FLAGS = 0;
 layout(set = 0, binding = 0) uniform texture2D source_image;
 layout(set = 0, binding = 1, rgba32f) uniform image2D target_image;
+layout(set = 1, binding = 0, scalar) uniform FrameBlock { Frame frame; };
 layout(push_constant, scalar) uniform PassBlock { BloomPass bloom; };
 
 // Infinity would spread over the picture and become no number.
 const vec3 kMostBright = vec3(1e30);
 
+// An exposure that the frame meters is known on the device alone.
+float inRadiance(float level) {
+    return (BLOOM_FLAGS & kBloomMetered) != 0 ? level / frame.exposure : level;
+}
+
 // The part of it that is above the threshold; from knee below to knee above it sets in as a
 // parabola.
 vec3 brightPart(vec3 radiance) {
+    float threshold = inRadiance(bloom.threshold);
+    float knee = inRadiance(bloom.knee);
     vec3 color = min(radiance, kMostBright);
     float peak = max(color.r, max(color.g, color.b));
-    float soft = clamp(peak - bloom.threshold + bloom.knee, 0.0, 2.0 * bloom.knee);
-    soft = bloom.knee > 0.0 ? soft * soft / (4.0 * bloom.knee) : 0.0;
-    float part = max(soft, peak - bloom.threshold);
+    float soft = clamp(peak - threshold + knee, 0.0, 2.0 * knee);
+    soft = knee > 0.0 ? soft * soft / (4.0 * knee) : 0.0;
+    float part = max(soft, peak - threshold);
     return peak > 0.0 ? color * (max(part, 0.0) / peak) : vec3(0.0);
 }
 

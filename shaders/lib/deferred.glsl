@@ -1,7 +1,7 @@
 // Lights the surface that the geometry pass left in a pixel.
 
 // Every invocation of a subgroup calls this together; `inside` is false beyond the picture's edge.
-vec3 lightPixel(uvec2 pixel, bool inside) {
+vec4 lightPixel(uvec2 pixel, bool inside) {
     uvec4 extra = uvec4(0u);
     if (readsExtra()) {
         extra = texelFetch(extra_image, ivec2(pixel), 0);
@@ -23,5 +23,5 @@ vec3 lightPixel(uvec2 pixel, bool inside) {
     if (g.unlit) {
         lit = g.base_color;
     }
-    return covered ? lit : frame.background;
+    return vec4(covered ? lit : frame.background, radianceAlpha(g));
 }

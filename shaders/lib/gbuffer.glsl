@@ -21,6 +21,9 @@ struct GbufferSample {
     vec3 emissive;
 };
 
+// Of radiance where that solid surface is: exposure is not metered where it is 0.
+float radianceAlpha(GbufferSample g) { return g.unlit ? 0.0 : 1.0; }
+
 // RGB9E5 as in the Vulkan specification, "Shared Exponent to RGB"; values up to
 // kMostStoredEmission.
 uint packSharedExponent(vec3 color) {

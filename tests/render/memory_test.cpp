@@ -47,6 +47,8 @@ const std::vector<Named> kFrames = {
      [](FrameInputs& f) { f.settings.bloom.kind = view::BloomKind::kSeparable; }},
     {"four samples", [](FrameInputs& f) { f.settings.antialiasing = view::Antialiasing::kSsaa4; }},
     {"fxaa", [](FrameInputs& f) { f.settings.antialiasing = view::Antialiasing::kFxaa; }},
+    {"metered exposure",
+     [](FrameInputs& f) { f.settings.exposure_mode = view::ExposureMode::kFrame; }},
     {"fog", [](FrameInputs& f) { f.settings.fog.density = 0.05F; }},
     {"shadows", [](FrameInputs& f) { f.settings.shadows = {.light_count = 4, .size_px = 64}; }},
     {"weighted", [](FrameInputs& f) { f.settings.transparency = view::Transparency::kWeighted; }},

@@ -59,6 +59,7 @@ class Pieces : public SharedGpuTest {
         EXPECT_EQ(whole.rgba8, parts.rgba8);
         EXPECT_EQ(differingFloats(whole, parts), 0U);
         EXPECT_EQ(whole.stats.peel.overflow_count, parts.stats.peel.overflow_count);
+        EXPECT_EQ(whole.stats.metered_ev, parts.stats.metered_ev);
         EXPECT_EQ(whole.stats.pairs.evaluated, parts.stats.pairs.evaluated);
         EXPECT_EQ(whole.stats.pairs.contributing, parts.stats.pairs.contributing);
         const auto work = cut_view.begin(inputs);
@@ -184,6 +185,8 @@ TEST_F(Pieces, Effects_DrawTheSameBits) {
          [](auto& in) { in.settings.bloom.kind = view::BloomKind::kSeparable; }},
         {"bloom, a trous", [](auto& in) { in.settings.bloom.kind = view::BloomKind::kATrous; }},
         {"bloom, mip chain", [](auto& in) { in.settings.bloom.kind = view::BloomKind::kMipChain; }},
+        {"metered exposure",
+         [](auto& in) { in.settings.exposure_mode = view::ExposureMode::kFrame; }},
         {"fxaa", [](auto& in) { in.settings.antialiasing = view::Antialiasing::kFxaa; }},
         {"ssaa4", [](auto& in) { in.settings.antialiasing = view::Antialiasing::kSsaa4; }},
         {"pairs", [](auto& in) { in.settings.count_pairs = true; }},

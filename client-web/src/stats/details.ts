@@ -49,6 +49,12 @@ export function shadowText({ shadows }: FrameHeader): string {
   return shadows ? `${shadows.lights} · ${shadows.maps}` : '–';
 }
 
+/** Stops by which the frame metered its own exposure. */
+export function exposureText({ meteredEv }: FrameHeader): string {
+  if (meteredEv === undefined) return 'fixed';
+  return `${meteredEv < 0 ? '−' : '+'}${Math.abs(meteredEv).toFixed(1)} EV`;
+}
+
 /** The cluster grid of a frame; none without lights in clusters. */
 export function gridRows({ grid }: FrameHeader): Row[] {
   if (!grid) return [];

@@ -6,7 +6,7 @@ import { CodecSchema } from '../gen/froxel/v1/common_pb';
 import type { FrameDetails, FrameHeader } from '../gen/froxel/v1/server_pb';
 import { choicesOf } from '../protocol/schema_names';
 import { deliveryRows } from './delivery';
-import { Details, peelText, shadowText } from './details';
+import { Details, exposureText, peelText, shadowText } from './details';
 import { Graph } from './graph';
 import { PassStack } from './pass_stack';
 import { kStages, type Figures, type Stats } from './stats';
@@ -90,6 +90,7 @@ export class StatsCard {
     this.value('Grid', '', last.grid ? gridText(last.grid) : '–');
     this.value('Peeled layers · more', '', peelText(last));
     this.value('Shadowed · maps', '', shadowText(last));
+    this.value('Metered exposure', '', exposureText(last));
     const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
     this.value('Dropped server · here', '', dropped);
   }

@@ -2,7 +2,14 @@ import { create } from '@bufbuild/protobuf';
 import { describe, expect, it } from 'vitest';
 
 import { FrameDetailsSchema } from '../../src/gen/froxel/v1/server_pb';
-import { gridRows, listRows, memoryRows, peelText, shadowText } from '../../src/stats/details';
+import {
+  exposureText,
+  gridRows,
+  listRows,
+  memoryRows,
+  peelText,
+  shadowText,
+} from '../../src/stats/details';
 import { frameHeader } from '../fakes';
 
 const valueOf = (rows: { name: string; value: string }[], name: string): string | undefined =>
@@ -48,6 +55,13 @@ describe('details', () => {
   it('ShadowMaps_AreToldWithTheirLights', () => {
     expect(shadowText(frameHeader({}))).toBe('–');
     expect(shadowText(frameHeader({ shadows: { lights: 2, maps: 7 } }))).toBe('2 · 7');
+  });
+
+  it('Exposure_Metered_IsToldInStops', () => {
+    expect(exposureText(frameHeader({}))).toBe('fixed');
+    expect(exposureText(frameHeader({ meteredEv: 0 }))).toBe('+0.0 EV');
+    expect(exposureText(frameHeader({ meteredEv: 2.26 }))).toBe('+2.3 EV');
+    expect(exposureText(frameHeader({ meteredEv: -10 }))).toBe('−10.0 EV');
   });
 
   it('Memory_IsLargestFirstWithItsSum', () => {

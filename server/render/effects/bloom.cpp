@@ -60,7 +60,8 @@ class BloomPipelines {
   public:
     explicit BloomPipelines(SceneResources& scene)
         : device_(scene.device), set_layout_(makeSetLayout(device_)),
-          layout_(gpu::makePipelineLayout(device_, {*set_layout_}, sizeof(io::BloomPass))),
+          layout_(gpu::makePipelineLayout(
+              device_, {*set_layout_, scene.pipelines.frameLayout()}, sizeof(io::BloomPass))),
           made_(scene.timeline, scene.variants, Pipelines::kKeptScreen) {}
 
     [[nodiscard]] vk::Pipeline pipeline(BloomShader shader, uint32_t flags) {
@@ -159,7 +160,8 @@ class Bloom final : public Effect {
 
     Result<void> build(const EffectInputs& inputs, const EffectPlan& /*plan*/) override {
         const auto& settings = inputs.settings;
-        plan_ = planBloom(settings.bloom, settings.size, settings.exposure);
+        metered_ = settings.exposure_mode == view::ExposureMode::kFrame;
+        plan_ = planBloom(settings.bloom, settings.size, metered_ ? 1.0F : settings.exposure);
         return checkKernels(plan_, scene_.device.traits().is_cpu);
     }
 
@@ -226,10 +228,12 @@ class Bloom final : public Effect {
         const gpu::PassScope scope(frame.slot.timestamps, cmd, "bloom");
         const BloomStep& step = plan_.steps[index];
         auto& shared = frame.scene.shared<BloomPipelines>();
-        cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
-                         shared.pipeline(step.shader, step.flags()));
-        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, shared.layout(), 0,
-                               frame.slot.effect_targets.get<BloomTargets>().set(index), {});
+        cmd.bindPipeline(
+            vk::PipelineBindPoint::eCompute,
+            shared.pipeline(step.shader, step.flags() | (metered_ ? io::kBloomMetered : 0U)));
+        const std::array sets = {frame.slot.effect_targets.get<BloomTargets>().set(index),
+                                 vk::DescriptorSet(*frame.slot.frame_set)};
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, shared.layout(), 0, sets, {});
         cmd.pushConstants<io::BloomPass>(shared.layout(), vk::ShaderStageFlagBits::eCompute, 0,
                                          step.pass);
         dispatchOver(cmd, part);
@@ -237,6 +241,7 @@ class Bloom final : public Effect {
 
     SceneResources& scene_;
     BloomPlan plan_;
+    bool metered_ = false;                  // the exposure is not the host's to say
     std::shared_ptr<BloomTargets> targets_; // null: the last frame has none
 };
 

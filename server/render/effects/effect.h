@@ -72,6 +72,9 @@ class Effect {
     // Records what it does to the picture, with barriers between its passes; those before the first
     // and after the last are frame_recorder's. Both may throw VariantsMissing.
     virtual void record(const FrameContext& /*frame*/) const {}
+
+    // What the device found out, of the slot's frame, which has finished.
+    virtual void addResults(const FrameSlot& /*slot*/, FrameStats& /*stats*/) const {}
 };
 
 // EffectRow::make of an effect whose constructor takes the scene.

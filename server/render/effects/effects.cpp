@@ -1,6 +1,7 @@
 #include "render/effects/effects.h"
 
 #include "render/effects/bloom.h"
+#include "render/effects/exposure.h"
 #include "render/effects/fog.h"
 #include "render/effects/fxaa.h"
 #include "render/effects/shadows.h"
@@ -11,7 +12,8 @@
 namespace froxel::render {
 
 std::span<const EffectRow* const> effectRows() {
-    static constexpr std::array kRows = {&kShadowsEffect, &kFogEffect, &kBloomEffect, &kFxaaEffect};
+    static constexpr std::array kRows = {&kShadowsEffect, &kFogEffect, &kExposureEffect,
+                                         &kBloomEffect, &kFxaaEffect};
     return kRows;
 }
 

@@ -1,6 +1,7 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
 #include "render/effects/bloom.h"
+#include "render/effects/exposure.h"
 #include "render/effects/fog.h"
 #include "render/effects/fog_plan.h"
 #include "render/effects/fxaa.h"
@@ -191,6 +192,9 @@ brokenEffectRule(const view::ViewSettings& settings, const FrameFacts& facts, co
         {p.outline == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
         {bloomOf(p) == settings.bloom.kind, "the bloom asked for"},
+        {(p.effect(kExposureEffect) != nullptr) ==
+             (settings.exposure_mode == view::ExposureMode::kFrame),
+         "exposure is metered where asked for"},
         {has(shadows != nullptr ? shadows->way : 0, kShadowsDrawn) ==
              (facts.shadows && facts.local_lights),
          "maps of lights that have them"},
@@ -326,10 +330,12 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
 
 TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
     view::ViewSettings settings;
-    for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 2 * 4; ++setting) {
-        settings.fog.density = setting / 180 != 0 ? 0.5F : 0.0F;
-        settings.fog.albedo = glm::vec3(setting / 180 == 1 ? 0.0F : 0.5F);
-        settings.fog.noise = setting / 180 == 3;
+    for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 2 * 4 * 2; ++setting) {
+        const uint32_t fog = setting / 180 % 4;
+        settings.fog.density = fog != 0 ? 0.5F : 0.0F;
+        settings.fog.albedo = glm::vec3(fog == 1 ? 0.0F : 0.5F);
+        settings.fog.noise = fog == 3;
+        settings.exposure_mode = static_cast<view::ExposureMode>(setting / 720);
         settings.renderer = static_cast<Renderer>(setting % 5);
         settings.lighting = static_cast<LightingStage>(setting / 5 % 3);
         settings.antialiasing = static_cast<view::Antialiasing>(setting / 15 % 3);
@@ -362,6 +368,31 @@ TEST(FramePlan, BloomOfNoStrength_IsNone) {
     settings.bloom.kind = view::BloomKind::kSeparable;
     settings.bloom.strength = 0;
     EXPECT_EQ(bloomOf(planFrame(settings, {})), view::BloomKind::kNone);
+}
+
+// A fixed exposure leaves the frame as it is; a metered one needs the linear picture, and a debug
+// view has none.
+TEST(FramePlan, MeteredExposure_AsksForRadianceAndAToneMap) {
+    view::ViewSettings settings;
+    const FramePlan fixed = planFrame(settings, kLit);
+    settings.exposure = 8;
+    EXPECT_EQ(planFrame(settings, kLit), fixed);
+    settings.exposure_mode = view::ExposureMode::kFrame;
+    const FramePlan metered = planFrame(settings, kLit);
+    EXPECT_TRUE(metered.tonemap && metered.radiance);
+    EXPECT_EQ(metered.tonemap_output_flags, planFrame({}, {}).tonemap_output_flags);
+    settings.debug.view = view::DebugView::kDepth;
+    EXPECT_TRUE(planFrame(settings, kLit).effects.empty());
+}
+
+TEST(FramePlan, Exposure_IsMeteredBeforeBloom) {
+    view::ViewSettings settings;
+    settings.exposure_mode = view::ExposureMode::kFrame;
+    settings.bloom.kind = view::BloomKind::kMipChain;
+    const auto plan = planFrame(settings, kLit);
+    ASSERT_EQ(plan.effects.size(), 2U);
+    EXPECT_EQ(plan.effects[0].row, &kExposureEffect);
+    EXPECT_EQ(plan.effects[1].row, &kBloomEffect);
 }
 
 TEST(FramePlan, DrawnSize_IsTwiceTheSidesForFourSamples) {

@@ -46,16 +46,19 @@ TEST(PlanWords, LightsOfOneRadius_AreNamed) {
 
 TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
     view::ViewSettings settings;
-    const auto of_post = ::testing::AnyOf(HasSubstr("bloom"), HasSubstr("outline"),
-                                          HasSubstr("fxaa"), HasSubstr("ssaa4"), HasSubstr("fog"));
+    const auto of_post =
+        ::testing::AnyOf(HasSubstr("bloom"), HasSubstr("outline"), HasSubstr("fxaa"),
+                         HasSubstr("ssaa4"), HasSubstr("fog"), HasSubstr("exposure"));
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(of_post)));
     settings.renderer = view::Renderer::kToonCompute;
     settings.toon_outline.strength = 1;
     settings.bloom.kind = view::BloomKind::kATrous;
+    settings.exposure_mode = view::ExposureMode::kFrame;
     settings.antialiasing = view::Antialiasing::kSsaa4;
     const auto words = wordsOf(settings, {});
     EXPECT_THAT(words, Contains(HasSubstr("outline")));
     EXPECT_THAT(words, Contains(HasSubstr("bloom by a_trous")));
+    EXPECT_THAT(words, Contains(HasSubstr("exposure of this frame alone")));
     EXPECT_THAT(words, Contains(HasSubstr("ssaa4")));
     EXPECT_THAT(words, Contains("tone map in a pass of its own, after those over the lit picture"));
     settings.antialiasing = view::Antialiasing::kFxaa;

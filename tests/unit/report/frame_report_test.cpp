@@ -13,6 +13,7 @@ TEST(FrameReport, WhatAFrameDoesNotHave_IsNullOrEmpty) {
     EXPECT_TRUE(report["grid"].is_null());
     EXPECT_TRUE(report["pairs"].is_null());
     EXPECT_TRUE(report["peel"].is_null());
+    EXPECT_FALSE(report.contains("metered_ev"));
     EXPECT_TRUE(report["plan"].empty());
     EXPECT_TRUE(report["memory_bytes"].is_object());
 }
@@ -24,6 +25,7 @@ TEST(FrameReport, GridListsPairsPlanAndMemory_AreThere) {
     stats.lists.why = "lists pay";
     stats.pairs = {true, 100, 25};
     stats.peel = {4, 9};
+    stats.metered_ev = 1.5;
     stats.details =
         std::make_shared<const FrameDetails>(FrameDetails{{"no masks"}, {{"textures", 7}}, {}});
     const auto report = frameReport(stats);
@@ -33,6 +35,7 @@ TEST(FrameReport, GridListsPairsPlanAndMemory_AreThere) {
     EXPECT_EQ(report["light_lists"]["why"], "lists pay");
     EXPECT_EQ(report["pairs"]["contributing"], 25);
     EXPECT_EQ(report["peel"]["overflow_pixels"], 9);
+    EXPECT_EQ(report["metered_ev"], 1.5);
     EXPECT_EQ(report["plan"][0], "no masks");
     EXPECT_EQ(report["memory_bytes"]["textures"], 7);
 }

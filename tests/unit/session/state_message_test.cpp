@@ -345,6 +345,15 @@ TEST(FrameHeader, PeeledLayers_AreThereOnlyWhereSomethingWasPeeled) {
     EXPECT_EQ(makeFrameHeader(frame).peel().overflow_pixels(), 5'000'000'000U);
 }
 
+TEST(FrameHeader, MeteredExposure_IsThereOnlyWhereTheFrameHasOne) {
+    FrameRecord frame = record();
+    EXPECT_FALSE(makeFrameHeader(frame).has_metered_ev());
+    frame.stats.metered_ev = 0;
+    EXPECT_TRUE(makeFrameHeader(frame).has_metered_ev());
+    frame.stats.metered_ev = -2.5;
+    EXPECT_EQ(makeFrameHeader(frame).metered_ev(), -2.5);
+}
+
 TEST(FrameHeader, ShadowMaps_AreThereOnlyWhereALightHasOne) {
     FrameRecord frame = record();
     frame.stats.shadows = {};

@@ -1,0 +1,214 @@
+#include "render/effects/exposure.h"
+
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "interface/exposure_io.h"
+#include "render/barrier.h"
+#include "render/effects/effect.h"
+#include "render/effects/effect_targets.h"
+#include "render/frame_context.h"
+#include "render/memory_need.h"
+#include "render/screen_groups.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace froxel::render {
+
+namespace {
+
+using Access = vk::AccessFlagBits2;
+using Stage = vk::PipelineStageFlagBits2;
+using Type = vk::DescriptorType;
+
+constexpr size_t kFrameBinding = 0; // of the frame set
+constexpr vk::DeviceSize kCountBytes = io::kMeterBins * sizeof(uint32_t);
+
+vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
+    const auto stage = vk::ShaderStageFlagBits::eCompute;
+    const std::array bindings = {vk::DescriptorSetLayoutBinding{0, Type::eStorageBuffer, 1, stage},
+                                 vk::DescriptorSetLayoutBinding{1, Type::eStorageBuffer, 1, stage}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+    const vk::DescriptorPoolSize size{Type::eStorageBuffer, 2};
+    return gpu::makeDescriptorPool(device, std::array{size});
+}
+
+// Shared by every view.
+struct ExposurePipelines {
+    explicit ExposurePipelines(const SceneResources& scene)
+        : set_layout(makeSetLayout(scene.device)),
+          layout(gpu::makePipelineLayout(
+              scene.device,
+              {scene.pipelines.frameLayout(), scene.pipelines.screenLayout(), *set_layout})),
+          histogram(gpu::makeComputePipeline(
+              scene.device, shaders::exposure_histogram_comp(), {}, *layout, "exposure histogram")),
+          meter(gpu::makeComputePipeline(
+              scene.device, shaders::exposure_meter_comp(), {}, *layout, "exposure meter")) {}
+
+    vk::raii::DescriptorSetLayout set_layout;
+    vk::raii::PipelineLayout layout;
+    vk::raii::Pipeline histogram;
+    vk::raii::Pipeline meter;
+};
+
+// One view's histogram.
+struct ExposureTargets final : EffectTargets {
+    explicit ExposureTargets(const gpu::Device& device)
+        : arena(device), counts(arena.makeBuffer(kCountBytes,
+                                                 vk::BufferUsageFlagBits::eStorageBuffer |
+                                                     vk::BufferUsageFlagBits::eTransferDst,
+                                                 gpu::MemoryUse::kDevice,
+                                                 "exposure histogram")) {}
+
+    gpu::MemoryArena arena;
+    gpu::Buffer counts;
+};
+
+// One a frame slot.
+struct ExposureSet {
+    ExposureSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
+        : pool(makePool(device)), set(gpu::makeSet(device, pool, layout)) {}
+
+    // `uniforms`: io::Frame in the slot's upload.
+    void write(const gpu::Device& device,
+               const gpu::Buffer& counts,
+               vk::Buffer upload,
+               const FrameBlock& uniforms) {
+        exposure_offset = uniforms.offset + offsetof(io::Frame, exposure);
+        const std::array buffers = {
+            vk::DescriptorBufferInfo{*counts.handle, 0, VK_WHOLE_SIZE},
+            vk::DescriptorBufferInfo{upload, uniforms.offset, uniforms.bytes}};
+        const vk::WriteDescriptorSet write{.dstSet = *set,
+                                           .dstBinding = 0,
+                                           .descriptorCount = buffers.size(),
+                                           .descriptorType = Type::eStorageBuffer,
+                                           .pBufferInfo = buffers.data()};
+        device.handle().updateDescriptorSets(write, {});
+    }
+
+    vk::raii::DescriptorPool pool;
+    vk::raii::DescriptorSet set;
+    vk::DeviceSize exposure_offset = 0;
+};
+
+class Exposure final : public Effect {
+  public:
+    explicit Exposure(SceneResources& scene) : scene_(scene) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        const auto& drawn = costs.load().drawn;
+        passes.push_back({"exposure", timeOver(countingCost(costs), invocationsOver(drawn))});
+    }
+    void addMemory(NeedList& need) const override {
+        need.buffer("exposure histogram", kCountBytes);
+    }
+
+    void freeTargets() override { targets_.reset(); }
+    void prepare(FrameSlot& slot, FrameBlocks& blocks) override;
+
+    void record(const FrameContext& frame) const override;
+    void addResults(const FrameSlot& slot, FrameStats& stats) const override;
+
+  private:
+    // Of the histogram's pass.
+    static view::Size invocationsOver(const view::Size& drawn) {
+        const auto over = [](uint32_t side_px) {
+            return (side_px + io::kMeterPixels - 1) / io::kMeterPixels;
+        };
+        return {over(drawn.width_px), over(drawn.height_px)};
+    }
+    // Over its invocations.
+    static RegionCost countingCost(const FrameCosts& costs) {
+        const double each = io::kMeterPixels * io::kMeterPixels * costs.unit().screen_pixel;
+        return {Seconds(0),
+                [each](const vk::Rect2D& region) { return Seconds(areaOf(region) * each); }};
+    }
+    static void bind(const FrameContext& frame, const vk::raii::Pipeline& pipeline);
+    static void recordHistogram(const FrameContext& frame, const vk::Rect2D& invocations);
+    static void recordMeter(const FrameContext& frame);
+
+    SceneResources& scene_;
+    std::shared_ptr<ExposureTargets> targets_; // null: the last frame has none
+};
+
+void Exposure::prepare(FrameSlot& slot, FrameBlocks& blocks) {
+    if (!targets_) {
+        targets_ = std::make_shared<ExposureTargets>(scene_.device);
+    }
+    slot.effect_targets.hold(targets_);
+    const auto& shared = scene_.shared<ExposurePipelines>();
+    slot.kept.findOrMake<ExposureSet>(scene_.device, *shared.set_layout)
+        .write(scene_.device, targets_->counts, slot.upload.buffer(), blocks[kFrameBinding]);
+}
+
+void Exposure::record(const FrameContext& frame) const {
+    const auto& cmd = frame.slot.cmd;
+    cmd.fillBuffer(*targets_->counts.handle, 0, VK_WHOLE_SIZE, 0);
+    // cleared counts -> first additions
+    barrier(cmd, Stage::eClear, Access::eTransferWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead | Access::eShaderStorageWrite);
+    inParts(frame, invocationsOver(frame.slot.targets->size), countingCost(frame.costs),
+            recordHistogram);
+    // counts -> loads
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
+            Access::eShaderStorageRead);
+    recordMeter(frame);
+    // the exposure -> the uniforms of all that shows the picture
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+            Stage::eComputeShader | Stage::eFragmentShader, Access::eUniformRead);
+}
+
+void Exposure::addResults(const FrameSlot& slot, FrameStats& stats) const {
+    float exposure = 0;
+    std::memcpy(&exposure, slot.upload.mapped() + slot.kept.get<ExposureSet>().exposure_offset,
+                sizeof(exposure));
+    stats.metered_ev = std::log2(static_cast<double>(exposure) /
+                                 static_cast<double>(slot.inputs.settings.exposure));
+}
+
+void Exposure::bind(const FrameContext& frame, const vk::raii::Pipeline& pipeline) {
+    const auto& cmd = frame.slot.cmd;
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
+                             *frame.slot.kept.get<ExposureSet>().set};
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
+                           *frame.scene.shared<ExposurePipelines>().layout, 0, sets, {});
+}
+
+// Reads radiance and depth.
+void Exposure::recordHistogram(const FrameContext& frame, const vk::Rect2D& invocations) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure");
+    bind(frame, frame.scene.shared<ExposurePipelines>().histogram);
+    dispatchOver(frame.slot.cmd, invocations);
+}
+
+// Reads the counts, changes the frame's exposure.
+void Exposure::recordMeter(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure_meter");
+    bind(frame, frame.scene.shared<ExposurePipelines>().meter);
+    frame.slot.cmd.dispatch(1, 1, 1);
+}
+
+std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& /*facts*/) {
+    return settings.exposure_mode == view::ExposureMode::kFrame ? std::optional(EffectPlan{})
+                                                                : std::nullopt;
+}
+
+} // namespace
+
+const EffectRow kExposureEffect{
+    .place = EffectPlace::kPicture,
+    .plan = planOf,
+    .words =
+        [](const view::ViewSettings&, const EffectPlan&) {
+            return std::string("exposure of this frame alone: by a histogram of its luminance, in "
+                               "a pass of its own");
+        },
+    .make = makeEffect<Exposure>};
+
+} // namespace froxel::render
