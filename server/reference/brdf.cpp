@@ -12,15 +12,7 @@ namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
 
-// The colours of glTF's mixed dielectric and metal.
-struct Colors {
-    glm::dvec3 diffuse;
-    glm::dvec3 f0;
-};
-
-Colors colorsOf(const Surface& s) {
-    return {s.base_color * (1 - s.metallic), glm::mix(glm::dvec3(0.04), s.base_color, s.metallic)};
-}
+constexpr glm::dvec3 kDielectricF0(0.04);
 
 glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     const double up = 0.5 + 0.5 * s.normal.y;
@@ -28,8 +20,8 @@ glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     if (model.shading == view::ShadingModel::kLambert) {
         return incoming * s.base_color * s.occlusion;
     }
-    const Colors colors = colorsOf(s);
-    return incoming * (colors.diffuse + colors.f0) * s.occlusion;
+    return incoming * glm::mix(s.base_color + kDielectricF0, s.base_color, s.metallic) *
+           s.occlusion;
 }
 
 } // namespace
@@ -40,14 +32,15 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     if (model.shading == view::ShadingModel::kLambert) {
         return s.base_color * (scattered * kInvPi);
     }
-    const Colors colors = colorsOf(s);
     const glm::dvec3 sum = to_light + s.to_eye;
     const double length = glm::length(sum);
     const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
-    const glm::dvec3 fresnel =
-        colors.f0 +
-        (1.0 - colors.f0) * fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
-    glm::dvec3 out = (1.0 - fresnel) * colors.diffuse * (scattered * kInvPi);
+    const double edge = fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
+    const glm::dvec3 of_dielectric = kDielectricF0 + (1.0 - kDielectricF0) * edge;
+    const glm::dvec3 of_metal = s.base_color + (1.0 - s.base_color) * edge;
+    // Appendix B: both models are whole, and metalness mixes what they give.
+    glm::dvec3 out =
+        (1.0 - of_dielectric) * s.base_color * (scattered * kInvPi * (1 - s.metallic));
     if (facing > 0) {
         const double alpha = std::pow(std::max(s.roughness, kLeastRoughness), 2);
         const double alpha2 = alpha * alpha;
@@ -57,7 +50,7 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
                 ? blinnPhong(n_dot_h, alpha2)
                 : distribution(n_dot_h, alpha2) *
                       visibility(facing, std::abs(glm::dot(s.normal, s.to_eye)), alpha2);
-        out += fresnel * (facing * lobe);
+        out += glm::mix(of_dielectric, of_metal, s.metallic) * (facing * lobe);
     }
     return out;
 }

@@ -1,6 +1,7 @@
 // Metallic-roughness shading as glTF 2.0 appendix B defines it: GGX distribution, height-correlated
-// Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A light only adds
-// weights that do not depend on the surface's colours; those are applied once, at the end.
+// Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A dielectric and a
+// metal, each whole, are mixed by metalness. A light only adds weights that do not depend on the
+// surface's colours; those are applied once, at the end.
 // With kLightLambert only base colour / pi is left of it: no eye, no roughness, no metalness.
 // With kLightBlinnPhong D V is Blinn's lobe instead, (n.h)^s (Blinn 1977) over its reflectance
 // head-on, 8 pi (s + 2^(-s/2)) / ((s + 2)(s + 4)) (Giesen 2009, "Phong Normalization Factor
@@ -9,6 +10,7 @@
 // al. 2007, section 5.2).
 
 const float kPi = 3.14159265358979;
+const float kDielectricF0 = 0.04; // reflectance head-on at an index of refraction of 1.5
 const float kMostInverse2 = 1e4;     // 1 / (1 cm)^2: the falloff's ceiling
 const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
 
@@ -153,8 +155,9 @@ vec3 shadeSum(LightSum sum, vec3 base_color, float metallic) {
     }
     sum.specular = min(sum.specular, kMost);
     sum.grazing = min(sum.grazing, kMost);
-    vec3 f0 = mix(vec3(0.04), base_color, metallic);
+    // Lobes are linear in f0; only the dielectric scatters, whatever its share.
+    vec3 f0 = mix(vec3(kDielectricF0), base_color, metallic);
     vec3 albedo = base_color * (1.0 - metallic);
     vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);
-    return (albedo * (1.0 - f0) * sum.diffuse + lobe) / kPi;
+    return (albedo * (1.0 - kDielectricF0) * sum.diffuse + lobe) / kPi;
 }

@@ -177,6 +177,6 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, float occlusion
     if (hasLight(kLightLambert)) {
         return sky * base_color * occlusion;
     }
-    vec3 f0 = mix(vec3(0.04), base_color, metallic);
+    vec3 f0 = mix(vec3(kDielectricF0), base_color, metallic);
     return sky * (base_color * (1.0 - metallic) + f0) * occlusion;
 }

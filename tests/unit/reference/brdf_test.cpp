@@ -99,6 +99,27 @@ TEST(ReferenceBrdf, PbrHeadOn_IsDiffuseAndAQuarterOfTheDistribution) {
     EXPECT_NEAR(reflected(s, kPbr, {0, 1, 0}).y, 0.4 * lobe, 1e-14);
 }
 
+// Appendix B mixes a dielectric and a metal that are whole: head-on the one scatters 1 - 0.04,
+// however little of it there is, and the lobes' reflectances mix.
+TEST(ReferenceBrdf, HalfAMetal_IsTheMeanOfADielectricAndAMetal) {
+    Surface s = seenFrom({0, 1, 0});
+    s.base_color = {0.8, 0.4, 0.2};
+    s.roughness = 0.5;
+    s.metallic = 0.5;
+    const double lobe = 1 / (kPi * std::pow(0.5, 4)) / 4;
+    EXPECT_NEAR(reflected(s, kPbr, {0, 1, 0}).x, 0.48 * 0.8 / kPi + 0.42 * lobe, 1e-14);
+    for (const double angle : {0.3, 0.9, 1.4}) {
+        s.to_eye = direction(angle, 0.5);
+        const glm::dvec3 to_light = direction(0.8, 2.7);
+        const auto at = [&](double metallic) {
+            s.metallic = metallic;
+            return reflected(s, kPbr, to_light);
+        };
+        const glm::dvec3 mean = (at(0) + at(1)) * 0.5;
+        EXPECT_LT(glm::distance(at(0.5), mean), 1e-14) << angle;
+    }
+}
+
 TEST(ReferenceBrdf, PbrLobe_SwappingLightAndEye_GivesTheSame) {
     Surface s = seenFrom(direction(0.9, 0.2));
     s.metallic = 1; // the diffuse part's Fresnel term is symmetric too, but say so for the lobe
