@@ -39,8 +39,7 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     const glm::dvec3 of_dielectric = kDielectricF0 + (1.0 - kDielectricF0) * edge;
     const glm::dvec3 of_metal = s.base_color + (1.0 - s.base_color) * edge;
     // Appendix B: both models are whole, and metalness mixes what they give.
-    glm::dvec3 out =
-        (1.0 - of_dielectric) * s.base_color * (scattered * kInvPi * (1 - s.metallic));
+    glm::dvec3 out = (1.0 - of_dielectric) * s.base_color * (scattered * kInvPi * (1 - s.metallic));
     if (facing > 0) {
         const double alpha = std::pow(std::max(s.roughness, kLeastRoughness), 2);
         const double alpha2 = alpha * alpha;
@@ -64,7 +63,8 @@ double attenuation(const PointLight& light, const glm::dvec3& to_light) {
     const double window = 1 - x * x;
     const double along = -glm::dot(light.direction, to_light) / std::sqrt(d2);
     const double share = std::clamp(along * light.cone_scale + light.cone_offset, 0.0, 1.0);
-    return window * window / (light.rectangle ? d2 : std::max(d2, kFloor2_m2)) * share * share;
+    const double floor2 = light.rectangle ? 0 : light.nearest_m * light.nearest_m;
+    return window * window / std::max(d2, floor2) * share * share;
 }
 
 // As many points of a rectangle, each a small light of the same radiance; nothing of it lies nearer

@@ -93,6 +93,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .spots = !lights_.spots.empty(),
             .areas = !lights_.areas.empty(),
             .equal_radii = equalRadii(lights_, inputs.settings.lights),
+            .small_scene = lights_.nearest_m < light::kNearest_m,
             .long_loops = traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
             .directional = !lights_.directionals.empty(),
             .keep_radiance = inputs.keep_radiance,
@@ -227,6 +228,7 @@ FramePlan FrameBuilder::build(const FrameInputs& inputs, ViewEffects& effects) {
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
+    uniforms_.light_most_inverse2 = static_cast<float>(1 / (lights_.nearest_m * lights_.nearest_m));
     uniforms_.first_area = lights_.first_area;
     debug_.wires.clear();
     if (plan.debug != view::DebugView::kNone) {

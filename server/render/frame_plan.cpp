@@ -45,6 +45,7 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= facts.areas ? io::kLightAreas : 0U;
         flags |= facts.shadows ? io::kLightShadows : 0U;
         flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
+        flags |= facts.small_scene ? io::kLightSmallScene : 0U;
         flags |= facts.long_loops ? io::kLightLong : 0U;
         if (compute) {
             flags |= facts.compute_batches ? io::kLightBatched : 0U;

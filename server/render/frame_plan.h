@@ -20,6 +20,7 @@ struct FrameFacts {
     bool areas = false;       // some of the spots are rectangles
     bool shadows = false;     // some of them have shadow maps
     bool equal_radii = false; // all local lights reach equally far
+    bool small_scene = false; // light::nearestDistance() is less than usual
     bool long_loops = false;  // more iterations than a software rasteriser's loops may have
     bool directional = false;
     bool keep_radiance = false;    // the linear picture is asked for

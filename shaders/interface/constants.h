@@ -43,8 +43,9 @@ FROXEL_CONST uint kLightLong = 1U << 10;         // loops take several lights an
 FROXEL_CONST uint kLightBlinnPhong = 1U << 11;   // view::ShadingModel::kBlinnPhong
 FROXEL_CONST uint kLightSlicesLinear = 1U << 12; // cluster::SliceLaw; neither: logarithmic
 FROXEL_CONST uint kLightSlicesHyperbolic = 1U << 13;
-FROXEL_CONST uint kLightAreas = 1U << 14;   // some of the spots are rectangles
-FROXEL_CONST uint kLightShadows = 1U << 17; // some local lights have shadow maps
+FROXEL_CONST uint kLightAreas = 1U << 14;      // some of the spots are rectangles
+FROXEL_CONST uint kLightSmallScene = 1U << 15; // Frame::light_most_inverse2, else 1 / (1 cm)^2
+FROXEL_CONST uint kLightShadows = 1U << 17;    // some local lights have shadow maps
 
 // Output flags: targets and what the last pass does.
 FROXEL_CONST uint kOutputPixels = 1U << 0;      // lighting also exposes, tone maps and packs

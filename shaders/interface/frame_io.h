@@ -55,10 +55,11 @@ struct Frame {
     float light_inv_radius2; // of every local light, where they are equal
     uint first_area;         // the first light that may be a rectangle
     float outline_strength;
-    float outline_reach_px; // how far from an edge pixels are darkened
+    float outline_reach_px;    // how far from an edge pixels are darkened
+    float light_most_inverse2; // of a small scene: 1 / light::nearestDistance()^2
     ToonSegment toon[kMaxToonSegments];
 };
-FROXEL_SIZE_ASSERT(Frame, 376);
+FROXEL_SIZE_ASSERT(Frame, 380);
 
 // One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
 struct UvTransform {

@@ -1,6 +1,6 @@
 // Metallic-roughness shading as glTF 2.0 appendix B defines it: GGX distribution, height-correlated
-// Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A dielectric and a
-// metal, each whole, are mixed by metalness. A light only adds weights that do not depend on the
+// Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A dielectric and
+// a metal, each whole, are mixed by metalness. A light only adds weights that do not depend on the
 // surface's colours; those are applied once, at the end.
 // With kLightLambert only base colour / pi is left of it: no eye, no roughness, no metalness.
 // With kLightBlinnPhong D V is Blinn's lobe instead, (n.h)^s (Blinn 1977) over its reflectance
@@ -10,8 +10,7 @@
 // al. 2007, section 5.2).
 
 const float kPi = 3.14159265358979;
-const float kDielectricF0 = 0.04; // reflectance head-on at an index of refraction of 1.5
-const float kMostInverse2 = 1e4;     // 1 / (1 cm)^2: the falloff's ceiling
+const float kDielectricF0 = 0.04;    // reflectance head-on at an index of refraction of 1.5
 const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
 
 struct Surface {
@@ -84,6 +83,9 @@ float schlick(float h2) {
     return p;
 }
 
+// The falloff's ceiling: 1 / (1 cm)^2, in small scenes more.
+float mostInverse2() { return hasLight(kLightSmallScene) ? frame.light_most_inverse2 : 1e4; }
+
 // Of a light's irradiance at x = distance^2 / radius^2: exactly 0 at its radius.
 float rangeWindow(float x) {
     precise float w = max(fma(-x, x, 1.0), 0.0);
@@ -135,7 +137,7 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
         fma(to_light.z, to_light.z, fma(to_light.y, to_light.y, to_light.x * to_light.x));
     precise float x = d2 * inv_radius2;
     precise float inv_d = inversesqrt(max(d2, kLeastDistance2));
-    precise float attenuation = rangeWindow(x) * min(inv_d * inv_d, kMostInverse2) * share;
+    precise float attenuation = rangeWindow(x) * min(inv_d * inv_d, mostInverse2()) * share;
     precise float n_dot_l = fma(s.normal_view.z, to_light.z,
                                 fma(s.normal_view.y, to_light.y, s.normal_view.x * to_light.x)) *
                             inv_d;

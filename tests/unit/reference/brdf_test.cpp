@@ -68,6 +68,8 @@ TEST(ReferenceBrdf, Attenuation_AtTheRadiusAndBelowOneCentimetre_FollowsItsFormu
     EXPECT_GT(attenuation(light, {0, std::nextafter(2.0, 0.0), 0}), 0);
     EXPECT_NEAR(attenuation(light, {0, 1, 0}), std::pow(1 - 1.0 / 16, 2), 1e-15);
     EXPECT_NEAR(attenuation(light, {0, 1e-3, 0}), 1e4, 1e-8);
+    EXPECT_NEAR(attenuation({.radius2 = 4, .nearest_m = 1e-3}, {0, 2e-3, 0}), 1 / 4e-6, 1e-5);
+    EXPECT_NEAR(attenuation({.radius2 = 4, .nearest_m = 1e-3}, {0, 1e-5, 0}), 1e6, 1e-8);
     EXPECT_EQ(attenuation(light, {0, 0, 0}), 0);
     EXPECT_NEAR(attenuation(PointLight{}, {0, 1e3, 0}), 1e-6, 1e-20);
 }
