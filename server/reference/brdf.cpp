@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
 
-constexpr glm::dvec3 kDielectricF0(0.04);
+double greatest(const glm::dvec3& color) {
+    return std::max({color.x, color.y, color.z});
+}
 
 glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     const double up = 0.5 + 0.5 * s.normal.y;
@@ -20,8 +22,10 @@ glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     if (model.shading == view::ShadingModel::kLambert) {
         return incoming * s.base_color * s.occlusion;
     }
-    return incoming * glm::mix(s.base_color + kDielectricF0, s.base_color, s.metallic) *
-           s.occlusion;
+    // Scaled so that a usual dielectric returns its base colour and its f0.
+    const glm::dvec3 dielectric =
+        s.base_color * ((1 - greatest(s.dielectric_f0)) / 0.96) + s.dielectric_f0;
+    return incoming * glm::mix(dielectric, s.base_color, s.metallic) * s.occlusion;
 }
 
 } // namespace
@@ -36,10 +40,12 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     const double length = glm::length(sum);
     const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
     const double edge = fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
-    const glm::dvec3 of_dielectric = kDielectricF0 + (1.0 - kDielectricF0) * edge;
+    const glm::dvec3 of_dielectric = glm::mix(s.dielectric_f0, glm::dvec3(s.dielectric_f90), edge);
     const glm::dvec3 of_metal = s.base_color + (1.0 - s.base_color) * edge;
-    // Appendix B: both models are whole, and metalness mixes what they give.
-    glm::dvec3 out = (1.0 - of_dielectric) * s.base_color * (scattered * kInvPi * (1 - s.metallic));
+    // Appendix B: both models are whole, and metalness mixes what they give. A dielectric scatters
+    // what the strongest reflected channel leaves (KHR_materials_specular).
+    glm::dvec3 out =
+        s.base_color * ((1 - greatest(of_dielectric)) * (1 - s.metallic) * scattered * kInvPi);
     if (facing > 0) {
         const double alpha = std::pow(std::max(s.roughness, kLeastRoughness), 2);
         const double alpha2 = alpha * alpha;

@@ -20,6 +20,8 @@ struct Surface {
     glm::dvec3 to_eye{0, 1, 0}; // unit
     glm::dvec3 base_color{1};
     double metallic = 0;
+    glm::dvec3 dielectric_f0{0.04}; // what its dielectric part reflects, head-on
+    double dielectric_f90 = 1;      // and at grazing angles
     double roughness = 1;
     double occlusion = 1;
     glm::dvec3 emissive{0};

@@ -53,7 +53,10 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
         inputs.geometry == GeometryPath::kAuto && !traits.is_cpu && traits.descriptor_indexing;
     const auto stage = inputs.settings.lighting;
     // Only the rasteriser writes one.
-    const bool second_target = extraFormat(inputs.settings.gbuffer) != vk::Format::eUndefined;
+    const bool second_target =
+        extraFormat(inputs.settings.gbuffer,
+                    storesSpecular(inputs.settings, scene_.needs.specular)) !=
+        vk::Format::eUndefined;
     const bool wanted =
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
@@ -88,6 +91,8 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
                                 ? scene_.needs.wide_lambert
                                 : scene_.needs.wide_gbuffer,
             .emission_exponent = scene_.needs.emission_exponent,
+            .specular = scene_.needs.specular,
+            .edges = scene_.needs.edges,
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),

@@ -61,6 +61,7 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= io::kLightToon;
     }
     flags |= shadingFlag(settings.shading);
+    flags |= facts.edges && settings.shading != view::ShadingModel::kLambert ? io::kLightEdges : 0U;
     return flags;
 }
 
@@ -89,6 +90,11 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
 
 bool isForward(view::Renderer renderer) {
     return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
+}
+
+bool storesSpecular(const view::ViewSettings& settings, bool scene_specular) {
+    return scene_specular && !isForward(settings.renderer) &&
+           settings.shading != view::ShadingModel::kLambert;
 }
 
 bool FramePlan::hasEffect(EffectPlace place) const {
@@ -184,10 +190,12 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     const uint32_t pixels = io::kOutputPixels | tone;
     const view::GbufferLayout layout = // a forward renderer's, for a debug view: the default
         isForward(renderer) ? view::GbufferLayout{} : settings.gbuffer;
-    plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(layout) : 0U;
+    const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
+    plan.gbuffer_output_flags = plan.gbuffer ? wide | specular | layoutFlags(layout) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
     if (settings.shading == view::ShadingModel::kLambert) {
-        plan.gbuffer_unused_material_flags = io::kMaterialRoughnessTexture;
+        plan.gbuffer_unused_material_flags =
+            io::kMaterialRoughnessTexture | io::kMaterialSpecularAll;
     }
     if (compute_lights) {
         plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;

@@ -78,13 +78,17 @@ struct Material {
     float normal_scale;
     float occlusion_strength;
     float alpha_cutoff;
+    vec3 specular_f0; // what the index of refraction gives head-on, times the specular colour
+    float specular;   // its strength
     UvTransform uv_base_color;
     UvTransform uv_normal;
     UvTransform uv_metallic_roughness;
     UvTransform uv_occlusion;
     UvTransform uv_emissive;
+    UvTransform uv_specular;
+    UvTransform uv_specular_color;
 };
-FROXEL_SIZE_ASSERT(Material, 208);
+FROXEL_SIZE_ASSERT(Material, 288);
 
 FROXEL_IO_NAMESPACE_END
 
