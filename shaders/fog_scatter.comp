@@ -141,7 +141,7 @@ void main() {
     s.sample_view = positionFromDistance(pixel, distance);
     vec2 tile = abs(frame.ray_scale) * float(fog.tile_px) *
                 (frame.ray_spread.x + frame.ray_spread.y * distance);
-    s.width2 = kWidth * kWidth * tile.x * tile.y + 1.0 / kMostInverse2;
+    s.width2 = kWidth * kWidth * tile.x * tile.y + 1.0 / mostInverse2();
     vec3 scattered = min(scatteredByAll(s, pixel, distance), vec3(1e30));
     volume[fogTexelOf(froxel)] = vec4(fog.albedo * scattered, 1.0);
 }

@@ -80,7 +80,7 @@ void main() {
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
     LightSum sum = sumLights(s, pixel, distance, true);
-    vec3 lit = shadeSum(sum, g.base_color, g.metallic) +
-               ambientRadiance(s, g.base_color, g.metallic, g.occlusion) + g.emissive;
+    vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
+               ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) + g.emissive;
     store(seen(lit, pixel, distance), alpha, distance);
 }

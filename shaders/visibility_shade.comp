@@ -36,8 +36,8 @@ void main() {
     covered = covered && mine(id);
     float distance = distanceFromDepth(1.0);
     vec3 position = positionFromDistance(pixel, distance);
-    GbufferSample g =
-        GbufferSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 0.0, 1.0, false, vec3(0.0));
+    GbufferSample g = GbufferSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 0.0, 1.0, false, vec3(0.0),
+                                    usualDielectric());
     if (covered) {
         VisibleTriangle t = fetchTriangle(id);
         distance = solidDistance(t, pixel, depth);
@@ -48,8 +48,8 @@ void main() {
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
     LightSum sum = sumLights(s, pixel, distance, covered && !g.unlit);
-    vec3 lit = shadeSum(sum, g.base_color, g.metallic) +
-               ambientRadiance(s, g.base_color, g.metallic, g.occlusion) + g.emissive;
+    vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
+               ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) + g.emissive;
     if (g.unlit) {
         lit = g.base_color;
     }

@@ -64,7 +64,7 @@ Json serviceReport() {
 // there, what is left out and where memory goes is best told by doing it.
 Json drawOnce(gpu::Device& device, const scene::Scene& scene) {
     view::ViewSettings settings;
-    settings.camera = findCamera(DefaultCamera{}, scene).value();
+    settings.camera = findCamera(DefaultCamera{}, scene, settings.size).value();
     render::Renderer renderer(device, scene);
     render::ViewRenderer viewer(renderer);
     viewer.submit({.settings = settings}).value();

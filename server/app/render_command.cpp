@@ -99,11 +99,12 @@ void runRender(const RenderOptions& options) try {
     }
     gpu::Device device(options.device);
     auto run = describeRun(options, device.traits());
-    run.settings.camera = findCamera(options.camera, scene).value();
+    run.settings.camera = findCamera(options.camera, scene, run.settings.size).value();
     auto& lens_shift = run.settings.camera.lens_shift;
     lens_shift = options.lens_shift.value_or(lens_shift);
     if (options.grid_camera) {
-        run.settings.debug.grid_camera = findCamera(*options.grid_camera, scene).value();
+        run.settings.debug.grid_camera =
+            findCamera(*options.grid_camera, scene, run.settings.size).value();
     }
     render::Renderer renderer(device, scene);
     render::ViewRenderer viewer(renderer);

@@ -13,9 +13,10 @@ namespace {
 
 struct Finder {
     const scene::Scene& scene;
+    const view::Size& size;
 
     Result<view::Camera> operator()(const DefaultCamera&) const {
-        return scene::firstCamera(scene.cameras, scene.bounds_world);
+        return scene::firstCamera(scene, size);
     }
     Result<view::Camera> operator()(const view::Camera& camera) const { return camera; }
     Result<view::Camera> operator()(const std::string& name) const {
@@ -35,8 +36,9 @@ struct Finder {
 
 } // namespace
 
-Result<view::Camera> findCamera(const CameraChoice& choice, const scene::Scene& scene) {
-    return std::visit(Finder{scene}, choice);
+Result<view::Camera>
+findCamera(const CameraChoice& choice, const scene::Scene& scene, const view::Size& size) {
+    return std::visit(Finder{scene, size}, choice);
 }
 
 } // namespace froxel::app

@@ -6,8 +6,9 @@
 
 namespace froxel::app {
 
-// Errors: kInvalidArgument, naming the camera asked for and those that the scene has.
-[[nodiscard]] Result<view::Camera> findCamera(const CameraChoice& choice,
-                                              const scene::Scene& scene);
+// size: of the pictures. Errors: kInvalidArgument, naming the camera asked for and those that the
+// scene has.
+[[nodiscard]] Result<view::Camera>
+findCamera(const CameraChoice& choice, const scene::Scene& scene, const view::Size& size);
 
 } // namespace froxel::app

@@ -2,6 +2,7 @@
 
 #include "bench/progress.h"
 #include "core/clock.h"
+#include "render/frame_plan.h"
 #include "render/gbuffer_layout.h"
 #include "render/renderer.h"
 
@@ -26,7 +27,8 @@ std::optional<uint32_t> gbufferBytes(const view::ViewSettings& settings,
     }
     const bool lambert = settings.shading == view::ShadingModel::kLambert;
     return render::gbufferBytesPerPixel(settings.gbuffer,
-                                        lambert ? needs.wide_lambert : needs.wide_gbuffer);
+                                        lambert ? needs.wide_lambert : needs.wide_gbuffer,
+                                        render::storesSpecular(settings, needs.specular));
 }
 
 } // namespace

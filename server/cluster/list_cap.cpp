@@ -96,7 +96,7 @@ double mostIrradiance(const light::FrameLights& lights,
     const double window = std::max(0.0, 1.0 - share * share);
     // A rectangle's corners may be nearer than its centre.
     const double extent = static_cast<double>(light::extentOf(lights, light));
-    const double nearest = std::max(std::sqrt(distance2) - extent, light::kNearest_m);
+    const double nearest = std::max(std::sqrt(distance2) - extent, lights.nearest_m);
     return light::strongestChannel(light.color) * window * window / (nearest * nearest);
 }
 

@@ -18,14 +18,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 8> kSupportedExtensions{
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_materials_emissive_strength",
+constexpr std::array<std::string_view, 11> kSupportedExtensions{
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",     "KHR_materials_unlit",
+    "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
     "KHR_texture_transform",
 };
 
@@ -66,6 +64,8 @@ struct KindTable {
         {"color", kNumbers},
         {"componentType", kIndex},
         {"count", kIndex},
+        {"diffuseFactor", kNumbers},
+        {"diffuseTexture", kObject},
         {"doubleSided", kBool},
         {"emissiveFactor", kNumbers},
         {"emissiveStrength", kNumber},
@@ -74,11 +74,13 @@ struct KindTable {
         {"extensionsRequired", kTexts},
         {"extensionsUsed", kTexts},
         {"filter", kText},
+        {"glossinessFactor", kNumber},
         {"images", kObjects},
         {"index", kIndex},
         {"indices", kIndex | kObject},
         {"innerConeAngle", kNumber},
         {"intensity", kNumber},
+        {"ior", kNumber},
         {"light", kIndex},
         {"lights", kObjects},
         {"magFilter", kIndex},
@@ -115,6 +117,11 @@ struct KindTable {
         {"skin", kIndex},
         {"source", kIndex},
         {"sparse", kObject},
+        {"specularColorFactor", kNumbers},
+        {"specularColorTexture", kObject},
+        {"specularFactor", kNumber | kNumbers},
+        {"specularGlossinessTexture", kObject},
+        {"specularTexture", kObject},
         {"spot", kObject},
         {"strength", kNumber},
         {"targets", kObjects},

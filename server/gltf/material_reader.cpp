@@ -86,6 +86,31 @@ glm::vec2 pairOr(const tinygltf::Value& object,
     return pair;
 }
 
+// An extension's `count` factors; of a number outside a float's range the loader knows already, but
+// not of one in an array.
+std::vector<double> factorsOr(const tinygltf::Value& object,
+                              const char* key,
+                              const std::vector<double>& fallback,
+                              const std::string& name) {
+    if (!object.Has(key)) {
+        return fallback;
+    }
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsArray() || value.ArrayLen() != fallback.size()) {
+        fail(name + " has a wrong " + key + "; right is an array of " +
+             std::to_string(fallback.size()) + " numbers");
+    }
+    std::vector<double> factors;
+    for (size_t i = 0; i < fallback.size(); ++i) {
+        factors.push_back(value.Get(static_cast<int>(i)).GetNumberAsDouble());
+        if (std::abs(factors.back()) > double{std::numeric_limits<float>::max()}) {
+            fail(name + " has the " + key + " " + numberText(factors.back()) +
+                 "; right are numbers that single precision holds");
+        }
+    }
+    return factors;
+}
+
 } // namespace
 
 float MaterialReader::unit(double value, const char* factor, const std::string& name) {
@@ -120,13 +145,14 @@ uint32_t MaterialReader::material(int index, const std::string& user) {
 scene::Material MaterialReader::read(const tinygltf::Material& source, const std::string& name) {
     scene::Material material;
     material.name = source.name;
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    for (int i = 0; i < 4; ++i) {
-        material.base_color[i] =
-            unit(pbr.baseColorFactor[static_cast<size_t>(i)], "baseColorFactor", name);
+    material.unlit = findExtension(source.extensions, "KHR_materials_unlit") != nullptr;
+    const auto* glossiness =
+        findExtension(source.extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (glossiness != nullptr && !material.unlit) {
+        readGlossiness(*glossiness, name, material);
+    } else {
+        readMetallicRoughness(source, name, material);
     }
-    material.metallic = unit(pbr.metallicFactor, "metallicFactor", name);
-    material.roughness = unit(pbr.roughnessFactor, "roughnessFactor", name);
     material.normal_scale = static_cast<float>(source.normalTexture.scale);
     material.occlusion_strength = unit(source.occlusionTexture.strength, "strength", name);
     double strength = 1;
@@ -144,14 +170,104 @@ scene::Material MaterialReader::read(const tinygltf::Material& source, const std
     material.alpha_mode = alphaModeFrom(source.alphaMode, name);
     material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
     material.double_sided = source.doubleSided;
-    material.unlit = findExtension(source.extensions, "KHR_materials_unlit") != nullptr;
-    material.base_color_texture = slot(pbr.baseColorTexture, name + " baseColorTexture");
-    material.metallic_roughness_texture =
-        slot(pbr.metallicRoughnessTexture, name + " metallicRoughnessTexture");
     material.normal_texture = slot(source.normalTexture, name + " normalTexture");
     material.occlusion_texture = slot(source.occlusionTexture, name + " occlusionTexture");
     material.emissive_texture = slot(source.emissiveTexture, name + " emissiveTexture");
     return material;
+}
+
+// With what says how its dielectric part reflects, where it is lit.
+void MaterialReader::readMetallicRoughness(const tinygltf::Material& source,
+                                           const std::string& name,
+                                           scene::Material& material) {
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    for (int i = 0; i < 4; ++i) {
+        material.base_color[i] =
+            unit(pbr.baseColorFactor[static_cast<size_t>(i)], "baseColorFactor", name);
+    }
+    material.metallic = unit(pbr.metallicFactor, "metallicFactor", name);
+    material.roughness = unit(pbr.roughnessFactor, "roughnessFactor", name);
+    material.base_color_texture = slot(pbr.baseColorTexture, name + " baseColorTexture");
+    material.metallic_roughness_texture =
+        slot(pbr.metallicRoughnessTexture, name + " metallicRoughnessTexture");
+    if (!material.unlit) {
+        readSpecular(source.extensions, name, material);
+    }
+}
+
+// KHR_materials_ior and KHR_materials_specular.
+void MaterialReader::readSpecular(const tinygltf::ExtensionMap& extensions,
+                                  const std::string& name,
+                                  scene::Material& material) {
+    if (const auto* ext = findExtension(extensions, "KHR_materials_ior")) {
+        const double ior = numberOr(*ext, "ior", 1.5);
+        if (ior == 0 || ior >= 1) {
+            material.ior = static_cast<float>(ior);
+        } else {
+            warnings_.add(name + " has the ior " + numberText(ior) +
+                          "; 1.5 is used, since right is 0 or at least 1");
+        }
+    }
+    if (const auto* ext = findExtension(extensions, "KHR_materials_specular")) {
+        if (ext->Has("specularFactor") && !ext->Get("specularFactor").IsNumber()) {
+            fail(name + " has a wrong specularFactor; right is a number");
+        }
+        material.specular = unit(numberOr(*ext, "specularFactor", 1), "specularFactor", name);
+        const auto color = factorsOr(*ext, "specularColorFactor", {1, 1, 1}, name);
+        for (size_t i = 0; i < color.size(); ++i) {
+            if (color[i] < 0) {
+                warnings_.add(name + " has the specularColorFactor " + numberText(color[i]) +
+                              "; 0 is used, since right is 0 or more");
+            }
+            material.specular_color[static_cast<int>(i)] =
+                static_cast<float>(std::max(color[i], 0.0));
+        }
+        material.specular_texture = slotIn(*ext, "specularTexture", name);
+        material.specular_color_texture = slotIn(*ext, "specularColorTexture", name);
+    }
+}
+
+// KHR_materials_pbrSpecularGlossiness, in place of metalness and roughness: a dielectric that would
+// reflect everything, times its specular colour.
+void MaterialReader::readGlossiness(const tinygltf::Value& extension,
+                                    const std::string& name,
+                                    scene::Material& material) {
+    const auto diffuse = factorsOr(extension, "diffuseFactor", {1, 1, 1, 1}, name);
+    const auto specular = factorsOr(extension, "specularFactor", {1, 1, 1}, name);
+    for (size_t i = 0; i < diffuse.size(); ++i) {
+        material.base_color[static_cast<int>(i)] = unit(diffuse[i], "diffuseFactor", name);
+    }
+    for (size_t i = 0; i < specular.size(); ++i) {
+        material.specular_color[static_cast<int>(i)] = unit(specular[i], "specularFactor", name);
+    }
+    material.base_color_texture = slotIn(extension, "diffuseTexture", name);
+    material.metallic = 0;
+    material.roughness =
+        1 - unit(numberOr(extension, "glossinessFactor", 1), "glossinessFactor", name);
+    material.ior = 0;
+    material.specular_color_texture = slotIn(extension, "specularGlossinessTexture", name);
+    material.glossiness_texture = material.specular_color_texture.texture != scene::kNone;
+}
+
+scene::TextureSlot
+MaterialReader::slotIn(const tinygltf::Value& extension, const char* key, const std::string& name) {
+    if (!extension.Has(key)) {
+        return {};
+    }
+    const tinygltf::Value& value = extension.Get(key);
+    tinygltf::TextureInfo info;
+    info.index = intOr(value, "index", -1);
+    if (info.index < 0) {
+        fail(name + " has a " + key + " without an index, which is required");
+    }
+    info.texCoord = intOr(value, "texCoord", 0);
+    if (value.Has("extensions")) {
+        const tinygltf::Value& extensions = value.Get("extensions");
+        for (const std::string& extension_name : extensions.Keys()) {
+            info.extensions[extension_name] = extensions.Get(extension_name);
+        }
+    }
+    return slot(info, name + " " + key);
 }
 
 template <class Info>

@@ -28,6 +28,18 @@ class MaterialReader {
 
   private:
     [[nodiscard]] scene::Material read(const tinygltf::Material& source, const std::string& name);
+    void readMetallicRoughness(const tinygltf::Material& source,
+                               const std::string& name,
+                               scene::Material& material);
+    void readSpecular(const tinygltf::ExtensionMap& extensions,
+                      const std::string& name,
+                      scene::Material& material);
+    void readGlossiness(const tinygltf::Value& extension,
+                        const std::string& name,
+                        scene::Material& material);
+    // A texture that an extension's object names; none where it does not.
+    [[nodiscard]] scene::TextureSlot
+    slotIn(const tinygltf::Value& extension, const char* key, const std::string& name);
     template <class Info>
     [[nodiscard]] scene::TextureSlot slot(const Info& info, const std::string& user);
     [[nodiscard]] uint32_t texture(size_t index, const std::string& user);

@@ -8,6 +8,9 @@ namespace {
 constexpr const char* kTransform = "KHR_texture_transform";
 constexpr const char* kUnlit = "KHR_materials_unlit";
 constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
+constexpr const char* kIor = "KHR_materials_ior";
+constexpr const char* kSpecular = "KHR_materials_specular";
+constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 Json slotJson(const scene::TextureSlot& slot, std::set<std::string>& extensions) {
     Json json = {{"index", slot.texture}};
@@ -43,6 +46,49 @@ Json pbrJson(const scene::Material& m, std::set<std::string>& extensions) {
         pbr["metallicRoughnessTexture"] = slotJson(m.metallic_roughness_texture, extensions);
     }
     return pbr;
+}
+
+Json colorJson(const glm::vec3& color) {
+    return {color.x, color.y, color.z};
+}
+
+// What the dielectric part reflects, in members of their own.
+void addSpecular(const scene::Material& m, Json& json, std::set<std::string>& extensions) {
+    if (m.ior != 1.5F) {
+        extensions.insert(kIor);
+        json["extensions"][kIor] = {{"ior", m.ior}};
+    }
+    Json specular = Json::object();
+    if (m.specular != 1) {
+        specular["specularFactor"] = m.specular;
+    }
+    if (m.specular_color != glm::vec3(1)) {
+        specular["specularColorFactor"] = colorJson(m.specular_color);
+    }
+    if (m.specular_texture.texture != scene::kNone) {
+        specular["specularTexture"] = slotJson(m.specular_texture, extensions);
+    }
+    if (m.specular_color_texture.texture != scene::kNone) {
+        specular["specularColorTexture"] = slotJson(m.specular_color_texture, extensions);
+    }
+    if (!specular.empty()) {
+        extensions.insert(kSpecular);
+        json["extensions"][kSpecular] = std::move(specular);
+    }
+}
+
+// A material whose roughness is in its specular colour's texture: no other extension has that.
+void addGlossiness(const scene::Material& m, Json& json, std::set<std::string>& extensions) {
+    Json glossiness = {
+        {"diffuseFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}},
+        {"specularFactor", colorJson(m.specular_color)},
+        {"glossinessFactor", 1 - m.roughness},
+        {"specularGlossinessTexture", slotJson(m.specular_color_texture, extensions)}};
+    if (m.base_color_texture.texture != scene::kNone) {
+        glossiness["diffuseTexture"] = slotJson(m.base_color_texture, extensions);
+    }
+    extensions.insert(kGlossiness);
+    json["extensions"][kGlossiness] = std::move(glossiness);
 }
 
 int wrapCode(scene::Wrap wrap) {
@@ -97,6 +143,11 @@ Json materialJson(const scene::Material& m, std::set<std::string>& extensions) {
     if (m.unlit) {
         extensions.insert(kUnlit);
         json["extensions"][kUnlit] = Json::object();
+    }
+    if (m.glossiness_texture) {
+        addGlossiness(m, json, extensions);
+    } else {
+        addSpecular(m, json, extensions);
     }
     if (m.alpha_mode == scene::AlphaMode::kMask) {
         json["alphaMode"] = "MASK";

@@ -1,14 +1,23 @@
 // What a light's strength follows from, in double (shaders/lib/brdf.glsl has it in fp32).
 #pragma once
 
-#include <glm/vec3.hpp>
+#include "core/math.h"
 
 #include <algorithm>
 
 namespace froxel::light {
 
-// Nearer than this a light's distance counts as this.
+// Nearer than this a light's distance counts as this; in a small scene than less.
 inline constexpr double kNearest_m = 0.01;
+
+// That distance: a 400th of the scene's diagonal, but at most 1 cm, so that scenes of 4 m and more
+// have that. A small scene and its lights then look like the same ones made larger.
+[[nodiscard]] inline double nearestDistance(const BoundsD3& scene_bounds_world) {
+    constexpr double kLeast_m = 1e-15; // a scene of one point
+    return scene_bounds_world.empty()
+               ? kNearest_m
+               : std::clamp(glm::length(scene_bounds_world.size()) / 400, kLeast_m, kNearest_m);
+}
 
 [[nodiscard]] inline double strongestChannel(const glm::vec3& color) {
     return static_cast<double>(std::max({color.x, color.y, color.z}));

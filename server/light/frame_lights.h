@@ -3,6 +3,7 @@
 
 #include "interface/area_io.h"
 #include "interface/light_io.h"
+#include "light/falloff.h"
 
 #include <glm/geometric.hpp>
 
@@ -28,6 +29,7 @@ struct FrameLights {
     std::vector<io::AreaLight> areas; // named by io::Spot::area
     uint32_t first_area = 0;          // of lights; where there are areas
     std::vector<io::DirectionalLight> directionals;
+    double nearest_m = kNearest_m; // nearestDistance() of the scene
 };
 
 // From a light's centre to its farthest corner, metres; 0 where it is a point.

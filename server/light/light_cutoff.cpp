@@ -9,7 +9,7 @@
 
 namespace froxel::light {
 
-double cutRadius(const glm::vec3& color, double radius_m, double cutoff) {
+double cutRadius(const glm::vec3& color, double radius_m, double cutoff, double nearest_m) {
     const double strongest = strongestChannel(color);
     if (!(strongest > 0)) {
         return 0;
@@ -24,7 +24,7 @@ double cutRadius(const glm::vec3& color, double radius_m, double cutoff) {
         const double d3 = d * d * d;
         d += (1.0 - d3 * d * inv_r4 - d * s) / (4.0 * d3 * inv_r4 + s);
     }
-    return d > kNearest_m ? d : 0.0;
+    return d > nearest_m ? d : 0.0;
 }
 
 void cutLights(FrameLights& lights, double cutoff, bool compensated) {
@@ -33,7 +33,7 @@ void cutLights(FrameLights& lights, double cutoff, bool compensated) {
         for (size_t i = begin; i < end; ++i) {
             io::Light& light = lights.lights[i];
             const auto whole = static_cast<double>(lights.radii_m[i]);
-            const double radius = cutRadius(light.color, whole, cutoff);
+            const double radius = cutRadius(light.color, whole, cutoff, lights.nearest_m);
             if (compensated && radius > 0 && std::isfinite(whole)) {
                 light.color *= static_cast<float>(whole / radius);
             }

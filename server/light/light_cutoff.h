@@ -9,8 +9,9 @@ namespace froxel::light {
 
 // Where a light of this colour and radius (metres; infinity: none) has fallen to an irradiance of
 // `cutoff` > 0 in its strongest channel: the root of strongest * window(d) / d^2 = cutoff. 0 where
-// it is weaker than that everywhere a surface can be (1 cm and beyond).
-[[nodiscard]] double cutRadius(const glm::vec3& color, double radius_m, double cutoff);
+// it is weaker than that everywhere it is told from nearer places: from nearest_m on.
+[[nodiscard]] double
+cutRadius(const glm::vec3& color, double radius_m, double cutoff, double nearest_m);
 
 // Gives every local light its cut radius. Within it a light is windowed anew, so it is darker than
 // it was and still ends smoothly.

@@ -221,6 +221,7 @@ void LightRig::evaluate(const view::Lights& settings,
     out.cones.clear();
     out.areas.clear();
     out.directionals.clear();
+    out.nearest_m = nearestDistance(scene_bounds_world_);
     fillSeededLights(settings, camera, seededBox(settings), time_s, out.lights);
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     eachSeededStandIn(settings, [&](uint32_t index, const scene::PunctualLight& light) {

@@ -12,14 +12,8 @@ namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
 
-// The colours of glTF's mixed dielectric and metal.
-struct Colors {
-    glm::dvec3 diffuse;
-    glm::dvec3 f0;
-};
-
-Colors colorsOf(const Surface& s) {
-    return {s.base_color * (1 - s.metallic), glm::mix(glm::dvec3(0.04), s.base_color, s.metallic)};
+double greatest(const glm::dvec3& color) {
+    return std::max({color.x, color.y, color.z});
 }
 
 glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
@@ -28,8 +22,10 @@ glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     if (model.shading == view::ShadingModel::kLambert) {
         return incoming * s.base_color * s.occlusion;
     }
-    const Colors colors = colorsOf(s);
-    return incoming * (colors.diffuse + colors.f0) * s.occlusion;
+    // Scaled so that a usual dielectric returns its base colour and its f0.
+    const glm::dvec3 dielectric =
+        s.base_color * ((1 - greatest(s.dielectric_f0)) / 0.96) + s.dielectric_f0;
+    return incoming * glm::mix(dielectric, s.base_color, s.metallic) * s.occlusion;
 }
 
 } // namespace
@@ -40,14 +36,16 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     if (model.shading == view::ShadingModel::kLambert) {
         return s.base_color * (scattered * kInvPi);
     }
-    const Colors colors = colorsOf(s);
     const glm::dvec3 sum = to_light + s.to_eye;
     const double length = glm::length(sum);
     const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
-    const glm::dvec3 fresnel =
-        colors.f0 +
-        (1.0 - colors.f0) * fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
-    glm::dvec3 out = (1.0 - fresnel) * colors.diffuse * (scattered * kInvPi);
+    const double edge = fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
+    const glm::dvec3 of_dielectric = glm::mix(s.dielectric_f0, glm::dvec3(s.dielectric_f90), edge);
+    const glm::dvec3 of_metal = s.base_color + (1.0 - s.base_color) * edge;
+    // Appendix B: both models are whole, and metalness mixes what they give. A dielectric scatters
+    // what the strongest reflected channel leaves (KHR_materials_specular).
+    glm::dvec3 out =
+        s.base_color * ((1 - greatest(of_dielectric)) * (1 - s.metallic) * scattered * kInvPi);
     if (facing > 0) {
         const double alpha = std::pow(std::max(s.roughness, kLeastRoughness), 2);
         const double alpha2 = alpha * alpha;
@@ -57,7 +55,7 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
                 ? blinnPhong(n_dot_h, alpha2)
                 : distribution(n_dot_h, alpha2) *
                       visibility(facing, std::abs(glm::dot(s.normal, s.to_eye)), alpha2);
-        out += fresnel * (facing * lobe);
+        out += glm::mix(of_dielectric, of_metal, s.metallic) * (facing * lobe);
     }
     return out;
 }
@@ -71,7 +69,8 @@ double attenuation(const PointLight& light, const glm::dvec3& to_light) {
     const double window = 1 - x * x;
     const double along = -glm::dot(light.direction, to_light) / std::sqrt(d2);
     const double share = std::clamp(along * light.cone_scale + light.cone_offset, 0.0, 1.0);
-    return window * window / (light.rectangle ? d2 : std::max(d2, kFloor2_m2)) * share * share;
+    const double floor2 = light.rectangle ? 0 : light.nearest_m * light.nearest_m;
+    return window * window / std::max(d2, floor2) * share * share;
 }
 
 // As many points of a rectangle, each a small light of the same radiance; nothing of it lies nearer

@@ -10,9 +10,8 @@
 namespace froxel::reference {
 
 inline constexpr double kLeastRoughness = 0.045; // a smaller highlight would slip between pixels
-// A light's irradiance is colour * window / max(d^2, kFloor2), window = max(0, 1 - (d^2/r^2)^2)^2:
+// A light's irradiance is colour * window / max(d, nearest)^2, window = max(0, 1 - (d^2/r^2)^2)^2:
 // exactly 0 from its radius on.
-inline constexpr double kFloor2_m2 = 1e-4; // (1 cm)^2
 
 // Everything is in the world's axes; `position` is relative to the eye.
 struct Surface {
@@ -21,6 +20,8 @@ struct Surface {
     glm::dvec3 to_eye{0, 1, 0}; // unit
     glm::dvec3 base_color{1};
     double metallic = 0;
+    glm::dvec3 dielectric_f0{0.04}; // what its dielectric part reflects, head-on
+    double dielectric_f90 = 1;      // and at grazing angles
     double roughness = 1;
     double occlusion = 1;
     glm::dvec3 emissive{0};

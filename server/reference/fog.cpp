@@ -9,8 +9,7 @@
 namespace froxel::reference {
 namespace {
 
-constexpr double kLeastDistance_m = 0.01; // the falloff's ceiling, as on surfaces
-constexpr double kFarthest_m = 1e9;       // stands for infinity
+constexpr double kFarthest_m = 1e9; // stands for infinity
 
 double squared(double x) {
     return x * x;
@@ -109,7 +108,7 @@ glm::dvec3 Medium::scattered(const PointLight& light, const Ray& ray, double len
         return glm::dvec3(0);
     }
     // t = scale tan(angle) past the place nearest to the light.
-    const double scale = std::max(beside, kLeastDistance_m);
+    const double scale = std::max(beside, light.nearest_m);
     const double from = std::atan2(first, scale);
     const double half_angle = (std::atan2(last, scale) - from) / 2;
     double sum = 0;
@@ -126,7 +125,7 @@ glm::dvec3 Medium::scattered(const PointLight& light, const Ray& ray, double len
         const double cone =
             squared(std::clamp(towards * light.cone_scale + light.cone_offset, 0.0, 1.0));
         double reached = phase(static_cast<double>(fog_.anisotropy), -t / d) /
-                         std::max(d2, squared(kLeastDistance_m));
+                         std::max(d2, squared(light.nearest_m));
         if (light.rectangle) {
             reached = fromRectangle(light, point, away);
         }

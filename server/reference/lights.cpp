@@ -89,6 +89,9 @@ Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings
 Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, double time_s) {
     const light::LightRig rig(scene);
     Lights lights = unshadowed(rig, settings, time_s);
+    for (PointLight& point : lights.points) {
+        point.nearest_m = light::nearestDistance(scene.bounds_world);
+    }
     if (settings.shadows.light_count > 0) {
         addShadows(rig, scene.bounds_world, settings, time_s, lights);
     }

@@ -1,6 +1,7 @@
 // The lights of a frame in double, from their definitions.
 #pragma once
 
+#include "light/falloff.h"
 #include "scene/scene.h"
 #include "view/settings.h"
 
@@ -19,6 +20,7 @@ struct PointLight {
     glm::dvec3 direction{0}; // the way the light travels
     double cone_scale = 0;
     double cone_offset = 1;
+    double nearest_m = light::kNearest_m; // a smaller distance counts as this
     // A rectangle's halves, perpendicular to the direction, which it shines to as a whole.
     struct Rectangle {
         glm::dvec3 half_right{0};

@@ -58,6 +58,8 @@ Materials::Materials(const scene::Scene& scene,
             look.normal = slot(m.normal_texture, false);
             look.occlusion = slot(m.occlusion_texture, false);
             look.emissive = slot(m.emissive_texture, true);
+            look.specular = slot(m.specular_texture, false);
+            look.specular_color = slot(m.specular_color_texture, true);
         }
         looks_.emplace(index, look);
     }
@@ -136,6 +138,16 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     s.occlusion = 1 + static_cast<double>(m.occlusion_strength) * (occlusion - 1);
     s.emissive = glm::dvec3(m.emissive) * glm::dvec3(sample(look.emissive, point));
     s.unlit = m.unlit;
+    const glm::dvec4 specular_color = sample(look.specular_color, point);
+    const double ior = static_cast<double>(m.ior);
+    const double strength = static_cast<double>(m.specular) * sample(look.specular, point).w;
+    const glm::dvec3 head_on = glm::dvec3(m.specular_color) * glm::dvec3(specular_color) *
+                               (std::pow(ior - 1, 2) / std::pow(ior + 1, 2));
+    s.dielectric_f0 = glm::min(head_on, 1.0) * strength;
+    s.dielectric_f90 = strength;
+    if (m.glossiness_texture) {
+        s.roughness = 1 - (1 - static_cast<double>(m.roughness)) * specular_color.w;
+    }
     return s;
 }
 

@@ -36,6 +36,8 @@ class Materials {
         Slot normal;
         Slot occlusion;
         Slot emissive;
+        Slot specular;
+        Slot specular_color;
     };
 
     Slot slot(const scene::TextureSlot& settings, bool srgb);

@@ -54,7 +54,10 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
         inputs.geometry == GeometryPath::kAuto && !traits.is_cpu && traits.descriptor_indexing;
     const auto stage = inputs.settings.lighting;
     // Only the rasteriser writes one.
-    const bool second_target = extraFormat(inputs.settings.gbuffer) != vk::Format::eUndefined;
+    const bool second_target =
+        extraFormat(inputs.settings.gbuffer,
+                    storesSpecular(inputs.settings, scene_.needs.specular)) !=
+        vk::Format::eUndefined;
     const bool wanted =
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
@@ -89,11 +92,14 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
                                 ? scene_.needs.wide_lambert
                                 : scene_.needs.wide_gbuffer,
             .emission_exponent = scene_.needs.emission_exponent,
+            .specular = scene_.needs.specular,
+            .edges = scene_.needs.edges,
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
             .areas = !lights_.areas.empty(),
             .equal_radii = equalRadii(lights_, inputs.settings.lights),
+            .small_scene = lights_.nearest_m < light::kNearest_m,
             .long_loops = traits.is_cpu && longLoops(lists_, lights_, traits.subgroup_size),
             .directional = !lights_.directionals.empty(),
             .keep_radiance = inputs.keep_radiance,
@@ -291,6 +297,7 @@ FramePlan FrameBuilder::plan(ViewEffects& effects) {
                                   static_cast<uint32_t>(lights_.directionals.size()));
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
+    uniforms_.light_most_inverse2 = static_cast<float>(1 / (lights_.nearest_m * lights_.nearest_m));
     uniforms_.first_area = lights_.first_area;
     debug_.wires.clear();
     if (plan.debug != view::DebugView::kNone) {

@@ -43,6 +43,7 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= facts.spots ? io::kLightSpots : 0U;
         flags |= facts.areas ? io::kLightAreas : 0U;
         flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
+        flags |= facts.small_scene ? io::kLightSmallScene : 0U;
         flags |= facts.long_loops ? io::kLightLong : 0U;
         if (compute) {
             flags |= facts.compute_batches ? io::kLightBatched : 0U;
@@ -58,6 +59,7 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= io::kLightToon;
     }
     flags |= shadingFlag(settings.shading);
+    flags |= facts.edges && settings.shading != view::ShadingModel::kLambert ? io::kLightEdges : 0U;
     return flags;
 }
 
@@ -86,6 +88,11 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
 
 bool isForward(view::Renderer renderer) {
     return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
+}
+
+bool storesSpecular(const view::ViewSettings& settings, bool scene_specular) {
+    return scene_specular && !isForward(settings.renderer) &&
+           settings.shading != view::ShadingModel::kLambert;
 }
 
 bool FramePlan::hasEffect(EffectPlace place) const {
@@ -186,10 +193,12 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
     const uint32_t pixels = io::kOutputPixels | tone;
     const view::GbufferLayout layout = // a forward renderer's, for a debug view: the default
         isForward(settings.renderer) ? view::GbufferLayout{} : settings.gbuffer;
-    plan.gbuffer_output_flags = plan.gbuffer ? wide | layoutFlags(layout) : 0U;
+    const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
+    plan.gbuffer_output_flags = plan.gbuffer ? wide | specular | layoutFlags(layout) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
     if (settings.shading == view::ShadingModel::kLambert) {
-        plan.gbuffer_unused_material_flags = io::kMaterialRoughnessTexture;
+        plan.gbuffer_unused_material_flags =
+            io::kMaterialRoughnessTexture | io::kMaterialSpecularAll;
     }
     if (compute_lights) {
         plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;

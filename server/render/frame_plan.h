@@ -14,12 +14,15 @@ namespace froxel::render {
 struct FrameFacts {
     bool wide_gbuffer = false;        // SceneNeeds::wide_gbuffer
     uint32_t emission_exponent = 0;   // SceneNeeds::emission_exponent
+    bool specular = false;            // SceneNeeds::specular
+    bool edges = false;               // SceneNeeds::edges
     bool transparent_visible = false; // blended surfaces are in view
     bool local_lights = false;        // any light that has a place
     bool spots = false;
     bool areas = false;       // some of the spots are rectangles
     bool shadows = false;     // some of them have shadow maps
     bool equal_radii = false; // all local lights reach equally far
+    bool small_scene = false; // light::nearestDistance() is less than usual
     bool long_loops = false;  // more iterations than a software rasteriser's loops may have
     bool directional = false;
     bool keep_radiance = false;    // the linear picture is asked for
@@ -91,6 +94,9 @@ struct FramePlan {
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.
 [[nodiscard]] bool isForward(view::Renderer renderer);
+
+// Whether the G-buffer has a word of what dielectrics reflect.
+[[nodiscard]] bool storesSpecular(const view::ViewSettings& settings, bool scene_specular);
 
 // What the settings' pictures are drawn at: twice the sides where pixels have four samples.
 [[nodiscard]] view::Size drawnSize(const view::ViewSettings& settings);

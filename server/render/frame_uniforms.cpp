@@ -47,7 +47,7 @@ void fillGrid(const cluster::ClusterGrid& grid, io::Frame& frame) {
 } // namespace
 
 ViewProjection makeProjection(const view::Camera& camera, const view::Size& size, double far_m) {
-    const double aspect = static_cast<double>(size.width_px) / size.height_px;
+    const double aspect = view::aspectOf(size);
     ViewProjection p;
     const double half = camera.projection == view::Projection::kPerspective
                             ? std::tan(camera.yfov_rad * 0.5)

@@ -13,6 +13,7 @@ inline void growForHalves(const light::FrameLights& lights, light::FrameLights& 
     constexpr size_t kLightsPerThread = 32'768;
     grown.lights = lights.lights;
     grown.radii_m = lights.radii_m;
+    grown.nearest_m = lights.nearest_m;
     const size_t count = grown.lights.size();
     onThreads(count, threadCount(count, kLightsPerThread),
               [&](size_t /*part*/, size_t begin, size_t end) {

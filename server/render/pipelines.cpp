@@ -3,6 +3,7 @@
 #include "embedded.h"
 #include "interface/constants.h"
 #include "interface/peel_io.h"
+#include "interface/visibility_io.h"
 #include "render/gbuffer_layout.h"
 
 #include <algorithm>
@@ -37,8 +38,8 @@ vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
 }
 
 vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
-    // Uniforms, five textures.
-    std::array<vk::DescriptorSetLayoutBinding, 6> bindings;
+    // Uniforms, textures.
+    std::array<vk::DescriptorSetLayoutBinding, 1 + io::kTexturesOfMaterial> bindings;
     for (uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {.binding = i,
                        .descriptorType =

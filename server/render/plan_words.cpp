@@ -1,6 +1,7 @@
 #include "render/plan_words.h"
 
 #include "interface/constants.h"
+#include "interface/gbuffer_io.h"
 #include "render/gbuffer_layout.h"
 
 #include <algorithm>
@@ -90,6 +91,10 @@ void addLightWords(Lines& lines,
         }
     }
     addWordsAt(lines, settings, plan, EffectPlace::kLights);
+    if ((flags & io::kLightEdges) != 0) {
+        lines.emplace_back("specular strength below 1: lights also add up what surfaces scatter "
+                           "at their edges");
+    }
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
     }
@@ -112,12 +117,17 @@ void addSolidWords(Lines& lines,
                         (plan.cull_meshlets ? "" : ", nothing culled"));
     }
     if (plan.gbuffer) {
+        const bool specular = (plan.gbuffer_output_flags & io::kOutputSpecular) != 0;
         const auto bytes =
-            std::to_string(gbufferBytesPerPixel(settings.gbuffer, facts.wide_gbuffer));
+            std::to_string(gbufferBytesPerPixel(settings.gbuffer, facts.wide_gbuffer, specular));
         lines.push_back((facts.wide_gbuffer
                              ? "metalness, occlusion, emission or unlit surfaces: G-buffer of "
                              : "no metalness, occlusion, emission or unlit: G-buffer of ") +
                         bytes + " bytes a pixel");
+        if (specular) {
+            lines.emplace_back("ior, specular or glossiness: a word of it is in the G-buffer's "
+                               "second target, which only the rasteriser writes");
+        }
     } else {
         lines.emplace_back(view::replacesPicture(plan.debug)
                                ? "no G-buffer: depth alone"
@@ -189,18 +199,17 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
     const auto materials = [&](const char* what, uint32_t flag, const char* none) {
         return share(what, with(needs, flag), total, "materials", none);
     };
-    const uint32_t textures = io::kMaterialBaseColorTexture | io::kMaterialNormalTexture |
-                              io::kMaterialRoughnessTexture | io::kMaterialOcclusionTexture |
-                              io::kMaterialEmissiveTexture;
     const auto& lights = needs.lights;
     return {
-        materials("textures", textures, "no textures: nothing is sampled"),
+        materials("textures", io::kMaterialTextures, "no textures: nothing is sampled"),
         materials("normal maps", io::kMaterialNormalTexture, "no normal maps: no tangent frames"),
         materials("metallic-roughness textures", io::kMaterialRoughnessTexture,
                   "no metallic-roughness textures"),
         materials("alpha masks", io::kMaterialMask, "no alpha masks: no discard"),
         materials("blending", io::kMaterialBlend, "no blended materials: no sort, no blend pass"),
         materials("unlit shading", io::kMaterialUnlit, "no unlit materials"),
+        materials("ior, specular or glossiness", io::kMaterialSpecular,
+                  "no ior, specular or glossiness: dielectrics reflect 4 % head-on"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,

@@ -24,7 +24,7 @@ bool needsVisibility(const FrameInputs& inputs) {
 }
 
 // Whether the debug view can show what was asked for. Errors: kUnsupported.
-Result<void> showable(const FrameInputs& inputs) {
+Result<void> showable(const FrameInputs& inputs, bool specular) {
     const auto& settings = inputs.settings;
     const view::DebugView debug = settings.debug.view;
     const std::string name = "debug_view: " + std::string(view::nameOf(debug));
@@ -39,10 +39,22 @@ Result<void> showable(const FrameInputs& inputs) {
                          "toon_compute"};
     }
     if (debug == view::DebugView::kGbufferExtra &&
-        extraFormat(settings.gbuffer) == vk::Format::eUndefined) {
+        extraFormat(settings.gbuffer, specular) == vk::Format::eUndefined) {
         return Error{ErrorCode::kUnsupported,
                      name + " is not available for this G-buffer layout, which has one target; use "
                             "normal xyz16 or a position other than depth"};
+    }
+    return {};
+}
+
+// Whether the G-buffer has room for what the scene's materials ask for. Errors: kUnsupported.
+Result<void> storable(const FrameInputs& inputs, bool specular) {
+    if (specular && !holdsSpecular(inputs.settings.gbuffer)) {
+        return Error{
+            ErrorCode::kUnsupported,
+            "gbuffer: normal xyz16 with position fp32 leaves no room for the ior, specular "
+            "or glossiness of this scene's materials; use another normal, another "
+            "position, or a forward renderer"};
     }
     return {};
 }
@@ -72,8 +84,12 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
                                                   rendererName(inputs) + ", since " + why +
                                                   "; use auto or fragment"};
     }
-    if (auto shown = showable(inputs); !shown) {
+    const bool specular = storesSpecular(inputs.settings, scene.needs.specular);
+    if (auto shown = showable(inputs, specular); !shown) {
         return shown;
+    }
+    if (auto stored = storable(inputs, specular); !stored) {
+        return stored;
     }
     if (auto peeled = peelable(inputs, scene); !peeled) {
         return peeled;

@@ -17,6 +17,12 @@ bool transformed(const scene::TextureSlot& slot) {
             slot.scale != glm::vec2(1, 1));
 }
 
+bool reflectsUnusually(const scene::Material& m) {
+    return m.ior != 1.5F || m.specular != 1 || m.specular_color != glm::vec3(1) ||
+           m.specular_texture.texture != scene::kNone ||
+           m.specular_color_texture.texture != scene::kNone;
+}
+
 uint32_t materialFlags(const scene::Material& m) {
     uint32_t flags = 0;
     const auto set = [&](bool condition, uint32_t flag) { flags |= condition ? flag : 0U; };
@@ -34,6 +40,13 @@ uint32_t materialFlags(const scene::Material& m) {
     set(m.occlusion_texture.texture != scene::kNone, io::kMaterialOcclusionTexture);
     set(m.emissive_texture.texture != scene::kNone && m.emissive != glm::vec3(0),
         io::kMaterialEmissiveTexture);
+    set(reflectsUnusually(m), io::kMaterialSpecular);
+    set(m.specular_texture.texture != scene::kNone, io::kMaterialSpecularTexture);
+    set(m.specular_color_texture.texture != scene::kNone, io::kMaterialSpecularColorTexture);
+    set(m.specular_color_texture.texture != scene::kNone && m.glossiness_texture,
+        io::kMaterialGlossiness);
+    set(transformed(m.specular_texture) || transformed(m.specular_color_texture),
+        io::kMaterialUvTransform);
     set(transformed(m.normal_texture) || transformed(m.metallic_roughness_texture) ||
             transformed(m.occlusion_texture) || transformed(m.emissive_texture),
         io::kMaterialUvTransform);
@@ -70,6 +83,11 @@ SceneNeeds findNeeds(const scene::Scene& scene) {
         needs.wide_gbuffer |= needsWide(material, true);
         needs.wide_lambert |= needsWide(material, false);
         needs.emission_exponent = std::max(needs.emission_exponent, emissionExponent(material));
+        if (!material.unlit && reflectsUnusually(material)) {
+            needs.specular |= material.alpha_mode != scene::AlphaMode::kBlend;
+            needs.edges |=
+                material.specular != 1 || material.specular_texture.texture != scene::kNone;
+        }
         needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;
         needs.blended |= material.alpha_mode == scene::AlphaMode::kBlend;
     }

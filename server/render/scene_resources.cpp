@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "gpu/pipeline.h"
 #include "interface/frame_io.h"
+#include "interface/visibility_io.h"
 #include "render/list_limits.h"
 #include "scene/scene_check.h"
 
@@ -21,7 +22,7 @@ namespace {
 
 constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
 constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
-constexpr size_t kTexturesOfMaterial = 5;
+using io::kTexturesOfMaterial;
 
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);
@@ -33,6 +34,7 @@ io::UvTransform uvTransform(const scene::TextureSlot& slot) {
 }
 
 io::Material materialUniforms(const scene::Material& m) {
+    const float root = (m.ior - 1) / (m.ior + 1);
     return {.base_color = m.base_color,
             .emissive = m.emissive,
             .metallic = m.metallic,
@@ -40,11 +42,15 @@ io::Material materialUniforms(const scene::Material& m) {
             .normal_scale = m.normal_scale,
             .occlusion_strength = m.occlusion_strength,
             .alpha_cutoff = m.alpha_cutoff,
+            .specular_f0 = m.specular_color * (root * root),
+            .specular = m.specular,
             .uv_base_color = uvTransform(m.base_color_texture),
             .uv_normal = uvTransform(m.normal_texture),
             .uv_metallic_roughness = uvTransform(m.metallic_roughness_texture),
             .uv_occlusion = uvTransform(m.occlusion_texture),
-            .uv_emissive = uvTransform(m.emissive_texture)};
+            .uv_emissive = uvTransform(m.emissive_texture),
+            .uv_specular = uvTransform(m.specular_texture),
+            .uv_specular_color = uvTransform(m.specular_color_texture)};
 }
 
 std::vector<DrawItem>
@@ -139,7 +145,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     const std::array pool_sizes = {
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
-                               static_cast<uint32_t>(count * kTexturesOfMaterial)}};
+                               count * kTexturesOfMaterial}};
     material_pool_ = gpu::makeDescriptorPool(device, pool_sizes, count);
     const std::vector layouts(count, pipelines.materialLayout());
     material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
@@ -165,12 +171,15 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         const auto roughness = used(io::kMaterialRoughnessTexture, m.metallic_roughness_texture);
         const auto occlusion = used(io::kMaterialOcclusionTexture, m.occlusion_texture);
         const auto emissive = used(io::kMaterialEmissiveTexture, m.emissive_texture);
+        const auto specular = used(io::kMaterialSpecularTexture, m.specular_texture);
+        const auto color = used(io::kMaterialSpecularColorTexture, m.specular_color_texture);
         const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
-            textures_->get(scene, base, true), textures_->get(scene, normal, false),
+            textures_->get(scene, base, true),       textures_->get(scene, normal, false),
             textures_->get(scene, roughness, false), textures_->get(scene, occlusion, false),
-            textures_->get(scene, emissive, true)};
+            textures_->get(scene, emissive, true),   textures_->get(scene, specular, false),
+            textures_->get(scene, color, true)};
         material_textures.insert(material_textures.end(), images.begin(), images.end());
-        // The five samplers are consecutive bindings of one descriptor each.
+        // The samplers are consecutive bindings of one descriptor each.
         const std::array writes = {
             vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
                                    .dstBinding = 0,

@@ -1,16 +1,25 @@
 // The view of a scene that nobody has chosen.
 #pragma once
 
+#include "scene/enclosing_sphere.h"
 #include "scene/scene.h"
+#include "view/settings.h"
 
 #include <vector>
 
 namespace froxel::scene {
 
-// The first of the scene's cameras; with none, one that sees all of it.
+// The first of the scene's cameras; with none, one that has all of it, of its enclosingSphere(), in
+// pictures of a size.
 [[nodiscard]] inline view::Camera firstCamera(const std::vector<NamedCamera>& cameras,
-                                              const BoundsD3& bounds_world) {
-    return cameras.empty() ? view::overview(bounds_world) : cameras.front().camera;
+                                              const view::Sphere& sphere_world,
+                                              const view::Size& size) {
+    return cameras.empty() ? view::overview(sphere_world, view::aspectOf(size))
+                           : cameras.front().camera;
+}
+[[nodiscard]] inline view::Camera firstCamera(const Scene& scene, const view::Size& size) {
+    return firstCamera(scene.cameras,
+                       scene.cameras.empty() ? enclosingSphere(scene) : view::Sphere{}, size);
 }
 
 } // namespace froxel::scene

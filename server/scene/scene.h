@@ -69,6 +69,15 @@ struct Material {
     TextureSlot normal_texture;             // linear
     TextureSlot occlusion_texture;          // linear: R
     TextureSlot emissive_texture;           // sRGB
+    // What the dielectric part reflects: head-on min(((ior - 1) / (ior + 1))^2 specular_color, 1)
+    // specular, at grazing angles specular.
+    float ior = 1.5F;                   // 1 and more; 0: infinite
+    float specular = 1;                 // 0..1
+    glm::vec3 specular_color{1, 1, 1};  // linear; may exceed 1
+    TextureSlot specular_texture;       // linear: A
+    TextureSlot specular_color_texture; // sRGB
+    // Roughness is 1 - (1 - roughness) times A of the specular colour's texture.
+    bool glossiness_texture = false;
 };
 
 // Triangles of one material. Optional streams are empty or have one element per vertex.

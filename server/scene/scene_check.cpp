@@ -105,7 +105,10 @@ Fault faultIn(const Material& m, const Scene& scene) {
         {"normal_scale", finite(m.normal_scale)},
         {"occlusion_strength", finite(m.occlusion_strength)},
         {"emissive", finite(m.emissive)},
-        {"alpha_cutoff", finite(m.alpha_cutoff)}};
+        {"alpha_cutoff", finite(m.alpha_cutoff)},
+        {"ior", finite(m.ior)},
+        {"specular", finite(m.specular)},
+        {"specular_color", finite(m.specular_color)}};
     for (const auto& [name, right] : factors) {
         if (!right) {
             return std::string(name) + " is not finite";
@@ -115,7 +118,9 @@ Fault faultIn(const Material& m, const Scene& scene) {
                         faultIn(m.metallic_roughness_texture, "metallic_roughness_texture", scene),
                         faultIn(m.normal_texture, "normal_texture", scene),
                         faultIn(m.occlusion_texture, "occlusion_texture", scene),
-                        faultIn(m.emissive_texture, "emissive_texture", scene)}) {
+                        faultIn(m.emissive_texture, "emissive_texture", scene),
+                        faultIn(m.specular_texture, "specular_texture", scene),
+                        faultIn(m.specular_color_texture, "specular_color_texture", scene)}) {
         if (fault) {
             return fault;
         }

@@ -1,5 +1,7 @@
 #include "session/session_context.h"
 
+#include "scene/enclosing_sphere.h"
+
 namespace froxel::session {
 
 SceneSummary summarize(const scene::Scene& scene) {
@@ -10,6 +12,7 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.punctual_light_count = static_cast<uint32_t>(scene.lights.size());
     summary.cameras = scene.cameras;
     summary.bounds_world = scene.bounds_world;
+    summary.framed_world = scene::enclosingSphere(scene);
     for (const scene::Instance& instance : scene.instances) {
         for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             summary.triangle_count += static_cast<uint32_t>(primitive.indices.size() / 3);

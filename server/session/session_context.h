@@ -24,7 +24,8 @@ struct SceneSummary {
     uint32_t texture_count = 0;
     uint32_t punctual_light_count = 0;
     std::vector<scene::NamedCamera> cameras;
-    BoundsD3 bounds_world; // empty for an empty scene
+    BoundsD3 bounds_world;     // empty for an empty scene
+    view::Sphere framed_world; // scene::enclosingSphere()
 };
 
 [[nodiscard]] SceneSummary summarize(const scene::Scene& scene);

@@ -18,6 +18,13 @@ void assignIfGiven(Target& target, const std::optional<Value>& value) {
     }
 }
 
+view::Camera openingCamera(const SessionContext& context, const view::Size& size) {
+    view::Camera camera =
+        scene::firstCamera(context.scene.cameras, context.scene.framed_world, size);
+    camera.lens_shift = context.defaults.lens_shift.value_or(camera.lens_shift);
+    return camera;
+}
+
 // One overload a command; each changes the state or says why not.
 struct Reducer {
     SessionState& state;
@@ -162,7 +169,12 @@ struct Reducer {
     }
 
     Outcome operator()(const SetSize& command) const {
-        state.settings.size = command.size;
+        view::ViewSettings& settings = state.settings;
+        // Who has not moved yet sees all of the scene, whatever the window's shape.
+        if (settings.camera == openingCamera(context, settings.size)) {
+            settings.camera = openingCamera(context, command.size);
+        }
+        settings.size = command.size;
         return checkArea("width");
     }
 
@@ -183,8 +195,7 @@ bool holdsOneOf(const Command& command) {
 SessionState initialState(const SessionContext& context, TimePoint now) {
     const SessionDefaults& defaults = context.defaults;
     view::ViewSettings settings = defaults.settings;
-    settings.camera = scene::firstCamera(context.scene.cameras, context.scene.bounds_world);
-    settings.camera.lens_shift = defaults.lens_shift.value_or(settings.camera.lens_shift);
+    settings.camera = openingCamera(context, settings.size);
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
     return {settings, defaults.encoding, defaults.delivery, clock, {}};
 }

@@ -109,7 +109,7 @@ std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> dev
                                                 Seconds frame_limit,
                                                 const render::MemoryLimits& memory) {
     auto source = std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
-    const auto camera = scene::firstCamera(scene.cameras, scene.bounds_world);
+    const auto camera = scene::firstCamera(scene, view::Size{});
     const auto speed = source->measureSpeed(camera);
     if (!speed) {
         if (speed.error().code == ErrorCode::kDevice) {

@@ -30,7 +30,13 @@ struct Camera {
 // to the view direction) is replaced by an axis that is not; eye == target looks along -Z.
 [[nodiscard]] Camera lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
 
-// A camera that has all of `bounds` in view, from above the front right; for scenes without one.
-[[nodiscard]] Camera overview(const BoundsD3& bounds);
+struct Sphere {
+    glm::dvec3 center{0};
+    double radius_m = 1;
+};
+
+// A camera that has all of a sphere in pictures of an aspect, width over height, with a twentieth
+// of the distance to spare, from above the front right; for scenes without one.
+[[nodiscard]] Camera overview(const Sphere& sphere_world, double aspect);
 
 } // namespace froxel::view

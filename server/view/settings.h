@@ -116,6 +116,11 @@ struct Size {
     bool operator==(const Size&) const = default;
 };
 
+// Width over height.
+[[nodiscard]] inline double aspectOf(const Size& size) {
+    return static_cast<double>(size.width_px) / size.height_px;
+}
+
 struct GridSize {
     uint32_t x = 16;
     uint32_t y = 9;

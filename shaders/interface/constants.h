@@ -19,7 +19,7 @@ FROXEL_CONST uint kMaterialRoughnessTexture = 1U << 2; // metallic-roughness
 FROXEL_CONST uint kMaterialOcclusionTexture = 1U << 3;
 FROXEL_CONST uint kMaterialEmissiveTexture = 1U << 4;
 // Any texture: coordinates are fetched.
-FROXEL_CONST uint kMaterialTextures = (1U << 5) - 1U;
+FROXEL_CONST uint kMaterialTextures = ((1U << 5) - 1U) | (3U << 13);
 FROXEL_CONST uint kMaterialMask = 1U << 5;
 FROXEL_CONST uint kMaterialUnlit = 1U << 6;
 FROXEL_CONST uint kMaterialDoubleSided = 1U << 7;
@@ -27,6 +27,11 @@ FROXEL_CONST uint kMaterialUvTransform = 1U << 8; // a slot has a transform or T
 FROXEL_CONST uint kMaterialExtended = 1U << 9;    // vertices carry uv1, colour and tangent
 FROXEL_CONST uint kMaterialTangents = 1U << 10;   // the tangents are from the file
 FROXEL_CONST uint kMaterialBlend = 1U << 11;
+FROXEL_CONST uint kMaterialSpecular = 1U << 12; // reflects unlike a usual dielectric
+FROXEL_CONST uint kMaterialSpecularTexture = 1U << 13;
+FROXEL_CONST uint kMaterialSpecularColorTexture = 1U << 14;
+FROXEL_CONST uint kMaterialGlossiness = 1U << 15; // in A of the specular colour
+FROXEL_CONST uint kMaterialSpecularAll = 15U << 12;
 
 // Light flags: which lights a frame has and how they are looped over.
 FROXEL_CONST uint kLightLocal = 1U << 0; // any light that has a place
@@ -43,7 +48,10 @@ FROXEL_CONST uint kLightLong = 1U << 10;         // loops take several lights an
 FROXEL_CONST uint kLightBlinnPhong = 1U << 11;   // view::ShadingModel::kBlinnPhong
 FROXEL_CONST uint kLightSlicesLinear = 1U << 12; // cluster::SliceLaw; neither: logarithmic
 FROXEL_CONST uint kLightSlicesHyperbolic = 1U << 13;
-FROXEL_CONST uint kLightAreas = 1U << 14;   // some of the spots are rectangles
+FROXEL_CONST uint kLightAreas = 1U << 14;      // some of the spots are rectangles
+FROXEL_CONST uint kLightSmallScene = 1U << 15; // Frame::light_most_inverse2, else 1 / (1 cm)^2
+// Some surface reflects less than all at its edges: lights add up what it scatters there, too.
+FROXEL_CONST uint kLightEdges = 1U << 16;
 FROXEL_CONST uint kLightShadows = 1U << 17; // some local lights have shadow maps
 
 // Output flags: targets and what the last pass does.
@@ -53,6 +61,8 @@ FROXEL_CONST uint kOutputWideGbuffer = 1U << 2; // metalness, occlusion, emissio
 FROXEL_CONST uint kOutputClamp = 1U << 3;       // plain clamp instead of the neutral tone map
 FROXEL_CONST uint kOutputDepth = 1U << 4;       // the resolve replaces depths by those of planes
 FROXEL_CONST uint kOutputSamples = 1U << 5;     // the tone map's pixel is the mean of 2 x 2 samples
+
+FROXEL_CONST float kDielectricF0 = 0.04F; // reflectance head-on at an index of refraction of 1.5
 
 FROXEL_CONST uint kMaxToonSegments = 9U; // 8 points: 7 cubics and two constant ends
 FROXEL_CONST uint kScreenGroup = 8U;     // screen passes: workgroups of 8 x 8 pixels

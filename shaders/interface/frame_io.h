@@ -55,10 +55,11 @@ struct Frame {
     float light_inv_radius2; // of every local light, where they are equal
     uint first_area;         // the first light that may be a rectangle
     float outline_strength;
-    float outline_reach_px; // how far from an edge pixels are darkened
+    float outline_reach_px;    // how far from an edge pixels are darkened
+    float light_most_inverse2; // of a small scene: 1 / light::nearestDistance()^2
     ToonSegment toon[kMaxToonSegments];
 };
-FROXEL_SIZE_ASSERT(Frame, 376);
+FROXEL_SIZE_ASSERT(Frame, 380);
 
 // One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
 struct UvTransform {
@@ -77,13 +78,17 @@ struct Material {
     float normal_scale;
     float occlusion_strength;
     float alpha_cutoff;
+    vec3 specular_f0; // what the index of refraction gives head-on, times the specular colour
+    float specular;   // its strength
     UvTransform uv_base_color;
     UvTransform uv_normal;
     UvTransform uv_metallic_roughness;
     UvTransform uv_occlusion;
     UvTransform uv_emissive;
+    UvTransform uv_specular;
+    UvTransform uv_specular_color;
 };
-FROXEL_SIZE_ASSERT(Material, 208);
+FROXEL_SIZE_ASSERT(Material, 288);
 
 FROXEL_IO_NAMESPACE_END
 

@@ -9,6 +9,8 @@ FROXEL_IO_NAMESPACE_BEGIN
 FROXEL_CONST uint kOutputNormalShift = 16U;   // 3 bits: kNormal*
 FROXEL_CONST uint kOutputPositionShift = 19U; // 2 bits: kPosition*
 FROXEL_CONST uint kOutputEmissionShift = 21U; // 7 bits: the power of 2 that emission is over
+// The second target also has a word of what dielectrics reflect: f0 (gamma 2) and f90.
+FROXEL_CONST uint kOutputSpecular = 1U << 31;
 
 FROXEL_CONST float kMostStoredEmission = 65408.0F; // RGB9E5
 

@@ -170,11 +170,11 @@ void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, ve
     precise float g = e > 0.0 ? scale * lobe.above : 0.0;
     precise float grazing = g * ltc.albedo.y;
     precise float specular = fma(g, ltc.albedo.x, -grazing);
-    precise float diffuse = fma(-scattered, p, scattered);
-    precise vec3 d = fma(color, vec3(diffuse), sum.diffuse);
     precise vec3 f = fma(color, vec3(specular), sum.specular);
     precise vec3 r = fma(color, vec3(grazing), sum.grazing);
-    sum = LightSum(d, f, r);
+    addScattered(scattered, p, color, sum);
+    sum.specular = f;
+    sum.grazing = r;
 }
 
 // What the rectangle takes of all directions from the origin, sr (Van Oosterom and Strackee 1983).

@@ -1,15 +1,16 @@
 // Metallic-roughness shading as glTF 2.0 appendix B defines it: GGX distribution, height-correlated
-// Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A light only adds
-// weights that do not depend on the surface's colours; those are applied once, at the end.
+// Smith visibility (Heitz 2014), Schlick's Fresnel term, Lambert scaled by 1 - F. A dielectric and
+// a metal, each whole, are mixed by metalness. A light only adds weights that do not depend on the
+// surface's colours; those are applied once, at the end.
 // With kLightLambert only base colour / pi is left of it: no eye, no roughness, no metalness.
 // With kLightBlinnPhong D V is Blinn's lobe instead, (n.h)^s (Blinn 1977) over its reflectance
 // head-on, 8 pi (s + 2^(-s/2)) / ((s + 2)(s + 4)) (Giesen 2009, "Phong Normalization Factor
 // derivations"), so that a white metal returns exactly all of what comes head-on. s = 2 / alpha^2 -
 // 2, the exponent whose slopes vary as much as those of a Beckmann surface of that alpha (Walter et
 // al. 2007, section 5.2).
+#include "lib/dielectric.glsl"
 
 const float kPi = 3.14159265358979;
-const float kMostInverse2 = 1e4;     // 1 / (1 cm)^2: the falloff's ceiling
 const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
 
 struct Surface {
@@ -29,9 +30,10 @@ struct LightSum {
     vec3 diffuse;  // sum of E (1 - p), where p = (1 - l.h)^5; lambert: of E
     vec3 specular; // sum of E D V (1 - p)
     vec3 grazing;  // sum of E D V p
+    vec3 edge;     // with kLightEdges: sum of E p
 };
 
-LightSum noLight() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0)); }
+LightSum noLight() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)); }
 
 Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     Surface s;
@@ -82,11 +84,25 @@ float schlick(float h2) {
     return p;
 }
 
+// The falloff's ceiling: 1 / (1 cm)^2, in small scenes more.
+float mostInverse2() { return hasLight(kLightSmallScene) ? frame.light_most_inverse2 : 1e4; }
+
 // Of a light's irradiance at x = distance^2 / radius^2: exactly 0 at its radius.
 float rangeWindow(float x) {
     precise float w = max(fma(-x, x, 1.0), 0.0);
     precise float window = w * w;
     return window;
+}
+
+// What is scattered of `scattered` where p of it meets an edge.
+void addScattered(float scattered, float p, vec3 color, inout LightSum sum) {
+    precise float diffuse = fma(-scattered, p, scattered);
+    precise vec3 d = fma(color, vec3(diffuse), sum.diffuse);
+    sum.diffuse = d;
+    if (hasLight(kLightEdges)) {
+        precise vec3 edge = fma(color, vec3(scattered * p), sum.edge);
+        sum.edge = edge;
+    }
 }
 
 // Adds light of irradiance colour * attenuation from direction l; both dot products signed.
@@ -117,13 +133,13 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, v
     }
     // No facet faces between light and eye where their half vector is behind the surface.
     precise float g = n_dot_sum > 0.0 ? e * lobe : 0.0;
-    precise float diffuse = fma(-scattered, p, scattered);
     precise float grazing = g * p;
     precise float specular = g - grazing;
-    precise vec3 d = fma(color, vec3(diffuse), sum.diffuse);
     precise vec3 f = fma(color, vec3(specular), sum.specular);
     precise vec3 r = fma(color, vec3(grazing), sum.grazing);
-    sum = LightSum(d, f, r);
+    addScattered(scattered, p, color, sum);
+    sum.specular = f;
+    sum.grazing = r;
 }
 
 // A point light; `share` is 0, 1 or a spot's angular falloff. Contributes exactly 0 at its radius.
@@ -133,7 +149,7 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
         fma(to_light.z, to_light.z, fma(to_light.y, to_light.y, to_light.x * to_light.x));
     precise float x = d2 * inv_radius2;
     precise float inv_d = inversesqrt(max(d2, kLeastDistance2));
-    precise float attenuation = rangeWindow(x) * min(inv_d * inv_d, kMostInverse2) * share;
+    precise float attenuation = rangeWindow(x) * min(inv_d * inv_d, mostInverse2()) * share;
     precise float n_dot_l = fma(s.normal_view.z, to_light.z,
                                 fma(s.normal_view.y, to_light.y, s.normal_view.x * to_light.x)) *
                             inv_d;
@@ -145,7 +161,7 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
 
 // Outgoing radiance of all that was added. Sums of lights as bright as floats go may be infinite,
 // and black times that is no number: they end here.
-vec3 shadeSum(LightSum sum, vec3 base_color, float metallic) {
+vec3 shadeSum(LightSum sum, vec3 base_color, float metallic, Dielectric dielectric) {
     const vec3 kMost = vec3(1e30);
     sum.diffuse = min(sum.diffuse, kMost);
     if (hasLight(kLightLambert)) {
@@ -153,8 +169,17 @@ vec3 shadeSum(LightSum sum, vec3 base_color, float metallic) {
     }
     sum.specular = min(sum.specular, kMost);
     sum.grazing = min(sum.grazing, kMost);
-    vec3 f0 = mix(vec3(0.04), base_color, metallic);
+    // Lobes are linear in f0; only the dielectric scatters, whatever its share.
+    vec3 f0 = mix(dielectric.f0, base_color, metallic);
     vec3 albedo = base_color * (1.0 - metallic);
-    vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);
-    return (albedo * (1.0 - f0) * sum.diffuse + lobe) / kPi;
+    if (dielectric.usual) {
+        vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);
+        return (albedo * (1.0 - kDielectricF0) * sum.diffuse + lobe) / kPi;
+    }
+    vec3 lobe = 0.5 * (f0 * sum.specular + mix(dielectric.f90, 1.0, metallic) * sum.grazing);
+    vec3 scattered = entering(dielectric) * sum.diffuse;
+    if (hasLight(kLightEdges)) {
+        scattered += (1.0 - dielectric.f90) * min(sum.edge, kMost);
+    }
+    return (albedo * scattered + lobe) / kPi;
 }

@@ -5,6 +5,8 @@ layout(set = 1, binding = 2) uniform sampler2D normal_texture;
 layout(set = 1, binding = 3) uniform sampler2D metallic_roughness_texture;
 layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
 layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+layout(set = 1, binding = 6) uniform sampler2D specular_texture;
+layout(set = 1, binding = 7) uniform sampler2D specular_color_texture;
 
 #define sampleMaterial(slot, v, t) texture(slot##_texture, slotUv(v, t))
 #define uvDx(v, t) dFdx(slotUv(v, t))

@@ -1,7 +1,9 @@
 // The G-buffer's words: x = normal, y = base colour (gamma 2) and roughness, and in the wide layout
 // z = metalness, occlusion, unlit, w = emission (shared exponent). Layouts that were asked for
-// instead of the default keep more in a second target: the position, then the third half of xyz16.
+// instead of the default keep more in a second target: the position, then the third half of xyz16;
+// then, in a word of its own, what dielectrics reflect.
 #include "interface/gbuffer_io.h"
+#include "lib/dielectric.glsl"
 #include "lib/octahedral.glsl"
 
 const uint kNormalEncoding = (OUTPUT_FLAGS >> kOutputNormalShift) & 7u;
@@ -19,6 +21,7 @@ struct GbufferSample {
     float occlusion;
     bool unlit;
     vec3 emissive;
+    Dielectric dielectric;
 };
 
 // Of radiance where that solid surface is: exposure is not metered where it is 0.
@@ -93,8 +96,24 @@ uvec4 packGbuffer(GbufferSample g) {
     return words;
 }
 
-// The second target's words: 16, 32, 64 or 128 bits of them exist (render/gbuffer_layout.h).
-uvec4 packExtra(GbufferSample g, vec3 position_view, float depth) {
+// Which word of the second target has what dielectrics reflect: the first that is free
+// (render/gbuffer_layout.h).
+uint specularWord() {
+    uint z = kNormalEncoding == kNormalXyz16 ? 1u : 0u;
+    switch (kPositionSource) {
+    case kPositionStoredDepth:
+        return 1u + z;
+    case kPositionFp32:
+        return 3u; // z has it: refused
+    case kPositionFp16:
+        return 2u;
+    default:
+        return z;
+    }
+}
+
+// What a layout asks for there.
+uvec4 packLayout(GbufferSample g, vec3 position_view, float depth) {
     uint z = kNormalEncoding == kNormalXyz16 ? packHalf2x16(vec2(g.normal_view.z, 0.0)) : 0u;
     switch (kPositionSource) {
     case kPositionStoredDepth:
@@ -110,7 +129,19 @@ uvec4 packExtra(GbufferSample g, vec3 position_view, float depth) {
     }
 }
 
-bool readsExtra() { return kPositionSource != kPositionDepth || kNormalEncoding == kNormalXyz16; }
+// The second target's words: 16, 32, 64 or 128 bits of them exist.
+uvec4 packExtra(GbufferSample g, vec3 position_view, float depth) {
+    uvec4 words = packLayout(g, position_view, depth);
+    if (hasOutput(kOutputSpecular)) {
+        words[specularWord()] = packUnorm4x8(vec4(sqrt(g.dielectric.f0), g.dielectric.f90));
+    }
+    return words;
+}
+
+bool readsExtra() {
+    return kPositionSource != kPositionDepth || kNormalEncoding == kNormalXyz16 ||
+           hasOutput(kOutputSpecular);
+}
 
 // xyz16's third half.
 float extraNormalZ(uvec4 extra) {
@@ -154,6 +185,11 @@ GbufferSample unpackGbuffer(uvec4 words, uvec4 extra) {
         g.occlusion = rest.y;
         g.unlit = rest.z > 0.5;
         g.emissive = unpackSharedExponent(words.w) * powerOfTwo(kEmissionExponent);
+    }
+    g.dielectric = usualDielectric();
+    if (hasOutput(kOutputSpecular)) {
+        vec4 specular = unpackUnorm4x8(extra[specularWord()]);
+        g.dielectric = Dielectric(false, specular.rgb * specular.rgb, specular.a);
     }
     return g;
 }

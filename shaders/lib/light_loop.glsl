@@ -170,13 +170,19 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
     return sum;
 }
 
-// A hemisphere of constant radiance from the sky and from the ground.
-vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, float occlusion) {
+// A hemisphere of constant radiance from the sky and from the ground, of which a surface returns
+// its base colour and its f0; the less of its base colour the more its dielectric part reflects.
+vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric dielectric,
+                     float occlusion) {
     vec3 sky = mix(frame.ambient_ground, frame.ambient_sky,
                    fma(0.5, dot(s.normal_view, frame.up_view), 0.5));
     if (hasLight(kLightLambert)) {
         return sky * base_color * occlusion;
     }
-    vec3 f0 = mix(vec3(0.04), base_color, metallic);
-    return sky * (base_color * (1.0 - metallic) + f0) * occlusion;
+    vec3 f0 = mix(dielectric.f0, base_color, metallic);
+    vec3 albedo = base_color * (1.0 - metallic);
+    if (!dielectric.usual) {
+        albedo *= entering(dielectric) / (1.0 - kDielectricF0);
+    }
+    return sky * (albedo + f0) * occlusion;
 }

@@ -70,6 +70,23 @@ vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view) {
     return normalize(t * sampled.x + b * sampled.y + n * sampled.z);
 }
 
+// What the dielectric reflects, clamped before the strength; or, with it, how glossy it is.
+void shadeSpecular(VertexData v, inout GbufferSample g) {
+    vec3 f0 = material.specular_f0;
+    float strength = material.specular;
+    if (hasMaterial(kMaterialSpecularColorTexture)) {
+        vec4 color = sampleMaterial(specular_color, v, material.uv_specular_color);
+        f0 *= color.rgb;
+        if (hasMaterial(kMaterialGlossiness)) {
+            g.roughness = 1.0 - (1.0 - material.roughness) * color.a;
+        }
+    }
+    if (hasMaterial(kMaterialSpecularTexture)) {
+        strength *= sampleMaterial(specular, v, material.uv_specular).a;
+    }
+    g.dielectric = Dielectric(false, min(f0, vec3(1.0)) * strength, strength);
+}
+
 GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
     GbufferSample g;
     g.base_color = clamp(base.rgb, vec3(0.0), vec3(1.0));
@@ -98,5 +115,9 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
         g.emissive *= sampleMaterial(emissive, v, material.uv_emissive).rgb;
     }
     g.unlit = hasMaterial(kMaterialUnlit);
+    g.dielectric = usualDielectric();
+    if (hasMaterial(kMaterialSpecular)) {
+        shadeSpecular(v, g);
+    }
     return g;
 }

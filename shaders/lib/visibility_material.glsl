@@ -7,6 +7,8 @@ const uint normal_slot = 1u;
 const uint metallic_roughness_slot = 2u;
 const uint occlusion_slot = 3u;
 const uint emissive_slot = 4u;
+const uint specular_slot = 5u;
+const uint specular_color_slot = 6u;
 #define slotTexture(slot)                                                                          \
     scene_textures[nonuniformEXT(visible_material * kTexturesOfMaterial + slot##_slot)]
 #else
@@ -16,6 +18,8 @@ layout(set = 3, binding = 2) uniform sampler2D normal_texture;
 layout(set = 3, binding = 3) uniform sampler2D metallic_roughness_texture;
 layout(set = 3, binding = 4) uniform sampler2D occlusion_texture;
 layout(set = 3, binding = 5) uniform sampler2D emissive_texture;
+layout(set = 3, binding = 6) uniform sampler2D specular_texture;
+layout(set = 3, binding = 7) uniform sampler2D specular_color_texture;
 #define slotTexture(slot) slot##_texture
 #endif
 

@@ -123,7 +123,7 @@ void priceErrors(render::Renderer& renderer, render::FrameInputs inputs) {
         inputs.settings.gbuffer = layout;
         const Picture picture = drawPicture(view, inputs);
         std::printf("%-22s %5u |", nameOf(layout).c_str(),
-                    render::gbufferBytesPerPixel(layout, false));
+                    render::gbufferBytesPerPixel(layout, false, false));
         printError(deferred, picture);
         std::printf(" |");
         printError(forward, picture);

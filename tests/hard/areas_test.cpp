@@ -141,6 +141,27 @@ TEST_F(HardAreas, Highlights_AreNearTheSampledIntegral) {
     }
 }
 
+// Rectangles add up what is scattered at edges as other lights do; through fog, too.
+TEST_F(HardAreas, DielectricsOfTheirOwn_AreNearTheSampledIntegral) {
+    auto material = chalk();
+    material.roughness = 0.5F;
+    material.ior = 2.4F;
+    material.specular = 0.5F;
+    material.specular_color = {1, 0.5F, 4};
+    SceneMaker maker(material);
+    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    render::Renderer renderer(device(), maker.scene);
+    for (const auto& place : places()) {
+        SCOPED_TRACE(place.name);
+        auto inputs = litBy(place.light, view::ShadingModel::kPbr);
+        const auto pictures = expectExact(renderer, inputs);
+        const auto off = differenceTo(refer(renderer, maker.scene, inputs).picture, pictures.naive);
+        EXPECT_LT(off.rms, 0.03);
+        inputs.settings.fog = {.density = 0.1F, .tile_px = 8};
+        (void)expectExact(renderer, inputs);
+    }
+}
+
 // Many, with points and spots among them, each ending somewhere in the picture.
 TEST_F(HardAreas, AmongOthers_ListsAreExact) {
     auto material = chalk();

@@ -223,6 +223,41 @@ TEST_F(Gbuffer, EveryLayout_AnyRenderer_StaysNearTheDefault) {
     }
 }
 
+// What dielectrics reflect has its place in every layout, or is refused: normals of three halves
+// and positions of three words fill the second target.
+TEST_F(Gbuffer, Specular_EveryLayout_IsStoredOrRefused) {
+    auto scene = makeRoom();
+    scene.materials[0].ior = 2.4F;
+    scene.materials[0].specular = 0.5F;
+    scene.materials[3].specular_color = {0.5F, 4, 1};
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    auto inputs = inputsFor(scene, view::Renderer::kClusteredDeferred);
+    const Picture reference = draw(view, inputs);
+    for (const auto normal : {NormalEncoding::kOct16, NormalEncoding::kXyz16}) {
+        for (size_t p = 0; p < view::kPositionSourceNames.size(); ++p) {
+            SCOPED_TRACE(view::kPositionSourceNames[p]);
+            inputs.settings.gbuffer = {normal, static_cast<PositionSource>(p)};
+            if (inputs.settings.gbuffer ==
+                view::GbufferLayout{NormalEncoding::kXyz16, PositionSource::kFp32}) {
+                const auto refused = view.submit(inputs);
+                ASSERT_TRUE(refused.has_error());
+                EXPECT_NE(refused.error().message.find("xyz16"), std::string::npos);
+                continue;
+            }
+            EXPECT_LT(worstDifference(reference, draw(view, inputs)), 2.0);
+            for (const auto stage :
+                 {view::LightingStage::kCompute, view::LightingStage::kFragment}) {
+                inputs.settings.lighting = stage;
+                inputs.settings.light_loop = view::LightLoop::kLists;
+                const Picture lists = draw(view, inputs);
+                inputs.settings.light_loop = view::LightLoop::kAllLights;
+                EXPECT_EQ(differingFloats(lists, draw(view, inputs)), 0U);
+            }
+        }
+    }
+}
+
 // Lists hold what reaches the position as it is stored.
 TEST_F(Gbuffer, Lists_EveryLayout_EqualAllLightsBitForBit) {
     const auto scene = makeRoom();

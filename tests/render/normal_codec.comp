@@ -15,7 +15,8 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < normals.length()) {
         vec3 n = normals[i];
-        GbufferSample g = GbufferSample(n, vec3(0.0), 0.0, 0.0, 1.0, false, vec3(0.0));
+        GbufferSample g =
+            GbufferSample(n, vec3(0.0), 0.0, 0.0, 1.0, false, vec3(0.0), usualDielectric());
         normals[i] = unpackGbuffer(packGbuffer(g), packExtra(g, vec3(0.0), 1.0)).normal_view;
     }
 }

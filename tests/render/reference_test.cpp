@@ -166,6 +166,87 @@ TEST_F(Reference, PlainRoom_Deferred_IsWithinTheGbuffersSteps) {
     }
 }
 
+namespace {
+
+// A dense floor and wall that reflect half at their edges, half a metal whose dielectric part is
+// tinted beyond what is clamped, and what an infinite index makes of its colour.
+void giveReflectances(scene::Scene& room) {
+    auto& floor = room.materials[0];
+    floor.base_color = {0.7F, 0.5F, 0.3F, 1};
+    floor.ior = 2.4F;
+    floor.specular = 0.5F;
+    floor.specular_color = {1, 0.8F, 0.6F};
+    auto& half = room.materials[3];
+    half.metallic = 0.5F;
+    half.specular_color = {30, 1, 0};
+    auto& glossy = room.materials[4];
+    glossy.ior = 0;
+    glossy.specular_color = {0.3F, 0.5F, 0.2F};
+    glossy.roughness = 0.4F;
+}
+
+} // namespace
+
+TEST_F(Reference, RoomOfReflectances_Forward_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    giveReflectances(room);
+    Compared compared(device(), room);
+    for (const auto& camera : room.cameras) {
+        for (const auto model : {ShadingModel::kBlinnPhong, ShadingModel::kPbr}) {
+            for (const auto stage :
+                 {view::LightingStage::kFragment, view::LightingStage::kCompute}) {
+                auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
+                inputs.settings.shading = model;
+                inputs.settings.lighting = stage;
+                const Errors errors = compared.against(inputs);
+                EXPECT_LT(errors.max_relative, 1e-4);
+                EXPECT_LT(errors.median, 1e-7);
+            }
+        }
+    }
+}
+
+// As PlainRoom_Deferred: f0 has 8 bits of gamma 2, too.
+TEST_F(Reference, RoomOfReflectances_Deferred_IsWithinTheGbuffersSteps) {
+    auto room = makePlainRoom();
+    giveReflectances(room);
+    Compared compared(device(), room);
+    for (const auto renderer :
+         {Renderer::kClusteredDeferred, Renderer::kToonFragment, Renderer::kToonCompute}) {
+        SCOPED_TRACE(nameOf(renderer));
+        const Errors errors = compared.against(inputsFor(room.cameras[0].camera, renderer));
+        EXPECT_LT(errors.max_relative, renderer == Renderer::kClusteredDeferred ? 0.03 : 0.15);
+        EXPECT_LT(errors.rmse, 4e-3);
+    }
+}
+
+// Strength, colour and glossiness out of textures, nearest so that nothing is filtered.
+TEST_F(Reference, RoomOfTexturedReflectances_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    room.samplers[0] = {.mag = scene::Filter::kNearest,
+                        .min = scene::Filter::kNearest,
+                        .mip = scene::Filter::kNearest,
+                        .mipmapped = false};
+    auto& floor = room.materials[0];
+    floor.ior = 1.8F;
+    floor.specular_texture.texture = 2; // with holes in A
+    floor.specular_color_texture = {0, 0, {0.1F, 0.2F}, 0.3F, {2, 1}};
+    auto& glossy = room.materials[4];
+    glossy.ior = 0;
+    glossy.specular_color_texture.texture = 2;
+    glossy.glossiness_texture = true;
+    glossy.roughness = 0.5F;
+    glossy.metallic = 0;
+    Compared compared(device(), room);
+    for (const auto stage : {view::LightingStage::kFragment, view::LightingStage::kCompute}) {
+        auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
+        inputs.settings.lighting = stage;
+        const Errors errors = compared.against(inputs);
+        EXPECT_LT(errors.median, 1e-5); // the driver's sRGB polynomial
+        EXPECT_LT(errors.p999, 5e-3);   // and texels at whose edges a pixel lies
+    }
+}
+
 TEST_F(Reference, PlainRoom_OtherCameras_AreWithinArithmetic) {
     const auto room = makePlainRoom();
     Compared compared(device(), room);

@@ -1,6 +1,7 @@
 // Shading models against their formulas, and the loops' variants against each other, bit for bit.
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
+#include "support/shapes.h"
 #include "support/test_scenes.h"
 #include "view/camera.h"
 
@@ -118,6 +119,67 @@ TEST_F(Shading, LambertOnAFloor_AnyRenderer_IsAlbedoOverPiTimesIrradiance) {
         }
         // The G-buffer's normal is up to 0.0036 degrees off.
         EXPECT_LT(worst, kind == Renderer::kClusteredDeferred ? 1e-3 : 2e-4) << nameOf(kind);
+    }
+}
+
+namespace {
+
+// Balls on a floor, 2.4 m from corner to corner, with lamps as near to them as 7 mm; all of it
+// `scale` times as large, and lit as bright.
+scene::Scene makeScaled(double scale) {
+    const auto size = static_cast<float>(scale);
+    scene::Material gloss = chalk();
+    gloss.roughness = 0.4F;
+    SceneMaker made;
+    made.add(gloss);
+    made.add(quad({-0.8F * size, 0, 0.8F * size}, {1.6F * size, 0, 0}, {0, 0, -1.6F * size}, 4, 0));
+    glm::dmat4 at(1);
+    for (const double x : {-0.4, 0.4}) {
+        at[3] = glm::dvec4(x * scale, 0.3 * scale, 0, 1);
+        made.add(sphere(0.3F * size, 12, 1), at);
+    }
+    const auto candela = static_cast<float>(scale * scale);
+    made.point(glm::dvec3(0, 0.5, 0.3) * scale, 1.5F * size, candela);
+    made.point(glm::dvec3(0.1, 0.007, 0.5) * scale, 0.5F * size, 0.01F * candela);
+    made.point(glm::dvec3(-0.4, 0.609, 0) * scale, 0, 0.01F * candela);
+    made.scene.cameras = {{"", view::lookAt(glm::dvec3(0.3, 0.9, 1.6) * scale,
+                                            glm::dvec3(0, 0.2, 0) * scale, {0, 1, 0})}};
+    made.scene.cameras[0].camera.near_m = 0.01 * scale;
+    return made.scene;
+}
+
+Picture drawScaled(gpu::Device& device, double scale, Renderer kind) {
+    const auto scene = makeScaled(scale);
+    auto inputs = inputsFor(scene.cameras[0].camera, kind);
+    inputs.settings.lights.count = 0;
+    inputs.settings.lights.ambient = 0.01F;
+    render::Renderer renderer(device, scene);
+    return draw(renderer, inputs);
+}
+
+} // namespace
+
+// What a distance is compared with goes with the scene: a model of 2 cm is lit as the same in
+// metres. By powers of two no digit changes, but by lists, whose clusters differ.
+TEST_F(Shading, SceneAndLightsScaled_GiveTheSamePicture) {
+    for (const auto kind : {Renderer::kNaive, Renderer::kClusteredDeferred}) {
+        SCOPED_TRACE(nameOf(kind));
+        const Picture whole = drawScaled(device(), 1, kind);
+        for (const double scale : {0x1p-7, 0x1p10}) {
+            EXPECT_EQ(differingFloats(whole, drawScaled(device(), scale, kind)), 0U) << scale;
+        }
+        for (const double scale : {0.01, 1000.0}) {
+            const Picture scaled = drawScaled(device(), scale, kind);
+            ASSERT_EQ(scaled.radiance.size(), whole.radiance.size());
+            size_t off = 0;
+            for (size_t i = 0; i < whole.radiance.size(); ++i) {
+                const double expected = static_cast<double>(whole.radiance[i]);
+                const double value = static_cast<double>(scaled.radiance[i]);
+                off += std::abs(value - expected) > 0.002 * expected + 1e-5 ? 1U : 0U;
+            }
+            // Positions round otherwise: an edge may take another pixel.
+            EXPECT_LE(off, 30U) << scale;
+        }
     }
 }
 

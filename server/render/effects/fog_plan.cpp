@@ -27,8 +27,8 @@ uint32_t seedOf(double time_s) {
 uint32_t fogLightFlags(uint32_t surface_light_flags) {
     return surface_light_flags &
            (io::kLightLocal | io::kLightLists | io::kLightSpots | io::kLightAreas |
-            io::kLightShadows | io::kLightEqualRadii | io::kLightLong | io::kLightDirectional |
-            io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
+            io::kLightShadows | io::kLightEqualRadii | io::kLightSmallScene | io::kLightLong |
+            io::kLightDirectional | io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
 }
 
 io::Fog makeFog(const view::ViewSettings& settings, double lit_far_m, double time_s) {

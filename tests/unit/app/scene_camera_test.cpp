@@ -1,4 +1,5 @@
 #include "app/scene_camera.h"
+#include "scene/enclosing_sphere.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +7,8 @@
 
 namespace froxel::app {
 namespace {
+
+constexpr view::Size kSize{100, 200};
 
 scene::Scene twoCameras() {
     scene::Scene scene;
@@ -18,22 +21,27 @@ scene::Scene twoCameras() {
 
 TEST(FindCamera, Default_IsTheFirst) {
     const auto scene = twoCameras();
-    EXPECT_EQ(findCamera(DefaultCamera{}, scene).value(), scene.cameras[0].camera);
+    EXPECT_EQ(findCamera(DefaultCamera{}, scene, kSize).value(), scene.cameras[0].camera);
 }
 
 TEST(FindCamera, DefaultWithoutCameras_IsTheOverview) {
     auto scene = twoCameras();
     scene.cameras.clear();
-    EXPECT_EQ(findCamera(DefaultCamera{}, scene).value(), view::overview(scene.bounds_world));
+    scene::Primitive primitive{.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    primitive.bounds = {{-1, 0, 0}, {1, 1, 0}};
+    scene.meshes = {{"", {primitive}}};
+    scene.instances = {{}};
+    EXPECT_EQ(findCamera(DefaultCamera{}, scene, kSize).value(),
+              view::overview(scene::enclosingSphere(scene), 0.5));
 }
 
 TEST(FindCamera, Name_IsThatOne) {
     const auto scene = twoCameras();
-    EXPECT_EQ(findCamera(std::string("apse"), scene).value(), scene.cameras[1].camera);
+    EXPECT_EQ(findCamera(std::string("apse"), scene, kSize).value(), scene.cameras[1].camera);
 }
 
 TEST(FindCamera, UnknownName_RefusedWithTheNames) {
-    const auto camera = findCamera(std::string("crypt"), twoCameras());
+    const auto camera = findCamera(std::string("crypt"), twoCameras(), kSize);
     ASSERT_TRUE(camera.has_error());
     EXPECT_EQ(camera.error().code, ErrorCode::kInvalidArgument);
     EXPECT_EQ(camera.error().message,
@@ -42,7 +50,7 @@ TEST(FindCamera, UnknownName_RefusedWithTheNames) {
 
 TEST(FindCamera, Numbers_AreTaken) {
     const auto camera = view::lookAt({3, 4, 5}, {0, 0, 0}, {0, 1, 0});
-    EXPECT_EQ(findCamera(camera, twoCameras()).value(), camera);
+    EXPECT_EQ(findCamera(camera, twoCameras(), kSize).value(), camera);
 }
 
 } // namespace

@@ -168,6 +168,9 @@ TEST(MostIrradiance, IsTheShadersFalloffAtTheNearestPoint) {
     EXPECT_DOUBLE_EQ(at(2, 9), 3 * window * window); // 1 m away of a radius of 2
     EXPECT_EQ(at(3, 9), 0);
     EXPECT_DOUBLE_EQ(at(0.5, 2), 3 / 1e-4); // within: as at 1 cm
+    light::FrameLights small;
+    small.nearest_m = 1e-3;
+    EXPECT_DOUBLE_EQ(mostIrradiance(small, light, {-1, -1, -2}, {1, 1, -0.5}), 3 / 1e-6);
     light.inv_radius2 = 0;
     EXPECT_DOUBLE_EQ(at(3, 9), 0.75);
 }

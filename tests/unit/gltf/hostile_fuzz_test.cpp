@@ -50,7 +50,12 @@ void addMaterial(SceneFile& file) {
         "occlusionTexture": {"index": 0, "strength": 0.5},
         "emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1],
         "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
-        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}})"));
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4},
+                       "KHR_materials_ior": {"ior": 2},
+                       "KHR_materials_specular": {"specularFactor": 0.5,
+                            "specularColorFactor": [1, 0.5, 2],
+                            "specularTexture": {"index": 0, "texCoord": 1},
+                            "specularColorTexture": {"index": 0}}}})"));
     file.primitive()["material"] = 0;
 }
 

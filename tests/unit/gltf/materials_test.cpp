@@ -104,6 +104,102 @@ TEST(Materials, EmissiveStrength_MultipliesTheFactor) {
     EXPECT_EQ(onlyMaterial(file).emissive, glm::vec3(8, 4, 0));
 }
 
+TEST(Materials, IorAndSpecular_AreRead) {
+    SceneFile file = textured(R"({"extensions": {
+        "KHR_materials_ior": {"ior": 2},
+        "KHR_materials_specular": {
+            "specularFactor": 0.25, "specularColorFactor": [0.5, 1, 3],
+            "specularTexture": {"index": 1, "texCoord": 1},
+            "specularColorTexture": {"index": 0, "extensions": {
+                "KHR_texture_transform": {"scale": [2, 3]}}}}}})");
+    file.useExtension("KHR_materials_ior", true);
+    file.useExtension("KHR_materials_specular", true);
+    const scene::Scene scene = loaded(file.load());
+    const scene::Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.ior, 2);
+    EXPECT_EQ(material.specular, 0.25F);
+    EXPECT_EQ(material.specular_color, glm::vec3(0.5F, 1, 3));
+    EXPECT_EQ(scene.images.at(scene.textures.at(material.specular_texture.texture).image).name,
+              "image1");
+    EXPECT_EQ(material.specular_texture.texcoord, 1U);
+    EXPECT_EQ(
+        scene.images.at(scene.textures.at(material.specular_color_texture.texture).image).name,
+        "image0");
+    EXPECT_EQ(material.specular_color_texture.scale, glm::vec2(2, 3));
+    EXPECT_FALSE(material.glossiness_texture);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(Materials, WithoutIorAndSpecular_ReflectAsGlass) {
+    const scene::Material material = onlyMaterial(withMaterial(R"({"extensions": {
+        "KHR_materials_ior": {}, "KHR_materials_specular": {}}})"));
+    EXPECT_EQ(material.ior, 1.5F);
+    EXPECT_EQ(material.specular, 1);
+    EXPECT_EQ(material.specular_color, glm::vec3(1));
+}
+
+TEST(Materials, IorOfZero_IsTaken) {
+    const scene::Scene scene =
+        loaded(withMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})").load());
+    EXPECT_EQ(scene.materials.at(0).ior, 0);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(Materials, WrongIorOrSpecular_IsToldOrRefused) {
+    const scene::Scene scene = loaded(withMaterial(R"({"extensions": {
+        "KHR_materials_ior": {"ior": 0.5},
+        "KHR_materials_specular": {"specularFactor": 2, "specularColorFactor": [-1, 0, 0]}}})")
+                                          .load());
+    EXPECT_EQ(scene.materials.at(0).ior, 1.5F);
+    EXPECT_EQ(scene.materials.at(0).specular, 1);
+    EXPECT_EQ(scene.materials.at(0).specular_color, glm::vec3(0));
+    EXPECT_THAT(scene.warnings,
+                ElementsAre(HasSubstr("material 0 has the ior 0.5"),
+                            HasSubstr("material 0 has the specularFactor 2"),
+                            HasSubstr("material 0 has the specularColorFactor -1")));
+    for (const auto& [wrong, told] :
+         {std::pair(R"({"specularFactor": [1, 1, 1]})", "wrong specularFactor"),
+          std::pair(R"({"specularColorFactor": [1, 1]})", "wrong specularColorFactor"),
+          std::pair(R"({"specularColorFactor": [1, 1, 1e99]})", "single precision"),
+          std::pair(R"({"specularTexture": {}})", "specularTexture without an index")}) {
+        const std::string material =
+            R"({"extensions": {"KHR_materials_specular": )" + std::string(wrong) + "}}";
+        EXPECT_THAT(failure(withMaterial(material.c_str()).load()), HasSubstr(told));
+    }
+}
+
+// A dielectric of infinite index, so that it reflects its specular colour; and what would have been
+// its metalness and roughness is not even loaded.
+TEST(Materials, SpecularGlossiness_WinsOverMetallicRoughness) {
+    const scene::Scene scene = loaded(textured(R"({
+        "pbrMetallicRoughness": {"metallicFactor": 1, "baseColorTexture": {"index": 1}},
+        "extensions": {"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [0.5, 0.25, 1, 0.75], "specularFactor": [0.1, 0.2, 0.3],
+            "glossinessFactor": 0.75,
+            "specularGlossinessTexture": {"index": 0}}}})")
+                                          .load());
+    const scene::Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.base_color, glm::vec4(0.5F, 0.25F, 1, 0.75F));
+    EXPECT_EQ(material.base_color_texture.texture, scene::kNone);
+    EXPECT_EQ(material.metallic, 0);
+    EXPECT_EQ(material.roughness, 0.25F);
+    EXPECT_EQ(material.ior, 0);
+    EXPECT_EQ(material.specular, 1);
+    EXPECT_EQ(material.specular_color, glm::vec3(0.1F, 0.2F, 0.3F));
+    EXPECT_TRUE(material.glossiness_texture);
+    ASSERT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.images[0].name, "image0");
+}
+
+TEST(Materials, SpecularOfAnUnlitMaterial_IsLeftOut) {
+    const scene::Material material = onlyMaterial(withMaterial(R"({
+        "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1]},
+        "extensions": {"KHR_materials_unlit": {}, "KHR_materials_ior": {"ior": 2},
+                       "KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [1, 0, 0, 1]}}})"));
+    EXPECT_EQ(material.ior, 1.5F);
+    EXPECT_EQ(material.base_color, glm::vec4(0.5F, 0.5F, 0.5F, 1));
+}
+
 TEST(Materials, AllFiveTextures_AreRead) {
     const SceneFile file = textured(R"({
         "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},

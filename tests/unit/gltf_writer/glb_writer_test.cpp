@@ -116,7 +116,20 @@ scene::Scene everything() {
     scene::Material flat;
     flat.unlit = true;
     flat.alpha_mode = scene::AlphaMode::kBlend;
-    scene.materials = {rich, flat};
+    scene::Material glass;
+    glass.ior = 2;
+    glass.specular = 0.5F;
+    glass.specular_color = {1, 0.5F, 2};
+    glass.specular_texture = {1};
+    glass.specular_color_texture = {0};
+    scene::Material glossy;
+    glossy.metallic = 0;
+    glossy.roughness = 0.25F;
+    glossy.ior = 0;
+    glossy.specular_color = {0.5F, 0.25F, 1};
+    glossy.specular_color_texture = {0};
+    glossy.glossiness_texture = true;
+    scene.materials = {rich, flat, glass, glossy};
     scene::Primitive full = triangle();
     full.uv1 = {{0, 0}, {0.5F, 0}, {0, 0.5F}};
     full.colors.assign(3, {1, 0.5F, 0.25F, 1});
@@ -152,8 +165,10 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
     const Glb glb = written(everything(), "everything.glb");
     const json& d = glb.document;
     EXPECT_EQ(d["asset"]["version"], "2.0");
-    EXPECT_EQ(d["extensionsUsed"], json({"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                         "KHR_materials_unlit", "KHR_texture_transform"}));
+    EXPECT_EQ(d["extensionsUsed"],
+              json({"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
+                    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_specular",
+                    "KHR_materials_unlit", "KHR_texture_transform"}));
     // The chunk is padded to a multiple of four.
     EXPECT_EQ((d["buffers"][0]["byteLength"].get<size_t>() + 3) / 4 * 4, glb.bin.size());
 
@@ -170,6 +185,18 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
     EXPECT_EQ(rich["pbrMetallicRoughness"]["metallicRoughnessTexture"]["texCoord"], 1);
     EXPECT_EQ(d["materials"][1]["alphaMode"], "BLEND");
     EXPECT_TRUE(d["materials"][1]["extensions"].contains("KHR_materials_unlit"));
+    const json& glass = d["materials"][2]["extensions"];
+    EXPECT_EQ(glass["KHR_materials_ior"], json({{"ior", 2.0}}));
+    EXPECT_EQ(glass["KHR_materials_specular"], json({{"specularFactor", 0.5},
+                                                     {"specularColorFactor", {1.0, 0.5, 2.0}},
+                                                     {"specularTexture", {{"index", 1}}},
+                                                     {"specularColorTexture", {{"index", 0}}}}));
+    EXPECT_EQ(d["materials"][3]["extensions"],
+              json({{"KHR_materials_pbrSpecularGlossiness",
+                     {{"diffuseFactor", {1.0, 1.0, 1.0, 1.0}},
+                      {"specularFactor", {0.5, 0.25, 1.0}},
+                      {"glossinessFactor", 0.75},
+                      {"specularGlossinessTexture", {{"index", 0}}}}}}));
     EXPECT_EQ(d["samplers"][0]["minFilter"], 9987);
     EXPECT_EQ(d["samplers"][1]["minFilter"], 9728);
     EXPECT_EQ(d["samplers"][1]["wrapS"], 33071);

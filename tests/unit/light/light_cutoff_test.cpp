@@ -20,7 +20,8 @@ TEST(LightCutoff, CutRadius_IsWhereTheIrradianceFallsToIt) {
     for (const double radius : {0.05, 0.5, 2.0, 50.0}) {
         for (const float strongest : {0.1F, 1.0F, 300.0F}) {
             for (const double cutoff : {1e-6, 1e-3, 0.02, 1.0}) {
-                const double cut = cutRadius({0, strongest, 0.5F * strongest}, radius, cutoff);
+                const double cut =
+                    cutRadius({0, strongest, 0.5F * strongest}, radius, cutoff, kNearest_m);
                 ASSERT_LE(cut, radius);
                 if (cut > 0) {
                     EXPECT_NEAR(windowed(static_cast<double>(strongest), radius, cut) / cutoff, 1,
@@ -35,7 +36,8 @@ TEST(LightCutoff, CutRadius_IsWhereTheIrradianceFallsToIt) {
 }
 
 TEST(LightCutoff, UnlimitedLight_EndsByTheInverseSquare) {
-    const double cut = cutRadius({4, 1, 1}, std::numeric_limits<double>::infinity(), 0.01);
+    const double cut =
+        cutRadius({4, 1, 1}, std::numeric_limits<double>::infinity(), 0.01, kNearest_m);
     EXPECT_NEAR(cut, 20, 1e-9);
 }
 
@@ -53,14 +55,35 @@ TEST(LightCutoff, VeryMany_AreEachCut) {
     const FrameLights whole = lights;
     cutLights(lights, 0.01, false);
     for (size_t i = 0; i < lights.lights.size(); ++i) {
-        const double cut =
-            cutRadius(whole.lights[i].color, static_cast<double>(whole.radii_m[i]), 0.01);
+        const double cut = cutRadius(whole.lights[i].color, static_cast<double>(whole.radii_m[i]),
+                                     0.01, kNearest_m);
         ASSERT_EQ(lights.radii_m[i], static_cast<float>(cut)) << i;
     }
 }
 
+// Weak lights of a small scene: they are cut off where nothing is nearer.
+TEST(LightCutoff, LightTooWeakForAnyPlace_DependsOnTheNearestDistance) {
+    EXPECT_EQ(cutRadius({1e-6, 0, 0}, 1, 0.1, kNearest_m), 0);
+    EXPECT_NEAR(cutRadius({1e-6, 0, 0}, 1, 0.1, 1e-4), std::sqrt(1e-5), 1e-9);
+}
+
+TEST(NearestDistance, IsAShareOfSmallScenesAndACentimetreOfOthers) {
+    const auto of = [](double side_m) {
+        BoundsD3 bounds;
+        bounds.add(glm::dvec3(0));
+        bounds.add(glm::dvec3(side_m, 0, 0));
+        return nearestDistance(bounds);
+    };
+    EXPECT_DOUBLE_EQ(of(0.02), 5e-5);
+    EXPECT_NEAR(of(4), kNearest_m, 1e-15);
+    EXPECT_EQ(of(4.1), kNearest_m);
+    EXPECT_EQ(of(1e6), kNearest_m);
+    EXPECT_GT(of(0), 0);
+    EXPECT_EQ(nearestDistance({}), kNearest_m);
+}
+
 TEST(LightCutoff, BlackLight_ReachesNothing) {
-    EXPECT_EQ(cutRadius({0, 0, 0}, 2, 0.01), 0);
+    EXPECT_EQ(cutRadius({0, 0, 0}, 2, 0.01, kNearest_m), 0);
 }
 
 // What a light adds to points spread evenly in space, by Simpson's rule, is what it was.

@@ -171,6 +171,13 @@ brokenPassRule(const view::ViewSettings& settings, const FrameFacts& facts, cons
         {p.gbuffer || p.gbuffer_output_flags == 0, "no layout without a G-buffer"},
         {!p.gbuffer || has(p.gbuffer_output_flags, io::kOutputWideGbuffer) == facts.wide_gbuffer,
          "wide if the scene needs it"},
+        {has(p.gbuffer_output_flags, io::kOutputSpecular) ==
+             (p.gbuffer && facts.specular && !isForward(settings.renderer) &&
+              settings.shading != view::ShadingModel::kLambert),
+         "what dielectrics reflect where it is shown"},
+        {has(p.lighting_light_flags, io::kLightEdges) ==
+             (facts.edges && settings.shading != view::ShadingModel::kLambert),
+         "edges where one reflects less than all"},
         {!p.gbuffer || (p.lighting_output_flags & p.gbuffer_output_flags) == p.gbuffer_output_flags,
          "lighting reads the layout that was written"},
     };
@@ -234,7 +241,7 @@ std::string_view brokenLightRule(const view::ViewSettings& settings,
     const uint32_t laws = io::kLightSlicesLinear | io::kLightSlicesHyperbolic;
     const uint32_t of_local = io::kLightLists | io::kLightSpots | io::kLightBatched |
                               io::kLightPartial | io::kLightEqualRadii | io::kLightCulled |
-                              io::kLightLong | io::kLightShadows | laws;
+                              io::kLightLong | io::kLightShadows | io::kLightSmallScene | laws;
     const std::pair<bool, const char*> rules[] = {
         {local == facts.local_lights, "local light code if there are any"},
         {local || (flags & of_local) == 0, "nothing of local lights without one"},
@@ -244,6 +251,8 @@ std::string_view brokenLightRule(const view::ViewSettings& settings,
         {has(flags, io::kLightAreas) == (local && facts.areas), "rectangles if there are any"},
         {has(flags, io::kLightShadows) == (facts.shadows && facts.local_lights),
          "maps are read if they are drawn"},
+        {has(flags, io::kLightSmallScene) == (local && facts.small_scene),
+         "a floor of the scene's own if it is small"},
         {has(flags, io::kLightEqualRadii) == (local && facts.equal_radii),
          "a constant radius if there is one"},
         {lists || (flags & laws) == 0, "no slices without lists"},
@@ -303,11 +312,14 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
         for (uint32_t bits = 0; bits < (1U << kFacts); ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
             const FrameFacts facts{.wide_gbuffer = has(0),
+                                   .specular = has(1) != has(7),
+                                   .edges = has(4) != has(14),
                                    .transparent_visible = has(1),
                                    .local_lights = has(2),
                                    .spots = has(3),
                                    .areas = has(3) && has(0),
                                    .equal_radii = has(4),
+                                   .small_scene = has(6),
                                    .long_loops = has(5),
                                    .directional = has(6),
                                    .keep_radiance = has(7),

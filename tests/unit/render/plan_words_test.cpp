@@ -37,6 +37,18 @@ TEST(PlanWords, NoLights_SayWhatIsSaved) {
     EXPECT_THAT(words, Contains("nobody reads linear radiance: no target for it"));
 }
 
+TEST(PlanWords, IorAndSpecular_AreNamedWhereTheyAreStored) {
+    view::ViewSettings settings;
+    settings.renderer = view::Renderer::kClusteredDeferred;
+    const FrameFacts facts{.specular = true, .edges = true};
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("ior, specular or glossiness")));
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("G-buffer of 12 bytes")));
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("specular strength below 1")));
+    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("specular strength"))));
+    settings.renderer = view::Renderer::kForwardPlus;
+    EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("ior"))));
+}
+
 TEST(PlanWords, LightsOfOneRadius_AreNamed) {
     const auto words = wordsOf({}, {.local_lights = true, .equal_radii = true});
     EXPECT_THAT(words, Contains("all radii equal: radius is a constant"));

@@ -50,6 +50,34 @@ TEST(SceneNeeds, TransformedSlot_SetsTheTransformFlag) {
               io::kMaterialNormalTexture | io::kMaterialUvTransform);
 }
 
+TEST(SceneNeeds, IorOrSpecular_SetsTheFlagWhereItIsNotUsual) {
+    EXPECT_FALSE(findNeeds(sceneWith(plain())).specular);
+    auto dense = plain();
+    dense.ior = 2;
+    auto tinted = plain();
+    tinted.specular_color = {1, 0.5F, 1};
+    auto weak = plain();
+    weak.specular = 0.5F;
+    auto glossy = plain();
+    glossy.specular_color_texture.texture = 0;
+    glossy.glossiness_texture = true;
+    for (const auto& m : {dense, tinted, weak, glossy}) {
+        const auto needs = findNeeds(sceneWith(m));
+        EXPECT_NE(needs.material_flags[0] & io::kMaterialSpecular, 0U);
+        EXPECT_TRUE(needs.specular);
+        EXPECT_EQ(needs.edges, m.specular != 1);
+        EXPECT_FALSE(needs.wide_gbuffer);
+    }
+    EXPECT_EQ(findNeeds(sceneWith(glossy)).material_flags[0],
+              io::kMaterialSpecular | io::kMaterialSpecularColorTexture | io::kMaterialGlossiness);
+    weak.alpha_mode = scene::AlphaMode::kBlend; // is not in the G-buffer
+    EXPECT_FALSE(findNeeds(sceneWith(weak)).specular);
+    EXPECT_TRUE(findNeeds(sceneWith(weak)).edges);
+    dense.unlit = true;
+    EXPECT_FALSE(findNeeds(sceneWith(dense)).specular);
+    EXPECT_EQ(findNeeds(sceneWith(dense)).material_flags[0], io::kMaterialUnlit);
+}
+
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {
     auto m = plain();
     m.unlit = true;

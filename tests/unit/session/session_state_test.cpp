@@ -31,8 +31,9 @@ TEST_F(State, Initial_HasTheDefaultsAndTheFirstCamera) {
 
 TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
     context.scene.cameras.clear();
-    const view::Camera camera = initialState(context, kStart).settings.camera;
     const BoundsD3& bounds = context.scene.bounds_world;
+    context.scene.framed_world = {bounds.center(), glm::length(bounds.size()) / 2};
+    const view::Camera camera = initialState(context, kStart).settings.camera;
     const double half_angle = camera.yfov_rad / 2;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 world(corner & 1 ? bounds.max.x : bounds.min.x,
@@ -43,16 +44,28 @@ TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
         EXPECT_LT(position_view.z, -camera.near_m);
         EXPECT_LT(std::abs(position_view.y), -position_view.z * std::tan(half_angle));
     }
-    context.scene.bounds_world = {};
+    context.scene.framed_world = {};
     const view::Camera empty = initialState(context, kStart).settings.camera;
     EXPECT_GT(empty.focus_m, 0);
 }
 
+// A window held upright: the opening view steps back, until somebody has moved it.
+TEST_F(State, SetSize_OfTheOpeningView_FramesTheSceneAnew) {
+    context.scene.cameras.clear();
+    context.scene.framed_world = {{1, 2, 3}, 4};
+    const SessionState before = initialState(context, kStart);
+    const auto upright = [&](const SessionState& state) {
+        return applied(state, SetSize{{360, 640}}).settings.camera;
+    };
+    EXPECT_EQ(upright(before), view::overview({{1, 2, 3}, 4}, 360.0 / 640));
+    SessionState moved = before;
+    moved.settings.camera.eye_world.x += 1;
+    EXPECT_EQ(upright(moved), moved.settings.camera);
+}
+
 TEST_F(State, Initial_TinyScene_IsBeyondTheNearPlane) {
     context.scene.cameras.clear();
-    context.scene.bounds_world = {};
-    context.scene.bounds_world.add(glm::dvec3(-0.001));
-    context.scene.bounds_world.add(glm::dvec3(0.001));
+    context.scene.framed_world = {{0, 0, 0}, 0.0017};
     const view::Camera camera = initialState(context, kStart).settings.camera;
     EXPECT_LT(camera.near_m, 0.5 * camera.focus_m);
 }

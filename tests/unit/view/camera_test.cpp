@@ -52,5 +52,41 @@ TEST(LookAt, FarFromTheOrigin_KeepsTheDirection) {
     EXPECT_DOUBLE_EQ(camera.focus_m, 5);
 }
 
+// A sphere is in the picture where the view axis turns by less than the half angle towards its
+// outline: every point of it, whatever the picture's shape.
+TEST(Overview, AnyAspect_HasEveryPointOfTheSphereInThePicture) {
+    const Sphere sphere{{30, -4, 2}, 7};
+    for (const double aspect : {0.1, 0.5625, 1.0, 16.0 / 9, 8.0}) {
+        const Camera camera = overview(sphere, aspect);
+        expectRotation(camera.world_from_view);
+        double most = 0; // of half pictures
+        for (int i = 0; i < 100; ++i) {
+            for (int k = 0; k < 100; ++k) {
+                const double up = (2 * i + 1) / 100.0 - 1;
+                const double turn = 2 * glm::pi<double>() * k / 100;
+                const double level = std::sqrt(1 - up * up);
+                const glm::dvec3 on(level * std::cos(turn), up, level * std::sin(turn));
+                const glm::dvec3 at = glm::transpose(camera.world_from_view) *
+                                      (sphere.center + on * sphere.radius_m - camera.eye_world);
+                ASSERT_LT(at.z, -camera.near_m);
+                const double half_height = -at.z * std::tan(camera.yfov_rad / 2);
+                most = std::max(
+                    {most, std::abs(at.x) / (half_height * aspect), std::abs(at.y) / half_height});
+            }
+        }
+        EXPECT_LT(most, 1) << aspect;
+        EXPECT_GT(most, 0.9) << aspect; // and it fills the picture
+    }
+}
+
+TEST(Overview, ScaledSphere_IsSeenFromAsFarInItsRadii) {
+    const Camera whole = overview({{0, 0, 0}, 1}, 1);
+    for (const double scale : {0.01, 1000.0}) {
+        const Camera scaled = overview({{0, 0, 0}, scale}, 1);
+        expectNear(scaled.eye_world / scale, whole.eye_world);
+        EXPECT_LT(scaled.near_m, scale);
+    }
+}
+
 } // namespace
 } // namespace froxel::view
