@@ -25,6 +25,8 @@ struct SceneSummary {
     uint32_t punctual_light_count = 0;
     std::vector<scene::NamedCamera> cameras;
     BoundsD3 bounds_world; // empty for an empty scene
+    std::vector<scene::Warning> warnings;
+    uint64_t warnings_left_out = 0;
 };
 
 [[nodiscard]] SceneSummary summarize(const scene::Scene& scene);
