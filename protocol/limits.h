@@ -25,6 +25,7 @@ inline constexpr size_t kMaxNameBytes = 256;               // any other name in 
 inline constexpr size_t kMaxRoomNameBytes = 64;            // Hello.room
 inline constexpr size_t kMaxTokenBytes = 512;              // Hello.token
 inline constexpr size_t kMaxRoomMembersTold = 32;          // in a RoomState
+inline constexpr size_t kMaxSceneWarningsTold = 32;        // in a SceneInfo
 
 inline constexpr std::chrono::seconds kHelloTimeout{5};
 

@@ -24,6 +24,7 @@ import { mayControl, roomFromAddress } from './state/room';
 import { SettingsSync } from './state/settings_sync';
 import { Store } from './state/store';
 import { WindowSize } from './state/window_size';
+import { SceneWarnings } from './stats/scene_warnings';
 import { Stats } from './stats/stats';
 import { StatsCard } from './stats/stats_card';
 import { CanvasInput } from './steering/input';
@@ -117,6 +118,7 @@ const banner = new Banner({
 });
 const roomCard = new RoomCard(commands);
 const legend = new Legend();
+const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
 
 new WindowSize(store, canvas);
@@ -142,6 +144,7 @@ store.listen(({ server }, before) => {
   const scene = server.scene?.name ?? 'no scene';
   const about = `${scene} on ${server.device} · froxel ${server.version}`;
   element('about', HTMLElement).textContent = about;
+  sceneWarnings.show(server.scene);
 });
 
 /** The plain codec stays until the viewer chooses video again: by itself it would swing to and fro. */

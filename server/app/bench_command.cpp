@@ -187,9 +187,7 @@ int measureSweeps(const BenchOptions& options, const std::string& page) {
     const auto scene = loadScene(options.scene).value();
     gpu::Device device(options.device);
     render::Renderer renderer(device, scene);
-    for (const auto& warning : scene.warnings) {
-        spdlog::warn("scene {}", warning);
-    }
+    logWarnings(scene);
     bench::Run run(renderer, scene, startOf(options, scene, device.traits()), stop.stopped());
     run.measure(sweepsOf(options, run.result().base), [&](const bench::RunResult& result) {
         const auto command_of = [&](const bench::Row& row, size_t frame_count) {

@@ -57,21 +57,45 @@ Json lightsOf(const scene::Scene& scene) {
             {"directional", count(scene::LightType::kDirectional)}};
 }
 
+// In the shape of the Khronos validator's issues.
+Json warningsOf(const scene::Scene& scene) {
+    Json warnings = Json::array();
+    for (const scene::Warning& warning : scene.warnings) {
+        warnings.push_back({{"code", warning.code},
+                            {"severity", static_cast<int>(warning.severity)},
+                            {"pointer", warning.pointer},
+                            {"message", warning.message}});
+    }
+    return warnings;
+}
+
 // Strings without JSON's quotes.
 std::string plain(const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+// Lists of words or of objects take a line each.
 bool onOneLine(const Json& value) {
-    const auto is_string = [](const Json& item) { return item.is_string(); };
+    const auto is_long = [](const Json& item) { return item.is_string() || item.is_object(); };
     return !value.is_object() &&
-           !(value.is_array() && std::any_of(value.begin(), value.end(), is_string));
+           !(value.is_array() && std::any_of(value.begin(), value.end(), is_long));
+}
+
+// An object of a list: its values, "CODE 1 /nodes/3 what it is".
+std::string rowOf(const Json& object) {
+    std::string row;
+    for (const auto& [key, item] : object.items()) {
+        row += (row.empty() ? "" : " ") + plain(item);
+    }
+    return row;
 }
 
 void append(std::string& text, const Json& value, const std::string& indent) {
     for (const auto& [key, item] : value.items()) {
         const std::string label = value.is_array() ? indent + "- " : indent + key + ": ";
-        if (onOneLine(item)) {
+        if (value.is_array() && item.is_object()) {
+            text += label + rowOf(item) + "\n";
+        } else if (onOneLine(item)) {
             text += label + plain(item) + "\n";
         } else {
             text += indent + key + ":\n";
@@ -101,7 +125,8 @@ Json sceneReport(const scene::Scene& scene) {
             {"lights", lightsOf(scene)},
             {"bounds_m", boundsOf(scene)},
             {"needs", render::sceneWords(render::findNeeds(scene))},
-            {"warnings", scene.warnings}};
+            {"warnings", warningsOf(scene)},
+            {"warnings_left_out", scene.warnings_left_out}};
 }
 
 std::string toText(const Json& report) {

@@ -94,9 +94,7 @@ void runRender(const RenderOptions& options) try {
         }
     }
     const auto scene = loadScene(options.scene).value();
-    for (const auto& warning : scene.warnings) {
-        spdlog::warn("scene {}", warning);
-    }
+    logWarnings(scene);
     gpu::Device device(options.device);
     auto run = describeRun(options, device.traits());
     run.settings.camera = findCamera(options.camera, scene, run.settings.size).value();

@@ -1,7 +1,10 @@
 #include "app/scene_source.h"
 
 #include "builtin_scene/hall.h"
+#include "core/text.h"
 #include "gltf/gltf_loader.h"
+
+#include <spdlog/spdlog.h>
 
 namespace froxel::app {
 
@@ -10,6 +13,18 @@ Result<scene::Scene> loadScene(const std::string& source) {
         return builtin_scene::makeHall();
     }
     return gltf::load(source);
+}
+
+void logWarnings(const scene::Scene& scene) {
+    for (const scene::Warning& warning : scene.warnings) {
+        const auto level = warning.severity == scene::Severity::kWarning ? spdlog::level::warn
+                                                                         : spdlog::level::info;
+        spdlog::log(level, "event=scene_warning code={} pointer={} text={}", warning.code,
+                    logValue(warning.pointer), logValue(warning.message, 400));
+    }
+    if (scene.warnings_left_out > 0) {
+        spdlog::warn("event=scene_warnings_left_out count={}", scene.warnings_left_out);
+    }
 }
 
 } // namespace froxel::app

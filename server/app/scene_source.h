@@ -12,4 +12,7 @@ namespace froxel::app {
 // Errors: ErrorCode::kScene with one line.
 [[nodiscard]] Result<scene::Scene> loadScene(const std::string& source);
 
+// A line of the log for each of the scene's warnings, which are few.
+void logWarnings(const scene::Scene& scene);
+
 } // namespace froxel::app

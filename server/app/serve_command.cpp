@@ -79,9 +79,7 @@ OpenedScene openScene(const ServeOptions& options,
 
     report({"loading the scene", 0.1});
     const scene::Scene scene = loadScene(options.scene).value();
-    for (const std::string& warning : scene.warnings) {
-        spdlog::warn("event=scene_warning text={}", logValue(warning, 400));
-    }
+    logWarnings(scene);
     session::SessionContext context{
         session::summarize(scene), defaultsOf(options, traits.is_cpu), FROXEL_VERSION, traits.name,
         [rig = light::LightRig(scene)](const auto&... where) { return rig.pick(where...); }};

@@ -44,8 +44,8 @@ size_t componentCount(int type, const std::string& name) {
     }
 }
 
-// `count` elements of `element_bytes` inside `bytes`, the first at `offset`. All four numbers are
-// below 2^31, so 64 bits hold every product and sum.
+// `count` elements of `element_bytes` inside `bytes`, the first at `offset`. The count and the
+// stride are below 2^31 and the others below 2^32, so 64 bits hold the product and the sum.
 void checkFit(std::span<const std::byte> bytes,
               uint64_t offset,
               uint64_t count,
@@ -57,6 +57,15 @@ void checkFit(std::span<const std::byte> bytes,
         fail(name + " ends at byte " + std::to_string(end) + " of its bufferView, which has " +
              std::to_string(bytes.size()));
     }
+}
+
+// tinygltf narrows these, and only these, to 32 bits with a sign.
+size_t sparseOffset(int offset, const std::string& name) {
+    if (offset < 0) {
+        fail(name + " has a sparse byteOffset of " + std::to_string(static_cast<uint32_t>(offset)) +
+             "; right is at most 2147483647");
+    }
+    return static_cast<size_t>(offset);
 }
 
 template <class T>
@@ -181,8 +190,8 @@ void AccessorReader::substitute(const tinygltf::Accessor& accessor,
     const size_t index_bytes = componentBytes(type, name);
     const auto index_view = views_.bytes(sparse.indices.bufferView, name + " sparse indices");
     const auto value_view = views_.bytes(sparse.values.bufferView, name + " sparse values");
-    const auto index_offset = static_cast<size_t>(sparse.indices.byteOffset);
-    const auto value_offset = static_cast<size_t>(sparse.values.byteOffset);
+    const size_t index_offset = sparseOffset(sparse.indices.byteOffset, name);
+    const size_t value_offset = sparseOffset(sparse.values.byteOffset, name);
     checkFit(index_view, index_offset, count, index_bytes, index_bytes, name + " sparse indices");
     checkFit(value_view, value_offset, count, elements.element_bytes, elements.element_bytes,
              name + " sparse values");
@@ -203,7 +212,8 @@ void AccessorReader::substitute(const tinygltf::Accessor& accessor,
 }
 
 template <int N>
-std::vector<glm::vec<N, float>> AccessorReader::vectors(int index, const std::string& user) {
+std::vector<glm::vec<N, float>>
+AccessorReader::vectors(int index, const std::string& user, NotFinite not_finite) {
     const tinygltf::Accessor& accessor = at(index, user);
     const Elements source = elements(index, user);
     if (source.components != N) {
@@ -218,7 +228,7 @@ std::vector<glm::vec<N, float>> AccessorReader::vectors(int index, const std::st
             for (int c = 0; c < N; ++c) {
                 const float value = toFloat(load<T>(element + static_cast<size_t>(c) * sizeof(T)),
                                             accessor.normalized);
-                if (!std::isfinite(value)) {
+                if (not_finite == NotFinite::kRefused && !std::isfinite(value)) {
                     fail(user + " accessor " + std::to_string(index) + " element " +
                          std::to_string(i) + " is " + numberText(value) +
                          "; right is a finite number");
@@ -230,9 +240,9 @@ std::vector<glm::vec<N, float>> AccessorReader::vectors(int index, const std::st
     return result;
 }
 
-template std::vector<glm::vec2> AccessorReader::vectors<2>(int, const std::string&);
-template std::vector<glm::vec3> AccessorReader::vectors<3>(int, const std::string&);
-template std::vector<glm::vec4> AccessorReader::vectors<4>(int, const std::string&);
+template std::vector<glm::vec2> AccessorReader::vectors<2>(int, const std::string&, NotFinite);
+template std::vector<glm::vec3> AccessorReader::vectors<3>(int, const std::string&, NotFinite);
+template std::vector<glm::vec4> AccessorReader::vectors<4>(int, const std::string&, NotFinite);
 
 std::vector<uint32_t> AccessorReader::indices(int index, const std::string& user) {
     const int type = at(index, user).componentType;

@@ -13,6 +13,8 @@
 
 namespace froxel::gltf {
 
+enum class NotFinite { kRefused, kKept };
+
 // Not thread-safe. Every function throws Failure, naming `user`, for an accessor that does not
 // exist or whose elements do not lie inside its buffer view. What is returned is not larger than
 // count() elements; the caller asks its budget first.
@@ -26,9 +28,10 @@ class AccessorReader {
     [[nodiscard]] int components(int accessor, const std::string& user) const; // 1 to 4
 
     // Elements of exactly N components as floats: normalised integers in 0..1 or -1..1, others as
-    // their value. Not-finite floats are refused, naming the element.
+    // their value. Not-finite floats are refused, naming the element, unless the caller mends them.
     template <int N>
-    [[nodiscard]] std::vector<glm::vec<N, float>> vectors(int accessor, const std::string& user);
+    [[nodiscard]] std::vector<glm::vec<N, float>>
+    vectors(int accessor, const std::string& user, NotFinite not_finite = NotFinite::kRefused);
 
     // Unsigned integer scalars.
     [[nodiscard]] std::vector<uint32_t> indices(int accessor, const std::string& user);

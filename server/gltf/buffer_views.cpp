@@ -30,7 +30,7 @@ std::span<const std::byte> BufferViews::bufferBytes(size_t buffer) {
     return bytes.first(source.size_bytes);
 }
 
-// Offsets and lengths are below 2^31 each (json_check), so their sum cannot wrap.
+// Offsets and lengths are below 2^32 each (json_check), so their sum cannot wrap.
 std::span<const std::byte>
 BufferViews::range(int buffer, uint64_t offset, uint64_t length, const std::string& user) {
     const size_t index = checkedIndex(buffer, document_.buffers.size(), "buffer", user);
@@ -62,7 +62,7 @@ std::span<const std::byte> BufferViews::bytes(int view, const std::string& user)
 }
 
 size_t BufferViews::stride(int view) const {
-    return document_.model.bufferViews[static_cast<size_t>(view)].byteStride;
+    return document_.strides[static_cast<size_t>(view)];
 }
 
 } // namespace froxel::gltf

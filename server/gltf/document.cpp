@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace froxel::gltf {
 namespace {
@@ -31,8 +32,45 @@ void takeBuffers(Json& root, Document& document) {
 
 void takeImages(Json& root, Document& document) {
     for (const Json& image : takeArray(root, "images")) {
-        document.images.push_back(
-            {image.value("name", ""), image.value("uri", ""), image.value("bufferView", -1)});
+        document.images.push_back({image.value("name", ""), image.value("uri", ""),
+                                   image.value("mimeType", ""), image.value("bufferView", -1)});
+    }
+}
+
+void takeStrides(Json& root, Document& document, Warnings& warnings) {
+    const auto views = root.find("bufferViews");
+    if (views == root.end()) {
+        return;
+    }
+    for (Json& view : *views) {
+        const size_t stride = view.value("byteStride", size_t{0});
+        if (stride % 4 != 0 || stride > 252) {
+            const size_t index = document.strides.size();
+            warnings.add(warning::kByteStride, pointerTo("bufferViews", index) + "/byteStride",
+                         thing("bufferView", index) + " has byteStride " + std::to_string(stride) +
+                             "; right is a multiple of 4 up to 252");
+        }
+        document.strides.push_back(stride);
+        view.erase("byteStride");
+    }
+}
+
+// Bytes are copied out, so any address will do here; it may not elsewhere.
+void checkAlignment(const tinygltf::Model& model, Warnings& warnings) {
+    for (size_t i = 0; i < model.accessors.size(); ++i) {
+        const tinygltf::Accessor& accessor = model.accessors[i];
+        const auto view = static_cast<size_t>(accessor.bufferView);
+        const int size =
+            tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType));
+        if (accessor.bufferView < 0 || view >= model.bufferViews.size() || size <= 0) {
+            continue;
+        }
+        const size_t offset = model.bufferViews[view].byteOffset + accessor.byteOffset;
+        if (offset % static_cast<size_t>(size) != 0) {
+            warnings.add(warning::kAlignment, pointerTo("accessors", i),
+                         thing("accessor", i) + " begins at byte " + std::to_string(offset) +
+                             " of its buffer; right is a multiple of " + std::to_string(size));
+        }
     }
 }
 
@@ -58,12 +96,23 @@ void takeIndices(Json& root, Document& document) {
 
 void takeMotion(Json& root, Warnings& warnings) {
     if (const size_t count = takeArray(root, "animations").size(); count > 0) {
-        warnings.add(std::to_string(count) + " animations are not played; the nodes keep their "
+        warnings.add(warning::kRestPose, "/animations",
+                     std::to_string(count) + " animations are not played; the nodes keep their "
                                              "rest pose");
     }
     if (const size_t count = takeArray(root, "skins").size(); count > 0) {
-        warnings.add(std::to_string(count) + " skins are not applied; skinned meshes keep their "
+        warnings.add(warning::kRestPose, "/skins",
+                     std::to_string(count) + " skins are not applied; skinned meshes keep their "
                                              "rest pose");
+    }
+}
+
+void checkByteOrderMark(std::span<const std::byte> text, Warnings& warnings) {
+    constexpr std::byte kMark[] = {std::byte{0xEF}, std::byte{0xBB}, std::byte{0xBF}};
+    if (text.size() >= std::size(kMark) &&
+        std::equal(std::begin(kMark), std::end(kMark), text.begin())) {
+        warnings.add(warning::kByteOrderMark, "",
+                     "the JSON text begins with a byte order mark, which glTF does not allow");
     }
 }
 
@@ -79,14 +128,16 @@ Document readDocument(SceneFolder& folder, Warnings& warnings) {
     document.file = folder.readSceneFile();
     std::span<const std::byte> text = document.file;
     if (isGlb(document.file)) {
-        const GlbChunks chunks = splitGlb(document.file);
+        const GlbChunks chunks = splitGlb(document.file, warnings);
         text = chunks.json;
         document.binary_chunk = chunks.binary;
     }
+    checkByteOrderMark(text, warnings); // the parser skips it
     Json root = parseJson(text);
     checkJson(root, warnings);
     takeBuffers(root, document);
     takeImages(root, document);
+    takeStrides(root, document, warnings);
     takeIndices(root, document);
     takeMotion(root, warnings);
 
@@ -103,6 +154,7 @@ Document readDocument(SceneFolder& folder, Warnings& warnings) {
     if (document.indices.size() != document.model.meshes.size()) {
         fail("it is no glTF 2.0 file: a mesh cannot be read");
     }
+    checkAlignment(document.model, warnings);
     return document;
 }
 

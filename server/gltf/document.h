@@ -21,21 +21,25 @@ struct BufferSource {
 struct ImageSource {
     std::string name;
     std::string uri;
+    std::string mime_type; // as the file says; what counts are the image's first bytes
     int buffer_view = -1;
 };
 
-// Buffers, images and index accessors are kept aside: tinygltf would read files by its own rules,
-// touch unchecked offsets and refuse the accessors without data that compressed meshes have.
+// Buffers, images, strides and index accessors are kept aside: tinygltf would read files by its own
+// rules, touch unchecked offsets, refuse strides that are no multiple of 4 and the accessors
+// without data that compressed meshes have.
 struct Document {
-    tinygltf::Model model; // without buffers, images, skins, animations and primitive indices
+    // Without buffers, images, skins, animations, primitive indices and byte strides.
+    tinygltf::Model model;
     std::vector<BufferSource> buffers;
+    std::vector<size_t> strides; // [bufferView]: bytes between elements; 0: tightly packed
     std::vector<ImageSource> images;
     std::vector<std::vector<int>> indices; // [mesh][primitive]: an accessor, or -1
     Bytes file;
     std::span<const std::byte> binary_chunk; // in `file`
 };
 
-// Throws Failure. Adds one line to `warnings` for each kind of thing that stays in its rest pose.
+// Throws Failure.
 [[nodiscard]] Document readDocument(SceneFolder& folder, Warnings& warnings);
 
 } // namespace froxel::gltf

@@ -140,12 +140,8 @@ DracoMesh::vectors(const std::string& semantic, bool normalized, const std::stri
             fail(user + " has a Draco attribute that cannot be read as numbers at vertex " +
                  std::to_string(point.value()));
         }
-        for (int c = 0; c < N; ++c) {
-            value[c] = divide ? normalize(value[c], attribute->data_type()) : value[c];
-            if (!std::isfinite(value[c])) {
-                fail(user + " vertex " + std::to_string(point.value()) + " is " +
-                     numberText(value[c]) + "; right is a finite number");
-            }
+        for (int c = 0; divide && c < N; ++c) {
+            value[c] = normalize(value[c], attribute->data_type());
         }
     }
     return result;

@@ -40,7 +40,7 @@ class DracoMesh {
     }
     [[nodiscard]] std::vector<uint32_t> indices() const;
 
-    // One element per vertex. Not-finite values and a wrong number of components throw Failure.
+    // One element per vertex, finite or not. A wrong number of components throws Failure.
     template <int N>
     [[nodiscard]] std::vector<glm::vec<N, float>>
     vectors(const std::string& semantic, bool normalized, const std::string& user) const;

@@ -1,18 +1,28 @@
-// How the parts of the loader give up, and what they say when they do not have to. Inside this
-// layer a broken file is an exception: it ends dozens of nested readers at once. `load` catches it.
+// How the parts of the loader give up. Inside this layer a broken file is an exception: it ends
+// dozens of nested readers at once. `load` catches it.
 #pragma once
+
+#include "gltf/warnings.h"
 
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace froxel::gltf {
 
 class Failure : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+};
+
+// Of a thing that the rest of the file can do without: who may leave it out catches this and warns.
+class Unusable : public Failure {
+  public:
+    Unusable(const WarningKind& kind, const std::string& message) : Failure(message), kind_(kind) {}
+    [[nodiscard]] const WarningKind& kind() const { return kind_; }
+
+  private:
+    WarningKind kind_;
 };
 
 // One line without the file's name, which `load` puts in front.
@@ -34,16 +44,5 @@ checkedIndex(int index, size_t size, const char* kind, const std::string& user) 
     }
     return static_cast<size_t>(index);
 }
-
-// Lines for the user about what was ignored or left in its rest pose: each once, a hundred at most.
-class Warnings {
-  public:
-    void add(std::string line);
-    [[nodiscard]] std::vector<std::string> take();
-
-  private:
-    std::vector<std::string> lines_;
-    size_t left_out_count_ = 0;
-};
 
 } // namespace froxel::gltf

@@ -23,9 +23,12 @@ uint32_t word(std::span<const std::byte> file, size_t offset) {
     return value;
 }
 
-// Chunks of other types are for others: the specification has them ignored.
-bool isForeign(std::span<const std::byte> file, size_t offset) {
-    return file.size() - offset >= kChunkHeaderBytes && word(file, offset + 4) != kBinary;
+// Whether the binary chunk comes at `offset`. Chunks of other types are for others: the
+// specification has them ignored. What is cut off inside the length that the header tells was one.
+bool beginsBinary(std::span<const std::byte> file, size_t offset, size_t told_length) {
+    const size_t left = file.size() - offset;
+    return left >= kChunkHeaderBytes ? word(file, offset + 4) == kBinary
+                                     : left > 0 && offset < told_length;
 }
 
 // The chunk at `offset`; moves `offset` behind it.
@@ -56,7 +59,7 @@ bool isGlb(std::span<const std::byte> file) {
     return file.size() >= sizeof kMagic && word(file, 0) == kMagic;
 }
 
-GlbChunks splitGlb(std::span<const std::byte> file) {
+GlbChunks splitGlb(std::span<const std::byte> file, Warnings& warnings) {
     if (file.size() < kHeaderBytes) {
         fail("the GLB header is cut off: " + std::to_string(file.size()) + " bytes, 12 are needed");
     }
@@ -65,15 +68,15 @@ GlbChunks splitGlb(std::span<const std::byte> file) {
         fail("the GLB version is " + std::to_string(version) + "; 2 is supported");
     }
     const uint32_t length = word(file, 8);
-    if (length > file.size() || length < kHeaderBytes) {
-        fail("the GLB header says " + std::to_string(length) + " bytes, but the file has " +
-             std::to_string(file.size()));
+    if (length != file.size()) {
+        warnings.add(warning::kGlbLength, "",
+                     "the GLB header says " + std::to_string(length) + " bytes, but the file has " +
+                         std::to_string(file.size()));
     }
-    file = file.first(length);
     size_t offset = kHeaderBytes;
     GlbChunks chunks;
     chunks.json = chunk(file, offset, kJson, "JSON");
-    if (offset < file.size() && !isForeign(file, offset)) {
+    if (beginsBinary(file, offset, length)) {
         chunks.binary = chunk(file, offset, kBinary, "BIN");
     }
     return chunks;

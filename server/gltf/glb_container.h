@@ -1,6 +1,8 @@
 // The frame of a .glb file: header, JSON chunk, optional binary chunk.
 #pragma once
 
+#include "gltf/warnings.h"
+
 #include <cstddef>
 #include <span>
 
@@ -13,8 +15,9 @@ struct GlbChunks {
 
 [[nodiscard]] bool isGlb(std::span<const std::byte> file);
 
-// Both chunks lie inside `file`. Throws Failure on a header or chunk that does not fit.
+// Both chunks lie inside `file`. Throws Failure on a header or chunk that does not fit; where the
+// header tells another length than the file's, chunks that fit are taken with a warning.
 // Checked here and not by tinygltf, whose check forgets the binary chunk's own header.
-[[nodiscard]] GlbChunks splitGlb(std::span<const std::byte> file);
+[[nodiscard]] GlbChunks splitGlb(std::span<const std::byte> file, Warnings& warnings);
 
 } // namespace froxel::gltf

@@ -26,7 +26,7 @@ Result<scene::Scene> load(const std::filesystem::path& file) {
         const Document document = readDocument(folder, warnings);
         scene::Scene scene = buildScene(document, folder, warnings);
         scene.name = file.stem().string();
-        scene.warnings = warnings.take();
+        warnings.moveInto(scene);
         return scene;
     } catch (const Failure& failure) {
         return sceneError(file, failure.what());

@@ -6,7 +6,9 @@
 #include "png/reader.h"
 
 #include <turbojpeg.h>
+#include <webp/decode.h>
 
+#include <cstring>
 #include <memory>
 
 namespace froxel::gltf {
@@ -20,9 +22,17 @@ using Decompressor = std::unique_ptr<void, DestroyDecompressor>;
 // A progressive file of a few bytes may have thousands of scans, each over every pixel.
 constexpr int kLimitScans = TJFLAG_LIMITSCANS;
 
+bool beginsWith(std::span<const std::byte> file, std::string_view bytes, size_t offset = 0) {
+    return file.size() >= offset + bytes.size() &&
+           std::memcmp(file.data() + offset, bytes.data(), bytes.size()) == 0;
+}
+
 bool isJpeg(std::span<const std::byte> file) {
-    return file.size() >= 3 && file[0] == std::byte{0xFF} && file[1] == std::byte{0xD8} &&
-           file[2] == std::byte{0xFF};
+    return beginsWith(file, "\xFF\xD8\xFF");
+}
+
+bool isWebp(std::span<const std::byte> file) {
+    return beginsWith(file, "RIFF") && beginsWith(file, "WEBP", 8);
 }
 
 const unsigned char* data(std::span<const std::byte> file) {
@@ -31,7 +41,15 @@ const unsigned char* data(std::span<const std::byte> file) {
 
 [[noreturn]] void
 failBroken(const std::string& user, const char* format, const std::string& reason) {
-    fail(user + " is a broken " + format + " file: " + printable(reason));
+    throw Unusable(warning::kBrokenImage,
+                   user + " is a broken " + format + " file: " + printable(reason));
+}
+
+[[noreturn]] void failFormat(std::span<const std::byte> file, const std::string& user) {
+    const bool is_ktx2 = beginsWith(file, "\xABKTX 20\xBB");
+    throw Unusable(warning::kImageFormat,
+                   user + (is_ktx2 ? " is a KTX2 file" : " is of an unknown format") + " (" +
+                       std::to_string(file.size()) + " bytes); right is PNG, JPEG or WebP");
 }
 
 // Reads the header; `decoder` is ready for the pixels afterwards.
@@ -49,7 +67,7 @@ jpegSize(const Decompressor& decoder, std::span<const std::byte> file, const std
         failBroken(user, "JPEG", "its header is cut off");
     }
     if (colorspace == TJCS_CMYK || colorspace == TJCS_YCCK) {
-        fail(user + " is a CMYK JPEG; right is RGB or grey");
+        throw Unusable(warning::kImageFormat, user + " is a CMYK JPEG; right is RGB or grey");
     }
     return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
 }
@@ -70,7 +88,38 @@ decodeJpeg(std::span<const std::byte> file, const std::string& user, scene::Imag
     failBroken(user, "JPEG", tjGetErrorStr2(decoder.get()));
 }
 
+ImageSize webpSize(std::span<const std::byte> file, const std::string& user) {
+    WebPBitstreamFeatures features;
+    if (WebPGetFeatures(data(file), file.size(), &features) != VP8_STATUS_OK) {
+        failBroken(user, "WebP", "its header cannot be read");
+    }
+    if (features.has_animation != 0) {
+        throw Unusable(warning::kImageFormat, user + " is a WebP animation; right is one picture");
+    }
+    return {static_cast<uint32_t>(features.width), static_cast<uint32_t>(features.height)};
+}
+
+void decodeWebp(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
+    if (WebPDecodeRGBAInto(data(file), file.size(), reinterpret_cast<uint8_t*>(image.rgba8.data()),
+                           image.rgba8.size(), static_cast<int>(image.width_px * 4)) == nullptr) {
+        failBroken(user, "WebP", "its picture cannot be decoded");
+    }
+}
+
+void decodePng(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
+    if (const auto read = png::readPixels(file, image.rgba8); !read) {
+        failBroken(user, "PNG", read.error().message);
+    }
+}
+
 } // namespace
+
+std::string_view imageType(std::span<const std::byte> file) {
+    return png::isPng(file) ? "image/png"
+           : isJpeg(file)   ? "image/jpeg"
+           : isWebp(file)   ? "image/webp"
+                            : "";
+}
 
 ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {
     ImageSize size;
@@ -82,9 +131,10 @@ ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {
         size = {told->width_px, told->height_px};
     } else if (isJpeg(file)) {
         size = jpegSize(Decompressor(tjInitDecompress()), file, user);
+    } else if (isWebp(file)) {
+        size = webpSize(file, user);
     } else {
-        fail(user + " is neither a PNG nor a JPEG file (" + std::to_string(file.size()) +
-             " bytes)");
+        failFormat(file, user);
     }
     if (size.width_px == 0 || size.height_px == 0 || size.width_px > kMaxImageSide_px ||
         size.height_px > kMaxImageSide_px) {
@@ -103,8 +153,10 @@ decodeImage(std::span<const std::byte> file, const std::string& user, scene::Ima
     if (isJpeg(file)) {
         return decodeJpeg(file, user, image);
     }
-    if (const auto read = png::readPixels(file, image.rgba8); !read) {
-        failBroken(user, "PNG", read.error().message);
+    if (isWebp(file)) {
+        decodeWebp(file, user, image);
+    } else {
+        decodePng(file, user, image);
     }
     return "";
 }

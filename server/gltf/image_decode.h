@@ -1,4 +1,5 @@
-// PNG and JPEG files as RGBA8. Colour profiles and gamma chunks are ignored, as glTF asks.
+// PNG, JPEG and WebP files as RGBA8, told apart by their first bytes. Colour profiles and gamma
+// chunks are ignored, as glTF asks.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace froxel::gltf {
 
@@ -17,12 +19,15 @@ struct ImageSize {
     [[nodiscard]] uint64_t decodedBytes() const { return uint64_t{width_px} * height_px * 4; }
 };
 
-// Size by the file's header alone. Throws Failure, naming `user`, for a file that is neither PNG
-// nor JPEG, and for sides of 0 or above kMaxImageSide_px.
+// "image/png" and the like, by the file's first bytes; "" for what is none of the three.
+[[nodiscard]] std::string_view imageType(std::span<const std::byte> file);
+
+// Size by the file's header alone. Throws Unusable, naming `user`, for a file of another format and
+// a broken one, Failure for sides above kMaxImageSide_px.
 [[nodiscard]] ImageSize imageSize(std::span<const std::byte> file, const std::string& user);
 
 // Fills width, height and pixels of `image`: grey and palette become RGB, no alpha becomes 255,
-// 16 bits become 8. Returns a warning or "". Throws Failure, naming `user`, where the data is
+// 16 bits become 8. Returns a warning or "". Throws Unusable, naming `user`, where the data is
 // broken. Any thread.
 std::string
 decodeImage(std::span<const std::byte> file, const std::string& user, scene::Image& image);

@@ -13,7 +13,9 @@
 namespace froxel::gltf {
 
 // Fills `scene.images`; numbers[i] is the file's number of image i. All sizes are checked by their
-// headers before the first pixel is decoded. Throws the Failure of the lowest image that has one.
+// headers before the first pixel is decoded. An image that is missing or broken becomes a white
+// pixel that no material uses, with a warning: their slots are emptied. Throws Failure for one that
+// may not be read or is too large.
 void loadImages(const Document& document,
                 const std::vector<size_t>& numbers,
                 SceneFolder& folder,

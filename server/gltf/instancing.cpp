@@ -15,9 +15,11 @@ constexpr const char* kSemantics[] = {"TRANSLATION", "ROTATION", "SCALE"};
 } // namespace
 
 std::vector<glm::dmat4> nodeInstances(const tinygltf::Node& node,
+                                      size_t index,
                                       AccessorReader& accessors,
                                       Budget& budget,
-                                      const std::string& name) {
+                                      Warnings& warnings) {
+    const std::string name = thing("node", index);
     const tinygltf::Value* extension = findExtension(node.extensions, "EXT_mesh_gpu_instancing");
     if (extension == nullptr) {
         budget.take(1, name);
@@ -51,12 +53,15 @@ std::vector<glm::dmat4> nodeInstances(const tinygltf::Node& node,
     if (attributes.Has("SCALE")) {
         scales = accessors.vectors<3>(intOr(attributes, "SCALE", -1), name);
     }
+    const std::string pointer =
+        pointerTo("nodes", index) + "/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION";
     std::vector<glm::dmat4> result;
     result.reserve(*count);
     for (size_t i = 0; i < *count; ++i) {
         const glm::dvec4 r(rotations[i]);
-        result.push_back(composeTransform(translations[i], glm::dquat(r.w, r.x, r.y, r.z),
-                                          scales[i], name + " instance " + std::to_string(i)));
+        const glm::dquat rotation(r.w, r.x, r.y, r.z);
+        checkRotation(rotation, pointer, name, warnings);
+        result.push_back(composeTransform(translations[i], rotation, scales[i]));
     }
     return result;
 }

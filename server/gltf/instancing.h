@@ -18,8 +18,9 @@ namespace froxel::gltf {
 // node_from_object of every instance; one identity where the node does not use the extension.
 // Takes from `budget` before it allocates. Throws Failure for unequal counts.
 [[nodiscard]] std::vector<glm::dmat4> nodeInstances(const tinygltf::Node& node,
+                                                    size_t index,
                                                     AccessorReader& accessors,
                                                     Budget& budget,
-                                                    const std::string& name);
+                                                    Warnings& warnings);
 
 } // namespace froxel::gltf

@@ -6,25 +6,41 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <map>
+#include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace froxel::gltf {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 11> kSupportedExtensions{
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",
-    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",     "KHR_materials_unlit",
-    "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
+constexpr std::string_view kSupportedExtensions[] = {
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+    "EXT_texture_webp",        "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",  "KHR_materials_unlit",
+    "KHR_mesh_quantization",   "KHR_node_visibility",
     "KHR_texture_transform",
+};
+
+// They say things about a scene that no picture of it shows.
+constexpr std::string_view kMetadataExtensions[] = {
+    "EXT_instance_features", "EXT_mesh_features", "EXT_structural_metadata", "KHR_xmp",
+    "KHR_xmp_json_ld",
+};
+
+// They stand at primitives whose attributes can be read without them.
+constexpr std::string_view kPrimitivesReadWithout[] = {
+    "CESIUM_primitive_outline",
+    "KHR_gaussian_splatting",
+    "KHR_materials_variants",
 };
 
 enum Kind : unsigned {
@@ -38,6 +54,7 @@ enum Kind : unsigned {
     kText = 128U,
     kTexts = 256U, // array of strings
     kBool = 512U,
+    kBytes = 1024U, // integer, 0..2^32-1: the binary chunk of a GLB file is no longer
 };
 
 // A name means the same kind of thing wherever glTF and the supported extensions use it, or one of
@@ -55,8 +72,8 @@ struct KindTable {
         {"bufferView", kIndex},
         {"bufferViews", kObjects},
         {"buffers", kObjects},
-        {"byteLength", kIndex},
-        {"byteOffset", kIndex},
+        {"byteLength", kBytes},
+        {"byteOffset", kBytes},
         {"byteStride", kIndex},
         {"camera", kIndex},
         {"cameras", kObjects},
@@ -132,6 +149,7 @@ struct KindTable {
         {"uri", kText},
         {"values", kObject},
         {"version", kText},
+        {"visible", kBool},
         {"weights", kNumbers},
         {"wrapS", kIndex},
         {"wrapT", kIndex},
@@ -160,9 +178,16 @@ constexpr Required kRequired[] = {
     {"meshes", {"primitives"}},
 };
 
+bool isWhole(const Json& value, uint64_t largest) {
+    return value.is_number_unsigned() && value.get<uint64_t>() <= largest;
+}
+
 bool isIndex(const Json& value) {
-    return value.is_number_unsigned() &&
-           value.get<uint64_t>() <= uint64_t{std::numeric_limits<int32_t>::max()};
+    return isWhole(value, std::numeric_limits<int32_t>::max());
+}
+
+bool isBytes(const Json& value) {
+    return isWhole(value, std::numeric_limits<uint32_t>::max());
 }
 
 // Single numbers end as floats, which must not become infinite.
@@ -191,7 +216,8 @@ bool fits(const Json& value, unsigned kind) {
     case Json::value_t::boolean:
         return wants(kBool);
     default:
-        return (wants(kIndex) && isIndex(value)) || (wants(kNumber) && fitsSingle(value));
+        return (wants(kIndex) && isIndex(value)) || (wants(kBytes) && isBytes(value)) ||
+               (wants(kNumber) && fitsSingle(value));
     }
 }
 
@@ -207,6 +233,7 @@ std::string describe(unsigned kind) {
         {kText, "a string"},
         {kTexts, "an array of strings"},
         {kBool, "true or false"},
+        {kBytes, "an integer from 0 to 4294967295"},
     };
     std::string text;
     for (const auto& [bit, name] : kNames) {
@@ -234,14 +261,46 @@ std::string shown(const Json& value, unsigned kind) {
     return value.is_array() ? "an array" : "an object";
 }
 
-void dropUnknown(Json& object) {
+// An extension that is not supported, and the objects that have it.
+struct Foreign {
+    std::string first; // JSON pointer
+    size_t count = 0;
+    std::string geometry; // the first whose bytes may mean something else with it; "": none
+};
+using Foreigners = std::map<std::string, Foreign>;
+
+bool isOneOf(std::span<const std::string_view> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool holdsGeometry(std::string_view path, std::string_view extension) {
+    if (path.find("/primitives/") != std::string_view::npos) {
+        return !isOneOf(kPrimitivesReadWithout, extension) &&
+               !isOneOf(kMetadataExtensions, extension);
+    }
+    return path.starts_with("/accessors/") || path.starts_with("/bufferViews/") ||
+           path.starts_with("/buffers/");
+}
+
+void dropUnknown(Json& object, const std::string& path, Foreigners& foreigners) {
     object.erase("extras");
     const auto extensions = object.find("extensions");
     if (extensions == object.end() || !extensions->is_object()) {
         return;
     }
     for (auto it = extensions->begin(); it != extensions->end();) {
-        it = isSupportedExtension(it.key()) ? std::next(it) : extensions->erase(it);
+        if (isSupportedExtension(it.key())) {
+            ++it;
+            continue;
+        }
+        Foreign& foreign = foreigners[it.key()];
+        if (foreign.count++ == 0) {
+            foreign.first = printable(path, 200);
+        }
+        if (foreign.geometry.empty() && holdsGeometry(path, it.key())) {
+            foreign.geometry = printable(path, 200);
+        }
+        it = extensions->erase(it);
     }
 }
 
@@ -255,13 +314,13 @@ void makeReal(Json& value) {
 }
 
 // `path` is the JSON pointer of `value`, which lies `depth` levels below the root.
-void checkTypes(Json& value, std::string& path, int depth) {
+void checkTypes(Json& value, std::string& path, int depth, Foreigners& foreigners) {
     if (depth > kMaxJsonDepth) {
         fail(printable(path, 200) + " is nested deeper than " + std::to_string(kMaxJsonDepth) +
              " levels");
     }
     if (value.is_object()) {
-        dropUnknown(value);
+        dropUnknown(value, path, foreigners);
     }
     const size_t length = path.size();
     size_t position = 0;
@@ -274,33 +333,56 @@ void checkTypes(Json& value, std::string& path, int depth) {
             if (kind != 0 && !fits(*it, kind)) {
                 fail(path + " is " + shown(*it, kind) + "; right is " + describe(kind));
             }
-            if ((kind & (kNumber | kNumbers)) != 0) {
+            const bool narrowed =
+                (kind & kBytes) != 0 && path.find("/extensions/") != std::string::npos;
+            if ((kind & (kNumber | kNumbers)) != 0 || narrowed) {
                 makeReal(*it);
             }
         }
         if (it->is_structured()) {
-            checkTypes(*it, path, depth + 1);
+            checkTypes(*it, path, depth + 1, foreigners);
         }
         path.resize(length);
     }
 }
 
-void checkExtensions(const Json& root, Warnings& warnings) {
+void tellForeign(const std::string& name, const Foreign& foreign, Warnings& warnings) {
+    const bool is_metadata = isOneOf(kMetadataExtensions, name);
+    const std::string where = foreign.count == 0
+                                  ? "is ignored"
+                                  : "what it says of " + std::to_string(foreign.count) +
+                                        (foreign.count == 1 ? " thing" : " things") +
+                                        " is ignored, the first at '" + foreign.first + "'";
+    warnings.add(is_metadata ? warning::kUnsupportedMetadata : warning::kUnsupportedExtension,
+                 foreign.first,
+                 "the extension '" + printable(name) + "' is not supported: " + where);
+}
+
+// Whatever the file uses and this loader does not have is named, declared or not.
+void checkExtensions(const Json& root, Foreigners foreigners, Warnings& warnings) {
     const Json none = Json::array();
     const auto list = [&](const char* key) -> const Json& {
         return root.contains(key) ? root.at(key) : none;
     };
-    for (const Json& name : list("extensionsRequired")) {
-        if (!isSupportedExtension(name.get_ref<const std::string&>())) {
-            fail("the file requires the extension '" +
-                 printable(name.get_ref<const std::string&>()) + "', which is not supported");
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        for (const Json& entry : list(key)) {
+            const auto& name = entry.get_ref<const std::string&>();
+            if (!isSupportedExtension(name)) {
+                foreigners.try_emplace(name);
+            }
         }
     }
-    for (const Json& name : list("extensionsUsed")) {
-        if (!isSupportedExtension(name.get_ref<const std::string&>())) {
-            warnings.add("the extension '" + printable(name.get_ref<const std::string&>()) +
-                         "' is not supported and is ignored");
+    for (const Json& entry : list("extensionsRequired")) {
+        const auto& name = entry.get_ref<const std::string&>();
+        const auto found = foreigners.find(name);
+        if (found != foreigners.end() && !found->second.geometry.empty()) {
+            fail("the file requires the extension '" + printable(name) +
+                 "', which is not supported, and '" + found->second.geometry +
+                 "' cannot be read without it; right is a file without that extension");
         }
+    }
+    for (const auto& [name, foreign] : foreigners) {
+        tellForeign(name, foreign, warnings);
     }
 }
 
@@ -339,8 +421,7 @@ void checkArrays(const Json& root) {
 } // namespace
 
 bool isSupportedExtension(std::string_view name) {
-    return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name) !=
-           kSupportedExtensions.end();
+    return isOneOf(kSupportedExtensions, name);
 }
 
 Json parseJson(std::span<const std::byte> text) {
@@ -362,9 +443,10 @@ Json parseJson(std::span<const std::byte> text) {
 
 void checkJson(Json& root, Warnings& warnings) {
     std::string path;
-    checkTypes(root, path, 0);
+    Foreigners foreigners;
+    checkTypes(root, path, 0, foreigners);
     checkVersion(root);
-    checkExtensions(root, warnings);
+    checkExtensions(root, std::move(foreigners), warnings);
     checkArrays(root);
 }
 

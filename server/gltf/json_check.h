@@ -20,10 +20,11 @@ namespace froxel::gltf {
 [[nodiscard]] nlohmann::json parseJson(std::span<const std::byte> text);
 
 // Afterwards every property of the table in json_check.cpp has the type that it should, integers
-// are in 0..2^31-1, nothing nests deeper than kMaxJsonDepth, the required ones are there, and
-// `extras` and unknown extensions are gone (with a warning for each used extension that is
-// ignored). Throws Failure with the property's JSON pointer, its value and what would be right;
-// also for an unsupported required extension.
+// are in 0..2^31-1 (lengths and offsets in bytes in 0..2^32-1), nothing nests deeper than
+// kMaxJsonDepth, the required ones are there, and `extras` and unknown extensions are gone, with a
+// warning for each such extension. Throws Failure with the property's JSON pointer, its value and
+// what would be right; also where a required extension is not supported and stands where geometry
+// is: at a buffer, a bufferView, an accessor or a primitive.
 void checkJson(nlohmann::json& root, Warnings& warnings);
 
 } // namespace froxel::gltf

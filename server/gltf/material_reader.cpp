@@ -116,8 +116,9 @@ std::vector<double> factorsOr(const tinygltf::Value& object,
 float MaterialReader::unit(double value, const char* factor, const std::string& name) {
     const double clamped = std::clamp(value, 0.0, 1.0);
     if (clamped != value) {
-        warnings_.add(name + " has the " + factor + " " + numberText(value) + "; " +
-                      numberText(clamped) + " is used, since right is 0 to 1");
+        warnings_.add(warning::kFactorRange, pointer_,
+                      name + " has the " + factor + " " + numberText(value) + "; " +
+                          numberText(clamped) + " is used, since right is 0 to 1");
     }
     return static_cast<float>(clamped);
 }
@@ -133,6 +134,7 @@ uint32_t MaterialReader::material(int index, const std::string& user) {
     scene::Material material;
     material.name = "default";
     if (index >= 0) {
+        pointer_ = pointerTo("materials", static_cast<size_t>(index));
         material = read(document_.model.materials[static_cast<size_t>(index)],
                         thing("material", static_cast<size_t>(index)));
     }
@@ -140,6 +142,37 @@ uint32_t MaterialReader::material(int index, const std::string& user) {
     scene_.materials.push_back(std::move(material));
     known_materials_.emplace(index, position);
     return position;
+}
+
+uint32_t MaterialReader::withTexcoords(uint32_t material,
+                                       bool has_uv0,
+                                       bool has_uv1,
+                                       const std::string& pointer,
+                                       const std::string& user) {
+    const auto lacks = [&](const scene::TextureSlot* slot) {
+        return slot->texture != scene::kNone && !(slot->texcoord == 0 ? has_uv0 : has_uv1);
+    };
+    const auto slots = textureSlots(scene_.materials[material]);
+    const auto count = std::count_if(slots.begin(), slots.end(), lacks);
+    if (count == 0) {
+        return material;
+    }
+    warnings_.add(warning::kNoTexcoord, pointer,
+                  user + " has no texture coordinates for " + std::to_string(count) +
+                      " textures of its material, which it goes without");
+    const auto position = static_cast<uint32_t>(scene_.materials.size());
+    const auto [known, is_new] =
+        without_texcoords_.try_emplace({material, has_uv0 ? 1U : 0U, has_uv1 ? 1U : 0U}, position);
+    if (is_new) {
+        scene::Material reduced = scene_.materials[material];
+        for (scene::TextureSlot* slot : textureSlots(reduced)) {
+            if (lacks(slot)) {
+                *slot = {};
+            }
+        }
+        scene_.materials.push_back(std::move(reduced));
+    }
+    return known->second;
 }
 
 scene::Material MaterialReader::read(const tinygltf::Material& source, const std::string& name) {
@@ -285,8 +318,9 @@ scene::TextureSlot MaterialReader::slot(const Info& info, const std::string& use
         texcoord = intOr(*transform, "texCoord", texcoord);
     }
     if (texcoord > 1) {
-        warnings_.add(user + " uses TEXCOORD_" + std::to_string(texcoord) +
-                      " and is ignored; 0 and 1 are supported");
+        warnings_.add(warning::kThirdTexcoord, pointer_,
+                      user + " uses TEXCOORD_" + std::to_string(texcoord) +
+                          " and is ignored; 0 and 1 are supported");
         return {};
     }
     slot.texcoord = static_cast<uint32_t>(texcoord);
@@ -301,13 +335,18 @@ uint32_t MaterialReader::texture(size_t index, const std::string& user) {
     }
     const tinygltf::Texture& source = document_.model.textures[index];
     const std::string name = thing("texture", index);
-    if (source.source < 0) {
-        warnings_.add(user + " is ignored: " + name +
-                      " has no image in a supported format (PNG, JPEG)");
+    int source_image = source.source;
+    if (const auto* webp = findExtension(source.extensions, "EXT_texture_webp")) {
+        source_image = intOr(*webp, "source", source_image);
+    }
+    if (source_image < 0) {
+        warnings_.add(warning::kNoSource, pointerTo("textures", index),
+                      user + " is ignored: " + name +
+                          " has no image in a supported format (PNG, JPEG, WebP)");
         return known_textures_.emplace(index, scene::kNone).first->second;
     }
     scene::Texture texture;
-    texture.image = image(checkedIndex(source.source, document_.images.size(), "image", name));
+    texture.image = image(checkedIndex(source_image, document_.images.size(), "image", name));
     texture.sampler = source.sampler < 0 ? scene::kNone : sampler(source.sampler, name);
     const auto position = static_cast<uint32_t>(scene_.textures.size());
     scene_.textures.push_back(texture);

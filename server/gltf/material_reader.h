@@ -6,6 +6,7 @@
 #include "gltf/failure.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -22,6 +23,14 @@ class MaterialReader {
 
     // The scene's index of a material of the file; -1 means glTF's default material.
     [[nodiscard]] uint32_t material(int index, const std::string& user);
+
+    // The material without the textures that need a set of coordinates which the primitive that
+    // `pointer` and `user` name does not have; itself where there are none.
+    [[nodiscard]] uint32_t withTexcoords(uint32_t material,
+                                         bool has_uv0,
+                                         bool has_uv1,
+                                         const std::string& pointer,
+                                         const std::string& user);
 
     // The file's number of every image in `scene.images`, which hold no pixels yet.
     [[nodiscard]] const std::vector<size_t>& images() const { return images_; }
@@ -51,6 +60,8 @@ class MaterialReader {
     scene::Scene& scene_;
     Warnings& warnings_;
     std::map<int, uint32_t> known_materials_;
+    std::map<std::array<uint32_t, 3>, uint32_t> without_texcoords_; // by what withTexcoords() takes
+    std::string pointer_; // of the material that is being read
     std::map<size_t, uint32_t> known_textures_;
     std::map<int, uint32_t> known_samplers_;
     std::map<size_t, uint32_t> known_images_;

@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gltf/extension_value.h"
 #include "gltf/failure.h"
+#include "gltf/stream_repair.h"
 #include "gltf/triangles.h"
 #include "gltf/vertex_source.h"
 
@@ -108,6 +109,15 @@ uint32_t MeshReader::mesh(int index, const std::string& user) {
     return position;
 }
 
+void MeshReader::tellUndrawn() {
+    if (undrawn_count_ > 0) {
+        warnings_.add(warning::kNoTriangles, first_undrawn_,
+                      std::to_string(undrawn_count_) +
+                          (undrawn_count_ == 1 ? " primitive is" : " primitives are") +
+                          " points or lines and not drawn");
+    }
+}
+
 scene::Mesh MeshReader::read(size_t index) {
     const tinygltf::Mesh& source = document_.model.meshes[index];
     scene::Mesh mesh;
@@ -124,12 +134,13 @@ std::optional<scene::Primitive> MeshReader::readPrimitive(size_t mesh, size_t nu
     const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[number];
     const std::string user = thing("mesh", mesh) + " " + thing("primitive", number);
     const std::optional<Topology> topology = topologyOf(source.mode, user);
+    const std::string pointer = pointerTo("meshes", mesh) + pointerTo("primitives", number);
     if (!topology) {
-        warnings_.add(user + " is points or lines and is not drawn");
+        first_undrawn_ = undrawn_count_++ == 0 ? pointer : first_undrawn_;
         return std::nullopt;
     }
     if (!source.attributes.contains("POSITION")) {
-        warnings_.add(user + " has no POSITION and is not drawn");
+        warnings_.add(warning::kNoPosition, pointer, user + " has no POSITION and is not drawn");
         return std::nullopt;
     }
     const int index_accessor = document_.indices[mesh][number];
@@ -139,12 +150,14 @@ std::optional<scene::Primitive> MeshReader::readPrimitive(size_t mesh, size_t nu
     const uint64_t list_length = listLength(*topology, index_count);
     const bool flat = !source.attributes.contains("NORMAL");
     if (list_length == 0) {
-        warnings_.add(user + " has no whole triangle and is not drawn");
+        warnings_.add(warning::kCountOff, pointer,
+                      user + " has no whole triangle and is not drawn");
         return std::nullopt;
     }
     if (*topology == Topology::kTriangles && list_length != index_count) {
-        warnings_.add(user + " has " + std::to_string(index_count) +
-                      " indices, no multiple of 3; the last are ignored");
+        warnings_.add(warning::kCountOff, pointer,
+                      user + " has " + std::to_string(index_count) +
+                          " indices, no multiple of 3; the last are ignored");
     }
     vertices_.take(flat ? std::max(vertex_count, list_length) : vertex_count, user);
     indices_.take(std::max(list_length, index_count), user);
@@ -156,10 +169,16 @@ std::optional<scene::Primitive> MeshReader::readPrimitive(size_t mesh, size_t nu
     primitive.indices = triangleList(
         *topology, readIndices(source, index_accessor, draco.get(), vertex_count, user));
     readStreams(stream, primitive, user);
+    repairStreams(primitive, pointer, user, warnings_);
+    if (primitive.indices.empty()) {
+        return std::nullopt;
+    }
     applyMorphs(source, document_.model.meshes[mesh].weights, primitive, user);
-    finishNormals(!flat, primitive, user);
-    finishTangents(primitive, user);
-    primitive.material = materials_.material(source.material, user);
+    finishNormals(!flat, primitive, pointer, user);
+    finishTangents(primitive, pointer, user);
+    primitive.material =
+        materials_.withTexcoords(materials_.material(source.material, user), !primitive.uv0.empty(),
+                                 !primitive.uv1.empty(), pointer, user);
     for (const glm::vec3& position : primitive.positions) {
         primitive.bounds.add(position);
     }
@@ -222,7 +241,8 @@ void MeshReader::applyMorphs(const tinygltf::Primitive& source,
     if (source.targets.empty()) {
         return;
     }
-    warnings_.add("morph targets are not animated; meshes keep their default weights");
+    warnings_.add(warning::kRestPose, "/meshes",
+                  "morph targets are not animated; meshes keep their default weights");
     const auto add = [&](const std::map<std::string, int>& target, const char* semantic,
                          float weight, std::vector<glm::vec3>& stream) {
         const auto found = target.find(semantic);
@@ -256,30 +276,36 @@ void MeshReader::applyMorphs(const tinygltf::Primitive& source,
 
 void MeshReader::finishNormals(bool has_normals,
                                scene::Primitive& primitive,
+                               const std::string& pointer,
                                const std::string& user) {
     if (!has_normals) {
         makeFlat(primitive);
         return;
     }
-    size_t broken_count = 0;
-    for (glm::vec3& normal : primitive.normals) {
-        if (!makeUnit(normal)) {
-            normal = {0, 1, 0};
-            ++broken_count;
+    std::vector<uint32_t> broken;
+    for (size_t i = 0; i < primitive.normals.size(); ++i) {
+        if (!makeUnit(primitive.normals[i])) {
+            broken.push_back(static_cast<uint32_t>(i));
         }
     }
-    if (broken_count > 0) {
-        warnings_.add(user + " has " + std::to_string(broken_count) +
-                      " normals of length 0; +Y is used for them");
+    if (!broken.empty()) {
+        recomputeNormals(primitive, broken);
+        warnings_.add(warning::kLengthZero, pointer + "/attributes/NORMAL",
+                      user + " has " + std::to_string(broken.size()) +
+                          " normals of length 0 or not finite; they are those of the triangles "
+                          "around");
     }
 }
 
-void MeshReader::finishTangents(scene::Primitive& primitive, const std::string& user) {
+void MeshReader::finishTangents(scene::Primitive& primitive,
+                                const std::string& pointer,
+                                const std::string& user) {
     for (glm::vec4& tangent : primitive.tangents) {
         glm::vec3 direction(tangent);
         if (!makeUnit(direction) || tangent.w == 0) {
-            warnings_.add(user + " has tangents of length 0 or without handedness; all of its "
-                                 "tangents are derived instead");
+            warnings_.add(warning::kLengthZero, pointer + "/attributes/TANGENT",
+                          user + " has tangents of length 0, not finite or without handedness; "
+                                 "all of its tangents are derived instead");
             primitive.tangents.clear();
             return;
         }

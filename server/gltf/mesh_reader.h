@@ -28,9 +28,11 @@ class MeshReader {
                scene::Scene& scene,
                Warnings& warnings);
 
-    // The scene's index of a mesh of the file; kNone where nothing of it can be drawn (points and
-    // lines only, with a warning).
+    // The scene's index of a mesh of the file; kNone where nothing of it can be drawn.
     [[nodiscard]] uint32_t mesh(int index, const std::string& user);
+
+    // One warning for all points and lines of the meshes that were read.
+    void tellUndrawn();
 
   private:
     [[nodiscard]] scene::Mesh read(size_t index);
@@ -45,8 +47,13 @@ class MeshReader {
                      const std::vector<double>& weights,
                      scene::Primitive& primitive,
                      const std::string& user);
-    void finishNormals(bool has_normals, scene::Primitive& primitive, const std::string& user);
-    void finishTangents(scene::Primitive& primitive, const std::string& user);
+    void finishNormals(bool has_normals,
+                       scene::Primitive& primitive,
+                       const std::string& pointer,
+                       const std::string& user);
+    void finishTangents(scene::Primitive& primitive,
+                        const std::string& pointer,
+                        const std::string& user);
 
     const Document& document_;
     BufferViews& views_;
@@ -55,6 +62,8 @@ class MeshReader {
     scene::Scene& scene_;
     Warnings& warnings_;
     std::map<int, uint32_t> known_;
+    size_t undrawn_count_ = 0;
+    std::string first_undrawn_; // JSON pointer
     Budget vertices_{"vertices", kMaxVertices};
     Budget indices_{"indices", kMaxIndices};
     Budget morphed_vertices_{"vertices of morph targets", kMaxVertices};

@@ -82,8 +82,8 @@ std::optional<MeshoptView> meshoptView(const tinygltf::BufferView& view, const s
     }
     MeshoptView result;
     result.buffer = intOr(*extension, "buffer", -1);
-    result.offset_bytes = static_cast<uint64_t>(intOr(*extension, "byteOffset", 0));
-    result.size_bytes = static_cast<uint64_t>(intOr(*extension, "byteLength", 0));
+    result.offset_bytes = static_cast<uint64_t>(numberOr(*extension, "byteOffset", 0));
+    result.size_bytes = static_cast<uint64_t>(numberOr(*extension, "byteLength", 0));
     result.stride_bytes = static_cast<size_t>(intOr(*extension, "byteStride", 0));
     result.count = static_cast<size_t>(intOr(*extension, "count", 0));
     result.mode = modeFrom(textOr(*extension, "mode", ""), name);

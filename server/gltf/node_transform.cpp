@@ -23,17 +23,75 @@ void checkLength(const std::vector<double>& values,
     }
 }
 
+// What a rotation in bytes may be off; what is more was not made unit.
+constexpr double kUnitTolerance = 0.01;
+// Of the cosine between two axes, as matrices in single precision have it.
+constexpr double kShearTolerance = 1e-3;
+// Of the last row, which some exporters write as they computed it.
+constexpr double kAffineTolerance = 1e-5;
+
+// Length 0 and what is beyond double's range have no direction.
+bool isDirection(double length) {
+    return length > 0 && std::isfinite(length);
+}
+
+// Axes that are not perpendicular, which no translation, rotation and scale gives.
+bool shears(const glm::dmat3& matrix) {
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3& one = matrix[i];
+        const glm::dvec3& other = matrix[(i + 1) % 3];
+        if (std::abs(glm::dot(one, other)) >
+            kShearTolerance * glm::length(one) * glm::length(other)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+glm::dmat4 matrixOf(const tinygltf::Node& node, size_t index, Warnings& warnings) {
+    const std::string name = thing("node", index);
+    glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
+    const glm::dvec4 last_row = glm::transpose(matrix)[3];
+    const glm::dvec4 off = glm::abs(last_row - glm::dvec4(0, 0, 0, 1));
+    if (!(std::max({off.x, off.y, off.z, off.w}) <= kAffineTolerance)) {
+        fail(name + " has a matrix with the last row (" + numberText(last_row.x) + ", " +
+             numberText(last_row.y) + ", " + numberText(last_row.z) + ", " +
+             numberText(last_row.w) + "); right is (0, 0, 0, 1)");
+    }
+    for (int column = 0; column < 4; ++column) {
+        matrix[column].w = column == 3 ? 1 : 0;
+    }
+    if (shears(glm::dmat3(matrix))) {
+        warnings.add(warning::kShear, pointerTo("nodes", index) + "/matrix",
+                     name + " has a matrix that shears; right is a product of translation, "
+                            "rotation and scale");
+    }
+    return matrix;
+}
+
 } // namespace
+
+void checkRotation(const glm::dquat& rotation,
+                   const std::string& pointer,
+                   const std::string& name,
+                   Warnings& warnings) {
+    const double length = glm::length(rotation);
+    if (!isDirection(length)) {
+        warnings.add(warning::kRotationZero, pointer,
+                     name + " has a rotation of length " + numberText(length) +
+                         " and is not rotated; right is 1");
+    } else if (std::abs(length - 1) > kUnitTolerance) {
+        warnings.add(warning::kRotationLength, pointer,
+                     name + " has a rotation of length " + numberText(length) +
+                         ", which is made 1");
+    }
+}
 
 glm::dmat4 composeTransform(const glm::dvec3& translation,
                             const glm::dquat& rotation,
-                            const glm::dvec3& scale,
-                            const std::string& name) {
+                            const glm::dvec3& scale) {
     const double length = glm::length(rotation);
-    if (!(length > 0) || !std::isfinite(length)) {
-        fail(name + " has a rotation of length " + numberText(length) + "; right is 1");
-    }
-    glm::dmat4 matrix = glm::mat4_cast(rotation / length);
+    glm::dmat4 matrix = isDirection(length) ? glm::mat4_cast(rotation / length) : glm::dmat4(1);
     for (int axis = 0; axis < 3; ++axis) {
         matrix[axis] *= scale[axis];
     }
@@ -41,27 +99,23 @@ glm::dmat4 composeTransform(const glm::dvec3& translation,
     return matrix;
 }
 
-glm::dmat4 nodeTransform(const tinygltf::Node& node, const std::string& name) {
+glm::dmat4 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& warnings) {
+    const std::string name = thing("node", index);
     checkLength(node.matrix, 16, "matrix", name);
     checkLength(node.translation, 3, "translation", name);
     checkLength(node.rotation, 4, "rotation", name);
     checkLength(node.scale, 3, "scale", name);
     if (!node.matrix.empty()) {
-        glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
-        const glm::dvec4 last_row = glm::transpose(matrix)[3];
-        if (last_row != glm::dvec4(0, 0, 0, 1)) {
-            fail(name + " has a matrix with the last row (" + numberText(last_row.x) + ", " +
-                 numberText(last_row.y) + ", " + numberText(last_row.z) + ", " +
-                 numberText(last_row.w) + "); right is (0, 0, 0, 1)");
-        }
-        return matrix;
+        return matrixOf(node, index, warnings);
     }
     const auto& t = node.translation;
     const auto& r = node.rotation;
     const auto& s = node.scale;
-    return composeTransform(t.empty() ? glm::dvec3(0) : glm::dvec3(t[0], t[1], t[2]),
-                            r.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(r[3], r[0], r[1], r[2]),
-                            s.empty() ? glm::dvec3(1) : glm::dvec3(s[0], s[1], s[2]), name);
+    const glm::dquat rotation =
+        r.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(r[3], r[0], r[1], r[2]);
+    checkRotation(rotation, pointerTo("nodes", index) + "/rotation", name, warnings);
+    return composeTransform(t.empty() ? glm::dvec3(0) : glm::dvec3(t[0], t[1], t[2]), rotation,
+                            s.empty() ? glm::dvec3(1) : glm::dvec3(s[0], s[1], s[2]));
 }
 
 void checkFinite(const glm::dmat4& world_from_node, const std::string& name) {

@@ -1,6 +1,8 @@
 // Matrices and vectors of nodes, in double.
 #pragma once
 
+#include "gltf/warnings.h"
+
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -12,15 +14,22 @@ class Node;
 
 namespace froxel::gltf {
 
-// parent_from_node by the node's matrix or translation, rotation and scale. Throws Failure for
-// arrays of a wrong length, a matrix that is not affine and a rotation of length 0.
-[[nodiscard]] glm::dmat4 nodeTransform(const tinygltf::Node& node, const std::string& name);
+// parent_from_node by the matrix or translation, rotation and scale of the node, which is `index`
+// of the file. Warns of a matrix that shears and of rotations as below. Throws Failure for arrays
+// of a wrong length and a matrix that is not affine.
+[[nodiscard]] glm::dmat4
+nodeTransform(const tinygltf::Node& node, size_t index, Warnings& warnings);
 
-// translation * rotation * scale; the rotation is made unit. Throws Failure for one of length 0.
+// translation * rotation * scale; the rotation is made unit, and one of length 0 is none.
 [[nodiscard]] glm::dmat4 composeTransform(const glm::dvec3& translation,
                                           const glm::dquat& rotation,
-                                          const glm::dvec3& scale,
-                                          const std::string& name);
+                                          const glm::dvec3& scale);
+
+// Warns of a rotation whose length is not 1.
+void checkRotation(const glm::dquat& rotation,
+                   const std::string& pointer,
+                   const std::string& name,
+                   Warnings& warnings);
 
 // Throws Failure where a chain of transforms has left the range of numbers.
 void checkFinite(const glm::dmat4& world_from_node, const std::string& name);

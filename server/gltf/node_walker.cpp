@@ -1,10 +1,12 @@
 #include "gltf/node_walker.h"
 
+#include "gltf/extension_value.h"
 #include "gltf/failure.h"
 #include "gltf/node_transform.h"
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <string>
 
 namespace froxel::gltf {
@@ -12,98 +14,185 @@ namespace {
 
 constexpr int kNoParent = -1;
 
-std::vector<int> findParents(const tinygltf::Model& model) {
-    std::vector<int> parents(model.nodes.size(), kNoParent);
-    for (size_t i = 0; i < model.nodes.size(); ++i) {
-        for (const int child : model.nodes[i].children) {
-            const size_t index =
-                checkedIndex(child, model.nodes.size(), "child node", thing("node", i));
-            if (parents[index] != kNoParent) {
-                fail(thing("node", index) + " is a child of node " +
-                     std::to_string(parents[index]) + " and of node " + std::to_string(i) +
-                     "; right is one parent");
-            }
-            parents[index] = static_cast<int>(i);
-        }
-    }
-    return parents;
+// Every child once: of several parents the first in the file counts, as other loaders have it.
+struct Tree {
+    std::vector<int> parents; // [node]: kNoParent for a root
+    std::vector<std::vector<size_t>> children;
+};
+
+[[noreturn]] void failCycle(size_t node) {
+    fail(thing("node", node) + " is part of a cycle of children; right is a tree");
 }
 
-// With one parent each, a node that no root reaches hangs on a cycle.
-void checkCycles(const tinygltf::Model& model, const std::vector<int>& parents) {
+// Nodes without a parent are taken away, again and again. What stays hangs on a cycle: up from any
+// of it one comes around.
+void checkCycles(const tinygltf::Model& model) {
+    std::vector<size_t> parent_count(model.nodes.size(), 0);
+    for (const tinygltf::Node& node : model.nodes) {
+        for (const int child : node.children) {
+            ++parent_count[static_cast<size_t>(child)];
+        }
+    }
     std::vector<size_t> queue;
-    std::vector<bool> reached(parents.size(), false);
-    for (size_t i = 0; i < parents.size(); ++i) {
-        if (parents[i] == kNoParent) {
+    for (size_t i = 0; i < parent_count.size(); ++i) {
+        if (parent_count[i] == 0) {
             queue.push_back(i);
         }
     }
     for (size_t next = 0; next < queue.size(); ++next) {
-        reached[queue[next]] = true;
         for (const int child : model.nodes[queue[next]].children) {
-            queue.push_back(static_cast<size_t>(child));
-        }
-    }
-    for (size_t i = 0; i < reached.size(); ++i) {
-        if (!reached[i]) {
-            fail(thing("node", i) + " is part of a cycle of children; right is a tree");
-        }
-    }
-}
-
-std::vector<size_t> findRoots(const tinygltf::Model& model, const std::vector<int>& parents) {
-    std::vector<size_t> roots;
-    if (model.scenes.empty() && model.defaultScene < 0) {
-        for (size_t i = 0; i < parents.size(); ++i) {
-            if (parents[i] == kNoParent) {
-                roots.push_back(i);
+            if (--parent_count[static_cast<size_t>(child)] == 0) {
+                queue.push_back(static_cast<size_t>(child));
             }
         }
-        return roots;
     }
-    const int number = model.defaultScene < 0 ? 0 : model.defaultScene;
-    const size_t scene = checkedIndex(number, model.scenes.size(), "scene", "the file");
+    if (queue.size() == model.nodes.size()) {
+        return;
+    }
+    std::vector<int> parent_left(model.nodes.size(), kNoParent);
+    for (size_t i = 0; i < model.nodes.size(); ++i) {
+        for (const int child : model.nodes[i].children) {
+            if (parent_count[i] > 0) {
+                parent_left[static_cast<size_t>(child)] = static_cast<int>(i);
+            }
+        }
+    }
+    const auto first = std::find_if(parent_count.begin(), parent_count.end(),
+                                    [](size_t count) { return count > 0; });
+    auto node = static_cast<size_t>(first - parent_count.begin());
+    for (std::vector<bool> passed(model.nodes.size()); !passed[node];) {
+        passed[node] = true;
+        node = static_cast<size_t>(parent_left[node]);
+    }
+    failCycle(node);
+}
+
+Tree readTree(const tinygltf::Model& model, Warnings& warnings) {
+    Tree tree{std::vector<int>(model.nodes.size(), kNoParent),
+              std::vector<std::vector<size_t>>(model.nodes.size())};
+    for (size_t i = 0; i < model.nodes.size(); ++i) {
+        for (const int child : model.nodes[i].children) {
+            const size_t index =
+                checkedIndex(child, model.nodes.size(), "child node", thing("node", i));
+            int& parent = tree.parents[index];
+            if (parent == kNoParent) {
+                parent = static_cast<int>(i);
+                tree.children[i].push_back(index);
+            } else if (static_cast<size_t>(parent) == i) {
+                warnings.add(warning::kListedTwice, pointerTo("nodes", i) + "/children",
+                             thing("node", i) + " lists node " + std::to_string(index) +
+                                 " twice; it is there once");
+            } else {
+                warnings.add(warning::kTwoParents, pointerTo("nodes", i) + "/children",
+                             thing("node", index) + " is a child of node " +
+                                 std::to_string(parent) + " and of node " + std::to_string(i) +
+                                 "; it is placed under the first");
+            }
+        }
+    }
+    checkCycles(model);
+    return tree;
+}
+
+// Of every node whether it is below one of `nodes`.
+std::vector<bool> findBelow(std::vector<size_t> nodes, const Tree& tree) {
+    std::vector<bool> below(tree.parents.size(), false);
+    while (!nodes.empty()) {
+        const size_t node = nodes.back();
+        nodes.pop_back();
+        for (const size_t child : tree.children[node]) {
+            if (!below[child]) {
+                below[child] = true;
+                nodes.push_back(child);
+            }
+        }
+    }
+    return below;
+}
+
+// The nodes that a scene lists. One with a parent starts a tree of its own, without the transforms
+// above it, unless the scene has it below another of its nodes.
+std::vector<size_t>
+listedRoots(const tinygltf::Model& model, size_t scene, const Tree& tree, Warnings& warnings) {
     const std::string user = thing("scene", scene);
-    std::vector<bool> listed(parents.size(), false);
+    std::vector<bool> listed(tree.parents.size(), false);
+    std::vector<size_t> nodes;
     for (const int node : model.scenes[scene].nodes) {
         const size_t index = checkedIndex(node, model.nodes.size(), "node", user);
-        if (parents[index] != kNoParent) {
-            fail(user + " lists node " + std::to_string(index) + ", a child of node " +
-                 std::to_string(parents[index]) + "; right are nodes without a parent");
-        }
         if (listed[index]) {
-            fail(user + " lists node " + std::to_string(index) + " twice");
+            warnings.add(warning::kListedTwice, pointerTo("scenes", scene) + "/nodes",
+                         user + " lists node " + std::to_string(index) +
+                             " twice; it is there once");
+            continue;
         }
         listed[index] = true;
-        roots.push_back(index);
+        nodes.push_back(index);
+    }
+    const std::vector<bool> below = findBelow(nodes, tree);
+    std::vector<size_t> roots;
+    for (const size_t node : nodes) {
+        if (const int parent = tree.parents[node]; parent != kNoParent) {
+            warnings.add(warning::kListedChild, pointerTo("scenes", scene) + "/nodes",
+                         user + " lists node " + std::to_string(node) + ", a child of node " +
+                             std::to_string(parent) +
+                             (below[node] ? "; it stays there"
+                                          : "; it is placed without the nodes above it"));
+        }
+        if (!below[node]) {
+            roots.push_back(node);
+        }
     }
     return roots;
 }
 
+std::vector<size_t> findRoots(const tinygltf::Model& model, const Tree& tree, Warnings& warnings) {
+    if (!model.scenes.empty() || model.defaultScene >= 0) {
+        const int number = model.defaultScene < 0 ? 0 : model.defaultScene;
+        return listedRoots(model, checkedIndex(number, model.scenes.size(), "scene", "the file"),
+                           tree, warnings);
+    }
+    std::vector<size_t> roots;
+    for (size_t i = 0; i < tree.parents.size(); ++i) {
+        if (tree.parents[i] == kNoParent) {
+            roots.push_back(i);
+        }
+    }
+    if (!roots.empty()) {
+        warnings.add(warning::kNoScene, "", "the file has no scene; all of its nodes are shown");
+    }
+    return roots;
+}
+
+// KHR_node_visibility; who is not visible hides all below.
+bool isVisible(const tinygltf::Node& node) {
+    const tinygltf::Value* extension = findExtension(node.extensions, "KHR_node_visibility");
+    return extension == nullptr || !extension->Has("visible") ||
+           extension->Get("visible").Get<bool>();
+}
+
 } // namespace
 
-std::vector<PlacedNode> placeNodes(const tinygltf::Model& model) {
-    const std::vector<int> parents = findParents(model);
-    checkCycles(model, parents);
-    const std::vector<size_t> roots = findRoots(model, parents);
+std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Warnings& warnings) {
+    const Tree tree = readTree(model, warnings);
+    const std::vector<size_t> roots = findRoots(model, tree, warnings);
     std::vector<PlacedNode> stack;
-    const auto push = [&](size_t node, const glm::dmat4& world_from_parent) {
-        const std::string name = thing("node", node);
-        const glm::dmat4 world = world_from_parent * nodeTransform(model.nodes[node], name);
-        checkFinite(world, name);
-        stack.push_back({node, world});
+    const auto push = [&](size_t node, const PlacedNode& parent) {
+        const glm::dmat4 world =
+            parent.world_from_node * nodeTransform(model.nodes[node], node, warnings);
+        checkFinite(world, thing("node", node));
+        stack.push_back({node, world, parent.visible && isVisible(model.nodes[node])});
     };
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-        push(*root, glm::dmat4(1));
+        push(*root, PlacedNode());
     }
     std::vector<PlacedNode> placed;
     while (!stack.empty()) {
         const PlacedNode current = stack.back();
         stack.pop_back();
         placed.push_back(current);
-        const std::vector<int>& children = model.nodes[current.node].children;
+        const std::vector<size_t>& children = tree.children[current.node];
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            push(static_cast<size_t>(*child), current.world_from_node);
+            push(*child, current);
         }
     }
     return placed;

@@ -61,10 +61,17 @@ class Builder {
           meshes_(document, views_, accessors_, materials_, scene_, warnings) {}
 
     scene::Scene build(SceneFolder& folder) {
-        for (const PlacedNode& placed : placeNodes(document_.model)) {
-            addInstances(placed);
+        for (const PlacedNode& placed : placeNodes(document_.model, warnings_)) {
+            if (placed.visible) {
+                addInstances(placed);
+                addLight(placed);
+            }
             addCamera(placed);
-            addLight(placed);
+        }
+        meshes_.tellUndrawn();
+        if (scene_.instances.empty()) {
+            warnings_.add(warning::kNothingDrawn, "",
+                          "nothing is drawn: no node of the scene places a mesh of triangles");
         }
         std::vector<BoundsD3> bounds;
         std::transform(scene_.meshes.begin(), scene_.meshes.end(), std::back_inserter(bounds),
@@ -88,10 +95,11 @@ class Builder {
             return;
         }
         const std::vector<glm::dmat4> transforms =
-            nodeInstances(node, accessors_, instances_, name);
+            nodeInstances(node, placed.node, accessors_, instances_, warnings_);
         if (!node.weights.empty() &&
             node.weights != document_.model.meshes[static_cast<size_t>(node.mesh)].weights) {
-            warnings_.add("morph weights of nodes are ignored; their mesh's weights are used");
+            warnings_.add(warning::kRestPose, pointerTo("nodes", placed.node) + "/weights",
+                          "morph weights of nodes are ignored; their mesh's weights are used");
         }
         for (const glm::dmat4& node_from_object : transforms) {
             const glm::dmat4 world = placed.world_from_node * node_from_object;

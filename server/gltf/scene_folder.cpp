@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstring>
 #include <fcntl.h>
+#include <string_view>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -102,6 +103,26 @@ bool isInside(const fs::path& path, const fs::path& folder) {
            folder.end();
 }
 
+// Whatever type it tells: what counts are the bytes, and tinygltf knows few types.
+Bytes dataFromUri(const std::string& uri, const std::string& user) {
+    constexpr std::string_view kBase64 = ";base64,";
+    constexpr size_t kMaxTypeBytes = 200;
+    const size_t end = uri.substr(0, kMaxTypeBytes).find(kBase64);
+    std::string mime_type;
+    std::vector<unsigned char> decoded;
+    if (end == std::string::npos ||
+        !tinygltf::DecodeDataURI(&decoded, mime_type,
+                                 "data:application/octet-stream" + uri.substr(end), 0, false)) {
+        throw Unusable(warning::kBrokenImage,
+                       user + " has the URI '" + printable(uri, 40) +
+                           "', which cannot be decoded; right is data:TYPE;base64, with at least "
+                           "one byte");
+    }
+    Bytes bytes(decoded.size());
+    std::memcpy(bytes.data(), decoded.data(), decoded.size());
+    return bytes;
+}
+
 } // namespace
 
 fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
@@ -147,24 +168,15 @@ Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
     if (uri.starts_with("data:")) {
         // Three bytes for four characters; the URI itself is bounded by the JSON text's limit.
         bytes_.take(uri.size() / 4 * 3, user);
-        std::string mime_type;
-        std::vector<unsigned char> decoded;
-        if (!tinygltf::DecodeDataURI(&decoded, mime_type, uri, 0, false)) {
-            fail(user + " has the URI '" + printable(uri, 40) +
-                 "', which cannot be decoded; right is data:application/octet-stream;base64, "
-                 "data:application/gltf-buffer;base64, data:image/png;base64 or "
-                 "data:image/jpeg;base64 with at least one byte");
-        }
-        Bytes bytes(decoded.size());
-        std::memcpy(bytes.data(), decoded.data(), decoded.size());
-        return bytes;
+        return dataFromUri(uri, user);
     }
     const fs::path relative = relativePathFromUri(uri, user);
     std::error_code error;
     const fs::path target = fs::canonical(folder_ / relative, error);
     if (error) {
-        fail(user + " cannot open '" + printable(relative.string(), 300) +
-             "' in the scene's folder: " + error.message());
+        throw Unusable(warning::kMissingFile, user + " cannot open '" +
+                                                  printable(relative.string(), 300) +
+                                                  "' in the scene's folder: " + error.message());
     }
     if (!isInside(target, folder_)) {
         fail(user + " has the URI '" + printable(uri) +

@@ -25,8 +25,9 @@ class SceneFolder {
     // The scene file itself. Throws Failure.
     [[nodiscard]] Bytes readSceneFile();
 
-    // The bytes behind a `data:` URI or a file of the folder; a symlink may lead only to a place
-    // inside the folder. Throws Failure, naming `user`.
+    // The bytes behind a base64 `data:` URI of any type or a file of the folder; a symlink may lead
+    // only to a place inside the folder. Throws Failure, naming `user`: Unusable where there is no
+    // such file or the base64 text is broken.
     [[nodiscard]] Bytes read(const std::string& uri, const std::string& user);
 
   private:

@@ -26,7 +26,8 @@ class VertexSource {
         return primitive_.attributes.at(semantic);
     }
 
-    // `count` elements of N components. Throws Failure where the attribute has another count.
+    // `count` elements of N components, finite or not. Throws Failure where the attribute has
+    // another count.
     template <int N>
     [[nodiscard]] std::vector<glm::vec<N, float>> vectors(const char* semantic, size_t count) {
         const int index = accessor(semantic);
@@ -38,7 +39,7 @@ class VertexSource {
         if (draco_ != nullptr && draco_->has(semantic)) {
             return draco_->vectors<N>(semantic, accessors_.normalized(index, user), user);
         }
-        return accessors_.vectors<N>(index, user);
+        return accessors_.vectors<N>(index, user, NotFinite::kKept);
     }
 
   private:

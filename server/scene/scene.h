@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/math.h"
+#include "scene/warning.h"
 #include "view/camera.h"
 
 #include <array>
@@ -80,6 +81,14 @@ struct Material {
     bool glossiness_texture = false;
 };
 
+// All slots of a material, const or not.
+template <class AnyMaterial>
+[[nodiscard]] auto textureSlots(AnyMaterial& material) {
+    return std::array{&material.base_color_texture, &material.metallic_roughness_texture,
+                      &material.normal_texture, &material.occlusion_texture,
+                      &material.emissive_texture};
+}
+
 // Triangles of one material. Optional streams are empty or have one element per vertex.
 struct Primitive {
     std::vector<glm::vec3> positions; // object space
@@ -144,8 +153,9 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<NamedCamera> cameras;
     std::vector<PunctualLight> lights;
-    BoundsD3 bounds_world;             // of all instances; empty for an empty scene
-    std::vector<std::string> warnings; // one line each: what was left in its rest pose or ignored
+    BoundsD3 bounds_world;         // of all instances; empty for an empty scene
+    std::vector<Warning> warnings; // the gravest first; few, however many there are
+    uint64_t warnings_left_out = 0;
 };
 
 } // namespace froxel::scene

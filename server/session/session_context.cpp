@@ -13,6 +13,8 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.cameras = scene.cameras;
     summary.bounds_world = scene.bounds_world;
     summary.framed_world = scene::enclosingSphere(scene);
+    summary.warnings = scene.warnings;
+    summary.warnings_left_out = scene.warnings_left_out;
     for (const scene::Instance& instance : scene.instances) {
         for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             summary.triangle_count += static_cast<uint32_t>(primitive.indices.size() / 3);

@@ -26,6 +26,8 @@ struct SceneSummary {
     std::vector<scene::NamedCamera> cameras;
     BoundsD3 bounds_world;     // empty for an empty scene
     view::Sphere framed_world; // scene::enclosingSphere()
+    std::vector<scene::Warning> warnings;
+    uint64_t warnings_left_out = 0;
 };
 
 [[nodiscard]] SceneSummary summarize(const scene::Scene& scene);

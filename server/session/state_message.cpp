@@ -27,6 +27,16 @@ void fill(v1::SceneInfo& out, const SceneSummary& scene) {
     if (!scene.bounds_world.empty()) {
         fillBox(*out.mutable_bounds(), scene.bounds_world);
     }
+    const size_t told = std::min(scene.warnings.size(), protocol::kMaxSceneWarningsTold);
+    for (size_t i = 0; i < told; ++i) {
+        const scene::Warning& warning = scene.warnings[i];
+        v1::SceneWarning& row = *out.add_warnings();
+        row.set_code(warning.code);
+        row.set_severity(static_cast<v1::Severity>(warning.severity));
+        row.set_pointer(warning.pointer);
+        row.set_message(warning.message);
+    }
+    out.set_warnings_left_out(scene.warnings.size() - told + scene.warnings_left_out);
 }
 
 void fill(v1::RoomState& out, const Room& room, MemberId you) {

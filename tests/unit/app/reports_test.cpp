@@ -90,6 +90,23 @@ TEST(SceneReport, InstancesCountEach_GeometryOnce) {
     EXPECT_FALSE(report["needs"].empty());
 }
 
+TEST(SceneReport, Warnings_HaveTheValidatorsShape) {
+    scene::Scene scene = triangleTwice();
+    scene.warnings = {
+        {"SCENE_NON_ROOT_NODE", scene::Severity::kInformation, "/scenes/0/nodes", "lists a child"}};
+    scene.warnings_left_out = 3;
+    const auto report = sceneReport(scene);
+    EXPECT_EQ(report["warnings"], nlohmann::json::parse(R"([{"code": "SCENE_NON_ROOT_NODE",
+        "severity": 2, "pointer": "/scenes/0/nodes", "message": "lists a child"}])"));
+    EXPECT_EQ(report["warnings_left_out"], 3);
+}
+
+TEST(ToText, ObjectsOfAList_AreALineEach) {
+    const nlohmann::ordered_json report = {
+        {"warnings", {{{"code", "A_B"}, {"severity", 1}, {"message", "what it is"}}}}};
+    EXPECT_EQ(toText(report), "warnings:\n  - A_B 1 what it is\n");
+}
+
 TEST(ToText, NestedReport_IsIndentedLines) {
     const nlohmann::ordered_json report = {{"device", {{"name", "box"}, {"size", 3}}},
                                            {"needs", {"a: yes", "b: no"}}};

@@ -178,7 +178,8 @@ TEST(Geometry, PointsAndLines_AreLeftOutWithAWarning) {
     const scene::Scene scene = loaded(file.load());
     ASSERT_EQ(scene.meshes.size(), 1U);
     EXPECT_EQ(scene.meshes[0].primitives.size(), 1U);
-    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("mesh 0 primitive 1 is points or lines")));
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("1 primitive is points or lines")));
 }
 
 TEST(Geometry, MeshOfPointsAlone_IsNotPlaced) {
@@ -194,7 +195,7 @@ TEST(Geometry, IncompleteTriangle_IsIgnoredWithAWarning) {
     SceneFile file = square();
     const scene::Scene scene = loaded(file.load());
     EXPECT_THAT(scene.meshes.at(0).primitives.at(0).indices, ElementsAre(0, 1, 2));
-    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("no multiple of 3")));
+    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("no multiple of 3")));
 }
 
 TEST(Geometry, MissingNormals_AreFlatAndUnshared) {
@@ -230,7 +231,7 @@ TEST(Geometry, BrokenNormalsAndTangents_AreReplacedWithAWarning) {
     file.attributes()["TANGENT"] = file.addAccessor<float>(std::vector<float>(12, 0), 4);
     const scene::Scene scene = loaded(file.load());
     const scene::Primitive& primitive = scene.meshes.at(0).primitives.at(0);
-    EXPECT_EQ(primitive.normals[1], glm::vec3(0, 1, 0));
+    EXPECT_EQ(primitive.normals[1], glm::vec3(0, 0, 1)) << "the triangle's";
     EXPECT_TRUE(primitive.tangents.empty());
     EXPECT_EQ(scene.warnings.size(), 2U);
 }
@@ -280,7 +281,7 @@ TEST(Geometry, MorphTargets_ApplyTheMeshsDefaultWeights) {
     file.json["meshes"][0]["weights"] = {0.5};
     const scene::Scene scene = loaded(file.load());
     EXPECT_EQ(scene.meshes.at(0).primitives.at(0).positions[0], glm::vec3(0, 0, 2));
-    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("morph targets")));
+    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("morph targets")));
 }
 
 TEST(Geometry, UnequalCounts_AreRefused) {

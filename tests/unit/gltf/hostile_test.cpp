@@ -103,6 +103,7 @@ TEST(Uri, UnknownData_IsRefused) {
     EXPECT_THAT(refusedUri("data:text/html,hello"), HasSubstr("cannot be decoded"));
     EXPECT_THAT(refusedUri("data:application/octet-stream;base64,"),
                 HasSubstr("cannot be decoded"));
+    EXPECT_THAT(refusedUri("data:application/octet-stream"), HasSubstr("cannot be decoded"));
     EXPECT_THAT(refusedUri("data:application/octet-stream;base64,AAAA"),
                 HasSubstr("buffer 0 says 36 bytes, but there are 3"));
 }
@@ -134,13 +135,15 @@ TEST(Views, OutOfTheirBuffer_AreRefused) {
     EXPECT_THAT(refusedView("buffer", 1), HasSubstr("bufferView 0 uses buffer 1"));
     EXPECT_THAT(refusedView("byteStride", 8), HasSubstr("byteStride 8"));
     EXPECT_THAT(refusedView("byteStride", 16), HasSubstr("ends at byte 44"));
-    EXPECT_THAT(refusedView("byteStride", 300), HasSubstr("byteStride"));
+    EXPECT_THAT(refusedView("byteStride", 300), HasSubstr("ends at byte 612"));
 }
 
 TEST(Views, HugeNumbers_AreRefusedByTheirPlace) {
     EXPECT_THAT(refusedView("byteOffset", std::numeric_limits<uint64_t>::max()),
                 HasSubstr("/bufferViews/0/byteOffset is 18446744073709551615"));
-    EXPECT_THAT(refusedView("byteLength", 1ULL << 32U), HasSubstr("/bufferViews/0/byteLength"));
+    EXPECT_THAT(refusedView("byteLength", 1ULL << 32U),
+                HasSubstr("/bufferViews/0/byteLength is 4294967296; right is an integer from 0 to "
+                          "4294967295"));
     EXPECT_THAT(refusedView("byteOffset", -4), HasSubstr("/bufferViews/0/byteOffset is -4"));
     EXPECT_THAT(refusedView("byteOffset", 1.5), HasSubstr("/bufferViews/0/byteOffset is 1.5"));
     EXPECT_THAT(refusedView("buffer", 1ULL << 32U), HasSubstr("/bufferViews/0/buffer"));
@@ -183,13 +186,15 @@ TEST(Accessors, MissingProperty_IsRefused) {
     EXPECT_THAT(failure(file.load()), HasSubstr("/accessors/0 has no 'count'"));
 }
 
-TEST(Accessors, NotFinite_AreRefused) {
+// What is not mended: nothing could stand in for a place.
+TEST(Accessors, NotFiniteInstance_IsRefused) {
     for (const float bad :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         SceneFile file;
-        file.attributes()["POSITION"] = file.addAccessor<float>({0, 0, 0, 1, bad, 0, 0, 1, 0}, 3);
-        EXPECT_THAT(failure(file.load()),
-                    HasSubstr("mesh 0 primitive 0 POSITION accessor 1 element 1 is "));
+        const int places = file.addAccessor<float>({0, 0, 0, 1, bad, 0}, 3);
+        file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+            {"TRANSLATION", places}};
+        EXPECT_THAT(failure(file.load()), HasSubstr("node 0 accessor 1 element 1 is "));
     }
 }
 
@@ -226,6 +231,8 @@ TEST(Sparse, BadValues_AreRefused) {
                 HasSubstr("sparse values ends at byte 28"));
     EXPECT_THAT(refusedSparse({{"values", {{"bufferView", 12}}}}), HasSubstr("bufferView 12"));
     EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", -1}}}}), HasSubstr("byteOffset is -1"));
+    EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", 3'000'000'000}}}}),
+                HasSubstr("sparse byteOffset of 3000000000; right is at most 2147483647"));
     EXPECT_THAT(refusedSparse({{"indices", nullptr}}), HasSubstr("indices"));
 }
 
@@ -335,9 +342,6 @@ TEST(Glb, BadHeader_IsRefused) {
     Bytes file = SceneFile().glb();
     putWord(file, 4, 1);
     EXPECT_THAT(refusedGlb(file), HasSubstr("GLB version is 1"));
-    file = SceneFile().glb();
-    putWord(file, 8, 0xFFFFFFFF);
-    EXPECT_THAT(refusedGlb(file), HasSubstr("says 4294967295 bytes"));
     file = SceneFile().glb();
     putWord(file, 12, 0xFFFFFFFF);
     EXPECT_THAT(refusedGlb(file), HasSubstr("JSON chunk says 4294967295 bytes"));

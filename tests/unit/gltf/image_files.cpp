@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
+#include <webp/encode.h>
 
 #include <algorithm>
 #include <memory>
@@ -23,6 +24,18 @@ Bytes jpegFile(uint32_t side_px, uint8_t red, uint8_t green, uint8_t blue, bool 
     const auto* first = reinterpret_cast<const std::byte*>(data);
     Bytes bytes(first, first + size);
     tjFree(data);
+    return bytes;
+}
+
+Bytes webpFile(const std::vector<uint8_t>& rgba, uint32_t side_px) {
+    const auto width = static_cast<int>(side_px);
+    const auto height = static_cast<int>(rgba.size() / 4 / side_px);
+    uint8_t* data = nullptr;
+    const size_t size = WebPEncodeLosslessRGBA(rgba.data(), width, height, width * 4, &data);
+    EXPECT_GT(size, 0U);
+    const auto* first = reinterpret_cast<const std::byte*>(data);
+    Bytes bytes(first, first + size);
+    WebPFree(data);
     return bytes;
 }
 

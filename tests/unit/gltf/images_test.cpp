@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <gmock/gmock.h>
+#include <numeric>
 
 namespace froxel::gltf {
 namespace {
@@ -18,6 +20,7 @@ using test::Json;
 using test::loaded;
 using test::SceneFile;
 using test::TempFolder;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -25,6 +28,7 @@ using testing::HasSubstr;
 SceneFile withImages(size_t count) {
     constexpr const char* kSlots[] = {"emissiveTexture", "occlusionTexture", "normalTexture"};
     SceneFile file;
+    file.attributes()["TEXCOORD_0"] = file.addAccessor<float>({0, 0, 1, 0, 0, 1}, 2);
     file.primitive()["material"] = 0;
     for (size_t i = 0; i < count; ++i) {
         file.json["materials"][0][kSlots[i]]["index"] = i;
@@ -93,44 +97,120 @@ TEST(Images, DataUri_IsRead) {
     EXPECT_EQ(scene.images[0].width_px + scene.images[1].width_px, 9U);
 }
 
-TEST(Images, Missing_IsRefused) {
+// The one material of a scene that goes without its texture, and why.
+std::string leftOut(const SceneFile& file) {
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_EQ(scene.materials.at(0).emissive_texture.texture, scene::kNone);
+    EXPECT_EQ(scene.images.at(0).rgba8, Bytes(4, std::byte{255})) << "nothing uses it";
+    const std::vector<std::string> lines = test::warningLines(scene);
+    EXPECT_EQ(lines.size(), 1U);
+    return lines.empty() ? "" : lines[0];
+}
+
+TEST(Images, Missing_LeavesItsTexturesOut) {
     SceneFile file = withImages(1);
-    EXPECT_THAT(failure(file.load()), HasSubstr("image 0 has neither uri nor bufferView"));
+    EXPECT_THAT(leftOut(file), HasSubstr("image 0 has neither uri nor bufferView"));
     file.json["images"][0]["uri"] = "missing.png";
-    EXPECT_THAT(failure(file.load()), HasSubstr("image 0 cannot open 'missing.png'"));
+    EXPECT_THAT(leftOut(file), AllOf(HasSubstr("FILE_NOT_FOUND at /images/0"),
+                                     HasSubstr("image 0 cannot open 'missing.png'")));
+    file.json["images"][0]["uri"] = "data:image/png,AAAA";
+    EXPECT_THAT(leftOut(file), HasSubstr("cannot be decoded"));
+}
+
+TEST(Images, OutOfRangeOrOutside_AreRefused) {
+    SceneFile file = withImages(1);
     file.json["images"][0] = {{"bufferView", 99}};
     EXPECT_THAT(failure(file.load()), HasSubstr("image 0 uses bufferView 99"));
+    file.json["images"][0] = {{"uri", "../secret.png"}};
+    EXPECT_THAT(failure(file.load()), HasSubstr("leaves the scene's folder"));
 }
 
-TEST(Images, OtherFormat_IsRefused) {
-    EXPECT_THAT(failure(withImage(Bytes(64, std::byte{0x42})).load()),
-                HasSubstr("image 0 is neither a PNG nor a JPEG"));
-    EXPECT_THAT(failure(withImage(Bytes(1, std::byte{0x89})).load()),
-                HasSubstr("image 0 is neither"));
+TEST(Images, OtherFormat_LeavesItsTexturesOut) {
+    EXPECT_THAT(leftOut(withImage(Bytes(64, std::byte{0x42}))),
+                HasSubstr("image 0 is of an unknown format (64 bytes); right is PNG, JPEG or"));
+    EXPECT_THAT(leftOut(withImage(Bytes(1, std::byte{0x89}))), HasSubstr("unknown format (1 byte"));
+    const char ktx2[] = "\xABKTX 20\xBB\r\n\x1A\n";
+    const auto* first = reinterpret_cast<const std::byte*>(ktx2);
+    EXPECT_THAT(leftOut(withImage(Bytes(first, first + 12))), HasSubstr("image 0 is a KTX2 file"));
 }
 
-TEST(Images, TruncatedPng_IsRefused) {
+TEST(Images, BrokenPng_LeavesItsTexturesOut) {
     Bytes image = plainPng(1, 2, 3);
+    Bytes damaged = image;
+    damaged.at(45) ^= std::byte{0xFF};
+    EXPECT_THAT(leftOut(withImage(damaged)), HasSubstr("image 0 is a broken PNG file"));
     image.resize(image.size() - 20);
-    EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
+    EXPECT_THAT(leftOut(withImage(image)), HasSubstr("image 0 is a broken PNG file"));
     image.resize(20);
-    EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
+    EXPECT_THAT(leftOut(withImage(image)), HasSubstr("IMAGE_DATA_INVALID at /images/0"));
 }
 
-TEST(Images, DamagedPng_IsRefused) {
-    Bytes image = plainPng(1, 2, 3);
-    image.at(45) ^= std::byte{0xFF};
-    EXPECT_THAT(failure(withImage(image).load()), HasSubstr("image 0 is a broken PNG file"));
-}
-
-TEST(Images, TruncatedJpeg_WarnsOrIsRefused) {
+TEST(Images, BrokenJpeg_WarnsOrLeavesItsTexturesOut) {
     Bytes image = test::jpegFile(64, 200, 100, 50, false);
     Bytes without_header = image;
     without_header.resize(12);
-    EXPECT_THAT(failure(withImage(without_header).load()),
-                HasSubstr("image 0 is a broken JPEG file"));
+    EXPECT_THAT(leftOut(withImage(without_header)), HasSubstr("image 0 is a broken JPEG file"));
     image.resize(image.size() - 40);
-    EXPECT_THAT(loaded(withImage(image).load()).warnings, ElementsAre(HasSubstr("image 0")));
+    const scene::Scene scene = loaded(withImage(image).load());
+    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("image 0")));
+    EXPECT_EQ(scene.materials.at(0).emissive_texture.texture, 0U);
+}
+
+TEST(Images, WrongMimeType_IsReadAsItIs) {
+    SceneFile file = withImage(plainPng(1, 2, 3));
+    file.json["images"][0]["mimeType"] = "image/jpeg";
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_EQ(scene.images.at(0).rgba8.at(2), std::byte{3});
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("IMAGE_MIME_TYPE_INVALID at /images/0/mimeType")));
+    EXPECT_EQ(scene.warnings.at(0).severity, scene::Severity::kInformation);
+}
+
+// 4 x 4 pixels, made by libwebp's encoder.
+TEST(Images, LosslessWebp_HasItsPixels) {
+    std::vector<uint8_t> rgba(64);
+    std::iota(rgba.begin(), rgba.end(), uint8_t{100}); // no alpha of 0, whose colours are free
+    const std::vector<int> pixels = pixelsOf(test::webpFile(rgba, 4));
+    EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), rgba.begin(), rgba.end()));
+}
+
+TEST(Images, WebpOfTheExtension_WinsOverTheFallback) {
+    SceneFile file = withImages(2);
+    file.useExtension("EXT_texture_webp", true);
+    file.json["images"][0]["bufferView"] = file.addView(plainPng(1, 2, 3));
+    file.json["images"][1] = {
+        {"bufferView", file.addView(test::webpFile(std::vector<uint8_t>(16, 77), 2))},
+        {"mimeType", "image/webp"}};
+    file.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    file.json["materials"][0].erase("occlusionTexture");
+    const scene::Scene scene = loaded(file.load());
+    ASSERT_EQ(scene.images.size(), 1U) << "the fallback is not read";
+    EXPECT_EQ(scene.images[0].rgba8, Bytes(16, std::byte{77}));
+    EXPECT_THAT(scene.warnings, testing::IsEmpty());
+}
+
+TEST(Images, WebpInADataUri_IsRead) {
+    SceneFile file = withImages(1);
+    file.json["images"][0]["uri"] =
+        "data:image/webp;base64," + test::base64(test::webpFile(std::vector<uint8_t>(16, 77), 2));
+    EXPECT_EQ(loaded(file.load()).images.at(0).rgba8, Bytes(16, std::byte{77}));
+}
+
+TEST(Images, BrokenWebp_LeavesItsTexturesOut) {
+    Bytes image = test::webpFile(std::vector<uint8_t>(16, 77), 2);
+    Bytes cut = image;
+    cut.resize(cut.size() - 4);
+    EXPECT_THAT(leftOut(withImage(cut)), HasSubstr("image 0 is a broken WebP file"));
+    image.resize(14);
+    EXPECT_THAT(leftOut(withImage(image)), HasSubstr("image 0 is a broken WebP file"));
+}
+
+// An animation says so in its VP8X header: flag 2, then the canvas.
+TEST(Images, WebpAnimation_LeavesItsTexturesOut) {
+    const std::string file("RIFF\x16\0\0\0WEBPVP8X\x0A\0\0\0\x02\0\0\0\x03\0\0\x03\0\0", 30);
+    const auto* first = reinterpret_cast<const std::byte*>(file.data());
+    EXPECT_THAT(leftOut(withImage(Bytes(first, first + file.size()))),
+                HasSubstr("image 0 is a WebP animation; right is one picture"));
 }
 
 TEST(Images, SideTooLong_IsRefusedByItsHeader) {
@@ -155,15 +235,20 @@ TEST(Images, SumTooLarge_IsRefusedByTheHeaders) {
     EXPECT_THAT(failure(file.load()), HasSubstr("needs 1073741824 bytes of decoded images"));
 }
 
-TEST(Images, LowestBrokenOne_IsNamed) {
+TEST(Images, EveryBrokenOne_IsNamedAndTheOthersStay) {
     SceneFile file = withImages(3);
     Bytes broken = plainPng(1, 2, 3);
     broken.at(45) ^= std::byte{0xFF};
     file.json["images"][0]["bufferView"] = file.addView(plainPng(1, 2, 3));
     file.json["images"][1]["bufferView"] = file.addView(broken);
     file.json["images"][2]["bufferView"] = file.addView(broken);
+    const scene::Scene scene = loaded(file.load());
     // Slots are met in the order normal, occlusion, emissive.
-    EXPECT_THAT(failure(file.load()), HasSubstr("image 2 "));
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("image 2 "), HasSubstr("image 1 ")));
+    EXPECT_NE(scene.materials.at(0).emissive_texture.texture, scene::kNone);
+    EXPECT_EQ(scene.materials.at(0).occlusion_texture.texture, scene::kNone);
+    EXPECT_EQ(scene.materials.at(0).normal_texture.texture, scene::kNone);
 }
 
 } // namespace

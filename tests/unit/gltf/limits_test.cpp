@@ -1,7 +1,11 @@
 // Values that are well-formed, but that a float, a budget or a reader of other chunks cannot hold.
 #include "unit/gltf/scene_file.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
+#include <string>
 
 namespace froxel::gltf::test {
 namespace {
@@ -58,6 +62,66 @@ TEST(Limits, MorphThatOverflows_IsRefused) {
     file.json["meshes"][0]["weights"] = {2};
     EXPECT_THAT(failure(file.load()),
                 HasSubstr("morph target POSITION takes element 0 out of range with the weight 2"));
+}
+
+constexpr uint64_t kBeyond31Bits = (1ULL << 31U) + 64;
+
+TEST(Limits, BufferBeyond31Bits_KeepsItsNumbers) {
+    SceneFile file;
+    file.json["buffers"][0]["byteLength"] = kBeyond31Bits + 36;
+    file.json["bufferViews"][0]["byteOffset"] = kBeyond31Bits;
+    EXPECT_THAT(failure(file.load()),
+                HasSubstr("buffer 0 says 2147483748 bytes, but there are 36"));
+    file.json["bufferViews"][0]["byteOffset"] = kBeyond31Bits + 1;
+    EXPECT_THAT(failure(file.load()),
+                HasSubstr("bufferView 0 ends at byte 2147483749, but buffer 0 has 2147483748"));
+    file.useExtension("EXT_meshopt_compression");
+    file.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
+        {"buffer", 0}, {"byteOffset", kBeyond31Bits}, {"byteLength", 40}, {"byteStride", 12},
+        {"count", 3},  {"mode", "ATTRIBUTES"}};
+    EXPECT_THAT(failure(file.load()), HasSubstr("bufferView 0 ends at byte 2147483752"));
+}
+
+uint64_t availableMemory() {
+    std::ifstream file("/proc/meminfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("MemAvailable:")) {
+            return std::stoull(line.substr(13)) * 1024;
+        }
+    }
+    return 0;
+}
+
+// A file with a hole, in which the triangle lies behind 2 GiB of zeros.
+TEST(Limits, GlbOver2GiB_IsLoaded) {
+    const TempFolder folder;
+    constexpr uint64_t kWanted = 3 * kBeyond31Bits;
+    if (availableMemory() < kWanted || std::filesystem::space(folder.path()).available < kWanted) {
+        GTEST_SKIP() << "needs 6 GiB of memory and of disk";
+    }
+    SceneFile file;
+    file.json["buffers"][0]["byteLength"] = kBeyond31Bits + 36;
+    file.json["bufferViews"][0]["byteOffset"] = kBeyond31Bits;
+    Bytes start = file.glb();
+    const size_t length_word = start.size() - 36 - 8; // of the binary chunk
+    const Bytes triangle(start.end() - 36, start.end());
+    start.resize(start.size() - 36);
+    const Bytes chunk_bytes = bytesOf(std::vector<uint32_t>{kBeyond31Bits + 36});
+    std::copy(chunk_bytes.begin(), chunk_bytes.end(),
+              start.begin() + static_cast<std::ptrdiff_t>(length_word));
+    const Bytes file_bytes =
+        bytesOf(std::vector<uint32_t>{static_cast<uint32_t>(start.size() + kBeyond31Bits + 36)});
+    std::copy(file_bytes.begin(), file_bytes.end(), start.begin() + 8);
+    const std::filesystem::path path = folder.write("scene.glb", start);
+    {
+        std::ofstream out(path, std::ios::binary | std::ios::in);
+        out.seekp(static_cast<std::streamoff>(start.size() + kBeyond31Bits));
+        out.write(reinterpret_cast<const char*>(triangle.data()), 36);
+        ASSERT_TRUE(out.good());
+    }
+    const scene::Scene scene = loaded(load(path));
+    EXPECT_EQ(scene.bounds_world.max, glm::dvec3(1, 1, 0));
+    EXPECT_TRUE(scene.warnings.empty());
 }
 
 // Targets may share one accessor: a few bytes of file must not ask for hours of work.

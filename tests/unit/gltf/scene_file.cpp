@@ -144,6 +144,14 @@ scene::Scene loaded(const Result<scene::Scene>& result) {
     return *result;
 }
 
+std::vector<std::string> warningLines(const scene::Scene& scene) {
+    std::vector<std::string> lines;
+    for (const scene::Warning& warning : scene.warnings) {
+        lines.push_back(warning.code + " at " + warning.pointer + ": " + warning.message);
+    }
+    return lines;
+}
+
 std::string failure(const Result<scene::Scene>& result) {
     if (result.has_value()) {
         ADD_FAILURE() << "the file is accepted";

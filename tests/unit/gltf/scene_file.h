@@ -100,6 +100,9 @@ class SceneFile {
 // The scene, or a test failure with the error's line and an empty scene.
 [[nodiscard]] scene::Scene loaded(const Result<scene::Scene>& result);
 
+// "CODE at /pointer: message" of every warning.
+[[nodiscard]] std::vector<std::string> warningLines(const scene::Scene& scene);
+
 // The line of an ErrorCode::kScene; a test failure where there is no error, more than one line or
 // no file name in front.
 [[nodiscard]] std::string failure(const Result<scene::Scene>& result);

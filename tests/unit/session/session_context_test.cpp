@@ -21,6 +21,8 @@ TEST(Summarize, Instances_AreCountedEach) {
     scene.instances.resize(4);
     scene.cameras.push_back({"door", {}});
     scene.bounds_world.add(glm::dvec3(1, 2, 3));
+    scene.warnings = {{"NO_SCENE", scene::Severity::kInformation, "", "no scene"}};
+    scene.warnings_left_out = 4;
 
     const SceneSummary summary = summarize(scene);
     EXPECT_EQ(summary.name, "two");
@@ -31,6 +33,8 @@ TEST(Summarize, Instances_AreCountedEach) {
     EXPECT_EQ(summary.punctual_light_count, 1U);
     EXPECT_EQ(summary.cameras.front().name, "door");
     EXPECT_EQ(summary.bounds_world.min, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(summary.warnings, scene.warnings);
+    EXPECT_EQ(summary.warnings_left_out, 4U);
 }
 
 TEST(DefaultsFor, BothKinds_AreWithinTheRanges) {

@@ -51,6 +51,25 @@ TEST(Welcome, PlacedLights_AreToldWhole) {
     EXPECT_NEAR(told.outer_cone_deg(), 45, 1e-9);
 }
 
+TEST(Welcome, SceneWarnings_AreToldUpToTheirLimit) {
+    SessionContext context = makeContext();
+    const SessionState state = initialState(context, TimePoint(1s));
+    context.scene.warnings = {
+        {"MODE_NOT_DRAWN", scene::Severity::kWarning, "/meshes/3", "3 primitives are lines"}};
+    context.scene.warnings.resize(
+        40, {"BYTE_ORDER_MARK", scene::Severity::kInformation, "", "begins with a mark"});
+    context.scene.warnings_left_out = 5;
+    const auto message = makeWelcome(12, context, state);
+    const v1::SceneInfo& scene = message.welcome().scene();
+    ASSERT_EQ(scene.warnings_size(), 32);
+    EXPECT_EQ(scene.warnings_left_out(), 13U);
+    EXPECT_EQ(scene.warnings(0).code(), "MODE_NOT_DRAWN");
+    EXPECT_EQ(scene.warnings(0).severity(), v1::SEVERITY_WARNING);
+    EXPECT_EQ(scene.warnings(0).pointer(), "/meshes/3");
+    EXPECT_EQ(scene.warnings(0).message(), "3 primitives are lines");
+    EXPECT_EQ(scene.warnings(31).severity(), v1::SEVERITY_INFORMATION);
+}
+
 // Every setting at an unusual value.
 SessionState unusualState(const SessionContext& context) {
     SessionState state = initialState(context, TimePoint(1s));

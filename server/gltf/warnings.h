@@ -1,0 +1,85 @@
+// What the loader says when it does not have to give up: the one list of a scene's warnings, and of
+// their kinds.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace froxel::gltf {
+
+struct WarningKind {
+    const char* code;
+    scene::Severity severity;
+    size_t most = 10; // that are kept
+};
+
+// Codes are the Khronos validator's where it has one for the thing (its ISSUES.md).
+namespace warning {
+
+inline constexpr auto kWarning = scene::Severity::kWarning;
+inline constexpr auto kInformation = scene::Severity::kInformation;
+
+// The file as a whole.
+inline constexpr WarningKind kUnsupportedExtension{"UNSUPPORTED_EXTENSION", kWarning, 100};
+inline constexpr WarningKind kUnsupportedMetadata{"UNSUPPORTED_EXTENSION", kInformation};
+inline constexpr WarningKind kByteOrderMark{"BYTE_ORDER_MARK", kInformation};
+inline constexpr WarningKind kGlbLength{"GLB_LENGTH_MISMATCH", kInformation};
+inline constexpr WarningKind kRestPose{"REST_POSE", kWarning};
+// Nodes and scenes.
+inline constexpr WarningKind kNoScene{"NO_SCENE", kInformation};
+inline constexpr WarningKind kNothingDrawn{"NOTHING_DRAWN", kWarning};
+inline constexpr WarningKind kListedChild{"SCENE_NON_ROOT_NODE", kInformation};
+inline constexpr WarningKind kListedTwice{"DUPLICATE_ELEMENTS", kInformation};
+inline constexpr WarningKind kTwoParents{"NODE_PARENT_OVERRIDE", kWarning};
+inline constexpr WarningKind kRotationLength{"NODE_ROTATION_NON_UNIT", kInformation};
+inline constexpr WarningKind kRotationZero{"NODE_ROTATION_NON_UNIT", kWarning};
+inline constexpr WarningKind kShear{"NODE_MATRIX_NON_TRS", kInformation};
+// Accessors and primitives.
+inline constexpr WarningKind kByteStride{"VALUE_NOT_IN_RANGE", kInformation};
+inline constexpr WarningKind kAlignment{"ACCESSOR_TOTAL_OFFSET_ALIGNMENT", kInformation};
+inline constexpr WarningKind kNotFinite{"ACCESSOR_INVALID_FLOAT", kWarning};
+inline constexpr WarningKind kLengthZero{"ACCESSOR_NON_UNIT", kWarning};
+inline constexpr WarningKind kNoPosition{"MESH_PRIMITIVE_NO_POSITION", kWarning};
+inline constexpr WarningKind kNoTriangles{"MODE_NOT_DRAWN", kWarning};
+inline constexpr WarningKind kCountOff{"MESH_PRIMITIVE_INCOMPATIBLE_MODE", kWarning};
+inline constexpr WarningKind kNoTexcoord{"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", kWarning};
+// Materials, textures and images.
+inline constexpr WarningKind kFactorRange{"VALUE_NOT_IN_RANGE", kWarning};
+inline constexpr WarningKind kThirdTexcoord{"TEXCOORD_NOT_READ", kWarning};
+inline constexpr WarningKind kNoSource{"TEXTURE_WITHOUT_IMAGE", kWarning};
+inline constexpr WarningKind kMissingFile{"FILE_NOT_FOUND", kWarning};
+inline constexpr WarningKind kBrokenImage{"IMAGE_DATA_INVALID", kWarning};
+inline constexpr WarningKind kImageFormat{"IMAGE_UNRECOGNIZED_FORMAT", kWarning};
+inline constexpr WarningKind kMimeType{"IMAGE_MIME_TYPE_INVALID", kInformation};
+
+} // namespace warning
+
+// Bounded: a few of each kind are kept, the others counted. So a file of a thousand broken
+// primitives still says what else is wrong with it. Not thread-safe.
+class Warnings {
+  public:
+    // `message` is one printable line; the same place and words count once while they are kept.
+    void add(const WarningKind& kind, std::string pointer, std::string message);
+
+    // Into `scene.warnings`, the gravest first.
+    void moveInto(scene::Scene& scene);
+
+  private:
+    std::vector<scene::Warning> kept_;
+    std::map<std::pair<std::string_view, scene::Severity>, size_t> kept_of_kind_;
+    uint64_t left_out_count_ = 0;
+};
+
+// "/meshes/3": what pointers to elements of the file's arrays begin with.
+[[nodiscard]] inline std::string pointerTo(const char* array, size_t index) {
+    return "/" + std::string(array) + "/" + std::to_string(index);
+}
+
+} // namespace froxel::gltf
