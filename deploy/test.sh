@@ -26,8 +26,7 @@ cd "$root"
 require_packages "${build_packages[@]}" "${run_packages[@]}" "${test_packages[@]}"
 rm -rf "$reports"
 mkdir -p "$reports"
-build_page
-build_binary test
+build_page_and_binary test
 say "built in $SECONDS s"
 
 FROXEL_BINARY=$root/build/test/froxel
