@@ -4,6 +4,5 @@
 source "$(dirname "$0")/common.sh"
 
 require_packages "${build_packages[@]}"
-build_page
-build_binary release
+build_page_and_binary release
 say "built $root/build/release/froxel and $root/client-web/dist"

@@ -197,3 +197,12 @@ build_page() {
         once_per page "$(digest "${sources[@]}")" npm run --silent build
     )
 }
+
+# Both at once: installing the page's packages is mostly waiting.
+build_page_and_binary() { # PRESET
+    build_page &
+    local page=$! code=0
+    build_binary "$1" || code=$?
+    wait "$page" || code=$?
+    return "$code"
+}

@@ -5,6 +5,5 @@
 source "$(dirname "$0")/common.sh"
 
 require_packages "${build_packages[@]}" "${run_packages[@]}"
-build_page
-build_binary release
+build_page_and_binary release
 exec "$root/build/release/froxel" serve "$@"

@@ -7,6 +7,7 @@ source "$(dirname "$0")/common.sh"
 
 reports=$root/build/reports
 stages=$reports/stages.tsv
+executables=$root/build/test/gtest # the reports of tests/CMakeLists.txt
 
 # Runs a command and notes its name, exit code and seconds; its JUnit report is reports/NAME.xml.
 stage() { # NAME COMMAND...
@@ -24,18 +25,17 @@ client_tests() { # STAGE SCRIPT
 
 cd "$root"
 require_packages "${build_packages[@]}" "${run_packages[@]}" "${test_packages[@]}"
-rm -rf "$reports"
+rm -rf "$reports" "$executables"
 mkdir -p "$reports"
-build_page
-build_binary test
+build_page_and_binary test
 say "built in $SECONDS s"
 
 FROXEL_BINARY=$root/build/test/froxel
 CHROMIUM=$(command -v chromium)
 export FROXEL_BINARY CHROMIUM
-stage ctest ctest --preset test --parallel "$(nproc)" --output-junit "$reports/ctest.xml"
+stage ctest ctest --preset check --parallel "$(nproc)" --output-junit "$reports/ctest.xml"
 stage lint npm --prefix client-web run --silent lint
 client_tests vitest test
 client_tests e2e e2e
 
-exec python3 "$root/deploy/summarize_tests.py" "$reports"
+exec python3 "$root/deploy/summarize_tests.py" "$reports" "$executables"

@@ -4,6 +4,7 @@ import { createServer, type AddressInfo } from 'node:net';
 
 import { expect, it } from 'vitest';
 
+import type { ServerMessage } from '../src/gen/froxel/v1/server_pb';
 import { startServer } from './server';
 import { launch, until, Viewer } from './viewer';
 
@@ -36,10 +37,9 @@ it('AdvertisedServer_ThePageGoesThereAndComesBackThere', async () => {
     const heard = viewer.received.length;
     const frames = viewer.frameCount;
     expect(await first.stop()).toBe(0);
-    const told = viewer.received.slice(heard);
-    await until('a welcome', () =>
-      viewer.received.slice(heard).some(({ body }) => body.case === 'welcome'));
-    expect(told.find(({ body }) => body.case === 'draining')?.body.value).toMatchObject({
+    const told = (): ServerMessage[] => viewer.received.slice(heard);
+    await until('a welcome', () => told().some(({ body }) => body.case === 'welcome'));
+    expect(told().find(({ body }) => body.case === 'draining')?.body.value).toMatchObject({
       reconnectUrl: socketUrl,
     });
     expect(sockets.slice(1)).toEqual([socketUrl]);

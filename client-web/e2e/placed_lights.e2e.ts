@@ -2,6 +2,7 @@
 
 import { readFileSync } from 'node:fs';
 
+import type { Locator } from 'playwright-core';
 import { expect, it } from 'vitest';
 
 import { LightKind } from '../src/gen/froxel/v1/common_pb';
@@ -41,6 +42,11 @@ function glow(viewer: Viewer): Promise<{ x: number; y: number }> {
   });
 }
 
+const isChosen = (handle: Locator): Promise<true> =>
+  until('a chosen handle', async () =>
+    ((await handle.getAttribute('class')) ?? '').includes('chosen') ? true : null,
+  );
+
 async function open(at: string): Promise<Viewer> {
   const viewer = await pages.open(at);
   await viewer.openPanel();
@@ -59,7 +65,7 @@ it('PlacedLight_AddedDraggedAndDeleted_ShinesWhereItsHandleIs', async () => {
   await viewer.type('placed_light.radius', 8);
   await until('its radius', () => told(viewer)[0]?.radius === 8);
   const handle = viewer.page.locator('#handles .handle');
-  expect(await handle.getAttribute('class')).toContain('chosen');
+  await isChosen(handle);
   await viewer.settled();
   await viewer.screenshot('placed-light');
 
@@ -76,8 +82,10 @@ it('PlacedLight_AddedDraggedAndDeleted_ShinesWhereItsHandleIs', async () => {
     const now = told(viewer)[0]?.position;
     return now && before && (now.x !== before.x || now.z !== before.z);
   });
-  const moved = await handle.boundingBox();
-  expect(Math.abs((moved?.x ?? 0) + 200 - box.x)).toBeLessThan(2);
+  await until('the handle there', async () => {
+    const moved = await handle.boundingBox();
+    return Math.abs((moved?.x ?? 0) + 200 - box.x) < 2;
+  });
   await viewer.settled();
   expect((await glow(viewer)).x).toBeLessThan(lit.x - 0.02);
 
@@ -85,7 +93,7 @@ it('PlacedLight_AddedDraggedAndDeleted_ShinesWhereItsHandleIs', async () => {
   await until('a place above', () => (told(viewer)[0]?.position.y ?? 0) > (before?.y ?? 0));
   await handle.press('Delete');
   await count(viewer, 0);
-  expect(await handle.count()).toBe(0);
+  await until('no handle', async () => (await handle.count()) === 0);
 });
 
 it('PlacedLight_ColourAndKind_AreTheServers', async () => {
@@ -124,7 +132,7 @@ it('SeededLight_DoubleClicked_IsPlaced_Changed_AndGivenBack', async () => {
   expect(light?.replacesSeeded).toBeGreaterThanOrEqual(0);
   expect(difference(await viewer.settled(), before)).toBe(0);
   const handle = viewer.page.locator('#handles .handle');
-  expect(await handle.getAttribute('class')).toContain('chosen');
+  await isChosen(handle);
   const box = await handle.boundingBox();
   const reach = 0.06 * (canvas.height / 2);
   expect(Math.abs((box?.x ?? 0) + (box?.width ?? 0) / 2 - x)).toBeLessThan(reach);

@@ -133,5 +133,6 @@ it('TryNow_ConnectsAtOnce', async () => {
   expect(viewer.connectionCount).toBe(1);
   await viewer.page.locator('#banner-retry').click();
   await until('no banner', async () => !(await viewer.page.locator('#banner').isVisible()));
+  await until('the connection', () => viewer.connectionCount > 1);
   expect(viewer.connectionCount).toBe(2);
 });

@@ -41,7 +41,7 @@ it('Picture_FollowsTheWindow_ToldOnce_WithinTheServersBudget', async () => {
 it('Pointer_Wheel_AndKeys_MoveTheCamera', async () => {
   const viewer = await open();
   const { mouse, keyboard } = viewer.page;
-  const moves: [string, () => Promise<void>][] = [
+  const moves: [string, (before: readonly number[]) => Promise<unknown>][] = [
     [
       'orbit',
       async () => {
@@ -62,9 +62,9 @@ it('Pointer_Wheel_AndKeys_MoveTheCamera', async () => {
     ],
     [
       'fly',
-      async () => {
+      async (before) => {
         await keyboard.down('w');
-        await viewer.page.waitForTimeout(300); // held for a while is what flying is
+        await viewer.changed('a while of flying', before);
         await keyboard.up('w');
       },
     ],
@@ -72,7 +72,7 @@ it('Pointer_Wheel_AndKeys_MoveTheCamera', async () => {
   for (const [name, move] of moves) {
     const before = await viewer.settled();
     const { state } = viewer;
-    await move();
+    await move(before);
     await viewer.stateWith(name, ({ eye }) => eye?.x !== state?.eye?.x || eye?.z !== state?.eye?.z);
     await viewer.changed(name, before);
   }
@@ -98,6 +98,7 @@ it('Orbit_SendsAtMostOneCameraForAnAnimationFrame', async () => {
   await mouse.move(600, 320, { steps: 200 });
   await viewer.page.evaluate(() => (document.body.dataset.done = '1'));
   await mouse.up();
+  await viewer.settled();
   const cameras = viewer.sent.filter(({ body }) => body.case === 'setCamera').length;
   expect(cameras).toBeGreaterThan(0);
   expect(cameras).toBeLessThanOrEqual((await frames) + 1);

@@ -7,6 +7,8 @@ export default defineConfig({
     // these are only the ends of patience.
     testTimeout: 180_000,
     hookTimeout: 120_000,
-    fileParallelism: false,
+    // Files have servers and browsers of their own, and mostly wait. More at once would only starve each other.
+    maxWorkers: 2,
+    minWorkers: 1,
   },
 });

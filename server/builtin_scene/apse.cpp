@@ -1,3 +1,4 @@
+#include "builtin_scene/angles.h"
 #include "builtin_scene/bay.h"
 #include "builtin_scene/plan.h"
 #include "builtin_scene/profile.h"
@@ -8,7 +9,6 @@
 namespace froxel::builtin_scene {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
 constexpr uint32_t kAround = 40;
 constexpr float kFloor = 0.45F;
 

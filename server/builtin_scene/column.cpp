@@ -1,5 +1,6 @@
 #include "builtin_scene/column.h"
 
+#include "builtin_scene/angles.h"
 #include "builtin_scene/profile.h"
 
 #include <algorithm>
@@ -8,9 +9,6 @@
 
 namespace froxel::builtin_scene {
 namespace {
-
-constexpr float kTwoPi = glm::two_pi<float>();
-constexpr float kPi = glm::pi<float>();
 
 // Attic base: two tori with a scotia between, for a shaft of `radius`.
 Profile atticBase(float radius, float bottom) {

@@ -1,3 +1,4 @@
+#include "builtin_scene/angles.h"
 #include "builtin_scene/bay.h"
 #include "builtin_scene/furnishing.h"
 #include "builtin_scene/plan.h"
@@ -10,7 +11,6 @@
 namespace froxel::builtin_scene {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
 constexpr float kTopOfSides = 9.7F;
 constexpr float kNaveHalf = 3.9F; // the part under the vault, a little behind its springing
 constexpr float kRoseRadius = 1.35F;

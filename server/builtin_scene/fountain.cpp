@@ -1,3 +1,4 @@
+#include "builtin_scene/angles.h"
 #include "builtin_scene/furnishing.h"
 #include "builtin_scene/profile.h"
 
@@ -6,8 +7,6 @@
 
 namespace froxel::builtin_scene {
 namespace {
-
-constexpr float kTwoPi = glm::two_pi<float>();
 
 void addDisc(MeshBuilder& mesh, float radius, float y, uint32_t sides) {
     std::vector<glm::vec3> rim;

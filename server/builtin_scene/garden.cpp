@@ -1,5 +1,6 @@
 #include "builtin_scene/garden.h"
 
+#include "builtin_scene/angles.h"
 #include "builtin_scene/noise.h"
 #include "builtin_scene/profile.h"
 
@@ -8,8 +9,6 @@
 
 namespace froxel::builtin_scene {
 namespace {
-
-constexpr float kTwoPi = glm::two_pi<float>();
 
 // A stream of numbers in [0, 1), the same on every machine.
 class Dice {

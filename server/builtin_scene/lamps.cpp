@@ -1,3 +1,4 @@
+#include "builtin_scene/angles.h"
 #include "builtin_scene/furnishing.h"
 #include "builtin_scene/profile.h"
 
@@ -8,7 +9,6 @@
 namespace froxel::builtin_scene {
 namespace {
 
-constexpr float kTwoPi = glm::two_pi<float>();
 constexpr uint32_t kSides = 6;
 
 // A regular plan of unit radius with hard corners.

@@ -1,3 +1,4 @@
+#include "builtin_scene/angles.h"
 #include "builtin_scene/bay.h"
 #include "builtin_scene/plan.h"
 #include "builtin_scene/profile.h"
@@ -9,7 +10,6 @@ namespace froxel::builtin_scene {
 namespace {
 
 constexpr float kHalf = 0.5F * plan::kBay;
-constexpr float kPi = glm::pi<float>();
 constexpr float kGalleryCeiling = 9.5F;
 
 struct Window {

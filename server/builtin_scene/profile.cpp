@@ -1,5 +1,6 @@
 #include "builtin_scene/profile.h"
 
+#include "builtin_scene/angles.h"
 #include "core/assert.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@ namespace froxel::builtin_scene {
 namespace {
 
 constexpr float kCreaseCosine = 0.60F; // 53 degrees: a torus in four steps is still round
-constexpr float kTwoPi = glm::two_pi<float>();
 
 // Outward normal of a step of a profile: the solid is on the left hand.
 glm::vec2 rightOf(glm::vec2 step) {

@@ -1,5 +1,6 @@
 #include "builtin_scene/vault.h"
 
+#include "builtin_scene/angles.h"
 #include "builtin_scene/plan.h"
 #include "builtin_scene/profile.h"
 #include "builtin_scene/wall.h"
@@ -12,7 +13,6 @@
 namespace froxel::builtin_scene {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
 constexpr float kRibHalf = 0.35F;
 constexpr uint32_t kRows = 9; // coffers across the vault; the fifth is the crown
 constexpr uint32_t kColumns = 3;

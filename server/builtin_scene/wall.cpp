@@ -1,12 +1,12 @@
 #include "builtin_scene/wall.h"
 
+#include "builtin_scene/angles.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace froxel::builtin_scene {
 namespace {
-
-constexpr float kPi = glm::pi<float>();
 
 // x of the points of an arc that are evenly spread by angle.
 std::vector<float> arcCuts(float centre_x, float radius, uint32_t steps) {

@@ -36,7 +36,7 @@ MOST = {"gap_s": 0.5}
 class Case:
     attack: Callable
     clients: int = 1  # how many of it at once
-    seconds: float = 6  # beside the hostile ones; as long alone, but no longer than ALONE_S
+    seconds: float = 3  # beside the hostile ones; as long alone, but no longer than ALONE_S
     serve: tuple = ()  # options of froxel serve
     room: str = ""  # that the honest viewer is in; it came first
     needs: tuple = ()  # what the hostile viewers must have heard, lest it be no attack
@@ -183,14 +183,14 @@ async def newcomer(url):
     return NEVER
 
 
-async def measure(case, server, begin, fellow):
+async def measure(case, server, begin, fellow, alone):
     async with Victim(server.url, HONEST, room=case.room) as victim, Memory(server) as memory:
         running = asyncio.create_task(victim.run())
         await asyncio.sleep(0)
         while len(victim.frames) < SETTLED_FRAMES and not running.done():
             await asyncio.sleep(0.05)
         times, heard = [time.monotonic()], [collections.Counter(victim.heard)]
-        for start, seconds in ((None, min(case.seconds, ALONE_S)), (begin, case.seconds)):
+        for start, seconds in ((None, 0 if alone else min(case.seconds, ALONE_S)), (begin, case.seconds)):
             if start:
                 start.set()
             await asyncio.wait([running], timeout=seconds)
@@ -201,9 +201,10 @@ async def measure(case, server, begin, fellow):
             await running  # raises what ended it
         running.cancel()
         steps = await asyncio.to_thread(steps_of, server)
-    alone, beside = victim.figures(times[0], times[1]), victim.figures(times[1], times[2])
+    alone = alone or victim.figures(times[0], times[1])
+    beside = victim.figures(times[1], times[2])
     room_states = (heard[2] - heard[1])["roomState"] / (times[2] - times[1])
-    return {**{f"alone_{name}": value for name, value in alone.items()}, **beside, **joined,
+    return {"alone": alone, **{f"alone_{name}": value for name, value in alone.items()}, **beside, **joined,
             "kept": beside["fps"] / max(alone["fps"], 1e-9), "room_states_per_s": room_states,
             "step_s": longest_step_s(steps), "steps": steps,
             "rss_mb": memory.rss, "device_mb": memory.device, "fellow_alive": fellow.is_alive()}
@@ -219,8 +220,9 @@ def served_with(options, own):
     return [word for group in groups if group[0] not in own for word in group] + list(own)
 
 
-def play(case, froxel, options, slack):
-    """(figures, what is wrong) of one run with a server of its own."""
+def play(case, froxel, options, slack, alone):
+    """(figures, what is wrong) of one run with a server of its own. `alone`: the honest viewer's own figures, where
+    they are known."""
     spawn = multiprocessing.get_context("spawn")
     ready, begin = spawn.Event(), spawn.Event()
     ours, theirs = spawn.Pipe()
@@ -231,7 +233,7 @@ def play(case, froxel, options, slack):
         fellow.start()
         ready.wait(30)
         try:
-            figures = asyncio.run(measure(case, server, begin, fellow))
+            figures = asyncio.run(measure(case, server, begin, fellow, alone))
             wrong += case.missed(figures, slack)
             if not figures.pop("fellow_alive"):
                 wrong.append("the hostile viewers ended by themselves")

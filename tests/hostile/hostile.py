@@ -37,9 +37,13 @@ def told(figures):
                    for _, width, form in COLUMNS)
 
 
-def play(case, froxel, serve, slack):
+def play(case, froxel, serve, slack, known):
+    """`known`: what the honest viewer has alone, by how the server is started and its room. It is measured once, and
+    anew for a case that fails."""
+    place = case.serve, case.room
     for attempt in range(1, ATTEMPTS + 1):
-        figures, wrong = cases.play(case, froxel, serve, slack)
+        figures, wrong = cases.play(case, froxel, serve, slack, known.get(place) if attempt == 1 else None)
+        known[place] = figures.pop("alone", known.get(place))
         verdict = "; ".join(wrong) or "holds"
         again = "" if attempt == 1 else f" (attempt {attempt})"
         print(f"{case.name:<22}{told(figures)}  {verdict}{again}", flush=True)
@@ -82,7 +86,8 @@ def main():
         selected = [dataclasses.replace(case, seconds=options.seconds) for case in selected]
     if not options.slack >= 1:
         parser.error(f"--slack {options.slack:g} must be at least 1")
-    results = [play(case, options.froxel, serve, options.slack) for case in selected]
+    known = {}
+    results = [play(case, options.froxel, serve, options.slack, known) for case in selected]
     if options.out:
         options.out.write_text(json.dumps(results, indent=1) + "\n")
     failed = [result["case"] for result in results if not result["holds"]]

@@ -8,6 +8,7 @@ from case import case
 from viewer import together
 
 JOINS = {"newcomer_s": 3}
+SECONDS = 6  # until some of these are let do what they want
 HUGE_LIGHT = {"id": 1, "position": {"y": 2}, "radiusM": 10_000, "intensity": 1}
 
 
@@ -39,7 +40,7 @@ async def as_large_as_taken(viewer, width, height):
         width, height = width // 2, height // 2
 
 
-@case(needs=("frame",))
+@case(seconds=SECONDS, needs=("frame",))
 async def long_lists(arena):
     """A million tiny lights in a grid of one column: what most pixels loop over is in few lists."""
     async with arena.viewer() as viewer:
@@ -50,7 +51,7 @@ async def long_lists(arena):
         await viewer.watch()
 
 
-@case(needs=("frame",), newcomer=True, most=JOINS)
+@case(seconds=SECONDS, needs=("frame",), newcomer=True, most=JOINS)
 async def all_lights(arena):
     """Naive shading with as many lights as are taken, found by halving."""
     async with arena.viewer() as viewer:
@@ -59,7 +60,7 @@ async def all_lights(arena):
         await as_many_lights_as_taken(viewer, 1000)
 
 
-@case(needs=("large",), newcomer=True, most=JOINS)
+@case(seconds=SECONDS, needs=("large",), newcomer=True, most=JOINS)
 async def huge_pictures(arena):
     """The largest picture, with every map of shadows and the widest bloom."""
     async with arena.viewer() as viewer:
@@ -69,7 +70,7 @@ async def huge_pictures(arena):
         await viewer.watch()
 
 
-@case(needs=("large",))
+@case(seconds=SECONDS, needs=("large",))
 async def four_samples(arena):
     """As large a picture as four samples a pixel are given for."""
     async with arena.viewer() as viewer:
@@ -78,7 +79,7 @@ async def four_samples(arena):
         await viewer.watch()
 
 
-@case(needs=("large",))
+@case(seconds=SECONDS, needs=("large",))
 async def fog_and_layers(arena):
     """The finest volume of fog, and sixteen layers of what is blended."""
     async with arena.viewer() as viewer:
@@ -89,7 +90,7 @@ async def fog_and_layers(arena):
         await viewer.watch()
 
 
-@case(needs=("frame",))
+@case(seconds=SECONDS, needs=("frame",))
 async def many_wires(arena):
     """The ends of as many lights as are taken, as lines, which pixels have no say in."""
     async with arena.viewer() as viewer:
@@ -98,7 +99,7 @@ async def many_wires(arena):
         await as_many_lights_as_taken(viewer, 0.1)
 
 
-@case(needs=("frame",), newcomer=True, most=JOINS)
+@case(seconds=SECONDS, needs=("frame",), newcomer=True, most=JOINS)
 async def a_frame_a_connection(arena):
     """One large picture, then a new connection, which owes nothing yet."""
     async with arena.viewer() as viewer:
@@ -110,7 +111,7 @@ async def a_frame_a_connection(arena):
                 return
 
 
-@case(clients=4)
+@case(seconds=SECONDS, clients=4)
 async def leaves_at_once(arena):
     """Asks for a large picture and is gone before it is there."""
     async with arena.viewer() as viewer:
@@ -121,7 +122,7 @@ async def leaves_at_once(arena):
         await asyncio.sleep(0.05)
 
 
-@case()
+@case(seconds=SECONDS)
 async def shader_storm(arena):
     """Ever other variants of the renderer, each to be compiled."""
     variants = itertools.product(
@@ -142,7 +143,7 @@ async def shader_storm(arena):
         await together(ask(viewer), viewer.watch())
 
 
-@case()
+@case(seconds=SECONDS)
 async def sizes_storm(arena):
     """Another size with every picture, so that targets are made anew."""
     async with arena.viewer() as viewer:
@@ -153,7 +154,7 @@ async def sizes_storm(arena):
             await viewer.acknowledge(heard[1])
 
 
-@case(needs=("frame",))
+@case(seconds=SECONDS, needs=("frame",))
 async def lights_anew(arena):
     """A million lights, then few, and so on, in a tiny picture: what the host makes of them is made anew."""
     async with arena.viewer() as viewer:
