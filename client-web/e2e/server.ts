@@ -17,8 +17,8 @@ export interface Server {
 export async function startServer(port = 0, more: readonly string[] = []): Promise<Server> {
   const binary = process.env.FROXEL_BINARY;
   if (!binary) throw new Error('FROXEL_BINARY is not set: the path of a froxel binary');
-  // However slow the machine, several pages are let in.
-  const options = ['--port', String(port), '--admin-bind', 'none', '--min-fps', '0'];
+  // However slow the machine, several pages are let in and their pictures drawn.
+  const options = ['--port', String(port), '--admin-bind', 'none', '--min-fps', '0', '--frame-limit', '60'];
   options.push('--drain-seconds', '1', ...more);
   const child = spawn(binary, ['serve', ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],

@@ -92,7 +92,7 @@ void leaveOut(const std::vector<Job>& jobs, scene::Scene& scene) {
         for (scene::TextureSlot* slot : textureSlots(material)) {
             if (slot->texture != scene::kNone &&
                 jobs[scene.textures[slot->texture].image].unusable) {
-                *slot = {};
+                clearTexture(material, *slot);
             }
         }
     }

@@ -167,7 +167,7 @@ uint32_t MaterialReader::withTexcoords(uint32_t material,
         scene::Material reduced = scene_.materials[material];
         for (scene::TextureSlot* slot : textureSlots(reduced)) {
             if (lacks(slot)) {
-                *slot = {};
+                clearTexture(reduced, *slot);
             }
         }
         scene_.materials.push_back(std::move(reduced));
@@ -237,8 +237,9 @@ void MaterialReader::readSpecular(const tinygltf::ExtensionMap& extensions,
         if (ior == 0 || ior >= 1) {
             material.ior = static_cast<float>(ior);
         } else {
-            warnings_.add(name + " has the ior " + numberText(ior) +
-                          "; 1.5 is used, since right is 0 or at least 1");
+            warnings_.add(warning::kFactorRange, pointer_,
+                          name + " has the ior " + numberText(ior) +
+                              "; 1.5 is used, since right is 0 or at least 1");
         }
     }
     if (const auto* ext = findExtension(extensions, "KHR_materials_specular")) {
@@ -249,8 +250,9 @@ void MaterialReader::readSpecular(const tinygltf::ExtensionMap& extensions,
         const auto color = factorsOr(*ext, "specularColorFactor", {1, 1, 1}, name);
         for (size_t i = 0; i < color.size(); ++i) {
             if (color[i] < 0) {
-                warnings_.add(name + " has the specularColorFactor " + numberText(color[i]) +
-                              "; 0 is used, since right is 0 or more");
+                warnings_.add(warning::kFactorRange, pointer_,
+                              name + " has the specularColorFactor " + numberText(color[i]) +
+                                  "; 0 is used, since right is 0 or more");
             }
             material.specular_color[static_cast<int>(i)] =
                 static_cast<float>(std::max(color[i], 0.0));

@@ -133,15 +133,7 @@ void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploade
                                 Usage::eIndexBuffer | Usage::eStorageBuffer, "indices");
 }
 
-void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
-    textures_ = std::make_unique<TextureStore>(device, texture_arena, uploader);
-    const auto count = static_cast<uint32_t>(scene.materials.size());
-    if (count == 0) {
-        return;
-    }
-    const auto alignment = device.limits().minUniformBufferOffsetAlignment;
-    const vk::DeviceSize stride = (sizeof(io::Material) + alignment - 1) / alignment * alignment;
-    std::vector<std::byte> bytes(stride * count);
+void SceneResources::makeMaterialSets(uint32_t count) {
     const std::array pool_sizes = {
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
@@ -151,6 +143,18 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
     material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
                                                              .descriptorSetCount = count,
                                                              .pSetLayouts = layouts.data()});
+}
+
+void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
+    textures_ = std::make_unique<TextureStore>(device, texture_arena, uploader);
+    const auto count = static_cast<uint32_t>(scene.materials.size());
+    if (count == 0) {
+        return;
+    }
+    makeMaterialSets(count);
+    const auto alignment = device.limits().minUniformBufferOffsetAlignment;
+    const vk::DeviceSize stride = (sizeof(io::Material) + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> bytes(stride * count);
     for (uint32_t i = 0; i < count; ++i) {
         const auto uniforms = materialUniforms(scene.materials[i]);
         std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));

@@ -91,6 +91,7 @@ class SceneResources {
 
   private:
     void uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader);
+    void makeMaterialSets(uint32_t count);
     void uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader);
 
     gpu::Buffer material_buffer_;

@@ -84,9 +84,17 @@ struct Material {
 // All slots of a material, const or not.
 template <class AnyMaterial>
 [[nodiscard]] auto textureSlots(AnyMaterial& material) {
-    return std::array{&material.base_color_texture, &material.metallic_roughness_texture,
-                      &material.normal_texture, &material.occlusion_texture,
-                      &material.emissive_texture};
+    return std::array{&material.base_color_texture,    &material.metallic_roughness_texture,
+                      &material.normal_texture,        &material.occlusion_texture,
+                      &material.emissive_texture,      &material.specular_texture,
+                      &material.specular_color_texture};
+}
+
+// Takes the texture of one of its slots away, and what goes by it.
+inline void clearTexture(Material& material, TextureSlot& slot) {
+    slot = {};
+    material.glossiness_texture =
+        material.glossiness_texture && material.specular_color_texture.texture != kNone;
 }
 
 // Triangles of one material. Optional streams are empty or have one element per vertex.

@@ -148,6 +148,7 @@ TEST_F(CommandsTest, CommandsOfShadingAndEncoding_Valid_ChangeTheState) {
     auto* lights = message.mutable_set_lights();
     lights->set_light_loop(v1::LIGHT_LOOP_LISTS);
     lights->set_count_pairs(true);
+    lights->set_animate(false);
     lights->set_time_s(12.5);
     const v1::ViewState looped = change(message);
     EXPECT_EQ(looped.light_loop(), v1::LIGHT_LOOP_LISTS);

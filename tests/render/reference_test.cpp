@@ -199,8 +199,8 @@ TEST_F(Reference, RoomOfReflectances_Forward_IsWithinArithmetic) {
                 inputs.settings.shading = model;
                 inputs.settings.lighting = stage;
                 const Errors errors = compared.against(inputs);
-                EXPECT_LT(errors.max_relative, 1e-4);
-                EXPECT_LT(errors.median, 1e-7);
+                EXPECT_LT(errors.max_relative, onGpu() ? 1e-3 : 1e-4); // a GPU divides less well
+                EXPECT_LT(errors.median, onGpu() ? 1e-6 : 1e-7);
             }
         }
     }

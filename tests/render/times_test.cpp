@@ -85,7 +85,7 @@ TEST_F(Times, LightingInCompute_HasTheTimeOfItsLights) {
     const auto lighting = std::ranges::find(stats.passes, "lighting", &PassTime::name);
     ASSERT_NE(lighting, stats.passes.end());
     ASSERT_TRUE(lighting->gpu_us && stats.gpu_us);
-    EXPECT_GT(*lighting->gpu_us, 0.5 * *stats.gpu_us);
+    EXPECT_GT(*lighting->gpu_us, 0.2 * *stats.gpu_us);
 }
 
 } // namespace

@@ -96,7 +96,7 @@ TEST(SceneReport, Warnings_HaveTheValidatorsShape) {
         {"SCENE_NON_ROOT_NODE", scene::Severity::kInformation, "/scenes/0/nodes", "lists a child"}};
     scene.warnings_left_out = 3;
     const auto report = sceneReport(scene);
-    EXPECT_EQ(report["warnings"], nlohmann::json::parse(R"([{"code": "SCENE_NON_ROOT_NODE",
+    EXPECT_EQ(report["warnings"], nlohmann::ordered_json::parse(R"([{"code": "SCENE_NON_ROOT_NODE",
         "severity": 2, "pointer": "/scenes/0/nodes", "message": "lists a child"}])"));
     EXPECT_EQ(report["warnings_left_out"], 3);
 }

@@ -27,7 +27,8 @@ TEST(FindCamera, Default_IsTheFirst) {
 TEST(FindCamera, DefaultWithoutCameras_IsTheOverview) {
     auto scene = twoCameras();
     scene.cameras.clear();
-    scene::Primitive primitive{.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    scene::Primitive primitive;
+    primitive.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     primitive.bounds = {{-1, 0, 0}, {1, 1, 0}};
     scene.meshes = {{"", {primitive}}};
     scene.instances = {{}};

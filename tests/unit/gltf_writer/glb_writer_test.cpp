@@ -89,16 +89,8 @@ scene::Primitive triangle() {
     return primitive;
 }
 
-// One of everything that a scene can hold.
-scene::Scene everything() {
-    scene::Scene scene;
-    scene.name = "Everything";
-    scene.images = {twoByTwo("opaque", 255), twoByTwo("veiled", 128)};
-    scene.samplers = {{},
-                      {scene::Wrap::kClampToEdge, scene::Wrap::kMirroredRepeat,
-                       scene::Filter::kNearest, scene::Filter::kNearest, scene::Filter::kNearest,
-                       false}};
-    scene.textures = {{0, 0}, {1, 1}, {0, scene::kNone}};
+// They use three textures.
+std::vector<scene::Material> everyMaterial() {
     scene::Material rich;
     rich.name = "rich";
     rich.base_color = {0.25F, 0.5F, 0.75F, 1};
@@ -129,7 +121,20 @@ scene::Scene everything() {
     glossy.specular_color = {0.5F, 0.25F, 1};
     glossy.specular_color_texture = {0};
     glossy.glossiness_texture = true;
-    scene.materials = {rich, flat, glass, glossy};
+    return {rich, flat, glass, glossy};
+}
+
+// One of everything that a scene can hold.
+scene::Scene everything() {
+    scene::Scene scene;
+    scene.name = "Everything";
+    scene.images = {twoByTwo("opaque", 255), twoByTwo("veiled", 128)};
+    scene.samplers = {{},
+                      {scene::Wrap::kClampToEdge, scene::Wrap::kMirroredRepeat,
+                       scene::Filter::kNearest, scene::Filter::kNearest, scene::Filter::kNearest,
+                       false}};
+    scene.textures = {{0, 0}, {1, 1}, {0, scene::kNone}};
+    scene.materials = everyMaterial();
     scene::Primitive full = triangle();
     full.uv1 = {{0, 0}, {0.5F, 0}, {0, 0.5F}};
     full.colors.assign(3, {1, 0.5F, 0.25F, 1});

@@ -1,5 +1,6 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
+#include "interface/gbuffer_io.h"
 #include "render/effects/bloom.h"
 #include "render/effects/exposure.h"
 #include "render/effects/fog.h"
@@ -199,7 +200,7 @@ brokenEffectRule(const view::ViewSettings& settings, const FrameFacts& facts, co
         {p.outline == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
         {bloomOf(p) == settings.bloom.kind, "the bloom asked for"},
-        {(p.effect(kExposureEffect) != nullptr) ==
+        {(effectOf(p, kExposureEffect) != nullptr) ==
              (settings.exposure_mode == view::ExposureMode::kFrame),
          "exposure is metered where asked for"},
         {has(shadows != nullptr ? shadows->way : 0, kShadowsDrawn) ==
