@@ -1,20 +1,11 @@
 #include "gltf/stream_repair.h"
 
+#include "core/finite.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace froxel::gltf {
 namespace {
-
-template <class Vector>
-bool isFinite(const Vector& vector) {
-    for (int i = 0; i < vector.length(); ++i) {
-        if (!std::isfinite(vector[i])) {
-            return false;
-        }
-    }
-    return true;
-}
 
 // How many were not finite.
 template <class Vector>

@@ -1,6 +1,7 @@
 #include "light/light_rig.h"
 
 #include "core/assert.h"
+#include "core/finite.h"
 #include "light/light_cutoff.h"
 #include "light/seeded_lights.h"
 
@@ -19,16 +20,13 @@ constexpr double kFarthest_m = 1e15;
 // A rectangle shines ahead of its plane and not behind: a cone without a slope.
 constexpr float kStep = 1e30F;
 
-bool finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 bool usable(const scene::PunctualLight& light) {
-    const bool directed = light.type == scene::LightType::kPoint ||
-                          (finite(light.direction_world) && glm::length(light.direction_world) > 0);
+    const bool directed =
+        light.type == scene::LightType::kPoint ||
+        (isFinite(light.direction_world) && glm::length(light.direction_world) > 0);
     const bool coned = light.type != scene::LightType::kSpot ||
                        (std::isfinite(light.inner_cone_rad) && std::isfinite(light.outer_cone_rad));
-    return finite(light.position_world) && finite(glm::dvec3(light.color)) &&
+    return isFinite(light.position_world) && isFinite(glm::dvec3(light.color)) &&
            std::isfinite(light.intensity) && light.range_m >= 0 && std::isfinite(light.range_m) &&
            directed && coned;
 }

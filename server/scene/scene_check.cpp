@@ -1,5 +1,7 @@
 #include "scene/scene_check.h"
 
+#include "core/finite.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,27 +19,13 @@ std::string numbered(const char* what, size_t index) {
 }
 
 template <class T>
-bool finite(const T& value) {
-    for (int i = 0; i < value.length(); ++i) {
-        if (!std::isfinite(value[i])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-bool finite(float value) {
-    return std::isfinite(value);
-}
-
-template <class T>
 Fault faultIn(const std::vector<T>& stream, const char* name, size_t count, bool optional) {
     if (stream.size() != count && !(optional && stream.empty())) {
         return std::string(name) + " has " + std::to_string(stream.size()) +
                " elements; right is one for each of " + std::to_string(count) + " positions";
     }
     for (size_t i = 0; i < stream.size(); ++i) {
-        if (!finite(stream[i])) {
+        if (!isFinite(stream[i])) {
             return numbered(name, i) + " is not finite";
         }
     }
@@ -88,27 +76,27 @@ Fault faultIn(const TextureSlot& slot, const char* name, const Scene& scene) {
     if (slot.texcoord > 1) {
         return of + "texcoord is " + std::to_string(slot.texcoord) + "; right is 0 or 1";
     }
-    if (!finite(slot.offset)) {
+    if (!isFinite(slot.offset)) {
         return of + "offset is not finite";
     }
-    if (!finite(slot.rotation_rad)) {
+    if (!isFinite(slot.rotation_rad)) {
         return of + "rotation_rad is not finite";
     }
-    return finite(slot.scale) ? Fault() : of + "scale is not finite";
+    return isFinite(slot.scale) ? Fault() : of + "scale is not finite";
 }
 
 Fault faultIn(const Material& m, const Scene& scene) {
     const std::pair<const char*, bool> factors[] = {
-        {"base_color", finite(m.base_color)},
-        {"metallic", finite(m.metallic)},
-        {"roughness", finite(m.roughness)},
-        {"normal_scale", finite(m.normal_scale)},
-        {"occlusion_strength", finite(m.occlusion_strength)},
-        {"emissive", finite(m.emissive)},
-        {"alpha_cutoff", finite(m.alpha_cutoff)},
-        {"ior", finite(m.ior)},
-        {"specular", finite(m.specular)},
-        {"specular_color", finite(m.specular_color)}};
+        {"base_color", isFinite(m.base_color)},
+        {"metallic", isFinite(m.metallic)},
+        {"roughness", isFinite(m.roughness)},
+        {"normal_scale", isFinite(m.normal_scale)},
+        {"occlusion_strength", isFinite(m.occlusion_strength)},
+        {"emissive", isFinite(m.emissive)},
+        {"alpha_cutoff", isFinite(m.alpha_cutoff)},
+        {"ior", isFinite(m.ior)},
+        {"specular", isFinite(m.specular)},
+        {"specular_color", isFinite(m.specular_color)}};
     for (const auto& [name, right] : factors) {
         if (!right) {
             return std::string(name) + " is not finite";
