@@ -150,9 +150,7 @@ FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slot
     }
 }
 
-Result<bool> FrameMaker::build(const FrameInputs& asked) {
-    FrameInputs inputs = asked;
-    inputs.settings.size = drawnSize(asked.settings);
+Result<bool> FrameMaker::build(const FrameInputs& inputs) {
     if (!builder_.builds(inputs)) {
         if (auto able = checkAllLights(scene_.unit_costs, inputs.settings, work_.frame); !able) {
             return able.error();
@@ -169,22 +167,24 @@ Result<bool> FrameMaker::build(const FrameInputs& asked) {
 
 Result<bool> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
     const auto start = Clock::now();
-    const auto built = build(asked);
+    FrameInputs inputs = asked;
+    inputs.settings.size = drawnSize(asked.settings);
+    const auto built = build(inputs);
     built_us_ += microsSince(start);
     if (!built || !*built) {
         return built;
     }
-    if (auto recorded = recordBuilt(slot, asked, slots); !recorded) {
+    if (auto recorded = recordBuilt(slot, inputs, asked, slots); !recorded) {
         return recorded.error();
     }
     return true;
 }
 
-Result<void>
-FrameMaker::recordBuilt(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {
+Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
+                                     const FrameInputs& inputs,
+                                     const FrameInputs& asked,
+                                     const Slots& slots) {
     const auto start = Clock::now();
-    FrameInputs inputs = asked;
-    inputs.settings.size = drawnSize(asked.settings);
     const FramePlan plan = builder_.take();
     if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
         return tooManyToCap(builder_.localLightCount());

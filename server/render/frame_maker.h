@@ -52,11 +52,14 @@ class FrameMaker {
     // besides.
     [[nodiscard]] Result<bool>
     recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots);
-    // The host's part, all of it or its next stage: whether it is done. Errors: kCapacity.
+    // The host's part, all of it or its next stage: whether it is done. `inputs`: what was asked
+    // for, at the size that is drawn. Errors: kCapacity.
     [[nodiscard]] Result<bool> build(const FrameInputs& inputs);
     // Throws VariantsMissing besides.
-    [[nodiscard]] Result<void>
-    recordBuilt(FrameSlot& slot, const FrameInputs& asked, const Slots& slots);
+    [[nodiscard]] Result<void> recordBuilt(FrameSlot& slot,
+                                           const FrameInputs& inputs,
+                                           const FrameInputs& asked,
+                                           const Slots& slots);
     // Asks the budget for a frame that was built, before anything is allocated for it. Errors:
     // kCapacity.
     [[nodiscard]] Result<void> takeMemory(FrameSlot& slot,

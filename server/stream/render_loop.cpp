@@ -300,7 +300,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
             throw StartupError(work.error());
         }
         scheduler_.onFrame(id, now); // a refused one takes the host's time, too
-        if (frame->state.version == viewer.state.version) {
+        if (frame->state.version == viewer.state.version) { // else what was asked for since is next
             refuse(id, viewer, work.error());
         }
         return false;

@@ -95,6 +95,15 @@ size_t differingBytes(const Picture& a, const Picture& b) {
                                  std::plus(), std::not_equal_to());
 }
 
+// What is shown is what a fixed exposure of that much shows, to the byte.
+void expectAsFixed(render::ViewRenderer& view,
+                   const render::FrameInputs& inputs,
+                   const Picture& metered) {
+    const Picture fixed = draw(view, fixedAs(inputs, metered));
+    EXPECT_EQ(differingFloats(metered, fixed), 0U);
+    EXPECT_EQ(differingBytes(metered, fixed), 0U);
+}
+
 // A wall that shines by itself and fills the view.
 scene::Scene shiningWall(float emission) {
     SceneMaker maker = wallAhead(3);
@@ -138,9 +147,7 @@ TEST_F(Exposure, EveryRendererAndStage_AgainstDouble_IsWithinRounding) {
             EXPECT_NEAR(ev, std::log2(reference::meteredFactor(scene, linearOf(metered), *seen)),
                         kBin_ev / 2);
             EXPECT_GT(std::abs(ev), 0.2); // it does something
-            const Picture fixed = draw(view, fixedAs(inputs, metered));
-            EXPECT_EQ(differingFloats(metered, fixed), 0U);
-            EXPECT_EQ(differingBytes(metered, fixed), 0U);
+            expectAsFixed(view, inputs, metered);
         }
     }
 }
@@ -282,9 +289,7 @@ TEST_F(Exposure, WhateverElseIsDrawn_IsAsWithAFixedExposure) {
         auto inputs = inputsFor(scene.cameras[0].camera, {97, 55});
         change(inputs.settings);
         const Picture metered = draw(view, inputs);
-        const Picture fixed = draw(view, fixedAs(inputs, metered));
-        EXPECT_EQ(differingFloats(metered, fixed), 0U);
-        EXPECT_EQ(differingBytes(metered, fixed), 0U);
+        expectAsFixed(view, inputs, metered);
     }
 }
 

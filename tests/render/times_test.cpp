@@ -36,12 +36,17 @@ void writeNoTimestamps(const gpu::Device& device) {
 
 class Times : public GpuTest {};
 
+render::FrameInputs inputsFor(const scene::Scene& scene, const view::Size& size) {
+    render::FrameInputs inputs;
+    inputs.settings.camera = scene.cameras[0].camera;
+    inputs.settings.size = size;
+    return inputs;
+}
+
 TEST_F(Times, WrittenByNoDriver_AreUnknown_AndPicturesTheSame) {
     const scene::Scene scene = makeRoom();
     render::Renderer renderer(device(), scene);
-    render::FrameInputs inputs;
-    inputs.settings.camera = scene.cameras[0].camera;
-    inputs.settings.size = {64, 36};
+    const auto inputs = inputsFor(scene, {64, 36});
     const Picture before = draw(renderer, inputs);
     writeNoTimestamps(device());
     const Picture after = draw(renderer, inputs);
@@ -73,9 +78,7 @@ TEST_F(Times, WrittenByNoDriver_SpeedIsMeasured) {
 TEST_F(Times, LightingInCompute_HasTheTimeOfItsLights) {
     const scene::Scene scene = makeRoom();
     render::Renderer renderer(device(), scene);
-    render::FrameInputs inputs;
-    inputs.settings.camera = scene.cameras[0].camera;
-    inputs.settings.size = {160, 90};
+    auto inputs = inputsFor(scene, {160, 90});
     inputs.settings.lights.count = 2000;
     inputs.settings.lights.radius_m = 1000;
     inputs.settings.light_loop = view::LightLoop::kAllLights; // most of the frame
