@@ -8,11 +8,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace froxel::scene {
+
+struct Motion;
 
 inline constexpr uint32_t kNone = 0xffffffffU;
 
@@ -161,8 +164,9 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<NamedCamera> cameras;
     std::vector<PunctualLight> lights;
-    BoundsD3 bounds_world;         // of all instances; empty for an empty scene
-    std::vector<Warning> warnings; // the gravest first; few, however many there are
+    BoundsD3 bounds_world;                // of all instances; empty for an empty scene
+    std::shared_ptr<const Motion> motion; // scene/motion.h; null: all of the scene rests
+    std::vector<Warning> warnings;        // the gravest first; few, however many there are
     uint64_t warnings_left_out = 0;
 };
 

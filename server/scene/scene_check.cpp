@@ -1,6 +1,7 @@
 #include "scene/scene_check.h"
 
 #include "core/finite.h"
+#include "scene/motion_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,7 +156,7 @@ Fault findFault(const Scene& scene) {
             return named(numbered("instance", i), *fault);
         }
     }
-    return {};
+    return scene.motion ? findMotionFault(scene) : Fault();
 }
 
 } // namespace froxel::scene

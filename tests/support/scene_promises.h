@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "scene/scene.h"
+#include "scene/scene_check.h"
 
 #include <cmath>
 #include <string>
@@ -62,7 +63,7 @@ inline std::string faultOf(const scene::Scene& scene) {
             return "a light is not finite";
         }
     }
-    return {};
+    return scene::findFault(scene).value_or("");
 }
 
 // Empty where it is as promised; `file` begins every refusal.

@@ -1,0 +1,32 @@
+// The nodes of a scene at a time: clips sampled, blended and carried down the tree.
+#pragma once
+
+#include "motion/clip_clock.h"
+#include "scene/motion.h"
+
+#include <span>
+#include <vector>
+
+namespace froxel::motion {
+
+struct PlayedClip {
+    uint32_t clip = 0; // of Motion::clips
+    ClipClock clock;
+    Fade fade;
+};
+
+struct Pose {
+    std::vector<glm::dmat4> world_from_node; // one for each of Motion::nodes
+    std::vector<double> weights;             // of morph targets, as Motion::rest_weights
+};
+
+// What plays where nobody chose: the first clip, again and again from time 0; nothing without one.
+[[nodiscard]] std::vector<PlayedClip> usualClips(const scene::Motion& motion);
+
+// A pure function: the same bytes whatever was asked before. Each property is the sum of the clips
+// that move it, in the order of `clips`, by their weights; what these lack of 1 is the rest pose's
+// share, and what is beyond 1 is divided out. Rotations are summed in the first's hemisphere, the
+// rest pose last, and made unit. Replaces the contents of `out`, whose memory is reused.
+void pose(const scene::Motion& motion, std::span<const PlayedClip> clips, double time_s, Pose& out);
+
+} // namespace froxel::motion

@@ -1,0 +1,69 @@
+#include "motion/posed_scene.h"
+
+#include "motion/affine.h"
+#include "motion/player.h"
+
+#include <utility>
+
+namespace froxel::motion {
+
+namespace {
+
+void bend(const Player& player, const Moment& moment, size_t deformed, scene::Mesh& mesh) {
+    PosedVertices vertices;
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+        scene::Primitive& primitive = mesh.primitives[p];
+        player.deformAt(moment, deformed, p, vertices);
+        primitive.positions = std::move(vertices.positions);
+        primitive.normals = std::move(vertices.normals);
+        primitive.tangents = std::move(vertices.tangents);
+        primitive.bounds = {};
+        for (const glm::vec3& position : primitive.positions) {
+            primitive.bounds.add(position);
+        }
+    }
+}
+
+void placeLight(const glm::dmat4& world_from_node, scene::PunctualLight& light) {
+    if (const auto axes = axesOf(world_from_node)) {
+        light.position_world = glm::dvec3(world_from_node[3]);
+        light.direction_world = -(*axes)[2];
+    }
+}
+
+void placeCamera(const glm::dmat4& world_from_node, view::Camera& camera) {
+    if (const auto axes = axesOf(world_from_node)) {
+        camera.eye_world = glm::dvec3(world_from_node[3]);
+        camera.world_from_view = *axes;
+    }
+}
+
+} // namespace
+
+scene::Scene posedScene(scene::Scene scene, std::span<const PlayedClip> clips, double time_s) {
+    if (!scene.motion) {
+        return scene;
+    }
+    const Player player(scene);
+    const scene::Motion& motion = player.motion();
+    Moment moment;
+    player.at(clips, time_s, moment);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        scene.instances[i].world_from_object = moment.instances[i];
+    }
+    for (size_t d = 0; d < motion.deformed.size(); ++d) {
+        bend(player, moment, d, scene.meshes[motion.deformed[d].mesh]);
+    }
+    const auto& worlds = moment.pose.world_from_node;
+    for (const scene::MovedThing& moved : motion.lights) {
+        placeLight(worlds[moved.node], scene.lights[moved.index]);
+    }
+    for (const scene::MovedThing& moved : motion.cameras) {
+        placeCamera(worlds[moved.node], scene.cameras[moved.index].camera);
+    }
+    scene.bounds_world.add(moment.bounds_world);
+    scene.motion = nullptr;
+    return scene;
+}
+
+} // namespace froxel::motion
