@@ -39,8 +39,10 @@ size_t componentCount(int type, const std::string& name) {
         return 3;
     case TINYGLTF_TYPE_VEC4:
         return 4;
+    case TINYGLTF_TYPE_MAT4:
+        return 16;
     default:
-        fail(name + " is a matrix; right is SCALAR, VEC2, VEC3 or VEC4 here");
+        fail(name + " is a MAT2 or MAT3; right is SCALAR, VEC2, VEC3, VEC4 or MAT4");
     }
 }
 
@@ -211,31 +213,54 @@ void AccessorReader::substitute(const tinygltf::Accessor& accessor,
     });
 }
 
-template <int N>
-std::vector<glm::vec<N, float>>
-AccessorReader::vectors(int index, const std::string& user, NotFinite not_finite) {
-    const tinygltf::Accessor& accessor = at(index, user);
-    const Elements source = elements(index, user);
-    if (source.components != N) {
-        fail(user + " uses accessor " + std::to_string(index) + " with " +
-             std::to_string(source.components) + " components; right is " + std::to_string(N));
+AccessorReader::Elements
+AccessorReader::elementsOf(int index, size_t components, const std::string& user) {
+    const std::string name = user + " accessor " + std::to_string(index);
+    const size_t own = componentCount(at(index, user).type, name);
+    if (own != components) {
+        fail(user + " uses accessor " + std::to_string(index) + " with " + std::to_string(own) +
+             " components; right is " + std::to_string(components));
     }
-    std::vector<glm::vec<N, float>> result(source.count);
+    return elements(index, user);
+}
+
+// Calls visit(element, component, value) for all numbers.
+template <class Visit>
+void AccessorReader::eachNumber(int index, const Elements& source, const Visit& visit) const {
+    const tinygltf::Accessor& accessor = document_.model.accessors[static_cast<size_t>(index)];
     withComponentType(accessor.componentType, [&](auto tag) {
         using T = decltype(tag);
         for (size_t i = 0; i < source.count; ++i) {
             const std::byte* element = source.first + i * source.stride;
-            for (int c = 0; c < N; ++c) {
-                const float value = toFloat(load<T>(element + static_cast<size_t>(c) * sizeof(T)),
-                                            accessor.normalized);
-                if (not_finite == NotFinite::kRefused && !std::isfinite(value)) {
-                    fail(user + " accessor " + std::to_string(index) + " element " +
-                         std::to_string(i) + " is " + numberText(value) +
-                         "; right is a finite number");
-                }
-                result[i][c] = value;
+            for (size_t c = 0; c < source.components; ++c) {
+                visit(i, c, toFloat(load<T>(element + c * sizeof(T)), accessor.normalized));
             }
         }
+    });
+}
+
+template <int N>
+std::vector<glm::vec<N, float>>
+AccessorReader::vectors(int index, const std::string& user, NotFinite not_finite) {
+    const Elements source = elementsOf(index, N, user);
+    std::vector<glm::vec<N, float>> result(source.count);
+    eachNumber(index, source, [&](size_t element, size_t component, float value) {
+        if (not_finite == NotFinite::kRefused && !std::isfinite(value)) {
+            fail(user + " accessor " + std::to_string(index) + " element " +
+                 std::to_string(element) + " is " + numberText(value) +
+                 "; right is a finite number");
+        }
+        result[element][static_cast<int>(component)] = value;
+    });
+    return result;
+}
+
+std::vector<float> AccessorReader::numbers(int index, size_t components, const std::string& user) {
+    const Elements source = elementsOf(index, components, user);
+    std::vector<float> result;
+    result.reserve(source.count * components);
+    eachNumber(index, source, [&](size_t /*element*/, size_t /*component*/, float value) {
+        result.push_back(value);
     });
     return result;
 }

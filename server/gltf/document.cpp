@@ -94,16 +94,32 @@ void takeIndices(Json& root, Document& document) {
     }
 }
 
-void takeMotion(Json& root, Warnings& warnings) {
-    if (const size_t count = takeArray(root, "animations").size(); count > 0) {
-        warnings.add(warning::kRestPose, "/animations",
-                     std::to_string(count) + " animations are not played; the nodes keep their "
-                                             "rest pose");
+void takeSkins(Json& root, Document& document) {
+    for (const Json& skin : takeArray(root, "skins")) {
+        document.skins.push_back({skin.value("name", ""), skin.value("joints", std::vector<int>()),
+                                  skin.value("inverseBindMatrices", -1)});
     }
-    if (const size_t count = takeArray(root, "skins").size(); count > 0) {
-        warnings.add(warning::kRestPose, "/skins",
-                     std::to_string(count) + " skins are not applied; skinned meshes keep their "
-                                             "rest pose");
+}
+
+void takeClips(Json& root, Document& document) {
+    const Json none = Json::array();
+    for (const Json& animation : takeArray(root, "animations")) {
+        ClipSource& clip = document.clips.emplace_back();
+        clip.name = animation.value("name", "");
+        for (const Json& sampler : animation.value("samplers", none)) {
+            clip.samplers.push_back({sampler.value("input", -1), sampler.value("output", -1),
+                                     sampler.value("interpolation", "LINEAR")});
+        }
+        for (const Json& channel : animation.value("channels", none)) {
+            const Json target = channel.value("target", Json::object());
+            if (!target.is_object()) {
+                fail(thing("animation", document.clips.size() - 1) + " " +
+                     thing("channel", clip.channels.size()) +
+                     " has a number as target; right is an object");
+            }
+            clip.channels.push_back(
+                {channel.value("sampler", -1), target.value("node", -1), target.value("path", "")});
+        }
     }
 }
 
@@ -139,7 +155,8 @@ Document readDocument(SceneFolder& folder, Warnings& warnings) {
     takeImages(root, document);
     takeStrides(root, document, warnings);
     takeIndices(root, document);
-    takeMotion(root, warnings);
+    takeSkins(root, document);
+    takeClips(root, document);
 
     const std::string clean = root.dump();
     tinygltf::TinyGLTF parser;

@@ -25,6 +25,30 @@ struct ImageSource {
     int buffer_view = -1;
 };
 
+struct SkinSource {
+    std::string name;
+    std::vector<int> joints;        // nodes
+    int inverse_bind_matrices = -1; // an accessor
+};
+
+struct SamplerSource {
+    int input = -1; // accessors
+    int output = -1;
+    std::string interpolation;
+};
+
+struct ChannelSource {
+    int sampler = -1; // of the clip
+    int node = -1;    // none: an extension's target
+    std::string path;
+};
+
+struct ClipSource {
+    std::string name;
+    std::vector<SamplerSource> samplers;
+    std::vector<ChannelSource> channels;
+};
+
 // Buffers, images, strides and index accessors are kept aside: tinygltf would read files by its own
 // rules, touch unchecked offsets, refuse strides that are no multiple of 4 and the accessors
 // without data that compressed meshes have.
@@ -35,6 +59,8 @@ struct Document {
     std::vector<size_t> strides; // [bufferView]: bytes between elements; 0: tightly packed
     std::vector<ImageSource> images;
     std::vector<std::vector<int>> indices; // [mesh][primitive]: an accessor, or -1
+    std::vector<SkinSource> skins;
+    std::vector<ClipSource> clips;
     Bytes file;
     std::span<const std::byte> binary_chunk; // in `file`
 };

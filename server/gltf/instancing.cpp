@@ -59,9 +59,10 @@ std::vector<glm::dmat4> nodeInstances(const tinygltf::Node& node,
     result.reserve(*count);
     for (size_t i = 0; i < *count; ++i) {
         const glm::dvec4 r(rotations[i]);
-        const glm::dquat rotation(r.w, r.x, r.y, r.z);
-        checkRotation(rotation, pointer, name, warnings);
-        result.push_back(composeTransform(translations[i], rotation, scales[i]));
+        const scene::Transform parts{glm::dvec3(translations[i]), glm::dquat(r.w, r.x, r.y, r.z),
+                                     glm::dvec3(scales[i])};
+        checkRotation(parts.rotation, pointer, name, warnings);
+        result.push_back(scene::matrixOf(parts));
     }
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "gltf/failure.h"
+#include "motion/affine.h"
 
 #include <tiny_gltf.h>
 
@@ -13,19 +14,12 @@ failValue(const std::string& user, const char* property, double value, const cha
     fail(user + " has " + property + " " + numberText(value) + "; right is " + right);
 }
 
-// Columns right, up, back of a node whatever its scale; a mirrored node keeps its view direction
-// and its up.
 glm::dmat3 rotationOf(const glm::dmat4& world_from_node, const std::string& user) {
-    const glm::dvec3 back(world_from_node[2]);
-    const glm::dvec3 right = glm::cross(glm::dvec3(world_from_node[1]), back);
-    const double back_length = glm::length(back);
-    const double right_length = glm::length(right);
-    if (!(back_length > 0) || !(right_length > 0)) {
+    const auto axes = motion::axesOf(world_from_node);
+    if (!axes) {
         fail(user + " is on a node whose scale is 0; right is a scale that leaves a direction");
     }
-    const glm::dvec3 z = back / back_length;
-    const glm::dvec3 x = right / right_length;
-    return {x, glm::cross(z, x), z};
+    return *axes;
 }
 
 void readPerspective(const tinygltf::PerspectiveCamera& source,

@@ -91,52 +91,74 @@ MeshReader::MeshReader(const Document& document,
                        scene::Scene& scene,
                        Warnings& warnings)
     : document_(document), views_(views), accessors_(accessors), materials_(materials),
-      scene_(scene), warnings_(warnings) {}
+      scene_(scene), warnings_(warnings), deformations_(accessors, warnings) {}
 
-uint32_t MeshReader::mesh(int index, const std::string& user) {
+uint32_t MeshReader::mesh(int index, const std::vector<double>& weights, const std::string& user) {
     const size_t number = checkedIndex(index, document_.model.meshes.size(), "mesh", user);
-    const auto known = known_.find(index);
+    const std::pair key(index, weights);
+    const auto known = known_.find(key);
     if (known != known_.end()) {
         return known->second;
     }
-    scene::Mesh mesh = read(number);
-    uint32_t position = scene::kNone;
-    if (!mesh.primitives.empty()) {
-        position = static_cast<uint32_t>(scene_.meshes.size());
-        scene_.meshes.push_back(std::move(mesh));
-    }
-    known_.emplace(index, position);
+    const uint32_t position = add(number, {weights, {}});
+    known_.emplace(key, position);
     return position;
 }
 
 void MeshReader::tellUndrawn() {
-    if (undrawn_count_ > 0) {
-        warnings_.add(warning::kNoTriangles, first_undrawn_,
-                      std::to_string(undrawn_count_) +
-                          (undrawn_count_ == 1 ? " primitive is" : " primitives are") +
+    if (!undrawn_.empty()) {
+        const auto [mesh, number] = *undrawn_.begin();
+        warnings_.add(warning::kNoTriangles,
+                      pointerTo("meshes", mesh) + pointerTo("primitives", number),
+                      std::to_string(undrawn_.size()) +
+                          (undrawn_.size() == 1 ? " primitive is" : " primitives are") +
                           " points or lines and not drawn");
     }
 }
 
-scene::Mesh MeshReader::read(size_t index) {
+uint32_t MeshReader::deformingMesh(int index,
+                                   const std::vector<double>& weights,
+                                   const MeshMotion& motion,
+                                   std::vector<scene::Deformation>& out,
+                                   const std::string& user) {
+    const size_t number = checkedIndex(index, document_.model.meshes.size(), "mesh", user);
+    return add(number, {weights, motion, &out});
+}
+
+size_t MeshReader::targetCount(int index, const std::string& user) const {
+    const auto& meshes = document_.model.meshes;
+    size_t count = 0;
+    for (const auto& primitive :
+         meshes[checkedIndex(index, meshes.size(), "mesh", user)].primitives) {
+        count = std::max(count, primitive.targets.size());
+    }
+    return count;
+}
+
+uint32_t MeshReader::add(size_t index, const Use& use) {
     const tinygltf::Mesh& source = document_.model.meshes[index];
     scene::Mesh mesh;
     mesh.name = source.name;
     for (size_t i = 0; i < source.primitives.size(); ++i) {
-        if (auto primitive = readPrimitive(index, i)) {
+        if (auto primitive = readPrimitive(index, i, use)) {
             mesh.primitives.push_back(std::move(*primitive));
         }
     }
-    return mesh;
+    if (mesh.primitives.empty()) {
+        return scene::kNone;
+    }
+    scene_.meshes.push_back(std::move(mesh));
+    return static_cast<uint32_t>(scene_.meshes.size() - 1);
 }
 
-std::optional<scene::Primitive> MeshReader::readPrimitive(size_t mesh, size_t number) {
+std::optional<scene::Primitive>
+MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[number];
     const std::string user = thing("mesh", mesh) + " " + thing("primitive", number);
     const std::optional<Topology> topology = topologyOf(source.mode, user);
     const std::string pointer = pointerTo("meshes", mesh) + pointerTo("primitives", number);
     if (!topology) {
-        first_undrawn_ = undrawn_count_++ == 0 ? pointer : first_undrawn_;
+        undrawn_.emplace(mesh, number);
         return std::nullopt;
     }
     if (!source.attributes.contains("POSITION")) {
@@ -173,7 +195,7 @@ std::optional<scene::Primitive> MeshReader::readPrimitive(size_t mesh, size_t nu
     if (primitive.indices.empty()) {
         return std::nullopt;
     }
-    applyMorphs(source, document_.model.meshes[mesh].weights, primitive, user);
+    readMotion(source, stream, use, primitive, pointer, user);
     finishNormals(!flat, primitive, pointer, user);
     finishTangents(primitive, pointer, user);
     primitive.material =
@@ -234,43 +256,28 @@ void MeshReader::readStreams(VertexSource& source,
     }
 }
 
-void MeshReader::applyMorphs(const tinygltf::Primitive& source,
-                             const std::vector<double>& weights,
-                             scene::Primitive& primitive,
-                             const std::string& user) {
-    if (source.targets.empty()) {
+void MeshReader::readMotion(const tinygltf::Primitive& source,
+                            VertexSource& stream,
+                            const Use& use,
+                            scene::Primitive& primitive,
+                            const std::string& pointer,
+                            const std::string& user) {
+    if (use.deformations == nullptr || !use.motion.morphs) {
+        deformations_.applyTargets(source.targets, use.weights, primitive, user);
+    }
+    if (use.deformations == nullptr) {
         return;
     }
-    warnings_.add(warning::kRestPose, "/meshes",
-                  "morph targets are not animated; meshes keep their default weights");
-    const auto add = [&](const std::map<std::string, int>& target, const char* semantic,
-                         float weight, std::vector<glm::vec3>& stream) {
-        const auto found = target.find(semantic);
-        if (found == target.end() || stream.empty()) {
-            return;
-        }
-        const std::string name = user + " morph target " + semantic;
-        if (accessors_.count(found->second, name) != stream.size()) {
-            fail(name + " has " + std::to_string(accessors_.count(found->second, name)) +
-                 " elements; right is " + std::to_string(stream.size()) + ", as POSITION has");
-        }
-        morphed_vertices_.take(stream.size(), name);
-        const std::vector<glm::vec3> offsets = accessors_.vectors<3>(found->second, name);
-        for (size_t i = 0; i < stream.size(); ++i) {
-            stream[i] += weight * offsets[i];
-            if (!std::isfinite(stream[i].x + stream[i].y + stream[i].z)) {
-                fail(name + " takes element " + std::to_string(i) +
-                     " out of range with the weight " + numberText(weight) +
-                     "; right are finite sums");
-            }
-        }
-    };
-    for (size_t i = 0; i < source.targets.size() && i < weights.size(); ++i) {
-        if (weights[i] != 0) {
-            const auto weight = static_cast<float>(weights[i]);
-            add(source.targets[i], "POSITION", weight, primitive.positions);
-            add(source.targets[i], "NORMAL", weight, primitive.normals);
-        }
+    scene::Deformation& deformation = use.deformations->emplace_back();
+    if (use.motion.joint_count) {
+        deformations_.readInfluences(stream, primitive, *use.motion.joint_count, deformation,
+                                     pointer, user);
+    }
+    if (use.motion.morphs && !source.targets.empty()) {
+        deformations_.readTargets(source.targets, primitive, deformation, user);
+    }
+    if (!stream.has("NORMAL")) {
+        deformations_.makeFlat(primitive.indices, deformation);
     }
 }
 

@@ -3,20 +3,31 @@
 
 #include "gltf/accessor_reader.h"
 #include "gltf/buffer_views.h"
+#include "gltf/deformation_reader.h"
 #include "gltf/document.h"
 #include "gltf/limits.h"
 #include "gltf/material_reader.h"
+#include "scene/motion.h"
 #include "scene/scene.h"
 
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace froxel::gltf {
 
 class DracoMesh;
 class VertexSource;
+
+// How a mesh that deforms does.
+struct MeshMotion {
+    bool morphs = false;               // its targets are kept; else `weights` are applied for good
+    std::optional<size_t> joint_count; // of its skin
+};
 
 // Not thread-safe. Appends to `scene.meshes`. Throws Failure, naming mesh and primitive.
 class MeshReader {
@@ -28,25 +39,45 @@ class MeshReader {
                scene::Scene& scene,
                Warnings& warnings);
 
-    // The scene's index of a mesh of the file; kNone where nothing of it can be drawn.
-    [[nodiscard]] uint32_t mesh(int index, const std::string& user);
+    // The scene's index of a mesh of the file with its morph targets at `weights`; kNone where
+    // nothing of it can be drawn.
+    [[nodiscard]] uint32_t
+    mesh(int index, const std::vector<double>& weights, const std::string& user);
+    // The same of a mesh that deforms, which is nobody else's. `out`: of each of its primitives.
+    [[nodiscard]] uint32_t deformingMesh(int index,
+                                         const std::vector<double>& weights,
+                                         const MeshMotion& motion,
+                                         std::vector<scene::Deformation>& out,
+                                         const std::string& user);
+    // Of any of the mesh's primitives.
+    [[nodiscard]] size_t targetCount(int index, const std::string& user) const;
 
     // One warning for all points and lines of the meshes that were read.
     void tellUndrawn();
 
   private:
-    [[nodiscard]] scene::Mesh read(size_t index);
-    [[nodiscard]] std::optional<scene::Primitive> readPrimitive(size_t mesh, size_t number);
+    // What a mesh is read with.
+    struct Use {
+        const std::vector<double>& weights;
+        MeshMotion motion;
+        std::vector<scene::Deformation>* deformations = nullptr;
+    };
+    [[nodiscard]] uint32_t add(size_t index, const Use& use);
+    [[nodiscard]] std::optional<scene::Primitive>
+    readPrimitive(size_t mesh, size_t number, const Use& use);
+    // Moves or keeps the targets, reads what moves the vertices.
+    void readMotion(const tinygltf::Primitive& source,
+                    VertexSource& stream,
+                    const Use& use,
+                    scene::Primitive& primitive,
+                    const std::string& pointer,
+                    const std::string& user);
     [[nodiscard]] std::vector<uint32_t> readIndices(const tinygltf::Primitive& source,
                                                     int accessor,
                                                     const DracoMesh* draco,
                                                     size_t vertex_count,
                                                     const std::string& user);
     void readStreams(VertexSource& source, scene::Primitive& primitive, const std::string& user);
-    void applyMorphs(const tinygltf::Primitive& source,
-                     const std::vector<double>& weights,
-                     scene::Primitive& primitive,
-                     const std::string& user);
     void finishNormals(bool has_normals,
                        scene::Primitive& primitive,
                        const std::string& pointer,
@@ -61,12 +92,11 @@ class MeshReader {
     MaterialReader& materials_;
     scene::Scene& scene_;
     Warnings& warnings_;
-    std::map<int, uint32_t> known_;
-    size_t undrawn_count_ = 0;
-    std::string first_undrawn_; // JSON pointer
+    std::map<std::pair<int, std::vector<double>>, uint32_t> known_;
+    std::set<std::pair<size_t, size_t>> undrawn_; // points and lines: mesh, primitive
     Budget vertices_{"vertices", kMaxVertices};
     Budget indices_{"indices", kMaxIndices};
-    Budget morphed_vertices_{"vertices of morph targets", kMaxVertices};
+    DeformationReader deformations_;
 };
 
 } // namespace froxel::gltf

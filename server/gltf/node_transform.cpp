@@ -3,7 +3,6 @@
 #include "core/text.h"
 #include "gltf/failure.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <tiny_gltf.h>
 
@@ -30,11 +29,6 @@ constexpr double kShearTolerance = 1e-3;
 // Of the last row, which some exporters write as they computed it.
 constexpr double kAffineTolerance = 1e-5;
 
-// Length 0 and what is beyond double's range have no direction.
-bool isDirection(double length) {
-    return length > 0 && std::isfinite(length);
-}
-
 // Axes that are not perpendicular, which no translation, rotation and scale gives.
 bool shears(const glm::dmat3& matrix) {
     for (int i = 0; i < 3; ++i) {
@@ -48,8 +42,38 @@ bool shears(const glm::dmat3& matrix) {
     return false;
 }
 
-glm::dmat4 matrixOf(const tinygltf::Node& node, size_t index, Warnings& warnings) {
-    const std::string name = thing("node", index);
+} // namespace
+
+void checkRotation(const glm::dquat& rotation,
+                   const std::string& pointer,
+                   const std::string& name,
+                   Warnings& warnings) {
+    const double length = glm::length(rotation);
+    if (!scene::isDirection(length)) {
+        warnings.add(warning::kRotationZero, pointer,
+                     name + " has a rotation of length " + numberText(length) +
+                         " and is not rotated; right is 1");
+    } else if (std::abs(length - 1) > kUnitTolerance) {
+        warnings.add(warning::kRotationLength, pointer,
+                     name + " has a rotation of length " + numberText(length) +
+                         ", which is made 1");
+    }
+}
+
+scene::Transform nodeParts(const tinygltf::Node& node, const std::string& name) {
+    checkLength(node.translation, 3, "translation", name);
+    checkLength(node.rotation, 4, "rotation", name);
+    checkLength(node.scale, 3, "scale", name);
+    const auto& t = node.translation;
+    const auto& r = node.rotation;
+    const auto& s = node.scale;
+    return {.translation = t.empty() ? glm::dvec3(0) : glm::dvec3(t[0], t[1], t[2]),
+            .rotation = r.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(r[3], r[0], r[1], r[2]),
+            .scale = s.empty() ? glm::dvec3(1) : glm::dvec3(s[0], s[1], s[2])};
+}
+
+glm::dmat4 nodeMatrix(const tinygltf::Node& node, const std::string& name) {
+    checkLength(node.matrix, 16, "matrix", name);
     glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
     const glm::dvec4 last_row = glm::transpose(matrix)[3];
     const glm::dvec4 off = glm::abs(last_row - glm::dvec4(0, 0, 0, 1));
@@ -61,61 +85,24 @@ glm::dmat4 matrixOf(const tinygltf::Node& node, size_t index, Warnings& warnings
     for (int column = 0; column < 4; ++column) {
         matrix[column].w = column == 3 ? 1 : 0;
     }
-    if (shears(glm::dmat3(matrix))) {
-        warnings.add(warning::kShear, pointerTo("nodes", index) + "/matrix",
-                     name + " has a matrix that shears; right is a product of translation, "
-                            "rotation and scale");
-    }
-    return matrix;
-}
-
-} // namespace
-
-void checkRotation(const glm::dquat& rotation,
-                   const std::string& pointer,
-                   const std::string& name,
-                   Warnings& warnings) {
-    const double length = glm::length(rotation);
-    if (!isDirection(length)) {
-        warnings.add(warning::kRotationZero, pointer,
-                     name + " has a rotation of length " + numberText(length) +
-                         " and is not rotated; right is 1");
-    } else if (std::abs(length - 1) > kUnitTolerance) {
-        warnings.add(warning::kRotationLength, pointer,
-                     name + " has a rotation of length " + numberText(length) +
-                         ", which is made 1");
-    }
-}
-
-glm::dmat4 composeTransform(const glm::dvec3& translation,
-                            const glm::dquat& rotation,
-                            const glm::dvec3& scale) {
-    const double length = glm::length(rotation);
-    glm::dmat4 matrix = isDirection(length) ? glm::mat4_cast(rotation / length) : glm::dmat4(1);
-    for (int axis = 0; axis < 3; ++axis) {
-        matrix[axis] *= scale[axis];
-    }
-    matrix[3] = glm::dvec4(translation, 1);
     return matrix;
 }
 
 glm::dmat4 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& warnings) {
     const std::string name = thing("node", index);
-    checkLength(node.matrix, 16, "matrix", name);
-    checkLength(node.translation, 3, "translation", name);
-    checkLength(node.rotation, 4, "rotation", name);
-    checkLength(node.scale, 3, "scale", name);
-    if (!node.matrix.empty()) {
-        return matrixOf(node, index, warnings);
+    const std::string pointer = pointerTo("nodes", index);
+    const scene::Transform parts = nodeParts(node, name);
+    if (node.matrix.empty()) {
+        checkRotation(parts.rotation, pointer + "/rotation", name, warnings);
+        return scene::matrixOf(parts);
     }
-    const auto& t = node.translation;
-    const auto& r = node.rotation;
-    const auto& s = node.scale;
-    const glm::dquat rotation =
-        r.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(r[3], r[0], r[1], r[2]);
-    checkRotation(rotation, pointerTo("nodes", index) + "/rotation", name, warnings);
-    return composeTransform(t.empty() ? glm::dvec3(0) : glm::dvec3(t[0], t[1], t[2]), rotation,
-                            s.empty() ? glm::dvec3(1) : glm::dvec3(s[0], s[1], s[2]));
+    const glm::dmat4 matrix = nodeMatrix(node, name);
+    if (shears(glm::dmat3(matrix))) {
+        warnings.add(warning::kShear, pointer + "/matrix",
+                     name + " has a matrix that shears; right is a product of translation, "
+                            "rotation and scale");
+    }
+    return matrix;
 }
 
 void checkFinite(const glm::dmat4& world_from_node, const std::string& name) {

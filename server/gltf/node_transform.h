@@ -2,9 +2,9 @@
 #pragma once
 
 #include "gltf/warnings.h"
+#include "scene/transform.h"
 
 #include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include <string>
 
@@ -20,10 +20,12 @@ namespace froxel::gltf {
 [[nodiscard]] glm::dmat4
 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& warnings);
 
-// translation * rotation * scale; the rotation is made unit, and one of length 0 is none.
-[[nodiscard]] glm::dmat4 composeTransform(const glm::dvec3& translation,
-                                          const glm::dquat& rotation,
-                                          const glm::dvec3& scale);
+// The node's translation, rotation and scale, which one with a matrix does not have. Throws Failure
+// for arrays of a wrong length.
+[[nodiscard]] scene::Transform nodeParts(const tinygltf::Node& node, const std::string& name);
+
+// The matrix of a node that has one. Throws Failure as nodeTransform().
+[[nodiscard]] glm::dmat4 nodeMatrix(const tinygltf::Node& node, const std::string& name);
 
 // Warns of a rotation whose length is not 1.
 void checkRotation(const glm::dquat& rotation,

@@ -176,14 +176,14 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Warnings& warni
     const Tree tree = readTree(model, warnings);
     const std::vector<size_t> roots = findRoots(model, tree, warnings);
     std::vector<PlacedNode> stack;
-    const auto push = [&](size_t node, const PlacedNode& parent) {
+    const auto push = [&](size_t node, std::optional<size_t> place, const PlacedNode& parent) {
         const glm::dmat4 world =
             parent.world_from_node * nodeTransform(model.nodes[node], node, warnings);
         checkFinite(world, thing("node", node));
-        stack.push_back({node, world, parent.visible && isVisible(model.nodes[node])});
+        stack.push_back({node, place, world, parent.visible && isVisible(model.nodes[node])});
     };
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-        push(*root, PlacedNode());
+        push(*root, std::nullopt, PlacedNode());
     }
     std::vector<PlacedNode> placed;
     while (!stack.empty()) {
@@ -192,7 +192,7 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Warnings& warni
         placed.push_back(current);
         const std::vector<size_t>& children = tree.children[current.node];
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            push(*child, current);
+            push(*child, placed.size() - 1, current);
         }
     }
     return placed;

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace tinygltf {
@@ -16,6 +17,7 @@ namespace froxel::gltf {
 
 struct PlacedNode {
     size_t node = 0;
+    std::optional<size_t> parent; // before it among the placed nodes; none: of the world
     glm::dmat4 world_from_node{1};
     bool visible = true; // KHR_node_visibility: with its meshes and lights; cameras always are
 };

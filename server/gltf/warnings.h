@@ -31,7 +31,6 @@ inline constexpr WarningKind kUnsupportedExtension{"UNSUPPORTED_EXTENSION", kWar
 inline constexpr WarningKind kUnsupportedMetadata{"UNSUPPORTED_EXTENSION", kInformation};
 inline constexpr WarningKind kByteOrderMark{"BYTE_ORDER_MARK", kInformation};
 inline constexpr WarningKind kGlbLength{"GLB_LENGTH_MISMATCH", kInformation};
-inline constexpr WarningKind kRestPose{"REST_POSE", kWarning};
 // Nodes and scenes.
 inline constexpr WarningKind kNoScene{"NO_SCENE", kInformation};
 inline constexpr WarningKind kNothingDrawn{"NOTHING_DRAWN", kWarning};
@@ -50,6 +49,24 @@ inline constexpr WarningKind kNoPosition{"MESH_PRIMITIVE_NO_POSITION", kWarning}
 inline constexpr WarningKind kNoTriangles{"MODE_NOT_DRAWN", kWarning};
 inline constexpr WarningKind kCountOff{"MESH_PRIMITIVE_INCOMPATIBLE_MODE", kWarning};
 inline constexpr WarningKind kNoTexcoord{"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", kWarning};
+// Skins and animations.
+inline constexpr WarningKind kUnresolved{"UNRESOLVED_REFERENCE", kWarning};
+inline constexpr WarningKind kWeightSum{"ACCESSOR_WEIGHTS_NON_NORMALIZED", kInformation};
+inline constexpr WarningKind kNoWeights{"ACCESSOR_WEIGHTS_NON_NORMALIZED", kWarning};
+inline constexpr WarningKind kNoJoints{"EMPTY_ENTITY", kWarning};
+inline constexpr WarningKind kHiddenJoint{"NODE_SKIN_NO_SCENE", kWarning};
+inline constexpr WarningKind kFewBindMatrices{"INVALID_IBM_ACCESSOR_COUNT", kWarning};
+inline constexpr WarningKind kNoBindMatrices{"SKIN_NOT_READ", kWarning};
+inline constexpr WarningKind kSkinnedInstances{"SKIN_WITH_INSTANCES", kWarning};
+inline constexpr WarningKind kUnknownName{"VALUE_NOT_IN_LIST", kWarning};
+inline constexpr WarningKind kNoMorphs{"ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS", kWarning};
+inline constexpr WarningKind kAnimatedMatrix{"ANIMATION_CHANNEL_TARGET_NODE_MATRIX", kWarning};
+inline constexpr WarningKind kAnimatedTwice{"ANIMATION_DUPLICATE_TARGETS", kWarning};
+inline constexpr WarningKind kNoTrack{"ANIMATION_NOT_READ", kWarning};
+inline constexpr WarningKind kNoKeys{"ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS", kWarning};
+inline constexpr WarningKind kKeyOrder{"ACCESSOR_ANIMATION_INPUT_NON_INCREASING", kWarning};
+inline constexpr WarningKind kKeyValues{"ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT",
+                                        kWarning};
 // Materials, textures and images.
 inline constexpr WarningKind kFactorRange{"VALUE_NOT_IN_RANGE", kWarning};
 inline constexpr WarningKind kThirdTexcoord{"TEXCOORD_NOT_READ", kWarning};

@@ -80,11 +80,34 @@ void addNodes(SceneFile& file) {
     file.json["scenes"][0]["nodes"] = {0, 2, 3};
 }
 
+void addMotion(SceneFile& file) {
+    file.attributes()["JOINTS_0"] = file.addAccessor<uint8_t>(std::vector<uint8_t>(12, 0), 4);
+    file.attributes()["WEIGHTS_0"] =
+        file.addAccessor<uint8_t>(std::vector<uint8_t>(12, 64), 4, true);
+    const int matrix =
+        file.addView(bytesOf<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+    file.json["skins"] = Json::parse(R"([{"joints": [1], "skeleton": 0, "name": "skin"}])");
+    file.json["skins"][0]["inverseBindMatrices"] =
+        file.add("accessors",
+                 {{"bufferView", matrix}, {"componentType", 5126}, {"count", 1}, {"type", "MAT4"}});
+    file.json["nodes"][0]["skin"] = 0;
+    const int times = file.addAccessor<float>({0, 1}, 1);
+    const int places = file.addAccessor<float>({0, 0, 0, 1, 0, 0}, 3);
+    const int weights = file.addAccessor<float>({0, 0, 1, 1, 0, 0}, 1);
+    file.json["animations"] = Json::parse(R"([{"name": "clip", "samplers": [
+        {"interpolation": "STEP"}, {"interpolation": "CUBICSPLINE"}], "channels": [
+        {"sampler": 0, "target": {"node": 1, "path": "translation"}},
+        {"sampler": 1, "target": {"node": 0, "path": "weights"}}]}])");
+    file.json["animations"][0]["samplers"][0].update({{"input", times}, {"output", places}});
+    file.json["animations"][0]["samplers"][1].update({{"input", times}, {"output", weights}});
+}
+
 SceneFile richFile() {
     SceneFile file;
     addGeometry(file);
     addMaterial(file);
     addNodes(file);
+    addMotion(file);
     file.json["buffers"][0]["byteLength"] = file.binary.size();
     return file;
 }

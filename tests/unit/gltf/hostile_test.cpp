@@ -176,7 +176,8 @@ TEST(Accessors, BadTypes_AreRefused) {
     EXPECT_THAT(refusedAccessor("componentType", 5124), HasSubstr("componentType 5124"));
     EXPECT_THAT(refusedAccessor("componentType", 5130), HasSubstr("componentType 5130"));
     EXPECT_THAT(refusedAccessor("componentType", 1), HasSubstr("componentType"));
-    EXPECT_THAT(refusedAccessor("type", "MAT4"), HasSubstr("is a matrix"));
+    EXPECT_THAT(refusedAccessor("type", "MAT3"), HasSubstr("is a MAT2 or MAT3"));
+    EXPECT_THAT(refusedAccessor("type", "MAT4"), HasSubstr("with 16 components; right is 3"));
     EXPECT_THAT(refusedAccessor("type", "VEC9"), HasSubstr("VEC9"));
 }
 

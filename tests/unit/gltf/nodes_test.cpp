@@ -320,15 +320,5 @@ TEST(Lights, BadValues_AreRefused) {
     EXPECT_THAT(failure(file.load()), HasSubstr("node 0 uses light 4; the file has 1"));
 }
 
-TEST(RestPose, SkinsAndAnimations_WarnOnceEach) {
-    SceneFile file;
-    file.json["skins"] = Json::parse(R"([{"joints": [0]}, {"joints": [0]}])");
-    file.json["nodes"][0]["skin"] = 0;
-    file.json["animations"] = Json::parse(R"([{"channels": [], "samplers": []}])");
-    const scene::Scene scene = loaded(file.load());
-    EXPECT_EQ(scene.instances.size(), 1U);
-    EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr("animation"), HasSubstr("skin")));
-}
-
 } // namespace
 } // namespace froxel::gltf
