@@ -1,7 +1,7 @@
 #include "area_light_table/fit.h"
 
+#include "core/lobes.h"
 #include "interface/area_io.h"
-#include "reference/lobes.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -61,7 +61,7 @@ struct Target {
             const double weight = at.value / at.density / (kAlbedoSamples * kAlbedoSamples);
             const glm::dvec3 half = glm::normalize(to_eye + to_light);
             albedo += weight;
-            grazing += weight * reference::fifth(1 - glm::dot(half, to_eye));
+            grazing += weight * lobes::fifth(1 - glm::dot(half, to_eye));
             mean += to_light * weight;
         });
         mean.y = 0; // by symmetry

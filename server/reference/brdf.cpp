@@ -1,6 +1,6 @@
 #include "reference/brdf.h"
 
-#include "reference/lobes.h"
+#include "core/lobes.h"
 #include "reference/toon.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     const glm::dvec3 sum = to_light + s.to_eye;
     const double length = glm::length(sum);
     const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
-    const double edge = fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
+    const double edge = lobes::fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
     const glm::dvec3 of_dielectric = glm::mix(s.dielectric_f0, glm::dvec3(s.dielectric_f90), edge);
     const glm::dvec3 of_metal = s.base_color + (1.0 - s.base_color) * edge;
     // Appendix B: both models are whole, and metalness mixes what they give. A dielectric scatters
@@ -52,9 +52,9 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
         const double n_dot_h = glm::dot(s.normal, half);
         const double lobe =
             model.shading == view::ShadingModel::kBlinnPhong
-                ? blinnPhong(n_dot_h, alpha2)
-                : distribution(n_dot_h, alpha2) *
-                      visibility(facing, std::abs(glm::dot(s.normal, s.to_eye)), alpha2);
+                ? lobes::blinnPhong(n_dot_h, alpha2)
+                : lobes::distribution(n_dot_h, alpha2) *
+                      lobes::visibility(facing, std::abs(glm::dot(s.normal, s.to_eye)), alpha2);
         out += glm::mix(of_dielectric, of_metal, s.metallic) * (facing * lobe);
     }
     return out;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace froxel::reference {
+namespace froxel::lobes {
 
 // Trowbridge and Reitz's distribution of microfacets.
 [[nodiscard]] inline double distribution(double n_dot_h, double alpha2) {
@@ -37,4 +37,4 @@ namespace froxel::reference {
     return x * x * x * x * x;
 }
 
-} // namespace froxel::reference
+} // namespace froxel::lobes
