@@ -14,7 +14,7 @@ build_packages=(
     libvulkan-dev glslang-tools spirv-tools
     libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev
     libglm-dev 'libboost-url1.81-dev|libboost-url-dev' libspdlog-dev libcli11-dev
-    libturbojpeg0-dev libpng-dev libwebp-dev libvpx-dev
+    libturbojpeg0-dev libpng-dev libwebp-dev libopenexr-dev libstb-dev libvpx-dev
     libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev
     ca-certificates
 )

@@ -29,7 +29,8 @@ RESTRICTED = [
      "sockets belong to transport, net and load, signals to app"),
     (re.compile(r'#include (<vulkan/|"gpu/vulkan\.h")'), {"gpu", "render"},
      "Vulkan belongs to gpu and render"),
-    (re.compile(r"#include <(tiny_gltf|stb_)"), {"gltf"}, "file formats belong to gltf"),
+    (re.compile(r"#include <tiny_gltf"), {"gltf"}, "scene files belong to gltf"),
+    (re.compile(r"#include <(stb/|stb_|OpenEXR/)"), {"environment"}, "panoramas' files belong to environment"),
     (re.compile(r"#include <png\.h>"), {"png"}, "libpng belongs to png"),
 ]
 BANNED = [

@@ -1,0 +1,41 @@
+// A neutral studio: what lights a scene that has no lights of its own. Grey soft boxes in a grey
+// room, infinitely far away.
+#pragma once
+
+#include "core/linear_image.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+
+namespace froxel::environment {
+
+// A rectangle that faces the scene, of constant radiance but for its edges, which fade out linearly
+// in both directions. Sizes are at distance 1.
+struct SoftBox {
+    double azimuth_deg;   // of its centre: 0 is +Z, the front, 90 is +X
+    double elevation_deg; // 90 is +Y
+    double half_width;
+    double half_height;
+    double edge;     // over which it fades, about half_width and half_height
+    double radiance; // beyond the room's, before kStudioScale
+};
+inline constexpr std::array<SoftBox, 4> kSoftBoxes = {{
+    {-45, 40, 0.50, 0.50, 0.10, 9}, // key
+    {55, 15, 0.35, 0.70, 0.10, 3},  // fill
+    {0, 90, 0.90, 0.60, 0.15, 5},   // from above
+    {160, 35, 0.30, 0.60, 0.10, 6}, // rim
+}};
+// The room: linear in the direction's height, from the ground to the ceiling.
+inline constexpr double kStudioGround = 0.30;
+inline constexpr double kStudioCeiling = 0.60;
+// Makes the mean radiance 1, so that a white matt surface sends 1 on average.
+inline constexpr double kStudioScale = 0.48814;
+
+// The same in all channels: the studio is white by Rec. 709. `direction` is unit.
+[[nodiscard]] double studioRadiance(const glm::dvec3& direction);
+
+// [width / 2][width][3]; texels have the radiance of their centres.
+[[nodiscard]] LinearImage studioPanorama(uint32_t width_px);
+
+} // namespace froxel::environment
