@@ -7,7 +7,7 @@
 #include "render/effects/effect.h"
 #include "render/effects/effect_targets.h"
 #include "render/frame_context.h"
-#include "render/memory_need.h"
+#include "render/need_list.h"
 #include "render/screen_groups.h"
 
 #include <array>
