@@ -1,6 +1,6 @@
 #include "app/info_report.h"
 
-#include "render/plan_words.h"
+#include "render/frame/plan_words.h"
 #include "session/session_context.h"
 
 #include <nlohmann/json.hpp>

@@ -2,8 +2,8 @@
 
 #include "bench/progress.h"
 #include "core/clock.h"
-#include "render/frame_plan.h"
-#include "render/gbuffer_layout.h"
+#include "render/frame/frame_plan.h"
+#include "render/pipelines/gbuffer_layout.h"
 #include "render/renderer.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/result.h"
-#include "render/scene_needs.h"
+#include "render/scene/scene_needs.h"
 
 #include <atomic>
 #include <functional>

@@ -1,9 +1,9 @@
 #include "render/blended_recorder.h"
 
-#include "render/barrier.h"
-#include "render/blended_passes.h"
-#include "render/passes.h"
-#include "render/raster_passes.h"
+#include "render/pipelines/barrier.h"
+#include "render/surfaces/blended_passes.h"
+#include "render/surfaces/passes.h"
+#include "render/surfaces/raster_passes.h"
 
 #include <algorithm>
 

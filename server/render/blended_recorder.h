@@ -1,7 +1,7 @@
 // The part of a frame that blends: which pass follows which, and the barriers between them.
 #pragma once
 
-#include "render/frame_context.h"
+#include "render/frame/frame_context.h"
 
 namespace froxel::render {
 

@@ -1,7 +1,7 @@
 #include "render/device_speed.h"
 
 #include "core/keep_for_good.h"
-#include "render/scene_resources.h"
+#include "render/scene/scene_resources.h"
 
 #include <array>
 #include <memory>

@@ -3,11 +3,11 @@
 #include "area_light_table/table.h"
 #include "render/blended_recorder.h"
 #include "render/effects/effects.h"
-#include "render/frame_facts.h"
-#include "render/gbuffer_layout.h"
-#include "render/grown_lights.h"
-#include "render/prepass_choice.h"
-#include "render/visibility_instances.h"
+#include "render/frame/frame_facts.h"
+#include "render/frame/prepass_choice.h"
+#include "render/frame/visibility_instances.h"
+#include "render/lists/grown_lights.h"
+#include "render/pipelines/gbuffer_layout.h"
 
 #include <algorithm>
 #include <future>

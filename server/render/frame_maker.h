@@ -3,8 +3,8 @@
 #pragma once
 
 #include "render/effects/effects.h"
+#include "render/frame/frame_slot.h"
 #include "render/frame_builder.h"
-#include "render/frame_slot.h"
 #include "render/memory_report.h"
 #include "render/renderer.h"
 

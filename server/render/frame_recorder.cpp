@@ -1,12 +1,12 @@
 #include "render/frame_recorder.h"
 
-#include "render/barrier.h"
 #include "render/blended_recorder.h"
 #include "render/fresh_targets.h"
-#include "render/host_copies.h"
-#include "render/passes.h"
-#include "render/raster_passes.h"
-#include "render/visibility_passes.h"
+#include "render/pipelines/barrier.h"
+#include "render/pipelines/host_copies.h"
+#include "render/surfaces/passes.h"
+#include "render/surfaces/raster_passes.h"
+#include "render/surfaces/visibility_passes.h"
 
 namespace froxel::render {
 

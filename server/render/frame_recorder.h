@@ -2,8 +2,8 @@
 // blended_recorder.cpp, host_copies.cpp and, between their own passes, effects.
 #pragma once
 
-#include "render/assign_passes.h"
-#include "render/frame_context.h"
+#include "render/frame/frame_context.h"
+#include "render/lists/assign_passes.h"
 
 namespace froxel::render {
 

@@ -1,7 +1,7 @@
 // Images that no frame has used yet.
 #pragma once
 
-#include "render/frame_slot.h"
+#include "render/frame/frame_slot.h"
 
 namespace froxel::render {
 

@@ -1,6 +1,6 @@
 #include "render/memory_need.h"
 
-#include "render/blend_targets.h"
+#include "render/frame/blend_targets.h"
 #include "render/renderer.h"
 
 namespace froxel::render {

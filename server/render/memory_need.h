@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/frame_stats.h"
+#include "render/frame/need_list.h"
+#include "render/frame/view_targets.h"
 #include "render/frame_builder.h"
-#include "render/need_list.h"
-#include "render/view_targets.h"
 #include "view/settings.h"
 
 #include <cstdint>

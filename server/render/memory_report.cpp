@@ -1,6 +1,6 @@
 #include "render/memory_report.h"
 
-#include "render/plan_words.h"
+#include "render/frame/plan_words.h"
 
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>

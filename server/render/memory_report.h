@@ -3,8 +3,8 @@
 
 #include "core/frame_stats.h"
 #include "gpu/memory_ledger.h"
-#include "render/frame_plan.h"
-#include "render/scene_needs.h"
+#include "render/frame/frame_plan.h"
+#include "render/scene/scene_needs.h"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "render/radiance_readback.h"
 
-#include "render/frame_slot.h"
-#include "render/host_copies.h"
+#include "render/frame/frame_slot.h"
+#include "render/pipelines/host_copies.h"
 
 #include <cstring>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/linear_image.h"
-#include "render/scene_resources.h"
-#include "render/view_targets.h"
+#include "render/frame/view_targets.h"
+#include "render/scene/scene_resources.h"
 
 namespace froxel::render {
 

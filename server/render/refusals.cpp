@@ -1,9 +1,9 @@
 #include "render/refusals.h"
 
-#include "render/frame_plan.h"
-#include "render/gbuffer_layout.h"
-#include "render/list_limits.h"
-#include "render/scene_resources.h"
+#include "render/frame/frame_plan.h"
+#include "render/lists/list_limits.h"
+#include "render/pipelines/gbuffer_layout.h"
+#include "render/scene/scene_resources.h"
 
 #include <string>
 

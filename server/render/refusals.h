@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/error.h"
-#include "render/frame_inputs.h"
-#include "render/frame_pieces.h"
+#include "render/frame/frame_inputs.h"
+#include "render/frame/frame_pieces.h"
 
 #include <string>
 

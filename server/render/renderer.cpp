@@ -1,12 +1,12 @@
 #include "render/renderer.h"
 
 #include "core/assert.h"
+#include "render/frame/frame_slot.h"
 #include "render/frame_maker.h"
-#include "render/frame_slot.h"
 #include "render/fresh_targets.h"
 #include "render/radiance_readback.h"
 #include "render/refusals.h"
-#include "render/scene_resources.h"
+#include "render/scene/scene_resources.h"
 #include "render/visibility_readback.h"
 
 #include <array>

@@ -9,9 +9,9 @@
 #include "core/pixel_view.h"
 #include "core/visibility.h"
 #include "gpu/device.h"
-#include "render/frame_inputs.h"
-#include "render/list_limits.h"
-#include "render/memory_budget.h"
+#include "render/frame/frame_inputs.h"
+#include "render/lists/list_limits.h"
+#include "render/scene/memory_budget.h"
 #include "scene/scene.h"
 
 #include <cstdint>

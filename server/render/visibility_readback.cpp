@@ -1,10 +1,10 @@
 #include "render/visibility_readback.h"
 
 #include "core/assert.h"
-#include "render/frame_slot.h"
-#include "render/geometry_pack.h"
-#include "render/host_copies.h"
-#include "render/scene_resources.h"
+#include "render/frame/frame_slot.h"
+#include "render/pipelines/host_copies.h"
+#include "render/scene/geometry_pack.h"
+#include "render/scene/scene_resources.h"
 
 #include <algorithm>
 #include <cstring>

@@ -97,7 +97,7 @@ uvec4 packGbuffer(GbufferSample g) {
 }
 
 // Which word of the second target has what dielectrics reflect: the first that is free
-// (render/gbuffer_layout.h).
+// (render/pipelines/gbuffer_layout.h).
 uint specularWord() {
     uint z = kNormalEncoding == kNormalXyz16 ? 1u : 0u;
     switch (kPositionSource) {

@@ -4,7 +4,7 @@
 // 640x360). time: each layout's passes and the process's CPU time a frame (0 lights, 1280x720).
 #include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
-#include "render/gbuffer_layout.h"
+#include "render/pipelines/gbuffer_layout.h"
 #include "render/renderer.h"
 #include "view/camera.h"
 

@@ -5,8 +5,8 @@
 // [SCENE.gltf|hall]; on a GPU where there is one.
 #include "builtin_scene/hall.h"
 #include "gltf/gltf_loader.h"
-#include "render/geometry_pack.h"
 #include "render/renderer.h"
+#include "render/scene/geometry_pack.h"
 #include "render/visibility_readback.h"
 
 #include <algorithm>

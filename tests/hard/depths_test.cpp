@@ -1,7 +1,7 @@
 // Depths: at slices' planes, at the near plane, very far, nowhere; and steps from near to far.
 #include "cluster/cluster_grid.h"
 #include "light/light_rig.h"
-#include "render/light_grid.h"
+#include "render/lists/light_grid.h"
 #include "support/exact.h"
 #include "support/gpu_fixture.h"
 #include "support/oracle.h"

@@ -16,6 +16,7 @@ from page_layers import PAGE, allowed_imports, check_page
 SHADER_LAYERS = {"interface", "shaders"}
 LAYER = re.compile(r"\bfroxel_layer\(([^)]*)\)")
 DEPENDS = re.compile(r"\bDEPENDS\b(.*?)(?:\bLIBRARIES\b|\bSOURCES\b|$)", re.S)
+WINGS = re.compile(r"\bWINGS\b(.*?)(?:\bDEPENDS\b|\bLIBRARIES\b|\bSOURCES\b|$)", re.S)
 
 # The first folder of an #include "..." where it is not the layer's own name.
 LAYER_OF_FOLDER = {"froxel": "protocol"}  # generated: froxel/v1/client.pb.h
@@ -52,11 +53,20 @@ def dependencies(cmake):
     return {word for call in LAYER.findall(cmake) for names in DEPENDS.findall(call) for word in names.split()}
 
 
-def allowed_includes(root):
-    """The same of every layer, by its name."""
+def wings(cmake):
+    """The folders of a layer that has some, lowest first: one may include those before it."""
+    return [wing for call in LAYER.findall(cmake) for names in WINGS.findall(call) for wing in names.split()]
+
+
+def of_layers(root, read):
+    """What read(the text of its CMakeLists.txt) gives of every layer, by its name."""
     lists = {folder: folder / "CMakeLists.txt" for folder in [*(root / "server").iterdir(), root / "protocol"]}
-    return {folder.name: dependencies(file.read_text(encoding="utf-8"))
-            for folder, file in lists.items() if file.exists()}
+    return {folder.name: read(file.read_text(encoding="utf-8")) for folder, file in lists.items() if file.exists()}
+
+
+def allowed_includes(root):
+    """What every layer may include besides itself, by its name."""
+    return of_layers(root, dependencies)
 
 
 def check_house(document, may_include, folder="(?:server/)?"):
@@ -103,6 +113,20 @@ def check_file(name, layer, lines, may_include):
             yield f"{where}: {layer} may not include {target}, only {allowed} (DEPENDS of its CMakeLists.txt)"
 
 
+def check_wings(layer, path, lines, order):
+    """Yields the includes of a file, whose path starts below its layer, that run up between the layer's wings."""
+    def wing_of(below):
+        folder = below.split("/")[0]
+        return order.index(folder) if folder in order else len(order)
+
+    for number, line in enumerate(lines, 1):
+        include = INCLUDE.match(line)
+        if include and include[1].startswith(f"{layer}/"):
+            below = include[1].removeprefix(f"{layer}/")
+            if wing_of(below) > wing_of(path):
+                yield f"server/{layer}/{path}:{number}: {order[wing_of(path)]} may not include {include[1]} (WINGS)"
+
+
 def sources_of(folder):
     """(path, lines) of every source under a folder."""
     for path in sorted(folder.rglob("*")):
@@ -122,12 +146,15 @@ def layer_folders(root):
 def check_tree(root):
     """Yields every violation under root."""
     may_include = allowed_includes(root)
+    wings_of = of_layers(root, wings)
     for layer, folder in layer_folders(root):
         if layer not in may_include and layer != "tests":
             yield f"{folder.relative_to(root)}: no CMakeLists.txt makes it a layer"
             continue
         for path, lines in sources_of(folder):
             yield from check_file(str(path.relative_to(root)), layer, lines, may_include)
+            if wings_of.get(layer):
+                yield from check_wings(layer, path.relative_to(folder).as_posix(), lines, wings_of[layer])
 
 
 def hints(root):

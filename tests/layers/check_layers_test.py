@@ -4,8 +4,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from check_layers import (check_built, check_committed, check_file, check_house, check_tree,
-                          dependencies, hints)
+from check_layers import (check_built, check_committed, check_file, check_house, check_tree, check_wings,
+                          dependencies, hints, wings)
 from page_layers import check_module, check_order
 
 MAY_INCLUDE = {"core": set(), "view": {"core"}, "session": {"core", "view", "protocol"}, "render": {"gpu"},
@@ -42,6 +42,19 @@ class CheckLayers(unittest.TestCase):
         text = "froxel_layer(a\n    SOURCES a.cpp\n    DEPENDS core view\n            gpu\n    LIBRARIES B::b)\n"
         self.assertEqual(dependencies(text + "froxel_layer(a_b DEPENDS light)"), {"core", "view", "gpu", "light"})
         self.assertEqual(dependencies("add_library(froxel_core INTERFACE)"), set())
+
+    def test_wings_are_those_of_cmake(self):
+        text = "froxel_layer(a\n    WINGS low\n          high\n    SOURCES a.cpp\n    DEPENDS core)\n"
+        self.assertEqual(wings(text), ["low", "high"])
+        self.assertEqual(dependencies(text), {"core"})
+
+    def test_include_between_wings_runs_down(self):
+        for path, include, allowed in [("high/a.cpp", "a/low/b.h", True), ("low/b.cpp", "a/high/a.h", False),
+                                       ("low/b.cpp", "a/c.h", False), ("low/b.cpp", "a/low/d.h", True),
+                                       ("c.cpp", "a/high/a.h", True), ("low/b.cpp", "core/c.h", True)]:
+            with self.subTest(path=path, include=include):
+                found = list(check_wings("a", path, [f'#include "{include}"'], ["low", "high"]))
+                self.assertEqual(len(found), 0 if allowed else 1)
 
     def test_include_of_no_layer_is_named(self):
         self.assertEqual(len(violations("view", '#include "math.h"')), 1)

@@ -1,6 +1,6 @@
 // Which pixels a triangle rastered in compute covers: against integer arithmetic on the host, where
 // each pixel must belong to exactly one triangle of a mesh without gaps.
-#include "render/frame_uniforms.h"
+#include "render/frame/frame_uniforms.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 

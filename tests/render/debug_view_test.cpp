@@ -3,7 +3,7 @@
 #include "interface/debug_io.h"
 #include "interface/heat_map.h"
 #include "light/light_rig.h"
-#include "render/scene_resources.h"
+#include "render/scene/scene_resources.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"

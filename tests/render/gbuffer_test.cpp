@@ -3,7 +3,7 @@
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "gpu/pipeline.h"
-#include "render/gbuffer_layout.h"
+#include "render/pipelines/gbuffer_layout.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

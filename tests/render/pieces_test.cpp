@@ -2,8 +2,8 @@
 // pictures to the bit.
 #include "builtin_scene/hall.h"
 #include "render/renderer.h"
-#include "render/scene_resources.h"
-#include "render/unit_costs.h"
+#include "render/scene/scene_resources.h"
+#include "render/scene/unit_costs.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

@@ -1,6 +1,6 @@
 // The depth prepass spares work where surfaces overlap and never changes the picture.
 #include "builtin_scene/hall.h"
-#include "render/scene_resources.h"
+#include "render/scene/scene_resources.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

@@ -3,7 +3,7 @@
 #include "interface/constants.h"
 #include "reference/shade.h"
 #include "render/effects/shadows.h"
-#include "render/scene_resources.h"
+#include "render/scene/scene_resources.h"
 #include "render/visibility_readback.h"
 #include "support/draw.h"
 #include "support/exact.h"

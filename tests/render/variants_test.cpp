@@ -2,7 +2,7 @@
 // specialised variant gives the same bits as the generic one.
 #include "builtin_scene/hall.h"
 #include "interface/constants.h"
-#include "render/scene_resources.h"
+#include "render/scene/scene_resources.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"

@@ -1,8 +1,8 @@
 #include "support/device_assigner.h"
 
+#include "render/frame/frame_slot.h"
 #include "render/frame_recorder.h"
-#include "render/frame_slot.h"
-#include "render/host_copies.h"
+#include "render/pipelines/host_copies.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "cluster/light_assigner.h"
 #include "gpu/command_context.h"
 #include "gpu/device.h"
-#include "render/gpu_light_lists.h"
+#include "render/lists/gpu_light_lists.h"
 
 #include <memory>
 

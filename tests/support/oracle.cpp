@@ -3,7 +3,7 @@
 #include "cluster/light_assigner.h"
 #include "light/light_rig.h"
 #include "reference/shade.h"
-#include "render/light_grid.h"
+#include "render/lists/light_grid.h"
 #include "render/visibility_readback.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Bloom: bright light of the linear picture is spread over it.
 #pragma once
 
-#include "render/effects/effect_plan.h"
+#include "render/frame/effect_plan.h"
 
 namespace froxel::render {
 

@@ -1,8 +1,8 @@
 // The effects of one view.
 #pragma once
 
-#include "render/effects/effect.h"
-#include "render/frame_plan.h"
+#include "render/frame/effect.h"
+#include "render/frame/frame_plan.h"
 
 #include <map>
 #include <memory>

@@ -3,12 +3,12 @@
 #include "embedded.h"
 #include "gpu/pipeline.h"
 #include "interface/exposure_io.h"
-#include "render/barrier.h"
-#include "render/effects/effect.h"
-#include "render/effects/effect_targets.h"
-#include "render/frame_context.h"
-#include "render/need_list.h"
-#include "render/screen_groups.h"
+#include "render/frame/effect.h"
+#include "render/frame/effect_targets.h"
+#include "render/frame/frame_context.h"
+#include "render/frame/need_list.h"
+#include "render/pipelines/barrier.h"
+#include "render/pipelines/screen_groups.h"
 
 #include <array>
 #include <cmath>

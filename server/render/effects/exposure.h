@@ -3,7 +3,7 @@
 // no frame depends on another.
 #pragma once
 
-#include "render/effects/effect_plan.h"
+#include "render/frame/effect_plan.h"
 
 namespace froxel::render {
 

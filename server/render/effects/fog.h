@@ -1,7 +1,7 @@
 // Fog: the picture is seen through a medium, in which lights are scattered in a froxel volume.
 #pragma once
 
-#include "render/effects/effect_plan.h"
+#include "render/frame/effect_plan.h"
 
 namespace froxel::render {
 

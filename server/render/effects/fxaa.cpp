@@ -2,9 +2,9 @@
 
 #include "embedded.h"
 #include "gpu/pipeline.h"
-#include "render/effects/effect.h"
-#include "render/frame_context.h"
-#include "render/screen_groups.h"
+#include "render/frame/effect.h"
+#include "render/frame/frame_context.h"
+#include "render/pipelines/screen_groups.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 // copied from or read.
 #pragma once
 
-#include "render/effects/effect_plan.h"
+#include "render/frame/effect_plan.h"
 
 namespace froxel::render {
 

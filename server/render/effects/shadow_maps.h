@@ -9,8 +9,8 @@
 #include "interface/shadow_io.h"
 #include "light/frame_lights.h"
 #include "light/light_rig.h"
-#include "render/draw_list.h"
-#include "render/scene_resources.h"
+#include "render/frame/draw_list.h"
+#include "render/scene/scene_resources.h"
 #include "view/settings.h"
 
 #include <cstdint>

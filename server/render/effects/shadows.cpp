@@ -4,15 +4,15 @@
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
 #include "interface/shadow_io.h"
-#include "render/barrier.h"
-#include "render/effects/effect.h"
-#include "render/effects/effect_targets.h"
 #include "render/effects/effects.h"
 #include "render/effects/shadow_maps.h"
-#include "render/frame_context.h"
-#include "render/geometry_draws.h"
-#include "render/host_copies.h"
-#include "render/need_list.h"
+#include "render/frame/effect.h"
+#include "render/frame/effect_targets.h"
+#include "render/frame/frame_context.h"
+#include "render/frame/need_list.h"
+#include "render/pipelines/barrier.h"
+#include "render/pipelines/host_copies.h"
+#include "render/surfaces/geometry_draws.h"
 
 #include <algorithm>
 #include <array>

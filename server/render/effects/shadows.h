@@ -2,7 +2,7 @@
 // by the depth prepass's own pipelines.
 #pragma once
 
-#include "render/effects/effect_plan.h"
+#include "render/frame/effect_plan.h"
 
 #include <cstdint>
 #include <vector>

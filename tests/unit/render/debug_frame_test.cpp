@@ -1,5 +1,5 @@
 #include "interface/heat_map.h"
-#include "render/debug_frame.h"
+#include "render/frame/debug_frame.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/frame_costs.h"
+#include "render/frame/frame_costs.h"
 
 #include <gtest/gtest.h>
 

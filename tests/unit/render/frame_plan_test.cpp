@@ -7,7 +7,7 @@
 #include "render/effects/fog_plan.h"
 #include "render/effects/fxaa.h"
 #include "render/effects/shadows.h"
-#include "render/frame_plan.h"
+#include "render/frame/frame_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/frame_uniforms.h"
+#include "render/frame/frame_uniforms.h"
 
 #include <gtest/gtest.h>
 

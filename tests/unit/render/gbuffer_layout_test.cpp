@@ -1,5 +1,5 @@
 #include "interface/gbuffer_io.h"
-#include "render/gbuffer_layout.h"
+#include "render/pipelines/gbuffer_layout.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/geometry_pack.h"
+#include "render/scene/geometry_pack.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/memory_budget.h"
+#include "render/scene/memory_budget.h"
 
 #include <gtest/gtest.h>
 

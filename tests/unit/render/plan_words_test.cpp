@@ -1,5 +1,5 @@
+#include "render/frame/plan_words.h"
 #include "render/memory_report.h"
-#include "render/plan_words.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/prepass_choice.h"
+#include "render/frame/prepass_choice.h"
 
 #include <gtest/gtest.h>
 

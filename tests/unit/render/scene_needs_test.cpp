@@ -1,5 +1,5 @@
 #include "interface/constants.h"
-#include "render/scene_needs.h"
+#include "render/scene/scene_needs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/triangle_cull.h"
+#include "render/frame/triangle_cull.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which variants a bounded cache keeps.
-#include "render/variant_cache.h"
+#include "render/pipelines/variant_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Variants that are made where nobody waits for them.
-#include "render/variant_cache.h"
+#include "render/pipelines/variant_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,292 @@
+#include "render/frame/frame_costs.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace froxel::render {
+namespace {
+
+vk::Extent2D extentOf(const view::Size& size) {
+    return {size.width_px, size.height_px};
+}
+
+} // namespace
+
+vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
+    const auto end = [](int32_t at, uint32_t side) { return at + static_cast<int32_t>(side); };
+    const int32_t left = std::max(a.offset.x, b.offset.x);
+    const int32_t top = std::max(a.offset.y, b.offset.y);
+    const int32_t right =
+        std::min(end(a.offset.x, a.extent.width), end(b.offset.x, b.extent.width));
+    const int32_t bottom =
+        std::min(end(a.offset.y, a.extent.height), end(b.offset.y, b.extent.height));
+    if (right <= left || bottom <= top) {
+        return {};
+    }
+    return {{left, top},
+            {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
+}
+
+Seconds timeOver(const RegionCost& cost, const view::Size& size) {
+    return cost.each + std::max(cost.of({{0, 0}, extentOf(size)}), cost.least);
+}
+
+Result<void>
+checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Seconds limit) {
+    const bool all = settings.renderer == view::Renderer::kNaive ||
+                     settings.light_loop == view::LightLoop::kAllLights;
+    if (!all || view::replacesPicture(settings.debug.view)) {
+        return {};
+    }
+    const double pixels = static_cast<double>(settings.size.width_px) * settings.size.height_px;
+    const Seconds least(pixels * settings.lights.count * unit.compute.pair);
+    if (least <= limit) {
+        return {};
+    }
+    return Error{ErrorCode::kCapacity,
+                 fmt::format("a picture of {}x{} whose pixels loop over all {} lights takes at "
+                             "least {:.3g} s of this device; at most {:.3g} s a frame are "
+                             "allowed: ask for fewer lights, lists, or a smaller picture",
+                             settings.size.width_px, settings.size.height_px, settings.lights.count,
+                             least.count(), limit.count())};
+}
+
+double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
+    const uint64_t longest = load_.pairs.longest();
+    double each = unit_.lit_pixel + load_.directional_count * unit.pair;
+    for (const auto& [count, pair] : load_.costly_lights) {
+        each += static_cast<double>(std::min<uint64_t>(count, longest)) * pair;
+    }
+    return load_.pairs.pairs(region) * unit.pair + areaOf(region) * each;
+}
+
+Seconds FrameCosts::loop(const PairCost& unit) const {
+    return Seconds(static_cast<double>(load_.longest_loop) * unit.loop);
+}
+
+RegionCost FrameCosts::shading(const PairCost& unit) const {
+    return {Seconds(0), [this, &unit](const auto& region) { return Seconds(lit(region, unit)); },
+            loop(unit)};
+}
+
+RegionCost FrameCosts::depthPrepass() const {
+    return {Seconds(load_.draws.triangle_count * unit_.triangle / 2),
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
+}
+
+RegionCost FrameCosts::forward() const {
+    // Behind a prepass each pixel is shaded once.
+    const double each = load_.plan.depth_prepass ? 1.0 : load_.overdraw;
+    return {Seconds(load_.draws.triangle_count * unit_.triangle),
+            [this, each](const auto& region) {
+                return Seconds(
+                    each * (areaOf(region) * unit_.surface_pixel + lit(region, unit_.fragment)));
+            },
+            loop(unit_.fragment)};
+}
+
+RegionCost FrameCosts::gbuffer() const {
+    return {Seconds(load_.draws.triangle_count * unit_.triangle),
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.surface_pixel); }};
+}
+
+RegionCost FrameCosts::ids() const {
+    return {Seconds(load_.device_triangles * unit_.triangle),
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.depth_pixel); }};
+}
+
+RegionCost FrameCosts::resolve() const {
+    const bool shades = load_.plan.visibility_shade;
+    return {Seconds(0),
+            [this, shades](const auto& region) {
+                const double surface = areaOf(region) * (unit_.surface_pixel +
+                                                         load_.resolve_count * unit_.resolve_pixel);
+                return Seconds(surface + (shades ? lit(region, unit_.compute) : 0.0));
+            },
+            shades ? loop(unit_.compute) : Seconds(0)};
+}
+
+RegionCost FrameCosts::lighting() const {
+    const PairCost& unit = load_.plan.lighting_compute ? unit_.compute : unit_.fragment;
+    return shading(unit);
+}
+
+RegionCost FrameCosts::countPairs() const {
+    return shading(unit_.counting);
+}
+
+RegionCost FrameCosts::debugView() const {
+    if (!view::testsLights(load_.plan.debug)) {
+        return screen();
+    }
+    return shading(unit_.counting);
+}
+
+RegionCost FrameCosts::blended() const {
+    return {Seconds(load_.draws.transparent_triangle_count * unit_.triangle),
+            [this](const auto& region) {
+                double sum = 0;
+                for (const vk::Rect2D& part : load_.draws.transparent_parts) {
+                    const vk::Rect2D both = common(part, region);
+                    if (both.extent.width > 0) {
+                        sum += areaOf(both) * unit_.surface_pixel + lit(both, unit_.fragment);
+                    }
+                }
+                return Seconds(sum + areaOf(region) * unit_.depth_pixel);
+            },
+            loop(unit_.fragment)};
+}
+
+RegionCost FrameCosts::screen() const {
+    return {Seconds(0),
+            [this](const auto& region) { return Seconds(areaOf(region) * unit_.screen_pixel); }};
+}
+
+void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
+    const auto& plan = load_.plan;
+    const view::Size& drawn = load_.drawn;
+    const auto add = [&](const char* name, const RegionCost& cost) {
+        passes.push_back({name, timeOver(cost, drawn)});
+    };
+    if (plan.visibility) {
+        add("visibility", ids());
+        if (plan.gbuffer || plan.visibility_shade) {
+            add(plan.gbuffer ? "resolve" : "shade", resolve());
+        }
+    } else {
+        if (plan.depth_prepass || !(plan.forward || plan.gbuffer)) {
+            add("depth_prepass", depthPrepass());
+        }
+        if (plan.forward || plan.gbuffer) {
+            plan.forward ? add("forward", forward()) : add("gbuffer", gbuffer());
+        }
+    }
+    if (plan.lighting_compute || plan.lighting_fragment) {
+        add("lighting", lighting());
+    }
+    if (plan.toon_pass) {
+        add("toon", screen());
+    }
+    if (plan.outline) {
+        add("outline", screen());
+    }
+    if (plan.count_pairs) {
+        add("count_pairs", countPairs());
+    }
+}
+
+void FrameCosts::addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const {
+    for (const auto& [at, effect] : load_.effects) {
+        if (at == place) {
+            effect->addCosts(*this, passes);
+        }
+    }
+}
+
+void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
+    const view::Size& drawn = load_.drawn;
+    addEffects(EffectPlace::kSolid, passes);
+    if (load_.plan.transparent) {
+        const bool peeled = load_.plan.transparency == view::Transparency::kPeeled;
+        const double layers = peeled ? load_.peel_layers : 1;
+        passes.push_back({peeled ? "peel" : "transparent", layers * timeOver(blended(), drawn)});
+    }
+}
+
+std::vector<PassEstimate> FrameCosts::passes() const {
+    std::vector<PassEstimate> passes;
+    addEffects(EffectPlace::kLights, passes);
+    if (view::replacesPicture(load_.plan.debug)) {
+        if (load_.plan.debug == view::DebugView::kOverdraw) {
+            passes.push_back({"overdraw", timeOver(gbuffer(), load_.drawn)});
+        } else {
+            addSurfaces(passes);
+        }
+        passes.push_back({"debug_view", timeOver(debugView(), load_.drawn)});
+        return passes;
+    }
+    addSurfaces(passes);
+    addBlended(passes);
+    addEffects(EffectPlace::kPicture, passes);
+    if (load_.wire_lines > 0) {
+        passes.push_back({"wires", wires(load_.wire_lines)});
+    }
+    if (load_.plan.tonemap) {
+        passes.push_back({"tonemap", timeOver(screen(), load_.shown)});
+    }
+    addEffects(EffectPlace::kPixels, passes);
+    return passes;
+}
+
+Seconds FrameCosts::total() const {
+    Seconds sum{0};
+    for (const auto& pass : passes()) {
+        sum += pass.time;
+    }
+    return sum;
+}
+
+Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
+    const Seconds loop(static_cast<double>(load_.longest_loop) * slowestLoop());
+    if (loop > loop_limit) {
+        return Error{ErrorCode::kCapacity,
+                     fmt::format("a pixel that loops over {} lights takes about {:.3g} s of this "
+                                 "device, however few pixels there are; at most {:.3g} s in one "
+                                 "are allowed: ask for fewer or smaller lights, or lists",
+                                 load_.longest_loop, loop.count(), loop_limit.count())};
+    }
+    const Seconds sum = total();
+    if (sum <= limit) {
+        return {};
+    }
+    const auto all = passes();
+    const auto dearest = std::max_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+    return Error{
+        ErrorCode::kCapacity,
+        fmt::format("a picture of {}x{} with up to {} lights a pixel takes about {:.3g} s of this "
+                    "device, {:.3g} s of it for {}; at most {:.3g} s a frame are allowed: ask for "
+                    "fewer or smaller lights, lists, fewer effects, or a smaller picture",
+                    load_.shown.width_px, load_.shown.height_px, load_.pairs.longest(), sum.count(),
+                    dearest->time.count(), dearest->pass, limit.count())};
+}
+
+double FrameCosts::slowestLoop() const {
+    const FramePlan& plan = load_.plan;
+    const bool replaced = view::replacesPicture(plan.debug);
+    double slowest = 0;
+    const auto add = [&](bool is_there, const PairCost& cost) {
+        slowest = is_there ? std::max(slowest, cost.loop) : slowest;
+    };
+    add(!replaced && (plan.lighting_compute || plan.visibility_shade), unit_.compute);
+    add(!replaced && (plan.forward || plan.lighting_fragment || plan.transparent), unit_.fragment);
+    add(plan.count_pairs || (replaced && view::testsLights(plan.debug)), unit_.counting);
+    for (const auto& [place, effect] : load_.effects) {
+        slowest = std::max(slowest, effect->loopCost(unit_));
+    }
+    return slowest;
+}
+
+uint64_t FrameCosts::lightsWithin(Seconds limit) const {
+    constexpr double kAny = 1e9;
+    return static_cast<uint64_t>(limit.count() / std::max(slowestLoop(), limit.count() / kAny));
+}
+
+double FrameCosts::pairsWithin(Seconds limit) const {
+    const auto totalWith = [this](uint64_t lights_each) {
+        FrameLoad load = load_;
+        load.pairs = PairBound::uniform(lights_each);
+        load.longest_loop = 0;
+        return FrameCosts(unit_, std::move(load)).total();
+    };
+    constexpr uint64_t kEach = 1000;
+    constexpr double kAny = 1e9;
+    const Seconds rest = totalWith(0);
+    const Seconds room = std::max(limit - rest, limit / 2);
+    const double pairs = areaOf({{0, 0}, extentOf(load_.drawn)}) * kEach;
+    const Seconds taken = totalWith(kEach) - rest;
+    return pairs * (room.count() / std::max(taken.count(), room.count() / kAny));
+}
+
+} // namespace froxel::render

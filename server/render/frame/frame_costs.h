@@ -1,0 +1,122 @@
+// What a frame takes of the device's time, pass by pass, before it is drawn: from what its lists
+// hold and by costs measured on lavapipe and on an H200 (tests/bench), scaled to this device. Pure.
+#pragma once
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "render/frame/draw_list.h"
+#include "render/frame/effect.h"
+#include "render/frame/frame_pieces.h"
+#include "render/frame/frame_plan.h"
+#include "render/lists/pair_bound.h"
+#include "render/scene/unit_costs.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace froxel::render {
+
+// The host's facts of a frame that was built.
+struct FrameLoad {
+    // Lights that take more than others, wherever they are.
+    struct CostlyLights {
+        uint32_t count = 0;
+        double pair = 0; // seconds more, at a pixel
+    };
+
+    const FramePlan& plan;
+    const DrawList& draws;
+    view::Size drawn;
+    view::Size shown;
+    PairBound pairs;
+    uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
+    uint32_t directional_count = 0;
+    std::vector<CostlyLights> costly_lights = {};
+    double overdraw = 1;           // of solid surfaces, in fragments per pixel
+    uint32_t device_triangles = 0; // that the host does not cull
+    uint32_t resolve_count = 1;    // dispatches over the picture where ids are resolved
+    uint32_t peel_layers = 0;
+    uint64_t wire_lines = 0; // of an overlay
+    double wire_px = 0;      // that they cover
+    std::span<const ActiveEffect> effects = {};
+};
+
+struct PassEstimate {
+    const char* pass = "";
+    Seconds time{0};
+};
+
+// What two parts of a picture have in common.
+[[nodiscard]] vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b);
+
+// In pixels.
+[[nodiscard]] inline double areaOf(const vk::Rect2D& region) {
+    return static_cast<double>(region.extent.width) * region.extent.height;
+}
+
+// Of a pass over all of a target.
+[[nodiscard]] Seconds timeOver(const RegionCost& cost, const view::Size& size);
+
+// Errors: kCapacity where looping over all lights, as these settings ask for, takes longer than
+// `limit` whatever there is to see: told before any light is looked at.
+[[nodiscard]] Result<void>
+checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Seconds limit);
+
+class FrameCosts {
+  public:
+    FrameCosts(const UnitCosts& unit, FrameLoad load) : unit_(unit), load_(std::move(load)) {}
+
+    // Of passes over the drawn picture.
+    [[nodiscard]] RegionCost depthPrepass() const;
+    [[nodiscard]] RegionCost forward() const;
+    [[nodiscard]] RegionCost gbuffer() const;
+    [[nodiscard]] RegionCost ids() const;
+    [[nodiscard]] RegionCost resolve() const; // ids into a G-buffer, or shaded at once
+    [[nodiscard]] RegionCost lighting() const;
+    [[nodiscard]] RegionCost countPairs() const;
+    [[nodiscard]] RegionCost debugView() const;
+    [[nodiscard]] RegionCost blended() const; // one pass over what is blended
+    // Over another one: tone map, filters, what blending came to.
+    [[nodiscard]] RegionCost screen() const;
+    [[nodiscard]] Seconds wires(uint64_t line_count) const {
+        const auto lines = static_cast<double>(std::max<uint64_t>(load_.wire_lines, 1));
+        return Seconds(static_cast<double>(line_count) *
+                       (unit_.wire_line + load_.wire_px / lines * unit_.wire_pixel));
+    }
+
+    // For effects that loop over lights: shading all of them, without materials, seconds; and the
+    // longest loop of one pixel, which cutting a region does not make shorter.
+    [[nodiscard]] double lit(const vk::Rect2D& region, const PairCost& unit) const;
+    [[nodiscard]] Seconds loop(const PairCost& unit) const;
+
+    // All of the plan, in order; what a frame takes that is not cut.
+    [[nodiscard]] std::vector<PassEstimate> passes() const;
+    [[nodiscard]] Seconds total() const;
+    // Errors: kCapacity where that is more than `limit`, naming the dearest pass, or where one
+    // loop, which cannot be cut, takes more than `loop_limit`.
+    [[nodiscard]] Result<void> check(Seconds limit, Seconds loop_limit) const;
+    // What the frame takes but for its local lights, and pairs of these that fit into what is left
+    // of `limit`, at least into half of it.
+    [[nodiscard]] double pairsWithin(Seconds limit) const;
+    // How many lights one pixel may loop over.
+    [[nodiscard]] uint64_t lightsWithin(Seconds limit) const;
+
+    [[nodiscard]] const FrameLoad& load() const { return load_; }
+    [[nodiscard]] const UnitCosts& unit() const { return unit_; }
+
+  private:
+    // A pass that only adds up lights.
+    [[nodiscard]] RegionCost shading(const PairCost& unit) const;
+    // Of the frame's passes, seconds a light.
+    [[nodiscard]] double slowestLoop() const;
+    void addSurfaces(std::vector<PassEstimate>& passes) const;
+    void addEffects(EffectPlace place, std::vector<PassEstimate>& passes) const;
+    void addBlended(std::vector<PassEstimate>& passes) const;
+
+    UnitCosts unit_;
+    FrameLoad load_;
+};
+
+} // namespace froxel::render

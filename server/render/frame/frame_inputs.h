@@ -1,0 +1,48 @@
+// What a frame is asked for, and what it may take. Plain values.
+#pragma once
+
+#include "core/clock.h"
+#include "render/frame/frame_plan.h"
+#include "view/settings.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace froxel::render {
+
+// How a deferred frame's solid surfaces reach the G-buffer. auto: through the visibility passes on
+// a GPU that has what they need, where they are faster. Differs in rounding alone.
+enum class GeometryPath : uint8_t { kAuto, kRaster, kVisibility, kComputeRaster };
+
+// Where light lists are made. auto: on a GPU that rounds as the host does, else on the host. The
+// lists are the same.
+enum class AssignmentPlace : uint8_t { kAuto, kHost, kDevice };
+
+struct FrameInputs {
+    view::ViewSettings settings;
+    double time_s = 0;          // the lights' clock; pauses and speed are already folded in
+    bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
+    // For tests and measurements.
+    GenericParts generic = {};
+    GeometryPath geometry = GeometryPath::kAuto;
+    bool cull_meshlets = true;              // in the visibility passes
+    std::optional<bool> depth_prepass = {}; // none: where it pays
+    AssignmentPlace assignment = AssignmentPlace::kAuto;
+    // What the picture takes beside the renderer, to be encoded: of the view's memory, too.
+    uint64_t beside_bytes = 0;
+
+    bool operator==(const FrameInputs&) const = default;
+};
+
+// How long frames and their pieces may take by their estimates. The defaults are for whoever has
+// the device alone; whoever shares it wants less.
+struct WorkLimits {
+    Seconds frame{100}; // beyond: refused, before anything is allocated
+    Seconds piece{10};
+    Seconds loop{10}; // one pixel's over its lights, which nothing cuts; beyond: refused
+    // Of point and spot lights. The host's part of a frame with more is done in stages, between
+    // which others get the thread.
+    uint32_t lights_at_once = UINT32_MAX;
+};
+
+} // namespace froxel::render

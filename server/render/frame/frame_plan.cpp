@@ -1,0 +1,215 @@
+#include "render/frame/frame_plan.h"
+
+#include "interface/constants.h"
+#include "interface/gbuffer_io.h"
+#include "render/pipelines/gbuffer_layout.h"
+
+#include <algorithm>
+
+namespace froxel::render {
+
+namespace {
+
+uint32_t sliceFlags(view::GridLaw law) {
+    switch (law) {
+    case view::GridLaw::kLogarithmic:
+        return 0;
+    case view::GridLaw::kLinear:
+        return io::kLightSlicesLinear;
+    case view::GridLaw::kHyperbolic:
+        return io::kLightSlicesHyperbolic;
+    }
+    return 0;
+}
+
+uint32_t shadingFlag(view::ShadingModel model) {
+    switch (model) {
+    case view::ShadingModel::kPbr:
+        return 0;
+    case view::ShadingModel::kLambert:
+        return io::kLightLambert;
+    case view::ShadingModel::kBlinnPhong:
+        return io::kLightBlinnPhong;
+    }
+    return 0;
+}
+
+uint32_t
+lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lists, bool compute) {
+    uint32_t flags = 0;
+    if (facts.local_lights) {
+        flags |= io::kLightLocal;
+        flags |= lists ? io::kLightLists | sliceFlags(settings.grid.law) : 0U;
+        flags |= facts.spots ? io::kLightSpots : 0U;
+        flags |= facts.areas ? io::kLightAreas : 0U;
+        flags |= facts.equal_radii ? io::kLightEqualRadii : 0U;
+        flags |= facts.small_scene ? io::kLightSmallScene : 0U;
+        flags |= facts.long_loops ? io::kLightLong : 0U;
+        if (compute) {
+            flags |= facts.compute_batches ? io::kLightBatched : 0U;
+        } else {
+            flags |= facts.fragment_batches ? io::kLightBatched | io::kLightPartial : 0U;
+        }
+        // All lights stay the plain loop: what lists are measured and tested against.
+        const bool culled = lists && facts.culled_batches && !facts.long_loops;
+        flags |= culled && (flags & io::kLightBatched) != 0 ? io::kLightCulled : 0U;
+    }
+    flags |= facts.directional ? io::kLightDirectional : 0U;
+    if (flags != 0 && settings.renderer == view::Renderer::kToonFragment) {
+        flags |= io::kLightToon;
+    }
+    flags |= shadingFlag(settings.shading);
+    flags |= facts.edges && settings.shading != view::ShadingModel::kLambert ? io::kLightEdges : 0U;
+    return flags;
+}
+
+// A debug view in the picture's place: the surfaces that it shows, and no lighting.
+void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const FrameFacts& facts) {
+    const view::DebugView debug = settings.debug.view;
+    const bool overdraw = debug == view::DebugView::kOverdraw;
+    // Depths that compute rasters are exact once the G-buffer is filled.
+    plan.gbuffer = !overdraw && (!isForward(settings.renderer) || view::showsMaterial(debug) ||
+                                 plan.compute_raster);
+    plan.depth_prepass &= plan.gbuffer;
+    plan.depth_prepass |= !overdraw && !plan.gbuffer && !plan.visibility;
+    plan.count_samples = facts.overdraw_unknown && !overdraw && !plan.visibility;
+    plan.forward = plan.visibility_shade = false;
+    plan.lighting_compute = plan.lighting_fragment = false;
+    plan.toon_pass = plan.transparent = false;
+    plan.transparency = view::Transparency::kSorted;
+    plan.peel_layers = 0;
+    plan.outline = plan.samples = false; // nothing is done to what it shows
+    std::erase_if(plan.effects,
+                  [](const auto& it) { return it.row->place != EffectPlace::kLights; });
+    plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
+}
+
+} // namespace
+
+bool isForward(view::Renderer renderer) {
+    return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
+}
+
+bool storesSpecular(const view::ViewSettings& settings, bool scene_specular) {
+    return scene_specular && !isForward(settings.renderer) &&
+           settings.shading != view::ShadingModel::kLambert;
+}
+
+bool FramePlan::hasEffect(EffectPlace place) const {
+    return std::ranges::any_of(effects, [place](const auto& it) { return it.row->place == place; });
+}
+
+FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
+    facts.spots |= parts.spots && facts.local_lights;
+    facts.directional |= parts.directional;
+    facts.wide_gbuffer |= parts.wide_gbuffer;
+    facts.transparent_visible |= parts.transparent;
+    facts.equal_radii &= !parts.uneven_radii;
+    facts.compute_batches &= !parts.plain_loops;
+    facts.fragment_batches &= !parts.plain_loops;
+    facts.culled_batches &= !parts.uncut_loops;
+    return facts;
+}
+
+view::Size drawnSize(const view::ViewSettings& settings) {
+    const uint32_t across =
+        view::replacesPicture(settings.debug.view) ? 1 : view::samplesAcross(settings.antialiasing);
+    return {settings.size.width_px * across, settings.size.height_px * across};
+}
+
+namespace {
+
+// Which passes there are.
+FramePlan planPasses(const view::ViewSettings& settings, const FrameFacts& facts) {
+    using view::Renderer;
+    FramePlan plan;
+    const Renderer renderer = settings.renderer;
+    plan.visibility = facts.visibility;
+    plan.compute_raster = facts.visibility && facts.compute_raster;
+    plan.visibility_shade = facts.visibility && isForward(renderer);
+    plan.cull_meshlets = facts.cull_meshlets;
+    plan.forward = isForward(renderer) && !plan.visibility_shade;
+    plan.gbuffer = !isForward(renderer);
+    const bool rastered = plan.forward || (plan.gbuffer && !plan.visibility);
+    plan.depth_prepass = rastered && renderer != Renderer::kNaive && facts.prepass_pays;
+    plan.count_samples = rastered && facts.overdraw_unknown;
+    plan.lighting_compute = plan.gbuffer && settings.lighting != view::LightingStage::kFragment;
+    plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
+    plan.toon_pass = renderer == Renderer::kToonCompute;
+    plan.outline = (renderer == Renderer::kToonFragment || renderer == Renderer::kToonCompute) &&
+                   settings.toon_outline.strength > 0;
+    plan.samples = view::samplesAcross(settings.antialiasing) > 1;
+    for (const EffectRow* row : effectRows()) {
+        if (const auto effect = row->plan(settings, facts)) {
+            plan.effects.push_back({row, *effect});
+        }
+    }
+    plan.transparent = facts.transparent_visible;
+    if (plan.transparent) {
+        plan.transparency = settings.transparency;
+        plan.peel_layers =
+            settings.transparency == view::Transparency::kPeeled ? settings.peel_layers : 0;
+    }
+    plan.debug = settings.debug.view;
+    plan.lists = (renderer != Renderer::kNaive || view::showsClusters(plan.debug)) &&
+                 facts.local_lights && !facts.all_lights;
+    plan.count_pairs = settings.count_pairs && facts.local_lights;
+
+    if (view::replacesPicture(plan.debug)) {
+        replacePicture(plan, settings, facts);
+    }
+    return plan;
+}
+
+} // namespace
+
+FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts) {
+    FramePlan plan = planPasses(settings, facts);
+
+    // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
+    const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
+    const bool follows = plan.transparent || plan.outline || plan.samples ||
+                         plan.hasEffect(EffectPlace::kSolid) ||
+                         plan.hasEffect(EffectPlace::kPicture) || view::isOverlay(plan.debug);
+    const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
+    plan.tonemap = !compute_ends && !view::replacesPicture(plan.debug);
+    plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance ||
+                    plan.debug == view::DebugView::kOverdraw;
+
+    plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
+    plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
+
+    for (const auto& [row, effect] : plan.effects) {
+        plan.forward_light_flags |= effect.light_flags;
+        plan.lighting_light_flags |= effect.light_flags;
+        plan.blended_output_flags |= effect.blended_output_flags;
+    }
+
+    const uint32_t wide = facts.wide_gbuffer
+                              ? io::kOutputWideGbuffer | facts.emission_exponent
+                                                             << io::kOutputEmissionShift
+                              : 0U;
+    const uint32_t tone = settings.tone_map == view::ToneMap::kClamp ? io::kOutputClamp : 0U;
+    const uint32_t pixels = io::kOutputPixels | tone;
+    const view::GbufferLayout layout = // a forward renderer's, for a debug view: the default
+        isForward(settings.renderer) ? view::GbufferLayout{} : settings.gbuffer;
+    const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
+    plan.gbuffer_output_flags = plan.gbuffer ? wide | specular | layoutFlags(layout) : 0U;
+    plan.lighting_output_flags = plan.gbuffer_output_flags;
+    if (settings.shading == view::ShadingModel::kLambert) {
+        plan.gbuffer_unused_material_flags =
+            io::kMaterialRoughnessTexture | io::kMaterialSpecularAll;
+    }
+    if (compute_lights) {
+        plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;
+        plan.lighting_output_flags |= compute_ends && !plan.toon_pass ? pixels : 0U;
+    }
+    if (plan.toon_pass) {
+        plan.toon_output_flags |= compute_ends ? pixels : 0U;
+        plan.toon_output_flags |= plan.tonemap || facts.keep_radiance ? io::kOutputRadiance : 0U;
+    }
+    plan.tonemap_output_flags = tone | (plan.samples ? io::kOutputSamples : 0U);
+    return plan;
+}
+
+} // namespace froxel::render

@@ -1,0 +1,93 @@
+// The images and buffers that one viewer's frames are drawn into, at one size.
+#pragma once
+
+#include "gpu/command_context.h"
+#include "gpu/memory.h"
+#include "render/frame/frame_plan.h"
+#include "view/settings.h"
+
+#include <vector>
+
+namespace froxel::render {
+
+// Which targets exist; a frame may use targets that have more than it needs.
+struct TargetNeeds {
+    bool gbuffer = false;
+    uint32_t gbuffer_flags = 0; // FramePlan::gbuffer_output_flags: its formats
+    bool radiance = false;
+    bool visibility = false;
+    bool compute_raster = false;   // what compute rasters into
+    bool sampled_radiance = false; // passes look at a pixel's neighbours
+    bool display = false;          // the picture before the filter over it
+    bool device_pixels = false;    // packed pixels are copied to the host rather than written there
+
+    [[nodiscard]] bool covers(const TargetNeeds& other) const {
+        const bool same_gbuffer = gbuffer && gbuffer_flags == other.gbuffer_flags;
+        return (same_gbuffer || !other.gbuffer) && (radiance || !other.radiance) &&
+               (visibility || !other.visibility) && (compute_raster || !other.compute_raster) &&
+               (sampled_radiance || !other.sampled_radiance) && display == other.display &&
+               (device_pixels || !other.device_pixels);
+    }
+    bool operator==(const TargetNeeds&) const = default;
+};
+
+// One of the pictures below.
+struct ViewTargets;
+struct TargetImage {
+    gpu::Image ViewTargets::*image;
+    const char* name;
+    gpu::ImageInfo info;
+};
+// Those that frames drawn at this size need.
+[[nodiscard]] std::vector<TargetImage> targetImages(const view::Size& drawn,
+                                                    const TargetNeeds& needs);
+
+// Of ViewTargets::words, a pixel.
+inline constexpr vk::DeviceSize kWordBytes = 8;
+
+[[nodiscard]] inline vk::DeviceSize packedBytes(const view::Size& shown) {
+    return vk::DeviceSize{4} * shown.width_px * shown.height_px;
+}
+
+struct ViewTargets {
+    // All images end in the GENERAL layout, where they stay. Throws vk::OutOfDeviceMemoryError.
+    ViewTargets(const gpu::Device& device,
+                const view::Size& drawn,
+                const view::Size& shown,
+                const TargetNeeds& needs);
+
+    view::Size size;  // drawn at
+    view::Size shown; // of the pixels; smaller where they have several samples
+    TargetNeeds needs;
+    gpu::MemoryArena arena;
+    gpu::Image depth;
+    gpu::Image gbuffer;       // null handle: not needed
+    gpu::Image gbuffer_extra; // null handle: the layout has no second target
+    gpu::Image ids;           // of visible triangles; null handle: not needed
+    gpu::Buffer words;        // depth and id, 64 bits a pixel; null handle: not needed
+    gpu::Image compute_depth; // as depth, where compute rasters; null handle: not needed
+    gpu::Image radiance;      // null handle: not needed
+    gpu::Buffer display;      // packed pixels that a filter follows; null handle: not needed
+    gpu::Buffer pixels;       // null handle: not needed
+    bool fresh = true;        // the images still await their first transition
+    bool rastered_in_compute = false; // solid surfaces of the frame last submitted
+
+    [[nodiscard]] bool
+    fits(const view::Size& drawn, const view::Size& shown_now, const TargetNeeds& wanted) const {
+        return size == drawn && shown == shown_now && needs == wanted;
+    }
+    // Of that frame's solid surfaces.
+    [[nodiscard]] const gpu::Image& solidDepth() const {
+        return rastered_in_compute ? compute_depth : depth;
+    }
+};
+
+// What a frame needs, and what targets of the same size (null: none) had besides: settings may go
+// to and fro.
+[[nodiscard]] TargetNeeds targetNeeds(const FramePlan& plan,
+                                      const gpu::Device& device,
+                                      const view::Size& drawn,
+                                      const view::Size& shown,
+                                      const ViewTargets* kept);
+
+} // namespace froxel::render

@@ -1,0 +1,81 @@
+#include "render/lists/assign_passes.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace froxel::render {
+
+namespace {
+
+uint32_t groups(uint32_t count, uint32_t each) {
+    return (count + each - 1) / each;
+}
+
+void bind(const AssignContext& assign, AssignPass pass) {
+    assign.cmd.bindPipeline(vk::PipelineBindPoint::eCompute, assign.pipelines.pipeline(pass));
+    assign.cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, assign.pipelines.layout(), 0,
+                                  assign.slot.set(), {});
+}
+
+void dispatch(const AssignContext& assign, AssignPass pass, uint32_t group_count) {
+    bind(assign, pass);
+    assign.cmd.dispatch(std::max(group_count, 1U), 1, 1);
+}
+
+// arguments: an io::AssignDispatch within the counters.
+void dispatchIndirect(const AssignContext& assign, AssignPass pass, size_t arguments) {
+    bind(assign, pass);
+    assign.cmd.dispatchIndirect(*assign.slot.buffers().totals.handle, arguments);
+}
+
+uint32_t scanGroups(const AssignContext& assign) {
+    return groups(assign.slot.frame().cluster_count, io::kAssignScanBlock);
+}
+
+} // namespace
+
+void recordAssignClear(const AssignContext& assign) {
+    const ListBuffers& buffers = assign.slot.buffers();
+    io::AssignTotals totals{};
+    totals.tasks = totals.short_lists = totals.long_lists = {.x = 0, .y = 1, .z = 1};
+    assign.cmd.updateBuffer<io::AssignTotals>(*buffers.totals.handle, 0, totals);
+    if (assign.slot.pricedTiles() > 0) {
+        assign.cmd.fillBuffer(*buffers.totals.handle, sizeof(io::AssignTotals),
+                              assign.slot.pricedTiles() * sizeof(uint32_t), 0);
+    }
+    assign.cmd.fillBuffer(*buffers.cursors.handle, 0,
+                          assign.slot.frame().cluster_count * sizeof(uint32_t), 0);
+}
+
+void recordAssignBound(const AssignContext& assign) {
+    dispatch(assign, AssignPass::kBound, groups(assign.slot.frame().light_count, io::kAssignGroup));
+}
+
+void recordAssignCount(const AssignContext& assign) {
+    dispatchIndirect(assign, AssignPass::kCount, offsetof(io::AssignTotals, tasks));
+}
+
+void recordAssignSum(const AssignContext& assign) {
+    dispatch(assign, AssignPass::kSum, scanGroups(assign));
+}
+
+void recordAssignPlace(const AssignContext& assign) {
+    dispatch(assign, AssignPass::kPlace, scanGroups(assign));
+}
+
+void recordAssignFill(const AssignContext& assign) {
+    dispatchIndirect(assign, AssignPass::kFill, offsetof(io::AssignTotals, tasks));
+}
+
+void recordAssignOrder(const AssignContext& assign) {
+    dispatchIndirect(assign, AssignPass::kOrder, offsetof(io::AssignTotals, short_lists));
+    dispatchIndirect(assign, AssignPass::kOrderLong, offsetof(io::AssignTotals, long_lists));
+}
+
+void recordAssignCopy(const AssignContext& assign) {
+    assign.cmd.copyBuffer(*assign.slot.buffers().totals.handle, assign.slot.readback(),
+                          vk::BufferCopy{.size = sizeof(io::AssignTotals) +
+                                                 assign.slot.pricedTiles() * sizeof(uint32_t)});
+}
+
+} // namespace froxel::render

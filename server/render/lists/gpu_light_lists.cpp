@@ -1,0 +1,250 @@
+#include "render/lists/gpu_light_lists.h"
+
+#include "cluster/list_histogram.h"
+#include "cluster/spot_cut.h"
+#include "core/assert.h"
+#include "gpu/pipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace froxel::render {
+
+namespace {
+
+using Usage = vk::BufferUsageFlagBits;
+
+// Room for the lights to move before lists must grow again.
+uint32_t withMargin(uint64_t needed) {
+    return static_cast<uint32_t>(std::min<uint64_t>(needed + needed / 2, UINT32_MAX));
+}
+
+uint32_t blocksOf(uint32_t clusters) {
+    return (clusters + io::kAssignScanBlock - 1) / io::kAssignScanBlock;
+}
+
+io::AssignSpot makeSpot(const light::FrameLights& lights, const io::Light& light, float radius_m) {
+    const glm::dvec3 apex(light.position_view.x, -light.position_view.y, -light.position_view.z);
+    io::AssignSpot spot{};
+    const auto cut =
+        cluster::SpotCut::make(apex, glm::dvec3(lights.spots[light.spot].direction_view),
+                               lights.cones[light.spot], static_cast<double>(radius_m));
+    if (cut) {
+        spot.cone = cut->cone();
+        spot.cut = 1;
+        if (std::isfinite(radius_m)) {
+            spot.bound = cut->bound();
+        }
+    }
+    return spot;
+}
+
+} // namespace
+
+std::vector<ListPart> listParts(const ListCapacity& capacity) {
+    constexpr uint64_t kWord = sizeof(uint32_t);
+    const uint64_t clusters = capacity.clusters;
+    const uint64_t entries = capacity.entries;
+    const uint64_t tasks = capacity.tasks;
+    return {
+        {&ListBuffers::totals, "light list counters", kTotalsBytes,
+         Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc},
+        {&ListBuffers::tasks, "light assignment tasks", tasks * sizeof(io::AssignTask), {}},
+        {&ListBuffers::spans, "light assignment spans", tasks * io::kAssignTaskLines * kWord, {}},
+        {&ListBuffers::cursors, "light list cursors", clusters * kWord, Usage::eTransferDst},
+        {&ListBuffers::block_sums, "light list sums", blocksOf(capacity.clusters) * kWord, {}},
+        {&ListBuffers::queue, "light list queue", clusters * kWord, {}},
+        {&ListBuffers::lists, "light lists", clusters * sizeof(io::ClusterList),
+         Usage::eUniformTexelBuffer | Usage::eTransferSrc},
+        {&ListBuffers::raw_indices, "light indices, unordered", entries * kWord, {}},
+        {&ListBuffers::indices, "light indices", entries * kWord,
+         Usage::eUniformTexelBuffer | Usage::eTransferSrc}};
+}
+
+ListBuffers::ListBuffers(const gpu::Device& device, const ListCapacity& capacity_in)
+    : capacity(capacity_in), arena(device) {
+    for (const auto& [buffer, name, bytes, usage] : listParts(capacity)) {
+        this->*buffer =
+            arena.makeBuffer(bytes, Usage::eStorageBuffer | usage, gpu::MemoryUse::kDevice, name);
+    }
+}
+
+AssignSlot::AssignSlot(const gpu::Device& device, const AssignPipelines& pipelines)
+    : device_(device), arena_(device),
+      readback_(arena_.makeBuffer(
+          kTotalsBytes, Usage::eTransferDst, gpu::MemoryUse::kReadback, "light list counters")),
+      pool_(nullptr) {
+    static_assert(uint64_t{view::kGridXRange.max} * view::kGridYRange.max <= io::kAssignMaxTiles);
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer,
+                                      AssignPipelines::kBindings};
+    pool_ = gpu::makeDescriptorPool(device, std::array{size});
+    set_ = gpu::makeSet(device, pool_, pipelines.setLayout());
+}
+
+void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
+                       const AssignData& data,
+                       vk::Buffer upload,
+                       const AssignOffsets& offsets) {
+    buffers_ = std::move(buffers);
+    const io::AssignFrame& frame = frame_ = data.frame[0];
+    const auto part = [&](vk::DeviceSize offset, vk::DeviceSize bytes) {
+        return vk::DescriptorBufferInfo{upload, offset, std::max<vk::DeviceSize>(bytes, 16)};
+    };
+    const auto whole = [](const gpu::Buffer& buffer) {
+        return vk::DescriptorBufferInfo{*buffer.handle, 0, VK_WHOLE_SIZE};
+    };
+    const ListBuffers& b = *buffers_;
+    const std::array<vk::DescriptorBufferInfo, AssignPipelines::kBindings> infos = {
+        part(offsets.frame, sizeof(io::AssignFrame)),
+        part(offsets.tables, data.tables.size() * sizeof(double)),
+        part(offsets.lights, uint64_t{frame.light_count} * sizeof(io::Light)),
+        part(offsets.radii, data.radii_m.size_bytes()),
+        part(offsets.spots, data.spots.size() * sizeof(io::AssignSpot)),
+        whole(b.totals),
+        whole(b.tasks),
+        whole(b.spans),
+        whole(b.cursors),
+        whole(b.block_sums),
+        whole(b.queue),
+        whole(b.lists),
+        whole(b.raw_indices),
+        whole(b.indices)};
+    device_.handle().updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = *set_,
+                               .dstBinding = 0,
+                               .descriptorCount = AssignPipelines::kBindings,
+                               .descriptorType = vk::DescriptorType::eStorageBuffer,
+                               .pBufferInfo = infos.data()},
+        {});
+}
+
+const io::AssignTotals& AssignSlot::totals() const {
+    return *reinterpret_cast<const io::AssignTotals*>(readback_.mapped);
+}
+
+std::span<const uint32_t> AssignSlot::tileLongest() const {
+    const auto* words =
+        reinterpret_cast<const uint32_t*>(readback_.mapped + sizeof(io::AssignTotals));
+    return {words, pricedTiles()};
+}
+
+GpuLightLists::GpuLightLists(const gpu::Device& device, const ListLimits& limits)
+    : device_(device),
+      limits_(limits), wanted_{.entries = limits.first_entries, .tasks = limits.first_tasks} {
+    // Shaders read the lists as texels.
+    limits_.max_entries = std::min<uint64_t>(
+        {limits_.max_entries, device.limits().maxTexelBufferElements,
+         device.limits().maxStorageBufferRange / sizeof(uint32_t), io::kAssignSaturated - 1});
+}
+
+const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
+                                         const light::FrameLights& lights) {
+    const auto light_count = static_cast<uint32_t>(lights.lights.size());
+    FROXEL_ASSERT(lights.radii_m.size() == light_count, "a radius for each light");
+    sweep_.prepare(grid);
+    data_.tables.clear();
+    const auto append = [&](const std::vector<double>& values) {
+        data_.tables.insert(data_.tables.end(), values.begin(), values.end());
+    };
+    append(sweep_.planeDepths());
+    append(sweep_.inversePlaneDepths());
+    append(sweep_.rowEdges());
+    append(sweep_.rowNorms());
+    for (uint32_t i = 0; i <= grid.usedColumns(); ++i) {
+        data_.tables.push_back(grid.columnEdge(i));
+    }
+    data_.spots.resize(lights.spots.size());
+    for (size_t i = 0; i < light_count && !lights.spots.empty(); ++i) {
+        const io::Light& light = lights.lights[i];
+        if (light.spot != io::kNoSpot) {
+            data_.spots[light.spot] = makeSpot(lights, light, lights.radii_m[i]);
+        }
+    }
+    data_.radii_m = lights.radii_m;
+    const ListCapacity had = buffers_ ? buffers_->capacity : ListCapacity{};
+    capacity_ = {.clusters = std::max(grid.clusterCount(), had.clusters),
+                 // Also holds the list of all lights.
+                 .entries = std::max({wanted_.entries, light_count, had.entries}),
+                 .tasks = std::max(wanted_.tasks, had.tasks)};
+    data_.frame.assign(1,
+                       {.columns = sweep_.columns(),
+                        .rows = sweep_.rows(),
+                        .grid_x = grid.size.x,
+                        .grid_y = grid.size.y,
+                        .grid_z = grid.size.z,
+                        .used_columns = grid.usedColumns(),
+                        .used_rows = grid.usedRows(),
+                        .perspective = grid.projection == view::Projection::kPerspective ? 1U : 0U,
+                        .light_count = light_count,
+                        .cluster_count = grid.clusterCount(),
+                        .index_capacity = capacity_.entries,
+                        .task_capacity = capacity_.tasks,
+                        .max_entries = static_cast<uint32_t>(limits_.max_entries),
+                        .max_pairs = 0,
+                        .max_list = UINT32_MAX,
+                        .image_width_px = grid.image.width_px,
+                        .image_height_px = grid.image.height_px,
+                        .tile_width_px = grid.tile_width_px,
+                        .tile_height_px = grid.tile_height_px});
+    return data_;
+}
+
+const std::shared_ptr<ListBuffers>& GpuLightLists::makeBuffers() {
+    if (!buffers_ || buffers_->capacity != capacity_) {
+        // Frames in flight keep the old ones alive through their slots.
+        buffers_.reset();
+        buffers_ = std::make_shared<ListBuffers>(device_, capacity_);
+    }
+    return buffers_;
+}
+
+bool GpuLightLists::accept(const io::AssignTotals& totals) {
+    if (totals.outcome == io::kAssignLong) {
+        return false;
+    }
+    if (totals.outcome != io::kAssignShort) {
+        return true;
+    }
+    if (totals.task_count > limits_.max_tasks) {
+        refused_ = true;
+        return false;
+    }
+    wanted_.tasks =
+        std::max(wanted_.tasks, std::min(withMargin(totals.task_count), limits_.max_tasks));
+    // Short of tasks, the entries were counted in part: enough for what is known.
+    const uint64_t entries = std::min<uint64_t>(totals.entry_count, limits_.max_entries);
+    wanted_.entries = std::max(wanted_.entries, static_cast<uint32_t>(std::min<uint64_t>(
+                                                    withMargin(entries), limits_.max_entries)));
+    return false;
+}
+
+LightListStats
+listStats(const io::AssignTotals& totals, uint32_t light_count, uint32_t cluster_count) {
+    LightListStats stats;
+    stats.light_count = light_count;
+    stats.cluster_count = cluster_count;
+    if (totals.outcome == io::kAssignAllLights) {
+        stats.entry_count = uint64_t{light_count} * cluster_count;
+        stats.largest = light_count;
+        stats.p95 = light_count;
+        stats.overflowed = true;
+    } else {
+        cluster::ListHistogram lengths;
+        for (uint32_t bucket = 0; bucket < io::kHistogramBuckets; ++bucket) {
+            lengths.addBucket(bucket, totals.histogram[bucket]);
+        }
+        stats.empty_count = totals.histogram[0];
+        stats.entry_count = totals.entry_count;
+        stats.largest = totals.largest;
+        stats.p95 = lengths.p95(totals.largest);
+    }
+    const uint32_t filled = cluster_count - stats.empty_count;
+    stats.mean = filled > 0 ? static_cast<double>(stats.entry_count) / filled : 0.0;
+    const uint64_t indices = stats.overflowed ? light_count : stats.entry_count;
+    stats.bytes = uint64_t{cluster_count} * sizeof(io::ClusterList) + indices * sizeof(uint32_t);
+    return stats;
+}
+
+} // namespace froxel::render

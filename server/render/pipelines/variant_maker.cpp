@@ -1,0 +1,105 @@
+#include "render/pipelines/variant_maker.h"
+
+#include "core/thread_name.h"
+
+#include <algorithm>
+#include <unistd.h>
+#include <utility>
+
+namespace froxel::render {
+
+VariantUses::VariantUses(VariantMaker& maker, uint64_t since, std::vector<bool*> first_uses)
+    : maker_(&maker), since_(since), first_uses_(std::move(first_uses)) {
+    maker.held_.insert(since);
+}
+
+VariantUses& VariantUses::operator=(VariantUses&& other) noexcept {
+    if (this != &other) {
+        end();
+        maker_ = std::exchange(other.maker_, nullptr);
+        since_ = other.since_;
+        first_uses_ = std::exchange(other.first_uses_, {});
+    }
+    return *this;
+}
+
+void VariantUses::giveUp() {
+    for (bool* used : first_uses_) {
+        *used = false;
+    }
+    first_uses_.clear();
+}
+
+void VariantUses::end() {
+    first_uses_.clear();
+    if (maker_ != nullptr) {
+        maker_->held_.erase(maker_->held_.find(since_));
+        maker_ = nullptr;
+    }
+}
+
+void VariantMaker::start(int niceness) {
+    thread_ = std::jthread([this, niceness](const std::stop_token& stop) {
+        nameThread("variants");
+        (void)nice(niceness); // of this thread alone, on Linux
+        run(stop);
+    });
+}
+
+void VariantMaker::stop() {
+    thread_.request_stop();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+bool VariantMaker::busyFor(const void* asker) const {
+    const std::lock_guard lock(mutex_);
+    return queues_.count(asker) > 0;
+}
+
+void VariantMaker::post(std::function<void()> make) {
+    {
+        const std::lock_guard lock(mutex_);
+        queues_[asker_].push_back(std::move(make));
+    }
+    wake_.notify_one();
+}
+
+void VariantMaker::forget(const void* asker) {
+    std::deque<std::function<void()>> dropped; // ends without the lock
+    const std::lock_guard lock(mutex_);
+    if (const auto queue = queues_.find(asker); queue != queues_.end()) {
+        dropped.swap(queue->second);
+        if (asker != under_way_) {
+            queues_.erase(queue);
+        }
+    }
+}
+
+// One of each asker's at a time, so that who needs few does not wait for who needs many.
+void VariantMaker::run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (wake_.wait(lock, stop, [&] { return !queues_.empty(); })) {
+        auto next = queues_.upper_bound(last_);
+        if (next == queues_.end()) {
+            next = queues_.begin();
+        }
+        last_ = next->first;
+        auto make = std::move(next->second.front());
+        next->second.pop_front();
+        under_way_ = last_;
+        lock.unlock();
+        make();
+        lock.lock();
+        under_way_ = nullptr;
+        if (const auto queue = queues_.find(last_); queue->second.empty()) {
+            queues_.erase(queue);
+        }
+        if (stop.stop_requested()) {
+            return;
+        }
+    }
+}
+
+} // namespace froxel::render

@@ -1,0 +1,108 @@
+#include "render/scene/scene_needs.h"
+
+#include "interface/constants.h"
+#include "interface/gbuffer_io.h"
+#include "render/scene/geometry_pack.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::render {
+
+namespace {
+
+bool transformed(const scene::TextureSlot& slot) {
+    return slot.texture != scene::kNone &&
+           (slot.texcoord != 0 || slot.offset != glm::vec2(0, 0) || slot.rotation_rad != 0 ||
+            slot.scale != glm::vec2(1, 1));
+}
+
+bool reflectsUnusually(const scene::Material& m) {
+    return m.ior != 1.5F || m.specular != 1 || m.specular_color != glm::vec3(1) ||
+           m.specular_texture.texture != scene::kNone ||
+           m.specular_color_texture.texture != scene::kNone;
+}
+
+uint32_t materialFlags(const scene::Material& m) {
+    uint32_t flags = 0;
+    const auto set = [&](bool condition, uint32_t flag) { flags |= condition ? flag : 0U; };
+    set(m.base_color_texture.texture != scene::kNone, io::kMaterialBaseColorTexture);
+    set(m.alpha_mode == scene::AlphaMode::kMask, io::kMaterialMask);
+    set(m.alpha_mode == scene::AlphaMode::kBlend, io::kMaterialBlend);
+    set(m.double_sided, io::kMaterialDoubleSided);
+    set(m.unlit, io::kMaterialUnlit);
+    set(transformed(m.base_color_texture), io::kMaterialUvTransform);
+    if (m.unlit) {
+        return flags;
+    }
+    set(m.normal_texture.texture != scene::kNone, io::kMaterialNormalTexture);
+    set(m.metallic_roughness_texture.texture != scene::kNone, io::kMaterialRoughnessTexture);
+    set(m.occlusion_texture.texture != scene::kNone, io::kMaterialOcclusionTexture);
+    set(m.emissive_texture.texture != scene::kNone && m.emissive != glm::vec3(0),
+        io::kMaterialEmissiveTexture);
+    set(reflectsUnusually(m), io::kMaterialSpecular);
+    set(m.specular_texture.texture != scene::kNone, io::kMaterialSpecularTexture);
+    set(m.specular_color_texture.texture != scene::kNone, io::kMaterialSpecularColorTexture);
+    set(m.specular_color_texture.texture != scene::kNone && m.glossiness_texture,
+        io::kMaterialGlossiness);
+    set(transformed(m.specular_texture) || transformed(m.specular_color_texture),
+        io::kMaterialUvTransform);
+    set(transformed(m.normal_texture) || transformed(m.metallic_roughness_texture) ||
+            transformed(m.occlusion_texture) || transformed(m.emissive_texture),
+        io::kMaterialUvTransform);
+    return flags;
+}
+
+bool needsWide(const scene::Material& m, bool metalness) {
+    return m.alpha_mode != scene::AlphaMode::kBlend &&
+           ((metalness && m.metallic != 0) || m.unlit || m.emissive != glm::vec3(0) ||
+            m.occlusion_texture.texture != scene::kNone);
+}
+
+// The least that brings emission to io::kMostStoredEmission.
+uint32_t emissionExponent(const scene::Material& m) {
+    if (m.alpha_mode == scene::AlphaMode::kBlend || m.unlit) {
+        return 0;
+    }
+    const float most = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
+    constexpr uint32_t kMost = 113; // of the largest float; infinity has no end
+    uint32_t exponent = 0;
+    while (exponent < kMost &&
+           std::ldexp(most, -static_cast<int>(exponent)) > io::kMostStoredEmission) {
+        ++exponent;
+    }
+    return exponent;
+}
+
+} // namespace
+
+SceneNeeds findNeeds(const scene::Scene& scene) {
+    SceneNeeds needs;
+    for (const auto& material : scene.materials) {
+        needs.material_flags.push_back(materialFlags(material));
+        needs.wide_gbuffer |= needsWide(material, true);
+        needs.wide_lambert |= needsWide(material, false);
+        needs.emission_exponent = std::max(needs.emission_exponent, emissionExponent(material));
+        if (!material.unlit && reflectsUnusually(material)) {
+            needs.specular |= material.alpha_mode != scene::AlphaMode::kBlend;
+            needs.edges |=
+                material.specular != 1 || material.specular_texture.texture != scene::kNone;
+        }
+        needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;
+        needs.blended |= material.alpha_mode == scene::AlphaMode::kBlend;
+    }
+    for (const auto& mesh : scene.meshes) {
+        for (const auto& primitive : mesh.primitives) {
+            ++needs.primitive_count;
+            needs.extended_count += isExtended(primitive) ? 1U : 0U;
+        }
+    }
+    for (const auto& light : scene.lights) {
+        needs.lights.points += light.type == scene::LightType::kPoint ? 1U : 0U;
+        needs.lights.spots += light.type == scene::LightType::kSpot ? 1U : 0U;
+        needs.lights.directionals += light.type == scene::LightType::kDirectional ? 1U : 0U;
+    }
+    return needs;
+}
+
+} // namespace froxel::render

@@ -1,0 +1,251 @@
+#include "render/scene/scene_resources.h"
+
+#include "area_light_table/table.h"
+#include "core/error.h"
+#include "gpu/pipeline.h"
+#include "interface/frame_io.h"
+#include "interface/visibility_io.h"
+#include "render/lists/list_limits.h"
+#include "scene/scene_check.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <thread>
+
+namespace froxel::render {
+
+namespace {
+
+constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
+constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
+using io::kTexturesOfMaterial;
+
+io::UvTransform uvTransform(const scene::TextureSlot& slot) {
+    const float c = std::cos(slot.rotation_rad);
+    const float s = std::sin(slot.rotation_rad);
+    return {.row0 = {c * slot.scale.x, s * slot.scale.y, slot.offset.x},
+            .row1 = {-s * slot.scale.x, c * slot.scale.y, slot.offset.y},
+            .texcoord = slot.texcoord,
+            .padding0 = 0};
+}
+
+io::Material materialUniforms(const scene::Material& m) {
+    const float root = (m.ior - 1) / (m.ior + 1);
+    return {.base_color = m.base_color,
+            .emissive = m.emissive,
+            .metallic = m.metallic,
+            .roughness = m.roughness,
+            .normal_scale = m.normal_scale,
+            .occlusion_strength = m.occlusion_strength,
+            .alpha_cutoff = m.alpha_cutoff,
+            .specular_f0 = m.specular_color * (root * root),
+            .specular = m.specular,
+            .uv_base_color = uvTransform(m.base_color_texture),
+            .uv_normal = uvTransform(m.normal_texture),
+            .uv_metallic_roughness = uvTransform(m.metallic_roughness_texture),
+            .uv_occlusion = uvTransform(m.occlusion_texture),
+            .uv_emissive = uvTransform(m.emissive_texture),
+            .uv_specular = uvTransform(m.specular_texture),
+            .uv_specular_color = uvTransform(m.specular_color_texture)};
+}
+
+std::vector<DrawItem>
+makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const SceneNeeds& needs) {
+    std::vector<DrawItem> items;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const auto& instance = scene.instances[i];
+        const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+        for (const auto& primitive : geometry.meshes[instance.mesh]) {
+            if (primitive.index_count == 0) {
+                continue;
+            }
+            uint32_t flags = needs.material_flags[primitive.material];
+            flags |= primitive.extended ? io::kMaterialExtended : 0U;
+            flags |= primitive.tangents ? io::kMaterialTangents : 0U;
+            items.push_back({i, primitive, flags, mirrored});
+        }
+    }
+    return items;
+}
+
+template <class T>
+gpu::Buffer uploadVector(gpu::MemoryArena& arena,
+                         gpu::Uploader& uploader,
+                         const std::vector<T>& data,
+                         vk::BufferUsageFlags usage,
+                         std::string_view name) {
+    const auto bytes = std::as_bytes(std::span(data));
+    auto buffer = arena.makeBuffer(bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst,
+                                   gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, bytes);
+    return buffer;
+}
+
+} // namespace
+
+SceneResources::SceneResources(gpu::Device& device_in,
+                               const scene::Scene& scene,
+                               const MemoryLimits& limits)
+    : device(device_in), timeline(device_in), memory(limits), needs(findNeeds(scene)),
+      bounds_world(scene.bounds_world), light_rig(scene),
+      light_assigner(std::max(1U, std::thread::hardware_concurrency()), kHostListEntries),
+      arena(device_in), texture_arena(device_in, kTextureChunkBytes, "textures"),
+      pipelines(device_in, timeline, variants),
+      unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {
+    if (const auto fault = scene::findFault(scene)) {
+        throw StartupError({ErrorCode::kScene, *fault});
+    }
+    auto geometry = packGeometry(scene);
+    for (const auto& instance : scene.instances) {
+        instances.push_back(instance.world_from_object);
+    }
+    items = makeItems(scene, geometry, needs);
+    gpu::Uploader uploader(device, timeline, kStagingBytes);
+    uploadGeometry(geometry, uploader);
+    uploadMaterials(scene, uploader);
+    visibility_unusable = VisibilityScene::unusable(*this);
+    meshlets = std::move(geometry.meshlets);
+    if (device.traits().is_cpu) {
+        indices = std::move(geometry.indices);
+        positions = std::move(geometry.positions);
+    }
+    const uint64_t device_bytes = arena.allocatedBytes() + texture_arena.allocatedBytes();
+    memory.setShared(device_bytes);
+    spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
+                 items.size(), meshlets.size(), textures_->imageCount(), device_bytes);
+}
+
+void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader) {
+    using Usage = vk::BufferUsageFlagBits;
+    constexpr auto kVertices = Usage::eVertexBuffer | Usage::eStorageBuffer;
+    position_buffer = uploadVector(arena, uploader, geometry.positions, kVertices, "positions");
+    surface_buffer =
+        uploadVector(arena, uploader, geometry.surfaces, kVertices, "surface vertices");
+    if (!geometry.extended.empty()) {
+        extended_buffer =
+            uploadVector(arena, uploader, geometry.extended, kVertices, "extended vertices");
+    }
+    index_buffer = uploadVector(arena, uploader, geometry.indices,
+                                Usage::eIndexBuffer | Usage::eStorageBuffer, "indices");
+}
+
+void SceneResources::makeMaterialSets(uint32_t count) {
+    const std::array pool_sizes = {
+        vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
+        vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
+                               count * kTexturesOfMaterial}};
+    material_pool_ = gpu::makeDescriptorPool(device, pool_sizes, count);
+    const std::vector layouts(count, pipelines.materialLayout());
+    material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
+                                                             .descriptorSetCount = count,
+                                                             .pSetLayouts = layouts.data()});
+}
+
+void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
+    textures_ = std::make_unique<TextureStore>(device, texture_arena, uploader);
+    const auto count = static_cast<uint32_t>(scene.materials.size());
+    if (count == 0) {
+        return;
+    }
+    makeMaterialSets(count);
+    const auto alignment = device.limits().minUniformBufferOffsetAlignment;
+    const vk::DeviceSize stride = (sizeof(io::Material) + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> bytes(stride * count);
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto uniforms = materialUniforms(scene.materials[i]);
+        std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));
+        material_uniforms.push_back(uniforms);
+    }
+    material_buffer_ =
+        uploadVector(arena, uploader, bytes, vk::BufferUsageFlagBits::eUniformBuffer, "materials");
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto& m = scene.materials[i];
+        const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,
+                                              sizeof(io::Material)};
+        // Only what the material's shader samples.
+        const auto used = [&](uint32_t flag, const scene::TextureSlot& slot) {
+            return (needs.material_flags[i] & flag) != 0 ? slot : scene::TextureSlot{};
+        };
+        const auto base = used(io::kMaterialBaseColorTexture, m.base_color_texture);
+        const auto normal = used(io::kMaterialNormalTexture, m.normal_texture);
+        const auto roughness = used(io::kMaterialRoughnessTexture, m.metallic_roughness_texture);
+        const auto occlusion = used(io::kMaterialOcclusionTexture, m.occlusion_texture);
+        const auto emissive = used(io::kMaterialEmissiveTexture, m.emissive_texture);
+        const auto specular = used(io::kMaterialSpecularTexture, m.specular_texture);
+        const auto color = used(io::kMaterialSpecularColorTexture, m.specular_color_texture);
+        const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
+            textures_->get(scene, base, true),       textures_->get(scene, normal, false),
+            textures_->get(scene, roughness, false), textures_->get(scene, occlusion, false),
+            textures_->get(scene, emissive, true),   textures_->get(scene, specular, false),
+            textures_->get(scene, color, true)};
+        material_textures.insert(material_textures.end(), images.begin(), images.end());
+        // The samplers are consecutive bindings of one descriptor each.
+        const std::array writes = {
+            vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
+                                   .dstBinding = 0,
+                                   .descriptorCount = 1,
+                                   .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                   .pBufferInfo = &buffer},
+            vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
+                                   .dstBinding = 1,
+                                   .descriptorCount = kTexturesOfMaterial,
+                                   .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                   .pImageInfo = images.data()}};
+        device.handle().updateDescriptorSets(writes, {});
+    }
+}
+
+DebugPass& SceneResources::debug() {
+    if (!debug_) {
+        debug_ = std::make_unique<DebugPass>(device, timeline, variants, pipelines);
+    }
+    return *debug_;
+}
+
+PairPipelines& SceneResources::pairs() {
+    if (!pairs_) {
+        pairs_ = std::make_unique<PairPipelines>(device, timeline, variants, pipelines);
+    }
+    return *pairs_;
+}
+
+VisibilityScene& SceneResources::visibility() {
+    if (!visibility_) {
+        gpu::Uploader uploader(device, timeline, kStagingBytes);
+        visibility_ = std::make_unique<VisibilityScene>(*this, uploader);
+    }
+    return *visibility_;
+}
+
+const gpu::Buffer& SceneResources::ltcTable() {
+    if (!ltc_arena_) {
+        const auto bytes = std::as_bytes(area_light_table::table());
+        auto made = std::make_unique<gpu::MemoryArena>(device);
+        ltc_table_ = made->makeBuffer(bytes.size(),
+                                      vk::BufferUsageFlagBits::eUniformTexelBuffer |
+                                          vk::BufferUsageFlagBits::eTransferDst,
+                                      gpu::MemoryUse::kDevice, "linearly transformed cosines");
+        gpu::Uploader(device, timeline, bytes.size()).upload(ltc_table_, bytes);
+        ltc_arena_ = std::move(made);
+    }
+    return ltc_table_;
+}
+
+const AssignPipelines* SceneResources::assignment() {
+    if (!assignment_tried_) {
+        assignment_tried_ = true;
+        const std::string why = AssignPipelines::unusable(device, timeline);
+        if (why.empty()) {
+            assignment_ = std::make_unique<AssignPipelines>(device);
+        } else {
+            spdlog::info("lights are assigned on the host: {}", why);
+        }
+    }
+    return assignment_.get();
+}
+
+} // namespace froxel::render

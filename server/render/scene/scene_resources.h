@@ -1,0 +1,111 @@
+// A scene on the device, and what every viewer of it shares.
+#pragma once
+
+#include "cluster/light_assigner.h"
+#include "gpu/command_context.h"
+#include "gpu/memory.h"
+#include "light/light_rig.h"
+#include "render/lists/assign_pipelines.h"
+#include "render/lists/pair_counter.h"
+#include "render/pipelines/pipelines.h"
+#include "render/pipelines/typed_store.h"
+#include "render/scene/debug_pass.h"
+#include "render/scene/geometry_pack.h"
+#include "render/scene/memory_budget.h"
+#include "render/scene/scene_needs.h"
+#include "render/scene/texture_store.h"
+#include "render/scene/unit_costs.h"
+#include "render/scene/visibility_scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace froxel::render {
+
+// One primitive of one instance: what culling looks at and what a draw needs.
+struct DrawItem {
+    uint32_t instance = 0;
+    PackedPrimitive primitive;
+    uint32_t material_flags = 0; // with kMaterialExtended and kMaterialTangents
+    bool mirrored = false;       // the instance turns the winding round
+};
+
+class SceneResources {
+  public:
+    SceneResources(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits);
+    ~SceneResources() { variants.stop(); } // which makes what refers to the rest
+    SceneResources(const SceneResources&) = delete;
+    SceneResources& operator=(const SceneResources&) = delete;
+
+    gpu::Device& device;
+    gpu::Timeline timeline;
+    MemoryBudget memory;
+    const SceneNeeds needs;
+    const BoundsD3 bounds_world;
+    const light::LightRig light_rig;
+    cluster::LightAssigner light_assigner;
+
+    std::vector<glm::dmat4> instances; // world_from_object
+    std::vector<DrawItem> items;
+    std::vector<Meshlet> meshlets;
+    // The host's copies, for culling by triangle; empty on a GPU, which does not.
+    std::vector<uint32_t> indices;
+    std::vector<glm::vec3> positions;
+
+    gpu::MemoryArena arena; // geometry and materials
+    gpu::MemoryArena texture_arena;
+    gpu::Buffer position_buffer;
+    gpu::Buffer surface_buffer;
+    gpu::Buffer extended_buffer; // empty handle: no primitive needs it
+    gpu::Buffer index_buffer;
+    std::vector<io::Material> material_uniforms;
+    std::vector<vk::DescriptorImageInfo> material_textures; // kTexturesOfMaterial of each
+    std::string visibility_unusable; // why; empty: visibility passes can draw the scene
+    VariantMaker variants;
+    Pipelines pipelines;
+    // Fragments that pass the depth test, per pixel of the picture: of the first frame that the
+    // rasteriser draws. None: not measured yet.
+    std::optional<double> overdraw;
+    // Of this device; see device_speed.h.
+    UnitCosts unit_costs;
+
+    // Made at the first call. Null: the device cannot assign lights as the host does.
+    [[nodiscard]] const AssignPipelines* assignment();
+    // What views that ask for it share, such as pipelines: made from this at the first call. Throws
+    // vk::SystemError.
+    template <class T>
+    [[nodiscard]] T& shared() {
+        return shared_.findOrMake<T>(*this);
+    }
+    // All made at the first call. Throw vk::SystemError.
+    [[nodiscard]] DebugPass& debug();
+    [[nodiscard]] PairPipelines& pairs();
+    // The highlights of rectangular lights: area_light_table::table().
+    [[nodiscard]] const gpu::Buffer& ltcTable();
+    // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
+    [[nodiscard]] VisibilityScene& visibility();
+
+    [[nodiscard]] vk::DescriptorSet materialSet(uint32_t material) const {
+        return *material_sets_[material];
+    }
+
+  private:
+    void uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader);
+    void makeMaterialSets(uint32_t count);
+    void uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader);
+
+    gpu::Buffer material_buffer_;
+    std::unique_ptr<TextureStore> textures_;
+    vk::raii::DescriptorPool material_pool_{nullptr};
+    std::vector<vk::raii::DescriptorSet> material_sets_;
+    std::unique_ptr<VisibilityScene> visibility_;
+    bool assignment_tried_ = false;
+    std::unique_ptr<AssignPipelines> assignment_;
+    std::unique_ptr<DebugPass> debug_;
+    std::unique_ptr<PairPipelines> pairs_;
+    std::unique_ptr<gpu::MemoryArena> ltc_arena_;
+    gpu::Buffer ltc_table_;
+    TypedStore shared_;
+};
+
+} // namespace froxel::render

@@ -1,0 +1,90 @@
+#include "render/scene/texture_store.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace froxel::render {
+
+namespace {
+
+// Sharp at grazing angles where the hardware does it; a software rasteriser pays for every tap.
+constexpr float kGpuAnisotropy = 8.0F;
+
+vk::SamplerAddressMode addressMode(scene::Wrap wrap) {
+    switch (wrap) {
+    case scene::Wrap::kRepeat:
+        return vk::SamplerAddressMode::eRepeat;
+    case scene::Wrap::kMirroredRepeat:
+        return vk::SamplerAddressMode::eMirroredRepeat;
+    case scene::Wrap::kClampToEdge:
+        return vk::SamplerAddressMode::eClampToEdge;
+    }
+    return vk::SamplerAddressMode::eRepeat;
+}
+
+vk::Filter filter(scene::Filter value) {
+    return value == scene::Filter::kLinear ? vk::Filter::eLinear : vk::Filter::eNearest;
+}
+
+} // namespace
+
+TextureStore::TextureStore(const gpu::Device& device,
+                           gpu::MemoryArena& arena,
+                           gpu::Uploader& uploader)
+    : device_(device), arena_(arena), uploader_(uploader) {}
+
+vk::DescriptorImageInfo
+TextureStore::get(const scene::Scene& scene, const scene::TextureSlot& slot, bool srgb) {
+    constexpr auto kLayout = vk::ImageLayout::eShaderReadOnlyOptimal;
+    if (slot.texture == scene::kNone) {
+        return {.sampler = sampler({}), .imageLayout = kLayout};
+    }
+    const auto& texture = scene.textures[slot.texture];
+    const auto settings =
+        texture.sampler != scene::kNone ? scene.samplers[texture.sampler] : scene::Sampler{};
+    const auto& chosen = image(scene.images[texture.image], texture.image, srgb);
+    return {.sampler = sampler(settings), .imageView = *chosen.view, .imageLayout = kLayout};
+}
+
+const gpu::Image& TextureStore::image(const scene::Image& source, uint32_t index, bool srgb) {
+    const auto key = std::pair(index, srgb);
+    if (const auto found = images_.find(key); found != images_.end()) {
+        return found->second;
+    }
+    using Usage = vk::ImageUsageFlagBits;
+    const auto mips =
+        static_cast<uint32_t>(std::bit_width(std::max(source.width_px, source.height_px)));
+    auto made =
+        arena_.makeImage({.format = srgb ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm,
+                          .extent = {source.width_px, source.height_px},
+                          .mip_count = mips,
+                          .usage = Usage::eSampled | Usage::eTransferDst | Usage::eTransferSrc},
+                         source.name);
+    uploader_.uploadImage(made, source.rgba8);
+    return images_.emplace(key, std::move(made)).first->second;
+}
+
+vk::Sampler TextureStore::sampler(const scene::Sampler& settings) {
+    const auto found = std::find_if(samplers_.begin(), samplers_.end(),
+                                    [&](const auto& entry) { return entry.first == settings; });
+    if (found != samplers_.end()) {
+        return *found->second;
+    }
+    const bool anisotropic =
+        !device_.traits().is_cpu && settings.min == scene::Filter::kLinear && settings.mipmapped;
+    samplers_.emplace_back(
+        settings,
+        device_.handle().createSampler(
+            {.magFilter = filter(settings.mag),
+             .minFilter = filter(settings.min),
+             .mipmapMode = settings.mip == scene::Filter::kLinear ? vk::SamplerMipmapMode::eLinear
+                                                                  : vk::SamplerMipmapMode::eNearest,
+             .addressModeU = addressMode(settings.wrap_u),
+             .addressModeV = addressMode(settings.wrap_v),
+             .anisotropyEnable = anisotropic,
+             .maxAnisotropy = std::min(kGpuAnisotropy, device_.traits().max_anisotropy),
+             .maxLod = settings.mipmapped ? VK_LOD_CLAMP_NONE : 0.0F}));
+    return *samplers_.back().second;
+}
+
+} // namespace froxel::render

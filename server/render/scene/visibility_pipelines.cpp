@@ -1,0 +1,122 @@
+#include "render/scene/visibility_pipelines.h"
+
+#include "embedded.h"
+#include "interface/constants.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace froxel::render {
+
+namespace {
+
+using Stage = vk::ShaderStageFlagBits;
+
+vk::raii::DescriptorSetLayout geometryLayout(const gpu::Device& device) {
+    std::array<vk::DescriptorSetLayoutBinding, VisibilityPipelines::kBindings> bindings;
+    for (uint32_t i = 0; i < bindings.size(); ++i) {
+        const bool vertex = i == 4 || i == 5 || i == 8; // items, meshlets, instances
+        bindings[i] = {.binding = i,
+                       .descriptorType = VisibilityPipelines::bindingType(i),
+                       .descriptorCount = 1,
+                       .stageFlags = vertex ? Stage::eVertex | Stage::eCompute
+                                            : vk::ShaderStageFlags(Stage::eCompute)};
+    }
+    return gpu::makeSetLayout(device, bindings);
+}
+
+vk::raii::DescriptorSetLayout texturesLayout(const gpu::Device& device, uint32_t count) {
+    const std::array bindings = {vk::DescriptorSetLayoutBinding{
+        0, vk::DescriptorType::eCombinedImageSampler, std::max(1U, count), Stage::eCompute}};
+    return gpu::makeSetLayout(device, bindings);
+}
+
+} // namespace
+
+VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
+                                         const gpu::Timeline& timeline,
+                                         VariantMaker& maker,
+                                         const Pipelines& shared,
+                                         uint32_t texture_count)
+    : device_(device), bindless_(texture_count > 0), set_layout_(geometryLayout(device)),
+      texture_layout_(texturesLayout(device, texture_count)), raster_layout_(nullptr),
+      compute_layout_(nullptr), cull_(nullptr), compact_(nullptr),
+      raster_(timeline, maker, Pipelines::kKeptGeometry),
+      gbuffer_(timeline, maker, Pipelines::kKeptGeometry),
+      shade_(timeline, maker, Pipelines::kKeptGeometry) {
+    raster_layout_ = gpu::makePipelineLayout(
+        device, {shared.frameLayout(), shared.materialLayout(), *set_layout_});
+    compute_layout_ =
+        gpu::makePipelineLayout(device,
+                                {shared.frameLayout(), shared.screenLayout(), *set_layout_,
+                                 bindless_ ? *texture_layout_ : shared.materialLayout()},
+                                2 * sizeof(uint32_t));
+    cull_ = gpu::makeComputePipeline(device, shaders::cull_meshlets_comp(), constants({}),
+                                     *compute_layout_, "cull");
+    compact_ = gpu::makeComputePipeline(device, shaders::cull_compact_comp(), constants({}),
+                                        *compute_layout_, "compact");
+}
+
+gpu::SpecConstants VisibilityPipelines::constants(const VariantKey& key) const {
+    return {key.material_flags, key.light_flags, key.output_flags,
+            std::max(1U, device_.traits().subgroup_size)};
+}
+
+vk::raii::Pipeline VisibilityPipelines::makeRaster(uint32_t material_flags) const {
+    using Format = vk::Format;
+    const bool masked = (material_flags & io::kMaterialMask) != 0;
+    const bool extended = masked && (material_flags & io::kMaterialExtended) != 0;
+    gpu::GraphicsPipelineInfo info;
+    info.constants = constants({masked ? material_flags : 0U, 0, 0});
+    info.layout = *raster_layout_;
+    info.color_formats = {kIdFormat};
+    info.depth_format = Pipelines::kDepthFormat;
+    info.bindings = {{0, 12, vk::VertexInputRate::eVertex}};
+    info.attributes = {{0, 0, Format::eR32G32B32Sfloat, 0}};
+    info.vertex = shaders::visibility_vert();
+    info.fragment = shaders::visibility_frag();
+    if (masked) {
+        info.bindings.push_back({1, 20, vk::VertexInputRate::eVertex});
+        info.attributes.push_back({2, 1, Format::eR32G32Sfloat, 12});
+        info.vertex = shaders::visibility_masked_vert();
+        info.fragment = shaders::visibility_masked_frag();
+    }
+    if (extended) {
+        info.bindings.push_back({2, 40, vk::VertexInputRate::eVertex});
+        info.attributes.push_back({6, 2, Format::eR32G32Sfloat, 0});
+        info.attributes.push_back({7, 2, Format::eR32G32B32A32Sfloat, 8});
+        info.vertex = shaders::visibility_masked_extended_vert();
+        info.fragment = shaders::visibility_masked_extended_frag();
+    }
+    return gpu::makeGraphicsPipeline(device_, info, "visibility");
+}
+
+vk::Pipeline VisibilityPipelines::raster(uint32_t material_flags) {
+    const bool masked = (material_flags & io::kMaterialMask) != 0;
+    const uint32_t key = masked ? material_flags : 0U;
+    return *raster_.findOrMake(key, [=, this] { return makeRaster(key); });
+}
+
+vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {
+    return *gbuffer_.findOrMake(key, [=, this] {
+        return gpu::makeComputePipeline(device_,
+                                        bindless_ ? shaders::visibility_gbuffer_bindless_comp()
+                                                  : shaders::visibility_gbuffer_comp(),
+                                        constants(key), *compute_layout_, "visibility to G-buffer");
+    });
+}
+
+vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
+    return *shade_.findOrMake(key, [=, this] {
+        const bool batched = (key.light_flags & io::kLightBatched) != 0;
+        const auto plain = bindless_ ? shaders::visibility_shade_bindless_comp()
+                                     : shaders::visibility_shade_comp();
+        const auto together = bindless_ ? shaders::visibility_shade_batched_bindless_comp()
+                                        : shaders::visibility_shade_batched_comp();
+        return gpu::makeComputePipeline(device_, batched ? together : plain, constants(key),
+                                        *compute_layout_, "visibility to radiance");
+    });
+}
+
+} // namespace froxel::render

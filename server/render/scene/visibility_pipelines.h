@@ -1,0 +1,61 @@
+// Pipelines and layouts of the visibility passes. Sets: 0 frame; 1 material (raster) or screen
+// (resolve); 2 geometry and draws; 3 every texture of the scene, or one material's.
+#pragma once
+
+#include "render/pipelines/pipelines.h"
+
+namespace froxel::render {
+
+class VisibilityPipelines {
+  public:
+    // Of set 2: geometry and draws, 13; ids, G-buffer; what compute rasters by, 4; its depth, ids.
+    static constexpr uint32_t kBindings = 21;
+    static constexpr vk::Format kIdFormat = vk::Format::eR32Uint;
+
+    [[nodiscard]] static constexpr vk::DescriptorType bindingType(uint32_t binding) {
+        return binding == 13 ? vk::DescriptorType::eSampledImage
+               : binding == 14 || binding == 19 || binding == 20
+                   ? vk::DescriptorType::eStorageImage
+                   : vk::DescriptorType::eStorageBuffer;
+    }
+
+    // texture_count: of the whole scene; 0 where materials are bound one at a time.
+    VisibilityPipelines(const gpu::Device& device,
+                        const gpu::Timeline& timeline,
+                        VariantMaker& maker,
+                        const Pipelines& shared,
+                        uint32_t texture_count);
+
+    // Depth and ids. material_flags: of a masked material, else of its faces alone.
+    [[nodiscard]] vk::Pipeline raster(uint32_t material_flags);
+    // From ids to the G-buffer, and from ids to radiance.
+    [[nodiscard]] vk::Pipeline gbuffer(const VariantKey& key);
+    [[nodiscard]] vk::Pipeline shade(const VariantKey& key);
+    [[nodiscard]] vk::Pipeline cull() const { return *cull_; }
+    [[nodiscard]] vk::Pipeline compact() const { return *compact_; }
+
+    [[nodiscard]] bool bindless() const { return bindless_; }
+    [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
+    [[nodiscard]] vk::DescriptorSetLayout textureLayout() const { return *texture_layout_; }
+    [[nodiscard]] vk::PipelineLayout rasterLayout() const { return *raster_layout_; }
+    [[nodiscard]] vk::PipelineLayout computeLayout() const { return *compute_layout_; }
+
+    [[nodiscard]] gpu::SpecConstants constants(const VariantKey& key) const;
+
+  private:
+    [[nodiscard]] vk::raii::Pipeline makeRaster(uint32_t material_flags) const;
+
+    const gpu::Device& device_;
+    bool bindless_;
+    vk::raii::DescriptorSetLayout set_layout_;
+    vk::raii::DescriptorSetLayout texture_layout_;
+    vk::raii::PipelineLayout raster_layout_;
+    vk::raii::PipelineLayout compute_layout_;
+    vk::raii::Pipeline cull_;
+    vk::raii::Pipeline compact_;
+    VariantCache<uint32_t> raster_;
+    VariantCache<VariantKey> gbuffer_;
+    VariantCache<VariantKey> shade_;
+};
+
+} // namespace froxel::render

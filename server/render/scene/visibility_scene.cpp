@@ -1,0 +1,264 @@
+#include "render/scene/visibility_scene.h"
+
+#include "core/assert.h"
+#include "gpu/pipeline.h"
+#include "interface/constants.h"
+#include "render/scene/scene_resources.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace froxel::render {
+
+namespace {
+
+using Usage = vk::BufferUsageFlagBits;
+
+constexpr size_t kMostMeshlets = size_t{1} << (32 - io::kTriangleBits);
+
+bool solid(const DrawItem& item) {
+    return (item.material_flags & io::kMaterialBlend) == 0;
+}
+
+// The flags that tell the raster pass's pipelines apart: all of a masked material's, else its
+// faces.
+uint32_t rasterFlags(const DrawItem& item) {
+    const bool masked = (item.material_flags & io::kMaterialMask) != 0;
+    return masked ? item.material_flags : item.material_flags & io::kMaterialDoubleSided;
+}
+
+// Items of one group have equal keys; opaque ones come first, they need no shading.
+auto groupKey(const DrawItem& item) {
+    const bool masked = (item.material_flags & io::kMaterialMask) != 0;
+    return std::tuple(masked, masked ? item.primitive.material : 0U, rasterFlags(item),
+                      item.mirrored);
+}
+
+// Placed meshlets in the order of their draws, groups filled up to whole workgroups.
+class Placer {
+  public:
+    explicit Placer(const SceneResources& scene) : scene_(scene) {
+        std::vector<uint32_t> order;
+        for (uint32_t i = 0; i < scene.items.size(); ++i) {
+            if (solid(scene.items[i])) {
+                order.push_back(i);
+            }
+        }
+        std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+            return groupKey(scene.items[a]) < groupKey(scene.items[b]);
+        });
+        const DrawItem* last = nullptr;
+        for (const uint32_t i : order) {
+            const DrawItem& item = scene.items[i];
+            if (last == nullptr || groupKey(*last) != groupKey(item)) {
+                closeGroup();
+                groups.push_back({item.primitive.material, rasterFlags(item), item.mirrored,
+                                  io::MeshletGroup{blockCount(), 0}, 0});
+            }
+            place(item);
+            last = &item;
+        }
+        closeGroup();
+    }
+
+    std::vector<io::VisibleItem> items;
+    std::vector<io::PlacedMeshlet> meshlets;
+    std::vector<VisibilityGroup> groups;
+    uint32_t triangle_count = 0;
+
+  private:
+    [[nodiscard]] uint32_t blockCount() const {
+        return static_cast<uint32_t>(meshlets.size() / io::kCullGroup);
+    }
+    void closeGroup() {
+        if (groups.empty()) {
+            return;
+        }
+        while (meshlets.size() % io::kCullGroup != 0) {
+            io::PlacedMeshlet filler{};
+            filler.draw_group = static_cast<uint32_t>(groups.size()) - 1;
+            meshlets.push_back(filler);
+        }
+        auto& blocks = groups.back().blocks;
+        blocks.block_count = blockCount() - blocks.first_block;
+    }
+    void place(const DrawItem& item) {
+        const auto& primitive = item.primitive;
+        const auto item_index = static_cast<uint32_t>(items.size());
+        items.push_back({item.instance, static_cast<uint32_t>(primitive.vertex_offset),
+                         primitive.material, item.material_flags});
+        for (uint32_t i = 0; i < primitive.meshlet_count; ++i) {
+            const Meshlet& m = scene_.meshlets[primitive.first_meshlet + i];
+            FROXEL_ASSERT(m.index_count <= 3U << io::kTriangleBits,
+                          "an id has bits for every triangle of a meshlet");
+            meshlets.push_back({item_index, m.first_index, m.index_count, m.radius, m.center,
+                                m.cone_cutoff, m.cone_axis,
+                                static_cast<uint32_t>(groups.size()) - 1});
+            triangle_count += m.index_count / 3;
+        }
+        groups.back().meshlet_count += primitive.meshlet_count;
+    }
+
+    const SceneResources& scene_;
+};
+
+template <class T>
+gpu::Buffer uploadTable(gpu::MemoryArena& arena,
+                        gpu::Uploader& uploader,
+                        const std::vector<T>& table,
+                        std::string_view name) {
+    const auto bytes = std::as_bytes(std::span(table));
+    auto buffer = arena.makeBuffer(bytes.size(), Usage::eStorageBuffer | Usage::eTransferDst,
+                                   gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, bytes);
+    return buffer;
+}
+
+uint32_t textureCount(const SceneResources& scene) {
+    return scene.device.traits().descriptor_indexing
+               ? static_cast<uint32_t>(scene.material_textures.size())
+               : 0;
+}
+
+} // namespace
+
+std::string VisibilityScene::unusable(const SceneResources& scene) {
+    const auto& traits = scene.device.traits();
+    if (!traits.visibility_lacks.empty()) {
+        return "the device lacks " + traits.visibility_lacks;
+    }
+    size_t meshlet_count = 0;
+    for (const auto& item : scene.items) {
+        // Groups fill up workgroups: at most one a material and winding.
+        meshlet_count += solid(item) ? item.primitive.meshlet_count : 0;
+    }
+    meshlet_count += size_t{io::kCullGroup} * 4 * (scene.material_uniforms.size() + 1);
+    if (meshlet_count > kMostMeshlets) {
+        return "the scene has more than " + std::to_string(kMostMeshlets) + " meshlets";
+    }
+    return {};
+}
+
+VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
+    : arena(scene.device),
+      pipelines(scene.device, scene.timeline, scene.variants, scene.pipelines, textureCount(scene)),
+      device_(scene.device) {
+    Placer placer(scene);
+    groups = std::move(placer.groups);
+    placed = std::move(placer.meshlets);
+    triangle_count = placer.triangle_count;
+    block_count = static_cast<uint32_t>(placed.size() / io::kCullGroup);
+    std::vector<io::MeshletGroup> blocks;
+    for (const auto& group : groups) {
+        blocks.push_back(group.blocks);
+    }
+    for (const auto& item : placer.items) {
+        item_instances.push_back(item.instance);
+        material_flags |= item.flags;
+        materials_in_use.push_back(item.material_index);
+    }
+    std::sort(materials_in_use.begin(), materials_in_use.end());
+    materials_in_use.erase(std::unique(materials_in_use.begin(), materials_in_use.end()),
+                           materials_in_use.end());
+
+    items = uploadTable(arena, uploader, placer.items, "visible items");
+    meshlets = uploadTable(arena, uploader, placed, "placed meshlets");
+    group_buffer = uploadTable(arena, uploader, blocks, "meshlet groups");
+    materials = uploadTable(arena, uploader, scene.material_uniforms, "materials (storage)");
+    const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
+        return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
+                                name);
+    };
+    commands = scratch(placed.size() * sizeof(io::DrawCommand),
+                       Usage::eIndirectBuffer | Usage::eTransferDst, "culled draws");
+    ranks = scratch(placed.size() * sizeof(uint32_t), {}, "cull ranks");
+    counts = scratch((groups.size() + block_count) * sizeof(uint32_t), Usage::eIndirectBuffer,
+                     "culled draw counts");
+    if (textureCount(scene) > 0) {
+        writeTextures(scene);
+    }
+    compute_unusable = ComputeRaster::unusable(device_, *this);
+}
+
+ComputeRaster& VisibilityScene::computeRaster() {
+    if (!compute_raster_) {
+        compute_raster_ = std::make_unique<ComputeRaster>(device_, *this);
+    }
+    return *compute_raster_;
+}
+
+void VisibilityScene::writeTextures(const SceneResources& scene) {
+    const auto& textures = scene.material_textures;
+    const auto count = static_cast<uint32_t>(textures.size());
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, count};
+    pool_ = gpu::makeDescriptorPool(scene.device, std::array{size});
+    texture_set_ = gpu::makeSet(scene.device, pool_, pipelines.textureLayout());
+    const vk::WriteDescriptorSet write{.dstSet = *texture_set_,
+                                       .dstBinding = 0,
+                                       .descriptorCount = count,
+                                       .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                       .pImageInfo = textures.data()};
+    scene.device.handle().updateDescriptorSets(write, {});
+}
+
+VisibilityFrame::VisibilityFrame(const gpu::Device& device, const VisibilityScene& scene)
+    : device_(device), pool_(nullptr) {
+    using Type = vk::DescriptorType;
+    const std::array sizes = {
+        vk::DescriptorPoolSize{Type::eStorageBuffer, VisibilityPipelines::kBindings},
+        vk::DescriptorPoolSize{Type::eSampledImage, 1},
+        vk::DescriptorPoolSize{Type::eStorageImage, 3}};
+    pool_ = gpu::makeDescriptorPool(device, sizes);
+    set_ = gpu::makeSet(device, pool_, scene.pipelines.setLayout());
+}
+
+void VisibilityFrame::write(const Bindings& bindings) {
+    const auto whole = [](const gpu::Buffer& buffer) {
+        return vk::DescriptorBufferInfo{*buffer.handle, 0, VK_WHOLE_SIZE};
+    };
+    const auto& r = bindings.resources;
+    const auto& s = bindings.scene;
+    // What the frame lacks is described as none.
+    const vk::DescriptorBufferInfo none{.buffer = {}, .offset = 0, .range = VK_WHOLE_SIZE};
+    const auto* raster = bindings.raster;
+    std::array<vk::DescriptorBufferInfo, VisibilityPipelines::kBindings> buffers = {
+        whole(r.position_buffer),
+        whole(r.surface_buffer),
+        whole(*r.extended_buffer.handle ? r.extended_buffer : r.surface_buffer),
+        whole(r.index_buffer),
+        whole(s.items),
+        whole(s.meshlets),
+        whole(s.group_buffer),
+        whole(s.materials),
+        bindings.instances,
+        whole(s.commands),
+        whole(s.ranks),
+        whole(s.counts),
+        bindings.order};
+    buffers[15] =
+        raster != nullptr ? vk::DescriptorBufferInfo{bindings.words, 0, VK_WHOLE_SIZE} : none;
+    buffers[16] = raster != nullptr ? whole(raster->counts) : none;
+    buffers[17] = raster != nullptr ? whole(raster->meshlets) : none;
+    buffers[18] = raster != nullptr ? whole(raster->large) : none;
+    std::array<vk::DescriptorImageInfo, VisibilityPipelines::kBindings> images;
+    const auto image = [&](uint32_t binding, vk::ImageView view) {
+        images[binding] = {.imageView = view, .imageLayout = vk::ImageLayout::eGeneral};
+    };
+    image(13, bindings.ids);
+    image(14, bindings.gbuffer);
+    image(19, bindings.depth);
+    image(20, bindings.ids);
+    std::array<vk::WriteDescriptorSet, VisibilityPipelines::kBindings> writes;
+    for (uint32_t i = 0; i < writes.size(); ++i) {
+        writes[i] = {.dstSet = *set_,
+                     .dstBinding = i,
+                     .descriptorCount = 1,
+                     .descriptorType = VisibilityPipelines::bindingType(i),
+                     .pImageInfo = &images[i],
+                     .pBufferInfo = &buffers[i]};
+    }
+    device_.handle().updateDescriptorSets(writes, {});
+}
+
+} // namespace froxel::render

@@ -1,0 +1,105 @@
+// What the visibility passes know of a scene: every solid meshlet where it is placed, in the order
+// of their draws, and all materials at once. Made when a frame first asks for it.
+#pragma once
+
+#include "gpu/memory.h"
+#include "gpu/upload.h"
+#include "interface/frame_io.h"
+#include "interface/visibility_io.h"
+#include "render/scene/compute_raster.h"
+#include "render/scene/visibility_pipelines.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace froxel::render {
+
+class SceneResources;
+
+// Meshlets drawn in one call; of opaque materials one group holds all with the same faces.
+struct VisibilityGroup {
+    uint32_t material = 0;       // of masked ones
+    uint32_t material_flags = 0; // what the raster pass looks at
+    bool mirrored = false;
+    io::MeshletGroup blocks{};
+    uint32_t meshlet_count = 0;
+};
+
+class VisibilityScene {
+  public:
+    // Throws vk::SystemError.
+    VisibilityScene(SceneResources& scene, gpu::Uploader& uploader);
+
+    // Empty when visibility passes can draw the scene on the device, else why not.
+    [[nodiscard]] static std::string unusable(const SceneResources& scene);
+
+    std::vector<VisibilityGroup> groups;
+    std::vector<uint32_t> materials_in_use;
+    std::vector<io::PlacedMeshlet> placed; // the host's copy, for ordering them
+    std::vector<uint32_t> item_instances;
+    uint32_t block_count = 0;
+    uint32_t material_flags = 0; // of any solid item
+    uint32_t triangle_count = 0;
+
+    gpu::MemoryArena arena;
+    gpu::Buffer items;
+    gpu::Buffer meshlets;
+    gpu::Buffer group_buffer;
+    gpu::Buffer materials;
+    // Written by culling; frames of all viewers follow each other on one queue.
+    gpu::Buffer commands;
+    gpu::Buffer ranks;
+    gpu::Buffer counts;
+
+    VisibilityPipelines pipelines;
+
+    // Why ids cannot be rastered in compute; empty: they can.
+    std::string compute_unusable;
+    // Made at the first call; compute_unusable is empty. Throws vk::SystemError.
+    [[nodiscard]] ComputeRaster& computeRaster();
+
+    // Every texture of the scene; null where one material is bound at a time.
+    [[nodiscard]] vk::DescriptorSet textureSet() const {
+        return *texture_set_ ? *texture_set_ : vk::DescriptorSet{};
+    }
+
+  private:
+    void writeTextures(const SceneResources& scene);
+
+    const gpu::Device& device_;
+    std::unique_ptr<ComputeRaster> compute_raster_;
+    vk::raii::DescriptorPool pool_{nullptr};
+    vk::raii::DescriptorSet texture_set_{nullptr};
+};
+
+// One frame slot's view of it all: set 2.
+class VisibilityFrame {
+  public:
+    VisibilityFrame(const gpu::Device& device, const VisibilityScene& scene);
+
+    struct Bindings {
+        const SceneResources& resources;
+        const VisibilityScene& scene;
+        vk::DescriptorBufferInfo instances; // io::InstanceView
+        vk::DescriptorBufferInfo order;     // of the placed meshlets
+        vk::ImageView ids;
+        vk::ImageView gbuffer;
+        // Where compute rasters; else none.
+        const ComputeRaster* raster = nullptr;
+        vk::Buffer words;
+        vk::ImageView depth;
+    };
+    // The slot is not in flight.
+    void write(const Bindings& bindings);
+    [[nodiscard]] vk::DescriptorSet set() const { return *set_; }
+
+  private:
+    const gpu::Device& device_;
+    vk::raii::DescriptorPool pool_;
+    vk::raii::DescriptorSet set_{nullptr};
+};
+
+} // namespace froxel::render

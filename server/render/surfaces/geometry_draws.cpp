@@ -1,0 +1,132 @@
+#include "render/surfaces/geometry_draws.h"
+
+#include "interface/constants.h"
+#include "interface/peel_io.h"
+
+#include <array>
+
+namespace froxel::render {
+
+void bindGeometry(const FrameContext& frame,
+                  vk::PipelineLayout layout,
+                  vk::DescriptorSet frame_set,
+                  vk::Buffer indices,
+                  vk::DeviceSize rows) {
+    const auto& cmd = frame.slot.cmd;
+    const auto& scene = frame.scene;
+    const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
+                                *scene.extended_buffer.handle, // none: no pipeline reads it
+                                frame.slot.upload.buffer()};
+    const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, rows};
+    cmd.bindVertexBuffers(0, buffers, offsets);
+    cmd.bindIndexBuffer(indices, 0, vk::IndexType::eUint32);
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, frame_set, {});
+}
+
+namespace {
+
+// The variant of a pass for a group: only the flags that the pass's shader looks at.
+VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
+    const auto& plan = frame.plan;
+    switch (pass) {
+    case GeometryPass::kDepth:
+    case GeometryPass::kOverdraw: {
+        const bool masked = (group.material_flags & io::kMaterialMask) != 0;
+        return {masked ? group.material_flags : 0U, 0, 0};
+    }
+    case GeometryPass::kPeelSelect:
+    case GeometryPass::kPeelCount:
+        return {};
+    case GeometryPass::kGbuffer:
+    case GeometryPass::kGbufferAfterDepth:
+        return {group.material_flags & ~plan.gbuffer_unused_material_flags, 0,
+                plan.gbuffer_output_flags};
+    case GeometryPass::kTransparent: // effects have passes of their own for solid surfaces
+    case GeometryPass::kWeighted:
+    case GeometryPass::kPeelShade:
+        return {group.material_flags, plan.forward_light_flags, plan.blended_output_flags};
+    default:
+        return {group.material_flags, plan.forward_light_flags, 0};
+    }
+}
+
+constexpr uint32_t kStride = sizeof(vk::DrawIndexedIndirectCommand);
+
+vk::DeviceSize commandOffset(const FrameContext& frame, uint32_t command) {
+    return frame.offsets.commands + vk::DeviceSize{command} * kStride;
+}
+
+// One by one, so that each tells its triangles' places; returns the next draw's.
+uint32_t drawCounted(const FrameContext& frame,
+                     const DrawGroup& group,
+                     io::PeelDraw draw,
+                     vk::PipelineLayout layout) {
+    const auto& cmd = frame.slot.cmd;
+    for (uint32_t i = 0; i < group.command_count; ++i) {
+        const uint32_t command = group.first_command + i;
+        cmd.pushConstants<io::PeelDraw>(layout, vk::ShaderStageFlagBits::eFragment, 0, draw);
+        cmd.drawIndexedIndirect(frame.slot.upload.buffer(), commandOffset(frame, command), 1,
+                                kStride);
+        draw.first_triangle += frame.draws.commands[command].indexCount / 3;
+    }
+    return draw.first_triangle;
+}
+
+} // namespace
+
+void inGroups(const FrameContext& frame,
+              GeometryPass pass,
+              std::span<const DrawGroup> groups,
+              const std::function<void(std::span<const DrawGroup>, bool first)>& record) {
+    auto& pipelines = frame.scene.pipelines;
+    // All that are missing are asked for, before the first that is ends the recording.
+    for (const DrawGroup& group : groups) {
+        (void)pipelines.prepareGeometry(pass, variant(frame, pass, group));
+    }
+    inShares(
+        frame, groups,
+        [&](const DrawGroup& group) {
+            return pipelines.isNewGeometry(pass, variant(frame, pass, group));
+        },
+        record);
+}
+
+void drawGroups(const FrameContext& frame,
+                GeometryPass pass,
+                std::span<const DrawGroup> groups,
+                uint32_t layer) {
+    const auto& cmd = frame.slot.cmd;
+    auto& pipelines = frame.scene.pipelines;
+    const auto layout =
+        peels(pass) ? pipelines.peelPipelineLayout() : pipelines.geometryPipelineLayout();
+    bindGeometry(frame, layout, *frame.slot.frame_set,
+                 frame.draws.indices.empty() ? *frame.scene.index_buffer.handle
+                                             : frame.slot.upload.buffer(),
+                 frame.offsets.rows);
+    vk::Pipeline bound;
+    io::PeelDraw peel{.first_triangle = 0, .layer = layer};
+    for (const DrawGroup& group : groups) {
+        const auto pipeline = pipelines.geometry(pass, variant(frame, pass, group));
+        if (pipeline != bound) {
+            cmd.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+            bound = pipeline;
+        }
+        const bool both_sides = (group.material_flags & io::kMaterialDoubleSided) != 0;
+        cmd.setCullMode(both_sides ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+        cmd.setFrontFace(group.mirrored ? vk::FrontFace::eClockwise
+                                        : vk::FrontFace::eCounterClockwise);
+        if (!depthOnly(pass) || (group.material_flags & io::kMaterialMask) != 0) {
+            cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1,
+                                   frame.scene.materialSet(group.material), {});
+        }
+        if (peels(pass)) {
+            peel.first_triangle = drawCounted(frame, group, peel, layout);
+        } else {
+            cmd.drawIndexedIndirect(frame.slot.upload.buffer(),
+                                    commandOffset(frame, group.first_command), group.command_count,
+                                    kStride);
+        }
+    }
+}
+
+} // namespace froxel::render

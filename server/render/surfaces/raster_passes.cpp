@@ -1,0 +1,104 @@
+#include "render/surfaces/raster_passes.h"
+
+#include "render/pipelines/screen_groups.h"
+#include "render/scene/compute_raster.h"
+#include "render/surfaces/visibility_binding.h"
+
+#include <array>
+
+namespace froxel::render {
+
+namespace {
+
+using Point = vk::PipelineBindPoint;
+
+const ComputeRaster& raster(const FrameContext& frame) {
+    return frame.visibility->computeRaster();
+}
+
+// What is opaque; then what is masked, with all textures or one material's at a time.
+template <class Dispatch>
+void drawMaterials(const FrameContext& frame, const ComputeRaster::Pass& pass, Dispatch dispatch) {
+    const auto& scene = *frame.visibility;
+    const auto draw = [&](vk::DescriptorSet textures, uint32_t material) {
+        frame.slot.cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3,
+                                          textures, {});
+        pushVisibilityWords(frame, {material, 0});
+        dispatch();
+    };
+    const bool all_textures = scene.pipelines.bindless();
+    if (*pass.opaque) { // reads none
+        bindVisibilityCompute(frame, *pass.opaque);
+        draw(all_textures ? scene.textureSet()
+                          : frame.scene.materialSet(scene.materials_in_use.front()),
+             io::kAnyMaterial);
+    }
+    if (!*pass.masked) {
+        return;
+    }
+    bindVisibilityCompute(frame, *pass.masked);
+    if (all_textures) {
+        draw(scene.textureSet(), io::kAnyMaterial);
+    }
+    for (const uint32_t material : raster(frame).masked_materials) {
+        draw(frame.scene.materialSet(material), material);
+    }
+}
+
+vk::BufferImageCopy wholeImage(const FrameContext& frame, vk::ImageAspectFlags aspect) {
+    const auto& size = frame.slot.targets->size;
+    return {.imageSubresource = {aspect, 0, 0, 1},
+            .imageExtent = {size.width_px, size.height_px, 1}};
+}
+
+} // namespace
+
+void recordRasterClear(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_clear");
+    const io::RasterCounts counts{.meshlets = 0, .one_y = 1, .one_z = 1, .padding0 = 0, .large = 0};
+    frame.slot.cmd.fillBuffer(*frame.slot.targets->words.handle, 0, VK_WHOLE_SIZE, 0);
+    frame.slot.cmd.updateBuffer<io::RasterCounts>(*raster(frame).counts.handle, 0, counts);
+}
+
+void recordRasterCull(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
+    bindVisibilityCompute(frame, raster(frame).cull());
+    pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
+                                static_cast<uint32_t>(frame.visibility->groups.size())});
+    frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
+}
+
+void recordRasterMeshlets(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_meshlets");
+    drawMaterials(frame, raster(frame).rasterMeshlets(),
+                  [&] { frame.slot.cmd.dispatchIndirect(*raster(frame).counts.handle, 0); });
+}
+
+void recordRasterBlocks(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_blocks");
+    drawMaterials(frame, raster(frame).rasterBlocks(),
+                  [&] { frame.slot.cmd.dispatch(io::kRasterBlockGroups, 1, 1); });
+}
+
+void recordRasterUnpack(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_unpack");
+    bindVisibilityCompute(frame, raster(frame).unpack());
+    const auto& size = frame.slot.targets->size;
+    frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
+}
+
+void recordDepthOut(const FrameContext& frame) {
+    const auto& targets = *frame.slot.targets;
+    frame.slot.cmd.copyImageToBuffer(*targets.compute_depth.handle, vk::ImageLayout::eGeneral,
+                                     *targets.words.handle,
+                                     wholeImage(frame, vk::ImageAspectFlagBits::eColor));
+}
+
+void recordDepthIn(const FrameContext& frame) {
+    const auto& targets = *frame.slot.targets;
+    frame.slot.cmd.copyBufferToImage(*targets.words.handle, *targets.depth.handle,
+                                     vk::ImageLayout::eGeneral,
+                                     wholeImage(frame, vk::ImageAspectFlagBits::eDepth));
+}
+
+} // namespace froxel::render

@@ -1,0 +1,19 @@
+// Triangle ids rastered in compute: what recordCompact and recordVisibility do elsewhere. As in
+// passes.h no barrier is here.
+#pragma once
+
+#include "render/frame/frame_context.h"
+
+namespace froxel::render {
+
+void recordRasterClear(const FrameContext& frame);    // clears words and counts
+void recordRasterCull(const FrameContext& frame);     // writes the list of visible meshlets
+void recordRasterMeshlets(const FrameContext& frame); // reads that; writes words, large triangles
+void recordRasterBlocks(const FrameContext& frame);   // reads large triangles; writes words
+void recordRasterUnpack(const FrameContext& frame);   // reads words; writes depth and ids
+
+// Depth to where the rasteriser tests it, in two copies by way of the words' buffer.
+void recordDepthOut(const FrameContext& frame); // reads depth
+void recordDepthIn(const FrameContext& frame);  // writes the rasteriser's
+
+} // namespace froxel::render

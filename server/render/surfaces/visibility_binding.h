@@ -1,0 +1,26 @@
+// What the compute passes of the visibility path bind, whatever rasters.
+#pragma once
+
+#include "render/frame/frame_context.h"
+#include "render/scene/visibility_scene.h"
+
+#include <array>
+
+namespace froxel::render {
+
+// The pipeline with sets 0 to 2: frame, screen, visibility.
+inline void bindVisibilityCompute(const FrameContext& frame, vk::Pipeline pipeline) {
+    const auto& cmd = frame.slot.cmd;
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
+    const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
+                             frame.slot.visibility->set()};
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
+                           frame.visibility->pipelines.computeLayout(), 0, sets, {});
+}
+
+inline void pushVisibilityWords(const FrameContext& frame, const std::array<uint32_t, 2>& words) {
+    frame.slot.cmd.pushConstants<uint32_t>(frame.visibility->pipelines.computeLayout(),
+                                           vk::ShaderStageFlagBits::eCompute, 0, words);
+}
+
+} // namespace froxel::render
