@@ -64,7 +64,7 @@ std::vector<bench::View> viewsOf(const BenchOptions& options, const scene::Scene
     std::vector<bench::View> views;
     for (const auto& name : names) {
         const auto choice = name.empty() ? CameraChoice{} : parseCamera(name).value();
-        constexpr view::Size kUsual; // sweeps draw pictures of its shape
+        constexpr settings::Size kUsual; // sweeps draw pictures of its shape
         views.push_back({name, findCamera(choice, scene, kUsual).value(),
                          static_cast<double>(views.size()) * kViewStepS});
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/device_options.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <filesystem>
 #include <optional>
@@ -18,11 +18,11 @@ struct BenchOptions {
     std::vector<std::string> presets;           // none: all but `smoke`
     std::string scene = "builtin";
     gpu::DeviceOptions device;
-    view::ViewSettings settings;      // what no sweep varies, but for the camera
+    settings::ViewSettings settings;  // what no sweep varies, but for the camera
     std::filesystem::path light_set;  // that settings.lights.placed was read from; empty: none
     std::vector<std::string> cameras; // none: the scene's first three
     double seconds_per_row = 10;
-    view::Size error_size{640, 360};
+    settings::Size error_size{640, 360};
     std::optional<double> r1_pairs_limit; // none: by the device's kind
     std::optional<double> r2_pairs_limit;
     std::filesystem::path out;    // JSON

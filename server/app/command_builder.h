@@ -80,7 +80,7 @@ class CommandBuilder {
     template <class T, class Limit>
     CLI::Option* number(const std::string& option,
                         T& target,
-                        const view::Range<Limit>& range,
+                        const settings::Range<Limit>& range,
                         const std::string& shown_default,
                         const std::string& help) {
         const auto parse = [range](const std::string& text) { return parseNumber(text, range); };
@@ -91,7 +91,7 @@ class CommandBuilder {
     template <class T, class Limit>
     CLI::Option* number(const std::string& option,
                         T& target,
-                        const view::Range<Limit>& range,
+                        const settings::Range<Limit>& range,
                         const std::string& help) {
         return number(option, target, range, fmt::format("{}", target), help);
     }

@@ -63,7 +63,7 @@ Json serviceReport() {
 // One frame with default settings from the scene's first camera: what the automatic choices are
 // there, what is left out and where memory goes is best told by doing it.
 Json drawOnce(gpu::Device& device, const scene::Scene& scene) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.camera = findCamera(DefaultCamera{}, scene, settings.size).value();
     render::Renderer renderer(device, scene);
     render::ViewRenderer viewer(renderer);

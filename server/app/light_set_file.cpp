@@ -9,7 +9,7 @@
 
 namespace froxel::app {
 
-Result<view::PlacedLights> readLightSet(const std::filesystem::path& path) {
+Result<settings::PlacedLights> readLightSet(const std::filesystem::path& path) {
     // Some thirty times what the most lights take: nobody's video by mistake.
     constexpr uintmax_t kMaxBytes = 16 * 1024 * 1024;
     std::error_code failure;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/error.h"
-#include "view/placed_lights.h"
+#include "settings/placed_lights.h"
 
 #include <filesystem>
 
@@ -10,6 +10,6 @@ namespace froxel::app {
 
 // The canonical JSON of a PlacedLights message that has `lights` alone. Errors: kIo;
 // kInvalidArgument naming the file, the field, its value and what would be right.
-[[nodiscard]] Result<view::PlacedLights> readLightSet(const std::filesystem::path& path);
+[[nodiscard]] Result<settings::PlacedLights> readLightSet(const std::filesystem::path& path);
 
 } // namespace froxel::app

@@ -8,11 +8,11 @@
 namespace froxel::app {
 namespace {
 
-constexpr view::Range<uint32_t> kViewersRange{"viewers", 1, 10'000};
-constexpr view::Range<double> kSecondsRange{"seconds", 0.1, 86'400.0};
-constexpr view::Range<double> kRampRange{"ramp", 0.0, 3'600.0};
-constexpr view::Range<double> kLatencyRange{"max_latency_ms", 0.001, 1e6};
-constexpr view::Range<double> kRateRange{"min_fps", 0.001, 1e6};
+constexpr settings::Range<uint32_t> kViewersRange{"viewers", 1, 10'000};
+constexpr settings::Range<double> kSecondsRange{"seconds", 0.1, 86'400.0};
+constexpr settings::Range<double> kRampRange{"ramp", 0.0, 3'600.0};
+constexpr settings::Range<double> kLatencyRange{"max_latency_ms", 0.001, 1e6};
+constexpr settings::Range<double> kRateRange{"min_fps", 0.001, 1e6};
 
 constexpr const char* kFooter =
     "Latency is from sending a command to having the last byte of the first frame that shows it, "
@@ -70,10 +70,10 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
     command.text("--tls-authorities", "FILE", options.tls_authorities, "the system's",
                  "Certificates to trust with wss://, in PEM");
     command.value("--size", "WxH", options.size, parseSize, "the server's", "Picture in pixels");
-    command.number("--lights", options.light_count, view::kLightCountRange, "the server's",
+    command.number("--lights", options.light_count, settings::kLightCountRange, "the server's",
                    "Seeded lights");
-    command.name("--codec", options.codec, view::kChosenCodecNames, "How pictures are encoded");
-    command.number("--video-kbps", options.video_kbps, view::kVideoKbpsRange, "the server's",
+    command.name("--codec", options.codec, settings::kChosenCodecNames, "How pictures are encoded");
+    command.number("--video-kbps", options.video_kbps, settings::kVideoKbpsRange, "the server's",
                    "Of a video codec: 1000 bits a second");
     command.number(
         "--max-latency-ms", options.max_latency_ms, kLatencyRange, "",

@@ -52,9 +52,9 @@ load::RunOptions runOptions(const LoadOptions& options) {
         run.viewer.size->set_height(options.size->height_px);
     }
     run.viewer.light_count = options.light_count;
-    if (options.codec != view::kPlainCodec || options.video_kbps) {
+    if (options.codec != settings::kPlainCodec || options.video_kbps) {
         v1::SetEncoding& encoding = run.viewer.encoding.emplace();
-        encoding.set_codec(session::toProto<v1::Codec>(view::kCodecNames, options.codec));
+        encoding.set_codec(session::toProto<v1::Codec>(settings::kCodecNames, options.codec));
         if (options.video_kbps) {
             encoding.set_video_kbps(*options.video_kbps);
         }

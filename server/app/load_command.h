@@ -2,7 +2,7 @@
 #pragma once
 
 #include "load/target.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -20,9 +20,9 @@ struct LoadOptions {
     double ramp_s = 0;
     std::optional<double> max_latency_ms; // of each viewer, see load_verdict.h
     std::optional<double> min_fps;        // of each viewer
-    std::optional<view::Size> size;       // absent: the server's
+    std::optional<settings::Size> size;   // absent: the server's
     std::optional<uint32_t> light_count;  // likewise
-    view::Codec codec = view::kPlainCodec;
+    settings::Codec codec = settings::kPlainCodec;
     std::optional<uint32_t> video_kbps;    // of a video codec; absent: the server's
     std::string room;                      // shared by all viewers; empty: none
     std::filesystem::path token_file;      // empty: no token is shown

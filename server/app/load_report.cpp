@@ -233,7 +233,7 @@ Json loadReport(const LoadOptions& options, const RunResult& result) {
             {"size", size ? Json{{"width_px", size->width_px}, {"height_px", size->height_px}}
                           : Json(nullptr)},
             {"lights", orNull(options.light_count)},
-            {"codec", view::rowOf(options.codec).name},
+            {"codec", settings::rowOf(options.codec).name},
             {"video_kbps", orNull(options.video_kbps)},
             {"served", servedOf(result)},
             {"host", {{"threads", std::thread::hardware_concurrency()}}},

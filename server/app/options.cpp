@@ -13,8 +13,8 @@
 #include "session/delivery_rows.h"
 #include "session/session_context.h"
 #include "session/settings.h"
-#include "view/ranges.h"
-#include "view/setting_rows.h"
+#include "settings/ranges.h"
+#include "settings/setting_rows.h"
 
 #include <optional>
 #include <utility>
@@ -23,11 +23,11 @@ namespace froxel::app {
 
 namespace {
 
-constexpr view::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
-constexpr view::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
+constexpr settings::Range<uint32_t> kFramesRange{"frames", 1, 100'000};
+constexpr settings::Range<uint32_t> kWarmupRange{"warmup", 0, 1000};
 
-constexpr view::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 86'400.0};
-constexpr view::Range<double> kPairsRange{"pairs", 0.0, 1e18};
+constexpr settings::Range<double> kSecondsPerRowRange{"seconds_per_row", 0.01, 86'400.0};
+constexpr settings::Range<double> kPairsRange{"pairs", 0.0, 1e18};
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 2 usage, 3 scene, 4 device, 5 address in use, 6 device lost while "
@@ -49,7 +49,7 @@ struct Targets {
     Options result;
 };
 
-std::string textOf(const view::Size& size) {
+std::string textOf(const settings::Size& size) {
     return fmt::format("{}x{}", size.width_px, size.height_px);
 }
 
@@ -59,8 +59,9 @@ std::string textOf(const Names& names, Enum value) {
 }
 
 std::string sizeHelp(const std::string& what) {
-    return fmt::format("{} in pixels, {}x{} to {}x{}", what, view::kWidthRange.min,
-                       view::kHeightRange.min, view::kWidthRange.max, view::kHeightRange.max);
+    return fmt::format("{} in pixels, {}x{} to {}x{}", what, settings::kWidthRange.min,
+                       settings::kHeightRange.min, settings::kWidthRange.max,
+                       settings::kHeightRange.max);
 }
 
 Result<std::filesystem::path> parsePicturePath(const std::string& text) {
@@ -118,7 +119,7 @@ void addLensShift(CommandBuilder& command, std::optional<glm::dvec2>& target) {
 
 // A switch that takes a word, as it did before there was a table.
 void addAdaptive(CommandBuilder& command,
-                 const view::SettingOf<session::DeliverySettings>& row,
+                 const settings::SettingOf<session::DeliverySettings>& row,
                  session::DeliverySettings& delivery) {
     static constexpr std::array kSwitchNames = {std::string_view("off"), std::string_view("on")};
     command.name("--adaptive", delivery.adaptive, kSwitchNames, std::string(row.words.help));
@@ -126,7 +127,7 @@ void addAdaptive(CommandBuilder& command,
 
 void addDelivery(CommandBuilder& command, session::DeliverySettings& delivery) {
     for (const auto& row : session::kDeliveryRows) {
-        if (row.kind == view::SettingKind::kSwitch) {
+        if (row.kind == settings::SettingKind::kSwitch) {
             addAdaptive(command, row, delivery);
         } else {
             addSetting(command, row, delivery);
@@ -165,7 +166,7 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.value("--out", "FILE", options.out, parsePicturePath, "",
                   "Last frame: .png, .jpg or .pfm (linear, before the exposure)");
     auto& encoding = options.encoding;
-    for (const auto& row : view::kEncodingRows) {
+    for (const auto& row : settings::kEncodingRows) {
         if (row.name == "quality" || row.name == "chroma") { // a file is no stream
             addSetting(command, row, encoding);
         }
@@ -184,7 +185,7 @@ void addRender(CLI::App& app, Targets& targets) {
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
     addViewSettings(command, settings, options.light_set);
-    command.number("--time", options.time_s, view::kTimeRange, "The lights' clock in seconds");
+    command.number("--time", options.time_s, settings::kTimeRange, "The lights' clock in seconds");
     command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),
                   sizeHelp("Picture"));
     command.value("--camera", "CAMERA", options.camera, parseCamera, "the scene's first",
@@ -292,7 +293,7 @@ void checkRender(const CLI::App& command, const RenderOptions& options) {
 
 // The view that needs it is the only one that looks at it.
 void checkGridCamera(const RenderOptions& options) {
-    if (options.grid_camera && options.settings.debug.view != view::DebugView::kClusterWires) {
+    if (options.grid_camera && options.settings.debug.view != settings::DebugView::kClusterWires) {
         throw CLI::ValidationError("--grid-camera", "applies to --debug-view cluster_wires only");
     }
 }

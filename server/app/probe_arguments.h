@@ -8,7 +8,7 @@ namespace froxel::app {
 
 // `options` outlives the parse.
 inline void addProbeArguments(CommandBuilder& command, ProbeOptions& options) {
-    constexpr view::Range<double> kTimeoutRange{"timeout", 0.01, 3600.0};
+    constexpr settings::Range<double> kTimeoutRange{"timeout", 0.01, 3600.0};
     command.text("URL", "", options.url, options.url,
                  "Of its admin address: /livez, /readyz or /startupz");
     command.number("--timeout", options.timeout_s, kTimeoutRange, "Seconds to wait at most");

@@ -3,7 +3,7 @@
 #include "app/setting_options.h"
 #include "core/assert.h"
 #include "core/text.h"
-#include "view/setting_rows.h"
+#include "settings/setting_rows.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -25,7 +25,7 @@ std::string textOf(T number) {
     return numberText(number);
 }
 
-std::string textOf(const view::Size& size) {
+std::string textOf(const settings::Size& size) {
     return fmt::format("{}x{}", size.width_px, size.height_px);
 }
 
@@ -33,7 +33,7 @@ std::string textOf(const BoundsD3& box) {
     return textOf(box.min) + ";" + textOf(box.max);
 }
 
-std::string textOf(const view::Grid& grid) {
+std::string textOf(const settings::Grid& grid) {
     return grid.automatic ? "auto" : fmt::format("{}x{}x{}", grid.size.x, grid.size.y, grid.size.z);
 }
 
@@ -57,26 +57,26 @@ class Arguments {
 };
 
 // Told even at their defaults: what people look for first.
-bool isTold(const view::Setting& setting) {
+bool isTold(const settings::Setting& setting) {
     return setting.name == "renderer" || setting.name == "lights" || setting.name == "light_radius";
 }
 
-void addSettings(Arguments& arguments, const view::ViewSettings& settings) {
-    const view::ViewSettings usual;
-    for (const auto& row : view::kSettingRows) {
-        const view::SettingValue value = row.get(settings);
-        const view::SettingValue usual_value = row.get(usual);
+void addSettings(Arguments& arguments, const settings::ViewSettings& settings) {
+    const settings::ViewSettings usual;
+    for (const auto& row : settings::kSettingRows) {
+        const settings::SettingValue value = row.get(settings);
+        const settings::SettingValue usual_value = row.get(usual);
         if (value == usual_value && !isTold(row)) {
             continue;
         }
         const std::string option = optionName(row, usual_value);
-        if (row.kind == view::SettingKind::kSwitch) {
+        if (row.kind == settings::SettingKind::kSwitch) {
             arguments.flag(option);
         } else {
-            arguments.always(option, view::textOf(row, value));
+            arguments.always(option, settings::textOf(row, value));
         }
     }
-    arguments.changed("--grid", settings.grid, view::Grid{true, {}, settings.grid.law});
+    arguments.changed("--grid", settings.grid, settings::Grid{true, {}, settings.grid.law});
     if (settings.lights.box) {
         arguments.always("--light-box", textOf(*settings.lights.box));
     }

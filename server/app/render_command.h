@@ -3,7 +3,7 @@
 
 #include "app/value_parsers.h"
 #include "gpu/device_options.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,13 +15,13 @@ namespace froxel::app {
 struct RenderOptions {
     std::string scene = "builtin";
     gpu::DeviceOptions device;
-    view::ViewSettings settings;     // but for the camera, which `camera` chooses
+    settings::ViewSettings settings; // but for the camera, which `camera` chooses
     std::filesystem::path light_set; // that settings.lights.placed was read from; empty: none
     CameraChoice camera;
     std::optional<glm::dvec2> lens_shift;    // of whichever camera it is
     std::optional<CameraChoice> grid_camera; // of the debug view cluster_wires
     double time_s = 0;                       // the lights' clock of the first frame
-    view::Encoding encoding;
+    settings::Encoding encoding;
     std::filesystem::path out; // empty: no picture; else .png, .jpg or .pfm, of the last frame
     uint32_t frame_count = 1;  // frame k is drawn at time_s + k * report::lightStepS()
     // Drawn at time_s before the first frame and not counted: the first frame of a run compiles

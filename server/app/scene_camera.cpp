@@ -13,13 +13,13 @@ namespace {
 
 struct Finder {
     const scene::Scene& scene;
-    const view::Size& size;
+    const settings::Size& size;
 
-    Result<view::Camera> operator()(const DefaultCamera&) const {
+    Result<settings::Camera> operator()(const DefaultCamera&) const {
         return scene::firstCamera(scene, size);
     }
-    Result<view::Camera> operator()(const view::Camera& camera) const { return camera; }
-    Result<view::Camera> operator()(const std::string& name) const {
+    Result<settings::Camera> operator()(const settings::Camera& camera) const { return camera; }
+    Result<settings::Camera> operator()(const std::string& name) const {
         const auto found = std::ranges::find(scene.cameras, name, &scene::NamedCamera::name);
         if (found != scene.cameras.end()) {
             return found->camera;
@@ -36,8 +36,8 @@ struct Finder {
 
 } // namespace
 
-Result<view::Camera>
-findCamera(const CameraChoice& choice, const scene::Scene& scene, const view::Size& size) {
+Result<settings::Camera>
+findCamera(const CameraChoice& choice, const scene::Scene& scene, const settings::Size& size) {
     return std::visit(Finder{scene, size}, choice);
 }
 

@@ -8,7 +8,7 @@ namespace froxel::app {
 
 // size: of the pictures. Errors: kInvalidArgument, naming the camera asked for and those that the
 // scene has.
-[[nodiscard]] Result<view::Camera>
-findCamera(const CameraChoice& choice, const scene::Scene& scene, const view::Size& size);
+[[nodiscard]] Result<settings::Camera>
+findCamera(const CameraChoice& choice, const scene::Scene& scene, const settings::Size& size);
 
 } // namespace froxel::app

@@ -7,18 +7,18 @@
 namespace froxel::app {
 namespace {
 
-constexpr view::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
-constexpr view::Range<uint32_t> kSessionMemoryRange{"session_memory", 16, 1U << 20U};
-constexpr view::Range<uint32_t> kDeviceMemoryRange{"device_memory", 16, 1U << 24U};
-constexpr view::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
-constexpr view::Range<double> kFrameLimitRange{"frame_limit", 0.01, 60.0};
-constexpr view::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
-constexpr view::Range<uint32_t> kRoomRange{"max_viewers_per_room", 0, 100'000};
-constexpr view::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
-constexpr view::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
-constexpr view::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
-constexpr view::Range<double> kDrainRange{"drain_seconds", 0.0, 86'400.0};
-constexpr view::Range<double> kWatchdogRange{"watchdog_seconds", 0.0, 86'400.0};
+constexpr settings::Range<uint32_t> kSessionsRange{"max_sessions", 1, 1000};
+constexpr settings::Range<uint32_t> kSessionMemoryRange{"session_memory", 16, 1U << 20U};
+constexpr settings::Range<uint32_t> kDeviceMemoryRange{"device_memory", 16, 1U << 24U};
+constexpr settings::Range<double> kMinRateRange{"min_fps", 0.0, 1000.0};
+constexpr settings::Range<double> kFrameLimitRange{"frame_limit", 0.01, 60.0};
+constexpr settings::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
+constexpr settings::Range<uint32_t> kRoomRange{"max_viewers_per_room", 0, 100'000};
+constexpr settings::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
+constexpr settings::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
+constexpr settings::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
+constexpr settings::Range<double> kDrainRange{"drain_seconds", 0.0, 86'400.0};
+constexpr settings::Range<double> kWatchdogRange{"watchdog_seconds", 0.0, 86'400.0};
 
 // Whatever follows the scheme is the viewers' matter.
 Result<std::string> parseAdvertise(const std::string& text) {

@@ -42,7 +42,7 @@ std::chrono::milliseconds milliseconds(double seconds) {
 session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_cpu) {
     auto defaults =
         session::defaultsFor(device_is_cpu ? session::DeviceKind::kCpu : session::DeviceKind::kGpu);
-    const view::Size size = options.size.value_or(defaults.settings.size);
+    const settings::Size size = options.size.value_or(defaults.settings.size);
     defaults.settings = options.first_view;
     defaults.settings.size = size;
     defaults.encoding.quality = options.quality.value_or(defaults.encoding.quality);

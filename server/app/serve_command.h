@@ -5,7 +5,7 @@
 #include "gpu/device_options.h"
 #include "net/bind_address.h"
 #include "session/session_context.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -45,12 +45,12 @@ struct ServeOptions {
     // by the device's kind.
     std::optional<double> watchdog_s;
     // What a viewer gets before asking for anything; absent: session::defaultsFor(the device).
-    std::optional<view::Size> size;
-    std::optional<uint32_t> quality; // view::kQualityRange
+    std::optional<settings::Size> size;
+    std::optional<uint32_t> quality; // settings::kQualityRange
     session::DeliverySettings delivery =
         session::defaultsFor(session::DeviceKind::kCpu).delivery; // the same on both
-    view::ViewSettings first_view;   // but for its camera, and its size where that is given above
-    std::filesystem::path light_set; // that first_view.lights.placed was read from; empty: none
+    settings::ViewSettings first_view; // but for its camera, and its size where that is given above
+    std::filesystem::path light_set;   // that first_view.lights.placed was read from; empty: none
     std::optional<glm::dvec2> lens_shift;
     // The built page. Empty: web/ beside the binary, else where this build made it.
     std::filesystem::path web_root;

@@ -2,7 +2,7 @@
 
 #include "app/light_set_file.h"
 #include "core/text.h"
-#include "view/setting_rows.h"
+#include "settings/setting_rows.h"
 
 #include <algorithm>
 
@@ -10,28 +10,28 @@ namespace froxel::app {
 
 namespace {
 
-using view::SettingKind;
-using view::SettingValue;
+using settings::SettingKind;
+using settings::SettingValue;
 
 bool usuallyOn(const SettingValue& usual) {
     const bool* on = std::get_if<bool>(&usual);
     return on != nullptr && *on;
 }
 
-Result<SettingValue> parseSetting(const view::Setting& setting, const std::string& text) {
+Result<SettingValue> parseSetting(const settings::Setting& setting, const std::string& text) {
     const auto value = [](const auto& parsed) -> Result<SettingValue> {
         return parsed ? Result<SettingValue>(*parsed) : parsed.error();
     };
-    const view::Range<double> range{setting.name, setting.min, setting.max};
+    const settings::Range<double> range{setting.name, setting.min, setting.max};
     switch (setting.kind) {
     case SettingKind::kChoice: {
         const auto index = parseName(text, setting.names);
-        return index ? Result<SettingValue>(view::Choice{*index}) : index.error();
+        return index ? Result<SettingValue>(settings::Choice{*index}) : index.error();
     }
     case SettingKind::kWhole:
-        return value(parseNumber(text, view::Range<uint32_t>{setting.name,
-                                                             static_cast<uint32_t>(setting.min),
-                                                             static_cast<uint32_t>(setting.max)}));
+        return value(parseNumber(
+            text, settings::Range<uint32_t>{setting.name, static_cast<uint32_t>(setting.min),
+                                            static_cast<uint32_t>(setting.max)}));
     case SettingKind::kColor:
         return value(parseColor(text, range));
     case SettingKind::kReal:
@@ -41,13 +41,13 @@ Result<SettingValue> parseSetting(const view::Setting& setting, const std::strin
     return value(parseNumber(text, range));
 }
 
-std::string dashed(const view::Setting& setting) {
+std::string dashed(const settings::Setting& setting) {
     std::string name(setting.name);
     std::replace(name.begin(), name.end(), '_', '-');
     return name;
 }
 
-std::string helpOf(const view::Setting& setting) {
+std::string helpOf(const settings::Setting& setting) {
     std::string help(setting.words.help);
     if (setting.kind == SettingKind::kChoice) {
         return help + ": " + describe(setting.names);
@@ -56,14 +56,17 @@ std::string helpOf(const view::Setting& setting) {
     return setting.words.unit.empty() ? help : help + " " + std::string(setting.words.unit);
 }
 
-void addGrid(CommandBuilder& command, view::Grid& target) {
+void addGrid(CommandBuilder& command, settings::Grid& target) {
     const auto parse = [&target](const std::string& text) { return parseGridChoice(text, target); };
     command.value("--grid", "auto|XxYxZ", target, parse, "auto",
                   fmt::format("Clusters across, down and deep, up to {}x{}x{}",
-                              view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+                              settings::kGridXRange.max, settings::kGridYRange.max,
+                              settings::kGridZRange.max));
 }
 
-void addLightPlaces(CommandBuilder& command, view::Lights& lights, std::filesystem::path& file) {
+void addLightPlaces(CommandBuilder& command,
+                    settings::Lights& lights,
+                    std::filesystem::path& file) {
     command.value("--light-box", "BOX", lights.box, parseBox, "the scene's bounds",
                   "Where they move: \"x,y,z;x,y,z\" in metres, least corner first");
     const auto parse = [&file](const std::string& text) {
@@ -76,12 +79,12 @@ void addLightPlaces(CommandBuilder& command, view::Lights& lights, std::filesyst
 
 } // namespace
 
-std::string optionName(const view::Setting& setting, const SettingValue& usual) {
+std::string optionName(const settings::Setting& setting, const SettingValue& usual) {
     return (usuallyOn(usual) ? "--no-" : "--") + dashed(setting);
 }
 
 void addSetting(CommandBuilder& command,
-                const view::Setting& setting,
+                const settings::Setting& setting,
                 const SettingValue& usual,
                 const std::function<void(const SettingValue&)>& set) {
     if (setting.kind == SettingKind::kSwitch) {
@@ -95,7 +98,7 @@ void addSetting(CommandBuilder& command,
 }
 
 void addSettingValue(CommandBuilder& command,
-                     const view::Setting& setting,
+                     const settings::Setting& setting,
                      const std::string& shown_default,
                      const std::function<void(const SettingValue&)>& set) {
     const auto parse = [&setting](const std::string& text) { return parseSetting(setting, text); };
@@ -106,9 +109,9 @@ void addSettingValue(CommandBuilder& command,
 }
 
 void addViewSettings(CommandBuilder& command,
-                     view::ViewSettings& settings,
+                     settings::ViewSettings& settings,
                      std::filesystem::path& light_set) {
-    for (const auto& row : view::kSettingRows) {
+    for (const auto& row : settings::kSettingRows) {
         addSetting(command, row, settings);
     }
     addGrid(command, settings.grid);
@@ -116,10 +119,10 @@ void addViewSettings(CommandBuilder& command,
 }
 
 void addLights(CommandBuilder& command,
-               view::ViewSettings& settings,
+               settings::ViewSettings& settings,
                std::filesystem::path& light_set) {
-    for (const auto& row : view::kSettingRows) {
-        if (row.member_of == view::membersOf<view::Lights>()) {
+    for (const auto& row : settings::kSettingRows) {
+        if (row.member_of == settings::membersOf<settings::Lights>()) {
             addSetting(command, row, settings);
         }
     }

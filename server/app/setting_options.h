@@ -3,8 +3,8 @@
 #pragma once
 
 #include "app/command_builder.h"
-#include "view/setting.h"
-#include "view/settings.h"
+#include "settings/setting.h"
+#include "settings/settings.h"
 
 #include <filesystem>
 #include <functional>
@@ -13,35 +13,36 @@
 namespace froxel::app {
 
 // "--fog-density" of "fog_density"; "--no-animate" of a switch that is usually on.
-[[nodiscard]] std::string optionName(const view::Setting& setting, const view::SettingValue& usual);
+[[nodiscard]] std::string optionName(const settings::Setting& setting,
+                                     const settings::SettingValue& usual);
 
 // The option of one setting. `set` is called with what was given.
 void addSetting(CommandBuilder& command,
-                const view::Setting& setting,
-                const view::SettingValue& usual,
-                const std::function<void(const view::SettingValue&)>& set);
+                const settings::Setting& setting,
+                const settings::SettingValue& usual,
+                const std::function<void(const settings::SettingValue&)>& set);
 
 // Of a setting that is no switch, where words tell its default.
 void addSettingValue(CommandBuilder& command,
-                     const view::Setting& setting,
+                     const settings::Setting& setting,
                      const std::string& shown_default,
-                     const std::function<void(const view::SettingValue&)>& set);
+                     const std::function<void(const settings::SettingValue&)>& set);
 
 // Of `target`, which has its default.
 template <class Whole>
-void addSetting(CommandBuilder& command, const view::SettingOf<Whole>& row, Whole& target) {
+void addSetting(CommandBuilder& command, const settings::SettingOf<Whole>& row, Whole& target) {
     addSetting(command, row, row.get(target),
-               [&row, &target](const view::SettingValue& value) { row.set(target, value); });
+               [&row, &target](const settings::SettingValue& value) { row.set(target, value); });
 }
 
 // All settings of the view's table, its grid and its lights; `light_set` becomes the file that
 // placed ones were read from.
 void addViewSettings(CommandBuilder& command,
-                     view::ViewSettings& settings,
+                     settings::ViewSettings& settings,
                      std::filesystem::path& light_set);
 // Of them the lights alone.
 void addLights(CommandBuilder& command,
-               view::ViewSettings& settings,
+               settings::ViewSettings& settings,
                std::filesystem::path& light_set);
 
 } // namespace froxel::app

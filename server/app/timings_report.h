@@ -21,7 +21,7 @@
 
 #include "core/frame_stats.h"
 #include "report/device_summary.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -34,7 +34,7 @@ namespace froxel::app {
 struct TimedRun {
     report::DeviceSummary device;
     std::string scene;
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     double time_s = 0;
     double step_s = 0;
     uint32_t warmup_count = 0;

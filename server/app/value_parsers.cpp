@@ -30,13 +30,13 @@ std::optional<T> readNumber(std::string_view text) {
 }
 
 template <class T>
-std::optional<T> readInRange(std::string_view text, const view::Range<T>& range) {
+std::optional<T> readInRange(std::string_view text, const settings::Range<T>& range) {
     const auto value = readNumber<T>(text);
     return value && range.contains(*value) ? value : std::nullopt;
 }
 
 template <class T>
-Result<T> parseInRange(std::string_view text, const view::Range<T>& range) {
+Result<T> parseInRange(std::string_view text, const settings::Range<T>& range) {
     const auto value = readInRange(text, range);
     if (!value) {
         return invalid(text, describe(range));
@@ -61,7 +61,7 @@ std::optional<glm::dvec3> readPosition(std::string_view text) {
     }
     glm::dvec3 position{0};
     for (int axis = 0; axis < 3; ++axis) {
-        const auto value = readInRange(parts[static_cast<size_t>(axis)], view::kPositionRange);
+        const auto value = readInRange(parts[static_cast<size_t>(axis)], settings::kPositionRange);
         if (!value) {
             return std::nullopt;
         }
@@ -72,11 +72,11 @@ std::optional<glm::dvec3> readPosition(std::string_view text) {
 
 } // namespace
 
-std::string describe(const view::Range<uint32_t>& range) {
+std::string describe(const settings::Range<uint32_t>& range) {
     return fmt::format("a whole number from {} to {}", range.min, range.max);
 }
 
-std::string describe(const view::Range<double>& range) {
+std::string describe(const settings::Range<double>& range) {
     return fmt::format("a number from {} to {}", range.min, range.max);
 }
 
@@ -84,11 +84,11 @@ std::string describe(std::span<const std::string_view> names) {
     return fmt::format("{} or {}", fmt::join(names.first(names.size() - 1), ", "), names.back());
 }
 
-Result<uint32_t> parseNumber(std::string_view text, const view::Range<uint32_t>& range) {
+Result<uint32_t> parseNumber(std::string_view text, const settings::Range<uint32_t>& range) {
     return parseInRange(text, range);
 }
 
-Result<double> parseNumber(std::string_view text, const view::Range<double>& range) {
+Result<double> parseNumber(std::string_view text, const settings::Range<double>& range) {
     return parseInRange(text, range);
 }
 
@@ -100,38 +100,39 @@ Result<size_t> parseName(std::string_view text, std::span<const std::string_view
     return static_cast<size_t>(found - names.begin());
 }
 
-Result<view::Size> parseSize(std::string_view text) {
+Result<settings::Size> parseSize(std::string_view text) {
     const auto parts = split(text, 'x');
     if (parts.size() == 2) {
-        const auto width = readInRange(parts[0], view::kWidthRange);
-        const auto height = readInRange(parts[1], view::kHeightRange);
+        const auto width = readInRange(parts[0], settings::kWidthRange);
+        const auto height = readInRange(parts[1], settings::kHeightRange);
         if (width && height) {
-            return view::Size{*width, *height};
+            return settings::Size{*width, *height};
         }
     }
     return invalid(text, fmt::format("WIDTHxHEIGHT in pixels from {}x{} to {}x{}, such as 1280x720",
-                                     view::kWidthRange.min, view::kHeightRange.min,
-                                     view::kWidthRange.max, view::kHeightRange.max));
+                                     settings::kWidthRange.min, settings::kHeightRange.min,
+                                     settings::kWidthRange.max, settings::kHeightRange.max));
 }
 
-Result<view::GridSize> parseGrid(std::string_view text) {
+Result<settings::GridSize> parseGrid(std::string_view text) {
     const auto parts = split(text, 'x');
     if (parts.size() == 3) {
-        const auto x = readInRange(parts[0], view::kGridXRange);
-        const auto y = readInRange(parts[1], view::kGridYRange);
-        const auto z = readInRange(parts[2], view::kGridZRange);
+        const auto x = readInRange(parts[0], settings::kGridXRange);
+        const auto y = readInRange(parts[1], settings::kGridYRange);
+        const auto z = readInRange(parts[2], settings::kGridZRange);
         if (x && y && z) {
-            return view::GridSize{*x, *y, *z};
+            return settings::GridSize{*x, *y, *z};
         }
     }
-    return invalid(
-        text, fmt::format("auto or XxYxZ clusters from {}x{}x{} to {}x{}x{}, such as 16x9x24",
-                          view::kGridXRange.min, view::kGridYRange.min, view::kGridZRange.min,
-                          view::kGridXRange.max, view::kGridYRange.max, view::kGridZRange.max));
+    return invalid(text,
+                   fmt::format("auto or XxYxZ clusters from {}x{}x{} to {}x{}x{}, such as 16x9x24",
+                               settings::kGridXRange.min, settings::kGridYRange.min,
+                               settings::kGridZRange.min, settings::kGridXRange.max,
+                               settings::kGridYRange.max, settings::kGridZRange.max));
 }
 
-Result<view::Grid> parseGridChoice(std::string_view text, const view::Grid& before) {
-    view::Grid grid = before;
+Result<settings::Grid> parseGridChoice(std::string_view text, const settings::Grid& before) {
+    settings::Grid grid = before;
     grid.automatic = text == "auto";
     if (!grid.automatic) {
         const auto size = parseGrid(text);
@@ -146,18 +147,19 @@ Result<view::Grid> parseGridChoice(std::string_view text, const view::Grid& befo
 Result<glm::dvec2> parseLensShift(std::string_view text) {
     const auto parts = split(text, ',');
     if (parts.size() == 2) {
-        const auto x = readInRange(parts[0], view::kLensShiftXRange);
-        const auto y = readInRange(parts[1], view::kLensShiftYRange);
+        const auto x = readInRange(parts[0], settings::kLensShiftXRange);
+        const auto y = readInRange(parts[1], settings::kLensShiftYRange);
         if (x && y) {
             return glm::dvec2(*x, *y);
         }
     }
-    return invalid(text, fmt::format("\"x,y\" in half pictures, each from {} to {}, such as "
-                                     "\"0,0.5\"",
-                                     view::kLensShiftXRange.min, view::kLensShiftXRange.max));
+    return invalid(text,
+                   fmt::format("\"x,y\" in half pictures, each from {} to {}, such as "
+                               "\"0,0.5\"",
+                               settings::kLensShiftXRange.min, settings::kLensShiftXRange.max));
 }
 
-Result<glm::dvec3> parseColor(std::string_view text, const view::Range<double>& range) {
+Result<glm::dvec3> parseColor(std::string_view text, const settings::Range<double>& range) {
     const auto parts = split(text, ',');
     if (parts.size() == 3) {
         const auto red = readInRange(parts[0], range);
@@ -184,7 +186,7 @@ Result<BoundsD3> parseBox(std::string_view text) {
     return invalid(text,
                    fmt::format("\"x,y,z;x,y,z\" in metres, the least corner first, each number "
                                "from {} to {}, such as \"-10,0,-5;10,8,5\"",
-                               view::kPositionRange.min, view::kPositionRange.max));
+                               settings::kPositionRange.min, settings::kPositionRange.max));
 }
 
 Result<CameraChoice> parseCamera(std::string_view text) {
@@ -195,9 +197,9 @@ Result<CameraChoice> parseCamera(std::string_view text) {
     if (parts.size() == 3) {
         const auto eye = readPosition(parts[0]);
         const auto target = readPosition(parts[1]);
-        const auto fov_deg = readInRange(parts[2], view::kFovRange);
+        const auto fov_deg = readInRange(parts[2], settings::kFovRange);
         if (eye && target && fov_deg && *eye != *target) {
-            auto camera = view::lookAt(*eye, *target, {0, 1, 0});
+            auto camera = settings::lookAt(*eye, *target, {0, 1, 0});
             camera.yfov_rad = glm::radians(*fov_deg);
             return CameraChoice(camera);
         }
@@ -206,8 +208,8 @@ Result<CameraChoice> parseCamera(std::string_view text) {
         text, fmt::format("a scene camera's name or \"ex,ey,ez;tx,ty,tz;fov\": eye and another "
                           "point that it looks at in metres ({} to {}), vertical field of view "
                           "in degrees ({} to {}), such as \"-7,2,0;0,2,0;45\"",
-                          view::kPositionRange.min, view::kPositionRange.max, view::kFovRange.min,
-                          view::kFovRange.max));
+                          settings::kPositionRange.min, settings::kPositionRange.max,
+                          settings::kFovRange.min, settings::kFovRange.max));
 }
 
 } // namespace froxel::app

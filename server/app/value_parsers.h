@@ -1,11 +1,11 @@
 // Texts of the command line to values: pure and strict (no NaN, nothing after the value, ranges
-// from view/ranges.h). Errors are kInvalidArgument; the message quotes the text and says what
+// from settings/ranges.h). Errors are kInvalidArgument; the message quotes the text and says what
 // would be right, and the caller puts the option's name before it.
 #pragma once
 
 #include "core/error.h"
-#include "view/ranges.h"
-#include "view/settings.h"
+#include "settings/ranges.h"
+#include "settings/settings.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,40 +21,42 @@ namespace froxel::app {
 struct DefaultCamera {
     bool operator==(const DefaultCamera&) const = default;
 };
-using CameraChoice = std::variant<DefaultCamera, std::string, view::Camera>;
+using CameraChoice = std::variant<DefaultCamera, std::string, settings::Camera>;
 
 // TCP ports; 0 stands for any free one.
-inline constexpr view::Range<uint32_t> kPortRange{"port", 0, 65535};
+inline constexpr settings::Range<uint32_t> kPortRange{"port", 0, 65535};
 
 // "a whole number from 0 to 1000000": for messages and help.
-[[nodiscard]] std::string describe(const view::Range<uint32_t>& range);
-[[nodiscard]] std::string describe(const view::Range<double>& range);
+[[nodiscard]] std::string describe(const settings::Range<uint32_t>& range);
+[[nodiscard]] std::string describe(const settings::Range<double>& range);
 // "naive, forward_plus or toon_compute": for messages and help.
 [[nodiscard]] std::string describe(std::span<const std::string_view> names);
 
 [[nodiscard]] Result<uint32_t> parseNumber(std::string_view text,
-                                           const view::Range<uint32_t>& range);
-[[nodiscard]] Result<double> parseNumber(std::string_view text, const view::Range<double>& range);
+                                           const settings::Range<uint32_t>& range);
+[[nodiscard]] Result<double> parseNumber(std::string_view text,
+                                         const settings::Range<double>& range);
 
 // The position of `text` in `names`.
 [[nodiscard]] Result<size_t> parseName(std::string_view text,
                                        std::span<const std::string_view> names);
 
 // "1280x720", in pixels.
-[[nodiscard]] Result<view::Size> parseSize(std::string_view text);
+[[nodiscard]] Result<settings::Size> parseSize(std::string_view text);
 
 // "16x9x24": tiles across, tiles down, depth slices.
-[[nodiscard]] Result<view::GridSize> parseGrid(std::string_view text);
+[[nodiscard]] Result<settings::GridSize> parseGrid(std::string_view text);
 
 // "auto", or a size as above, which is not automatic; the law stays as in `before`.
-[[nodiscard]] Result<view::Grid> parseGridChoice(std::string_view text, const view::Grid& before);
+[[nodiscard]] Result<settings::Grid> parseGridChoice(std::string_view text,
+                                                     const settings::Grid& before);
 
 // "0.5,-1": right and up, in half pictures.
 [[nodiscard]] Result<glm::dvec2> parseLensShift(std::string_view text);
 
 // "0.9,0.9,1": red, green and blue, each in the range.
 [[nodiscard]] Result<glm::dvec3> parseColor(std::string_view text,
-                                            const view::Range<double>& range);
+                                            const settings::Range<double>& range);
 
 // "x,y,z;x,y,z" in metres: the least corner, then the greatest, apart on every axis.
 [[nodiscard]] Result<BoundsD3> parseBox(std::string_view text);

@@ -26,7 +26,7 @@ Budget budgetFor(bool device_is_cpu, double seconds_per_row) {
     return budget;
 }
 
-double workOf(const view::ViewSettings& settings) {
+double workOf(const settings::ViewSettings& settings) {
     constexpr double kPixel = 16;
     const double pixels = static_cast<double>(settings.size.width_px) * settings.size.height_px;
     return pixels * (kPixel + settings.lights.count);

@@ -1,7 +1,7 @@
 // How many frames of a row the time allows, and in which order rows take turns. Pure.
 #pragma once
 
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +36,7 @@ struct KnownFrame {
 
 // In light evaluations of a pixel, as if every light reached every pixel; a pixel without lights
 // costs about as much as 16.
-[[nodiscard]] double workOf(const view::ViewSettings& settings);
+[[nodiscard]] double workOf(const settings::ViewSettings& settings);
 
 // Why a row is not worth a first frame: by the row before, kProbeFrames alone may take longer than
 // its time. Work is an upper bound, so a row that would have fitted may be left out; one of no more

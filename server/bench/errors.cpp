@@ -2,7 +2,7 @@
 
 #include "bench/picture_scale.h"
 #include "core/error.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -22,11 +22,11 @@ constexpr double kR1PairsCpu = 2e9;
 constexpr double kR1PairsGpu = 1e11;
 constexpr double kR2PairsPerThread = 1e9;
 
-bool isForward(view::Renderer renderer) {
-    return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
+bool isForward(settings::Renderer renderer) {
+    return renderer == settings::Renderer::kNaive || renderer == settings::Renderer::kForwardPlus;
 }
 
-uint64_t areaOf(const view::Size& size) {
+uint64_t areaOf(const settings::Size& size) {
     return uint64_t{size.width_px} * size.height_px;
 }
 
@@ -34,13 +34,13 @@ uint32_t share(uint32_t part, uint32_t whole, uint32_t of) {
     return static_cast<uint32_t>(std::lround(static_cast<double>(of) * part / whole));
 }
 
-size_t lightCountOf(const view::ViewSettings& settings, const scene::Scene& scene) {
+size_t lightCountOf(const settings::ViewSettings& settings, const scene::Scene& scene) {
     return settings.lights.count + (settings.lights.scene_lights ? scene.lights.size() : 0) +
            settings.lights.placed.lights().size();
 }
 
-Picture scaledTo(const Picture& picture, const view::Size& size) {
-    const view::Size from{picture.linear.width_px, picture.linear.height_px};
+Picture scaledTo(const Picture& picture, const settings::Size& size) {
+    const settings::Size from{picture.linear.width_px, picture.linear.height_px};
     return {scaled(picture.linear, size), scaled(picture.rgba8, from, size), {}};
 }
 
@@ -93,14 +93,14 @@ ErrorOptions errorOptionsFor(bool device_is_cpu) {
 }
 
 size_t
-viewsWithin(double pairs_limit, const view::Size& size, size_t light_count, size_t view_count) {
+viewsWithin(double pairs_limit, const settings::Size& size, size_t light_count, size_t view_count) {
     const double pairs =
         static_cast<double>(areaOf(size)) * static_cast<double>(std::max<size_t>(light_count, 1));
     const double fit = std::floor(pairs_limit / pairs);
     return fit < static_cast<double>(view_count) ? static_cast<size_t>(fit) : view_count;
 }
 
-ErrorSizes errorSizes(const Row& row, const view::Size& wanted) {
+ErrorSizes errorSizes(const Row& row, const settings::Size& wanted) {
     const auto& drawn = row.settings.size;
     const auto shown = row.scaled_to.value_or(drawn);
     const auto compared = areaOf(shown) < areaOf(wanted) ? shown : wanted;
@@ -109,35 +109,35 @@ ErrorSizes errorSizes(const Row& row, const view::Size& wanted) {
              share(drawn.height_px, shown.height_px, compared.height_px)}};
 }
 
-view::ViewSettings r1Settings(view::ViewSettings settings) {
+settings::ViewSettings r1Settings(settings::ViewSettings settings) {
     if (isForward(settings.renderer)) {
-        settings.renderer = view::Renderer::kNaive;
+        settings.renderer = settings::Renderer::kNaive;
     }
-    settings.light_loop = view::LightLoop::kAllLights;
+    settings.light_loop = settings::LightLoop::kAllLights;
     settings.list_cap = 0;
     settings.grid = {};
     settings.count_pairs = false;
     return settings;
 }
 
-view::ViewSettings r2Settings(view::ViewSettings settings) {
+settings::ViewSettings r2Settings(settings::ViewSettings settings) {
     if (isForward(settings.renderer)) {
-        settings.renderer = view::Renderer::kClusteredDeferred;
+        settings.renderer = settings::Renderer::kClusteredDeferred;
     }
-    settings.lighting = view::LightingStage::kAuto;
+    settings.lighting = settings::LightingStage::kAuto;
     settings.gbuffer = {};
-    settings.antialiasing = view::Antialiasing::kNone;
-    const view::Fog volume; // which the reference has none of
+    settings.antialiasing = settings::Antialiasing::kNone;
+    const settings::Fog volume; // which the reference has none of
     settings.fog.tile_px = volume.tile_px;
     settings.fog.slice_count = volume.slice_count;
     settings.fog.half_rate = volume.half_rate;
     settings.fog.noise = volume.noise;
     settings.transparency = {}; // blended surfaces are sorted pixel by pixel
-    settings.peel_layers = view::ViewSettings{}.peel_layers;
+    settings.peel_layers = settings::ViewSettings{}.peel_layers;
     settings.lights.cutoff = 0;
     settings.list_cap = 0;
     settings.grid = {};
-    settings.light_loop = view::LightLoop::kAuto;
+    settings.light_loop = settings::LightLoop::kAuto;
     settings.count_pairs = false;
     return settings;
 }
@@ -152,7 +152,7 @@ std::vector<size_t> ErrorMeter::viewsOf(const Row& row) const {
 }
 
 PictureError ErrorMeter::against(Reference reference, const Row& row, Drawn& drawn) {
-    if (row.settings.debug.view != view::DebugView::kNone) {
+    if (row.settings.debug.view != settings::DebugView::kNone) {
         return skippedFor("a debug view has no error");
     }
     const bool is_r1 = reference == Reference::kR1;
@@ -187,8 +187,8 @@ PictureError ErrorMeter::against(Reference reference, const Row& row, Drawn& dra
         auto meant = is_r1 ? r1Settings(settings) : r2Settings(settings);
         meant.size = reference_size;
         if (!is_r1 && row.against_peeled) {
-            meant.transparency = view::Transparency::kPeeled;
-            meant.peel_layers = view::kPeelLayersRange.max;
+            meant.transparency = settings::Transparency::kPeeled;
+            meant.peel_layers = settings::kPeelLayersRange.max;
         }
         const bool by_device = is_r1 || row.against_peeled;
         const auto right = by_device             ? pictures_.drawOnce(meant, time_s)

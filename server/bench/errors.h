@@ -16,7 +16,7 @@
 namespace froxel::bench {
 
 struct ErrorOptions {
-    view::Size size{640, 360}; // of pictures compared; a row's own where that is less
+    settings::Size size{640, 360}; // of pictures compared; a row's own where that is less
     // (light, pixel) pairs that a row's reference may cost, over all its views.
     double r1_pairs_limit = 0;
     double r2_pairs_limit = 0;
@@ -28,7 +28,7 @@ struct ErrorOptions {
 // Of the worst view, by linear.max_abs.
 struct PictureError {
     std::string skipped; // why there is none, else empty
-    view::Size size;
+    settings::Size size;
     size_t view = 0;
     size_t view_count = 0;
     image_metrics::DifferenceStats linear;
@@ -49,20 +49,20 @@ struct RowErrors {
 
 // How many of `view_count` views the limit allows. Pure.
 [[nodiscard]] size_t
-viewsWithin(double pairs_limit, const view::Size& size, size_t light_count, size_t view_count);
+viewsWithin(double pairs_limit, const settings::Size& size, size_t light_count, size_t view_count);
 
 // The size compared at, which the picture of a row with scaled_to is scaled to, and the size that
 // the row is drawn at for it. Pure.
 struct ErrorSizes {
-    view::Size compared;
-    view::Size drawn;
+    settings::Size compared;
+    settings::Size drawn;
 };
-[[nodiscard]] ErrorSizes errorSizes(const Row& row, const view::Size& wanted);
+[[nodiscard]] ErrorSizes errorSizes(const Row& row, const settings::Size& wanted);
 
 // The settings of R1: every light, in the same way. Pure.
-[[nodiscard]] view::ViewSettings r1Settings(view::ViewSettings settings);
+[[nodiscard]] settings::ViewSettings r1Settings(settings::ViewSettings settings);
 // The settings that R2 stands for: nothing traded for speed. Pure.
-[[nodiscard]] view::ViewSettings r2Settings(view::ViewSettings settings);
+[[nodiscard]] settings::ViewSettings r2Settings(settings::ViewSettings settings);
 
 class ErrorMeter {
   public:

@@ -31,7 +31,7 @@ constexpr const char* kLightFormula = "on every axis a triangle wave through the
                                       "and speed (0.2 to 1.5 m/s in all) from "
                                       "a hash of seed and index: a closed formula of time";
 
-Json toJson(const view::Size& size) {
+Json toJson(const settings::Size& size) {
     return {size.width_px, size.height_px};
 }
 
@@ -85,7 +85,7 @@ Json toJson(const std::optional<StreamError>& stream) {
         return nullptr;
     }
     return {{"quality", stream->encoding.quality},
-            {"chroma", view::kChromaNames[static_cast<size_t>(stream->encoding.chroma)]},
+            {"chroma", settings::kChromaNames[static_cast<size_t>(stream->encoding.chroma)]},
             {"bytes", stream->bytes},
             {"bits_per_pixel", stream->bits_per_pixel},
             {"encode_us", toJson(stream->encode_us)},
@@ -120,16 +120,18 @@ std::string workloadOf(const Row& row, const Base& base) {
     const auto& settings = row.settings;
     const auto& lights = settings.lights;
     const auto size = row.scaled_to.value_or(settings.size);
-    std::string text = fmt::format("{} lights of {} m, {}x{}, {}, {}", lights.count,
-                                   numberText(lights.radius_m), size.width_px, size.height_px,
-                                   view::kShadingModelNames[static_cast<size_t>(settings.shading)],
-                                   base.views[row.timedView()].name);
-    if (settings.renderer == view::Renderer::kToonFragment ||
-        settings.renderer == view::Renderer::kToonCompute) {
-        text += fmt::format(", {}", view::kRendererNames[static_cast<size_t>(settings.renderer)]);
+    std::string text =
+        fmt::format("{} lights of {} m, {}x{}, {}, {}", lights.count, numberText(lights.radius_m),
+                    size.width_px, size.height_px,
+                    settings::kShadingModelNames[static_cast<size_t>(settings.shading)],
+                    base.views[row.timedView()].name);
+    if (settings.renderer == settings::Renderer::kToonFragment ||
+        settings.renderer == settings::Renderer::kToonCompute) {
+        text +=
+            fmt::format(", {}", settings::kRendererNames[static_cast<size_t>(settings.renderer)]);
     }
-    text += settings.exposure_mode == view::ExposureMode::kFrame ? ", metered exposure" : "";
-    text += settings.bloom.kind != view::BloomKind::kNone ? ", bloom" : "";
+    text += settings.exposure_mode == settings::ExposureMode::kFrame ? ", metered exposure" : "";
+    text += settings.bloom.kind != settings::BloomKind::kNone ? ", bloom" : "";
     text += row.against_peeled ? ", against 16 peeled layers" : "";
     if (const auto& fog = settings.fog; fog.present()) {
         text += fmt::format(", fog of {} a metre{}", numberText(fog.density),

@@ -19,7 +19,7 @@ namespace froxel::bench {
 
 namespace {
 
-std::string keyOf(const char* how, const view::ViewSettings& settings, double time_s) {
+std::string keyOf(const char* how, const settings::ViewSettings& settings, double time_s) {
     return fmt::format("{} {} {}", how, time_s, report::settingsReport(settings).dump());
 }
 
@@ -52,7 +52,7 @@ Result<Pictures::Shared> Pictures::once(const std::string& key, const Make& make
     return made;
 }
 
-Result<Pictures::Shared> Pictures::draw(const view::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::draw(const settings::ViewSettings& settings, double time_s) {
     render::ViewRenderer viewer(renderer_);
     render::FrameInputs inputs{.settings = settings, .time_s = time_s};
     inputs.keep_radiance = true;
@@ -75,11 +75,11 @@ Result<Pictures::Shared> Pictures::draw(const view::ViewSettings& settings, doub
         Picture{std::move(*linear), withoutPadding(frame->pixels.view()), frame->stats.grid});
 }
 
-Result<Pictures::Shared> Pictures::drawOnce(const view::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::drawOnce(const settings::ViewSettings& settings, double time_s) {
     return once(keyOf("drawn", settings, time_s), [&] { return draw(settings, time_s); });
 }
 
-Result<Pictures::Shared> Pictures::shade(const view::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::shade(const settings::ViewSettings& settings, double time_s) {
     const auto visibility =
         render::readVisibility(renderer_, scene_, {.settings = settings, .time_s = time_s});
     if (!visibility) {
@@ -90,17 +90,17 @@ Result<Pictures::Shared> Pictures::shade(const view::ViewSettings& settings, dou
         return linear.error();
     }
     auto exposure = static_cast<double>(settings.exposure);
-    if (settings.exposure_mode == view::ExposureMode::kFrame) {
+    if (settings.exposure_mode == settings::ExposureMode::kFrame) {
         exposure *= reference::meteredFactor(scene_, *linear, *visibility);
     }
-    if (settings.bloom.kind != view::BloomKind::kNone) {
+    if (settings.bloom.kind != settings::BloomKind::kNone) {
         *linear = reference::spread(*linear, settings.bloom, exposure);
     }
     auto rgba8 = shownPicture(*linear, exposure, settings.tone_map);
     return std::make_shared<const Picture>(Picture{std::move(*linear), std::move(rgba8), {}});
 }
 
-Result<Pictures::Shared> Pictures::sample(const view::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::sample(const settings::ViewSettings& settings, double time_s) {
     const size_t value_count = size_t{settings.size.width_px} * settings.size.height_px * 3;
     std::vector<double> linear(value_count);
     std::vector<double> emitted(value_count);
@@ -129,14 +129,16 @@ Result<Pictures::Shared> Pictures::sample(const view::ViewSettings& settings, do
         return image;
     };
     return std::make_shared<const Picture>(
-        Picture{mean(linear), shownPicture(mean(emitted), 1, view::ToneMap::kClamp), {}});
+        Picture{mean(linear), shownPicture(mean(emitted), 1, settings::ToneMap::kClamp), {}});
 }
 
-Result<Pictures::Shared> Pictures::sampleOnce(const view::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::sampleOnce(const settings::ViewSettings& settings,
+                                              double time_s) {
     return once(keyOf("sampled", settings, time_s), [&] { return sample(settings, time_s); });
 }
 
-Result<Pictures::Shared> Pictures::shadeOnce(const view::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::shadeOnce(const settings::ViewSettings& settings,
+                                             double time_s) {
     return once(keyOf("shaded", settings, time_s), [&] { return shade(settings, time_s); });
 }
 

@@ -6,7 +6,7 @@
 #include "core/linear_image.h"
 #include "core/pixel_view.h"
 #include "scene/scene.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstddef>
 #include <deque>
@@ -38,16 +38,16 @@ class Pictures {
 
     using Shared = std::shared_ptr<const Picture>;
     // By the device, anew. Errors: those of ViewRenderer.
-    [[nodiscard]] Result<Shared> draw(const view::ViewSettings& settings, double time_s);
+    [[nodiscard]] Result<Shared> draw(const settings::ViewSettings& settings, double time_s);
     // The same, but one of the last kKept of it and shade() may serve again.
-    [[nodiscard]] Result<Shared> drawOnce(const view::ViewSettings& settings, double time_s);
+    [[nodiscard]] Result<Shared> drawOnce(const settings::ViewSettings& settings, double time_s);
     // In double on the host, from the triangles that the device sees. Errors: those of
     // ViewRenderer and reference::shade.
-    [[nodiscard]] Result<Shared> shadeOnce(const view::ViewSettings& settings, double time_s);
+    [[nodiscard]] Result<Shared> shadeOnce(const settings::ViewSettings& settings, double time_s);
     // The mean of 64 pictures by the device, each seen through a lens that is shifted by another
     // part of a pixel, so that every pixel is sampled on a regular grid; of what the display emits,
     // in `rgba8`. Errors: those of ViewRenderer.
-    [[nodiscard]] Result<Shared> sampleOnce(const view::ViewSettings& settings, double time_s);
+    [[nodiscard]] Result<Shared> sampleOnce(const settings::ViewSettings& settings, double time_s);
 
   private:
     static constexpr size_t kKept = 32;
@@ -58,8 +58,8 @@ class Pictures {
     };
     template <class Make>
     Result<Shared> once(const std::string& key, const Make& make);
-    Result<Shared> shade(const view::ViewSettings& settings, double time_s);
-    Result<Shared> sample(const view::ViewSettings& settings, double time_s);
+    Result<Shared> shade(const settings::ViewSettings& settings, double time_s);
+    Result<Shared> sample(const settings::ViewSettings& settings, double time_s);
 
     render::Renderer& renderer_;
     const scene::Scene& scene_;

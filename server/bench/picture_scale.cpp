@@ -30,8 +30,8 @@ std::vector<Tap> tapsOf(uint32_t from, uint32_t to) {
 // `get(pixel, channel)` reads the old picture as a double; `put(value)` takes the new one's values
 // in order.
 template <class Get, class Put>
-void scaleInto(const view::Size& from,
-               const view::Size& to,
+void scaleInto(const settings::Size& from,
+               const settings::Size& to,
                size_t channel_count,
                const Get& get,
                const Put& put) {
@@ -52,7 +52,7 @@ void scaleInto(const view::Size& from,
 
 } // namespace
 
-LinearImage scaled(const LinearImage& picture, const view::Size& size) {
+LinearImage scaled(const LinearImage& picture, const settings::Size& size) {
     LinearImage result{size.width_px, size.height_px, {}};
     result.rgb.reserve(size_t{size.width_px} * size.height_px * 3);
     scaleInto(
@@ -64,8 +64,9 @@ LinearImage scaled(const LinearImage& picture, const view::Size& size) {
     return result;
 }
 
-std::vector<std::byte>
-scaled(const std::vector<std::byte>& rgba8, const view::Size& from, const view::Size& size) {
+std::vector<std::byte> scaled(const std::vector<std::byte>& rgba8,
+                              const settings::Size& from,
+                              const settings::Size& size) {
     FROXEL_ASSERT(rgba8.size() == size_t{from.width_px} * from.height_px * 4,
                   "the picture has padding or another size");
     std::vector<std::byte> result;

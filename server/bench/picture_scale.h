@@ -2,18 +2,18 @@
 #pragma once
 
 #include "core/linear_image.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace froxel::bench {
 
-[[nodiscard]] LinearImage scaled(const LinearImage& picture, const view::Size& size);
+[[nodiscard]] LinearImage scaled(const LinearImage& picture, const settings::Size& size);
 
 // RGBA8 without padding: the stored sRGB values are mixed, not the light they stand for; rounded to
 // nearest.
 [[nodiscard]] std::vector<std::byte>
-scaled(const std::vector<std::byte>& rgba8, const view::Size& from, const view::Size& size);
+scaled(const std::vector<std::byte>& rgba8, const settings::Size& from, const settings::Size& size);
 
 } // namespace froxel::bench

@@ -15,8 +15,8 @@ namespace froxel::bench {
 
 namespace {
 
-using view::LightingStage;
-using view::Renderer;
+using settings::LightingStage;
+using settings::Renderer;
 
 Sweep lightCount(const Base& base) {
     constexpr std::array kCounts = {0U,      1U,       10U,      100U,     500U,
@@ -58,9 +58,9 @@ Sweep lightRadius(const Base& base) {
 }
 
 Sweep resolution(const Base& base) {
-    constexpr std::array kSizes = {view::Size{640, 360},   view::Size{960, 540},
-                                   view::Size{1280, 720},  view::Size{1920, 1080},
-                                   view::Size{2560, 1440}, view::Size{3840, 2160}};
+    constexpr std::array kSizes = {settings::Size{640, 360},   settings::Size{960, 540},
+                                   settings::Size{1280, 720},  settings::Size{1920, 1080},
+                                   settings::Size{2560, 1440}, settings::Size{3840, 2160}};
     Sweep sweep{"resolution",
                 "Frame time against resolution",
                 "pixels",
@@ -80,13 +80,14 @@ Sweep resolution(const Base& base) {
 
 // The seeds' grids, finer ones, and the one chosen by the cost model.
 Sweep grid(const Base& base) {
-    constexpr std::array kGrids = {
-        view::GridSize{1, 1, 1},    view::GridSize{8, 8, 16},   view::GridSize{16, 16, 8},
-        view::GridSize{16, 9, 24},  view::GridSize{15, 15, 15}, view::GridSize{16, 16, 16},
-        view::GridSize{16, 16, 24}, view::GridSize{32, 16, 16}, view::GridSize{32, 16, 32},
-        view::GridSize{32, 32, 16}, view::GridSize{32, 16, 64}, view::GridSize{32, 32, 32},
-        view::GridSize{28, 28, 42}, view::GridSize{32, 32, 64}, view::GridSize{64, 36, 32},
-        view::GridSize{128, 72, 64}};
+    constexpr std::array kGrids = {settings::GridSize{1, 1, 1},    settings::GridSize{8, 8, 16},
+                                   settings::GridSize{16, 16, 8},  settings::GridSize{16, 9, 24},
+                                   settings::GridSize{15, 15, 15}, settings::GridSize{16, 16, 16},
+                                   settings::GridSize{16, 16, 24}, settings::GridSize{32, 16, 16},
+                                   settings::GridSize{32, 16, 32}, settings::GridSize{32, 32, 16},
+                                   settings::GridSize{32, 16, 64}, settings::GridSize{32, 32, 32},
+                                   settings::GridSize{28, 28, 42}, settings::GridSize{32, 32, 64},
+                                   settings::GridSize{64, 36, 32}, settings::GridSize{128, 72, 64}};
     Sweep sweep{"grid",     "Frame time against the grid",
                 "clusters", "",
                 Axis::kLog, "Lists are always used. The automatic grid stands at 0.",
@@ -94,14 +95,14 @@ Sweep grid(const Base& base) {
     for (const auto& way : kListWays) {
         sweep.rows.push_back(rowOf(base, way, "auto", 0, [](auto& s) {
             s.grid.automatic = true;
-            s.light_loop = view::LightLoop::kLists;
+            s.light_loop = settings::LightLoop::kLists;
         }));
         for (const auto& size : kGrids) {
             sweep.rows.push_back(rowOf(base, way, fmt::format("{}x{}x{}", size.x, size.y, size.z),
                                        static_cast<double>(size.x) * size.y * size.z, [&](auto& s) {
                                            s.grid.automatic = false;
                                            s.grid.size = size;
-                                           s.light_loop = view::LightLoop::kLists;
+                                           s.light_loop = settings::LightLoop::kLists;
                                        }));
         }
     }
@@ -117,9 +118,10 @@ Sweep shading(const Base& base) {
                 "Metallic-roughness, its diffuse part alone, and Blinn's highlight.",
                 {}};
     for (const auto& way : kWays) {
-        for (const auto model : {view::ShadingModel::kLambert, view::ShadingModel::kBlinnPhong,
-                                 view::ShadingModel::kPbr}) {
-            sweep.rows.push_back(rowOf(base, way, nameOf(view::kShadingModelNames, model),
+        for (const auto model :
+             {settings::ShadingModel::kLambert, settings::ShadingModel::kBlinnPhong,
+              settings::ShadingModel::kPbr}) {
+            sweep.rows.push_back(rowOf(base, way, nameOf(settings::kShadingModelNames, model),
                                        static_cast<double>(model),
                                        [&](auto& s) { s.shading = model; }));
         }
@@ -156,7 +158,7 @@ Sweep toon(const Base& base) {
 
 Sweep renderer(const Base& base) {
     std::vector<Way> ways;
-    for (size_t name = 0; name < view::kRendererNames.size(); ++name) {
+    for (size_t name = 0; name < settings::kRendererNames.size(); ++name) {
         for (const auto stage : kStages) {
             ways.push_back({static_cast<Renderer>(name), stage});
         }
@@ -188,7 +190,7 @@ Sweep cameraPath(const Base& base) {
 
 Sweep memory(const Base& base) {
     struct Load {
-        view::Size size;
+        settings::Size size;
         uint32_t light_count;
     };
     constexpr std::array kLoads = {Load{{640, 360}, 1'000}, Load{{1280, 720}, 1'000},
@@ -220,12 +222,12 @@ Sweep debugViews(const Base& base) {
                 Axis::kCategory,
                 "Most take the place of the lighting.",
                 {}};
-    for (size_t view = 0; view < view::kDebugViewNames.size(); ++view) {
-        sweep.rows.push_back(rowOf(base, kDeferred, std::string(view::kDebugViewNames[view]),
+    for (size_t view = 0; view < settings::kDebugViewNames.size(); ++view) {
+        sweep.rows.push_back(rowOf(base, kDeferred, std::string(settings::kDebugViewNames[view]),
                                    static_cast<double>(view), [&](auto& s) {
-                                       s.debug.view = static_cast<view::DebugView>(view);
-                                       if (s.debug.view == view::DebugView::kGbufferExtra) {
-                                           s.gbuffer.position = view::PositionSource::kFp32;
+                                       s.debug.view = static_cast<settings::DebugView>(view);
+                                       if (s.debug.view == settings::DebugView::kGbufferExtra) {
+                                           s.gbuffer.position = settings::PositionSource::kFp32;
                                        }
                                    }));
     }

@@ -5,13 +5,13 @@
 namespace froxel::bench {
 
 std::string nameOf(const Way& way) {
-    const auto name = nameOf(view::kRendererNames, way.renderer);
-    return way.stage != view::LightingStage::kCompute
+    const auto name = nameOf(settings::kRendererNames, way.renderer);
+    return way.stage != settings::LightingStage::kCompute
                ? name
-               : name + ", " + nameOf(view::kLightingStageNames, way.stage);
+               : name + ", " + nameOf(settings::kLightingStageNames, way.stage);
 }
 
-std::string nameOf(const view::Size& size) {
+std::string nameOf(const settings::Size& size) {
     return fmt::format("{}x{}", size.width_px, size.height_px);
 }
 

@@ -12,16 +12,18 @@ namespace froxel::bench {
 
 // A renderer with the stage that adds lights up; a line of most plots.
 struct Way {
-    view::Renderer renderer;
-    view::LightingStage stage;
+    settings::Renderer renderer;
+    settings::LightingStage stage;
 };
-inline constexpr Way kNaive{view::Renderer::kNaive, view::LightingStage::kFragment};
-inline constexpr Way kForwardPlus{view::Renderer::kForwardPlus, view::LightingStage::kFragment};
-inline constexpr Way kDeferred{view::Renderer::kClusteredDeferred, view::LightingStage::kAuto};
+inline constexpr Way kNaive{settings::Renderer::kNaive, settings::LightingStage::kFragment};
+inline constexpr Way kForwardPlus{settings::Renderer::kForwardPlus,
+                                  settings::LightingStage::kFragment};
+inline constexpr Way kDeferred{settings::Renderer::kClusteredDeferred,
+                               settings::LightingStage::kAuto};
 // Where arithmetic is slow in the fragment stage these are the fair comparison of algorithms.
-inline constexpr Way kNaiveCompute{view::Renderer::kNaive, view::LightingStage::kCompute};
-inline constexpr Way kForwardPlusCompute{view::Renderer::kForwardPlus,
-                                         view::LightingStage::kCompute};
+inline constexpr Way kNaiveCompute{settings::Renderer::kNaive, settings::LightingStage::kCompute};
+inline constexpr Way kForwardPlusCompute{settings::Renderer::kForwardPlus,
+                                         settings::LightingStage::kCompute};
 inline constexpr std::array kWays = {kNaive, kNaiveCompute, kForwardPlus, kForwardPlusCompute,
                                      kDeferred};
 inline constexpr std::array kListWays = {kForwardPlus, kForwardPlusCompute, kDeferred};
@@ -33,7 +35,7 @@ template <class Names, class Enum>
 // "naive", "naive, compute"; the deferred renderers' stage is their own
 [[nodiscard]] std::string nameOf(const Way& way);
 // "1280x720"
-[[nodiscard]] std::string nameOf(const view::Size& size);
+[[nodiscard]] std::string nameOf(const settings::Size& size);
 // 12,345
 [[nodiscard]] std::string grouped(uint32_t number);
 

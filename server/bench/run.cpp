@@ -16,16 +16,16 @@ namespace {
 
 constexpr size_t kEncodeCount = 20;
 
-bool isDeferred(view::Renderer renderer) {
-    return renderer != view::Renderer::kNaive && renderer != view::Renderer::kForwardPlus;
+bool isDeferred(settings::Renderer renderer) {
+    return renderer != settings::Renderer::kNaive && renderer != settings::Renderer::kForwardPlus;
 }
 
-std::optional<uint32_t> gbufferBytes(const view::ViewSettings& settings,
+std::optional<uint32_t> gbufferBytes(const settings::ViewSettings& settings,
                                      const render::SceneNeeds& needs) {
     if (!isDeferred(settings.renderer)) {
         return std::nullopt;
     }
-    const bool lambert = settings.shading == view::ShadingModel::kLambert;
+    const bool lambert = settings.shading == settings::ShadingModel::kLambert;
     return render::gbufferBytesPerPixel(settings.gbuffer,
                                         lambert ? needs.wide_lambert : needs.wide_gbuffer,
                                         render::storesSpecular(settings, needs.specular));

@@ -35,14 +35,14 @@ std::byte encoded(double linear) {
 } // namespace
 
 std::vector<std::byte>
-shownPicture(const LinearImage& radiance, double exposure, view::ToneMap tone_map) {
+shownPicture(const LinearImage& radiance, double exposure, settings::ToneMap tone_map) {
     constexpr double kBrightest = 1e6; // white, and no infinity in what follows
     std::vector<std::byte> rgba8;
     rgba8.reserve(radiance.rgb.size() / 3 * 4);
     for (size_t i = 0; i + 2 < radiance.rgb.size(); i += 3) {
         glm::dvec3 color(radiance.rgb[i], radiance.rgb[i + 1], radiance.rgb[i + 2]);
         color = glm::min(color * exposure, glm::dvec3(kBrightest));
-        if (tone_map == view::ToneMap::kPbrNeutral) {
+        if (tone_map == settings::ToneMap::kPbrNeutral) {
             color = pbrNeutral(color);
         }
         for (int channel = 0; channel < 3; ++channel) {

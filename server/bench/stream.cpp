@@ -39,7 +39,7 @@ decode(const std::vector<std::byte>& jpeg, uint32_t width_px, uint32_t height_px
 } // namespace
 
 Result<StreamError>
-measureStream(const PixelView& shown, const view::Encoding& encoding, size_t encode_count) {
+measureStream(const PixelView& shown, const settings::Encoding& encoding, size_t encode_count) {
     FROXEL_ASSERT(encode_count > 0, "a time needs a sample");
     encode::JpegEncoder encoder;
     auto jpeg = encoder.encode(shown, encoding);

@@ -6,7 +6,7 @@
 #include "core/pixel_view.h"
 #include "image_metrics/picture_error.h"
 #include "report/statistics.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace froxel::bench {
 
 struct StreamError {
-    view::Encoding encoding;
+    settings::Encoding encoding;
     uint64_t bytes = 0;
     double bits_per_pixel = 0;
     report::Summary encode_us; // on this thread, one encoder, warmed up
@@ -26,6 +26,6 @@ struct StreamError {
 // decodes with TurboJPEG's accurate transform and smooth chroma, as browsers do. Errors: those of
 // encode::JpegEncoder; kIo with TurboJPEG's text when its own picture does not decode.
 [[nodiscard]] Result<StreamError>
-measureStream(const PixelView& shown, const view::Encoding& encoding, size_t encode_count);
+measureStream(const PixelView& shown, const settings::Encoding& encoding, size_t encode_count);
 
 } // namespace froxel::bench

@@ -1,7 +1,7 @@
 // What `froxel bench` measures: a sweep is a list of rows, a row one set of settings.
 #pragma once
 
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <array>
 #include <cstddef>
@@ -16,19 +16,19 @@ namespace froxel::bench {
 
 // A stop of the camera path.
 struct View {
-    std::string name;    // what --camera takes; empty: the scene's first
-    view::Camera camera; // what that is in the scene
-    double time_s = 0;   // the lights' clock of its first frame
+    std::string name;        // what --camera takes; empty: the scene's first
+    settings::Camera camera; // what that is in the scene
+    double time_s = 0;       // the lights' clock of its first frame
 };
 
 struct Row {
     std::string label;
     std::string series;
     double value = 0;
-    view::ViewSettings settings;     // its camera is that of the stop timed at
+    settings::ViewSettings settings; // its camera is that of the stop timed at
     std::optional<size_t> only_view; // a stop of the path; none: timed at the first, errors at all
-    std::optional<view::Size> scaled_to;
-    std::optional<view::Encoding> stream; // JPEG whose error is taken too
+    std::optional<settings::Size> scaled_to;
+    std::optional<settings::Encoding> stream; // JPEG whose error is taken too
     // Where settings.lights.placed would be; empty: where the base's are.
     std::filesystem::path light_set = {};
     bool against_peeled = false;  // R2 is the same with 16 layers peeled, drawn by the device
@@ -54,7 +54,7 @@ struct Sweep {
 
 // What the sweeps start from.
 struct Base {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     std::vector<View> views; // at least one
 };
 

@@ -2,7 +2,7 @@
 
 #include "bench/rows.h"
 #include "core/text.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -16,26 +16,26 @@ namespace {
 
 // Every normal encoding with positions from depth, every position source with the default normal,
 // and what the seeds store.
-std::vector<view::GbufferLayout> gbufferLayouts() {
-    std::vector<view::GbufferLayout> layouts;
-    for (size_t normal = 0; normal < view::kNormalEncodingNames.size(); ++normal) {
+std::vector<settings::GbufferLayout> gbufferLayouts() {
+    std::vector<settings::GbufferLayout> layouts;
+    for (size_t normal = 0; normal < settings::kNormalEncodingNames.size(); ++normal) {
         layouts.push_back(
-            {static_cast<view::NormalEncoding>(normal), view::PositionSource::kDepth});
+            {static_cast<settings::NormalEncoding>(normal), settings::PositionSource::kDepth});
     }
-    for (size_t position = 1; position < view::kPositionSourceNames.size(); ++position) {
+    for (size_t position = 1; position < settings::kPositionSourceNames.size(); ++position) {
         layouts.push_back(
-            {view::NormalEncoding::kOct16, static_cast<view::PositionSource>(position)});
+            {settings::NormalEncoding::kOct16, static_cast<settings::PositionSource>(position)});
     }
-    layouts.push_back({view::NormalEncoding::kXyz16, view::PositionSource::kFp16});
+    layouts.push_back({settings::NormalEncoding::kXyz16, settings::PositionSource::kFp16});
     return layouts;
 }
 
-view::Size scaledBy(const view::Size& size, double scale) {
+settings::Size scaledBy(const settings::Size& size, double scale) {
     const auto side = [scale](uint32_t whole) {
         return static_cast<uint32_t>(static_cast<double>(whole) * scale + 0.5);
     };
-    return {std::max(side(size.width_px), view::kWidthRange.min),
-            std::max(side(size.height_px), view::kHeightRange.min)};
+    return {std::max(side(size.width_px), settings::kWidthRange.min),
+            std::max(side(size.height_px), settings::kHeightRange.min)};
 }
 
 } // namespace
@@ -49,8 +49,8 @@ Sweep gbufferSweep(const Base& base) {
                 "Normals and positions kept with less precision, or as the seeds had them.",
                 {}};
     for (const auto& layout : gbufferLayouts()) {
-        const auto label = nameOf(view::kNormalEncodingNames, layout.normal) + ", " +
-                           nameOf(view::kPositionSourceNames, layout.position);
+        const auto label = nameOf(settings::kNormalEncodingNames, layout.normal) + ", " +
+                           nameOf(settings::kPositionSourceNames, layout.position);
         sweep.rows.push_back(rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()),
                                    [&](auto& s) { s.gbuffer = layout; }));
     }
@@ -130,7 +130,7 @@ Sweep listCapSweep(const Base& base) {
         for (const uint32_t cap : {4U, 8U, 16U, 32U, 64U, 128U, 256U}) {
             sweep.rows.push_back(rowOf(base, way, fmt::format("cap {}", cap), cap, [&](auto& s) {
                 s.list_cap = cap;
-                s.light_loop = view::LightLoop::kLists;
+                s.light_loop = settings::LightLoop::kLists;
             }));
         }
     }
@@ -142,9 +142,9 @@ Sweep bloomSweep(const Base& base) {
         "bloom", "Ways of bloom", "kind",
         "",      Axis::kCategory, "R2 is the Gaussian that each of them comes to, in double.",
         {}};
-    for (size_t kind = 0; kind < view::kBloomKindNames.size(); ++kind) {
-        const auto value = static_cast<view::BloomKind>(kind);
-        sweep.rows.push_back(rowOf(base, kDeferred, nameOf(view::kBloomKindNames, value),
+    for (size_t kind = 0; kind < settings::kBloomKindNames.size(); ++kind) {
+        const auto value = static_cast<settings::BloomKind>(kind);
+        sweep.rows.push_back(rowOf(base, kDeferred, nameOf(settings::kBloomKindNames, value),
                                    static_cast<double>(kind),
                                    [&](auto& s) { s.bloom.kind = value; }));
     }
@@ -159,9 +159,9 @@ Sweep antialiasingSweep(const Base& base) {
                 Axis::kCategory,
                 "R2 is here the mean of 64 samples a pixel; fxaa shows in what is shown alone.",
                 {}};
-    for (size_t kind = 0; kind < view::kAntialiasingNames.size(); ++kind) {
-        const auto value = static_cast<view::Antialiasing>(kind);
-        auto row = rowOf(base, kDeferred, nameOf(view::kAntialiasingNames, value),
+    for (size_t kind = 0; kind < settings::kAntialiasingNames.size(); ++kind) {
+        const auto value = static_cast<settings::Antialiasing>(kind);
+        auto row = rowOf(base, kDeferred, nameOf(settings::kAntialiasingNames, value),
                          static_cast<double>(kind), [&](auto& s) { s.antialiasing = value; });
         row.against_samples = true;
         sweep.rows.push_back(std::move(row));
@@ -178,8 +178,8 @@ Sweep transparencySweep(const Base& base) {
                 "R2 is here up to 16 layers peeled by the device. For the built-in scene: --camera "
                 "Glass.",
                 {}};
-    const auto add = [&](view::Transparency kind, std::optional<uint32_t> layers) {
-        auto label = nameOf(view::kTransparencyNames, kind);
+    const auto add = [&](settings::Transparency kind, std::optional<uint32_t> layers) {
+        auto label = nameOf(settings::kTransparencyNames, kind);
         label += layers ? fmt::format(", {} layers", *layers) : "";
         auto row =
             rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()), [&](auto& s) {
@@ -189,10 +189,10 @@ Sweep transparencySweep(const Base& base) {
         row.against_peeled = true;
         sweep.rows.push_back(std::move(row));
     };
-    add(view::Transparency::kSorted, std::nullopt);
-    add(view::Transparency::kWeighted, std::nullopt);
+    add(settings::Transparency::kSorted, std::nullopt);
+    add(settings::Transparency::kWeighted, std::nullopt);
     for (const uint32_t layers : {1U, 2U, 4U, 8U, 16U}) {
-        add(view::Transparency::kPeeled, layers);
+        add(settings::Transparency::kPeeled, layers);
     }
     return sweep;
 }
@@ -209,11 +209,11 @@ Sweep fogSweep(const Base& base) {
                 Axis::kCategory,
                 "R2 integrates lights along each ray, in double; each to be read beside no fog.",
                 {}};
-    const auto add = [&](const std::string& label, const view::Fog& fog) {
+    const auto add = [&](const std::string& label, const settings::Fog& fog) {
         sweep.rows.push_back(rowOf(base, kDeferred, label, static_cast<double>(sweep.rows.size()),
                                    [&](auto& s) { s.fog = fog; }));
     };
-    view::Fog fog;
+    settings::Fog fog;
     add("none", fog);
     fog.density = 0.05F;
     fog.anisotropy = 0.4F;
@@ -258,13 +258,13 @@ Sweep shadowSweep(const Base& base) {
 }
 
 // Ahead of the path's first stop, shining down.
-std::vector<view::PlacedLight> areaLights(const view::Camera& camera, uint32_t count) {
-    std::vector<view::PlacedLight> lights;
+std::vector<settings::PlacedLight> areaLights(const settings::Camera& camera, uint32_t count) {
+    std::vector<settings::PlacedLight> lights;
     const glm::dmat3& axes = camera.world_from_view;
     for (uint32_t i = 0; i < count; ++i) {
-        view::PlacedLight light;
+        settings::PlacedLight light;
         light.id = i + 1;
-        light.kind = view::LightKind::kArea;
+        light.kind = settings::LightKind::kArea;
         light.position_world = camera.eye_world - axes[2] * (2.0 + i / 3) +
                                axes[0] * (i % 3 - 1.0) * 1.5 + axes[1] * 0.75;
         light.width_m = 1;
@@ -284,15 +284,15 @@ Sweep areaSweep(const Base& base) {
                 Axis::kLinear,
                 "R2 sums over each rectangle's parts: what differs is the highlight's fit.",
                 {}};
-    for (const auto shading : {view::ShadingModel::kPbr, view::ShadingModel::kLambert}) {
+    for (const auto shading : {settings::ShadingModel::kPbr, settings::ShadingModel::kLambert}) {
         for (const uint32_t count : {0U, 1U, 4U, 16U}) {
             auto row =
                 rowOf(base, kDeferred, fmt::format("{} area lights", count), count, [&](auto& s) {
                     s.shading = shading;
                     s.lights.placed =
-                        view::PlacedLights(areaLights(base.views.front().camera, count));
+                        settings::PlacedLights(areaLights(base.views.front().camera, count));
                 });
-            row.series = nameOf(view::kShadingModelNames, shading);
+            row.series = nameOf(settings::kShadingModelNames, shading);
             if (count > 0) {
                 row.light_set = fmt::format("area_lights_{}.json", count);
             }
@@ -310,13 +310,13 @@ Sweep streamSweep(const Base& base) {
                 Axis::kLinear,
                 "The decoded picture against the one it encodes.",
                 {}};
-    for (const auto chroma : {view::Chroma::k420, view::Chroma::k444}) {
+    for (const auto chroma : {settings::Chroma::k420, settings::Chroma::k444}) {
         for (const uint32_t quality : {30U, 50U, 70U, 80U, 90U, 95U}) {
-            const auto name = nameOf(view::kChromaNames, chroma);
+            const auto name = nameOf(settings::kChromaNames, chroma);
             auto row =
                 rowOf(base, kDeferred, fmt::format("quality {}, {}", quality, name), quality);
             row.series = name;
-            row.stream = view::Encoding{quality, chroma};
+            row.stream = settings::Encoding{quality, chroma};
             sweep.rows.push_back(std::move(row));
         }
     }
@@ -336,26 +336,27 @@ Sweep smokeSweep(const Base& base) {
     for (const auto& way : {kNaive, kForwardPlus, kDeferred}) {
         add(rowOf(small, way, nameOf(way), 0));
     }
-    for (const auto toon_renderer : {view::Renderer::kToonFragment, view::Renderer::kToonCompute}) {
-        const Way way{toon_renderer, view::LightingStage::kAuto};
+    for (const auto toon_renderer :
+         {settings::Renderer::kToonFragment, settings::Renderer::kToonCompute}) {
+        const Way way{toon_renderer, settings::LightingStage::kAuto};
         add(rowOf(small, way, nameOf(way), 0));
     }
     add(rowOf(small, kDeferred, "oct8", 0,
-              [](auto& s) { s.gbuffer.normal = view::NormalEncoding::kOct8; }));
+              [](auto& s) { s.gbuffer.normal = settings::NormalEncoding::kOct8; }));
     add(rowOf(small, kDeferred, "bloom", 0,
-              [](auto& s) { s.bloom.kind = view::BloomKind::kMipChain; }));
+              [](auto& s) { s.bloom.kind = settings::BloomKind::kMipChain; }));
     add(rowOf(small, kDeferred, "metered", 0,
-              [](auto& s) { s.exposure_mode = view::ExposureMode::kFrame; }));
+              [](auto& s) { s.exposure_mode = settings::ExposureMode::kFrame; }));
     add(rowOf(small, kDeferred, "fog", 0, [](auto& s) { s.fog.density = 0.05F; }));
     auto smooth = rowOf(small, kDeferred, "ssaa4", 0,
-                        [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; });
+                        [](auto& s) { s.antialiasing = settings::Antialiasing::kSsaa4; });
     smooth.against_samples = true;
     add(std::move(smooth));
     auto half = rowOf(small, kDeferred, "1/2", 0, [](auto& s) { s.size = scaledBy(s.size, 0.5); });
     half.scaled_to = small.settings.size;
     add(std::move(half));
     auto jpeg = rowOf(small, kDeferred, "JPEG", 0);
-    jpeg.stream = view::Encoding{};
+    jpeg.stream = settings::Encoding{};
     add(std::move(jpeg));
     return sweep;
 }

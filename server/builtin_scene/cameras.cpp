@@ -1,6 +1,6 @@
 #include "builtin_scene/cameras.h"
 
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <array>
 
@@ -26,7 +26,7 @@ constexpr std::array<View, 6> kViews = {
 
 void addCameras(scene::Scene& scene) {
     for (const View& view : kViews) {
-        view::Camera camera = view::lookAt(view.eye, view.target, {0, 1, 0});
+        settings::Camera camera = settings::lookAt(view.eye, view.target, {0, 1, 0});
         camera.yfov_rad = glm::radians(view.yfov_deg);
         scene.cameras.push_back({view.name, camera});
     }

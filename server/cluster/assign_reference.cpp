@@ -12,17 +12,17 @@ double outside(double value, double low, double high) {
     return std::max({0.0, low - value, value - high});
 }
 
-glm::dvec3 pointOf(const Cell& cell, view::Projection projection, const glm::dvec3& share) {
+glm::dvec3 pointOf(const Cell& cell, settings::Projection projection, const glm::dvec3& share) {
     const double z = cell.z0 + (cell.z1 - cell.z0) * share.z;
-    const double scale = projection == view::Projection::kPerspective ? z : 1.0;
+    const double scale = projection == settings::Projection::kPerspective ? z : 1.0;
     return {(cell.x0 + (cell.x1 - cell.x0) * share.x) * scale,
             (cell.y0 + (cell.y1 - cell.y0) * share.y) * scale, z};
 }
 
 } // namespace
 
-double distance(const glm::dvec3& point, const Cell& cell, view::Projection projection) {
-    const bool perspective = projection == view::Projection::kPerspective;
+double distance(const glm::dvec3& point, const Cell& cell, settings::Projection projection) {
+    const bool perspective = projection == settings::Projection::kPerspective;
     const auto distance2 = [&](double z) {
         const double scale = perspective ? z : 1.0;
         const double x = outside(point.x, cell.x0 * scale, cell.x1 * scale);
@@ -79,7 +79,7 @@ double largestCosine(const glm::dvec3& apex,
                      const glm::dvec3& axis,
                      double range,
                      const Cell& cell,
-                     view::Projection projection) {
+                     settings::Projection projection) {
     constexpr int kSteps = 6;
     constexpr int kRounds = 12;
     double best = -2;

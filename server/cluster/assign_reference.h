@@ -13,7 +13,7 @@ namespace froxel::cluster::reference {
 // on their own, so the squared distance is a convex function of z alone, made of parabolas; the
 // least vertex or joint is taken.
 [[nodiscard]] double
-distance(const glm::dvec3& point, const Cell& cell, view::Projection projection);
+distance(const glm::dvec3& point, const Cell& cell, settings::Projection projection);
 
 // All clusters whose cell has a point within the ball, ascending.
 [[nodiscard]] std::vector<uint32_t> clustersOf(const ClusterGrid& grid, const Ball& ball);
@@ -25,6 +25,6 @@ distance(const glm::dvec3& point, const Cell& cell, view::Projection projection)
                                    const glm::dvec3& axis,
                                    double range,
                                    const Cell& cell,
-                                   view::Projection projection);
+                                   settings::Projection projection);
 
 } // namespace froxel::cluster::reference

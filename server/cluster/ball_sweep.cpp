@@ -1,7 +1,7 @@
 #include "cluster/ball_sweep.h"
 
 #include "core/assert.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@
 namespace froxel::cluster {
 namespace {
 
-constexpr size_t kMaxRowEdges = view::kGridYRange.max + 1U;
-constexpr size_t kMaxPlanes = view::kGridZRange.max + 1U;
+constexpr size_t kMaxRowEdges = settings::kGridYRange.max + 1U;
+constexpr size_t kMaxPlanes = settings::kGridZRange.max + 1U;
 
 using io::Interval;
 using io::Touches;
@@ -54,10 +54,11 @@ axisOf(uint32_t image_px, uint32_t tile_px, double half, double middle, uint32_t
 } // namespace
 
 void BallSweep::prepare(const ClusterGrid& grid) {
-    FROXEL_ASSERT(grid.size.x <= view::kGridXRange.max && grid.size.y <= view::kGridYRange.max &&
-                      grid.size.z <= view::kGridZRange.max,
+    FROXEL_ASSERT(grid.size.x <= settings::kGridXRange.max &&
+                      grid.size.y <= settings::kGridYRange.max &&
+                      grid.size.z <= settings::kGridZRange.max,
                   "a grid within the accepted range");
-    perspective_ = grid.projection == view::Projection::kPerspective;
+    perspective_ = grid.projection == settings::Projection::kPerspective;
     grid_rows_ = grid.size.y;
     columns_ = axisOf(grid.image.width_px, grid.tile_width_px, grid.half_x, grid.middle_x,
                       grid.usedColumns());

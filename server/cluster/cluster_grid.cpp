@@ -58,11 +58,11 @@ Cell ClusterGrid::cell(uint32_t x, uint32_t y, uint32_t z) const {
 }
 
 ClusterGrid makeClusterGrid(const GridShape& shape,
-                            const view::Size& image,
-                            const view::Camera& camera,
+                            const settings::Size& image,
+                            const settings::Camera& camera,
                             double grid_near_m,
                             double grid_far_m) {
-    const view::GridSize& size = shape.size;
+    const settings::GridSize& size = shape.size;
     FROXEL_ASSERT(size.x > 0 && size.y > 0 && size.z > 0, "a grid needs a cluster");
     FROXEL_ASSERT(image.width_px > 0 && image.height_px > 0, "a picture needs a pixel");
     FROXEL_ASSERT(grid_near_m > 0 && std::isfinite(grid_far_m), "depths must be finite, near > 0");
@@ -72,7 +72,7 @@ ClusterGrid makeClusterGrid(const GridShape& shape,
     grid.tile_width_px = std::max(shape.tile_width_px, ceilDivide(image.width_px, size.x));
     grid.tile_height_px = std::max(shape.tile_height_px, ceilDivide(image.height_px, size.y));
     grid.projection = camera.projection;
-    grid.half_y = camera.projection == view::Projection::kPerspective
+    grid.half_y = camera.projection == settings::Projection::kPerspective
                       ? std::tan(camera.yfov_rad * 0.5)
                       : camera.half_height_m;
     grid.half_x = grid.half_y * image.width_px / image.height_px;

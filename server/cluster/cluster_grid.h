@@ -1,15 +1,15 @@
 // How a view's frustum is cut into clusters: one law for assignment and for shaders.
 //
-// Memory. The largest grid in the accepted range (view::kGridXRange and so on) has 4,194,304
+// Memory. The largest grid in the accepted range (settings::kGridXRange and so on) has 4,194,304
 // clusters. Its lists' heads take kClusterBytes each, 32 MiB for every frame in flight; the host's
 // assigner works with as much again, half for each thread (LightAssigner). kMaxGridBytes is what
 // every Vulkan device must be able to bind as one storage buffer.
 #pragma once
 
 #include "cluster/slice_law.h"
-#include "view/camera.h"
-#include "view/ranges.h"
-#include "view/settings.h"
+#include "settings/camera.h"
+#include "settings/ranges.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <optional>
@@ -27,8 +27,8 @@ struct Cell {
 
 inline constexpr uint64_t kClusterBytes = 8; // io::ClusterList
 inline constexpr uint64_t kMaxGridBytes = uint64_t{128} << 20U;
-static_assert(uint64_t{view::kGridXRange.max} * view::kGridYRange.max * view::kGridZRange.max *
-                      kClusterBytes <=
+static_assert(uint64_t{settings::kGridXRange.max} * settings::kGridYRange.max *
+                      settings::kGridZRange.max * kClusterBytes <=
                   kMaxGridBytes,
               "a grid that a viewer can ask for must fit a storage buffer");
 
@@ -38,11 +38,11 @@ static_assert(uint64_t{view::kGridXRange.max} * view::kGridYRange.max * view::kG
 // A pixel's slice is the k with plane_depths_m[k] <= depth < plane_depths_m[k + 1]; at or beyond
 // the last plane a pixel belongs to no cluster, because no light reaches it.
 struct ClusterGrid {
-    view::GridSize size;
-    view::Size image;
+    settings::GridSize size;
+    settings::Size image;
     uint32_t tile_width_px = 1;
     uint32_t tile_height_px = 1;
-    view::Projection projection = view::Projection::kPerspective;
+    settings::Projection projection = settings::Projection::kPerspective;
     // Half the picture's size and its middle, as Cell has x and y: tangents or metres. The middle
     // is off 0 where the camera's lens is shifted.
     double half_x = 1;
@@ -70,8 +70,8 @@ struct ClusterGrid {
 
 // How many clusters, and where slices lie.
 struct GridShape {
-    view::GridSize size;
-    view::GridLaw law = view::GridLaw::kLogarithmic;
+    settings::GridSize size;
+    settings::GridLaw law = settings::GridLaw::kLogarithmic;
     // 0: the least that `size` tiles cover the picture with.
     uint32_t tile_width_px = 0;
     uint32_t tile_height_px = 0;
@@ -82,8 +82,8 @@ struct GridShape {
 // not beyond near is moved to just beyond it. Sizes must be at least 1; tiles too small
 // to cover the picture are enlarged.
 [[nodiscard]] ClusterGrid makeClusterGrid(const GridShape& shape,
-                                          const view::Size& image,
-                                          const view::Camera& camera,
+                                          const settings::Size& image,
+                                          const settings::Camera& camera,
                                           double grid_near_m,
                                           double grid_far_m);
 

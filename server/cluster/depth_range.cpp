@@ -56,7 +56,7 @@ struct BoxDepths {
     double farthest;
 };
 
-BoxDepths boxDepths(const view::Camera& camera, const BoundsD3& box_world) {
+BoxDepths boxDepths(const settings::Camera& camera, const BoundsD3& box_world) {
     const glm::dvec3 forward = -camera.world_from_view[2];
     const glm::dvec3 low = box_world.min - camera.eye_world;
     const glm::dvec3 high = box_world.max - camera.eye_world;
@@ -69,7 +69,7 @@ BoxDepths boxDepths(const view::Camera& camera, const BoundsD3& box_world) {
 } // namespace
 
 DepthRange litDepthRange(const light::FrameLights& lights,
-                         const view::Camera& camera,
+                         const settings::Camera& camera,
                          const BoundsD3& scene_bounds_world,
                          Lit what) {
     const LitDepths lit = litDepths(lights);

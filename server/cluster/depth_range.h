@@ -3,7 +3,7 @@
 
 #include "core/math.h"
 #include "light/frame_lights.h"
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ enum class Lit : uint8_t {
 // on the whole. Every visible point of the scene at or beyond far is unlit; in a medium every
 // point, but for lights without a range limit, which there end where the scene does.
 [[nodiscard]] DepthRange litDepthRange(const light::FrameLights& lights,
-                                       const view::Camera& camera,
+                                       const settings::Camera& camera,
                                        const BoundsD3& scene_bounds_world,
                                        Lit lit = Lit::kSurfaces);
 

@@ -24,7 +24,7 @@ uint32_t ceilDivide(uint32_t value, uint32_t divisor) {
 }
 
 GridShape shapeOf(const GridFacts& facts, uint32_t tile_px, uint32_t slices) {
-    const view::Size& image = facts.frustum.image;
+    const settings::Size& image = facts.frustum.image;
     return {
         .size = {ceilDivide(image.width_px, tile_px), ceilDivide(image.height_px, tile_px), slices},
         .law = facts.law,
@@ -32,8 +32,8 @@ GridShape shapeOf(const GridFacts& facts, uint32_t tile_px, uint32_t slices) {
         .tile_height_px = tile_px};
 }
 
-bool fits(const view::GridSize& size) {
-    return view::kGridXRange.contains(size.x) && view::kGridYRange.contains(size.y) &&
+bool fits(const settings::GridSize& size) {
+    return settings::kGridXRange.contains(size.x) && settings::kGridYRange.contains(size.y) &&
            uint64_t{size.x} * size.y * size.z * kClusterBytes <= kAutomaticGridBytes;
 }
 
@@ -90,7 +90,7 @@ Slice CostModel::sliceAt(const SliceLaw& law, uint32_t count, double depth_m) co
     const uint32_t slice = std::min(law.sliceOf(static_cast<float>(depth_m)), count - 1);
     const double begin = slice > 0 ? static_cast<double>(planeDepth(law, slice)) : 0.0;
     const double end = static_cast<double>(planeDepth(law, slice + 1));
-    const bool flat = frustum.projection == view::Projection::kOrthographic;
+    const bool flat = frustum.projection == settings::Projection::kOrthographic;
     const double scale = flat ? 1.0 : (begin + end) / 2;
     return {2 * frustum.half_y / frustum.image.height_px * scale, end - begin};
 }
@@ -227,7 +227,7 @@ GridChoice chooseGrid(const GridFacts& facts, const GridMemory& previous) {
 }
 
 double expectedListLength(const GridFacts& facts, const GridShape& shape) {
-    const view::Size& image = facts.frustum.image;
+    const settings::Size& image = facts.frustum.image;
     GridShape tiled = shape;
     tiled.tile_width_px = std::max(shape.tile_width_px, ceilDivide(image.width_px, shape.size.x));
     tiled.tile_height_px =

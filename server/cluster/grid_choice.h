@@ -9,7 +9,7 @@
 #include "cluster/cluster_grid.h"
 #include "cluster/depth_range.h"
 #include "cluster/light_spread.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <optional>
@@ -59,7 +59,7 @@ inline constexpr GridCosts kGpuFragmentCosts{.pair_ns = 0.18,
 struct GridFacts {
     const ClusterGrid& frustum;
     DepthRange range;
-    view::GridLaw law = view::GridLaw::kLogarithmic;
+    settings::GridLaw law = settings::GridLaw::kLogarithmic;
     const LightSpread& lights;
     GridCosts costs;
     // Where the picture's pixels lie, along the view axis; empty: by the square of an even

@@ -16,7 +16,7 @@ bool seen(const ClusterGrid& grid, const glm::dvec3& position_view, double radiu
     if (depth + radius < 0) {
         return false;
     }
-    const bool flat = grid.projection == view::Projection::kOrthographic;
+    const bool flat = grid.projection == settings::Projection::kOrthographic;
     const auto within = [&](double value, double middle, double half) {
         const double scale = flat ? 1.0 : std::max(depth, 0.0);
         const double slope = flat ? 0.0 : std::abs(middle) + half;

@@ -1,6 +1,6 @@
 #include "cluster/line_lists.h"
 
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <algorithm>
 #include <array>
@@ -80,7 +80,7 @@ void fillLine(std::span<const SpanChunk> chunks,
               ListTally& tally) {
     // How many spans begin here less how many ended before: the running sum counts a cluster's
     // entries in two additions a span.
-    std::array<uint32_t, view::kGridXRange.max + kColumnsAtOnce> cursors{};
+    std::array<uint32_t, settings::kGridXRange.max + kColumnsAtOnce> cursors{};
     for (const SpanChunk& chunk : chunks) {
         for (const auto& span : chunk.lineSpans(line)) {
             ++cursors[span.first];

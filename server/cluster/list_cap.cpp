@@ -17,7 +17,7 @@ namespace {
 
 // In view space, whose y points up and whose z behind the eye.
 BoundsD3 boxOf(const ClusterGrid& grid, const Cell& cell) {
-    const bool perspective = grid.projection == view::Projection::kPerspective;
+    const bool perspective = grid.projection == settings::Projection::kPerspective;
     const double nearest = perspective ? cell.z0 : 1.0;
     const double farthest = perspective ? cell.z1 : 1.0;
     BoundsD3 box;

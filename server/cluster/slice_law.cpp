@@ -41,13 +41,13 @@ void divideKey(SliceLaw& law, uint32_t slices, uint32_t span) {
 
 } // namespace
 
-SliceLaw makeSliceLaw(view::GridLaw kind, uint32_t slices, double near_m, double far_m) {
+SliceLaw makeSliceLaw(settings::GridLaw kind, uint32_t slices, double near_m, double far_m) {
     SliceLaw law{.kind = kind};
-    if (kind == view::GridLaw::kLogarithmic) {
+    if (kind == settings::GridLaw::kLogarithmic) {
         law.first = std::bit_cast<uint32_t>(static_cast<float>(near_m));
         const auto far_bits = std::bit_cast<uint32_t>(roundedUp(far_m));
         divideKey(law, slices, std::max(far_bits - std::min(far_bits, law.first), slices + 1U));
-    } else if (kind == view::GridLaw::kLinear) {
+    } else if (kind == settings::GridLaw::kLinear) {
         law.unit = unitFor(far_m, kLinearBits);
         law.first = fixedPoint(law, near_m);
         // Neighbouring floats at far are up to 64 steps apart.
@@ -66,11 +66,11 @@ SliceLaw makeSliceLaw(view::GridLaw kind, uint32_t slices, double near_m, double
 float planeDepth(const SliceLaw& law, uint32_t k) {
     const uint64_t steps = ((uint64_t{k} << (32U + law.shift)) + law.scale - 1) / law.scale;
     const auto key = static_cast<uint32_t>(steps);
-    if (law.kind == view::GridLaw::kLogarithmic) {
+    if (law.kind == settings::GridLaw::kLogarithmic) {
         return std::bit_cast<float>(law.first + key);
     }
     // The smallest fixed-point depth whose key is that large.
-    const uint32_t fixed = law.kind == view::GridLaw::kLinear
+    const uint32_t fixed = law.kind == settings::GridLaw::kLinear
                                ? law.first + key
                                : law.kHyperbola / (law.first - key + 1U) + 1U;
     return roundedUp(static_cast<double>(fixed) / static_cast<double>(law.unit));

@@ -1,7 +1,7 @@
 // Which slice a depth is in, by integers: assignment and shaders agree to the last bit.
 #pragma once
 
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +16,7 @@ namespace froxel::cluster {
 //   hyperbolic: a constant divided by that, in integers, and what is left of it at near: what NDC
 //   depth does.
 struct SliceLaw {
-    view::GridLaw kind = view::GridLaw::kLogarithmic;
+    settings::GridLaw kind = settings::GridLaw::kLogarithmic;
     float unit = 1;     // fixed-point steps a metre, a power of two; not logarithmic
     uint32_t first = 0; // the key (hyperbolic: the quotient) of near; nearer ones are in slice 0
     uint32_t scale = 0; // slices per step of the key, times 2^(32 + shift)
@@ -33,11 +33,11 @@ struct SliceLaw {
 
   private:
     [[nodiscard]] uint32_t keyOf(float depth_m) const {
-        if (kind == view::GridLaw::kLogarithmic) {
+        if (kind == settings::GridLaw::kLogarithmic) {
             return std::max(std::bit_cast<uint32_t>(depth_m), first) - first;
         }
         const auto fixed = static_cast<uint32_t>(std::min(depth_m * unit, kMaxFixed));
-        if (kind == view::GridLaw::kLinear) {
+        if (kind == settings::GridLaw::kLinear) {
             return std::max(fixed, first) - first;
         }
         return first - std::min(kHyperbola / std::max(fixed, 1U), first);
@@ -48,7 +48,7 @@ struct SliceLaw {
 // beyond). Depths in [1e-9, 1e18], near <= far. Where they lie so close that slices would have no
 // float of their own, far is moved; a hyperbolic near is raised to far / 8192.
 [[nodiscard]] SliceLaw
-makeSliceLaw(view::GridLaw kind, uint32_t slices, double near_m, double far_m);
+makeSliceLaw(settings::GridLaw kind, uint32_t slices, double near_m, double far_m);
 
 // The smallest float in slice k (of at least 1): where it begins, or where k - 1 ends.
 [[nodiscard]] float planeDepth(const SliceLaw& law, uint32_t k);

@@ -1,7 +1,7 @@
 // What a sweep finds: columns [first, last] of one row of one slice, in 32 bits.
 #pragma once
 
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <cstdint>
 
@@ -21,8 +21,8 @@ class Span {
   private:
     static constexpr uint32_t kColumnBits = 7;
     static constexpr uint32_t kColumnMask = (1U << kColumnBits) - 1U;
-    static_assert(view::kGridXRange.max <= kColumnMask + 1U);
-    static_assert(uint64_t{view::kGridYRange.max} * view::kGridZRange.max <=
+    static_assert(settings::kGridXRange.max <= kColumnMask + 1U);
+    static_assert(uint64_t{settings::kGridYRange.max} * settings::kGridZRange.max <=
                   uint64_t{1} << (32U - 2U * kColumnBits));
 
     uint32_t bits_;

@@ -38,9 +38,9 @@ Ball SpotCut::bound() const {
     return {centre.x, centre.y, centre.z, radius};
 }
 
-bool SpotCut::misses(const Cell& cell, view::Projection projection) const {
+bool SpotCut::misses(const Cell& cell, settings::Projection projection) const {
     return io::coneMisses(cone_, {cell.x0, cell.x1, cell.y0, cell.y1, cell.z0, cell.z1,
-                                  projection == view::Projection::kPerspective});
+                                  projection == settings::Projection::kPerspective});
 }
 
 } // namespace froxel::cluster

@@ -24,7 +24,7 @@ class SpotCut {
     // A ball around what the spot can light, no larger than the light's own. Range must be finite.
     [[nodiscard]] Ball bound() const;
     // Whether the spot cannot light a point within the cell. False is not proof that it does.
-    [[nodiscard]] bool misses(const Cell& cell, view::Projection projection) const;
+    [[nodiscard]] bool misses(const Cell& cell, settings::Projection projection) const;
     [[nodiscard]] const io::Cone& cone() const { return cone_; }
 
   private:

@@ -77,7 +77,7 @@ struct MemoryUse {
 
 // How to read a debug view.
 struct DebugLegend {
-    std::string view;  // view::kDebugViewNames
+    std::string view;  // settings::kDebugViewNames
     std::string words; // what its colours say, for a person
     double min = 0;    // of a heat map's scale; the top stands for more, too
     double max = 0;

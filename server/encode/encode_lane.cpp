@@ -127,7 +127,7 @@ EncodeLane::~EncodeLane() {
 }
 
 bool EncodeLane::submit(EncodeJob&& job) {
-    FROXEL_ASSERT(view::rowOf(job.encoding.codec).frames_depend == job.video.has_value(),
+    FROXEL_ASSERT(settings::rowOf(job.encoding.codec).frames_depend == job.video.has_value(),
                   "video alone brings its encoder");
     {
         const std::lock_guard lock(mutex_);
@@ -159,7 +159,7 @@ bool EncodeLane::withdrawLossless(const void* owner) {
 
 EncodeLane::Encoders EncodeLane::makeEncoders() {
     Encoders own;
-    for (const view::CodecRow& row : view::kCodecRows) {
+    for (const settings::CodecRow& row : settings::kCodecRows) {
         if (!row.frames_depend) {
             own[static_cast<size_t>(row.codec)] = makeEncoder(row.codec, 1);
         }

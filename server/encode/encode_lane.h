@@ -28,15 +28,15 @@ struct VideoJob {
 };
 
 struct EncodeJob {
-    PixelLease pixels;       // ends before `done` is called, so that rendering can go on
-    view::Encoding encoding; // lossless codecs wait behind the others, whose viewers move
+    PixelLease pixels;           // ends before `done` is called, so that rendering can go on
+    settings::Encoding encoding; // lossless codecs wait behind the others, whose viewers move
     // Called once, on an encoder thread; must not throw and should return soon. Jobs of one viewer
     // may finish out of order when several are queued.
     std::function<void(Result<EncodedFrame>)> done;
     std::optional<VideoJob> video = std::nullopt; // with a codec whose frames depend on others
     const void* owner = nullptr;                  // whoever may withdraw it
 
-    [[nodiscard]] bool lossless() const { return view::rowOf(encoding.codec).lossless; }
+    [[nodiscard]] bool lossless() const { return settings::rowOf(encoding.codec).lossless; }
 };
 
 class EncodeLane {
@@ -57,7 +57,7 @@ class EncodeLane {
 
   private:
     // A thread's own, of codecs whose frames stand alone.
-    using Encoders = std::array<std::unique_ptr<Encoder>, view::kCodecRows.size()>;
+    using Encoders = std::array<std::unique_ptr<Encoder>, settings::kCodecRows.size()>;
     struct Work;
     struct Share {
         std::shared_ptr<Work> work;

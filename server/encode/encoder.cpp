@@ -11,24 +11,24 @@ namespace froxel::encode {
 namespace {
 
 struct Maker {
-    view::Codec codec;
+    settings::Codec codec;
     std::unique_ptr<Encoder> (*make)(size_t thread_count);
 };
 
-// Beside view::kCodecRows, which must know no library.
+// Beside settings::kCodecRows, which must know no library.
 constexpr std::array kMakers = {
-    Maker{view::Codec::kJpeg, makeJpegEncoder},
-    Maker{view::Codec::kVp9, makeVp9Encoder},
-    Maker{view::Codec::kPng, makePngEncoder},
+    Maker{settings::Codec::kJpeg, makeJpegEncoder},
+    Maker{settings::Codec::kVp9, makeVp9Encoder},
+    Maker{settings::Codec::kPng, makePngEncoder},
 };
 
 constexpr bool oneARow() {
     for (size_t index = 0; index < kMakers.size(); ++index) {
-        if (kMakers[index].codec != view::kCodecRows[index].codec) {
+        if (kMakers[index].codec != settings::kCodecRows[index].codec) {
             return false;
         }
     }
-    return kMakers.size() == view::kCodecRows.size();
+    return kMakers.size() == settings::kCodecRows.size();
 }
 static_assert(oneARow());
 
@@ -40,7 +40,7 @@ Result<std::vector<std::byte>> Encoder::join(std::span<const std::vector<std::by
     return parts.front();
 }
 
-std::unique_ptr<Encoder> makeEncoder(view::Codec codec, size_t thread_count) {
+std::unique_ptr<Encoder> makeEncoder(settings::Codec codec, size_t thread_count) {
     return kMakers[static_cast<size_t>(codec)].make(thread_count);
 }
 

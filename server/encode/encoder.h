@@ -4,7 +4,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/pixel_view.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstddef>
 #include <memory>
@@ -29,13 +29,15 @@ class Encoder {
     // `part` is one of cut()'s. `key` asks for a frame that decodes by itself; `drawn_at` is for
     // rates over time. Errors: kInvalidArgument for an empty or inconsistent view or options
     // outside their ranges; kIo with the library's text otherwise.
-    [[nodiscard]] virtual Result<EncodedPart>
-    encode(const PixelView& part, const view::Encoding& encoding, bool key, TimePoint drawn_at) = 0;
+    [[nodiscard]] virtual Result<EncodedPart> encode(const PixelView& part,
+                                                     const settings::Encoding& encoding,
+                                                     bool key,
+                                                     TimePoint drawn_at) = 0;
 
     // The parts of a picture that as many threads may encode apart, about `wanted`; the whole where
     // the codec knows no parts.
     [[nodiscard]] virtual std::vector<PixelView>
-    cut(const PixelView& pixels, const view::Encoding& /*encoding*/, size_t /*wanted*/) const {
+    cut(const PixelView& pixels, const settings::Encoding& /*encoding*/, size_t /*wanted*/) const {
         return {pixels};
     }
     // The picture of several parts of one cut(), in order. Errors: kIo.
@@ -48,6 +50,6 @@ class Encoder {
 
 // `thread_count`: threads that it may use within a picture. Throws StartupError where the library
 // cannot be set up.
-[[nodiscard]] std::unique_ptr<Encoder> makeEncoder(view::Codec codec, size_t thread_count);
+[[nodiscard]] std::unique_ptr<Encoder> makeEncoder(settings::Codec codec, size_t thread_count);
 
 } // namespace froxel::encode

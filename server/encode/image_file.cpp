@@ -79,7 +79,8 @@ Result<void> writePng(const path& file, const PixelView& pixels) {
     return output.close();
 }
 
-Result<void> writeJpeg(const path& file, const PixelView& pixels, const view::Encoding& encoding) {
+Result<void>
+writeJpeg(const path& file, const PixelView& pixels, const settings::Encoding& encoding) {
     JpegEncoder encoder;
     const auto jpeg = encoder.encode(pixels, encoding);
     if (!jpeg) {
@@ -109,7 +110,8 @@ Result<ImageFormat> imageFormatOf(const path& file) {
     return invalid(file, "the name must end in .png, .jpg, .jpeg or .pfm");
 }
 
-Result<void> writeImage(const path& file, const PixelView& pixels, const view::Encoding& encoding) {
+Result<void>
+writeImage(const path& file, const PixelView& pixels, const settings::Encoding& encoding) {
     const auto format = imageFormatOf(file);
     if (!format) {
         return format.error();

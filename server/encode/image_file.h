@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/pixel_view.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -20,7 +20,7 @@ enum class ImageFormat : uint8_t { kPng, kJpeg, kPfm };
 // or an empty view, kIo; both name the file. A file that could not be completed is removed.
 [[nodiscard]] Result<void> writeImage(const std::filesystem::path& path,
                                       const PixelView& pixels,
-                                      const view::Encoding& encoding);
+                                      const settings::Encoding& encoding);
 
 // .pfm: linear fp32, `rgb` is [height][width][3], top row first (the file holds rows bottom-up,
 // little endian, bit for bit). Errors as above.

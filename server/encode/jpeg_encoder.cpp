@@ -2,7 +2,7 @@
 
 #include "core/text.h"
 #include "encode/jpeg_stripes.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <climits>
 #include <turbojpeg.h>
@@ -20,7 +20,7 @@ Error invalid(std::string message) {
     return Error{ErrorCode::kInvalidArgument, std::move(message)};
 }
 
-Result<void> check(const PixelView& pixels, const view::Encoding& encoding) {
+Result<void> check(const PixelView& pixels, const settings::Encoding& encoding) {
     if (pixels.data == nullptr || pixels.width_px == 0 || pixels.height_px == 0 ||
         pixels.width_px > kMaxSidePx || pixels.height_px > kMaxSidePx) {
         return invalid("JPEG of " + numberText(pixels.width_px) + "x" +
@@ -32,7 +32,7 @@ Result<void> check(const PixelView& pixels, const view::Encoding& encoding) {
                        numberText(pixels.width_px) + " pixels need " +
                        numberText(pixels.width_px * kPixelBytes));
     }
-    if (!view::kQualityRange.contains(encoding.quality)) {
+    if (!settings::kQualityRange.contains(encoding.quality)) {
         return invalid("JPEG quality is " + numberText(encoding.quality) +
                        "; it must be from 1 to 100");
     }
@@ -42,7 +42,7 @@ Result<void> check(const PixelView& pixels, const view::Encoding& encoding) {
 class StripedJpegEncoder final : public Encoder {
   public:
     [[nodiscard]] Result<EncodedPart> encode(const PixelView& part,
-                                             const view::Encoding& encoding,
+                                             const settings::Encoding& encoding,
                                              bool /*key*/,
                                              TimePoint /*drawn_at*/) override {
         auto bytes = jpeg_.encode(part, encoding);
@@ -52,7 +52,7 @@ class StripedJpegEncoder final : public Encoder {
         return EncodedPart{std::move(*bytes)};
     }
     [[nodiscard]] std::vector<PixelView>
-    cut(const PixelView& pixels, const view::Encoding& encoding, size_t wanted) const override {
+    cut(const PixelView& pixels, const settings::Encoding& encoding, size_t wanted) const override {
         return cutStripes(pixels, encoding.chroma, wanted);
     }
     [[nodiscard]] Result<std::vector<std::byte>> join(std::span<const std::vector<std::byte>> parts,
@@ -78,13 +78,13 @@ JpegEncoder::JpegEncoder() : handle_(tjInitCompress()) {
 }
 
 Result<std::vector<std::byte>> JpegEncoder::encode(const PixelView& pixels,
-                                                   const view::Encoding& encoding) {
+                                                   const settings::Encoding& encoding) {
     if (const auto valid = check(pixels, encoding); !valid) {
         return valid.error();
     }
     const auto width = static_cast<int>(pixels.width_px);
     const auto height = static_cast<int>(pixels.height_px);
-    const int subsampling = encoding.chroma == view::Chroma::k444 ? TJSAMP_444 : TJSAMP_420;
+    const int subsampling = encoding.chroma == settings::Chroma::k444 ? TJSAMP_444 : TJSAMP_420;
     const size_t bound = tjBufSize(width, height, subsampling);
     if (bound > scratch_bytes_) {
         scratch_ = std::make_unique_for_overwrite<unsigned char[]>(bound);

@@ -17,7 +17,7 @@ class JpegEncoder {
     // Exactly the JPEG's bytes. Errors: kInvalidArgument for an empty or inconsistent view or a
     // quality outside 1..100; kIo with TurboJPEG's text otherwise.
     [[nodiscard]] Result<std::vector<std::byte>> encode(const PixelView& pixels,
-                                                        const view::Encoding& encoding);
+                                                        const settings::Encoding& encoding);
 
   private:
     struct HandleDeleter {

@@ -76,8 +76,8 @@ void append(std::vector<std::byte>& out, std::span<const std::byte> bytes) {
 
 } // namespace
 
-std::vector<PixelView> cutStripes(const PixelView& pixels, view::Chroma chroma, size_t wanted) {
-    const uint32_t block_px = chroma == view::Chroma::k420 ? 16 : 8;
+std::vector<PixelView> cutStripes(const PixelView& pixels, settings::Chroma chroma, size_t wanted) {
+    const uint32_t block_px = chroma == settings::Chroma::k420 ? 16 : 8;
     const uint32_t width = std::max(1U, pixels.width_px);
     const auto parts = static_cast<uint32_t>(std::max<size_t>(wanted, 1));
     const uint32_t even = (pixels.height_px + parts - 1) / parts;

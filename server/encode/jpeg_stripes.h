@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/pixel_view.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstddef>
 #include <span>
@@ -19,7 +19,7 @@ namespace froxel::encode {
 // blocks, none so small that handing it to a thread would cost more than it saves, none larger than
 // a restart interval may be where there are several.
 [[nodiscard]] std::vector<PixelView>
-cutStripes(const PixelView& pixels, view::Chroma chroma, size_t wanted);
+cutStripes(const PixelView& pixels, settings::Chroma chroma, size_t wanted);
 
 // `stripes` are JpegEncoder's for the parts of one cutStripes(), in order, with one quality and
 // chroma; `height_px` is the whole picture's. Errors: kIo where a stripe is not such a JPEG.

@@ -10,10 +10,10 @@ constexpr uint64_t kPictureBytes = 4 * 3;
 
 } // namespace
 
-uint64_t memoryBytes(const view::Encoding& encoding, const view::Size& size) {
+uint64_t memoryBytes(const settings::Encoding& encoding, const settings::Size& size) {
     const uint64_t pixels = uint64_t{size.width_px} * size.height_px;
-    const view::EncoderMemory& kept = view::rowOf(encoding.codec).memory;
-    const bool full = encoding.chroma == view::Chroma::k444;
+    const settings::EncoderMemory& kept = settings::rowOf(encoding.codec).memory;
+    const bool full = encoding.chroma == settings::Chroma::k444;
     return kept.base_bytes + pixels * (kPictureBytes + (full ? kept.bytes_444 : kept.bytes_420));
 }
 

@@ -11,7 +11,7 @@ namespace {
 class PngEncoder final : public Encoder {
   public:
     [[nodiscard]] Result<EncodedPart> encode(const PixelView& part,
-                                             const view::Encoding& /*encoding*/,
+                                             const settings::Encoding& /*encoding*/,
                                              bool /*key*/,
                                              TimePoint /*drawn_at*/) override {
         auto bytes = png::write(part);

@@ -2,7 +2,7 @@
 
 #include "core/assert.h"
 #include "core/text.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <turbojpeg.h>
 
@@ -35,7 +35,7 @@ Error invalid(std::string message) {
     return {ErrorCode::kInvalidArgument, std::move(message)};
 }
 
-Result<void> check(const PixelView& pixels, const view::Encoding& encoding) {
+Result<void> check(const PixelView& pixels, const settings::Encoding& encoding) {
     if (pixels.data == nullptr || pixels.width_px == 0 || pixels.height_px == 0 ||
         pixels.width_px > kMaxSidePx || pixels.height_px > kMaxSidePx) {
         return invalid("video of " + numberText(pixels.width_px) + "x" +
@@ -47,23 +47,23 @@ Result<void> check(const PixelView& pixels, const view::Encoding& encoding) {
                        numberText(pixels.width_px) + " pixels need " +
                        numberText(pixels.width_px * kPixelBytes));
     }
-    if (!view::kVideoKbpsRange.contains(encoding.video_kbps)) {
+    if (!settings::kVideoKbpsRange.contains(encoding.video_kbps)) {
         return invalid("video_kbps is " + numberText(encoding.video_kbps) + "; it must be from " +
-                       numberText(view::kVideoKbpsRange.min) + " to " +
-                       numberText(view::kVideoKbpsRange.max));
+                       numberText(settings::kVideoKbpsRange.min) + " to " +
+                       numberText(settings::kVideoKbpsRange.max));
     }
     return {};
 }
 
 vpx_codec_enc_cfg_t
-configure(const PixelView& pixels, const view::Encoding& encoding, size_t thread_count) {
+configure(const PixelView& pixels, const settings::Encoding& encoding, size_t thread_count) {
     vpx_codec_enc_cfg_t config{};
     const auto status = vpx_codec_enc_config_default(vpx_codec_vp9_cx(), &config, 0);
     FROXEL_ASSERT(status == VPX_CODEC_OK, "this libvpx has no VP9 encoder");
     const uint64_t area_px = uint64_t{pixels.width_px} * pixels.height_px;
     config.g_w = pixels.width_px;
     config.g_h = pixels.height_px;
-    config.g_profile = encoding.chroma == view::Chroma::k444 ? 1 : 0;
+    config.g_profile = encoding.chroma == settings::Chroma::k444 ? 1 : 0;
     config.g_timebase = {1, 1'000'000};
     config.g_threads = static_cast<unsigned>(std::clamp<uint64_t>(
         area_px / kThreadAreaPx, 1, std::min<uint64_t>(thread_count, kMaxThreads)));
@@ -103,8 +103,8 @@ struct Vp9Encoder::Stream {
     Stream& operator=(const Stream&) = delete;
 
     [[nodiscard]] Result<void>
-    begin(const PixelView& pixels, const view::Encoding& encoding, size_t thread_count);
-    [[nodiscard]] bool fits(const PixelView& pixels, const view::Encoding& encoding) const {
+    begin(const PixelView& pixels, const settings::Encoding& encoding, size_t thread_count);
+    [[nodiscard]] bool fits(const PixelView& pixels, const settings::Encoding& encoding) const {
         return image.d_w == pixels.width_px && image.d_h == pixels.height_px &&
                chroma == encoding.chroma;
     }
@@ -122,13 +122,13 @@ struct Vp9Encoder::Stream {
     bool open = false;
     vpx_image_t image{};
     tjhandle converter = nullptr;
-    view::Chroma chroma = view::Chroma::k420;
+    settings::Chroma chroma = settings::Chroma::k420;
     TimePoint last_drawn_at{};
     int64_t next_us = 0; // media time; 0: nothing encoded yet
 };
 
 Result<void> Vp9Encoder::Stream::begin(const PixelView& pixels,
-                                       const view::Encoding& encoding,
+                                       const settings::Encoding& encoding,
                                        size_t thread_count) {
     chroma = encoding.chroma;
     config = configure(pixels, encoding, thread_count);
@@ -136,7 +136,7 @@ Result<void> Vp9Encoder::Stream::begin(const PixelView& pixels,
         return failure("cannot start");
     }
     open = true;
-    const bool full = encoding.chroma == view::Chroma::k444;
+    const bool full = encoding.chroma == settings::Chroma::k444;
     int tile_columns = 0; // as a power of two
     while ((2U << static_cast<unsigned>(tile_columns)) <= config.g_threads &&
            (pixels.width_px >> static_cast<unsigned>(tile_columns + 1)) >= kTileMinPx) {
@@ -184,7 +184,7 @@ Result<void> Vp9Encoder::Stream::convert(const PixelView& pixels) {
         tjEncodeYUVPlanes(converter, reinterpret_cast<const unsigned char*>(pixels.data),
                           static_cast<int>(pixels.width_px), static_cast<int>(pixels.stride_bytes),
                           static_cast<int>(pixels.height_px), TJPF_RGBX, image.planes, image.stride,
-                          chroma == view::Chroma::k444 ? TJSAMP_444 : TJSAMP_420, 0);
+                          chroma == settings::Chroma::k444 ? TJSAMP_444 : TJSAMP_420, 0);
     if (status != 0) {
         return Error{ErrorCode::kIo, std::string("TurboJPEG: ") + tjGetErrorStr2(converter)};
     }
@@ -221,7 +221,7 @@ Vp9Encoder::Vp9Encoder(size_t thread_count) : thread_count_(std::max<size_t>(thr
 Vp9Encoder::~Vp9Encoder() = default;
 
 Result<EncodedPart> Vp9Encoder::encode(const PixelView& pixels,
-                                       const view::Encoding& encoding,
+                                       const settings::Encoding& encoding,
                                        bool key,
                                        TimePoint drawn_at) {
     if (const auto valid = check(pixels, encoding); !valid) {

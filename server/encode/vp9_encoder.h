@@ -23,7 +23,7 @@ class Vp9Encoder final : public Encoder {
     // inconsistent view, one too large for VP9, or a rate outside its range; kIo with the library's
     // text otherwise.
     [[nodiscard]] Result<EncodedPart> encode(const PixelView& pixels,
-                                             const view::Encoding& encoding,
+                                             const settings::Encoding& encoding,
                                              bool key,
                                              TimePoint drawn_at) override;
     [[nodiscard]] bool hasThreads() const override { return true; }

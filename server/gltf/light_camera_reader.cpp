@@ -23,7 +23,7 @@ glm::dmat3 rotationOf(const glm::dmat4& world_from_node, const std::string& user
 }
 
 void readPerspective(const tinygltf::PerspectiveCamera& source,
-                     view::Camera& camera,
+                     settings::Camera& camera,
                      const std::string& user) {
     if (!(source.yfov > 0 && source.yfov < glm::pi<double>())) {
         failValue(user, "yfov", source.yfov, "above 0 and below pi radians");
@@ -31,13 +31,13 @@ void readPerspective(const tinygltf::PerspectiveCamera& source,
     if (!(source.znear > 0)) {
         failValue(user, "znear", source.znear, "above 0");
     }
-    camera.projection = view::Projection::kPerspective;
+    camera.projection = settings::Projection::kPerspective;
     camera.yfov_rad = source.yfov;
     camera.near_m = source.znear;
 }
 
 void readOrthographic(const tinygltf::OrthographicCamera& source,
-                      view::Camera& camera,
+                      settings::Camera& camera,
                       const std::string& user) {
     if (!(source.ymag > 0)) {
         failValue(user, "ymag", source.ymag, "above 0");
@@ -45,7 +45,7 @@ void readOrthographic(const tinygltf::OrthographicCamera& source,
     if (!(source.znear >= 0)) {
         failValue(user, "znear", source.znear, "0 or more");
     }
-    camera.projection = view::Projection::kOrthographic;
+    camera.projection = settings::Projection::kOrthographic;
     camera.half_height_m = source.ymag;
     camera.near_m = source.znear;
 }

@@ -83,9 +83,9 @@ Json cameraNode(const scene::NamedCamera& camera, uint32_t index) {
 }
 
 Json cameraJson(const scene::NamedCamera& named_camera, const BoundsD3& scene_bounds) {
-    const view::Camera& camera = named_camera.camera;
+    const settings::Camera& camera = named_camera.camera;
     Json json = named(named_camera.name);
-    if (camera.projection == view::Projection::kPerspective) {
+    if (camera.projection == settings::Projection::kPerspective) {
         json["type"] = "perspective";
         json["perspective"] = {{"yfov", camera.yfov_rad}, {"znear", camera.near_m}};
         return json;
@@ -106,8 +106,8 @@ Json cameraJson(const scene::NamedCamera& named_camera, const BoundsD3& scene_bo
 Json lightNode(const scene::PunctualLight& light, uint32_t index) {
     Json node = named(light.name);
     // A glTF light shines along its node's -Z.
-    const view::Camera aim =
-        view::lookAt(light.position_world, light.position_world + light.direction_world, {0, 1, 0});
+    const settings::Camera aim = settings::lookAt(
+        light.position_world, light.position_world + light.direction_world, {0, 1, 0});
     if (light.type == scene::LightType::kPoint) {
         node["translation"] = vectorJson(light.position_world);
     } else {

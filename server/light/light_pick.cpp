@@ -2,7 +2,7 @@
 #include "light/falloff.h"
 #include "light/light_rig.h"
 #include "light/seeded_lights.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <cmath>
 #include <limits>
@@ -16,10 +16,10 @@ namespace {
 // eye.
 class Finder {
   public:
-    Finder(const view::ViewSettings& settings, const glm::dvec2& at)
+    Finder(const settings::ViewSettings& settings, const glm::dvec2& at)
         : camera_(settings.camera),
           view_from_world_(glm::transpose(settings.camera.world_from_view)),
-          half_height_(settings.camera.projection == view::Projection::kPerspective
+          half_height_(settings.camera.projection == settings::Projection::kPerspective
                            ? std::tan(settings.camera.yfov_rad / 2)
                            : settings.camera.half_height_m),
           at_((at + settings.camera.lens_shift) *
@@ -33,24 +33,24 @@ class Finder {
         if (!(ahead_m > camera_.near_m)) {
             return std::numeric_limits<double>::infinity();
         }
-        const bool perspective = camera_.projection == view::Projection::kPerspective;
+        const bool perspective = camera_.projection == settings::Projection::kPerspective;
         const double half_height_m = perspective ? ahead_m * half_height_ : half_height_;
         return glm::distance(glm::dvec2(position) / half_height_m, at_);
     }
 
   private:
-    const view::Camera& camera_;
+    const settings::Camera& camera_;
     const glm::dmat3 view_from_world_;
     const double half_height_; // a metre ahead; metres of an orthographic one
     const glm::dvec2 at_;
 };
 
-Result<view::PlacedLight> placedOf(const scene::PunctualLight& light) {
-    view::PlacedLight placed;
-    placed.kind =
-        light.type == scene::LightType::kSpot ? view::LightKind::kSpot : view::LightKind::kPoint;
+Result<settings::PlacedLight> placedOf(const scene::PunctualLight& light) {
+    settings::PlacedLight placed;
+    placed.kind = light.type == scene::LightType::kSpot ? settings::LightKind::kSpot
+                                                        : settings::LightKind::kPoint;
     placed.position_world = light.position_world;
-    if (placed.kind == view::LightKind::kSpot) {
+    if (placed.kind == settings::LightKind::kSpot) {
         placed.direction_world = light.direction_world;
         placed.inner_cone_deg = glm::degrees(light.inner_cone_rad);
         placed.outer_cone_deg = glm::degrees(light.outer_cone_rad);
@@ -61,54 +61,54 @@ Result<view::PlacedLight> placedOf(const scene::PunctualLight& light) {
     }
     placed.intensity = light.intensity * brightest;
     placed.radius_m = light.range_m;
-    const auto refuse = [](const char* what, double value, const view::Range<double>& range) {
+    const auto refuse = [](const char* what, double value, const settings::Range<double>& range) {
         return Error{ErrorCode::kInvalidArgument,
                      std::string("is at a light whose ") + what + " is " + numberText(value) +
                          "; a placed one's is from " + numberText(range.min) + " to " +
                          numberText(range.max)};
     };
     if (const double radius_m = static_cast<double>(placed.radius_m);
-        !view::kLightRadiusRange.contains(radius_m)) {
-        return refuse("range", radius_m, view::kLightRadiusRange);
+        !settings::kLightRadiusRange.contains(radius_m)) {
+        return refuse("range", radius_m, settings::kLightRadiusRange);
     }
     for (const double coordinate :
          {placed.position_world.x, placed.position_world.y, placed.position_world.z}) {
-        if (!view::kPositionRange.contains(coordinate)) {
-            return refuse("coordinate", coordinate, view::kPositionRange);
+        if (!settings::kPositionRange.contains(coordinate)) {
+            return refuse("coordinate", coordinate, settings::kPositionRange);
         }
     }
     if (const double intensity = static_cast<double>(placed.intensity);
-        !view::kLightIntensityRange.contains(intensity)) {
-        return refuse("intensity", intensity, view::kLightIntensityRange);
+        !settings::kLightIntensityRange.contains(intensity)) {
+        return refuse("intensity", intensity, settings::kLightIntensityRange);
     }
     return placed;
 }
 
 } // namespace
 
-Result<view::PlacedLight>
-LightRig::pick(const view::ViewSettings& settings, double time_s, const glm::dvec2& at) const {
-    using Of = view::LightRef::Of;
-    const view::Lights& lights = settings.lights;
+Result<settings::PlacedLight>
+LightRig::pick(const settings::ViewSettings& settings, double time_s, const glm::dvec2& at) const {
+    using Of = settings::LightRef::Of;
+    const settings::Lights& lights = settings.lights;
     const size_t light_count = lights.count + (lights.scene_lights ? scene_lights_.size() : 0);
     if (light_count > kMostPickable) {
         return Error{ErrorCode::kInvalidArgument, "is in a picture of " + numberText(light_count) +
                                                       " lights; one is picked of at most " +
                                                       numberText(kMostPickable)};
     }
-    std::set<view::LightRef> replaced;
-    for (const view::PlacedLight& light : lights.placed.lights()) {
+    std::set<settings::LightRef> replaced;
+    for (const settings::PlacedLight& light : lights.placed.lights()) {
         if (light.replaces) {
             replaced.insert(*light.replaces);
         }
     }
     const Finder finder(settings, at);
     double nearest = kPickReach;
-    Result<view::PlacedLight> found = Error{
+    Result<settings::PlacedLight> found = Error{
         ErrorCode::kInvalidArgument, "is at no light: the middle of one must be within " +
                                          numberText(kPickReach) + " of half the picture's height"};
     // One that cannot be placed is told only where no other is.
-    const auto offer = [&](const view::LightRef& ref, const scene::PunctualLight& light) {
+    const auto offer = [&](const settings::LightRef& ref, const scene::PunctualLight& light) {
         const double distance = finder.distanceTo(light.position_world);
         if (distance > kPickReach || (found && distance > nearest) || replaced.contains(ref)) {
             return;

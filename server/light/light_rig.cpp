@@ -63,7 +63,7 @@ uint32_t addArea(const scene::LightRectangle& rectangle,
 }
 
 // Level, then rolled about the direction.
-scene::LightRectangle rectangleOf(const view::PlacedLight& placed) {
+scene::LightRectangle rectangleOf(const settings::PlacedLight& placed) {
     const glm::dvec3 direction = glm::normalize(placed.direction_world);
     const glm::dvec3 side = glm::cross(direction, glm::dvec3(0, 1, 0));
     const glm::dvec3 level = glm::length(side) > 1e-6 ? glm::normalize(side) : glm::dvec3(1, 0, 0);
@@ -97,7 +97,7 @@ uint32_t addSpot(const scene::PunctualLight& light,
 }
 
 void putLocal(const scene::PunctualLight& light,
-              const view::Camera& camera,
+              const settings::Camera& camera,
               const glm::dmat3& view_from_world,
               uint32_t index,
               FrameLights& out) {
@@ -118,11 +118,11 @@ void putLocal(const scene::PunctualLight& light,
 
 } // namespace
 
-scene::PunctualLight asPunctual(const view::PlacedLight& placed) {
+scene::PunctualLight asPunctual(const settings::PlacedLight& placed) {
     scene::PunctualLight light;
-    const bool area = placed.kind == view::LightKind::kArea;
-    light.type = area || placed.kind == view::LightKind::kSpot ? scene::LightType::kSpot
-                                                               : scene::LightType::kPoint;
+    const bool area = placed.kind == settings::LightKind::kArea;
+    light.type = area || placed.kind == settings::LightKind::kSpot ? scene::LightType::kSpot
+                                                                   : scene::LightType::kPoint;
     light.position_world = placed.position_world;
     light.direction_world = placed.direction_world;
     light.color = placed.color;
@@ -137,8 +137,8 @@ scene::PunctualLight asPunctual(const view::PlacedLight& placed) {
     return light;
 }
 
-bool standsForSeeded(const view::Lights& settings, const view::PlacedLight& placed) {
-    return placed.replaces && placed.replaces->of == view::LightRef::Of::kSeed &&
+bool standsForSeeded(const settings::Lights& settings, const settings::PlacedLight& placed) {
+    return placed.replaces && placed.replaces->of == settings::LightRef::Of::kSeed &&
            placed.replaces->index < settings.count;
 }
 
@@ -147,17 +147,18 @@ LightRig::LightRig(const scene::Scene& scene) : scene_bounds_world_(scene.bounds
                  usable);
 }
 
-bool LightRig::standsForScene(const view::Lights& settings, const view::PlacedLight& placed) const {
+bool LightRig::standsForScene(const settings::Lights& settings,
+                              const settings::PlacedLight& placed) const {
     return settings.scene_lights && placed.replaces &&
-           placed.replaces->of == view::LightRef::Of::kScene &&
+           placed.replaces->of == settings::LightRef::Of::kScene &&
            placed.replaces->index < scene_lights_.size() &&
            scene_lights_[placed.replaces->index].type != scene::LightType::kDirectional;
 }
 
-std::map<uint32_t, const view::PlacedLight*>
-LightRig::sceneStandIns(const view::Lights& settings) const {
-    std::map<uint32_t, const view::PlacedLight*> stand_ins;
-    for (const view::PlacedLight& light : settings.placed.lights()) {
+std::map<uint32_t, const settings::PlacedLight*>
+LightRig::sceneStandIns(const settings::Lights& settings) const {
+    std::map<uint32_t, const settings::PlacedLight*> stand_ins;
+    for (const settings::PlacedLight& light : settings.placed.lights()) {
         if (standsForScene(settings, light)) {
             stand_ins.emplace(light.replaces->index, &light);
         }
@@ -165,7 +166,7 @@ LightRig::sceneStandIns(const view::Lights& settings) const {
     return stand_ins;
 }
 
-BoundsD3 LightRig::seededBox(const view::Lights& settings) const {
+BoundsD3 LightRig::seededBox(const settings::Lights& settings) const {
     if (settings.box) {
         return *settings.box;
     }
@@ -180,7 +181,7 @@ BoundsD3 LightRig::seededBox(const view::Lights& settings) const {
 }
 
 LightRig::Place
-LightRig::placeOf(const view::Lights& settings, double time_s, uint32_t index) const {
+LightRig::placeOf(const settings::Lights& settings, double time_s, uint32_t index) const {
     std::optional<Place> found;
     const auto take = [&found](const scene::PunctualLight& light) {
         found.emplace().position_world = light.position_world;
@@ -209,8 +210,8 @@ LightRig::placeOf(const view::Lights& settings, double time_s, uint32_t index) c
     return *found;
 }
 
-void LightRig::evaluate(const view::Lights& settings,
-                        const view::Camera& camera,
+void LightRig::evaluate(const settings::Lights& settings,
+                        const settings::Camera& camera,
                         double time_s,
                         FrameLights& out) const {
     out.lights.resize(settings.count);

@@ -5,8 +5,8 @@
 #include "core/math.h"
 #include "light/frame_lights.h"
 #include "scene/scene.h"
-#include "view/camera.h"
-#include "view/settings.h"
+#include "settings/camera.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <map>
@@ -15,10 +15,11 @@
 
 namespace froxel::light {
 
-[[nodiscard]] scene::PunctualLight asPunctual(const view::PlacedLight& placed);
+[[nodiscard]] scene::PunctualLight asPunctual(const settings::PlacedLight& placed);
 
 // Whether it takes the place of a seeded light that is there.
-[[nodiscard]] bool standsForSeeded(const view::Lights& settings, const view::PlacedLight& placed);
+[[nodiscard]] bool standsForSeeded(const settings::Lights& settings,
+                                   const settings::PlacedLight& placed);
 
 // Immutable after construction: any number of threads may evaluate at once, each into its own
 // FrameLights.
@@ -31,8 +32,8 @@ class LightRig {
     // Replaces the contents of `out`. `time_s` is the lights' clock: whoever owns it
     // folds speed and pauses in. Positions are subtracted from the eye and rotated in double, then
     // rounded once to float.
-    void evaluate(const view::Lights& settings,
-                  const view::Camera& camera,
+    void evaluate(const settings::Lights& settings,
+                  const settings::Camera& camera,
                   double time_s,
                   FrameLights& out) const;
 
@@ -43,25 +44,26 @@ class LightRig {
         glm::dvec3 direction_world{0};                       // unit, the way it shines; spots only
         std::optional<double> outer_cone_rad = std::nullopt; // half angle; none: a point light
     };
-    [[nodiscard]] Place placeOf(const view::Lights& settings, double time_s, uint32_t index) const;
+    [[nodiscard]] Place
+    placeOf(const settings::Lights& settings, double time_s, uint32_t index) const;
 
     // The seeded or scene light with the middle nearest to `at`, right and up of the picture's own
     // in half pictures, as a placed light that stands for it. Errors: kInvalidArgument, the end of
     // a sentence: none within kPickReach, one that cannot be placed, more than kMostPickable.
-    [[nodiscard]] Result<view::PlacedLight>
-    pick(const view::ViewSettings& settings, double time_s, const glm::dvec2& at) const;
+    [[nodiscard]] Result<settings::PlacedLight>
+    pick(const settings::ViewSettings& settings, double time_s, const glm::dvec2& at) const;
     static constexpr double kPickReach = 0.05; // of half the picture's height
     static constexpr uint32_t kMostPickable = 20'000;
 
     // The box that seeded lights move in, metres in world space: the settings' own, or the scene's
     // bounds less kShrink of their size on every side.
-    [[nodiscard]] BoundsD3 seededBox(const view::Lights& settings) const;
+    [[nodiscard]] BoundsD3 seededBox(const settings::Lights& settings) const;
 
     // Calls visit(const scene::PunctualLight&) for the lights of a frame that are not seeded, in
     // their order: the scene's, as its file has them, or who stands for them, then the others that
     // viewers placed, by id.
     template <class Visit>
-    void eachFixed(const view::Lights& settings, const Visit& visit) const {
+    void eachFixed(const settings::Lights& settings, const Visit& visit) const {
         const auto stand_ins = sceneStandIns(settings);
         auto next = stand_ins.begin();
         for (uint32_t i = 0; settings.scene_lights && i < scene_lights_.size(); ++i) {
@@ -72,7 +74,7 @@ class LightRig {
                 visit(scene_lights_[i]);
             }
         }
-        for (const view::PlacedLight& light : settings.placed.lights()) {
+        for (const settings::PlacedLight& light : settings.placed.lights()) {
             if (!standsForSeeded(settings, light) && !standsForScene(settings, light)) {
                 visit(asPunctual(light));
             }
@@ -82,8 +84,8 @@ class LightRig {
     // Calls visit(index, const scene::PunctualLight&) for the seeded lights that a placed one
     // stands for.
     template <class Visit>
-    static void eachSeededStandIn(const view::Lights& settings, const Visit& visit) {
-        for (const view::PlacedLight& light : settings.placed.lights()) {
+    static void eachSeededStandIn(const settings::Lights& settings, const Visit& visit) {
+        for (const settings::PlacedLight& light : settings.placed.lights()) {
             if (standsForSeeded(settings, light)) {
                 visit(light.replaces->index, asPunctual(light));
             }
@@ -94,11 +96,11 @@ class LightRig {
 
   private:
     // The same of a scene light.
-    [[nodiscard]] bool standsForScene(const view::Lights& settings,
-                                      const view::PlacedLight& placed) const;
+    [[nodiscard]] bool standsForScene(const settings::Lights& settings,
+                                      const settings::PlacedLight& placed) const;
     // For scene lights, by their index; alive as long as the settings.
-    [[nodiscard]] std::map<uint32_t, const view::PlacedLight*>
-    sceneStandIns(const view::Lights& settings) const;
+    [[nodiscard]] std::map<uint32_t, const settings::PlacedLight*>
+    sceneStandIns(const settings::Lights& settings) const;
 
     std::vector<scene::PunctualLight> scene_lights_;
     BoundsD3 scene_bounds_world_;

@@ -84,8 +84,8 @@ struct SeededFrame {
     uint64_t key;
 };
 
-SeededFrame seededFrame(const view::Lights& settings,
-                        const view::Camera& camera,
+SeededFrame seededFrame(const settings::Lights& settings,
+                        const settings::Camera& camera,
                         const BoundsD3& box_world,
                         double time_s) {
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
@@ -184,8 +184,8 @@ float inverseRadius2(double radius_m) {
     return static_cast<float>(1.0 / (radius * radius));
 }
 
-void fillSeededLights(const view::Lights& settings,
-                      const view::Camera& camera,
+void fillSeededLights(const settings::Lights& settings,
+                      const settings::Camera& camera,
                       const BoundsD3& box_world,
                       double time_s,
                       std::span<io::Light> out) {
@@ -197,14 +197,14 @@ void fillSeededLights(const view::Lights& settings,
 }
 
 std::vector<SeededLight>
-seededLights(const view::Lights& settings, const BoundsD3& box_world, double time_s) {
+seededLights(const settings::Lights& settings, const BoundsD3& box_world, double time_s) {
     std::vector<SeededLight> lights(settings.count);
     const SeededFrame frame = seededFrame(settings, {}, box_world, time_s); // the world's own axes
     fillRange(frame, 0, lights.size(), WorldLights{lights});
     return lights;
 }
 
-SeededLight seededLight(const view::Lights& settings,
+SeededLight seededLight(const settings::Lights& settings,
                         const BoundsD3& box_world,
                         double time_s,
                         uint32_t index) {

@@ -3,8 +3,8 @@
 
 #include "core/math.h"
 #include "interface/light_io.h"
-#include "view/camera.h"
-#include "view/settings.h"
+#include "settings/camera.h"
+#include "settings/settings.h"
 
 #include <span>
 #include <vector>
@@ -19,8 +19,8 @@ namespace froxel::light {
 // The wave's argument is phase + rate * clock in double, less its nearest whole number: exact but
 // for the product's rounding, 2^-53 of its size. At 1e9 s, 1.5 m/s and a 10 m box that is 1e-8 of a
 // period, 0.2 um.
-void fillSeededLights(const view::Lights& settings,
-                      const view::Camera& camera,
+void fillSeededLights(const settings::Lights& settings,
+                      const settings::Camera& camera,
                       const BoundsD3& box_world,
                       double time_s,
                       std::span<io::Light> out);
@@ -31,10 +31,12 @@ struct SeededLight {
     glm::vec3 color{0}; // linear, times intensity
 };
 [[nodiscard]] std::vector<SeededLight>
-seededLights(const view::Lights& settings, const BoundsD3& box_world, double time_s);
+seededLights(const settings::Lights& settings, const BoundsD3& box_world, double time_s);
 // The one of index `index`.
-[[nodiscard]] SeededLight
-seededLight(const view::Lights& settings, const BoundsD3& box_world, double time_s, uint32_t index);
+[[nodiscard]] SeededLight seededLight(const settings::Lights& settings,
+                                      const BoundsD3& box_world,
+                                      double time_s,
+                                      uint32_t index);
 
 // 1 / radius^2 as the shaders take it; finite for every radius > 0, and 0 for infinity.
 [[nodiscard]] float inverseRadius2(double radius_m);

@@ -20,13 +20,13 @@ struct SeenSpace {
     std::array<Plane, 5> planes;
     size_t count = 0;
 
-    SeenSpace(const view::Camera& camera, const view::Size& size) {
+    SeenSpace(const settings::Camera& camera, const settings::Size& size) {
         add({0, 0, -1}, 0);
         if (camera.lens_shift != glm::dvec2(0)) {
             return;
         }
         const double aspect = static_cast<double>(size.width_px) / size.height_px;
-        if (camera.projection == view::Projection::kOrthographic) {
+        if (camera.projection == settings::Projection::kOrthographic) {
             for (const double side : {-1.0, 1.0}) {
                 add({side, 0, 0}, camera.half_height_m * aspect);
                 add({0, side, 0}, camera.half_height_m);
@@ -71,13 +71,13 @@ double importance(double luminance, double distance_m, double reach_m, double sh
 }
 
 std::vector<uint32_t> chooseShadowed(const FrameLights& lights,
-                                     const view::Camera& camera,
-                                     const view::Size& size,
+                                     const settings::Camera& camera,
+                                     const settings::Size& size,
                                      double farthest_m,
                                      uint32_t count) {
     constexpr size_t kLightsPerThread = 16'384;
     const SeenSpace seen(camera, size);
-    const bool parallel = camera.projection == view::Projection::kOrthographic;
+    const bool parallel = camera.projection == settings::Projection::kOrthographic;
     const auto valueOf = [&](const io::Light& light, double radius_m) {
         const glm::dvec3 center(light.position_view);
         const double reach_m = std::min(radius_m, farthest_m);

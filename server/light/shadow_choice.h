@@ -2,8 +2,8 @@
 #pragma once
 
 #include "light/frame_lights.h"
-#include "view/camera.h"
-#include "view/settings.h"
+#include "settings/camera.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <vector>
@@ -22,8 +22,8 @@ namespace froxel::light {
 // ahead of the eye counts as seen. Lights without a range reach `farthest_m`. A pure function,
 // without memory of earlier frames: as the camera moves, a light may lose its maps to another.
 [[nodiscard]] std::vector<uint32_t> chooseShadowed(const FrameLights& lights,
-                                                   const view::Camera& camera,
-                                                   const view::Size& size,
+                                                   const settings::Camera& camera,
+                                                   const settings::Size& size,
                                                    double farthest_m,
                                                    uint32_t count);
 

@@ -125,8 +125,8 @@ Result<void> PictureCheck::onFrame(const v1::FrameHeader& header, protocol::Byte
         if (!picture) {
             return picture.error();
         }
-        const auto codec = session::fromProto<view::Codec>(view::kCodecNames, part.codec());
-        const bool depends = codec && view::rowOf(*codec).frames_depend;
+        const auto codec = session::fromProto<settings::Codec>(settings::kCodecNames, part.codec());
+        const bool depends = codec && settings::rowOf(*codec).frames_depend;
         const auto checked =
             depends ? checkOrder(header, part, *picture) : checkSize(*picture, part, false);
         if (!checked) {

@@ -31,8 +31,8 @@ Served servedOf(const v1::Welcome& welcome, const v1::ViewState& state) {
             state.height(),
             state.light_count(),
             !state.has_light_time_s() && state.light_count() > 0,
-            nameOf(view::kRendererNames, state.renderer()),
-            nameOf(view::kCodecNames, state.codec()),
+            nameOf(settings::kRendererNames, state.renderer()),
+            nameOf(settings::kCodecNames, state.codec()),
             state.quality(),
             state.video_kbps()};
 }

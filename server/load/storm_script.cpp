@@ -119,8 +119,8 @@ void StormScript::fillFog(v1::Fog& fog) {
 // All that viewers may choose: this one said that it decodes them.
 void StormScript::fillEncoding(v1::SetEncoding& command) {
     values_.fill(command, kSome);
-    const uint32_t chosen = values_.whole(1, view::kChosenCodecNames.size()) - 1;
-    command.set_codec(session::toProto<v1::Codec>(view::kCodecNames, chosen));
+    const uint32_t chosen = values_.whole(1, settings::kChosenCodecNames.size()) - 1;
+    command.set_codec(session::toProto<v1::Codec>(settings::kCodecNames, chosen));
 }
 
 void StormScript::fillToon(v1::SetToon& command) {

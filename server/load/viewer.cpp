@@ -161,10 +161,10 @@ void Viewer::onUpgraded() {
     message.mutable_hello()->set_protocol_major(protocol::kMajor);
     message.mutable_hello()->set_protocol_minor(protocol::kMinor);
     message.mutable_hello()->set_client_name("froxel load " + numberText(number_));
-    for (const view::CodecRow& row : view::kCodecRows) {
+    for (const settings::CodecRow& row : settings::kCodecRows) {
         if (row.announced) {
             message.mutable_hello()->add_codecs(
-                session::toProto<v1::Codec>(view::kCodecNames, row.codec));
+                session::toProto<v1::Codec>(settings::kCodecNames, row.codec));
         }
     }
     message.mutable_hello()->set_room(options_.room);

@@ -31,7 +31,7 @@ void placeLight(const glm::dmat4& world_from_node, scene::PunctualLight& light) 
     }
 }
 
-void placeCamera(const glm::dmat4& world_from_node, view::Camera& camera) {
+void placeCamera(const glm::dmat4& world_from_node, settings::Camera& camera) {
     if (const auto axes = axesOf(world_from_node)) {
         camera.eye_world = glm::dvec3(world_from_node[3]);
         camera.world_from_view = *axes;

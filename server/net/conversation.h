@@ -132,7 +132,7 @@ class Conversation {
     session::CommandStamp newest_;        // of this connection's commands that set state
     session::CommandStamp shown_;         // the newest of them that a picture has shown
     std::shared_ptr<const FrameDetails> told_details_;
-    view::PlacedLights told_placed_;
+    settings::PlacedLights told_placed_;
     uint64_t delivered_ = 0; // pictures that came from the session
     uint64_t granted_ = 0;
     bool paused_ = false;

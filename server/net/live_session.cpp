@@ -109,7 +109,7 @@ void LiveSession::addMember(MemberId member, std::string name, Mail& mail) {
 
 std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
                                                        std::weak_ptr<SessionViewer> viewer,
-                                                       view::CodecSet codecs,
+                                                       settings::CodecSet codecs,
                                                        TimePoint now,
                                                        Mail& mail) {
     const std::lock_guard lock(mutex_);
@@ -126,7 +126,8 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
     updateDelivery();
     auto picture = plainSuffices() ? plain_ : picture_;
     const auto decodes = [&codecs](const session::ReadyFrame& frame) {
-        return frame.record.key && view::contains(codecs, frame.record.delivered.encoding.codec);
+        return frame.record.key &&
+               settings::contains(codecs, frame.record.delivered.encoding.codec);
     };
     if (!picture || !decodes(*picture)) {
         return {};
@@ -272,7 +273,7 @@ void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
     for (const auto& [id, member] : members_) {
         state_.decodable &= member.codecs;
     }
-    const view::Codec before = state_.encoding.codec;
+    const settings::Codec before = state_.encoding.codec;
     keepDecodable();
     if (state_.encoding.codec != before) {
         ++state_.version;
@@ -282,14 +283,14 @@ void LiveSession::updateCodecs(TimePoint now, Mail& mail) {
 }
 
 void LiveSession::keepDecodable() {
-    if (!view::contains(state_.decodable, state_.encoding.codec)) {
-        state_.encoding.codec = view::kPlainCodec;
+    if (!settings::contains(state_.decodable, state_.encoding.codec)) {
+        state_.encoding.codec = settings::kPlainCodec;
     }
 }
 
 std::optional<TimePoint> LiveSession::requestKeyFrame(const Place& place, TimePoint now) {
     const std::lock_guard lock(mutex_);
-    if (find(place) == nullptr || !view::rowOf(state_.encoding.codec).frames_depend ||
+    if (find(place) == nullptr || !settings::rowOf(state_.encoding.codec).frames_depend ||
         key_wanted_) {
         return {};
     }
@@ -329,8 +330,9 @@ v1::ServerMessage LiveSession::roomState(MemberId you) {
     return session::makeRoomState(room_, you);
 }
 
-v1::ServerMessage
-LiveSession::welcome(MemberId you, session::WelcomePlace place, view::PlacedLights& placed) const {
+v1::ServerMessage LiveSession::welcome(MemberId you,
+                                       session::WelcomePlace place,
+                                       settings::PlacedLights& placed) const {
     const std::lock_guard lock(mutex_);
     placed = state_.settings.lights.placed;
     if (room_.shared()) {
@@ -433,7 +435,7 @@ void LiveSession::deliver(session::ReadyFrame frame) {
     Mail mail;
     const std::lock_guard lock(mutex_);
     ++delivered_;
-    key_wanted_ = key_wanted_ && view::rowOf(state_.encoding.codec).frames_depend &&
+    key_wanted_ = key_wanted_ && settings::rowOf(state_.encoding.codec).frames_depend &&
                   !(frame.record.key && frame.isVideo());
     if (!refined(frame)) {
         plain_ = frame;
@@ -492,7 +494,7 @@ void LiveSession::takeBack(const SessionState& refused,
                            const std::optional<SessionState>& drawn,
                            TimePoint now) {
     const SessionState& good = drawn ? *drawn : first_;
-    const view::Lights& lights = good.settings.lights;
+    const settings::Lights& lights = good.settings.lights;
     state_.light_clock = state_.light_clock.withRate(now, lights.speed, lights.animate);
     state_.settings = good.settings;
     state_.encoding = good.encoding;

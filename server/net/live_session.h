@@ -76,7 +76,7 @@ class LiveSession final : public session::FrameSink,
     // one if that is as asked for: the refined one follows when the link is known to carry it.
     [[nodiscard]] std::optional<session::ReadyFrame> attach(const Place& place,
                                                             std::weak_ptr<SessionViewer> viewer,
-                                                            view::CodecSet codecs,
+                                                            settings::CodecSet codecs,
                                                             TimePoint now,
                                                             Mail& mail);
     // The connection is gone, and the member waited for.
@@ -128,8 +128,9 @@ class LiveSession final : public session::FrameSink,
     [[nodiscard]] v1::ServerMessage roomState(session::MemberId you);
     // `resumed` and the token are the caller's; `placed` becomes the placed lights that it tells
     // of.
-    [[nodiscard]] v1::ServerMessage
-    welcome(session::MemberId you, session::WelcomePlace place, view::PlacedLights& placed) const;
+    [[nodiscard]] v1::ServerMessage welcome(session::MemberId you,
+                                            session::WelcomePlace place,
+                                            settings::PlacedLights& placed) const;
 
     void deliver(session::ReadyFrame frame) override;
     void refuse(Error error,
@@ -143,8 +144,8 @@ class LiveSession final : public session::FrameSink,
         std::weak_ptr<SessionViewer> viewer; // empty while away
         uint64_t delivered = 0;              // pictures told to this connection
         uint64_t granted = 0;
-        view::CodecSet codecs = view::CodecSet().set(); // all while away
-        std::optional<session::Delivery> delivery;      // none: nothing acknowledged yet
+        settings::CodecSet codecs = settings::CodecSet().set(); // all while away
+        std::optional<session::Delivery> delivery;              // none: nothing acknowledged yet
         bool paused = false;
         uint64_t told_frame = 0; // the newest picture told to this connection
         uint64_t acked_frame = 0;

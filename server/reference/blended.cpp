@@ -26,7 +26,7 @@ struct PixelBox {
 };
 
 // The pixels that a triangle may cover: all of them where a corner is behind the eye.
-PixelBox pixelsOf(const PixelRays& rays, const Triangle& t, const view::Size& size) {
+PixelBox pixelsOf(const PixelRays& rays, const Triangle& t, const settings::Size& size) {
     const glm::dvec2 end(size.width_px, size.height_px);
     PixelBox box{end, glm::dvec2(0)};
     for (const auto& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
@@ -45,8 +45,8 @@ PixelBox pixelsOf(const PixelRays& rays, const Triangle& t, const view::Size& si
 
 BlendedSurfaces::BlendedSurfaces(const scene::Scene& scene,
                                  std::span<const Placement> placements,
-                                 const view::Camera& camera,
-                                 const view::Size& size)
+                                 const settings::Camera& camera,
+                                 const settings::Size& size)
     : rays_(camera, size), size_(size), near_m_(camera.near_m),
       hits_(size_t{size.width_px} * size.height_px) {
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {

@@ -3,7 +3,7 @@
 
 #include "reference/geometry.h"
 #include "scene/scene.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <span>
@@ -22,8 +22,8 @@ class BlendedSurfaces {
   public:
     BlendedSurfaces(const scene::Scene& scene,
                     std::span<const Placement> placements,
-                    const view::Camera& camera,
-                    const view::Size& size);
+                    const settings::Camera& camera,
+                    const settings::Size& size);
 
     // The nearest last.
     [[nodiscard]] std::span<const BlendedHit> at(uint32_t x, uint32_t y) const {
@@ -37,7 +37,7 @@ class BlendedSurfaces {
                      BlendedHit hit);
 
     PixelRays rays_;
-    view::Size size_;
+    settings::Size size_;
     double near_m_;
     std::vector<std::vector<BlendedHit>> hits_; // [height][width]
 };

@@ -68,7 +68,7 @@ glm::dvec3 brightPart(const glm::dvec3& color, double threshold, double knee) {
     return color * (std::max({soft, peak - threshold, 0.0}) / peak);
 }
 
-LinearImage spread(const LinearImage& picture, const view::Bloom& bloom, double exposure) {
+LinearImage spread(const LinearImage& picture, const settings::Bloom& bloom, double exposure) {
     const double threshold = static_cast<double>(bloom.threshold) / exposure;
     const double knee = threshold * static_cast<double>(bloom.knee);
     const size_t width = picture.width_px;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/linear_image.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 namespace froxel::reference {
 
@@ -14,6 +14,6 @@ namespace froxel::reference {
 // is radius times the smaller side, it ends at six of them, and the picture is mirrored at its
 // borders.
 [[nodiscard]] LinearImage
-spread(const LinearImage& picture, const view::Bloom& bloom, double exposure);
+spread(const LinearImage& picture, const settings::Bloom& bloom, double exposure);
 
 } // namespace froxel::reference

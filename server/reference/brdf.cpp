@@ -19,7 +19,7 @@ double greatest(const glm::dvec3& color) {
 glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     const double up = 0.5 + 0.5 * s.normal.y;
     const glm::dvec3 incoming = glm::mix(lights.ground, lights.sky, up);
-    if (model.shading == view::ShadingModel::kLambert) {
+    if (model.shading == settings::ShadingModel::kLambert) {
         return incoming * s.base_color * s.occlusion;
     }
     // Scaled so that a usual dielectric returns its base colour and its f0.
@@ -33,7 +33,7 @@ glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
 glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_light) {
     const double facing = std::max(0.0, glm::dot(s.normal, to_light));
     const double scattered = model.ramp != nullptr ? toonRamp(*model.ramp, facing) : facing;
-    if (model.shading == view::ShadingModel::kLambert) {
+    if (model.shading == settings::ShadingModel::kLambert) {
         return s.base_color * (scattered * kInvPi);
     }
     const glm::dvec3 sum = to_light + s.to_eye;
@@ -51,7 +51,7 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
         const double alpha2 = alpha * alpha;
         const double n_dot_h = glm::dot(s.normal, half);
         const double lobe =
-            model.shading == view::ShadingModel::kBlinnPhong
+            model.shading == settings::ShadingModel::kBlinnPhong
                 ? lobes::blinnPhong(n_dot_h, alpha2)
                 : lobes::distribution(n_dot_h, alpha2) *
                       lobes::visibility(facing, std::abs(glm::dot(s.normal, s.to_eye)), alpha2);

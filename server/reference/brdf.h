@@ -3,7 +3,7 @@
 #pragma once
 
 #include "reference/lights.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <functional>
 
@@ -33,8 +33,8 @@ struct Surface {
 using Open = std::function<bool(const glm::dvec3& from, const glm::dvec3& to)>;
 
 struct Model {
-    view::ShadingModel shading = view::ShadingModel::kPbr;
-    const view::ToonRamp* ramp = nullptr; // over n.l of what is scattered; null: n.l itself
+    settings::ShadingModel shading = settings::ShadingModel::kPbr;
+    const settings::ToonRamp* ramp = nullptr; // over n.l of what is scattered; null: n.l itself
 };
 
 // Radiance towards the eye for light of unit irradiance from direction `to_light` (unit), per

@@ -59,8 +59,8 @@ double phase(double anisotropy, double cosine) {
     return (1 - g * g) / (4 * std::numbers::pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
 }
 
-Medium::Medium(const view::Fog& fog,
-               const view::Camera& camera,
+Medium::Medium(const settings::Fog& fog,
+               const settings::Camera& camera,
                const Lights& lights,
                const Open& open)
     : fog_(fog), lights_(lights), open_(open), density_(static_cast<double>(fog.density)),

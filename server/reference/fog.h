@@ -10,7 +10,7 @@
 #include "reference/brdf.h"
 #include "reference/lights.h"
 #include "reference/rays.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 namespace froxel::reference {
 
@@ -20,8 +20,8 @@ namespace froxel::reference {
 class Medium {
   public:
     // All live as long as this. `open` is asked for shadowed lights.
-    Medium(const view::Fog& fog,
-           const view::Camera& camera,
+    Medium(const settings::Fog& fog,
+           const settings::Camera& camera,
            const Lights& lights,
            const Open& open);
 
@@ -44,7 +44,7 @@ class Medium {
     seenThrough(const glm::dvec3& radiance, const Ray& ray, double distance) const;
 
   private:
-    const view::Fog& fog_;
+    const settings::Fog& fog_;
     const Lights& lights_;
     const Open& open_;
     double density_;

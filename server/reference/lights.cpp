@@ -3,7 +3,7 @@
 #include "light/light_rig.h"
 #include "light/seeded_lights.h"
 #include "light/shadow_choice.h"
-#include "view/environment.h"
+#include "settings/environment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ PointLight pointOf(const scene::PunctualLight& light, const glm::dvec3& eye) {
 
 void addShadows(const light::LightRig& rig,
                 const BoundsD3& bounds_world,
-                const view::ViewSettings& settings,
+                const settings::ViewSettings& settings,
                 double time_s,
                 Lights& lights) {
     light::FrameLights frame;
@@ -57,7 +57,8 @@ void addShadows(const light::LightRig& rig,
     }
 }
 
-Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings, double time_s) {
+Lights
+unshadowed(const light::LightRig& rig, const settings::ViewSettings& settings, double time_s) {
     const glm::dvec3& eye = settings.camera.eye_world;
     Lights lights;
     const double seeded_radius = static_cast<double>(settings.lights.radius_m);
@@ -72,8 +73,8 @@ Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings
                                            lights.points[index] = pointOf(light, eye);
                                        });
     const double ambient = static_cast<double>(settings.lights.ambient);
-    lights.sky = glm::dvec3(view::kAmbientSky) * ambient;
-    lights.ground = glm::dvec3(view::kAmbientGround) * ambient;
+    lights.sky = glm::dvec3(settings::kAmbientSky) * ambient;
+    lights.ground = glm::dvec3(settings::kAmbientGround) * ambient;
     rig.eachFixed(settings.lights, [&](const scene::PunctualLight& light) {
         if (light.type == scene::LightType::kDirectional) {
             lights.directionals.push_back({glm::normalize(light.direction_world), colorOf(light)});
@@ -86,7 +87,7 @@ Lights unshadowed(const light::LightRig& rig, const view::ViewSettings& settings
 
 } // namespace
 
-Lights lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, double time_s) {
+Lights lightsAt(const scene::Scene& scene, const settings::ViewSettings& settings, double time_s) {
     const light::LightRig rig(scene);
     Lights lights = unshadowed(rig, settings, time_s);
     for (PointLight& point : lights.points) {

@@ -3,7 +3,7 @@
 
 #include "light/falloff.h"
 #include "scene/scene.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <limits>
 #include <optional>
@@ -80,6 +80,6 @@ struct Lights {
 
 // Shadowed: those that have maps by light/shadow_choice.h.
 [[nodiscard]] Lights
-lightsAt(const scene::Scene& scene, const view::ViewSettings& settings, double time_s);
+lightsAt(const scene::Scene& scene, const settings::ViewSettings& settings, double time_s);
 
 } // namespace froxel::reference

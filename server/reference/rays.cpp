@@ -5,10 +5,10 @@
 
 namespace froxel::reference {
 
-PixelRays::PixelRays(const view::Camera& camera, const view::Size& size)
+PixelRays::PixelRays(const settings::Camera& camera, const settings::Size& size)
     : world_from_view_(camera.world_from_view),
-      parallel_(camera.projection == view::Projection::kOrthographic), shift_(camera.lens_shift),
-      size_px_(size.width_px, size.height_px) {
+      parallel_(camera.projection == settings::Projection::kOrthographic),
+      shift_(camera.lens_shift), size_px_(size.width_px, size.height_px) {
     const double half_height = parallel_ ? camera.half_height_m : std::tan(camera.yfov_rad / 2);
     half_extent_ = {half_height * size_px_.x / size_px_.y, half_height};
 }

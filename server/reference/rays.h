@@ -1,8 +1,8 @@
 // The rays of a camera's pixels, and where they meet triangles.
 #pragma once
 
-#include "view/camera.h"
-#include "view/settings.h"
+#include "settings/camera.h"
+#include "settings/settings.h"
 
 namespace froxel::reference {
 
@@ -14,7 +14,7 @@ struct Ray {
 
 class PixelRays {
   public:
-    PixelRays(const view::Camera& camera, const view::Size& size);
+    PixelRays(const settings::Camera& camera, const settings::Size& size);
 
     // Through the centre of a pixel, which need not lie inside the picture.
     [[nodiscard]] Ray through(int64_t x, int64_t y) const;

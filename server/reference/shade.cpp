@@ -8,7 +8,7 @@
 #include "reference/material.h"
 #include "reference/occluders.h"
 #include "reference/toon.h"
-#include "view/environment.h"
+#include "settings/environment.h"
 
 #include <algorithm>
 #include <atomic>
@@ -54,15 +54,15 @@ visibleMaterials(const scene::Scene& scene, const Visibility& visibility, bool s
     return {materials.begin(), materials.end()};
 }
 
-Model modelOf(const view::ViewSettings& settings) {
-    const bool toon = settings.renderer == view::Renderer::kToonFragment;
+Model modelOf(const settings::ViewSettings& settings) {
+    const bool toon = settings.renderer == settings::Renderer::kToonFragment;
     return {settings.shading, toon ? &settings.toon_fragment : nullptr};
 }
 
 class Shader {
   public:
     Shader(const scene::Scene& scene,
-           const view::ViewSettings& settings,
+           const settings::ViewSettings& settings,
            double time_s,
            const Visibility& visibility,
            const Filtering& filtering)
@@ -87,13 +87,13 @@ class Shader {
 
     [[nodiscard]] glm::dvec3 pixel(uint32_t x, uint32_t y) const {
         const auto& visible = visibility_.pixels[size_t{y} * visibility_.width_px + x];
-        glm::dvec3 color(view::kBackground);
+        glm::dvec3 color(settings::kBackground);
         double distance = std::numeric_limits<double>::infinity();
         if (visible.instance != VisibleTriangle::kNothing) {
             const PixelHit hit{x, y, meet(visible, x, y)};
             distance = hit.point.distance;
             color = shadeHit(hit, visible);
-            if (settings_.renderer == view::Renderer::kToonCompute) {
+            if (settings_.renderer == settings::Renderer::kToonCompute) {
                 const double norm = glm::length(color);
                 color *= norm > 0 ? toonRamp(settings_.toon_compute, norm) / norm : 0.0;
             }
@@ -131,7 +131,7 @@ class Shader {
     }
 
     const scene::Scene& scene_;
-    const view::ViewSettings& settings_;
+    const settings::ViewSettings& settings_;
     const Visibility& visibility_;
     const Filtering filtering_;
     const PixelRays rays_;
@@ -147,7 +147,7 @@ class Shader {
 
 // Empty where every triangle exists.
 std::string
-findFault(const scene::Scene& scene, const view::Size& size, const Visibility& visibility) {
+findFault(const scene::Scene& scene, const settings::Size& size, const Visibility& visibility) {
     const auto text = [](uint32_t value) { return std::to_string(value); };
     if (visibility.width_px != size.width_px || visibility.height_px != size.height_px ||
         visibility.pixels.size() != size_t{size.width_px} * size.height_px) {
@@ -173,7 +173,7 @@ findFault(const scene::Scene& scene, const view::Size& size, const Visibility& v
 } // namespace
 
 Result<LinearImage> shade(const scene::Scene& scene,
-                          const view::ViewSettings& settings,
+                          const settings::ViewSettings& settings,
                           double time_s,
                           const Visibility& visibility,
                           const Filtering& filtering) {

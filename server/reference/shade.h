@@ -8,7 +8,7 @@
 #include "core/visibility.h"
 #include "reference/texture.h"
 #include "scene/scene.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 namespace froxel::reference {
 
@@ -31,7 +31,7 @@ using froxel::VisibleTriangle;
 // Errors: kInvalidArgument where the visibility is not of the settings' size or names a triangle
 // that the scene does not have.
 [[nodiscard]] Result<LinearImage> shade(const scene::Scene& scene,
-                                        const view::ViewSettings& settings,
+                                        const settings::ViewSettings& settings,
                                         double time_s,
                                         const Visibility& visibility,
                                         const Filtering& filtering = {});

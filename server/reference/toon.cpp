@@ -2,7 +2,7 @@
 
 namespace froxel::reference {
 
-double toonRamp(const view::ToonRamp& ramp, double x) {
+double toonRamp(const settings::ToonRamp& ramp, double x) {
     uint32_t after = 0; // points at or before x
     while (after < ramp.count && x >= static_cast<double>(ramp.points[after].x)) {
         ++after;

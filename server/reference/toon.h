@@ -1,11 +1,11 @@
 // The toon ramps, from their points.
 #pragma once
 
-#include "view/settings.h"
+#include "settings/settings.h"
 
 namespace froxel::reference {
 
 // Cubic Hermite interpolation between the points around x; constant outside them.
-[[nodiscard]] double toonRamp(const view::ToonRamp& ramp, double x);
+[[nodiscard]] double toonRamp(const settings::ToonRamp& ramp, double x);
 
 } // namespace froxel::reference

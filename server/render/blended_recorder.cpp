@@ -77,7 +77,7 @@ bool countsOverflow(const FramePlan& plan, const DrawList& draws) {
 }
 
 void recordBlended(const FrameContext& frame) {
-    const bool peeled = frame.plan.transparency == view::Transparency::kPeeled;
+    const bool peeled = frame.plan.transparency == settings::Transparency::kPeeled;
     if (frame.plan.compute_raster && !peeled) { // which only loads solid depth
         recordDepthHandover(frame);
     }
@@ -87,15 +87,15 @@ void recordBlended(const FrameContext& frame) {
             kRasterUses | Access::eShaderSampledRead);
     const auto& size = frame.slot.targets->size;
     switch (frame.plan.transparency) {
-    case view::Transparency::kSorted:
+    case settings::Transparency::kSorted:
         inParts(frame, size, frame.costs.blended(), recordTransparent);
         break;
-    case view::Transparency::kWeighted:
+    case settings::Transparency::kWeighted:
         inParts(frame, size, frame.costs.blended(), recordWeighted);
         nextRasterPass(frame.slot.cmd);
         inParts(frame, size, frame.costs.screen(), recordBlendResolve);
         break;
-    case view::Transparency::kPeeled:
+    case settings::Transparency::kPeeled:
         recordPeeled(frame);
         break;
     }

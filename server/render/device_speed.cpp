@@ -82,11 +82,11 @@ Result<Drawn> draw(ViewRenderer& view, const FrameInputs& inputs) {
 } // namespace
 
 Result<DeviceSpeed>
-measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera) {
+measureSpeed(Renderer& renderer, bool device_is_cpu, const settings::Camera& camera) {
     FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = {320, 180};
-    inputs.settings.light_loop = view::LightLoop::kAllLights;
+    inputs.settings.light_loop = settings::LightLoop::kAllLights;
     inputs.settings.lights.scene_lights = false;
     inputs.settings.lights.radius_m = 1000;
     inputs.settings.count_pairs = true;
@@ -96,7 +96,7 @@ measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera)
     for (size_t i = 0; i < drawn.size(); ++i) {
         inputs.settings.lights.count = lights[i];
         inputs.settings.debug.view =
-            lights[i] == 0 ? view::DebugView::kBaseColor : view::DebugView::kNone;
+            lights[i] == 0 ? settings::DebugView::kBaseColor : settings::DebugView::kNone;
         auto done = draw(*view, inputs);
         if (!done) {
             keepForGood(std::move(view)); // a lost device may still use it

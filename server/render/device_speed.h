@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "render/renderer.h"
-#include "view/camera.h"
+#include "settings/camera.h"
 
 namespace froxel::render {
 
@@ -18,6 +18,6 @@ struct DeviceSpeed {
 // Before the first view; takes some tenths of a second on a CPU device, most of it to compile.
 // Errors: kDevice.
 Result<DeviceSpeed>
-measureSpeed(Renderer& renderer, bool device_is_cpu, const view::Camera& camera);
+measureSpeed(Renderer& renderer, bool device_is_cpu, const settings::Camera& camera);
 
 } // namespace froxel::render

@@ -22,19 +22,20 @@ namespace {
 // Fragments a pixel at least: what was counted is of one view, perhaps of the sky.
 constexpr double kUsualOverdraw = 2;
 
-bool storesHalves(const view::ViewSettings& settings) {
+bool storesHalves(const settings::ViewSettings& settings) {
     return !isForward(settings.renderer) &&
-           settings.gbuffer.position == view::PositionSource::kFp16;
+           settings.gbuffer.position == settings::PositionSource::kFp16;
 }
 
-bool needsLights(view::DebugView debug) {
-    return !view::replacesPicture(debug) || view::countsLights(debug) || view::showsClusters(debug);
+bool needsLights(settings::DebugView debug) {
+    return !settings::replacesPicture(debug) || settings::countsLights(debug) ||
+           settings::showsClusters(debug);
 }
 
 // As settings, but pixels look lights up in lists whatever was asked for.
-view::ViewSettings withLists(view::ViewSettings settings) {
-    settings.renderer = view::Renderer::kClusteredDeferred;
-    settings.light_loop = view::LightLoop::kLists;
+settings::ViewSettings withLists(settings::ViewSettings settings) {
+    settings.renderer = settings::Renderer::kClusteredDeferred;
+    settings.light_loop = settings::LightLoop::kLists;
     return settings;
 }
 
@@ -45,9 +46,9 @@ bool byIds(GeometryPath path) {
 } // namespace
 
 bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
-    using view::LightingStage;
+    using settings::LightingStage;
     const auto& traits = scene_.device.traits();
-    if (inputs.settings.debug.view == view::DebugView::kOverdraw) {
+    if (inputs.settings.debug.view == settings::DebugView::kOverdraw) {
         return false; // what a rasteriser draws over is what it shows
     }
     const bool pays =
@@ -88,7 +89,7 @@ bool FrameBuilder::prepass(const FrameInputs& inputs) const {
 
 FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
     const auto& traits = scene_.device.traits();
-    return {.wide_gbuffer = inputs.settings.shading == view::ShadingModel::kLambert
+    return {.wide_gbuffer = inputs.settings.shading == settings::ShadingModel::kLambert
                                 ? scene_.needs.wide_lambert
                                 : scene_.needs.wide_gbuffer,
             .emission_exponent = scene_.needs.emission_exponent,
@@ -111,7 +112,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             // than its test.
             .culled_batches =
                 traits.subgroup_size > 1 && traits.subgroup_size <= 32 &&
-                !(traits.is_cpu && inputs.settings.shading == view::ShadingModel::kLambert),
+                !(traits.is_cpu && inputs.settings.shading == settings::ShadingModel::kLambert),
             .visibility = visibility_,
             .compute_raster = compute_raster_,
             .cull_meshlets = inputs.cull_meshlets,
@@ -151,13 +152,13 @@ bool FrameBuilder::acceptLists(const AssignSlot& lists) {
     return whole;
 }
 
-const cluster::GridCosts& FrameBuilder::gridCosts(const view::ViewSettings& settings) const {
+const cluster::GridCosts& FrameBuilder::gridCosts(const settings::ViewSettings& settings) const {
     if (scene_.device.traits().is_cpu) {
         return cluster::kCpuCosts;
     }
     const bool in_fragments = isForward(settings.renderer)
                                   ? !visibility_
-                                  : settings.lighting == view::LightingStage::kFragment;
+                                  : settings.lighting == settings::LightingStage::kFragment;
     return in_fragments ? cluster::kGpuFragmentCosts : cluster::kGpuCosts;
 }
 
@@ -183,7 +184,7 @@ void FrameBuilder::startCulling(bool aside) {
         std::async(is_cpu && aside ? std::launch::async : std::launch::deferred, [this, is_cpu] {
             const auto& settings = inputs_.settings;
             buildDrawList(scene_, settings.camera, settings.size, projection_, is_cpu, !visibility_,
-                          settings.transparency == view::Transparency::kSorted
+                          settings.transparency == settings::Transparency::kSorted
                               ? TransparentOrder::kByDistance
                               : TransparentOrder::kOfTheScene,
                           draws_);
@@ -232,7 +233,7 @@ const light::FrameLights& FrameBuilder::reach() const {
 }
 
 void FrameBuilder::evaluateLights() {
-    view::Lights lights = inputs_.settings.lights;
+    settings::Lights lights = inputs_.settings.lights;
     if (!needsLights(inputs_.settings.debug.view)) {
         lights.count = 0;
         lights.scene_lights = false;
@@ -246,7 +247,8 @@ void FrameBuilder::chooseGrid() {
     if (storesHalves(settings)) {
         growForHalves(lights_, grown_);
     }
-    light_grid_.choose(view::showsClusters(settings.debug.view) ? withLists(settings) : settings,
+    light_grid_.choose(settings::showsClusters(settings.debug.view) ? withLists(settings)
+                                                                    : settings,
                        reach(), scene_.bounds_world, gridCosts(settings));
 }
 
@@ -300,7 +302,7 @@ FramePlan FrameBuilder::plan(ViewEffects& effects) {
     uniforms_.light_most_inverse2 = static_cast<float>(1 / (lights_.nearest_m * lights_.nearest_m));
     uniforms_.first_area = lights_.first_area;
     debug_.wires.clear();
-    if (plan.debug != view::DebugView::kNone) {
+    if (plan.debug != settings::DebugView::kNone) {
         buildDebug(inputs_, plan, farthest_m_);
     }
     return plan;
@@ -310,10 +312,10 @@ std::vector<io::WireVertex> FrameBuilder::buildWires(const FrameInputs& inputs,
                                                      uint32_t& slice_count) {
     const auto& settings = inputs.settings;
     const LightGrid* shown = &light_grid_;
-    view::Camera camera = settings.debug.grid_camera.value_or(settings.camera);
+    settings::Camera camera = settings.debug.grid_camera.value_or(settings.camera);
     if (camera != settings.camera || !light_grid_.lists()) {
         scene_.light_rig.evaluate(settings.lights, camera, inputs.time_s, wire_lights_);
-        view::ViewSettings frozen = withLists(settings);
+        settings::ViewSettings frozen = withLists(settings);
         frozen.camera = camera;
         wire_grid_.choose(frozen, wire_lights_, scene_.bounds_world, gridCosts(settings));
         shown = &wire_grid_;
@@ -333,10 +335,10 @@ void FrameBuilder::buildDebug(const FrameInputs& inputs, const FramePlan& plan, 
                      .list_length = light_grid_.lists() ? light_grid_.listLength() : 0.0,
                      .slice_count = light_grid_.lists() ? light_grid_.grid().size.z : 0,
                      .farthest_m = farthest_m};
-    if (plan.debug == view::DebugView::kClusterWires) {
+    if (plan.debug == settings::DebugView::kClusterWires) {
         debug_.wires = buildWires(inputs, facts.slice_count);
     }
-    debug_.wire_px = plan.debug == view::DebugView::kLightSpheres
+    debug_.wire_px = plan.debug == settings::DebugView::kLightSpheres
                          ? lightWirePixels(lights_, settings.camera, settings.size)
                          : wirePixels(debug_.wires, settings.camera, settings.size);
     debug_.light_count = facts.light_count;
@@ -353,7 +355,7 @@ PairBound FrameBuilder::knownPairs(const FramePlan& plan) const {
 }
 
 uint64_t FrameBuilder::wireLines(const FramePlan& plan) const {
-    return plan.debug == view::DebugView::kLightSpheres
+    return plan.debug == settings::DebugView::kLightSpheres
                ? uint64_t{debug_.light_count} * io::kLinesOfALight
                : debug_.wires.size() / 2;
 }
@@ -376,7 +378,7 @@ std::optional<PairBound> FrameBuilder::seenPairs() const {
 }
 
 FrameCosts FrameBuilder::costs(const FramePlan& plan,
-                               const view::Size& shown,
+                               const settings::Size& shown,
                                std::span<const ActiveEffect> effects,
                                const WorkLimits& work) {
     FrameLoad load{.plan = plan,

@@ -50,7 +50,7 @@ class FrameBuilder {
     // lights where they hold more than is known: see acceptLists(). Refers to `plan`, `effects`
     // and this.
     [[nodiscard]] FrameCosts costs(const FramePlan& plan,
-                                   const view::Size& shown,
+                                   const settings::Size& shown,
                                    std::span<const ActiveEffect> effects,
                                    const WorkLimits& work);
     // After a frame with lists from the device: whether they are whole. If not, the frame must be
@@ -88,7 +88,7 @@ class FrameBuilder {
     enum class Stage : uint8_t { kLights, kGrid, kLists, kCap, kPlan, kBuilt }; // what comes next
     // The longest list of each tile, as the device last told.
     struct SeenLists {
-        view::GridSize grid;
+        settings::GridSize grid;
         bool too_long = false; // for what they were held against
         std::vector<uint32_t> tile_longest;
         uint32_t all_lights = 0; // what each pixel loops over instead; 0: lists
@@ -100,7 +100,7 @@ class FrameBuilder {
     // load what they come to at most; `costs` are by what is known.
     void limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load);
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
-    [[nodiscard]] const cluster::GridCosts& gridCosts(const view::ViewSettings& settings) const;
+    [[nodiscard]] const cluster::GridCosts& gridCosts(const settings::ViewSettings& settings) const;
     void startCulling(bool aside);
     void evaluateLights();
     void chooseGrid();
@@ -140,9 +140,9 @@ class FrameBuilder {
     GpuLightLists device_lists_;
     bool on_device_ = false;
     std::optional<SeenLists> seen_lists_;
-    view::ViewSettings refused_; // what the device's lists were too small for
+    settings::ViewSettings refused_; // what the device's lists were too small for
     DrawList draws_;
-    view::Size drawn_;
+    settings::Size drawn_;
     FrameFacts planned_;
     bool visibility_ = false;
     bool compute_raster_ = false;

@@ -42,8 +42,8 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
 
 void FrameMaker::prepareTargets(FrameSlot& slot,
                                 const FramePlan& plan,
-                                const view::Size& drawn,
-                                const view::Size& shown) {
+                                const settings::Size& drawn,
+                                const settings::Size& shown) {
     if (!targets_) {
         targets_ = std::make_shared<ViewTargets>(scene_.device, drawn, shown, target_needs_);
     }
@@ -112,7 +112,7 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     slot.stats.peel.layer_count = peelLayers(plan, builder_.draws());
     slot.stats.details = details_.update(
         inputs.settings, builder_.plannedFacts(), plan, scene_.needs, *scene_.device.memoryLedger(),
-        plan.debug != view::DebugView::kNone ? &builder_.debugFrame().legend : nullptr);
+        plan.debug != settings::DebugView::kNone ? &builder_.debugFrame().legend : nullptr);
     slot.stats.grid = builder_.gridStats();
     slot.counts_pairs = plan.count_pairs;
     slot.counts_samples = plan.count_samples;
@@ -204,18 +204,19 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     prepareBlend(slot, plan);
     const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
-    recordFrame({.scene = scene_,
-                 .slot = slot,
-                 .plan = plan,
-                 .draws = builder_.draws(),
-                 .offsets = offsets,
-                 .background = builder_.background(),
-                 .visibility = plan.visibility ? &scene_.visibility() : nullptr,
-                 .debug = plan.debug != view::DebugView::kNone ? &builder_.debugFrame() : nullptr,
-                 .effects = effects_.ofFrame(),
-                 .pieces = slot.pieces,
-                 .costs = costs},
-                work_.piece);
+    recordFrame(
+        {.scene = scene_,
+         .slot = slot,
+         .plan = plan,
+         .draws = builder_.draws(),
+         .offsets = offsets,
+         .background = builder_.background(),
+         .visibility = plan.visibility ? &scene_.visibility() : nullptr,
+         .debug = plan.debug != settings::DebugView::kNone ? &builder_.debugFrame() : nullptr,
+         .effects = effects_.ofFrame(),
+         .pieces = slot.pieces,
+         .costs = costs},
+        work_.piece);
     if (slot.pieces.estimate() > work_.frame) { // with what each piece does again
         markFresh(slot);
         return tooLongInPieces(asked.settings.size, slot.pieces, work_.frame);

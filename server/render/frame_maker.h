@@ -68,8 +68,8 @@ class FrameMaker {
                                           const Slots& slots);
     void prepareTargets(FrameSlot& slot,
                         const FramePlan& plan,
-                        const view::Size& drawn,
-                        const view::Size& shown);
+                        const settings::Size& drawn,
+                        const settings::Size& shown);
     void prepareBlend(FrameSlot& slot, const FramePlan& plan);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     // What a slot needs besides targets. Throws vk::SystemError.

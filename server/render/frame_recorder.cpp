@@ -17,11 +17,11 @@ using Stage = vk::PipelineStageFlagBits2;
 
 constexpr vk::PipelineStageFlags2 kShaders = Stage::eComputeShader | Stage::eFragmentShader;
 
-const view::Size& drawn(const FrameContext& frame) {
+const settings::Size& drawn(const FrameContext& frame) {
     return frame.slot.targets->size;
 }
 
-const view::Size& shown(const FrameContext& frame) {
+const settings::Size& shown(const FrameContext& frame) {
     return frame.slot.targets->shown;
 }
 
@@ -161,7 +161,7 @@ void recordEffects(const FrameContext& frame, EffectPlace place, const Before& b
 // A debug view in the picture's place, with the surfaces that it shows.
 void recordReplacement(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
-    if (frame.plan.debug == view::DebugView::kOverdraw) {
+    if (frame.plan.debug == settings::DebugView::kOverdraw) {
         inParts(frame, drawn(frame), frame.costs.gbuffer(), recordOverdraw);
         // counted fragments -> load
         barrier(cmd, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite,
@@ -181,7 +181,7 @@ void recordReplacement(const FrameContext& frame) {
 
 // Lines over the lit picture. Later lights' blend over those before.
 void recordOverlay(const FrameContext& frame) {
-    const bool spheres = frame.plan.debug == view::DebugView::kLightSpheres;
+    const bool spheres = frame.plan.debug == settings::DebugView::kLightSpheres;
     const auto total =
         spheres ? frame.debug->light_count : static_cast<uint32_t>(frame.debug->wires.size() / 2);
     const Seconds each = frame.costs.wires(spheres ? io::kLinesOfALight : 1);
@@ -203,7 +203,7 @@ void recordOverlay(const FrameContext& frame) {
 
 // What there is to see, solid, or what a debug view shows in its place.
 void recordSurfaces(const FrameContext& frame) {
-    if (view::replacesPicture(frame.plan.debug)) {
+    if (settings::replacesPicture(frame.plan.debug)) {
         recordReplacement(frame);
     } else if (frame.plan.visibility_shade) {
         recordVisible(frame);
@@ -258,7 +258,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
         recordBlended(frame);
     }
     recordEffects(frame, EffectPlace::kPicture, [&] { radianceToCompute(slot.cmd); });
-    if (view::isOverlay(frame.plan.debug)) {
+    if (settings::isOverlay(frame.plan.debug)) {
         // the picture's radiance and depth -> blending, loads
         barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
                 Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite |

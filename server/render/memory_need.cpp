@@ -26,7 +26,7 @@ FrameMemory frameMemory(const FrameBuilder& builder,
                       .lists = builder.listCapacity(),
                       .host_bytes = builder.hostBytes() + asked.beside_bytes,
                       .effects = effects};
-    if (plan.transparent && plan.transparency != view::Transparency::kSorted) {
+    if (plan.transparent && plan.transparency != settings::Transparency::kSorted) {
         frame.blend = plan.transparency;
     }
     return frame;

@@ -6,7 +6,7 @@
 #include "render/frame/need_list.h"
 #include "render/frame/view_targets.h"
 #include "render/frame_builder.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <memory>
@@ -18,13 +18,13 @@
 namespace froxel::render {
 
 struct FrameMemory {
-    view::Size drawn;
-    view::Size shown;
+    settings::Size drawn;
+    settings::Size shown;
     TargetNeeds targets;
-    std::optional<view::Transparency> blend = {}; // weighted or peeled surfaces are in sight
-    uint64_t upload_bytes = 0;                    // of all slots together
-    ListCapacity lists;                           // on the device
-    uint64_t host_bytes = 0;                      // kept by the host, encoders with it
+    std::optional<settings::Transparency> blend = {}; // weighted or peeled surfaces are in sight
+    uint64_t upload_bytes = 0;                        // of all slots together
+    ListCapacity lists;                               // on the device
+    uint64_t host_bytes = 0;                          // kept by the host, encoders with it
     std::span<const ActiveEffect> effects = {};
 };
 

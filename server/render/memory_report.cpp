@@ -37,12 +37,13 @@ void FrameDetailsKeeper::logOnce(const Key& key, const std::vector<std::string>&
     }
 }
 
-std::shared_ptr<const FrameDetails> FrameDetailsKeeper::update(const view::ViewSettings& settings,
-                                                               const FrameFacts& facts,
-                                                               const FramePlan& plan,
-                                                               const SceneNeeds& needs,
-                                                               const gpu::MemoryLedger& ledger,
-                                                               const DebugLegend* legend) {
+std::shared_ptr<const FrameDetails>
+FrameDetailsKeeper::update(const settings::ViewSettings& settings,
+                           const FrameFacts& facts,
+                           const FramePlan& plan,
+                           const SceneNeeds& needs,
+                           const gpu::MemoryLedger& ledger,
+                           const DebugLegend* legend) {
     const Key key{settings.renderer,
                   settings.shading,
                   settings.gbuffer,

@@ -21,7 +21,7 @@ class FrameDetailsKeeper {
   public:
     // The frame's details (legend: null without a debug view); logs the plan's lines when they are
     // new.
-    [[nodiscard]] std::shared_ptr<const FrameDetails> update(const view::ViewSettings& settings,
+    [[nodiscard]] std::shared_ptr<const FrameDetails> update(const settings::ViewSettings& settings,
                                                              const FrameFacts& facts,
                                                              const FramePlan& plan,
                                                              const SceneNeeds& needs,
@@ -31,9 +31,9 @@ class FrameDetailsKeeper {
   private:
     // Everything that the lines are made of.
     struct Key {
-        view::Renderer renderer{};
-        view::ShadingModel shading{};
-        view::GbufferLayout gbuffer;
+        settings::Renderer renderer{};
+        settings::ShadingModel shading{};
+        settings::GbufferLayout gbuffer;
         std::vector<std::string> effects; // what they say, which any setting may change
         FrameFacts facts;
         FramePlan plan;

@@ -12,7 +12,7 @@ namespace froxel::render {
 namespace {
 
 std::string rendererName(const FrameInputs& inputs) {
-    return std::string(view::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]);
+    return std::string(settings::kRendererNames[static_cast<size_t>(inputs.settings.renderer)]);
 }
 
 // Whether there is no other way to draw what is asked for.
@@ -20,25 +20,25 @@ bool needsVisibility(const FrameInputs& inputs) {
     return inputs.geometry == GeometryPath::kVisibility ||
            inputs.geometry == GeometryPath::kComputeRaster ||
            (isForward(inputs.settings.renderer) &&
-            inputs.settings.lighting == view::LightingStage::kCompute);
+            inputs.settings.lighting == settings::LightingStage::kCompute);
 }
 
 // Whether the debug view can show what was asked for. Errors: kUnsupported.
 Result<void> showable(const FrameInputs& inputs, bool specular) {
     const auto& settings = inputs.settings;
-    const view::DebugView debug = settings.debug.view;
-    const std::string name = "debug_view: " + std::string(view::nameOf(debug));
-    if (inputs.keep_radiance && view::replacesPicture(debug)) {
+    const settings::DebugView debug = settings.debug.view;
+    const std::string name = "debug_view: " + std::string(settings::nameOf(debug));
+    if (inputs.keep_radiance && settings::replacesPicture(debug)) {
         return Error{ErrorCode::kUnsupported,
                      name + " has no linear picture; ask for .png or .jpg"};
     }
-    if (view::showsGbuffer(debug) && isForward(settings.renderer)) {
+    if (settings::showsGbuffer(debug) && isForward(settings.renderer)) {
         return Error{ErrorCode::kUnsupported,
                      name + " is not available for renderer " + rendererName(inputs) +
                          ", which has no G-buffer; use clustered_deferred, toon_fragment or "
                          "toon_compute"};
     }
-    if (debug == view::DebugView::kGbufferExtra &&
+    if (debug == settings::DebugView::kGbufferExtra &&
         extraFormat(settings.gbuffer, specular) == vk::Format::eUndefined) {
         return Error{ErrorCode::kUnsupported,
                      name + " is not available for this G-buffer layout, which has one target; use "
@@ -62,7 +62,7 @@ Result<void> storable(const FrameInputs& inputs, bool specular) {
 // Peeling tells triangles apart and counts what it leaves out. Errors: kUnsupported.
 Result<void> peelable(const FrameInputs& inputs, const SceneResources& scene) {
     const auto& traits = scene.device.traits();
-    if (inputs.settings.transparency != view::Transparency::kPeeled || !scene.needs.blended) {
+    if (inputs.settings.transparency != settings::Transparency::kPeeled || !scene.needs.blended) {
         return {};
     }
     const std::string lacks = !traits.visibility_lacks.empty() ? traits.visibility_lacks
@@ -109,11 +109,11 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
     return {};
 }
 
-std::string pictureWords(const view::ViewSettings& settings) {
+std::string pictureWords(const settings::ViewSettings& settings) {
     std::string what = "a picture of " + std::to_string(settings.size.width_px) + "x" +
                        std::to_string(settings.size.height_px);
     std::vector<std::string> more;
-    if (view::samplesAcross(settings.antialiasing) > 1) {
+    if (settings::samplesAcross(settings.antialiasing) > 1) {
         more.emplace_back("four samples a pixel");
     }
     for (const EffectRow* row : effectRows()) {
@@ -132,7 +132,7 @@ std::string pictureWords(const view::ViewSettings& settings) {
     return what;
 }
 
-Error tooLongInPieces(const view::Size& size, const FramePieces& pieces, Seconds limit) {
+Error tooLongInPieces(const settings::Size& size, const FramePieces& pieces, Seconds limit) {
     return {
         ErrorCode::kCapacity,
         fmt::format("a picture of {}x{}, cut into {} pieces that each go through its triangles, "
@@ -149,7 +149,7 @@ Error tooManyToCap(uint32_t light_count) {
                         light_count, kHostListEntries)};
 }
 
-Error noMemoryFor(const view::ViewSettings& settings) {
+Error noMemoryFor(const settings::ViewSettings& settings) {
     return {ErrorCode::kCapacity, "the device has no memory for " + pictureWords(settings)};
 }
 

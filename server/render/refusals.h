@@ -16,16 +16,16 @@ class SceneResources;
 [[nodiscard]] Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene);
 
 // What takes memory of a picture, in words: "a picture of 640x360 with 20000 lights".
-[[nodiscard]] std::string pictureWords(const view::ViewSettings& settings);
+[[nodiscard]] std::string pictureWords(const settings::ViewSettings& settings);
 
 // kCapacity: cut into its pieces the frame would take longer than the limit.
 [[nodiscard]] Error
-tooLongInPieces(const view::Size& size, const FramePieces& pieces, Seconds limit);
+tooLongInPieces(const settings::Size& size, const FramePieces& pieces, Seconds limit);
 
 // kCapacity: lists are to be capped, and the host cannot hold them whole.
 [[nodiscard]] Error tooManyToCap(uint32_t light_count);
 
 // kCapacity: targets of these settings did not fit the device's memory.
-[[nodiscard]] Error noMemoryFor(const view::ViewSettings& settings);
+[[nodiscard]] Error noMemoryFor(const settings::ViewSettings& settings);
 
 } // namespace froxel::render

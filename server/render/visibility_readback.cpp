@@ -114,10 +114,10 @@ copyVisibility(SceneResources& resources, const ViewTargets& targets, const scen
 
 Result<Visibility>
 readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs) {
-    view::ViewSettings plain; // nothing but surfaces
+    settings::ViewSettings plain; // nothing but surfaces
     plain.camera = inputs.settings.camera;
     plain.size = inputs.settings.size;
-    plain.shading = view::ShadingModel::kLambert;
+    plain.shading = settings::ShadingModel::kLambert;
     plain.lights.count = 0;
     plain.lights.scene_lights = false;
     inputs.settings = plain;

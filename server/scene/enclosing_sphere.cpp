@@ -31,7 +31,7 @@ double farthestCorner(const Placed& placed, const glm::dvec3& middle) {
 
 } // namespace
 
-view::Sphere enclosingSphere(const Scene& scene) {
+settings::Sphere enclosingSphere(const Scene& scene) {
     const glm::dvec3 middle = scene.bounds_world.center();
     std::vector<Placed> all;
     for (const Instance& instance : scene.instances) {
@@ -47,7 +47,7 @@ view::Sphere enclosingSphere(const Scene& scene) {
     }
     std::sort(all.begin(), all.end(),
               [](const Placed& a, const Placed& b) { return a.most_m > b.most_m; });
-    view::Sphere sphere{middle, 0};
+    settings::Sphere sphere{middle, 0};
     for (const Placed& placed : all) {
         if (placed.most_m <= sphere.radius_m) {
             break;

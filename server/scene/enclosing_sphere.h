@@ -5,9 +5,9 @@
 
 namespace froxel::scene {
 
-// About the middle of bounds_world, through the vertex farthest from it; view::Sphere{} where the
-// scene has none. A model fills much less of the sphere about its box. Looks at the vertices of
+// About the middle of bounds_world, through the vertex farthest from it; settings::Sphere{} where
+// the scene has none. A model fills much less of the sphere about its box. Looks at the vertices of
 // those primitives alone whose boxes reach farther than what was found.
-[[nodiscard]] view::Sphere enclosingSphere(const Scene& scene);
+[[nodiscard]] settings::Sphere enclosingSphere(const Scene& scene);
 
 } // namespace froxel::scene

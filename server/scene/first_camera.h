@@ -3,7 +3,7 @@
 
 #include "scene/enclosing_sphere.h"
 #include "scene/scene.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <vector>
 
@@ -11,15 +11,15 @@ namespace froxel::scene {
 
 // The first of the scene's cameras; with none, one that has all of it, of its enclosingSphere(), in
 // pictures of a size.
-[[nodiscard]] inline view::Camera firstCamera(const std::vector<NamedCamera>& cameras,
-                                              const view::Sphere& sphere_world,
-                                              const view::Size& size) {
-    return cameras.empty() ? view::overview(sphere_world, view::aspectOf(size))
+[[nodiscard]] inline settings::Camera firstCamera(const std::vector<NamedCamera>& cameras,
+                                                  const settings::Sphere& sphere_world,
+                                                  const settings::Size& size) {
+    return cameras.empty() ? settings::overview(sphere_world, settings::aspectOf(size))
                            : cameras.front().camera;
 }
-[[nodiscard]] inline view::Camera firstCamera(const Scene& scene, const view::Size& size) {
+[[nodiscard]] inline settings::Camera firstCamera(const Scene& scene, const settings::Size& size) {
     return firstCamera(scene.cameras,
-                       scene.cameras.empty() ? enclosingSphere(scene) : view::Sphere{}, size);
+                       scene.cameras.empty() ? enclosingSphere(scene) : settings::Sphere{}, size);
 }
 
 } // namespace froxel::scene

@@ -3,7 +3,7 @@
 
 #include "core/math.h"
 #include "scene/warning.h"
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <array>
 #include <cstddef>
@@ -128,7 +128,7 @@ struct Instance {
 
 struct NamedCamera {
     std::string name;
-    view::Camera camera;
+    settings::Camera camera;
 };
 
 enum class LightType : uint8_t { kPoint, kSpot, kDirectional };

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "session/settings.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,7 +20,7 @@ struct Hello {
     std::string client_name;  // untrusted text: escape it before it is logged
     std::string room;         // of isRoomName(), or empty: a session of one's own
     std::string resume_token; // untrusted text, a secret if it is right: never logged; or empty
-    view::CodecSet codecs = view::commonCodecs(); // what the client decodes
+    settings::CodecSet codecs = settings::commonCodecs(); // what the client decodes
     std::string token{}; // untrusted text, a secret if it is right: never logged; or empty
 };
 
@@ -51,7 +51,7 @@ struct SetLights : SetSettings {
 
 struct PlacedLightChange {
     uint32_t id = 0;
-    std::optional<view::LightKind> kind;
+    std::optional<settings::LightKind> kind;
     std::optional<glm::dvec3> position_world;
     std::optional<glm::dvec3> direction_world; // not zero
     std::optional<glm::vec3> color;
@@ -62,7 +62,7 @@ struct PlacedLightChange {
     std::optional<double> width_m;
     std::optional<double> height_m;
     std::optional<double> roll_deg;
-    std::optional<view::LightRef> replaces;
+    std::optional<settings::LightRef> replaces;
 };
 
 // Done in the order of the fields.
@@ -79,13 +79,13 @@ struct PickLight {
 };
 
 struct SetGrid : SetSettings {
-    std::optional<view::GridSize> size = std::nullopt; // turns automatic off
-    std::optional<bool> automatic = std::nullopt;      // never true together with size
+    std::optional<settings::GridSize> size = std::nullopt; // turns automatic off
+    std::optional<bool> automatic = std::nullopt;          // never true together with size
 };
 
 struct SetToon : SetSettings {
-    std::optional<view::ToonRamp> fragment = std::nullopt;
-    std::optional<view::ToonRamp> compute = std::nullopt;
+    std::optional<settings::ToonRamp> fragment = std::nullopt;
+    std::optional<settings::ToonRamp> compute = std::nullopt;
 };
 
 struct SetDebugView : SetSettings {
@@ -93,7 +93,7 @@ struct SetDebugView : SetSettings {
 };
 
 struct SetSize {
-    view::Size size;
+    settings::Size size;
 };
 
 // The next frame is to be a key frame.

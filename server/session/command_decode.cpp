@@ -47,7 +47,7 @@ Command decode(const v1::Hello& hello, FieldValidator& fields) {
     command.token = fields.text("token", hello.token(), protocol::kMaxTokenBytes);
     for (const int codec : hello.codecs()) {
         if (const auto known =
-                fromProto<view::Codec>(view::kCodecNames, static_cast<v1::Codec>(codec))) {
+                fromProto<settings::Codec>(settings::kCodecNames, static_cast<v1::Codec>(codec))) {
             command.codecs.set(static_cast<size_t>(*known));
         }
     }
@@ -60,24 +60,24 @@ Command decode(const v1::SetCamera& camera, FieldValidator& fields) {
     SetCamera command;
     command.eye_world = fields.position("eye", vec(camera.eye()));
     command.target_world = fields.position("target", vec(camera.target()));
-    fields.number(view::kFocusRange, glm::distance(command.eye_world, command.target_world));
+    fields.number(settings::kFocusRange, glm::distance(command.eye_world, command.target_world));
     if (camera.has_up()) {
         command.up_world = fields.position("up", vec(camera.up()));
-        fields.number(view::kUpRange, glm::length(command.up_world));
+        fields.number(settings::kUpRange, glm::length(command.up_world));
     }
     if (camera.has_fov_deg()) {
-        command.yfov_rad = glm::radians(fields.number(view::kFovRange, camera.fov_deg()));
+        command.yfov_rad = glm::radians(fields.number(settings::kFovRange, camera.fov_deg()));
     }
     if (camera.has_half_height_m()) {
-        command.half_height_m = fields.number(view::kHalfHeightRange, camera.half_height_m());
+        command.half_height_m = fields.number(settings::kHalfHeightRange, camera.half_height_m());
     }
     if (camera.has_lens_shift()) {
         const v1::Vec2& shift = camera.lens_shift();
-        command.lens_shift = {fields.number(view::kLensShiftXRange, shift.x()),
-                              fields.number(view::kLensShiftYRange, shift.y())};
+        command.lens_shift = {fields.number(settings::kLensShiftXRange, shift.x()),
+                              fields.number(settings::kLensShiftYRange, shift.y())};
     }
     if (command.yfov_rad && command.half_height_m) {
-        fields.fail(RejectCode::kOutOfRange, view::kHalfHeightRange.field,
+        fields.fail(RejectCode::kOutOfRange, settings::kHalfHeightRange.field,
                     "comes together with fov_deg; a camera has one of them");
     }
     return command;
@@ -119,16 +119,16 @@ Command decode(const v1::SetLights& lights, FieldValidator& fields) {
         fields.fail(RejectCode::kOutOfRange, "clear_box", "comes together with box; send one");
     }
     if (lights.has_time_s()) {
-        command.time_s = fields.number(view::kTimeRange, lights.time_s());
+        command.time_s = fields.number(settings::kTimeRange, lights.time_s());
     }
     return command;
 }
 
 Command decode(const v1::PickLight& pick, FieldValidator& fields) {
     PickLight command;
-    command.id = fields.number("id", view::kPlacedIdRange, pick.id());
-    command.at = {fields.number("x", view::kPickRange, pick.x()),
-                  fields.number("y", view::kPickRange, pick.y())};
+    command.id = fields.number("id", settings::kPlacedIdRange, pick.id());
+    command.at = {fields.number("x", settings::kPickRange, pick.x()),
+                  fields.number("y", settings::kPickRange, pick.y())};
     return command;
 }
 
@@ -137,9 +137,9 @@ Command decode(const v1::SetGrid& set, FieldValidator& fields) {
     SetGrid command{{decodeSettings(set, fields)}};
     if (set.has_grid()) {
         const v1::Grid& grid = set.grid();
-        command.size = {fields.number(view::kGridXRange, grid.x()),
-                        fields.number(view::kGridYRange, grid.y()),
-                        fields.number(view::kGridZRange, grid.z())};
+        command.size = {fields.number(settings::kGridXRange, grid.x()),
+                        fields.number(settings::kGridYRange, grid.y()),
+                        fields.number(settings::kGridZRange, grid.z())};
     }
     if (set.has_automatic()) {
         command.automatic = set.automatic();
@@ -151,27 +151,28 @@ Command decode(const v1::SetGrid& set, FieldValidator& fields) {
     return command;
 }
 
-view::ToonRamp
+settings::ToonRamp
 decodeRamp(const std::string& name, const v1::ToonRamp& ramp, FieldValidator& fields) {
     const auto count = static_cast<uint32_t>(ramp.points_size());
-    if (count < 2 || count > view::ToonRamp::kMaxPoints) {
+    if (count < 2 || count > settings::ToonRamp::kMaxPoints) {
         fields.fail(RejectCode::kOutOfRange, name,
                     "has " + numberText(count) + " points; it must have 2 to " +
-                        numberText(view::ToonRamp::kMaxPoints));
+                        numberText(settings::ToonRamp::kMaxPoints));
         return {};
     }
-    view::ToonRamp command;
+    settings::ToonRamp command;
     command.count = count;
     command.points = {};
     for (uint32_t i = 0; i < count; ++i) {
         const v1::ToonRamp::Point& point = ramp.points(static_cast<int>(i));
         const std::string field = name + ".points[" + numberText(i) + "]";
-        const auto number = [&](const char* part, const view::Range<double>& range, double value) {
+        const auto number = [&](const char* part, const settings::Range<double>& range,
+                                double value) {
             return static_cast<float>(fields.number(field + part, range, value));
         };
-        command.points[i] = {number(".x", view::kToonRange, point.x()),
-                             number(".y", view::kToonRange, point.y()),
-                             number(".slope", view::kToonSlopeRange, point.slope())};
+        command.points[i] = {number(".x", settings::kToonRange, point.x()),
+                             number(".y", settings::kToonRange, point.y()),
+                             number(".slope", settings::kToonSlopeRange, point.slope())};
         // In float, as the shader will see them: equal neighbours would divide by zero.
         if (i > 0 && !(command.points[i].x > command.points[i - 1].x)) {
             fields.fail(RejectCode::kOutOfRange, field + ".x",
@@ -203,8 +204,8 @@ Command decode(const v1::SetDebugView& set, FieldValidator& fields) {
 }
 
 Command decode(const v1::SetSize& size, FieldValidator& fields) {
-    return SetSize{{fields.number(view::kWidthRange, size.width()),
-                    fields.number(view::kHeightRange, size.height())}};
+    return SetSize{{fields.number(settings::kWidthRange, size.width()),
+                    fields.number(settings::kHeightRange, size.height())}};
 }
 
 // Null: it gives something else, or besides.

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/clock.h"
-#include "view/ranges.h"
-#include "view/settings.h"
+#include "settings/ranges.h"
+#include "settings/settings.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ namespace froxel::session {
 struct DeliverySettings {
     bool adaptive = true;  // lower quality, chroma and resolution where they come too late else
     double target_fps = 0; // that a moving view keeps at the expense of resolution; 0: none
-    view::Refine refine = view::Refine::kNone;
+    settings::Refine refine = settings::Refine::kNone;
     bool operator==(const DeliverySettings&) const = default;
 };
 
@@ -38,7 +38,7 @@ inline constexpr std::array kRefinementNames = {
 struct Delivery {
     double scale = 1; // of each side
     uint32_t quality_max = 100;
-    view::Chroma chroma_max = view::Chroma::k444;
+    settings::Chroma chroma_max = settings::Chroma::k444;
     double video_share = 1;  // of a video's bits a second that were asked for
     Seconds min_interval{0}; // between frames
     uint32_t rung = 0;       // steps below what was asked for, by the link
@@ -47,7 +47,7 @@ struct Delivery {
     bool operator==(const Delivery&) const = default;
 
     // Whether frames come out below what was asked for.
-    [[nodiscard]] bool limits(const view::Encoding& asked) const {
+    [[nodiscard]] bool limits(const settings::Encoding& asked) const {
         return scale < 1 || quality_max < asked.quality || chroma_max < asked.chroma;
     }
 };
@@ -55,26 +55,28 @@ struct Delivery {
 // What a frame was made with.
 struct Delivered {
     double scale = 1;
-    view::Encoding encoding; // with the frame's own codec: of a refined one another than asked for
+    settings::Encoding
+        encoding; // with the frame's own codec: of a refined one another than asked for
     Refinement refinement = Refinement::kInteractive;
     uint32_t rung = 0;
 };
 
-inline constexpr view::Encoding kRefinedEncoding{92, view::Chroma::k444};
+inline constexpr settings::Encoding kRefinedEncoding{92, settings::Chroma::k444};
 
 // What video may take of a link that is too slow: room is left for what single frames exceed it by.
 [[nodiscard]] inline uint32_t carriedKbps(double link_bits_per_s) {
     constexpr double kShare = 0.8;
-    constexpr auto kRange = view::kVideoKbpsRange;
+    constexpr auto kRange = settings::kVideoKbpsRange;
     return static_cast<uint32_t>(
         std::clamp(kShare * link_bits_per_s / 1000, double{kRange.min}, double{kRange.max}));
 }
 
-[[nodiscard]] inline view::Encoding limited(view::Encoding asked, const Delivery& delivery) {
+[[nodiscard]] inline settings::Encoding limited(settings::Encoding asked,
+                                                const Delivery& delivery) {
     asked.quality = std::min(asked.quality, delivery.quality_max);
     asked.chroma = std::min(asked.chroma, delivery.chroma_max);
     if (delivery.video_share < 1) {
-        asked.video_kbps = std::max(view::kVideoKbpsRange.min,
+        asked.video_kbps = std::max(settings::kVideoKbpsRange.min,
                                     static_cast<uint32_t>(asked.video_kbps * delivery.video_share));
     }
     if (delivery.rung > 0 && delivery.link_rate) {
@@ -83,18 +85,18 @@ inline constexpr view::Encoding kRefinedEncoding{92, view::Chroma::k444};
     return asked;
 }
 
-[[nodiscard]] inline view::Size scaled(view::Size size, double scale) {
+[[nodiscard]] inline settings::Size scaled(settings::Size size, double scale) {
     const auto side = [scale](uint32_t px, uint32_t least_px) {
         const auto less = static_cast<uint32_t>(std::lround(px * scale));
         return std::min(px, std::max(least_px, less));
     };
-    return {side(size.width_px, view::kWidthRange.min),
-            side(size.height_px, view::kHeightRange.min)};
+    return {side(size.width_px, settings::kWidthRange.min),
+            side(size.height_px, settings::kHeightRange.min)};
 }
 
 // What a frame at this stage is made with.
 [[nodiscard]] inline Delivered
-delivered(const view::Encoding& asked, const Delivery& delivery, Refinement stage) {
+delivered(const settings::Encoding& asked, const Delivery& delivery, Refinement stage) {
     switch (stage) {
     case Refinement::kInteractive:
         return {delivery.scale, limited(asked, delivery), stage, delivery.rung};
@@ -107,7 +109,7 @@ delivered(const view::Encoding& asked, const Delivery& delivery, Refinement stag
     return {1,
             {std::max(asked.quality, kRefinedEncoding.quality),
              std::max(asked.chroma, kRefinedEncoding.chroma),
-             stage == Refinement::kLossless ? view::kLosslessCodec : view::kPlainCodec},
+             stage == Refinement::kLossless ? settings::kLosslessCodec : settings::kPlainCodec},
             stage,
             0};
 }

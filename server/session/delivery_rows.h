@@ -1,22 +1,22 @@
-// The rows of DeliverySettings: see view/setting_rows.h.
+// The rows of DeliverySettings: see settings/setting_rows.h.
 #pragma once
 
 #include "session/delivery.h"
-#include "view/setting.h"
+#include "settings/setting.h"
 
 namespace froxel::session {
 
 inline constexpr std::array kDeliveryRows = {
-    view::row<&DeliverySettings::adaptive>(
-        view::Switch{"adaptive"},
+    settings::row<&DeliverySettings::adaptive>(
+        settings::Switch{"adaptive"},
         "adaptive",
         {"Whether quality and resolution give way to a slow link"}),
-    view::row<&DeliverySettings::target_fps>(
-        view::Range<double>{"target_fps", 0, 240},
+    settings::row<&DeliverySettings::target_fps>(
+        settings::Range<double>{"target_fps", 0, 240},
         "target_fps",
         {"Frames a second that a moving view keeps at the expense of its resolution; 0: none"}),
-    view::row<&DeliverySettings::refine>(
-        view::Names{"refine", view::kRefineNames},
+    settings::row<&DeliverySettings::refine>(
+        settings::Names{"refine", settings::kRefineNames},
         "refine",
         {"How far a resting picture is refined; lossless: by PNG, which viewers must decode"}),
 };

@@ -4,7 +4,7 @@
 #include "core/math.h"
 #include "core/text.h"
 #include "session/rejection.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <optional>
 #include <string>
@@ -16,12 +16,12 @@ class FieldValidator {
   public:
     // Each returns its value as it is; a fault is kept for rejection().
     template <class T>
-    T number(const view::Range<T>& range, T value) {
+    T number(const settings::Range<T>& range, T value) {
         return number(range.field, range, value);
     }
     // `field` names one of several fields that share a range. NaN is in no range.
     template <class T>
-    T number(std::string_view field, const view::Range<T>& range, T value) {
+    T number(std::string_view field, const settings::Range<T>& range, T value) {
         if (!range.contains(value)) {
             fail(RejectCode::kOutOfRange, field,
                  "is " + numberText(value) + "; it must be from " + numberText(range.min) + " to " +
@@ -30,9 +30,9 @@ class FieldValidator {
         return value;
     }
     glm::dvec3 position(const std::string& field, const glm::dvec3& value) {
-        number(field + ".x", view::kPositionRange, value.x);
-        number(field + ".y", view::kPositionRange, value.y);
-        number(field + ".z", view::kPositionRange, value.z);
+        number(field + ".x", settings::kPositionRange, value.x);
+        number(field + ".y", settings::kPositionRange, value.y);
+        number(field + ".z", settings::kPositionRange, value.z);
         return value;
     }
     const std::string& text(std::string_view field, const std::string& value, size_t max_bytes) {

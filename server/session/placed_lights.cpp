@@ -20,22 +20,22 @@ std::string element(const char* list, int index) {
     return std::string(list) + "[" + numberText(index) + "]";
 }
 
-std::optional<view::LightRef>
+std::optional<settings::LightRef>
 replacedBy(const std::string& field, const v1::PlacedLight& light, FieldValidator& fields) {
-    using Of = view::LightRef::Of;
+    using Of = settings::LightRef::Of;
     if (light.has_replaces_seeded() && light.has_replaces_scene()) {
         fields.fail(RejectCode::kOutOfRange, field + ".replaces_scene",
                     "is there beside replaces_seeded; a light stands for one");
     }
     if (light.has_replaces_seeded()) {
-        return view::LightRef{Of::kSeed,
-                              fields.number(field + ".replaces_seeded", view::kReplacedRange,
-                                            light.replaces_seeded())};
+        return settings::LightRef{Of::kSeed,
+                                  fields.number(field + ".replaces_seeded",
+                                                settings::kReplacedRange, light.replaces_seeded())};
     }
     if (light.has_replaces_scene()) {
-        return view::LightRef{
-            Of::kScene,
-            fields.number(field + ".replaces_scene", view::kReplacedRange, light.replaces_scene())};
+        return settings::LightRef{Of::kScene,
+                                  fields.number(field + ".replaces_scene", settings::kReplacedRange,
+                                                light.replaces_scene())};
     }
     return std::nullopt;
 }
@@ -43,57 +43,60 @@ replacedBy(const std::string& field, const v1::PlacedLight& light, FieldValidato
 PlacedLightChange
 decodeLight(const std::string& field, const v1::PlacedLight& light, FieldValidator& fields) {
     PlacedLightChange change;
-    change.id = fields.number(field + ".id", view::kPlacedIdRange, light.id());
+    change.id = fields.number(field + ".id", settings::kPlacedIdRange, light.id());
     if (light.has_kind()) {
-        change.kind = static_cast<view::LightKind>(
+        change.kind = static_cast<settings::LightKind>(
             enumIndex(fields, field + ".kind", *v1::LightKind_descriptor(),
-                      numbersOf<v1::LightKind>(view::kLightKindNames), light.kind()));
+                      numbersOf<v1::LightKind>(settings::kLightKindNames), light.kind()));
     }
     if (light.has_position()) {
         change.position_world = fields.position(field + ".position", vec(light.position()));
     }
     if (light.has_direction()) {
         change.direction_world = vec(light.direction());
-        fields.number(field + ".direction", view::kUpRange, glm::length(*change.direction_world));
+        fields.number(field + ".direction", settings::kUpRange,
+                      glm::length(*change.direction_world));
     }
     if (light.has_color()) {
         const glm::dvec3 color = vec(light.color());
         for (const double part : {color.x, color.y, color.z}) {
-            fields.number(field + ".color", view::kPlacedColorRange, part);
+            fields.number(field + ".color", settings::kPlacedColorRange, part);
         }
         change.color = glm::vec3(color);
     }
     if (light.has_intensity()) {
         change.intensity =
-            fields.number(field + ".intensity", view::kLightIntensityRange, light.intensity());
+            fields.number(field + ".intensity", settings::kLightIntensityRange, light.intensity());
     }
     if (light.has_radius_m()) {
         change.radius_m =
-            fields.number(field + ".radius_m", view::kLightRadiusRange, light.radius_m());
+            fields.number(field + ".radius_m", settings::kLightRadiusRange, light.radius_m());
     }
     if (light.has_inner_cone_deg()) {
         change.inner_cone_deg =
-            fields.number(field + ".inner_cone_deg", view::kConeRange, light.inner_cone_deg());
+            fields.number(field + ".inner_cone_deg", settings::kConeRange, light.inner_cone_deg());
     }
     if (light.has_outer_cone_deg()) {
         change.outer_cone_deg =
-            fields.number(field + ".outer_cone_deg", view::kConeRange, light.outer_cone_deg());
+            fields.number(field + ".outer_cone_deg", settings::kConeRange, light.outer_cone_deg());
     }
     if (light.has_width_m()) {
-        change.width_m = fields.number(field + ".width_m", view::kAreaSideRange, light.width_m());
+        change.width_m =
+            fields.number(field + ".width_m", settings::kAreaSideRange, light.width_m());
     }
     if (light.has_height_m()) {
         change.height_m =
-            fields.number(field + ".height_m", view::kAreaSideRange, light.height_m());
+            fields.number(field + ".height_m", settings::kAreaSideRange, light.height_m());
     }
     if (light.has_roll_deg()) {
-        change.roll_deg = fields.number(field + ".roll_deg", view::kRollRange, light.roll_deg());
+        change.roll_deg =
+            fields.number(field + ".roll_deg", settings::kRollRange, light.roll_deg());
     }
     change.replaces = replacedBy(field, light, fields);
     return change;
 }
 
-void apply(const PlacedLightChange& change, view::PlacedLight& light) {
+void apply(const PlacedLightChange& change, settings::PlacedLight& light) {
     light.id = change.id;
     light.kind = change.kind.value_or(light.kind);
     light.position_world = change.position_world.value_or(light.position_world);
@@ -111,9 +114,9 @@ void apply(const PlacedLightChange& change, view::PlacedLight& light) {
     light.replaces = change.replaces ? change.replaces : light.replaces;
 }
 
-void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
+void fill(v1::PlacedLight& out, const settings::PlacedLight& light) {
     out.set_id(light.id);
-    out.set_kind(toProto<v1::LightKind>(view::kLightKindNames, light.kind));
+    out.set_kind(toProto<v1::LightKind>(settings::kLightKindNames, light.kind));
     fillVec(*out.mutable_position(), light.position_world);
     fillVec(*out.mutable_direction(), light.direction_world);
     fillVec(*out.mutable_color(), glm::dvec3(light.color));
@@ -124,28 +127,28 @@ void fill(v1::PlacedLight& out, const view::PlacedLight& light) {
     out.set_width_m(light.width_m);
     out.set_height_m(light.height_m);
     out.set_roll_deg(light.roll_deg);
-    if (light.replaces && light.replaces->of == view::LightRef::Of::kSeed) {
+    if (light.replaces && light.replaces->of == settings::LightRef::Of::kSeed) {
         out.set_replaces_seeded(light.replaces->index);
     } else if (light.replaces) {
         out.set_replaces_scene(light.replaces->index);
     }
 }
 
-using LightsById = std::map<uint32_t, view::PlacedLight>;
+using LightsById = std::map<uint32_t, settings::PlacedLight>;
 
-LightsById byId(const view::PlacedLights& lights) {
+LightsById byId(const settings::PlacedLights& lights) {
     LightsById by_id;
-    for (const view::PlacedLight& light : lights.lights()) {
+    for (const settings::PlacedLight& light : lights.lights()) {
         by_id.emplace(light.id, light);
     }
     return by_id;
 }
 
 // What is wrong with a light whose values are all in their ranges.
-std::optional<Rejection> faultOf(const std::string& field, const view::PlacedLight& light) {
+std::optional<Rejection> faultOf(const std::string& field, const settings::PlacedLight& light) {
     const double corner_m = 0.5 * std::hypot(light.width_m, light.height_m);
     const auto radius_m = static_cast<double>(light.radius_m);
-    if (light.kind == view::LightKind::kArea && radius_m < corner_m) {
+    if (light.kind == settings::LightKind::kArea && radius_m < corner_m) {
         return outOfRange(field + ".radius_m",
                           "is " + numberText(radius_m) +
                               "; a rectangle's corners must lie within it, here " +
@@ -161,7 +164,7 @@ std::optional<Rejection> faultOf(const std::string& field, const view::PlacedLig
 
 // The ids of two lights that stand for the same.
 std::optional<std::pair<uint32_t, uint32_t>> rivals(const LightsById& lights) {
-    std::map<view::LightRef, uint32_t> ids;
+    std::map<settings::LightRef, uint32_t> ids;
     for (const auto& [id, light] : lights) {
         if (light.replaces) {
             const auto [known, first] = ids.emplace(*light.replaces, id);
@@ -174,21 +177,21 @@ std::optional<std::pair<uint32_t, uint32_t>> rivals(const LightsById& lights) {
 }
 
 // If they can be together.
-CommandResult<view::PlacedLights> kept(const LightsById& by_id) {
+CommandResult<settings::PlacedLights> kept(const LightsById& by_id) {
     if (const auto both = rivals(by_id)) {
         return outOfRange("lights", numberText(both->first) + " and " + numberText(both->second) +
                                         " would stand for the same light; only one can");
     }
-    if (by_id.size() > view::kPlacedCountRange.max) {
+    if (by_id.size() > settings::kPlacedCountRange.max) {
         return outOfRange("lights", "would be " + numberText(by_id.size()) + "; at most " +
-                                        numberText(view::kPlacedCountRange.max) + " are kept");
+                                        numberText(settings::kPlacedCountRange.max) + " are kept");
     }
-    std::vector<view::PlacedLight> ordered;
+    std::vector<settings::PlacedLight> ordered;
     ordered.reserve(by_id.size());
     for (const auto& [id, light] : by_id) {
         ordered.push_back(light);
     }
-    return view::PlacedLights(std::move(ordered));
+    return settings::PlacedLights(std::move(ordered));
 }
 
 } // namespace
@@ -210,8 +213,8 @@ SetPlacedLights decodePlacedLights(const v1::PlacedLights& set, FieldValidator& 
     return command;
 }
 
-CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
-                                          const SetPlacedLights& change) {
+CommandResult<settings::PlacedLights> changed(const settings::PlacedLights& lights,
+                                              const SetPlacedLights& change) {
     LightsById by_id = change.clear ? LightsById() : byId(lights);
     for (size_t i = 0; i < change.remove.size(); ++i) {
         if (by_id.erase(change.remove[i]) == 0) {
@@ -235,7 +238,7 @@ CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
     return kept(by_id);
 }
 
-CommandResult<view::PlacedLights> parseLightSet(std::string_view json) {
+CommandResult<settings::PlacedLights> parseLightSet(std::string_view json) {
     v1::PlacedLights set;
     if (const auto parsed =
             parseJson({reinterpret_cast<const std::byte*>(json.data()), json.size()}, set);
@@ -254,17 +257,17 @@ CommandResult<view::PlacedLights> parseLightSet(std::string_view json) {
     return changed({}, command);
 }
 
-v1::PlacedLights changeOf(const view::PlacedLights& told, const view::PlacedLights& now) {
+v1::PlacedLights changeOf(const settings::PlacedLights& told, const settings::PlacedLights& now) {
     v1::PlacedLights change;
-    for (const view::PlacedLight& light : told.lights()) {
-        const view::PlacedLight* after = now.find(light.id);
+    for (const settings::PlacedLight& light : told.lights()) {
+        const settings::PlacedLight* after = now.find(light.id);
         // What a light stands for cannot be taken back by a field that is absent.
         if (after == nullptr || (light.replaces && light.replaces != after->replaces)) {
             change.add_remove(light.id);
         }
     }
-    for (const view::PlacedLight& light : now.lights()) {
-        const view::PlacedLight* before = told.find(light.id);
+    for (const settings::PlacedLight& light : now.lights()) {
+        const settings::PlacedLight* before = told.find(light.id);
         if (before == nullptr || !(*before == light)) {
             fill(*change.add_lights(), light);
         }
@@ -272,8 +275,8 @@ v1::PlacedLights changeOf(const view::PlacedLights& told, const view::PlacedLigh
     return change;
 }
 
-CommandResult<view::PlacedLights> withPicked(const view::PlacedLights& lights,
-                                             const view::PlacedLight& picked) {
+CommandResult<settings::PlacedLights> withPicked(const settings::PlacedLights& lights,
+                                                 const settings::PlacedLight& picked) {
     if (lights.find(picked.id) != nullptr) {
         return outOfRange("id", "is " + numberText(picked.id) + "; another light has it");
     }
@@ -285,7 +288,7 @@ CommandResult<view::PlacedLights> withPicked(const view::PlacedLights& lights,
     return kept(by_id);
 }
 
-std::string lightSetJson(const view::PlacedLights& lights) {
+std::string lightSetJson(const settings::PlacedLights& lights) {
     std::string json;
     const auto written = google::protobuf::util::MessageToJsonString(changeOf({}, lights), &json);
     FROXEL_ASSERT(written.ok(), "a light set is JSON");

@@ -16,23 +16,23 @@ namespace froxel::session {
 
 // `lights` after the change. Refused, kOutOfRange: an id to be removed that is not there, a new
 // light without a position, a cone inside out, two that stand for the same light, more than
-// view::kPlacedCountRange.
-[[nodiscard]] CommandResult<view::PlacedLights> changed(const view::PlacedLights& lights,
-                                                        const SetPlacedLights& change);
+// settings::kPlacedCountRange.
+[[nodiscard]] CommandResult<settings::PlacedLights> changed(const settings::PlacedLights& lights,
+                                                            const SetPlacedLights& change);
 
 // `lights` and one more. Refused: an id that is in use, and as `changed`.
-[[nodiscard]] CommandResult<view::PlacedLights> withPicked(const view::PlacedLights& lights,
-                                                           const view::PlacedLight& picked);
+[[nodiscard]] CommandResult<settings::PlacedLights> withPicked(const settings::PlacedLights& lights,
+                                                               const settings::PlacedLight& picked);
 
 // The canonical JSON of a v1::PlacedLights that has `lights` alone, untrusted. Refused: as
 // parseJson, decodePlacedLights and changed, and a set that clears or removes.
-[[nodiscard]] CommandResult<view::PlacedLights> parseLightSet(std::string_view json);
+[[nodiscard]] CommandResult<settings::PlacedLights> parseLightSet(std::string_view json);
 
 // What parseLightSet reads back as the same.
-[[nodiscard]] std::string lightSetJson(const view::PlacedLights& lights);
+[[nodiscard]] std::string lightSetJson(const settings::PlacedLights& lights);
 
 // The change that takes `told` to `now`; empty where they are equal.
-[[nodiscard]] v1::PlacedLights changeOf(const view::PlacedLights& told,
-                                        const view::PlacedLights& now);
+[[nodiscard]] v1::PlacedLights changeOf(const settings::PlacedLights& told,
+                                        const settings::PlacedLights& now);
 
 } // namespace froxel::session

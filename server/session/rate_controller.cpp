@@ -58,7 +58,7 @@ constexpr Seconds kRateSpan = 50ms;
 
 } // namespace
 
-void RateController::restart(const view::Encoding& encoding, const DeliverySettings& settings) {
+void RateController::restart(const settings::Encoding& encoding, const DeliverySettings& settings) {
     asked_ = encoding;
     settings_ = settings;
     ladder_ = makeLadder(encoding);
@@ -67,12 +67,13 @@ void RateController::restart(const view::Encoding& encoding, const DeliverySetti
     moveTo(0, moved_at_);
 }
 
-void RateController::setWanted(const view::Encoding& encoding, const DeliverySettings& settings) {
+void RateController::setWanted(const settings::Encoding& encoding,
+                               const DeliverySettings& settings) {
     if (encoding == asked_ && settings == settings_) {
         return;
     }
     const Delivery before = delivery();
-    const view::Encoding as = limited(asked_, before);
+    const settings::Encoding as = limited(asked_, before);
     // Bits of one codec say nothing about those of another.
     const bool stay = rung_ > 0 && settings.adaptive && encoding.codec == asked_.codec;
     restart(encoding, settings);
@@ -81,7 +82,7 @@ void RateController::setWanted(const view::Encoding& encoding, const DeliverySet
     }
     // The first rung that asks no more of the link than the one before the change did.
     const auto no_more = [&](const Rung& rung) {
-        const view::Encoding now = limited(encoding, rung.delivery);
+        const settings::Encoding now = limited(encoding, rung.delivery);
         return rung.delivery.scale <= before.scale && now.quality <= as.quality &&
                now.chroma <= as.chroma && now.video_kbps <= as.video_kbps &&
                rung.delivery.min_interval >= before.min_interval;

@@ -38,7 +38,7 @@ class RateController {
     RateController() { restart({}, {}); }
 
     // What the viewer asked for. A change keeps the place on the ladder as far as it can.
-    void setWanted(const view::Encoding& encoding, const DeliverySettings& settings);
+    void setWanted(const settings::Encoding& encoding, const DeliverySettings& settings);
     // What a frame costs the server where it is slowest, at this scale.
     void onProduced(Seconds cost, double scale);
     // After every fresh acknowledgement.
@@ -62,7 +62,7 @@ class RateController {
         TimePoint held_until;
     };
 
-    void restart(const view::Encoding& encoding, const DeliverySettings& settings);
+    void restart(const settings::Encoding& encoding, const DeliverySettings& settings);
     void noteRate(const Trip& trip, TimePoint now);
     void noteTravel(const Trip& trip);
     [[nodiscard]] double carried() const;
@@ -78,7 +78,7 @@ class RateController {
     void stepDown(Seconds link_interval, TimePoint now);
     void moveTo(uint32_t rung, TimePoint now);
 
-    view::Encoding asked_;
+    settings::Encoding asked_;
     DeliverySettings settings_;
     std::vector<Rung> ladder_;
     std::vector<Failure> failures_; // by rung

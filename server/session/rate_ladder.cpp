@@ -22,14 +22,14 @@ double tableScale(uint32_t quality) {
 
 // Bits of a frame up to a factor. The built-in hall at 640x360 and 1280x720, against quality 75
 // with 4:2:0: quality 45 has 0.60, 55 0.69, 65 0.82, 85 1.37, 90 1.74; 4:4:4 1.37.
-double bitsOf(const view::Encoding& encoding, double scale) {
-    const double chroma = encoding.chroma == view::Chroma::k444 ? 1.37 : 1.0;
+double bitsOf(const settings::Encoding& encoding, double scale) {
+    const double chroma = encoding.chroma == settings::Chroma::k444 ? 1.37 : 1.0;
     return chroma * std::pow(tableScale(encoding.quality), -0.65) * std::pow(scale, 1.6);
 }
 
 class Builder {
   public:
-    explicit Builder(const view::Encoding& asked) : asked_(asked) { add(); }
+    explicit Builder(const settings::Encoding& asked) : asked_(asked) { add(); }
 
     void add() {
         next_.rung = static_cast<uint32_t>(ladder_.size());
@@ -63,8 +63,8 @@ class Builder {
                 add();
             }
         }
-        next_.chroma_max = view::Chroma::k420;
-        if (asked_.chroma != view::Chroma::k420) {
+        next_.chroma_max = settings::Chroma::k420;
+        if (asked_.chroma != settings::Chroma::k420) {
             add();
         }
     }
@@ -80,8 +80,9 @@ class Builder {
         }
     }
 
-    const view::Encoding asked_;
-    const bool by_rate_ = view::rowOf(asked_.codec).rate_control == view::RateControl::kBitrate;
+    const settings::Encoding asked_;
+    const bool by_rate_ =
+        settings::rowOf(asked_.codec).rate_control == settings::RateControl::kBitrate;
     Delivery next_;
     bool alone_ = false;
     std::vector<Rung> ladder_;
@@ -89,7 +90,7 @@ class Builder {
 
 } // namespace
 
-std::vector<Rung> makeLadder(const view::Encoding& asked) {
+std::vector<Rung> makeLadder(const settings::Encoding& asked) {
     return Builder(asked).build();
 }
 

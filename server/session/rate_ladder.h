@@ -16,6 +16,6 @@ struct Rung {
 
 // From what was asked for downwards; the first changes nothing. Rungs that would change nothing
 // for this encoding are not there.
-[[nodiscard]] std::vector<Rung> makeLadder(const view::Encoding& asked);
+[[nodiscard]] std::vector<Rung> makeLadder(const settings::Encoding& asked);
 
 } // namespace froxel::session

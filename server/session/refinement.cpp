@@ -7,7 +7,7 @@ TimePoint after(TimePoint since, Seconds time) {
     return since + std::chrono::duration_cast<Clock::duration>(time);
 }
 
-bool fits(const Delivery& delivery, view::Size size, double bits_per_pixel) {
+bool fits(const Delivery& delivery, settings::Size size, double bits_per_pixel) {
     const double pixels = double{1} * size.width_px * size.height_px;
     return !delivery.link_rate ||
            pixels * bits_per_pixel <=
@@ -30,16 +30,17 @@ void RefinementSchedule::onLost() {
     limited_ = true;
 }
 
-std::optional<RefinementSchedule::Due>
-RefinementSchedule::next(view::Refine wanted, const Delivery& delivery, view::Size size) const {
-    const bool high = wanted != view::Refine::kNone && fits(delivery, size, kHighBits);
+std::optional<RefinementSchedule::Due> RefinementSchedule::next(settings::Refine wanted,
+                                                                const Delivery& delivery,
+                                                                settings::Size size) const {
+    const bool high = wanted != settings::Refine::kNone && fits(delivery, size, kHighBits);
     if (high && shown_ < Refinement::kHigh) {
         return Due{Refinement::kHigh, after(changed_at_, kSettleAfter)};
     }
     if (limited_ && shown_ == Refinement::kInteractive) {
         return Due{Refinement::kSettled, after(changed_at_, kSettleAfter)};
     }
-    if (wanted == view::Refine::kLossless && shown_ < Refinement::kLossless &&
+    if (wanted == settings::Refine::kLossless && shown_ < Refinement::kLossless &&
         fits(delivery, size, kLosslessBits)) {
         return Due{Refinement::kLossless, after(changed_at_, kLosslessAfter)};
     }

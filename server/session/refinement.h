@@ -38,7 +38,7 @@ class RefinementSchedule {
     };
     // What comes next if nothing changes; none: the picture is as good as it will be.
     [[nodiscard]] std::optional<Due>
-    next(view::Refine wanted, const Delivery& delivery, view::Size size) const;
+    next(settings::Refine wanted, const Delivery& delivery, settings::Size size) const;
 
   private:
     TimePoint changed_at_;

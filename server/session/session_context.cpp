@@ -24,14 +24,14 @@ SceneSummary summarize(const scene::Scene& scene) {
     return summary;
 }
 
-Result<view::PlacedLight>
-pickNone(const view::ViewSettings& /*settings*/, double /*time_s*/, const glm::dvec2& /*at*/) {
+Result<settings::PlacedLight>
+pickNone(const settings::ViewSettings& /*settings*/, double /*time_s*/, const glm::dvec2& /*at*/) {
     return Error{ErrorCode::kInvalidArgument, "is at no light"};
 }
 
 SessionDefaults defaultsFor(DeviceKind kind) {
     SessionDefaults defaults;
-    defaults.delivery.refine = view::Refine::kHigh;
+    defaults.delivery.refine = settings::Refine::kHigh;
     if (kind == DeviceKind::kCpu) {
         // A software rasteriser's time goes with the pixels: a quarter of 1080p stays interactive.
         defaults.settings.size = {640, 360};

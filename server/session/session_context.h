@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "scene/scene.h"
 #include "session/delivery.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <functional>
@@ -24,8 +24,8 @@ struct SceneSummary {
     uint32_t texture_count = 0;
     uint32_t punctual_light_count = 0;
     std::vector<scene::NamedCamera> cameras;
-    BoundsD3 bounds_world;     // empty for an empty scene
-    view::Sphere framed_world; // scene::enclosingSphere()
+    BoundsD3 bounds_world;         // empty for an empty scene
+    settings::Sphere framed_world; // scene::enclosingSphere()
     std::vector<scene::Warning> warnings;
     uint64_t warnings_left_out = 0;
 };
@@ -36,8 +36,8 @@ enum class DeviceKind : uint8_t { kCpu, kGpu };
 
 // What a viewer gets before saying anything, and the largest picture that it may ask for.
 struct SessionDefaults {
-    view::ViewSettings settings; // but for the camera
-    view::Encoding encoding;
+    settings::ViewSettings settings; // but for the camera
+    settings::Encoding encoding;
     DeliverySettings delivery;
     std::optional<glm::dvec2> lens_shift; // of the first camera; absent: its own
     // Frames a second below which no active session may fall when another one joins; 0: no matter.
@@ -49,12 +49,12 @@ struct SessionDefaults {
 
 // The light at a place of the picture (PickLight::at) as a placed one, without an id. Pure, any
 // thread. Errors: kInvalidArgument, the end of a sentence about the place.
-using LightPicker = std::function<Result<view::PlacedLight>(
-    const view::ViewSettings& settings, double time_s, const glm::dvec2& at)>;
+using LightPicker = std::function<Result<settings::PlacedLight>(
+    const settings::ViewSettings& settings, double time_s, const glm::dvec2& at)>;
 
 // Of a scene whose lights nobody knows.
-[[nodiscard]] Result<view::PlacedLight>
-pickNone(const view::ViewSettings& settings, double time_s, const glm::dvec2& at);
+[[nodiscard]] Result<settings::PlacedLight>
+pickNone(const settings::ViewSettings& settings, double time_s, const glm::dvec2& at);
 
 struct SessionContext {
     SceneSummary scene;

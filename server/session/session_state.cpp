@@ -18,8 +18,8 @@ void assignIfGiven(Target& target, const std::optional<Value>& value) {
     }
 }
 
-view::Camera openingCamera(const SessionContext& context, const view::Size& size) {
-    view::Camera camera =
+settings::Camera openingCamera(const SessionContext& context, const settings::Size& size) {
+    settings::Camera camera =
         scene::firstCamera(context.scene.cameras, context.scene.framed_world, size);
     camera.lens_shift = context.defaults.lens_shift.value_or(camera.lens_shift);
     return camera;
@@ -34,19 +34,19 @@ struct Reducer {
     using Outcome = std::optional<Rejection>;
 
     Outcome operator()(const SetCamera& command) const {
-        view::Camera camera =
-            view::lookAt(command.eye_world, command.target_world, command.up_world);
-        const view::Camera& before = state.settings.camera;
+        settings::Camera camera =
+            settings::lookAt(command.eye_world, command.target_world, command.up_world);
+        const settings::Camera& before = state.settings.camera;
         camera.projection = before.projection;
         camera.yfov_rad = before.yfov_rad;
         camera.half_height_m = before.half_height_m;
         camera.near_m = before.near_m;
         camera.lens_shift = command.lens_shift.value_or(before.lens_shift);
         if (command.yfov_rad) {
-            camera.projection = view::Projection::kPerspective;
+            camera.projection = settings::Projection::kPerspective;
             camera.yfov_rad = *command.yfov_rad;
         } else if (command.half_height_m) {
-            camera.projection = view::Projection::kOrthographic;
+            camera.projection = settings::Projection::kOrthographic;
             camera.half_height_m = *command.half_height_m;
         }
         state.settings.camera = camera;
@@ -76,9 +76,9 @@ struct Reducer {
             change.setting->set(state, change.value);
         }
         if (const auto* codec = givenIn(changes, "codec");
-            codec != nullptr && !state.decodable.test(std::get<view::Choice>(*codec).index)) {
+            codec != nullptr && !state.decodable.test(std::get<settings::Choice>(*codec).index)) {
             return Rejection{RejectCode::kUnsupported, 0, "codec",
-                             "codec is " + std::string(view::rowOf(state.encoding.codec).name) +
+                             "codec is " + std::string(settings::rowOf(state.encoding.codec).name) +
                                  "; not every viewer's Hello.codecs lists it"};
         }
         return givenIn(changes, "antialiasing") != nullptr ? checkArea("antialiasing") : Outcome{};
@@ -87,7 +87,7 @@ struct Reducer {
     Outcome operator()(const SetSettings& command) const { return set(command.changes); }
 
     Outcome operator()(const SetLights& command) const {
-        view::Lights& lights = state.settings.lights;
+        settings::Lights& lights = state.settings.lights;
         assignIfGiven(lights.box, command.box);
         if (command.clear_box) {
             lights.box.reset();
@@ -127,7 +127,7 @@ struct Reducer {
     }
 
     Outcome operator()(const SetGrid& command) const {
-        view::Grid& grid = state.settings.grid;
+        settings::Grid& grid = state.settings.grid;
         assignIfGiven(grid.size, command.size);
         grid.automatic = command.automatic.value_or(grid.automatic && !command.size);
         return set(command.changes);
@@ -140,7 +140,7 @@ struct Reducer {
     }
 
     Outcome operator()(const SetDebugView& command) const {
-        view::Debug& debug = state.settings.debug;
+        settings::Debug& debug = state.settings.debug;
         if (command.freeze && !*command.freeze) {
             debug.grid_camera.reset();
         } else if (command.freeze && !debug.grid_camera) {
@@ -151,8 +151,8 @@ struct Reducer {
 
     // What is drawn of a picture at most; `field` is the one that asked for more.
     Outcome checkArea(const char* field) const {
-        const view::Size& size = state.settings.size;
-        const uint64_t across = view::samplesAcross(state.settings.antialiasing);
+        const settings::Size& size = state.settings.size;
+        const uint64_t across = settings::samplesAcross(state.settings.antialiasing);
         const uint64_t area_px = across * across * size.width_px * size.height_px;
         if (area_px <= context.defaults.max_area_px) {
             return {};
@@ -169,7 +169,7 @@ struct Reducer {
     }
 
     Outcome operator()(const SetSize& command) const {
-        view::ViewSettings& settings = state.settings;
+        settings::ViewSettings& settings = state.settings;
         // Who has not moved yet sees all of the scene, whatever the window's shape.
         if (settings.camera == openingCamera(context, settings.size)) {
             settings.camera = openingCamera(context, command.size);
@@ -194,7 +194,7 @@ bool holdsOneOf(const Command& command) {
 
 SessionState initialState(const SessionContext& context, TimePoint now) {
     const SessionDefaults& defaults = context.defaults;
-    view::ViewSettings settings = defaults.settings;
+    settings::ViewSettings settings = defaults.settings;
     settings.camera = openingCamera(context, settings.size);
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
     return {settings, defaults.encoding, defaults.delivery, clock, {}};
@@ -209,8 +209,8 @@ CommandResult<SessionState> apply(SessionState state,
                                   const CommandMessage& message,
                                   const SessionContext& context,
                                   TimePoint now) {
-    const view::ViewSettings settings_before = state.settings;
-    const view::Encoding encoding_before = state.encoding;
+    const settings::ViewSettings settings_before = state.settings;
+    const settings::Encoding encoding_before = state.encoding;
     const DeliverySettings delivery_before = state.delivery;
     const double time_before_s = state.light_clock.secondsAt(now);
     if (auto rejection = std::visit(Reducer{state, context, now}, message.body)) {

@@ -11,14 +11,14 @@
 namespace froxel::session {
 
 struct SessionState {
-    view::ViewSettings settings;
-    view::Encoding encoding;
+    settings::ViewSettings settings;
+    settings::Encoding encoding;
     DeliverySettings delivery;
     LightClock light_clock;
     CommandStamp applied; // newest accepted command that sets state
     uint64_t version = 1; // grows whenever anything above but `applied` is set anew, or below
-    view::CodecSet decodable = view::commonCodecs(); // by all who see it
-    uint64_t key_requests = 0;                       // key frames asked for so far
+    settings::CodecSet decodable = settings::commonCodecs(); // by all who see it
+    uint64_t key_requests = 0;                               // key frames asked for so far
 
     // Whether the picture changes without a command.
     [[nodiscard]] bool animating() const {

@@ -15,8 +15,8 @@ namespace {
 using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
-using view::SettingKind;
-using view::SettingValue;
+using settings::SettingKind;
+using settings::SettingValue;
 
 // A field that holds a setting, or a message in which there are some.
 struct HoldingField {
@@ -54,7 +54,7 @@ HoldingField holding(const FieldDescriptor& field) {
     }
     held.setting = findSetting(name);
     FROXEL_ASSERT(held.setting != nullptr, "every setting of the schema has a row");
-    const view::Setting& facts = held.setting->facts();
+    const settings::Setting& facts = held.setting->facts();
     FROXEL_ASSERT(field.cpp_type() == typeOf(facts.kind), "a setting's field is of its kind");
     if (facts.kind == SettingKind::kChoice) {
         held.numbers = enumNumbers(*field.enum_type(), facts.names);
@@ -88,15 +88,15 @@ const HoldingFields& heldBy(const Descriptor& message) {
 }
 
 double inRange(FieldValidator& fields,
-               const view::Setting& facts,
+               const settings::Setting& facts,
                const std::string& field,
                double value) {
-    return fields.number(view::Range<double>{field, facts.min, facts.max}, value);
+    return fields.number(settings::Range<double>{field, facts.min, facts.max}, value);
 }
 
 SettingValue decodeValue(const Message& command, const HoldingField& held, FieldValidator& fields) {
     const auto& reflection = *command.GetReflection();
-    const view::Setting& facts = held.setting->facts();
+    const settings::Setting& facts = held.setting->facts();
     const std::string name(facts.name);
     switch (facts.kind) {
     case SettingKind::kSwitch:
@@ -109,8 +109,8 @@ SettingValue decodeValue(const Message& command, const HoldingField& held, Field
     case SettingKind::kReal:
         return inRange(fields, facts, name, reflection.GetDouble(command, held.field));
     case SettingKind::kChoice:
-        return view::Choice{enumIndex(fields, name, *held.field->enum_type(), held.numbers,
-                                      reflection.GetEnumValue(command, held.field))};
+        return settings::Choice{enumIndex(fields, name, *held.field->enum_type(), held.numbers,
+                                          reflection.GetEnumValue(command, held.field))};
     case SettingKind::kColor:
         break;
     }
@@ -172,7 +172,7 @@ void fillSettings(Message& out, const SessionState& state) {
             break;
         case SettingKind::kChoice:
             reflection.SetEnumValue(&out, held.field,
-                                    held.numbers[std::get<view::Choice>(value).index]);
+                                    held.numbers[std::get<settings::Choice>(value).index]);
             break;
         case SettingKind::kColor:
             fillVec(static_cast<v1::Vec3&>(*reflection.MutableMessage(&out, held.field)),

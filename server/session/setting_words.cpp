@@ -10,7 +10,7 @@ const std::string& settingWords() {
     static const std::string words = [] {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
         for (const SessionSetting& setting : sessionSettings()) {
-            const view::Setting& facts = setting.facts();
+            const settings::Setting& facts = setting.facts();
             list.push_back({{"name", facts.name},
                             {"help", facts.words.help},
                             {"unit", facts.words.unit},

@@ -2,23 +2,23 @@
 
 #include "session/delivery_rows.h"
 #include "session/session_state.h"
-#include "view/setting_cover.h"
-#include "view/setting_rows.h"
+#include "settings/setting_cover.h"
+#include "settings/setting_rows.h"
 
 #include <algorithm>
 
 namespace froxel::session {
 namespace {
 
-static_assert(view::covers<DeliverySettings>(kDeliveryRows, 0));
+static_assert(settings::covers<DeliverySettings>(kDeliveryRows, 0));
 
 // Which part of a state a table's rows are read and set in.
 template <class State>
-auto& partOf(State& state, const view::ViewSettings* /*whole*/) {
+auto& partOf(State& state, const settings::ViewSettings* /*whole*/) {
     return state.settings;
 }
 template <class State>
-auto& partOf(State& state, const view::Encoding* /*whole*/) {
+auto& partOf(State& state, const settings::Encoding* /*whole*/) {
     return state.encoding;
 }
 template <class State>
@@ -27,16 +27,16 @@ auto& partOf(State& state, const DeliverySettings* /*whole*/) {
 }
 
 template <class Whole, class State>
-auto& partFor(const view::SettingOf<Whole>& /*row*/, State& state) {
+auto& partFor(const settings::SettingOf<Whole>& /*row*/, State& state) {
     return partOf(state, static_cast<const Whole*>(nullptr));
 }
 
 std::vector<SessionSetting> allRows() {
     std::vector<SessionSetting> all;
-    for (const auto& row : view::kSettingRows) {
+    for (const auto& row : settings::kSettingRows) {
         all.emplace_back(row);
     }
-    for (const auto& row : view::kEncodingRows) {
+    for (const auto& row : settings::kEncodingRows) {
         all.emplace_back(row);
     }
     for (const auto& row : kDeliveryRows) {
@@ -47,15 +47,15 @@ std::vector<SessionSetting> allRows() {
 
 } // namespace
 
-const view::Setting& SessionSetting::facts() const {
-    return std::visit([](const auto* row) -> const view::Setting& { return *row; }, row_);
+const settings::Setting& SessionSetting::facts() const {
+    return std::visit([](const auto* row) -> const settings::Setting& { return *row; }, row_);
 }
 
-view::SettingValue SessionSetting::valueIn(const SessionState& state) const {
+settings::SettingValue SessionSetting::valueIn(const SessionState& state) const {
     return std::visit([&state](const auto* row) { return row->get(partFor(*row, state)); }, row_);
 }
 
-void SessionSetting::set(SessionState& state, const view::SettingValue& value) const {
+void SessionSetting::set(SessionState& state, const settings::SettingValue& value) const {
     std::visit([&](const auto* row) { row->set(partFor(*row, state), value); }, row_);
 }
 
@@ -79,7 +79,7 @@ std::string unusualSettings(const SessionState& state) {
     usual.delivery = {};
     std::string words;
     for (const SessionSetting& setting : sessionSettings()) {
-        const view::SettingValue value = setting.valueIn(state);
+        const settings::SettingValue value = setting.valueIn(state);
         if (value != setting.valueIn(usual)) {
             words += (words.empty() ? "" : " ") + std::string(setting.facts().name) + "=" +
                      textOf(setting.facts(), value);
@@ -88,7 +88,7 @@ std::string unusualSettings(const SessionState& state) {
     return words;
 }
 
-const view::SettingValue* givenIn(const SettingChanges& changes, std::string_view name) {
+const settings::SettingValue* givenIn(const SettingChanges& changes, std::string_view name) {
     const auto found = std::find_if(changes.begin(), changes.end(), [name](const auto& change) {
         return change.setting->facts().name == name;
     });

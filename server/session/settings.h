@@ -2,8 +2,8 @@
 #pragma once
 
 #include "session/delivery.h"
-#include "view/setting.h"
-#include "view/settings.h"
+#include "settings/setting.h"
+#include "settings/settings.h"
 
 #include <span>
 #include <string>
@@ -18,17 +18,17 @@ struct SessionState;
 class SessionSetting {
   public:
     template <class Whole>
-    explicit SessionSetting(const view::SettingOf<Whole>& row) : row_(&row) {}
+    explicit SessionSetting(const settings::SettingOf<Whole>& row) : row_(&row) {}
 
-    [[nodiscard]] const view::Setting& facts() const;
-    [[nodiscard]] view::SettingValue valueIn(const SessionState& state) const;
+    [[nodiscard]] const settings::Setting& facts() const;
+    [[nodiscard]] settings::SettingValue valueIn(const SessionState& state) const;
     // The value is of the setting's kind and in its range.
-    void set(SessionState& state, const view::SettingValue& value) const;
+    void set(SessionState& state, const settings::SettingValue& value) const;
 
   private:
-    std::variant<const view::SettingOf<view::ViewSettings>*,
-                 const view::SettingOf<view::Encoding>*,
-                 const view::SettingOf<DeliverySettings>*>
+    std::variant<const settings::SettingOf<settings::ViewSettings>*,
+                 const settings::SettingOf<settings::Encoding>*,
+                 const settings::SettingOf<DeliverySettings>*>
         row_;
 };
 
@@ -42,12 +42,12 @@ class SessionSetting {
 
 struct SettingChange {
     const SessionSetting* setting = nullptr; // never null in a command
-    view::SettingValue value;
+    settings::SettingValue value;
 };
 using SettingChanges = std::vector<SettingChange>;
 
 // What is given for the setting of this name; null: nothing.
-[[nodiscard]] const view::SettingValue* givenIn(const SettingChanges& changes,
-                                                std::string_view name);
+[[nodiscard]] const settings::SettingValue* givenIn(const SettingChanges& changes,
+                                                    std::string_view name);
 
 } // namespace froxel::session

@@ -5,7 +5,7 @@
 #include "session/placed_lights.h"
 #include "session/proto_enums.h"
 #include "session/view_state.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ void addRange(v1::Welcome& welcome, std::string_view field, double min, double m
 // Every range that a client can run into.
 void addRanges(v1::Welcome& welcome) {
     for (const SessionSetting& setting : sessionSettings()) {
-        const view::Setting& facts = setting.facts();
+        const settings::Setting& facts = setting.facts();
         if (facts.min < facts.max) {
             addRange(welcome, facts.name, facts.min, facts.max);
         }
@@ -88,7 +88,7 @@ void addRanges(v1::Welcome& welcome) {
         addRange(welcome, range.field, static_cast<double>(range.min),
                  static_cast<double>(range.max));
     };
-    std::apply([&](const auto&... range) { (add(range), ...); }, view::kOtherRanges);
+    std::apply([&](const auto&... range) { (add(range), ...); }, settings::kOtherRanges);
 }
 
 v1::ErrorCode protoCode(RejectCode code) {
@@ -117,9 +117,9 @@ v1::ErrorCode protoCode(RejectCode code) {
 
 void fill(v1::DebugLegend& out, const DebugLegend& legend) {
     const auto named =
-        std::find(view::kDebugViewNames.begin(), view::kDebugViewNames.end(), legend.view) -
-        view::kDebugViewNames.begin();
-    out.set_view(toProto<v1::DebugView>(view::kDebugViewNames, named));
+        std::find(settings::kDebugViewNames.begin(), settings::kDebugViewNames.end(), legend.view) -
+        settings::kDebugViewNames.begin();
+    out.set_view(toProto<v1::DebugView>(settings::kDebugViewNames, named));
     out.set_words(legend.words);
     out.set_min(legend.min);
     out.set_max(legend.max);
@@ -171,10 +171,10 @@ uint32_t saturated(T value) {
 void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
     const Delivered& delivered = record.delivered;
     out.set_scale(delivered.scale);
-    const view::CodecRow& codec = view::rowOf(delivered.encoding.codec);
-    out.set_quality(codec.rate_control == view::RateControl::kQuality ? delivered.encoding.quality
-                                                                      : 0);
-    out.set_chroma(toProto<v1::Chroma>(view::kChromaNames, delivered.encoding.chroma));
+    const settings::CodecRow& codec = settings::rowOf(delivered.encoding.codec);
+    out.set_quality(
+        codec.rate_control == settings::RateControl::kQuality ? delivered.encoding.quality : 0);
+    out.set_chroma(toProto<v1::Chroma>(settings::kChromaNames, delivered.encoding.chroma));
     out.set_refinement(toProto<v1::Refinement>(kRefinementNames, delivered.refinement));
     out.set_rung(delivered.rung);
     out.set_queue_delay_us(saturated(record.queue_delay_us));
@@ -228,11 +228,11 @@ v1::ServerMessage makeRoomState(const Room& room, MemberId you) {
 
 v1::ServerMessage makeStateChanged(const SessionContext& context,
                                    const SessionState& state,
-                                   const view::PlacedLights& told) {
+                                   const settings::PlacedLights& told) {
     v1::ServerMessage message;
     message.mutable_state()->set_ref_seq(state.applied.seq);
     fillViewState(*message.mutable_state()->mutable_state(), context, state);
-    if (const view::PlacedLights& placed = state.settings.lights.placed; !(placed == told)) {
+    if (const settings::PlacedLights& placed = state.settings.lights.placed; !(placed == told)) {
         *message.mutable_state()->mutable_placed_lights() = changeOf(told, placed);
     }
     return message;
@@ -298,9 +298,9 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     part.set_length(saturated(record.encoded_bytes));
     part.set_width(record.width_px);
     part.set_height(record.height_px);
-    const view::Codec codec = record.delivered.encoding.codec;
-    part.set_codec(toProto<v1::Codec>(view::kCodecNames, codec));
-    part.set_key_frame(view::rowOf(codec).frames_depend && record.key);
+    const settings::Codec codec = record.delivered.encoding.codec;
+    part.set_codec(toProto<v1::Codec>(settings::kCodecNames, codec));
+    part.set_key_frame(settings::rowOf(codec).frames_depend && record.key);
 
     header.set_queue_us(saturated(record.queue_us));
     header.set_render_us(saturated(record.render_us));

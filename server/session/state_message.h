@@ -29,7 +29,7 @@ void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const W
 // Answers the command of `state.applied`; `told` are the placed lights that the viewer knows of.
 [[nodiscard]] v1::ServerMessage makeStateChanged(const SessionContext& context,
                                                  const SessionState& state,
-                                                 const view::PlacedLights& told);
+                                                 const settings::PlacedLights& told);
 // The protocol's name of it in small letters: "out_of_range".
 [[nodiscard]] std::string nameOf(RejectCode code);
 

@@ -27,7 +27,7 @@ struct ReadyFrame {
 
     // Of a codec whose frames depend on those before them.
     [[nodiscard]] bool isVideo() const {
-        return view::rowOf(record.delivered.encoding.codec).frames_depend;
+        return settings::rowOf(record.delivered.encoding.codec).frames_depend;
     }
 };
 

@@ -6,7 +6,7 @@
 namespace froxel::session {
 namespace {
 
-void fill(v1::ToonRamp& out, const view::ToonRamp& ramp) {
+void fill(v1::ToonRamp& out, const settings::ToonRamp& ramp) {
     for (uint32_t i = 0; i < ramp.count; ++i) {
         v1::ToonRamp::Point& point = *out.add_points();
         point.set_x(ramp.points[i].x);
@@ -15,13 +15,13 @@ void fill(v1::ToonRamp& out, const view::ToonRamp& ramp) {
     }
 }
 
-void fillCamera(v1::ViewState& out, const view::Camera& camera) {
+void fillCamera(v1::ViewState& out, const settings::Camera& camera) {
     fillVec(*out.mutable_eye(), camera.eye_world);
     fillVec(*out.mutable_target(), camera.target_world());
     fillVec(*out.mutable_up(), camera.world_from_view[1]);
     out.set_fov_deg(glm::degrees(camera.yfov_rad));
     out.set_half_height_m(camera.half_height_m);
-    out.set_orthographic(camera.projection == view::Projection::kOrthographic);
+    out.set_orthographic(camera.projection == settings::Projection::kOrthographic);
     out.mutable_lens_shift()->set_x(camera.lens_shift.x);
     out.mutable_lens_shift()->set_y(camera.lens_shift.y);
 }
@@ -34,7 +34,7 @@ void fillBox(v1::Box& out, const BoundsD3& bounds) {
 }
 
 void fillViewState(v1::ViewState& out, const SessionContext& context, const SessionState& state) {
-    const view::ViewSettings& settings = state.settings;
+    const settings::ViewSettings& settings = state.settings;
     fillCamera(out, settings.camera);
     fillSettings(out, state);
     if (const BoundsD3 box = settings.lights.box.value_or(context.scene.bounds_world);

@@ -9,7 +9,7 @@ namespace {
 constexpr uint32_t kRounds = 2;
 
 Result<void>
-draw(ViewSource& view, const view::ViewSettings& settings, uint32_t frames, uint32_t depth) {
+draw(ViewSource& view, const settings::ViewSettings& settings, uint32_t frames, uint32_t depth) {
     uint32_t waiting = 0; // pieces of the frame begun last
     uint32_t on_device = 0;
     for (uint32_t begun = 0, done = 0; done < frames;) {
@@ -45,7 +45,7 @@ draw(ViewSource& view, const view::ViewSettings& settings, uint32_t frames, uint
 
 } // namespace
 
-Result<Seconds> measureFrameCost(FrameSource& source, const view::ViewSettings& settings) {
+Result<Seconds> measureFrameCost(FrameSource& source, const settings::ViewSettings& settings) {
     auto view = source.makeView();
     if (!view) {
         return view.error();

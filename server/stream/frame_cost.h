@@ -11,6 +11,6 @@ namespace froxel::stream {
 // which compiles pipelines, is not counted. On the thread that `source` belongs to. Errors:
 // kCapacity and kUnsupported (this picture cannot be drawn), kDevice (the view is kept for good).
 [[nodiscard]] Result<Seconds> measureFrameCost(FrameSource& source,
-                                               const view::ViewSettings& settings);
+                                               const settings::ViewSettings& settings);
 
 } // namespace froxel::stream

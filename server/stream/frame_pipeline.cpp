@@ -11,7 +11,7 @@
 namespace froxel::stream {
 namespace {
 
-view::Codec codecOf(const DrawnFrame& frame) {
+settings::Codec codecOf(const DrawnFrame& frame) {
     return frame.record.delivered.encoding.codec;
 }
 
@@ -42,7 +42,7 @@ Seconds FramePipeline::takeWork() {
 }
 
 void FramePipeline::push(DrawnFrame frame) {
-    const bool lossless = view::rowOf(codecOf(frame)).lossless;
+    const bool lossless = settings::rowOf(codecOf(frame)).lossless;
     bool waits = false;
     {
         const std::lock_guard lock(mutex_);
@@ -76,8 +76,8 @@ void FramePipeline::startEncoding() {
 
 // A request is served when its key frame is there: until then the pool may refuse the job.
 std::optional<encode::VideoJob> FramePipeline::videoJob(const DrawnFrame& frame) {
-    const view::Codec codec = codecOf(frame);
-    if (!view::rowOf(codec).frames_depend) {
+    const settings::Codec codec = codecOf(frame);
+    if (!settings::rowOf(codec).frames_depend) {
         // After a refined still the video goes on where it was.
         const session::Refinement refinement = frame.record.delivered.refinement;
         if (refinement < session::Refinement::kHigh) {

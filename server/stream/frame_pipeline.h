@@ -71,7 +71,7 @@ class FramePipeline : public std::enable_shared_from_this<FramePipeline> {
     std::optional<DrawnFrame> waiting_;
     // Like what is inside of `encoding_`.
     std::shared_ptr<encode::Encoder> video_; // none: the next frame of video is a key frame
-    view::Codec video_codec_{};              // which that one is of
+    settings::Codec video_codec_{};          // which that one is of
     uint64_t key_requests_ = 0;              // served so far
     Losses losses_;
     Seconds work_{0};

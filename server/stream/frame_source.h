@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/frame_stats.h"
 #include "core/pixel_view.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <memory>
@@ -55,7 +55,7 @@ class ViewSource {
     // the device cannot do what the settings ask for (earlier ones still work), kDevice when the
     // device is lost.
     [[nodiscard]] virtual Result<FrameWork>
-    begin(const view::ViewSettings& settings, double time_s, uint64_t beside_bytes) = 0;
+    begin(const settings::ViewSettings& settings, double time_s, uint64_t beside_bytes) = 0;
     // Gives the device the next piece of the frame begun last. Errors: kDevice.
     [[nodiscard]] virtual Result<void> submitPiece() = 0;
     // Gives up the pieces that wait of the frame begun last. Those on the device are still to be

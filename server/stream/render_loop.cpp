@@ -41,8 +41,8 @@ void warnOfLongStep(std::string_view step,
     if (took < kLongStep) {
         return;
     }
-    const view::Size& size = state.settings.size;
-    const view::GridSize& grid = state.settings.grid.size;
+    const settings::Size& size = state.settings.size;
+    const settings::GridSize& grid = state.settings.grid.size;
     spdlog::warn("event=long_step step={} seconds={:.2f} session={} size={}x{} grid={}x{}x{} "
                  "placed={} settings={}",
                  step, took.count(), id, size.width_px, size.height_px, grid.x, grid.y, grid.z,
@@ -330,7 +330,7 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
         viewer.source = std::move(*source);
     }
     const session::Delivered& with = frame.record.delivered;
-    view::ViewSettings settings = frame.state.settings;
+    settings::ViewSettings settings = frame.state.settings;
     settings.size = session::scaled(settings.size, with.scale);
     // A refined still leaves the encoder of video as it is.
     const uint64_t encoding_bytes =
@@ -373,7 +373,7 @@ void RenderLoop::end(Viewer& viewer, BegunFrame& frame) {
 }
 
 void RenderLoop::refuse(SessionId id, Viewer& viewer, const Error& error) {
-    const view::Size& size = viewer.state.settings.size;
+    const settings::Size& size = viewer.state.settings.size;
     if (const auto count = viewer.noteRefusal(Clock::now())) {
         spdlog::warn("event=picture_refused session={} size={}x{} count={} reason={}", id,
                      size.width_px, size.height_px, *count, logValue(error.message));

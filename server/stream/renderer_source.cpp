@@ -23,7 +23,7 @@ class RendererView final : public ViewSource {
     [[nodiscard]] bool canBegin() const override { return view_.canSubmit(); }
 
     [[nodiscard]] Result<FrameWork>
-    begin(const view::ViewSettings& settings, double time_s, uint64_t beside_bytes) override {
+    begin(const settings::ViewSettings& settings, double time_s, uint64_t beside_bytes) override {
         const auto work =
             view_.begin({.settings = settings, .time_s = time_s, .beside_bytes = beside_bytes});
         if (!work) {
@@ -64,7 +64,7 @@ class RendererSource final : public FrameSource {
           limits_(limitsOf(*device_, frame_limit)) {}
 
     // Estimates of frames are scaled by it. Errors: kDevice.
-    [[nodiscard]] Result<render::DeviceSpeed> measureSpeed(const view::Camera& camera) {
+    [[nodiscard]] Result<render::DeviceSpeed> measureSpeed(const settings::Camera& camera) {
         return render::measureSpeed(renderer_, device_->traits().is_cpu, camera);
     }
 
@@ -109,7 +109,7 @@ std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> dev
                                                 Seconds frame_limit,
                                                 const render::MemoryLimits& memory) {
     auto source = std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
-    const auto camera = scene::firstCamera(scene, view::Size{});
+    const auto camera = scene::firstCamera(scene, settings::Size{});
     const auto speed = source->measureSpeed(camera);
     if (!speed) {
         if (speed.error().code == ErrorCode::kDevice) {

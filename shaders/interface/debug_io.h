@@ -6,7 +6,7 @@
 
 FROXEL_IO_NAMESPACE_BEGIN
 
-// view::DebugView, in its order; those over the picture have passes of their own.
+// settings::DebugView, in its order; those over the picture have passes of their own.
 FROXEL_CONST uint kDebugPosition = 1U;
 FROXEL_CONST uint kDebugDepth = 2U;
 FROXEL_CONST uint kDebugNormal = 3U;

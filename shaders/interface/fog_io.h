@@ -15,7 +15,7 @@ FROXEL_CONST uint kOutputFogNoise = 1U << 30;  // whose samples are jittered
 // and `slice_count` slices to far_m, slice k from far_m (k / slice_count)^2 on. Its texel (x, y,
 // z), x fastest, holds what lights scatter to the eye in front of the end of slice z: rgb.
 struct Fog {
-    float density; // view::Fog
+    float density; // settings::Fog
     float height_falloff;
     float eye_height_m; // above the base height
     float anisotropy;

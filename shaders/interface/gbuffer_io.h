@@ -1,4 +1,4 @@
-// How the G-buffer holds normal and position: fields of the output flags (view::GbufferLayout).
+// How the G-buffer holds normal and position: fields of the output flags (settings::GbufferLayout).
 #ifndef FROXEL_INTERFACE_GBUFFER_IO_H
 #define FROXEL_INTERFACE_GBUFFER_IO_H
 
@@ -14,7 +14,7 @@ FROXEL_CONST uint kOutputSpecular = 1U << 31;
 
 FROXEL_CONST float kMostStoredEmission = 65408.0F; // RGB9E5
 
-// view::NormalEncoding, in its order.
+// settings::NormalEncoding, in its order.
 FROXEL_CONST uint kNormalOct16 = 0U;
 FROXEL_CONST uint kNormalOct12 = 1U;
 FROXEL_CONST uint kNormalOct10 = 2U;
@@ -23,7 +23,7 @@ FROXEL_CONST uint kNormalXyz16 = 4U;
 FROXEL_CONST uint kNormalXy16 = 5U;
 FROXEL_CONST uint kNormalSpheremap16 = 6U;
 
-// view::PositionSource, in its order.
+// settings::PositionSource, in its order.
 FROXEL_CONST uint kPositionDepth = 0U;
 FROXEL_CONST uint kPositionStoredDepth = 1U;
 FROXEL_CONST uint kPositionFp32 = 2U;

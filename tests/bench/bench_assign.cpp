@@ -15,11 +15,11 @@ namespace {
 
 struct Setup {
     scene::Scene scene;
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
 
     Setup(uint32_t count, float radius_m) {
         scene.bounds_world = {{-15, -1, -9}, {14, 12, 9}};
-        settings.camera = view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
+        settings.camera = settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
         settings.lights.count = count;
         settings.lights.radius_m = radius_m;
         settings.lights.box = BoundsD3{{-10, 0, -5}, {10, 8, 5}};
@@ -53,7 +53,7 @@ void choose(benchmark::State& state) {
     for (auto _ : state) {
         const auto spread = cluster::lightSpread(frustum, lights);
         const auto choice = cluster::chooseGrid(
-            {frustum, range, view::GridLaw::kLogarithmic, spread, cluster::kCpuCosts}, {});
+            {frustum, range, settings::GridLaw::kLogarithmic, spread, cluster::kCpuCosts}, {});
         benchmark::DoNotOptimize(choice.list_length);
         state.SetLabel(choice.why);
     }
@@ -69,9 +69,9 @@ void assign(benchmark::State& state) {
     rig.evaluate(setup.settings.lights, setup.settings.camera, 0, lights);
     cluster::LightAssigner assigner(static_cast<unsigned>(state.range(2)));
     cluster::LightLists lists;
-    const view::GridSize size{static_cast<uint32_t>(state.range(3)),
-                              static_cast<uint32_t>(state.range(4)),
-                              static_cast<uint32_t>(state.range(5))};
+    const settings::GridSize size{static_cast<uint32_t>(state.range(3)),
+                                  static_cast<uint32_t>(state.range(4)),
+                                  static_cast<uint32_t>(state.range(5))};
     for (auto _ : state) {
         const auto range =
             cluster::litDepthRange(lights, setup.settings.camera, setup.scene.bounds_world);

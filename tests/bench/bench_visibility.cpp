@@ -18,8 +18,8 @@ namespace {
 
 using namespace froxel;
 using render::GeometryPath;
-using view::LightingStage;
-using view::Renderer;
+using settings::LightingStage;
+using settings::Renderer;
 
 constexpr uint32_t kWarmup = 10;
 constexpr uint32_t kFrames = 60;
@@ -30,7 +30,7 @@ struct Way {
     LightingStage lighting;
     GeometryPath geometry;
     bool cull = true;
-    view::LightLoop loop = view::LightLoop::kLists;
+    settings::LightLoop loop = settings::LightLoop::kLists;
 };
 
 constexpr Way kWays[] = {
@@ -42,7 +42,7 @@ constexpr Way kWays[] = {
     {"deferred, compute raster, not culled", Renderer::kClusteredDeferred, LightingStage::kAuto,
      GeometryPath::kComputeRaster, false},
     {"deferred, compute raster, all lights", Renderer::kClusteredDeferred, LightingStage::kAuto,
-     GeometryPath::kComputeRaster, true, view::LightLoop::kAllLights},
+     GeometryPath::kComputeRaster, true, settings::LightLoop::kAllLights},
     {"forward_plus, fragment", Renderer::kForwardPlus, LightingStage::kFragment,
      GeometryPath::kAuto},
     {"forward_plus, compute", Renderer::kForwardPlus, LightingStage::kCompute, GeometryPath::kAuto},
@@ -163,7 +163,7 @@ void compareIds(render::ViewRenderer& view,
                 apart, a.pixels.size(), empty, at(0.5), at(0.99), at(1));
 }
 
-void run(const scene::Scene& scene, const view::Camera& camera, uint32_t lights) {
+void run(const scene::Scene& scene, const settings::Camera& camera, uint32_t lights) {
     gpu::Device device({});
     render::Renderer renderer(device, scene);
     render::ViewRenderer view(renderer);
@@ -201,7 +201,7 @@ int main(int argc, char** argv) try {
     if (argc > 1 && std::string(argv[1]) != "hall") {
         auto scene = std::move(gltf::load(argv[1])).value();
         scene.name = "Sponza";
-        run(scene, view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), lights);
+        run(scene, settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), lights);
     } else {
         const auto scene = builtin_scene::makeHall();
         run(scene, scene.cameras.front().camera, lights);

@@ -6,7 +6,7 @@
 #include "gltf/gltf_loader.h"
 #include "render/pipelines/gbuffer_layout.h"
 #include "render/renderer.h"
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,29 +36,29 @@ render::FrameInputs standardView(const scene::Scene& scene, bool builtin) {
     if (builtin) {
         s.camera = scene.cameras.front().camera;
     } else {
-        s.camera = view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
+        s.camera = settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
         s.camera.yfov_rad = 0.785398163397448;
         s.lights.box = BoundsD3{{-10, 0, -5}, {10, 8, 5}};
     }
     return inputs;
 }
 
-std::string nameOf(const view::GbufferLayout& layout) {
-    return std::string(view::kNormalEncodingNames[static_cast<size_t>(layout.normal)]) + "+" +
-           std::string(view::kPositionSourceNames[static_cast<size_t>(layout.position)]);
+std::string nameOf(const settings::GbufferLayout& layout) {
+    return std::string(settings::kNormalEncodingNames[static_cast<size_t>(layout.normal)]) + "+" +
+           std::string(settings::kPositionSourceNames[static_cast<size_t>(layout.position)]);
 }
 
 // Every normal encoding with the hardware's depth, every position source with the default normal.
-std::vector<view::GbufferLayout> layouts() {
-    std::vector<view::GbufferLayout> all;
-    for (size_t n = 0; n < view::kNormalEncodingNames.size(); ++n) {
-        all.push_back({static_cast<view::NormalEncoding>(n), view::PositionSource::kDepth});
+std::vector<settings::GbufferLayout> layouts() {
+    std::vector<settings::GbufferLayout> all;
+    for (size_t n = 0; n < settings::kNormalEncodingNames.size(); ++n) {
+        all.push_back({static_cast<settings::NormalEncoding>(n), settings::PositionSource::kDepth});
     }
-    for (size_t p = 1; p < view::kPositionSourceNames.size(); ++p) {
-        all.push_back({view::NormalEncoding::kOct16, static_cast<view::PositionSource>(p)});
+    for (size_t p = 1; p < settings::kPositionSourceNames.size(); ++p) {
+        all.push_back({settings::NormalEncoding::kOct16, static_cast<settings::PositionSource>(p)});
     }
     // What the seeds store.
-    all.push_back({view::NormalEncoding::kXyz16, view::PositionSource::kFp16});
+    all.push_back({settings::NormalEncoding::kXyz16, settings::PositionSource::kFp16});
     return all;
 }
 
@@ -113,9 +113,9 @@ void priceErrors(render::Renderer& renderer, render::FrameInputs inputs) {
     inputs.settings.lights.count = 1000;
     inputs.time_s = 5;
     const Picture deferred = drawPicture(view, inputs);
-    inputs.settings.renderer = view::Renderer::kForwardPlus;
+    inputs.settings.renderer = settings::Renderer::kForwardPlus;
     const Picture forward = drawPicture(view, inputs);
-    inputs.settings.renderer = view::Renderer::kClusteredDeferred;
+    inputs.settings.renderer = settings::Renderer::kClusteredDeferred;
     std::printf("%-22s %5s | against the default: max, p99.9, RMSE, relative RMSE, over 1/255 | "
                 "the same against forward\n",
                 "layout", "bytes");
@@ -167,15 +167,15 @@ void timeFrames(render::Renderer& renderer,
 void timeAll(render::Renderer& renderer, render::FrameInputs inputs, int frames) {
     inputs.settings.size = {1280, 720};
     inputs.settings.lights.count = 0;
-    for (const auto shading : {view::ShadingModel::kPbr, view::ShadingModel::kLambert}) {
+    for (const auto shading : {settings::ShadingModel::kPbr, settings::ShadingModel::kLambert}) {
         inputs.settings.shading = shading;
         timeFrames(renderer, inputs,
-                   std::string(view::kShadingModelNames[static_cast<size_t>(shading)]), frames);
+                   std::string(settings::kShadingModelNames[static_cast<size_t>(shading)]), frames);
     }
-    inputs.settings.shading = view::ShadingModel::kPbr;
-    inputs.settings.renderer = view::Renderer::kForwardPlus; // its prepass is the raster floor
+    inputs.settings.shading = settings::ShadingModel::kPbr;
+    inputs.settings.renderer = settings::Renderer::kForwardPlus; // its prepass is the raster floor
     timeFrames(renderer, inputs, "forward_plus", frames);
-    inputs.settings.renderer = view::Renderer::kClusteredDeferred;
+    inputs.settings.renderer = settings::Renderer::kClusteredDeferred;
     for (const auto& layout : layouts()) {
         inputs.settings.gbuffer = layout;
         timeFrames(renderer, inputs, nameOf(layout), frames);

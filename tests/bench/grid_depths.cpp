@@ -25,7 +25,7 @@ constexpr size_t kDepths = 64;
 // As many evenly drawn from all pixels, by depth.
 std::vector<double> depthsOf(const scene::Scene& scene,
                              const Visibility& visibility,
-                             const view::ViewSettings& settings) {
+                             const settings::ViewSettings& settings) {
     const reference::PixelRays rays(settings.camera, settings.size);
     std::vector<double> all;
     for (uint32_t y = 0; y < visibility.height_px; y += 4) {
@@ -57,7 +57,7 @@ double median(std::vector<double> values) {
 
 struct Variant {
     const char* name;
-    view::GridSize size;
+    settings::GridSize size;
     render::ViewRenderer view;
     std::vector<double> frame_us = {};
 };
@@ -65,12 +65,12 @@ struct Variant {
 struct Asked {
     uint32_t light_count = 1000;
     float radius_m = 2;
-    view::Size size{1280, 720};
+    settings::Size size{1280, 720};
 };
 
 void run(render::Renderer& renderer,
          const scene::Scene& scene,
-         const view::Camera& camera,
+         const settings::Camera& camera,
          bool is_cpu,
          const Asked& asked) {
     render::FrameInputs inputs;
@@ -78,7 +78,7 @@ void run(render::Renderer& renderer,
     inputs.settings.size = asked.size;
     inputs.settings.lights.count = asked.light_count;
     inputs.settings.lights.radius_m = asked.radius_m;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     const auto seen = render::readVisibility(renderer, scene, inputs).value();
     const auto depths = depthsOf(scene, seen, inputs.settings);
     const light::LightRig rig(scene);
@@ -145,12 +145,12 @@ int main(int argc, char** argv) try {
     render::Renderer renderer(device, scene);
     std::printf("%s, %ux%u, %u lights of %g m\n", scene.name.c_str(), asked.size.width_px,
                 asked.size.height_px, asked.light_count, static_cast<double>(asked.radius_m));
-    std::vector<view::Camera> cameras;
+    std::vector<settings::Camera> cameras;
     for (const auto& camera : scene.cameras) {
         cameras.push_back(camera.camera);
     }
     if (path != "hall") {
-        cameras.push_back(view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}));
+        cameras.push_back(settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}));
     }
     for (const auto& camera : cameras) {
         run(renderer, scene, camera, device.traits().is_cpu, asked);

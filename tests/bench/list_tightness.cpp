@@ -21,14 +21,14 @@ constexpr int kSteps = 12;
 struct Case {
     const char* name;
     scene::Scene scene;
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     double spot_half_angle_deg = 0; // 0: points
 };
 
 Case sponza(const char* name, uint32_t count, float radius_m, double spot_half_angle_deg = 0) {
     Case c{.name = name, .scene = {}, .settings = {}, .spot_half_angle_deg = spot_half_angle_deg};
     c.scene.bounds_world = {{-15, -1, -9}, {14, 12, 9}};
-    c.settings.camera = view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
+    c.settings.camera = settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
     c.settings.lights.count = count;
     c.settings.lights.radius_m = radius_m;
     c.settings.lights.box = BoundsD3{{-10, 0, -5}, {10, 8, 5}};
@@ -39,7 +39,7 @@ Case sponza(const char* name, uint32_t count, float radius_m, double spot_half_a
 Case hall(const char* name, uint32_t count, float radius_m) {
     Case c{.name = name, .scene = {}, .settings = {}};
     c.scene.bounds_world = {{-13, 0, -33}, {13, 16, 33}};
-    c.settings.camera = view::lookAt({0, 2, 30}, {0, 3, 0}, {0, 1, 0});
+    c.settings.camera = settings::lookAt({0, 2, 30}, {0, 3, 0}, {0, 1, 0});
     c.settings.lights.count = count;
     c.settings.lights.radius_m = radius_m;
     return c;

@@ -132,7 +132,7 @@ void print(const char* name, const Timed& timed) {
     std::printf("\n");
 }
 
-void run(const scene::Scene& scene, const view::Camera& camera) {
+void run(const scene::Scene& scene, const settings::Camera& camera) {
     gpu::Device device({});
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
@@ -177,7 +177,7 @@ int main(int argc, char** argv) try {
         run(scene, scene.cameras.front().camera);
     } else {
         const auto scene = gltf::load(path).value();
-        run(scene, view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}));
+        run(scene, settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}));
     }
     return 0;
 } catch (const std::exception& error) {

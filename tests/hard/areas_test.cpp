@@ -17,11 +17,11 @@ class HardAreas : public SharedGpuTest {};
 
 constexpr double kWall_m = 3;
 
-view::PlacedLight
+settings::PlacedLight
 rectangle(const dvec3& position, const dvec3& direction, double width_m, double height_m) {
-    view::PlacedLight light;
+    settings::PlacedLight light;
     light.id = 1;
-    light.kind = view::LightKind::kArea;
+    light.kind = settings::LightKind::kArea;
     light.position_world = position;
     light.direction_world = direction;
     light.width_m = width_m;
@@ -33,14 +33,14 @@ rectangle(const dvec3& position, const dvec3& direction, double width_m, double 
 
 struct Place {
     std::string name;
-    view::PlacedLight light;
+    settings::PlacedLight light;
 };
 
 // Before a wall across z = -3.
 std::vector<Place> places() {
-    view::PlacedLight rolled = rectangle({0.3, 0.1, -2}, {0.2, -0.3, -1}, 1.5, 0.4);
+    settings::PlacedLight rolled = rectangle({0.3, 0.1, -2}, {0.2, -0.3, -1}, 1.5, 0.4);
     rolled.roll_deg = 33;
-    view::PlacedLight within = rectangle({0, 0, -2}, {0, 0, -1}, 1, 1);
+    settings::PlacedLight within = rectangle({0, 0, -2}, {0, 0, -1}, 1, 1);
     within.radius_m = 1.2F;
     return {
         {"facing", rectangle({0, 0, -2}, {0, 0, -1}, 1, 1)},
@@ -59,10 +59,10 @@ std::vector<Place> places() {
     };
 }
 
-render::FrameInputs litBy(const view::PlacedLight& light, view::ShadingModel shading) {
+render::FrameInputs litBy(const settings::PlacedLight& light, settings::ShadingModel shading) {
     auto inputs = hardInputs();
     inputs.settings.shading = shading;
-    inputs.settings.lights.placed = view::PlacedLights({light});
+    inputs.settings.lights.placed = settings::PlacedLights({light});
     return inputs;
 }
 
@@ -98,7 +98,7 @@ TEST_F(HardAreas, Lambert_IsTheSampledIntegral) {
     render::Renderer renderer(device(), maker.scene);
     for (const auto& place : places()) {
         SCOPED_TRACE(place.name);
-        const auto inputs = litBy(place.light, view::ShadingModel::kLambert);
+        const auto inputs = litBy(place.light, settings::ShadingModel::kLambert);
         const auto pictures = expectExact(renderer, inputs);
         const auto off = differenceTo(refer(renderer, maker.scene, inputs).picture, pictures.naive);
         EXPECT_LT(off.worst, 3e-3);
@@ -125,13 +125,14 @@ TEST_F(HardAreas, Highlights_AreNearTheSampledIntegral) {
         SceneMaker maker(material);
         maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
         render::Renderer renderer(device(), maker.scene);
-        for (const auto shading : {view::ShadingModel::kPbr, view::ShadingModel::kBlinnPhong}) {
-            const bool ggx = shading == view::ShadingModel::kPbr;
+        for (const auto shading :
+             {settings::ShadingModel::kPbr, settings::ShadingModel::kBlinnPhong}) {
+            const bool ggx = shading == settings::ShadingModel::kPbr;
             for (const auto& place : places()) {
                 SCOPED_TRACE(place.name + ", roughness " + std::to_string(roughness) +
                              ", metallic " + std::to_string(metallic) + (ggx ? "" : ", Blinn"));
                 auto inputs = litBy(place.light, shading);
-                inputs.settings.renderer = view::Renderer::kNaive;
+                inputs.settings.renderer = settings::Renderer::kNaive;
                 const auto off = differenceTo(refer(renderer, maker.scene, inputs).picture,
                                               draw(renderer, inputs));
                 const bool off_peak = place.name == "edge on" && roughness < 0.5F;
@@ -153,7 +154,7 @@ TEST_F(HardAreas, DielectricsOfTheirOwn_AreNearTheSampledIntegral) {
     render::Renderer renderer(device(), maker.scene);
     for (const auto& place : places()) {
         SCOPED_TRACE(place.name);
-        auto inputs = litBy(place.light, view::ShadingModel::kPbr);
+        auto inputs = litBy(place.light, settings::ShadingModel::kPbr);
         const auto pictures = expectExact(renderer, inputs);
         const auto off = differenceTo(refer(renderer, maker.scene, inputs).picture, pictures.naive);
         EXPECT_LT(off.rms, 0.03);
@@ -169,20 +170,20 @@ TEST_F(HardAreas, AmongOthers_ListsAreExact) {
     SceneMaker maker(material);
     maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
     auto inputs = hardInputs();
-    std::vector<view::PlacedLight> placed;
+    std::vector<settings::PlacedLight> placed;
     for (uint32_t i = 0; i < 40; ++i) {
         const double turn = 0.7 * i;
         auto light = rectangle({0.12 * i - 2.4, std::sin(turn), -3.2 + 0.05 * i},
                                {std::sin(turn), 0.3, std::cos(turn)}, 0.1 + 0.02 * i, 0.3);
         light.id = i + 1;
-        light.kind = static_cast<view::LightKind>(i % 3);
+        light.kind = static_cast<settings::LightKind>(i % 3);
         light.radius_m = 0.5F + 0.02F * static_cast<float>(i);
         placed.push_back(light);
     }
-    inputs.settings.lights.placed = view::PlacedLights(placed);
+    inputs.settings.lights.placed = settings::PlacedLights(placed);
     render::Renderer renderer(device(), maker.scene);
-    for (const auto shading : {view::ShadingModel::kLambert, view::ShadingModel::kPbr,
-                               view::ShadingModel::kBlinnPhong}) {
+    for (const auto shading : {settings::ShadingModel::kLambert, settings::ShadingModel::kPbr,
+                               settings::ShadingModel::kBlinnPhong}) {
         SCOPED_TRACE(static_cast<int>(shading));
         inputs.settings.shading = shading;
         EXPECT_GT(litPixels(expectExact(renderer, inputs).naive), 500U);
@@ -196,23 +197,23 @@ TEST_F(HardAreas, InOthersPlaces_ListsAreExact) {
     auto inputs = hardInputs();
     inputs.settings.lights.count = 9;
     inputs.settings.lights.box = BoundsD3{{-2, -1, -3.4}, {2, 1, -2}};
-    inputs.settings.shading = view::ShadingModel::kLambert;
-    using Of = view::LightRef::Of;
-    std::vector<view::PlacedLight> placed;
-    for (const view::LightRef& replaced :
-         {view::LightRef{Of::kSeed, 6}, view::LightRef{Of::kSeed, 2},
-          view::LightRef{Of::kScene, 0}}) {
+    inputs.settings.shading = settings::ShadingModel::kLambert;
+    using Of = settings::LightRef::Of;
+    std::vector<settings::PlacedLight> placed;
+    for (const settings::LightRef& replaced :
+         {settings::LightRef{Of::kSeed, 6}, settings::LightRef{Of::kSeed, 2},
+          settings::LightRef{Of::kScene, 0}}) {
         const auto i = static_cast<double>(placed.size());
         auto light = rectangle({i - 1, 0.3 * i, -2.2}, {0.2, 0.1 * i, -1}, 0.6, 0.4);
         light.id = static_cast<uint32_t>(placed.size()) + 1;
-        light.kind = placed.size() == 2 ? view::LightKind::kSpot : view::LightKind::kArea;
+        light.kind = placed.size() == 2 ? settings::LightKind::kSpot : settings::LightKind::kArea;
         light.radius_m = 3;
         light.replaces = replaced;
         placed.push_back(light);
     }
     render::Renderer renderer(device(), maker.scene);
     const auto before = expectExact(renderer, inputs);
-    inputs.settings.lights.placed = view::PlacedLights(placed);
+    inputs.settings.lights.placed = settings::PlacedLights(placed);
     const auto pictures = expectExact(renderer, inputs);
     EXPECT_GT(differingFloats(pictures.naive, before.naive), 500U);
 }
@@ -223,9 +224,9 @@ TEST_F(HardAreas, FromAfar_IsThePointsLight) {
     render::Renderer renderer(device(), maker.scene);
     const auto area = rectangle({0.4, 0.2, -0.5}, {0, 0, -1}, 0.01, 0.01);
     auto point = area;
-    point.kind = view::LightKind::kPoint;
-    const auto drawn = expectExact(renderer, litBy(area, view::ShadingModel::kLambert)).naive;
-    const auto wanted = expectExact(renderer, litBy(point, view::ShadingModel::kLambert)).naive;
+    point.kind = settings::LightKind::kPoint;
+    const auto drawn = expectExact(renderer, litBy(area, settings::ShadingModel::kLambert)).naive;
+    const auto wanted = expectExact(renderer, litBy(point, settings::ShadingModel::kLambert)).naive;
     const double half = std::tan(glm::radians(30.0)) * kWall_m;
     for (uint32_t y = 0; y < 36; ++y) {
         for (uint32_t x = 0; x < 64; ++x) {
@@ -244,7 +245,7 @@ TEST_F(HardAreas, InAMedium_ScattersAsSampled) {
     const auto maker = wallAhead(static_cast<float>(kWall_m));
     render::Renderer renderer(device(), maker.scene);
     auto inputs =
-        litBy(rectangle({0.3, 0, -1.8}, {0, 0, -1}, 0.8, 0.5), view::ShadingModel::kLambert);
+        litBy(rectangle({0.3, 0, -1.8}, {0, 0, -1}, 0.8, 0.5), settings::ShadingModel::kLambert);
     inputs.settings.fog.density = 0.2F;
     inputs.settings.fog.tile_px = 4;
     inputs.settings.fog.slice_count = 256;

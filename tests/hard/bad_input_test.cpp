@@ -187,8 +187,8 @@ TEST_F(HardBadInput, DegenerateGeometry_IsFiniteAndExact) {
     auto inputs = roomInputs(scene);
     inputs.settings.lights.count = 100;
     inputs.settings.lights.box = BoundsD3{{-5, 0, -4}, {5, 5, 5}};
-    for (const auto shading : {view::ShadingModel::kLambert, view::ShadingModel::kBlinnPhong,
-                               view::ShadingModel::kPbr}) {
+    for (const auto shading : {settings::ShadingModel::kLambert,
+                               settings::ShadingModel::kBlinnPhong, settings::ShadingModel::kPbr}) {
         inputs.settings.shading = shading;
         (void)expectExact(renderer, inputs, Toon::kNo);
     }
@@ -231,8 +231,8 @@ TEST_F(HardBadInput, FileOfExtremeValues_IsFiniteAndExact) {
     ASSERT_EQ(scene.lights.size(), 6U);
     render::Renderer renderer(device(), scene);
     auto inputs = hardInputs();
-    inputs.settings.camera = view::lookAt({0.3, 0.3, 2}, {0.3, 0.3, 0}, {0, 1, 0});
-    inputs.settings.shading = view::ShadingModel::kPbr;
+    inputs.settings.camera = settings::lookAt({0.3, 0.3, 2}, {0.3, 0.3, 0}, {0, 1, 0});
+    inputs.settings.shading = settings::ShadingModel::kPbr;
     (void)expectExact(renderer, inputs);
 }
 

@@ -2,11 +2,11 @@
 #include "cluster/cluster_grid.h"
 #include "light/light_rig.h"
 #include "render/lists/light_grid.h"
+#include "settings/environment.h"
 #include "support/exact.h"
 #include "support/gpu_fixture.h"
 #include "support/oracle.h"
 #include "support/shapes.h"
-#include "view/environment.h"
 
 #include <bit>
 #include <cmath>
@@ -41,7 +41,7 @@ std::vector<float> slicePlanes(const scene::Scene& scene, const render::FrameInp
     light::LightRig(scene).evaluate(inputs.settings.lights, inputs.settings.camera, 0, lights);
     render::LightGrid grid;
     auto settings = inputs.settings;
-    settings.renderer = view::Renderer::kForwardPlus;
+    settings.renderer = settings::Renderer::kForwardPlus;
     grid.choose(settings, lights, scene.bounds_world, cluster::kCpuCosts);
     return grid.grid().plane_depths_m;
 }
@@ -51,8 +51,8 @@ std::vector<float> slicePlanes(const scene::Scene& scene, const render::FrameInp
 // Case 15. Patches that face the eye at each plane between slices, and 1 and 40 floats off it.
 TEST_F(HardDepths, SurfacesOnSlicePlanes_AreExact) {
     constexpr int kUlps[] = {-40, -1, 0, 1, 40};
-    for (const auto law :
-         {view::GridLaw::kLogarithmic, view::GridLaw::kLinear, view::GridLaw::kHyperbolic}) {
+    for (const auto law : {settings::GridLaw::kLogarithmic, settings::GridLaw::kLinear,
+                           settings::GridLaw::kHyperbolic}) {
         SCOPED_TRACE(static_cast<int>(law));
         auto inputs = hardInputs();
         inputs.settings.grid = {.automatic = false, .size = {4, 3, 16}, .law = law};
@@ -92,7 +92,7 @@ TEST_F(HardDepths, NearFarAndSky_AreFiniteAndTheSkyIsUntouched) {
         for (uint32_t y = 0; y < 36; ++y) {
             for (uint32_t x = 49; x < 64; ++x) {
                 for (uint32_t c = 0; c < 3; ++c) {
-                    ASSERT_EQ(at(*picture, x, y, c), view::kBackground[static_cast<int>(c)]);
+                    ASSERT_EQ(at(*picture, x, y, c), settings::kBackground[static_cast<int>(c)]);
                 }
             }
         }

@@ -173,7 +173,7 @@ TEST_F(HardFog, AnyProjection_IsExact) {
     render::ViewRenderer view(renderer);
     for (const double half_height_m : {0.0005, 3.0, 5000.0}) {
         auto inputs = foggy(0.1F);
-        inputs.settings.camera.projection = view::Projection::kOrthographic;
+        inputs.settings.camera.projection = settings::Projection::kOrthographic;
         inputs.settings.camera.half_height_m = half_height_m;
         (void)expectExact(view, inputs, Toon::kNo);
     }

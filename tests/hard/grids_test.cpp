@@ -12,7 +12,7 @@ namespace froxel::test {
 namespace {
 
 using glm::dvec3;
-using view::Renderer;
+using settings::Renderer;
 
 class HardGrids : public SharedGpuTest {
   protected:
@@ -164,7 +164,7 @@ TEST_F(HardGrids, SmallestGridsAndPictures_AreExact) {
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
     auto inputs = roomInputs(scene);
-    const std::pair<view::Size, view::GridSize> cases[] = {
+    const std::pair<settings::Size, settings::GridSize> cases[] = {
         {{1, 1}, {1, 1, 1}},      {{1, 1}, {16, 9, 24}},  {{1, 7}, {128, 128, 256}},
         {{17, 33}, {1, 1, 24}},   {{17, 33}, {16, 9, 1}}, {{17, 33}, {17, 33, 2}},
         {{64, 3}, {128, 128, 1}}, {{33, 17}, {5, 7, 3}}};
@@ -193,7 +193,7 @@ TEST_F(HardGrids, Orthographic_IsExactAndAsDoublePrecisionHasIt) {
     maker.spot({1, 0, 1}, {-0.2, 0.1, -1}, 8, 5, 30);
     render::Renderer renderer(device(), maker.scene);
     auto inputs = hardInputs();
-    inputs.settings.camera.projection = view::Projection::kOrthographic;
+    inputs.settings.camera.projection = settings::Projection::kOrthographic;
     inputs.settings.camera.half_height_m = 3;
     for (const double near_m : {0.0, 1e-3, 2.0}) {
         SCOPED_TRACE(near_m);

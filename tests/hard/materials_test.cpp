@@ -13,7 +13,7 @@ namespace froxel::test {
 namespace {
 
 using glm::dvec3;
-using view::Renderer;
+using settings::Renderer;
 
 class HardMaterials : public SharedGpuTest {};
 
@@ -114,7 +114,8 @@ TEST_F(HardMaterials, HighlightsOfAnyRoughness_AreAsDoublePrecisionHasThem) {
         const auto r = static_cast<double>(roughness);
         const double slope = 4 / (r * r) / (4 * kPi * r * r * r * r) + 4 / kPi;
         const double allowed = snapError_rad(20) * slope;
-        for (const auto shading : {view::ShadingModel::kPbr, view::ShadingModel::kBlinnPhong}) {
+        for (const auto shading :
+             {settings::ShadingModel::kPbr, settings::ShadingModel::kBlinnPhong}) {
             inputs.settings.shading = shading;
             const auto pictures = expectExact(renderer, inputs, Toon::kNo);
             const auto worst = worstOf(pictures.naive, refer(renderer, maker.scene, inputs),
@@ -126,8 +127,8 @@ TEST_F(HardMaterials, HighlightsOfAnyRoughness_AreAsDoublePrecisionHasThem) {
 
 // Case 25. Light along a surface, a hair above it and a hair below.
 TEST_F(HardMaterials, GrazingLight_IsNeverNegative) {
-    for (const auto shading : {view::ShadingModel::kLambert, view::ShadingModel::kBlinnPhong,
-                               view::ShadingModel::kPbr}) {
+    for (const auto shading : {settings::ShadingModel::kLambert,
+                               settings::ShadingModel::kBlinnPhong, settings::ShadingModel::kPbr}) {
         for (const double lift : {0.0, 1e-7, -1e-7, 1e-4, -1e-4}) {
             SCOPED_TRACE(lift);
             auto maker = wallAhead(2);
@@ -263,7 +264,7 @@ TEST_F(HardMaterials, HalfPositions_ShowWhatDepthDoesNot) {
     const auto allowed = within(4e-4, 1e-6);
     const auto depth = worstOf(draw(renderer, inputs), reference, allowed);
     EXPECT_LE(depth.ratio, 1) << depth;
-    inputs.settings.gbuffer.position = view::PositionSource::kFp16;
+    inputs.settings.gbuffer.position = settings::PositionSource::kFp16;
     EXPECT_GT(worstOf(draw(renderer, inputs), reference, allowed).ratio, 25);
 }
 

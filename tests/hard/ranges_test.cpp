@@ -84,7 +84,7 @@ TEST_F(HardRanges, LightsOfAnyIntensity_AreFiniteAndWhite) {
             maker.point({0, 0, 0}, 0, intensity);
             render::Renderer renderer(device(), maker.scene);
             auto inputs = hardInputs();
-            inputs.settings.shading = view::ShadingModel::kPbr;
+            inputs.settings.shading = settings::ShadingModel::kPbr;
             const auto pictures = expectExact(renderer, inputs, Toon::kNo);
             EXPECT_EQ(leastChannel(pictures.naive, 32, 17), 255);
             EXPECT_EQ(leastChannel(pictures.deferred, 32, 17), 255);

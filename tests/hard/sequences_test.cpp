@@ -19,7 +19,7 @@ namespace froxel::test {
 namespace {
 
 using glm::dvec3;
-using view::Renderer;
+using settings::Renderer;
 
 class HardSequences : public SharedGpuTest {};
 
@@ -44,7 +44,7 @@ uint64_t hashOfFrames(gpu::Device& device) {
         auto inputs = hardInputs();
         inputs.settings.camera = scene.cameras[i % 2].camera;
         inputs.settings.size = {48, 27};
-        inputs.settings.renderer = static_cast<Renderer>(i / 2 % view::kRendererNames.size());
+        inputs.settings.renderer = static_cast<Renderer>(i / 2 % settings::kRendererNames.size());
         inputs.settings.lights.count = 200;
         inputs.assignment =
             i % 3 == 0 ? render::AssignmentPlace::kDevice : render::AssignmentPlace::kAuto;
@@ -157,7 +157,7 @@ TEST_F(HardSequences, ResizeWithFramesInFlight_DrawsEachAtItsSize) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    const view::Size sizes[] = {{64, 36}, {17, 45}, {90, 20}};
+    const settings::Size sizes[] = {{64, 36}, {17, 45}, {90, 20}};
     for (const auto kind :
          {Renderer::kForwardPlus, Renderer::kClusteredDeferred, Renderer::kToonCompute}) {
         for (uint32_t round = 0; round < 3; ++round) {

@@ -31,7 +31,8 @@ TEST_F(HardShadows, MoreLightsThanMaps_AreExact) {
     auto inputs = hardInputs();
     inputs.settings.lights.count = 300;
     inputs.settings.lights.radius_m = 2.5F;
-    for (const view::Shadows shadows : {view::Shadows{1, 512}, {8, 64}, {9, 65}, {32, 64}}) {
+    for (const settings::Shadows shadows :
+         {settings::Shadows{1, 512}, {8, 64}, {9, 65}, {32, 64}}) {
         inputs.settings.shadows = shadows;
         const auto pictures = expectExact(renderer, inputs);
         EXPECT_EQ(pictures.naive.stats.shadows.light_count, shadows.light_count);
@@ -112,7 +113,7 @@ TEST_F(HardShadows, SettingsThatComeAndGo_LeaveNoTrace) {
     auto inputs = hardInputs();
     inputs.settings.lights.count = 60;
     inputs.settings.lights.radius_m = 4;
-    const view::Shadows ways[] = {{0, 256}, {3, 64}, {3, 128}, {20, 64}, {1, 512}};
+    const settings::Shadows ways[] = {{0, 256}, {3, 64}, {3, 128}, {20, 64}, {1, 512}};
     std::vector<Picture> fresh;
     for (const auto& shadows : ways) {
         inputs.settings.shadows = shadows;

@@ -62,11 +62,11 @@ void expectLikeReference(render::Renderer& renderer,
 // far, one reaching past all. They shine as the scene's own would, to the bit.
 TEST_F(HardSpots, Placed_AreTheScenesOwn) {
     scene::Scene scene = wallAhead(static_cast<float>(kWall_m)).scene;
-    std::vector<view::PlacedLight> placed;
+    std::vector<settings::PlacedLight> placed;
     for (uint32_t i = 0; i < 24; ++i) {
-        view::PlacedLight light;
+        settings::PlacedLight light;
         light.id = 5 * i + 1;
-        light.kind = i % 3 == 0 ? view::LightKind::kSpot : view::LightKind::kPoint;
+        light.kind = i % 3 == 0 ? settings::LightKind::kSpot : settings::LightKind::kPoint;
         light.position_world = wallPoint(2.5 * i, i) + dvec3(0, 0, 0.1 * (i + 1));
         light.direction_world = {0, 0.1 * i, -1};
         light.color = {1, 0.04F * static_cast<float>(i), 0.5F};
@@ -78,7 +78,7 @@ TEST_F(HardSpots, Placed_AreTheScenesOwn) {
     render::Renderer with_scene_lights(device(), scene);
     const auto wanted = expectExact(with_scene_lights, inputs);
     scene.lights.clear();
-    inputs.settings.lights.placed = view::PlacedLights(placed);
+    inputs.settings.lights.placed = settings::PlacedLights(placed);
     render::Renderer renderer(device(), scene);
     const auto pictures = expectExact(renderer, inputs);
     EXPECT_GT(litPixels(pictures.naive), 500U);
@@ -96,20 +96,20 @@ TEST_F(HardSpots, StandingForOthers_AreAsDoublePrecisionHasThem) {
     inputs.settings.lights.box = BoundsD3{{-2, -1, -3.4}, {2, 1, -2}};
     render::Renderer renderer(device(), maker.scene);
     const auto before = expectExact(renderer, inputs);
-    using Of = view::LightRef::Of;
-    std::vector<view::PlacedLight> placed;
-    for (const auto& replaced : {view::LightRef{Of::kSeed, 6}, view::LightRef{Of::kSeed, 2},
-                                 view::LightRef{Of::kScene, 0}}) {
-        view::PlacedLight light;
+    using Of = settings::LightRef::Of;
+    std::vector<settings::PlacedLight> placed;
+    for (const auto& replaced : {settings::LightRef{Of::kSeed, 6}, settings::LightRef{Of::kSeed, 2},
+                                 settings::LightRef{Of::kScene, 0}}) {
+        settings::PlacedLight light;
         light.id = static_cast<uint32_t>(placed.size()) + 1;
-        light.kind = placed.size() == 1 ? view::LightKind::kPoint : view::LightKind::kSpot;
+        light.kind = placed.size() == 1 ? settings::LightKind::kPoint : settings::LightKind::kSpot;
         light.position_world = {static_cast<double>(placed.size()) - 1, 0.3, -2.2};
         light.direction_world = {0.2, 0.1, -1};
         light.radius_m = 2.5;
         light.replaces = replaced;
         placed.push_back(light);
     }
-    inputs.settings.lights.placed = view::PlacedLights(placed);
+    inputs.settings.lights.placed = settings::PlacedLights(placed);
     const auto pictures = expectExact(renderer, inputs);
     EXPECT_GT(differingFloats(pictures.naive, before.naive), 500U);
     expectLikeReference(renderer, maker.scene, inputs, pictures.naive);

@@ -10,7 +10,7 @@ namespace froxel::test {
 
 namespace {
 
-using view::Transparency;
+using settings::Transparency;
 
 class HardTransparency : public SharedGpuTest {};
 
@@ -116,7 +116,7 @@ TEST_F(HardTransparency, LayersBeyondTheLast_AreCountedPixelByPixel) {
         EXPECT_EQ(count, layers < kPanes ? *covered : 0U) << layers;
     }
     auto inputs = peeled(4);
-    inputs.settings.antialiasing = view::Antialiasing::kSsaa4;
+    inputs.settings.antialiasing = settings::Antialiasing::kSsaa4;
     const auto samples = draw(renderer, inputs).stats.peel.overflow_count;
     EXPECT_NEAR(static_cast<double>(samples), 4.0 * static_cast<double>(*covered),
                 0.1 * 4.0 * static_cast<double>(*covered));

@@ -20,7 +20,7 @@ class HangingView final : public stream::ViewSource {
     ~HangingView() override { std::abort(); }
 
     [[nodiscard]] bool canBegin() const override { return true; }
-    [[nodiscard]] Result<stream::FrameWork> begin(const view::ViewSettings& /*settings*/,
+    [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& /*settings*/,
                                                   double /*time_s*/,
                                                   uint64_t /*beside_bytes*/) override {
         return stream::FrameWork{Seconds(0), 2};
@@ -71,7 +71,7 @@ int serve(std::chrono::milliseconds wait, std::chrono::milliseconds watchdog) {
     options.open = [&](const auto& /*report*/) {
         session::SessionContext context;
         context.scene.name = "fake";
-        context.scene.cameras = {{"front", view::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0})}};
+        context.scene.cameras = {{"front", settings::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0})}};
         context.defaults.settings.size = {64, 48};
         return app::OpenedScene{std::make_unique<HangingSource>(wait), context,
                                 [] { return std::vector<MemoryUse>{}; }, Seconds(watchdog)};

@@ -10,8 +10,8 @@ session::SessionContext contextFor(const TestServerOptions& options) {
     context.scene.name = "fake";
     context.scene.bounds_world.add({-1, -1, -1});
     context.scene.bounds_world.add({1, 1, 1});
-    view::Camera side = view::lookAt({5, 0, 0}, {0, 0, 0}, {0, 1, 0});
-    context.scene.cameras = {{"front", view::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0})},
+    settings::Camera side = settings::lookAt({5, 0, 0}, {0, 0, 0}, {0, 1, 0});
+    context.scene.cameras = {{"front", settings::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0})},
                              {"side", side}};
     context.defaults.settings.size = options.size;
     context.defaults.settings.lights.count = options.still ? 0 : 100;

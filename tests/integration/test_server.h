@@ -12,7 +12,7 @@ namespace froxel::test {
 struct TestServerOptions {
     uint32_t sessions_max = 8;
     uint32_t connections_max = 256;
-    view::Size size{64, 48};
+    settings::Size size{64, 48};
     bool still = false; // lights stand still until a command moves them: pictures only on change
     std::chrono::milliseconds resume_grace{0};
     double min_rate_hz = 0;

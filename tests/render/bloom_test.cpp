@@ -14,19 +14,19 @@ namespace froxel::test {
 
 namespace {
 
-using view::BloomKind;
-using view::Renderer;
+using settings::BloomKind;
+using settings::Renderer;
 
 constexpr std::array kKinds = {BloomKind::kSinglePass, BloomKind::kSeparable, BloomKind::kATrous,
                                BloomKind::kMipChain};
 
 std::string nameOf(BloomKind kind) {
-    return std::string(view::kBloomKindNames[static_cast<size_t>(kind)]);
+    return std::string(settings::kBloomKindNames[static_cast<size_t>(kind)]);
 }
 
 class Bloom : public SharedGpuTest {};
 
-render::FrameInputs inputsFor(const view::Camera& camera, const view::Size& size) {
+render::FrameInputs inputsFor(const settings::Camera& camera, const settings::Size& size) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = size;
@@ -150,7 +150,7 @@ Plane planeOf(const Picture& picture) {
     });
 }
 
-Plane expected(const Plane& picture, const view::Bloom& bloom, double exposure) {
+Plane expected(const Plane& picture, const settings::Bloom& bloom, double exposure) {
     const double threshold = static_cast<double>(bloom.threshold) / exposure;
     const double knee = threshold * static_cast<double>(bloom.knee);
     const double sigma =
@@ -220,8 +220,8 @@ TEST_F(Bloom, EveryRenderer_IsOfItsOwnPicture) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
-        SCOPED_TRACE(view::kRendererNames[kind]);
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
+        SCOPED_TRACE(settings::kRendererNames[kind]);
         auto inputs = inputsFor(scene.cameras[0].camera, {64, 36});
         inputs.settings.renderer = static_cast<Renderer>(kind);
         const Plane before = planeOf(draw(view, inputs));
@@ -263,8 +263,8 @@ TEST_F(Bloom, SinglePixelThatMoves_DoesNotFlicker) {
         double first_sum = 0;
         double last_glow = 0;
         for (int step = 0; step <= 16; ++step) {
-            view::Camera camera;
-            camera.projection = view::Projection::kOrthographic;
+            settings::Camera camera;
+            camera.projection = settings::Projection::kOrthographic;
             camera.half_height_m = 32; // a pixel a metre
             camera.eye_world = {16 + step, 16, 0};
             auto inputs = inputsFor(camera, {64, 64});

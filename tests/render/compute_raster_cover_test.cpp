@@ -74,9 +74,9 @@ scene::Scene meshScene(const MeshShape& shape, uint32_t seed, bool mirrored, boo
     return scene;
 }
 
-render::FrameInputs inputsFor(view::Size size) {
+render::FrameInputs inputsFor(settings::Size size) {
     render::FrameInputs inputs;
-    inputs.settings.camera = view::lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
+    inputs.settings.camera = settings::lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
     inputs.settings.size = size;
     inputs.settings.lights.count = 0;
     inputs.geometry = GeometryPath::kComputeRaster;
@@ -148,7 +148,7 @@ std::vector<std::vector<uint32_t>> coverOnHost(const scene::Scene& scene, const 
 void expectEachPixelOnce(gpu::Device& device,
                          const MeshShape& shape,
                          bool mirrored,
-                         view::Size size = {333, 201}) {
+                         settings::Size size = {333, 201}) {
     for (uint32_t seed = 1; seed <= 3; ++seed) {
         const auto scene = meshScene(shape, seed, mirrored, false);
         const auto inputs = inputsFor(size);
@@ -220,7 +220,7 @@ TEST_F(ComputeRasterCover, BackFaces_AreSeenWhereBothSidesAre) {
 // A plane from 10 m before to 2 m behind the eye, whose depth is known at every pixel: no worse
 // than the rasteriser's.
 TEST_F(ComputeRasterCover, LeaningPlaneThroughTheNearPlane_Depths_AreThePlanes) {
-    constexpr view::Size kSize{160, 90};
+    constexpr settings::Size kSize{160, 90};
     const auto worstOf = [&](const scene::Scene& scene, GeometryPath path) {
         auto inputs = inputsFor(kSize);
         inputs.geometry = path;

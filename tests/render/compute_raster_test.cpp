@@ -15,17 +15,17 @@ namespace froxel::test {
 namespace {
 
 using render::GeometryPath;
-using view::LightingStage;
-using view::Renderer;
+using settings::LightingStage;
+using settings::Renderer;
 
 class ComputeRaster : public GpuTest {};
 
-render::FrameInputs inputsFor(const view::Camera& camera, GeometryPath path) {
+render::FrameInputs inputsFor(const settings::Camera& camera, GeometryPath path) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = {240, 136};
     inputs.settings.lights.count = 100;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     inputs.time_s = 3.25;
     inputs.geometry = path;
     return inputs;
@@ -65,8 +65,9 @@ struct DepthErrors {
     double p99 = 0;
 };
 
-DepthErrors
-depthErrors(const Visibility& visibility, const scene::Scene& scene, const view::Camera& camera) {
+DepthErrors depthErrors(const Visibility& visibility,
+                        const scene::Scene& scene,
+                        const settings::Camera& camera) {
     const reference::PixelRays rays(camera, {visibility.width_px, visibility.height_px});
     std::vector<double> errors;
     for (size_t i = 0; i < visibility.pixels.size(); ++i) {
@@ -97,8 +98,8 @@ depthErrors(const Visibility& visibility, const scene::Scene& scene, const view:
 // each other, can show another triangle.
 void expectSameIds(render::Renderer& renderer,
                    const scene::Scene& scene,
-                   const view::Camera& camera,
-                   view::Size size = {240, 136}) {
+                   const settings::Camera& camera,
+                   settings::Size size = {240, 136}) {
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor(camera, GeometryPath::kVisibility);
     inputs.settings.size = size;
@@ -112,7 +113,7 @@ void expectSameIds(render::Renderer& renderer,
     EXPECT_LE(static_cast<double>(apart.ids), 0.002 * static_cast<double>(apart.pixels) + 1);
     EXPECT_LE(static_cast<double>(apart.empty), 0.0002 * static_cast<double>(apart.pixels) + 1);
     // Seen: 28 of 32,640 (surfaces of equal depth in the hall).
-    if (camera.projection == view::Projection::kPerspective) {
+    if (camera.projection == settings::Projection::kPerspective) {
         const auto by_raster = depthErrors(raster, scene, camera);
         const auto by_plane = depthErrors(compute, scene, camera);
         std::printf(
@@ -139,7 +140,7 @@ void expectExact(gpu::Device& device, const scene::Scene& scene) {
         auto inputs = inputsFor(camera.camera, GeometryPath::kComputeRaster);
         const Picture clustered = expectVisibleExact(view, inputs);
         inputs.settings.renderer = Renderer::kClusteredDeferred;
-        inputs.settings.light_loop = view::LightLoop::kAllLights;
+        inputs.settings.light_loop = settings::LightLoop::kAllLights;
         inputs.settings.lighting = LightingStage::kFragment;
         inputs.cull_meshlets = false;
         EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
@@ -162,13 +163,14 @@ TEST_F(ComputeRaster, Sponza_Ids_AreTheRasterisers) {
         GTEST_SKIP() << "Sponza is not here: set FROXEL_SPONZA to its .gltf file";
     }
     render::Renderer renderer(device(), *scene);
-    expectSameIds(renderer, *scene, view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), {480, 270});
+    expectSameIds(renderer, *scene, settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), {480, 270});
 }
 
 TEST_F(ComputeRaster, OddSizes_Ids_AreTheRasterisers) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
-    for (const view::Size size : {view::Size{1, 1}, {17, 33}, {33, 17}, {65, 31}, {500, 3}}) {
+    for (const settings::Size size :
+         {settings::Size{1, 1}, {17, 33}, {33, 17}, {65, 31}, {500, 3}}) {
         SCOPED_TRACE(size.width_px);
         expectSameIds(renderer, scene, scene.cameras[0].camera, size);
     }
@@ -179,7 +181,7 @@ TEST_F(ComputeRaster, EyeInsideTheRoom_TrianglesThroughTheNearPlane_AreTheRaster
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     for (const glm::dvec3 eye : {glm::dvec3(0, 0.02, 0), {0.45, 1.2, 0.4}, {-5.99, 3, -3.9}}) {
-        auto camera = view::lookAt(eye, eye + glm::dvec3(1, -0.1, 0.2), {0, 1, 0});
+        auto camera = settings::lookAt(eye, eye + glm::dvec3(1, -0.1, 0.2), {0, 1, 0});
         expectSameIds(renderer, scene, camera);
         camera.near_m = 0.6;
         expectSameIds(renderer, scene, camera);
@@ -192,7 +194,7 @@ TEST_F(ComputeRaster, OrthographicAndShifted_Ids_AreTheRasterisers) {
     auto camera = scene.cameras[0].camera;
     camera.lens_shift = {0.4F, -0.3F};
     expectSameIds(renderer, scene, camera);
-    camera.projection = view::Projection::kOrthographic;
+    camera.projection = settings::Projection::kOrthographic;
     expectSameIds(renderer, scene, camera);
 }
 

@@ -16,18 +16,18 @@ namespace froxel::test {
 
 namespace {
 
-using view::DebugView;
-using view::Renderer;
+using settings::DebugView;
+using settings::Renderer;
 
-constexpr view::Size kSize{96, 54};
+constexpr settings::Size kSize{96, 54};
 
 class DebugViews : public SharedGpuTest {};
 
-render::FrameInputs inputsFor(DebugView debug, const view::Camera& camera = {}) {
+render::FrameInputs inputsFor(DebugView debug, const settings::Camera& camera = {}) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = kSize;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     inputs.settings.lights.count = 60;
     inputs.settings.debug.view = debug;
     inputs.time_s = 2;
@@ -152,7 +152,7 @@ TEST_F(DebugViews, Counts_EveryRenderer_AddUpToThePairCounts) {
     render::ViewRenderer view(renderer);
     for (const auto kind :
          {Renderer::kNaive, Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
-        SCOPED_TRACE(view::kRendererNames[static_cast<size_t>(kind)]);
+        SCOPED_TRACE(settings::kRendererNames[static_cast<size_t>(kind)]);
         auto inputs = inputsFor(DebugView::kEvaluatedLights, scene.cameras[0].camera);
         inputs.settings.renderer = kind;
         inputs.settings.count_pairs = true;
@@ -220,7 +220,7 @@ TEST_F(DebugViews, Gbuffer_OfAWall_ShowsTheBytesStored) {
         EXPECT_EQ(cell(column, 2), io::kDebugEmpty); // a thin G-buffer
     }
     auto extra = wallInputs(DebugView::kGbufferExtra);
-    extra.settings.gbuffer.position = view::PositionSource::kFp32;
+    extra.settings.gbuffer.position = settings::PositionSource::kFp32;
     const Shown places = show(renderer, extra);
     float z = 0;
     uint32_t word = 0;
@@ -238,7 +238,7 @@ TEST_F(DebugViews, ForwardRenderers_ShowWhatDeferredOnesDo) {
     for (const auto debug :
          {DebugView::kPosition, DebugView::kDepth, DebugView::kNormal, DebugView::kBaseColor,
           DebugView::kRoughness, DebugView::kClusterSlices, DebugView::kListedLights}) {
-        SCOPED_TRACE(view::nameOf(debug));
+        SCOPED_TRACE(settings::nameOf(debug));
         auto inputs = inputsFor(debug, scene.cameras[0].camera);
         inputs.settings.grid = {.automatic = false, .size = {8, 8, 8}};
         const Shown deferred = show(view, inputs);
@@ -348,7 +348,7 @@ TEST_F(DebugViews, ClusterWires_OfTheViewsCamera_LieOnTileBorders) {
     // grid.
     inputs.settings.debug.grid_camera = inputs.settings.camera;
     EXPECT_EQ(differing(wires, show(view, inputs)), 0U);
-    inputs.settings.camera = view::lookAt({3, 2, 1}, {0, 0, -kWall_m}, {0, 1, 0});
+    inputs.settings.camera = settings::lookAt({3, 2, 1}, {0, 0, -kWall_m}, {0, 1, 0});
     const Shown frozen = show(view, inputs);
     inputs.settings.debug.grid_camera.reset();
     EXPECT_GT(differing(frozen, show(view, inputs)), 100U);
@@ -361,14 +361,14 @@ TEST_F(DebugViews, FramesWithout_HaveTheSameBytesAndPasses) {
     auto inputs = inputsFor(DebugView::kNone, scene.cameras[0].camera);
     const Shown before = show(view, inputs);
     EXPECT_FALSE(before.stats.details->legend);
-    for (size_t i = 1; i < view::kDebugViewNames.size(); ++i) {
+    for (size_t i = 1; i < settings::kDebugViewNames.size(); ++i) {
         auto debug = inputs;
         debug.settings.debug.view = static_cast<DebugView>(i);
-        debug.settings.gbuffer.position = view::PositionSource::kStoredDepth;
+        debug.settings.gbuffer.position = settings::PositionSource::kStoredDepth;
         const Shown shown = show(view, debug);
         ASSERT_TRUE(shown.stats.details->legend);
-        EXPECT_EQ(shown.stats.details->legend->view, view::kDebugViewNames[i]);
-        EXPECT_GT(differing(before, shown), 100U) << view::kDebugViewNames[i];
+        EXPECT_EQ(shown.stats.details->legend->view, settings::kDebugViewNames[i]);
+        EXPECT_GT(differing(before, shown), 100U) << settings::kDebugViewNames[i];
     }
     const Shown after = show(view, inputs);
     EXPECT_EQ(differing(before, after), 0U);

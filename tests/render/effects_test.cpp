@@ -1,9 +1,9 @@
 // Antialiasing against many samples a pixel, and outlines: where they are and where they are not.
+#include "settings/camera.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"
 #include "support/test_scenes.h"
-#include "view/camera.h"
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -14,14 +14,14 @@ namespace froxel::test {
 
 namespace {
 
-using view::Antialiasing;
-using view::Renderer;
+using settings::Antialiasing;
+using settings::Renderer;
 
 class Effects : public SharedGpuTest {};
 
-constexpr view::Size kSize{96, 54};
+constexpr settings::Size kSize{96, 54};
 
-render::FrameInputs inputsFor(const view::Camera& camera, Renderer renderer) {
+render::FrameInputs inputsFor(const settings::Camera& camera, Renderer renderer) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = kSize;
@@ -93,11 +93,11 @@ TEST_F(Effects, Antialiasing_AgainstManySamples_IsNearer) {
         maker.add(quad({-0.8F, -0.35F, 0}, {1.6F, 0, 0}, {0, 0.7F, 0}, 1, maker.add(paint)),
                   placed);
     }
-    const auto camera = view::lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
+    const auto camera = settings::lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
     render::Renderer renderer(device(), maker.scene);
     render::ViewRenderer view(renderer);
     for (const auto kind : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
-        SCOPED_TRACE(view::kRendererNames[static_cast<size_t>(kind)]);
+        SCOPED_TRACE(settings::kRendererNames[static_cast<size_t>(kind)]);
         auto inputs = inputsFor(camera, kind);
         const auto reference = manySamples(view, inputs);
         const double none = rmse(emitted(draw(view, inputs)), reference);
@@ -116,7 +116,7 @@ TEST_F(Effects, FourSamples_AreToneMappedOneByOne) {
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kClusteredDeferred);
-    inputs.settings.tone_map = view::ToneMap::kClamp;
+    inputs.settings.tone_map = settings::ToneMap::kClamp;
     inputs.settings.antialiasing = Antialiasing::kSsaa4;
     const Picture resolved = draw(view, inputs);
     ASSERT_EQ(resolved.width_px, kSize.width_px);
@@ -166,12 +166,12 @@ TEST_F(Effects, Everything_InEveryRenderer_IsDrawn) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
-        SCOPED_TRACE(view::kRendererNames[kind]);
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
+        SCOPED_TRACE(settings::kRendererNames[kind]);
         auto inputs = inputsFor(scene.cameras[0].camera, static_cast<Renderer>(kind));
         const Picture plain = draw(view, inputs);
         inputs.settings.toon_outline.strength = 1;
-        inputs.settings.bloom = {view::BloomKind::kMipChain, 0.5F, 0.5F, 0.5F, 0.03F};
+        inputs.settings.bloom = {settings::BloomKind::kMipChain, 0.5F, 0.5F, 0.5F, 0.03F};
         for (const auto antialiasing : {Antialiasing::kFxaa, Antialiasing::kSsaa4}) {
             inputs.settings.antialiasing = antialiasing;
             const Picture picture = draw(view, inputs);
@@ -201,7 +201,7 @@ TEST_F(Effects, Outline_OfAPlaneAtAnyAngle_IsNone) {
     maker.add(quad({-400, -1, 10}, {800, 0, 0}, {0, 0.9F, -800}, 1, 0));
     maker.point({0, 0, -3}, 0, 3);
     render::Renderer renderer(device(), maker.scene);
-    const auto down = view::lookAt({0, 0, 0}, {0, -0.5, -1}, {0, 1, 0});
+    const auto down = settings::lookAt({0, 0, 0}, {0, -0.5, -1}, {0, 1, 0});
     for (const auto kind : {Renderer::kToonFragment, Renderer::kToonCompute}) {
         auto inputs = inputsFor(down, kind);
         const Picture before = draw(renderer, inputs);

@@ -10,16 +10,16 @@ namespace froxel::test {
 
 namespace {
 
-using view::Renderer;
+using settings::Renderer;
 
 class Exactness : public GpuTest {};
 
-render::FrameInputs inputsFor(const view::Camera& camera, Renderer renderer) {
+render::FrameInputs inputsFor(const settings::Camera& camera, Renderer renderer) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = {120, 68};
     inputs.settings.renderer = renderer;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     inputs.time_s = 3.25;
     return inputs;
 }
@@ -41,7 +41,7 @@ void expectListsExact(render::Renderer& renderer, const scene::Scene& scene) {
 
                 inputs.settings.renderer = Renderer::kClusteredDeferred;
                 const Picture clustered = draw(view, inputs);
-                inputs.settings.light_loop = view::LightLoop::kAllLights;
+                inputs.settings.light_loop = settings::LightLoop::kAllLights;
                 EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
             }
         }
@@ -72,14 +72,14 @@ TEST_F(Exactness, Grids_AnySize_GiveTheSamePicture) {
     auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kClusteredDeferred);
     inputs.settings.lights.count = 300;
     const Picture reference = draw(renderer, inputs);
-    for (const view::GridSize grid : {view::GridSize{1, 1, 1},
-                                      {16, 16, 24},
-                                      {15, 15, 15},
-                                      {32, 16, 64},
-                                      {128, 128, 3},
-                                      {7, 1, 256}}) {
-        for (const auto law :
-             {view::GridLaw::kLogarithmic, view::GridLaw::kLinear, view::GridLaw::kHyperbolic}) {
+    for (const settings::GridSize grid : {settings::GridSize{1, 1, 1},
+                                          {16, 16, 24},
+                                          {15, 15, 15},
+                                          {32, 16, 64},
+                                          {128, 128, 3},
+                                          {7, 1, 256}}) {
+        for (const auto law : {settings::GridLaw::kLogarithmic, settings::GridLaw::kLinear,
+                               settings::GridLaw::kHyperbolic}) {
             inputs.settings.grid = {.automatic = false, .size = grid, .law = law};
             EXPECT_EQ(differingFloats(reference, draw(renderer, inputs)), 0U)
                 << grid.x << "x" << grid.y << "x" << grid.z;
@@ -95,9 +95,9 @@ TEST_F(Exactness, LightingStage_FragmentOrCompute_GivesTheSamePicture) {
         auto inputs = inputsFor(scene.cameras[0].camera, kind);
         inputs.settings.lights.count = 200;
         const Picture compute = draw(renderer, inputs);
-        inputs.settings.lighting = view::LightingStage::kFragment;
+        inputs.settings.lighting = settings::LightingStage::kFragment;
         EXPECT_EQ(differingFloats(compute, draw(renderer, inputs)), 0U)
-            << view::kRendererNames[static_cast<size_t>(kind)];
+            << settings::kRendererNames[static_cast<size_t>(kind)];
     }
 }
 
@@ -109,14 +109,15 @@ TEST_F(Exactness, Subgroups_WithAndWithout_GiveTheSamePicture) {
         options.subgroups = subgroups;
         openDevice(options);
         render::Renderer renderer(device(), scene);
-        for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+        for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
             auto inputs = inputsFor(scene.cameras[0].camera, static_cast<Renderer>(kind));
             inputs.settings.lights.count = 150;
             Picture picture = draw(renderer, inputs);
             if (subgroups) {
                 with.push_back(std::move(picture));
             } else {
-                EXPECT_EQ(differingFloats(with[kind], picture), 0U) << view::kRendererNames[kind];
+                EXPECT_EQ(differingFloats(with[kind], picture), 0U)
+                    << settings::kRendererNames[kind];
             }
         }
     }
@@ -134,7 +135,7 @@ TEST_F(Exactness, LightsThatTakeMinutes_AreRefused_AndTheNextFrameIsDrawn) {
     many.settings.lights.count = 1'000'000;
     for (const auto kind : {Renderer::kNaive, Renderer::kForwardPlus, Renderer::kToonCompute}) {
         many.settings.renderer = kind;
-        many.settings.light_loop = view::LightLoop::kAllLights;
+        many.settings.light_loop = settings::LightLoop::kAllLights;
         const auto refused = view.submit(many);
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
@@ -146,7 +147,7 @@ TEST_F(Exactness, Frames_SameInputTwice_SameBytes) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         auto inputs = inputsFor(scene.cameras[1].camera, static_cast<Renderer>(kind));
         inputs.settings.lights.count = 200;
         const Picture first = draw(view, inputs);
@@ -154,8 +155,8 @@ TEST_F(Exactness, Frames_SameInputTwice_SameBytes) {
         EXPECT_GT(differingFloats(first, draw(view, inputs)), 0U);
         inputs.time_s = 3.25;
         const Picture again = draw(view, inputs);
-        EXPECT_EQ(differingFloats(first, again), 0U) << view::kRendererNames[kind];
-        EXPECT_EQ(first.rgba8, again.rgba8) << view::kRendererNames[kind];
+        EXPECT_EQ(differingFloats(first, again), 0U) << settings::kRendererNames[kind];
+        EXPECT_EQ(first.rgba8, again.rgba8) << settings::kRendererNames[kind];
     }
 }
 
@@ -163,7 +164,8 @@ TEST_F(Exactness, Pictures_AnyOddSize_AreFiniteAndEqual) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (const view::Size size : {view::Size{17, 33}, {119, 16}, {16, 131}, {64, 64}, {16, 16}}) {
+    for (const settings::Size size :
+         {settings::Size{17, 33}, {119, 16}, {16, 131}, {64, 64}, {16, 16}}) {
         auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kNaive);
         inputs.settings.size = size;
         inputs.settings.lights.count = 100;

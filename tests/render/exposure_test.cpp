@@ -17,9 +17,9 @@ namespace froxel::test {
 
 namespace {
 
-using view::ExposureMode;
-using view::LightingStage;
-using view::Renderer;
+using settings::ExposureMode;
+using settings::LightingStage;
+using settings::Renderer;
 
 class Exposure : public SharedGpuTest {};
 
@@ -38,7 +38,7 @@ scene::Scene roomWithASign() {
     return scene;
 }
 
-render::FrameInputs inputsFor(const view::Camera& camera, const view::Size& size) {
+render::FrameInputs inputsFor(const settings::Camera& camera, const settings::Size& size) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = size;
@@ -127,10 +127,10 @@ TEST_F(Exposure, EveryRendererAndStage_AgainstDouble_IsWithinRounding) {
     const auto scene = roomWithASign();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    const std::array<view::Size, 3> sizes = {{{96, 64}, {97, 55}, {31, 130}}};
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+    const std::array<settings::Size, 3> sizes = {{{96, 64}, {97, 55}, {31, 130}}};
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         for (const auto stage : {LightingStage::kCompute, LightingStage::kFragment}) {
-            SCOPED_TRACE(std::string(view::kRendererNames[kind]) + ", " +
+            SCOPED_TRACE(std::string(settings::kRendererNames[kind]) + ", " +
                          std::to_string(static_cast<int>(stage)));
             auto inputs = inputsFor(scene.cameras[0].camera, sizes[kind % sizes.size()]);
             inputs.settings.renderer = static_cast<Renderer>(kind);
@@ -162,7 +162,7 @@ TEST_F(Exposure, ForwardPlus_IsNaives) {
         inputs.settings.renderer = Renderer::kNaive;
         const Picture naive = draw(view, inputs);
         inputs.settings.renderer = Renderer::kForwardPlus;
-        inputs.settings.light_loop = view::LightLoop::kLists;
+        inputs.settings.light_loop = settings::LightLoop::kLists;
         const Picture lists = draw(view, inputs);
         EXPECT_EQ(naive.stats.metered_ev, lists.stats.metered_ev);
         EXPECT_EQ(differingBytes(naive, lists), 0U);
@@ -208,11 +208,11 @@ TEST_F(Exposure, UnlitAndEmptyPixels_DoNotCount) {
     maker.scene = scene;
     const uint32_t unlit = maker.add(sign);
     maker.add(quad({-0.5, -2, -2}, {4, 0, 0}, {0, 4, 0}, 1, unlit));
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         if (static_cast<Renderer>(kind) == Renderer::kToonCompute) {
             continue; // which bends what shines by itself, too
         }
-        SCOPED_TRACE(view::kRendererNames[kind]);
+        SCOPED_TRACE(settings::kRendererNames[kind]);
         const auto inputs = atAWall(static_cast<Renderer>(kind));
         render::Renderer renderer(device(), maker.scene);
         EXPECT_NEAR(*draw(renderer, inputs).stats.metered_ev, 2, kBin_ev / 2);
@@ -272,15 +272,15 @@ TEST_F(Exposure, Frame_DependsOnNoFrameBefore) {
 // Bloom's threshold and the lines of debug views follow the exposure; fog, filters and samples are
 // there as with a fixed one.
 TEST_F(Exposure, WhateverElseIsDrawn_IsAsWithAFixedExposure) {
-    using Change = void (*)(view::ViewSettings&);
+    using Change = void (*)(settings::ViewSettings&);
     const std::pair<const char*, Change> cases[] = {
         {"fog", [](auto& s) { s.fog.density = 0.1F; }},
-        {"fxaa", [](auto& s) { s.antialiasing = view::Antialiasing::kFxaa; }},
-        {"ssaa4", [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; }},
-        {"clamp", [](auto& s) { s.tone_map = view::ToneMap::kClamp; }},
-        {"weighted", [](auto& s) { s.transparency = view::Transparency::kWeighted; }},
-        {"peeled", [](auto& s) { s.transparency = view::Transparency::kPeeled; }},
-        {"lines", [](auto& s) { s.debug.view = view::DebugView::kLightSpheres; }}};
+        {"fxaa", [](auto& s) { s.antialiasing = settings::Antialiasing::kFxaa; }},
+        {"ssaa4", [](auto& s) { s.antialiasing = settings::Antialiasing::kSsaa4; }},
+        {"clamp", [](auto& s) { s.tone_map = settings::ToneMap::kClamp; }},
+        {"weighted", [](auto& s) { s.transparency = settings::Transparency::kWeighted; }},
+        {"peeled", [](auto& s) { s.transparency = settings::Transparency::kPeeled; }},
+        {"lines", [](auto& s) { s.debug.view = settings::DebugView::kLightSpheres; }}};
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
@@ -297,10 +297,10 @@ TEST_F(Exposure, BloomsThreshold_IsInMeteredRadiance) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (size_t kind = 1; kind < view::kBloomKindNames.size(); ++kind) {
-        SCOPED_TRACE(view::kBloomKindNames[kind]);
+    for (size_t kind = 1; kind < settings::kBloomKindNames.size(); ++kind) {
+        SCOPED_TRACE(settings::kBloomKindNames[kind]);
         auto inputs = inputsFor(scene.cameras[0].camera, {81, 45});
-        inputs.settings.bloom = {static_cast<view::BloomKind>(kind), 0.6F, 0.5F, 0.7F, 0.03F};
+        inputs.settings.bloom = {static_cast<settings::BloomKind>(kind), 0.6F, 0.5F, 0.7F, 0.03F};
         const Picture metered = draw(view, inputs);
         const Picture fixed = draw(view, fixedAs(inputs, metered));
         const float brightest = *std::ranges::max_element(fixed.radiance);
@@ -318,7 +318,7 @@ TEST_F(Exposure, DebugViewInThePicturesPlace_IsAsWithAFixedExposure) {
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor(scene.cameras[0].camera, {64, 36});
-    inputs.settings.debug.view = view::DebugView::kBaseColor;
+    inputs.settings.debug.view = settings::DebugView::kBaseColor;
     const Picture metered = drawPixels(view, inputs);
     EXPECT_FALSE(metered.stats.metered_ev);
     inputs.settings.exposure_mode = ExposureMode::kFixed;

@@ -15,20 +15,20 @@
 
 namespace froxel::test {
 
-inline constexpr view::Size kSize{160, 90};
+inline constexpr settings::Size kSize{160, 90};
 
-inline render::FrameInputs inputsFor(const view::Camera& camera, uint32_t lights) {
+inline render::FrameInputs inputsFor(const settings::Camera& camera, uint32_t lights) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = kSize;
     inputs.settings.lights.count = lights;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     inputs.time_s = 1.5;
     return inputs;
 }
 
-inline view::Camera ahead() {
-    return view::lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
+inline settings::Camera ahead() {
+    return settings::lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
 }
 
 inline std::vector<std::string> passesOf(const Picture& picture) {

@@ -4,11 +4,11 @@
 #include "reference/rays.h"
 #include "reference/shade.h"
 #include "render/visibility_readback.h"
+#include "settings/environment.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"
 #include "support/test_scenes.h"
-#include "view/environment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +17,10 @@ namespace froxel::test {
 
 namespace {
 
+using settings::Renderer;
 using ::testing::Contains;
 using ::testing::Key;
 using ::testing::Not;
-using view::Renderer;
 
 class Fog : public SharedGpuTest {
   protected:
@@ -37,7 +37,7 @@ TEST_F(Fog, ConstantWithoutLights_IsTheClosedForm) {
     maker.scene.materials[0].unlit = true;
     render::Renderer renderer(device(), maker.scene);
     for (const auto projection :
-         {view::Projection::kPerspective, view::Projection::kOrthographic}) {
+         {settings::Projection::kPerspective, settings::Projection::kOrthographic}) {
         auto inputs = inputsFor(ahead(), 0);
         inputs.settings.renderer = Renderer::kForwardPlus; // whose colours are not rounded
         inputs.settings.camera.projection = projection;
@@ -60,8 +60,8 @@ TEST_F(Fog, ConstantWithoutLights_IsTheClosedForm) {
                                                         glm::length(ray.direction * 4.0))
                                              : 0.0;
                     for (int c = 0; c < 3; ++c) {
-                        const auto air = 0.5 * static_cast<double>(view::kAmbientSky[c] +
-                                                                   view::kAmbientGround[c]);
+                        const auto air = 0.5 * static_cast<double>(settings::kAmbientSky[c] +
+                                                                   settings::kAmbientGround[c]);
                         const double right = kept * 1.0 + (1 - kept) * air;
                         const size_t i = 3 * (size_t{y} * kSize.width_px + x);
                         const auto drawn =
@@ -80,7 +80,7 @@ TEST_F(Fog, ConstantWithoutLights_IsTheClosedForm) {
 TEST_F(Fog, Furnace_OfAlbedoOne_ShowsNothing) {
     auto maker = insideOfABox(5);
     auto& walls = maker.scene.materials[0];
-    const glm::vec3 around = 0.5F * (view::kAmbientSky + view::kAmbientGround);
+    const glm::vec3 around = 0.5F * (settings::kAmbientSky + settings::kAmbientGround);
     walls.unlit = true;
     walls.base_color = glm::vec4(around, 1);
     render::Renderer renderer(device(), maker.scene);
@@ -139,7 +139,7 @@ TEST_F(Fog, Lists_EqualAllLightsBitForBit) {
             SCOPED_TRACE("camera " + std::to_string(camera) + ", " + std::to_string(radius) + " m");
             auto inputs = inputsFor(scene.cameras[0].camera, 150);
             if (camera == 1) {
-                inputs.settings.camera.projection = view::Projection::kOrthographic;
+                inputs.settings.camera.projection = settings::Projection::kOrthographic;
                 inputs.settings.camera.half_height_m = 3;
             } else if (camera == 2) {
                 inputs.settings.camera.lens_shift = {0.7, -0.4};
@@ -156,9 +156,9 @@ TEST_F(Fog, Lists_EqualAllLightsBitForBit) {
             EXPECT_EQ(differingFloats(naive, draw(view, inputs)), 0U);
             inputs.settings.renderer = Renderer::kClusteredDeferred;
             const Picture clustered = draw(view, inputs);
-            inputs.settings.lighting = view::LightingStage::kFragment;
+            inputs.settings.lighting = settings::LightingStage::kFragment;
             EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
-            inputs.settings.light_loop = view::LightLoop::kAllLights;
+            inputs.settings.light_loop = settings::LightLoop::kAllLights;
             EXPECT_EQ(differingFloats(clustered, draw(view, inputs)), 0U);
         }
     }
@@ -171,9 +171,10 @@ TEST_F(Fog, Grids_AnyLawAndSize_GiveTheSamePicture) {
     auto inputs = inputsFor(scene.cameras[0].camera, 200);
     inputs.settings.fog.density = 0.1F;
     const Picture first = draw(view, inputs);
-    for (const view::GridSize grid : {view::GridSize{1, 1, 1}, {15, 15, 15}, {128, 128, 3}}) {
-        for (const auto law :
-             {view::GridLaw::kLogarithmic, view::GridLaw::kLinear, view::GridLaw::kHyperbolic}) {
+    for (const settings::GridSize grid :
+         {settings::GridSize{1, 1, 1}, {15, 15, 15}, {128, 128, 3}}) {
+        for (const auto law : {settings::GridLaw::kLogarithmic, settings::GridLaw::kLinear,
+                               settings::GridLaw::kHyperbolic}) {
             inputs.settings.grid = {.automatic = false, .size = grid, .law = law};
             EXPECT_EQ(differingFloats(first, draw(view, inputs)), 0U) << grid.x;
         }
@@ -186,8 +187,8 @@ TEST_F(Fog, FinerVolumes_ComeToTheReference) {
     render::Renderer renderer(device(), maker.scene);
     auto inputs = inputsFor(ahead(), 0);
     inputs.settings.renderer = Renderer::kForwardPlus;
-    inputs.settings.shading = view::ShadingModel::kLambert;
-    const std::pair<const char*, view::Fog> media[] = {
+    inputs.settings.shading = settings::ShadingModel::kLambert;
+    const std::pair<const char*, settings::Fog> media[] = {
         {"thin", {.density = 0.02F}},
         {"onwards", {.density = 0.1F, .anisotropy = 0.6F, .albedo = {0.9F, 0.6F, 0.3F}}},
         {"by height", {.density = 0.3F, .height_falloff = 0.8F, .base_height_m = -1}},
@@ -222,10 +223,10 @@ TEST_F(Fog, Room_IsAsIntegratedInDouble) {
     for (const bool parallel : {false, true}) {
         auto inputs = inputsFor(scene.cameras[0].camera, 12);
         inputs.settings.lights.radius_m = 5;
-        inputs.settings.shading = view::ShadingModel::kLambert;
+        inputs.settings.shading = settings::ShadingModel::kLambert;
         inputs.settings.renderer = Renderer::kForwardPlus;
         if (parallel) {
-            inputs.settings.camera.projection = view::Projection::kOrthographic;
+            inputs.settings.camera.projection = settings::Projection::kOrthographic;
             inputs.settings.camera.half_height_m = 2;
         }
         inputs.settings.camera.lens_shift = {0.2, 0.1};
@@ -256,7 +257,7 @@ TEST_F(Fog, ShadowsFall_IntoTheAir) {
     inputs.settings.fog.tile_px = 4;
     inputs.settings.fog.slice_count = 128;
     inputs.settings.lights.ambient = 0;
-    inputs.settings.shading = view::ShadingModel::kLambert;
+    inputs.settings.shading = settings::ShadingModel::kLambert;
     const double before = errorOf(renderer, meant(renderer, maker.scene, inputs), inputs);
     auto shadowed = inputs;
     shadowed.settings.shadows = {2, 512};
@@ -267,7 +268,7 @@ TEST_F(Fog, ShadowsFall_IntoTheAir) {
         shadowed.settings.renderer = kind;
         const Picture lists = draw(renderer, shadowed);
         auto all = shadowed;
-        all.settings.light_loop = view::LightLoop::kAllLights;
+        all.settings.light_loop = settings::LightLoop::kAllLights;
         all.settings.renderer = kind == Renderer::kForwardPlus ? Renderer::kNaive : kind;
         EXPECT_EQ(differingFloats(lists, draw(renderer, all)), 0U);
     }
@@ -297,10 +298,10 @@ TEST_F(Fog, FourSamples_AreThePictureOfTwiceTheSidesInItsMean) {
     render::Renderer renderer(device(), maker.scene);
     auto inputs = inputsFor(ahead(), 0);
     inputs.settings.fog.density = 0.1F;
-    inputs.settings.bloom = {view::BloomKind::kNone};
-    inputs.settings.antialiasing = view::Antialiasing::kSsaa4;
+    inputs.settings.bloom = {settings::BloomKind::kNone};
+    inputs.settings.antialiasing = settings::Antialiasing::kSsaa4;
     const Picture resolved = draw(renderer, inputs);
-    inputs.settings.antialiasing = view::Antialiasing::kNone;
+    inputs.settings.antialiasing = settings::Antialiasing::kNone;
     inputs.settings.size = {2 * kSize.width_px, 2 * kSize.height_px};
     inputs.settings.fog.tile_px = 32;
     const Picture samples = draw(renderer, inputs);
@@ -323,7 +324,7 @@ TEST_F(Fog, DebugViews_AreNotFogged) {
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor(scene.cameras[0].camera, 20);
-    for (const auto debug : {view::DebugView::kNormal, view::DebugView::kBaseColor}) {
+    for (const auto debug : {settings::DebugView::kNormal, settings::DebugView::kBaseColor}) {
         inputs.settings.debug.view = debug;
         inputs.settings.fog.density = 0;
         const Picture without = drawPixels(view, inputs);
@@ -332,7 +333,7 @@ TEST_F(Fog, DebugViews_AreNotFogged) {
         EXPECT_EQ(without.rgba8, with.rgba8);
         EXPECT_THAT(passesOf(with), Not(Contains("fog")));
     }
-    inputs.settings.debug.view = view::DebugView::kLightSpheres;
+    inputs.settings.debug.view = settings::DebugView::kLightSpheres;
     const auto passes = passesOf(drawPixels(view, inputs));
     EXPECT_THAT(passes, Contains("fog"));
     EXPECT_THAT(passes, Contains("wires"));
@@ -344,25 +345,25 @@ TEST_F(Fog, WithAllElse_EveryRendererIsFiniteRepeatsAndIsExact) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         auto inputs = inputsFor(scene.cameras[0].camera, 40);
         inputs.settings.renderer = static_cast<Renderer>(kind);
         const Picture clear = draw(view, inputs);
         inputs.settings.fog = {.density = 0.1F, .height_falloff = 0.2F, .noise = true};
-        inputs.settings.bloom.kind = view::BloomKind::kMipChain;
+        inputs.settings.bloom.kind = settings::BloomKind::kMipChain;
         inputs.settings.toon_outline.strength = 0.5F;
-        inputs.settings.antialiasing = view::Antialiasing::kFxaa;
+        inputs.settings.antialiasing = settings::Antialiasing::kFxaa;
         inputs.settings.shadows = {8, 128};
-        view::PlacedLight area;
+        settings::PlacedLight area;
         area.id = 1;
-        area.kind = view::LightKind::kArea;
+        area.kind = settings::LightKind::kArea;
         area.position_world = {0, 2.5, 0};
         area.radius_m = 4;
-        inputs.settings.lights.placed = view::PlacedLights({area});
-        for (size_t order = 0; order < view::kTransparencyNames.size(); ++order) {
-            SCOPED_TRACE(std::string(view::kRendererNames[kind]) + ", " +
-                         std::string(view::kTransparencyNames[order]));
-            inputs.settings.transparency = static_cast<view::Transparency>(order);
+        inputs.settings.lights.placed = settings::PlacedLights({area});
+        for (size_t order = 0; order < settings::kTransparencyNames.size(); ++order) {
+            SCOPED_TRACE(std::string(settings::kRendererNames[kind]) + ", " +
+                         std::string(settings::kTransparencyNames[order]));
+            inputs.settings.transparency = static_cast<settings::Transparency>(order);
             const Picture picture = draw(view, inputs);
             for (const float value : picture.radiance) {
                 ASSERT_TRUE(std::isfinite(value));
@@ -370,7 +371,7 @@ TEST_F(Fog, WithAllElse_EveryRendererIsFiniteRepeatsAndIsExact) {
             EXPECT_GT(differingFloats(clear, picture), 0U);
             EXPECT_EQ(picture.rgba8, draw(view, inputs).rgba8);
             auto all = inputs;
-            all.settings.light_loop = view::LightLoop::kAllLights;
+            all.settings.light_loop = settings::LightLoop::kAllLights;
             EXPECT_EQ(differingFloats(picture, draw(view, all)), 0U);
         }
     }

@@ -23,8 +23,8 @@ namespace {
 
 #include "normal_codec.spv.h"
 
-using view::NormalEncoding;
-using view::PositionSource;
+using settings::NormalEncoding;
+using settings::PositionSource;
 
 class Gbuffer : public GpuTest {};
 
@@ -111,7 +111,7 @@ AngleError angleError(std::span<const glm::vec3> before, std::span<const glm::ve
     return error;
 }
 
-render::FrameInputs inputsFor(const scene::Scene& scene, view::Renderer renderer) {
+render::FrameInputs inputsFor(const scene::Scene& scene, settings::Renderer renderer) {
     render::FrameInputs inputs;
     inputs.settings.camera = scene.cameras[0].camera;
     inputs.settings.size = {120, 68};
@@ -144,7 +144,7 @@ TEST_F(Gbuffer, Normals_OverTheSphere_TurnByNoMoreThanTheirEncodingAllows) {
                           {NormalEncoding::kOct8, 0.96, 0.35},
                           {NormalEncoding::kXyz16, 0.023, 0.007}}) {
         const auto error = angleError(normals, roundTrip(device(), normals, c.encoding));
-        const auto name = view::kNormalEncodingNames[static_cast<size_t>(c.encoding)];
+        const auto name = settings::kNormalEncodingNames[static_cast<size_t>(c.encoding)];
         std::printf("%s: max %.4f, mean %.4f degrees\n", std::string(name).c_str(), error.max_deg,
                     error.mean_deg);
         EXPECT_LT(error.max_deg, c.max_deg) << name;
@@ -180,16 +180,17 @@ TEST_F(Gbuffer, Spheremap_AwayFromItsPole_IsFine) {
 TEST_F(Gbuffer, StoredDepthAndFp32Position_AnyRenderer_GiveTheSameBits) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
-    for (const auto kind : {view::Renderer::kClusteredDeferred, view::Renderer::kToonFragment,
-                            view::Renderer::kToonCompute}) {
+    for (const auto kind : {settings::Renderer::kClusteredDeferred,
+                            settings::Renderer::kToonFragment, settings::Renderer::kToonCompute}) {
         auto inputs = inputsFor(scene, kind);
         const Picture reference = draw(renderer, inputs);
-        for (const auto stage : {view::LightingStage::kCompute, view::LightingStage::kFragment}) {
+        for (const auto stage :
+             {settings::LightingStage::kCompute, settings::LightingStage::kFragment}) {
             inputs.settings.lighting = stage;
             for (const auto position : {PositionSource::kStoredDepth, PositionSource::kFp32}) {
                 inputs.settings.gbuffer.position = position;
                 EXPECT_EQ(differingFloats(reference, draw(renderer, inputs)), 0U)
-                    << view::kPositionSourceNames[static_cast<size_t>(position)];
+                    << settings::kPositionSourceNames[static_cast<size_t>(position)];
             }
         }
     }
@@ -199,20 +200,22 @@ TEST_F(Gbuffer, EveryLayout_AnyRenderer_StaysNearTheDefault) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (const auto kind : {view::Renderer::kClusteredDeferred, view::Renderer::kToonCompute}) {
+    for (const auto kind :
+         {settings::Renderer::kClusteredDeferred, settings::Renderer::kToonCompute}) {
         auto inputs = inputsFor(scene, kind);
         const Picture reference = draw(view, inputs);
-        std::vector<view::GbufferLayout> layouts;
-        for (size_t n = 0; n < view::kNormalEncodingNames.size(); ++n) {
+        std::vector<settings::GbufferLayout> layouts;
+        for (size_t n = 0; n < settings::kNormalEncodingNames.size(); ++n) {
             layouts.push_back({static_cast<NormalEncoding>(n), PositionSource::kDepth});
         }
-        for (size_t p = 0; p < view::kPositionSourceNames.size(); ++p) {
+        for (size_t p = 0; p < settings::kPositionSourceNames.size(); ++p) {
             layouts.push_back({NormalEncoding::kXyz16, static_cast<PositionSource>(p)});
         }
         for (const auto& layout : layouts) {
             SCOPED_TRACE(
-                std::string(view::kNormalEncodingNames[static_cast<size_t>(layout.normal)]) + ", " +
-                std::string(view::kPositionSourceNames[static_cast<size_t>(layout.position)]));
+                std::string(settings::kNormalEncodingNames[static_cast<size_t>(layout.normal)]) +
+                ", " +
+                std::string(settings::kPositionSourceNames[static_cast<size_t>(layout.position)]));
             inputs.settings.gbuffer = layout;
             const Picture picture = draw(view, inputs);
             // Highlights on gold magnify what turns a normal by a degree.
@@ -232,14 +235,14 @@ TEST_F(Gbuffer, Specular_EveryLayout_IsStoredOrRefused) {
     scene.materials[3].specular_color = {0.5F, 4, 1};
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    auto inputs = inputsFor(scene, view::Renderer::kClusteredDeferred);
+    auto inputs = inputsFor(scene, settings::Renderer::kClusteredDeferred);
     const Picture reference = draw(view, inputs);
     for (const auto normal : {NormalEncoding::kOct16, NormalEncoding::kXyz16}) {
-        for (size_t p = 0; p < view::kPositionSourceNames.size(); ++p) {
-            SCOPED_TRACE(view::kPositionSourceNames[p]);
+        for (size_t p = 0; p < settings::kPositionSourceNames.size(); ++p) {
+            SCOPED_TRACE(settings::kPositionSourceNames[p]);
             inputs.settings.gbuffer = {normal, static_cast<PositionSource>(p)};
             if (inputs.settings.gbuffer ==
-                view::GbufferLayout{NormalEncoding::kXyz16, PositionSource::kFp32}) {
+                settings::GbufferLayout{NormalEncoding::kXyz16, PositionSource::kFp32}) {
                 const auto refused = view.submit(inputs);
                 ASSERT_TRUE(refused.has_error());
                 EXPECT_NE(refused.error().message.find("xyz16"), std::string::npos);
@@ -247,11 +250,11 @@ TEST_F(Gbuffer, Specular_EveryLayout_IsStoredOrRefused) {
             }
             EXPECT_LT(worstDifference(reference, draw(view, inputs)), 2.0);
             for (const auto stage :
-                 {view::LightingStage::kCompute, view::LightingStage::kFragment}) {
+                 {settings::LightingStage::kCompute, settings::LightingStage::kFragment}) {
                 inputs.settings.lighting = stage;
-                inputs.settings.light_loop = view::LightLoop::kLists;
+                inputs.settings.light_loop = settings::LightLoop::kLists;
                 const Picture lists = draw(view, inputs);
-                inputs.settings.light_loop = view::LightLoop::kAllLights;
+                inputs.settings.light_loop = settings::LightLoop::kAllLights;
                 EXPECT_EQ(differingFloats(lists, draw(view, inputs)), 0U);
             }
         }
@@ -263,16 +266,16 @@ TEST_F(Gbuffer, Lists_EveryLayout_EqualAllLightsBitForBit) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    auto inputs = inputsFor(scene, view::Renderer::kClusteredDeferred);
+    auto inputs = inputsFor(scene, settings::Renderer::kClusteredDeferred);
     inputs.settings.lights.radius_m = 0.7F;
     for (const auto position :
          {PositionSource::kStoredDepth, PositionSource::kFp32, PositionSource::kFp16}) {
         inputs.settings.gbuffer = {NormalEncoding::kXyz16, position};
-        inputs.settings.light_loop = view::LightLoop::kLists;
+        inputs.settings.light_loop = settings::LightLoop::kLists;
         const Picture lists = draw(view, inputs);
-        inputs.settings.light_loop = view::LightLoop::kAllLights;
+        inputs.settings.light_loop = settings::LightLoop::kAllLights;
         EXPECT_EQ(differingFloats(lists, draw(view, inputs)), 0U)
-            << view::kPositionSourceNames[static_cast<size_t>(position)];
+            << settings::kPositionSourceNames[static_cast<size_t>(position)];
     }
 }
 
@@ -280,7 +283,7 @@ TEST_F(Gbuffer, Layouts_InTurn_KeepTargetsApart) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    auto inputs = inputsFor(scene, view::Renderer::kClusteredDeferred);
+    auto inputs = inputsFor(scene, settings::Renderer::kClusteredDeferred);
     const Picture first = draw(view, inputs);
     inputs.settings.gbuffer = {NormalEncoding::kXyz16, PositionSource::kFp16};
     (void)draw(view, inputs);

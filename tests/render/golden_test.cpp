@@ -50,10 +50,10 @@ void expectAsCommitted(const Picture& picture, const std::string& name) {
 TEST_F(Golden, EveryRenderer_BuiltinScene_LooksAsCommitted) {
     const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         auto inputs = inputsFor(scene);
-        inputs.settings.renderer = static_cast<view::Renderer>(kind);
-        expectAsCommitted(draw(renderer, inputs), std::string(view::kRendererNames[kind]));
+        inputs.settings.renderer = static_cast<settings::Renderer>(kind);
+        expectAsCommitted(draw(renderer, inputs), std::string(settings::kRendererNames[kind]));
     }
 }
 
@@ -62,34 +62,36 @@ TEST_F(Golden, DebugViews_BuiltinScene_LookAsCommitted) {
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
     for (const auto debug :
-         {view::DebugView::kPosition, view::DebugView::kNormal, view::DebugView::kBaseColor,
-          view::DebugView::kGbuffer, view::DebugView::kListedLights, view::DebugView::kOverdraw,
-          view::DebugView::kLightSpheres, view::DebugView::kClusterWires}) {
+         {settings::DebugView::kPosition, settings::DebugView::kNormal,
+          settings::DebugView::kBaseColor, settings::DebugView::kGbuffer,
+          settings::DebugView::kListedLights, settings::DebugView::kOverdraw,
+          settings::DebugView::kLightSpheres, settings::DebugView::kClusterWires}) {
         auto inputs = inputsFor(scene);
         inputs.settings.debug.view = debug;
         inputs.settings.grid = {.automatic = false, .size = {8, 5, 10}};
-        inputs.settings.light_loop = view::LightLoop::kLists;
-        if (debug == view::DebugView::kLightSpheres) {
+        inputs.settings.light_loop = settings::LightLoop::kLists;
+        if (debug == settings::DebugView::kLightSpheres) {
             inputs.settings.lights.count = 12;
         }
-        if (debug == view::DebugView::kClusterWires) { // frozen, seen from beside and above
+        if (debug == settings::DebugView::kClusterWires) { // frozen, seen from beside and above
             inputs.settings.debug.grid_camera = inputs.settings.camera;
             inputs.settings.camera = scene.cameras[1].camera;
         }
-        expectAsCommitted(drawPixels(view, inputs), "debug_" + std::string(view::nameOf(debug)));
+        expectAsCommitted(drawPixels(view, inputs),
+                          "debug_" + std::string(settings::nameOf(debug)));
     }
 }
 
 TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
-    using Change = void (*)(view::ViewSettings&);
+    using Change = void (*)(settings::ViewSettings&);
     const std::pair<const char*, Change> options[] = {
-        {"blinn_phong", [](auto& s) { s.shading = view::ShadingModel::kBlinnPhong; }},
+        {"blinn_phong", [](auto& s) { s.shading = settings::ShadingModel::kBlinnPhong; }},
         {"bloom",
          [](auto& s) {
-             s.bloom = {view::BloomKind::kMipChain, 0.5F, 0.5F, 0.6F, 0.03F};
+             s.bloom = {settings::BloomKind::kMipChain, 0.5F, 0.5F, 0.6F, 0.03F};
          }},
-        {"fxaa", [](auto& s) { s.antialiasing = view::Antialiasing::kFxaa; }},
-        {"ssaa4", [](auto& s) { s.antialiasing = view::Antialiasing::kSsaa4; }},
+        {"fxaa", [](auto& s) { s.antialiasing = settings::Antialiasing::kFxaa; }},
+        {"ssaa4", [](auto& s) { s.antialiasing = settings::Antialiasing::kSsaa4; }},
         {"fog",
          [](auto& s) {
              s.fog = {.density = 0.06F, .anisotropy = 0.4F, .tile_px = 8};
@@ -112,7 +114,7 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
              s.shadows = {16, 256};
          }},
         {"outline", [](auto& s) {
-             s.renderer = view::Renderer::kToonFragment;
+             s.renderer = settings::Renderer::kToonFragment;
              s.toon_outline.strength = 0.9F;
          }}};
     const auto scene = builtin_scene::makeHall();
@@ -129,15 +131,15 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
 TEST_F(Golden, Transparency_BuiltinScene_LooksAsCommitted) {
     const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
-    for (size_t kind = 0; kind < view::kTransparencyNames.size(); ++kind) {
+    for (size_t kind = 0; kind < settings::kTransparencyNames.size(); ++kind) {
         auto inputs = inputsFor(scene);
         inputs.settings.camera = scene.cameras.back().camera;
         inputs.settings.lights.count = 1000;
         inputs.settings.exposure = 2.5F;
-        inputs.settings.transparency = static_cast<view::Transparency>(kind);
+        inputs.settings.transparency = static_cast<settings::Transparency>(kind);
         inputs.settings.peel_layers = 16;
         expectAsCommitted(draw(renderer, inputs),
-                          "glass_" + std::string(view::kTransparencyNames[kind]));
+                          "glass_" + std::string(settings::kTransparencyNames[kind]));
     }
 }
 
@@ -147,9 +149,9 @@ TEST_F(Golden, AreaLights_BuiltinScene_LookAsCommitted) {
     render::Renderer renderer(device(), scene);
     auto inputs = inputsFor(scene);
     inputs.settings.lights.count = 0;
-    view::PlacedLight strip;
+    settings::PlacedLight strip;
     strip.id = 1;
-    strip.kind = view::LightKind::kArea;
+    strip.kind = settings::LightKind::kArea;
     inputs.settings.exposure = 2;
     strip.position_world = {-9, 2.5, 1.5};
     strip.direction_world = {0.2, -1, -0.6};
@@ -158,7 +160,7 @@ TEST_F(Golden, AreaLights_BuiltinScene_LookAsCommitted) {
     strip.radius_m = 9;
     strip.width_m = 3;
     strip.height_m = 0.3;
-    view::PlacedLight panel = strip;
+    settings::PlacedLight panel = strip;
     panel.id = 2;
     panel.position_world = {-7, 1.6, -3.2};
     panel.direction_world = {0, -0.2, 1};
@@ -166,7 +168,7 @@ TEST_F(Golden, AreaLights_BuiltinScene_LookAsCommitted) {
     panel.width_m = 1.2;
     panel.height_m = 1.8;
     panel.roll_deg = 20;
-    inputs.settings.lights.placed = view::PlacedLights({strip, panel});
+    inputs.settings.lights.placed = settings::PlacedLights({strip, panel});
     expectAsCommitted(draw(renderer, inputs), "area_lights");
 }
 

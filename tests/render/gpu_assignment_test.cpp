@@ -75,15 +75,16 @@ class RandomCase {
     explicit RandomCase(uint32_t seed) : random_(seed) {
         far_m_ = std::pow(10.0, pick(-1, 4));
         const double near_m = far_m_ * std::pow(10.0, pick(-6, 0));
-        view::Camera camera = flip(0.2) ? orthographic(far_m_ * pick(0.01, 1))
-                                        : perspective(flip(0.2) ? pick(1, 170) : pick(30, 90));
+        settings::Camera camera = flip(0.2) ? orthographic(far_m_ * pick(0.01, 1))
+                                            : perspective(flip(0.2) ? pick(1, 170) : pick(30, 90));
         if (flip(0.3)) {
             camera.lens_shift = {pick(-1.5, 1.5), pick(-1.5, 1.5)};
         }
-        const view::GridSize size{whole(1, flip(0.1) ? 128 : 24), whole(1, flip(0.1) ? 128 : 16),
-                                  whole(1, flip(0.1) ? 256 : 32)};
-        const view::Size image{whole(1, 2000), whole(1, 1200)};
-        const auto law = static_cast<view::GridLaw>(whole(0, 2));
+        const settings::GridSize size{whole(1, flip(0.1) ? 128 : 24),
+                                      whole(1, flip(0.1) ? 128 : 16),
+                                      whole(1, flip(0.1) ? 256 : 32)};
+        const settings::Size image{whole(1, 2000), whole(1, 1200)};
+        const auto law = static_cast<settings::GridLaw>(whole(0, 2));
         grid_ = cluster::makeClusterGrid({size, law}, image, camera, near_m, far_m_);
         const uint32_t count = flip(0.1) ? whole(0, 3) : whole(1, 150);
         for (uint32_t i = 0; i < count; ++i) {
@@ -105,8 +106,9 @@ class RandomCase {
 
     glm::dvec3 position() {
         const double depth = flip(0.05) ? 0 : far_m_ * (1.5 * std::pow(pick(0, 1), 2) - 0.25);
-        const double scale =
-            grid_.projection == view::Projection::kPerspective ? std::abs(depth) + 0.1 * far_m_ : 1;
+        const double scale = grid_.projection == settings::Projection::kPerspective
+                                 ? std::abs(depth) + 0.1 * far_m_
+                                 : 1;
         return {flip(0.05) ? 0 : (grid_.middle_x + pick(-1.5, 1.5) * grid_.half_x) * scale,
                 flip(0.05) ? 0 : (grid_.middle_y + pick(-1.5, 1.5) * grid_.half_y) * scale, -depth};
     }
@@ -166,8 +168,8 @@ TEST_F(GpuAssignment, RandomAndAdversarialCases_GiveTheHostsLists) {
 TEST_F(GpuAssignment, RandomLights_MeetTheClustersOfTheOracle) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(-1, 1);
-    for (const auto law :
-         {view::GridLaw::kLogarithmic, view::GridLaw::kLinear, view::GridLaw::kHyperbolic}) {
+    for (const auto law : {settings::GridLaw::kLogarithmic, settings::GridLaw::kLinear,
+                           settings::GridLaw::kHyperbolic}) {
         const ClusterGrid grid =
             cluster::makeClusterGrid({{9, 7, 12}, law}, {640, 360}, perspective(70), 0.1, 40);
         FrameLights lights;
@@ -243,8 +245,8 @@ TEST_F(GpuAssignment, MoreTasksThanMayBe_AreRefused) {
 // More blocks than the scan's workgroup has invocations need the largest grid, which only a GPU is
 // quick at.
 TEST_F(GpuAssignment, LargestGrids_GiveTheHostsLists) {
-    for (const view::GridSize size :
-         {view::GridSize{128, 128, onGpu() ? 256U : 6U}, view::GridSize{3, 3, 256}}) {
+    for (const settings::GridSize size :
+         {settings::GridSize{128, 128, onGpu() ? 256U : 6U}, settings::GridSize{3, 3, 256}}) {
         const ClusterGrid grid =
             cluster::makeClusterGrid({size}, {1920, 1080}, perspective(60), 0.1, 50);
         FrameLights lights;

@@ -16,7 +16,7 @@ class GpuAssignmentFrames : public GpuTest {
         render::FrameInputs inputs;
         inputs.settings.camera = scene.cameras[0].camera;
         inputs.settings.size = {120, 68};
-        inputs.settings.light_loop = view::LightLoop::kLists;
+        inputs.settings.light_loop = settings::LightLoop::kLists;
         inputs.settings.grid = {.automatic = false, .size = {16, 9, 24}, .law = {}};
         inputs.settings.lights.count = 400;
         inputs.time_s = 3.25;
@@ -40,8 +40,9 @@ TEST_F(GpuAssignmentFrames, EveryRenderer_DrawsTheSamePicture) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
-    for (const auto kind : {view::Renderer::kForwardPlus, view::Renderer::kClusteredDeferred,
-                            view::Renderer::kToonCompute}) {
+    for (const auto kind :
+         {settings::Renderer::kForwardPlus, settings::Renderer::kClusteredDeferred,
+          settings::Renderer::kToonCompute}) {
         auto inputs = inputsFor(scene, render::AssignmentPlace::kHost);
         inputs.settings.renderer = kind;
         const Picture host = draw(view, inputs);

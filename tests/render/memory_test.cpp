@@ -34,25 +34,28 @@ const std::vector<Named> kFrames = {
          f.settings.size = {1333, 377};
      }},
     {"many lights", [](FrameInputs& f) { f.settings.lights.count = 2'000; }},
-    {"forward", [](FrameInputs& f) { f.settings.renderer = view::Renderer::kForwardPlus; }},
+    {"forward", [](FrameInputs& f) { f.settings.renderer = settings::Renderer::kForwardPlus; }},
     {"forward in compute",
      [](FrameInputs& f) {
-         f.settings.renderer = view::Renderer::kForwardPlus;
-         f.settings.lighting = view::LightingStage::kCompute;
+         f.settings.renderer = settings::Renderer::kForwardPlus;
+         f.settings.lighting = settings::LightingStage::kCompute;
      }},
     {"wide gbuffer",
-     [](FrameInputs& f) { f.settings.gbuffer.position = view::PositionSource::kFp32; }},
-    {"bloom by mips", [](FrameInputs& f) { f.settings.bloom.kind = view::BloomKind::kMipChain; }},
+     [](FrameInputs& f) { f.settings.gbuffer.position = settings::PositionSource::kFp32; }},
+    {"bloom by mips",
+     [](FrameInputs& f) { f.settings.bloom.kind = settings::BloomKind::kMipChain; }},
     {"separable bloom",
-     [](FrameInputs& f) { f.settings.bloom.kind = view::BloomKind::kSeparable; }},
-    {"four samples", [](FrameInputs& f) { f.settings.antialiasing = view::Antialiasing::kSsaa4; }},
-    {"fxaa", [](FrameInputs& f) { f.settings.antialiasing = view::Antialiasing::kFxaa; }},
+     [](FrameInputs& f) { f.settings.bloom.kind = settings::BloomKind::kSeparable; }},
+    {"four samples",
+     [](FrameInputs& f) { f.settings.antialiasing = settings::Antialiasing::kSsaa4; }},
+    {"fxaa", [](FrameInputs& f) { f.settings.antialiasing = settings::Antialiasing::kFxaa; }},
     {"metered exposure",
-     [](FrameInputs& f) { f.settings.exposure_mode = view::ExposureMode::kFrame; }},
+     [](FrameInputs& f) { f.settings.exposure_mode = settings::ExposureMode::kFrame; }},
     {"fog", [](FrameInputs& f) { f.settings.fog.density = 0.05F; }},
     {"shadows", [](FrameInputs& f) { f.settings.shadows = {.light_count = 4, .size_px = 64}; }},
-    {"weighted", [](FrameInputs& f) { f.settings.transparency = view::Transparency::kWeighted; }},
-    {"peeled", [](FrameInputs& f) { f.settings.transparency = view::Transparency::kPeeled; }},
+    {"weighted",
+     [](FrameInputs& f) { f.settings.transparency = settings::Transparency::kWeighted; }},
+    {"peeled", [](FrameInputs& f) { f.settings.transparency = settings::Transparency::kPeeled; }},
     {"lists on the device",
      [](FrameInputs& f) { f.assignment = render::AssignmentPlace::kDevice; }},
     {"raster in compute", [](FrameInputs& f) { f.geometry = render::GeometryPath::kVisibility; }},
@@ -134,7 +137,7 @@ TEST_F(MemoryNeed, PictureBeyondTheSession_IsRefusedWithFiguresAndAllocatesNothi
     FrameInputs large = inputs;
     large.settings.size = {4096, 4096};
     large.settings.shadows = {.light_count = 32, .size_px = 512};
-    large.settings.bloom.kind = view::BloomKind::kMipChain;
+    large.settings.bloom.kind = settings::BloomKind::kMipChain;
     const auto refused = view.submit(large);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);

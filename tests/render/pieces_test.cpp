@@ -15,7 +15,7 @@ namespace froxel::test {
 
 namespace {
 
-using view::Renderer;
+using settings::Renderer;
 using Change = std::function<void(render::FrameInputs&)>;
 
 class Pieces : public SharedGpuTest {
@@ -101,10 +101,10 @@ TEST_F(Pieces, Renderers_DrawTheSameBits) {
     for (const Renderer renderer :
          {Renderer::kNaive, Renderer::kForwardPlus, Renderer::kClusteredDeferred,
           Renderer::kToonFragment, Renderer::kToonCompute}) {
-        for (const auto stage : {view::LightingStage::kAuto, view::LightingStage::kFragment,
-                                 view::LightingStage::kCompute}) {
-            SCOPED_TRACE(std::string(view::kRendererNames[static_cast<size_t>(renderer)]) + ", " +
-                         std::to_string(static_cast<int>(stage)));
+        for (const auto stage : {settings::LightingStage::kAuto, settings::LightingStage::kFragment,
+                                 settings::LightingStage::kCompute}) {
+            SCOPED_TRACE(std::string(settings::kRendererNames[static_cast<size_t>(renderer)]) +
+                         ", " + std::to_string(static_cast<int>(stage)));
             auto asked = inputs();
             asked.settings.renderer = renderer;
             asked.settings.lighting = stage;
@@ -115,15 +115,15 @@ TEST_F(Pieces, Renderers_DrawTheSameBits) {
 
 TEST_F(Pieces, HostsPartInStages_DrawsTheSameBits) {
     const std::pair<const char*, Change> cases[] = {
-        {"lists", [](auto& in) { in.settings.light_loop = view::LightLoop::kLists; }},
-        {"all lights", [](auto& in) { in.settings.light_loop = view::LightLoop::kAllLights; }},
+        {"lists", [](auto& in) { in.settings.light_loop = settings::LightLoop::kLists; }},
+        {"all lights", [](auto& in) { in.settings.light_loop = settings::LightLoop::kAllLights; }},
         {"capped lists", [](auto& in) { in.settings.list_cap = 4; }},
         {"halves",
          [](auto& in) {
              in.settings.renderer = Renderer::kClusteredDeferred;
-             in.settings.gbuffer.position = view::PositionSource::kFp16;
+             in.settings.gbuffer.position = settings::PositionSource::kFp16;
          }},
-        {"wires", [](auto& in) { in.settings.debug.view = view::DebugView::kClusterWires; }},
+        {"wires", [](auto& in) { in.settings.debug.view = settings::DebugView::kClusterWires; }},
     };
     for (const auto& [name, change] : cases) {
         SCOPED_TRACE(name);
@@ -162,10 +162,11 @@ TEST_F(Pieces, HalfBuilt_OtherInputs_AreBuiltAnew) {
 }
 
 TEST_F(Pieces, ListsOfAnyGrid_DrawTheSameBits) {
-    for (const view::GridSize grid : {view::GridSize{1, 1, 64}, {16, 9, 24}, {128, 128, 2}}) {
+    for (const settings::GridSize grid :
+         {settings::GridSize{1, 1, 64}, {16, 9, 24}, {128, 128, 2}}) {
         auto asked = inputs();
         asked.settings.grid = {.automatic = false, .size = grid};
-        asked.settings.light_loop = view::LightLoop::kLists;
+        asked.settings.light_loop = settings::LightLoop::kLists;
         expectSame(asked);
     }
 }
@@ -180,15 +181,16 @@ TEST_F(Pieces, Effects_DrawTheSameBits) {
              in.settings.lights.radius_m = 6;
          }},
         {"bloom, one pass",
-         [](auto& in) { in.settings.bloom.kind = view::BloomKind::kSinglePass; }},
+         [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kSinglePass; }},
         {"bloom, separable",
-         [](auto& in) { in.settings.bloom.kind = view::BloomKind::kSeparable; }},
-        {"bloom, a trous", [](auto& in) { in.settings.bloom.kind = view::BloomKind::kATrous; }},
-        {"bloom, mip chain", [](auto& in) { in.settings.bloom.kind = view::BloomKind::kMipChain; }},
+         [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kSeparable; }},
+        {"bloom, a trous", [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kATrous; }},
+        {"bloom, mip chain",
+         [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kMipChain; }},
         {"metered exposure",
-         [](auto& in) { in.settings.exposure_mode = view::ExposureMode::kFrame; }},
-        {"fxaa", [](auto& in) { in.settings.antialiasing = view::Antialiasing::kFxaa; }},
-        {"ssaa4", [](auto& in) { in.settings.antialiasing = view::Antialiasing::kSsaa4; }},
+         [](auto& in) { in.settings.exposure_mode = settings::ExposureMode::kFrame; }},
+        {"fxaa", [](auto& in) { in.settings.antialiasing = settings::Antialiasing::kFxaa; }},
+        {"ssaa4", [](auto& in) { in.settings.antialiasing = settings::Antialiasing::kSsaa4; }},
         {"pairs", [](auto& in) { in.settings.count_pairs = true; }},
     };
     for (const auto& [name, change] : cases) {
@@ -205,8 +207,8 @@ TEST_F(Pieces, BlendedSurfaces_DrawTheSameBits) {
     while (cameras.at(glass).name != "Glass") {
         ++glass;
     }
-    for (const auto kind : {view::Transparency::kSorted, view::Transparency::kWeighted,
-                            view::Transparency::kPeeled}) {
+    for (const auto kind : {settings::Transparency::kSorted, settings::Transparency::kWeighted,
+                            settings::Transparency::kPeeled}) {
         auto asked = inputs(glass);
         asked.settings.transparency = kind;
         asked.settings.peel_layers = 3;
@@ -215,9 +217,10 @@ TEST_F(Pieces, BlendedSurfaces_DrawTheSameBits) {
 }
 
 TEST_F(Pieces, DebugViews_DrawTheSameBits) {
-    for (const auto view : {view::DebugView::kDepth, view::DebugView::kEvaluatedLights,
-                            view::DebugView::kOverdraw, view::DebugView::kGbuffer,
-                            view::DebugView::kClusterWires, view::DebugView::kLightSpheres}) {
+    for (const auto view :
+         {settings::DebugView::kDepth, settings::DebugView::kEvaluatedLights,
+          settings::DebugView::kOverdraw, settings::DebugView::kGbuffer,
+          settings::DebugView::kClusterWires, settings::DebugView::kLightSpheres}) {
         auto asked = inputs();
         asked.settings.debug.view = view;
         expectSame(asked, false);
@@ -229,7 +232,7 @@ TEST_F(Pieces, OfTwoViewsInTurn_DrawTheSameBits) {
     auto first = inputs(0);
     auto second = inputs(1);
     second.settings.renderer = Renderer::kForwardPlus;
-    second.settings.lighting = view::LightingStage::kCompute; // views share what culling writes
+    second.settings.lighting = settings::LightingStage::kCompute; // views share what culling writes
     const Picture first_whole = drawPixels(alone, first);
     const Picture second_whole = drawPixels(alone, second);
 
@@ -297,7 +300,7 @@ TEST_F(Pieces, FramesOverTheLimit_AreRefusedBeforeAnythingIsAllocated) {
 // A frame whose lists the device makes is cut only when these are known to be long.
 TEST_F(Pieces, ListsFromTheDevice_AreDrawnAgainInPieces_ToTheSameBits) {
     auto asked = inputs();
-    asked.settings.light_loop = view::LightLoop::kLists;
+    asked.settings.light_loop = settings::LightLoop::kLists;
     asked.assignment = render::AssignmentPlace::kDevice;
     asked.settings.lights.radius_m = 30;
     render::ViewRenderer whole(renderer());
@@ -339,8 +342,8 @@ TEST_F(Pieces, ListsThatHoldNearlyAllLights_CountAsWhatTheyHold) {
         asked.settings.lights.count = 1'000'000;
         asked.settings.lights.radius_m = 0.05F;
         asked.settings.grid = {.automatic = false, .size = {1, 1, 256}};
-        asked.settings.light_loop = view::LightLoop::kLists;
-        asked.settings.lighting = view::LightingStage::kFragment;
+        asked.settings.light_loop = settings::LightLoop::kLists;
+        asked.settings.lighting = settings::LightingStage::kFragment;
         asked.settings.size = {1280, 720};
         auto begun = view.begin(asked);
         for (int again = 0; begun && again < 3; ++again) { // lists that outgrow their buffers first
@@ -363,9 +366,9 @@ TEST_F(Pieces, ListsLongerThanALoopMayBe_AreRefused_OthersDrawnAgainAndAgain) {
     render::Renderer priced(device(), hall());
     priced.resources().unit_costs = render::kGpuUnitCosts;
     auto asked = inputs();
-    asked.settings.light_loop = view::LightLoop::kLists;
+    asked.settings.light_loop = settings::LightLoop::kLists;
     asked.assignment = render::AssignmentPlace::kDevice;
-    asked.settings.lighting = view::LightingStage::kFragment;
+    asked.settings.lighting = settings::LightingStage::kFragment;
     asked.settings.lights.radius_m = 5;
     render::ViewRenderer whole(priced);
     const Picture before = drawPixels(whole, asked);

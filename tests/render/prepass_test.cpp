@@ -14,7 +14,7 @@ namespace froxel::test {
 
 namespace {
 
-using view::Renderer;
+using settings::Renderer;
 
 class Prepass : public SharedGpuTest {};
 
@@ -47,7 +47,7 @@ void expectSamePictures(gpu::Device& device, const scene::Scene& scene) {
         EXPECT_FALSE(has(at_once, "depth_prepass"));
         EXPECT_TRUE(has(after_depth, "depth_prepass"));
         EXPECT_EQ(differingFloats(at_once, after_depth), 0U)
-            << view::kRendererNames[static_cast<size_t>(kind)];
+            << settings::kRendererNames[static_cast<size_t>(kind)];
     }
 }
 

@@ -17,12 +17,12 @@ namespace froxel::test {
 namespace {
 
 using reference::Filtering;
-using view::Renderer;
-using view::ShadingModel;
+using settings::Renderer;
+using settings::ShadingModel;
 
 class Reference : public GpuTest {};
 
-render::FrameInputs inputsFor(const view::Camera& camera, Renderer renderer) {
+render::FrameInputs inputsFor(const settings::Camera& camera, Renderer renderer) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = {160, 90};
@@ -126,7 +126,7 @@ scene::Scene makePlainRoom() {
 }
 
 std::string nameOf(Renderer renderer) {
-    return std::string(view::kRendererNames[static_cast<size_t>(renderer)]);
+    return std::string(settings::kRendererNames[static_cast<size_t>(renderer)]);
 }
 
 } // namespace
@@ -194,7 +194,7 @@ TEST_F(Reference, RoomOfReflectances_Forward_IsWithinArithmetic) {
     for (const auto& camera : room.cameras) {
         for (const auto model : {ShadingModel::kBlinnPhong, ShadingModel::kPbr}) {
             for (const auto stage :
-                 {view::LightingStage::kFragment, view::LightingStage::kCompute}) {
+                 {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
                 auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
                 inputs.settings.shading = model;
                 inputs.settings.lighting = stage;
@@ -238,7 +238,8 @@ TEST_F(Reference, RoomOfTexturedReflectances_IsWithinArithmetic) {
     glossy.roughness = 0.5F;
     glossy.metallic = 0;
     Compared compared(device(), room);
-    for (const auto stage : {view::LightingStage::kFragment, view::LightingStage::kCompute}) {
+    for (const auto stage :
+         {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
         auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
         inputs.settings.lighting = stage;
         const Errors errors = compared.against(inputs);
@@ -254,7 +255,7 @@ TEST_F(Reference, PlainRoom_OtherCameras_AreWithinArithmetic) {
     inputs.settings.shading = ShadingModel::kLambert;
     inputs.settings.camera.lens_shift = {0.3, -0.4};
     EXPECT_LT(compared.against(inputs).max_relative, 1e-4);
-    inputs.settings.camera.projection = view::Projection::kOrthographic;
+    inputs.settings.camera.projection = settings::Projection::kOrthographic;
     inputs.settings.camera.half_height_m = 3;
     EXPECT_LT(compared.against(inputs).max_relative, 1e-4);
 }
@@ -288,7 +289,7 @@ TEST_F(Reference, NormalMapSeenFromBehind_IsReversed) {
     room.instances.erase(room.instances.begin() + 3, room.instances.end());
     room.instances[0].world_from_object[3].y = -1;
     Compared compared(device(), room);
-    const auto behind = view::lookAt({-2, 1, -1.5}, {-2, 1, 1}, {0, 1, 0});
+    const auto behind = settings::lookAt({-2, 1, -1.5}, {-2, 1, 1}, {0, 1, 0});
     auto inputs = inputsFor(behind, Renderer::kForwardPlus);
     EXPECT_LT(compared.against(inputs).rmse, 2e-3);
 }
@@ -358,7 +359,7 @@ TEST_F(Reference, Sponza_IsWithinTheTextureFilter) {
     if (!sponza) {
         GTEST_SKIP() << "Sponza is not here: set FROXEL_SPONZA to its .gltf file";
     }
-    auto inputs = inputsFor(view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), Renderer::kNaive);
+    auto inputs = inputsFor(settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), Renderer::kNaive);
     inputs.settings.lights.box = BoundsD3{{-10, 0, -5}, {10, 8, 5}};
     expectFigures(device(), *sponza, inputs, 0.016, 0.13);
 }

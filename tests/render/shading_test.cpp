@@ -1,9 +1,9 @@
 // Shading models against their formulas, and the loops' variants against each other, bit for bit.
+#include "settings/camera.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"
 #include "support/test_scenes.h"
-#include "view/camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@ namespace froxel::test {
 
 namespace {
 
-using view::LightingStage;
-using view::LightLoop;
-using view::Renderer;
-using view::ShadingModel;
+using settings::LightingStage;
+using settings::LightLoop;
+using settings::Renderer;
+using settings::ShadingModel;
 
 class Shading : public GpuTest {};
 
@@ -47,7 +47,7 @@ void addPoint(scene::Scene& scene, const glm::dvec3& position, float range_m) {
     scene.lights.push_back(light);
 }
 
-render::FrameInputs inputsFor(const view::Camera& camera, Renderer renderer) {
+render::FrameInputs inputsFor(const settings::Camera& camera, Renderer renderer) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = {96, 54};
@@ -74,7 +74,8 @@ double irradianceOnFloor(const scene::Scene& scene, const glm::dvec3& point) {
 }
 
 // Where the ray through a pixel's centre meets the floor.
-glm::dvec3 floorAt(const view::Camera& camera, const view::Size& size, uint32_t x, uint32_t y) {
+glm::dvec3
+floorAt(const settings::Camera& camera, const settings::Size& size, uint32_t x, uint32_t y) {
     const double half = std::tan(camera.yfov_rad * 0.5);
     const double aspect = static_cast<double>(size.width_px) / size.height_px;
     const glm::dvec3 ray(((x + 0.5) / size.width_px * 2 - 1) * half * aspect,
@@ -84,7 +85,7 @@ glm::dvec3 floorAt(const view::Camera& camera, const view::Size& size, uint32_t 
 }
 
 std::string nameOf(Renderer renderer) {
-    return std::string(view::kRendererNames[static_cast<size_t>(renderer)]);
+    return std::string(settings::kRendererNames[static_cast<size_t>(renderer)]);
 }
 
 } // namespace
@@ -95,7 +96,7 @@ TEST_F(Shading, LambertOnAFloor_AnyRenderer_IsAlbedoOverPiTimesIrradiance) {
     addPoint(scene, {1.5, 0.4, -1}, 2.5F);
     addPoint(scene, {-2, 2.0, 1}, 0);
     addPoint(scene, {0.5, -1.0, 0}, 5); // below the floor
-    const auto camera = view::lookAt({0.5, 4, 5}, {0, 0, 0}, {0, 1, 0});
+    const auto camera = settings::lookAt({0.5, 4, 5}, {0, 0, 0}, {0, 1, 0});
     render::Renderer renderer(device(), scene);
     for (const auto kind :
          {Renderer::kNaive, Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
@@ -142,8 +143,8 @@ scene::Scene makeScaled(double scale) {
     made.point(glm::dvec3(0, 0.5, 0.3) * scale, 1.5F * size, candela);
     made.point(glm::dvec3(0.1, 0.007, 0.5) * scale, 0.5F * size, 0.01F * candela);
     made.point(glm::dvec3(-0.4, 0.609, 0) * scale, 0, 0.01F * candela);
-    made.scene.cameras = {{"", view::lookAt(glm::dvec3(0.3, 0.9, 1.6) * scale,
-                                            glm::dvec3(0, 0.2, 0) * scale, {0, 1, 0})}};
+    made.scene.cameras = {{"", settings::lookAt(glm::dvec3(0.3, 0.9, 1.6) * scale,
+                                                glm::dvec3(0, 0.2, 0) * scale, {0, 1, 0})}};
     made.scene.cameras[0].camera.near_m = 0.01 * scale;
     return made.scene;
 }
@@ -275,7 +276,7 @@ TEST_F(Shading, MoreLightsThanALoopHasIterations_AnyLoop_AddsThemAll) {
         openDevice(options);
         render::Renderer renderer(device(), scene);
         for (const auto kind : {Renderer::kNaive, Renderer::kForwardPlus}) {
-            auto inputs = inputsFor(view::lookAt({0, 4, 1}, {0, 0, 0}, {0, 1, 0}), kind);
+            auto inputs = inputsFor(settings::lookAt({0, 4, 1}, {0, 0, 0}, {0, 1, 0}), kind);
             inputs.settings.size = {16, 16};
             inputs.settings.shading = ShadingModel::kLambert;
             inputs.settings.lights.count = 70'000;
@@ -316,7 +317,8 @@ TEST_F(Shading, CountPairs_ListsOrAllLights_AgreeOnWhatContributes) {
 TEST_F(Shading, CountPairs_NoLights_CountsNone) {
     const auto scene = makeFloor();
     render::Renderer renderer(device(), scene);
-    auto inputs = inputsFor(view::lookAt({0, 4, 1}, {0, 0, 0}, {0, 1, 0}), Renderer::kForwardPlus);
+    auto inputs =
+        inputsFor(settings::lookAt({0, 4, 1}, {0, 0, 0}, {0, 1, 0}), Renderer::kForwardPlus);
     inputs.settings.lights.count = 0;
     inputs.settings.count_pairs = true;
     const PairStats pairs = draw(renderer, inputs).stats.pairs;

@@ -23,16 +23,16 @@ namespace froxel::test {
 namespace {
 
 using glm::dvec3;
-using view::Renderer;
+using settings::Renderer;
 
 class Shadows : public SharedGpuTest {};
 
 render::FrameInputs
-inputsFrom(const dvec3& eye, const dvec3& target, const view::Shadows& shadows) {
+inputsFrom(const dvec3& eye, const dvec3& target, const settings::Shadows& shadows) {
     auto inputs = hardInputs();
     inputs.settings.size = {96, 54};
     inputs.settings.renderer = Renderer::kForwardPlus;
-    inputs.settings.camera = view::lookAt(eye, target, {0, 1, 0});
+    inputs.settings.camera = settings::lookAt(eye, target, {0, 1, 0});
     inputs.settings.camera.yfov_rad = glm::radians(60.0);
     inputs.settings.shadows = shadows;
     return inputs;
@@ -49,7 +49,7 @@ Picture drawn(const scene::Scene& scene, const render::FrameInputs& inputs, gpu:
 }
 
 // The picture's luminance at a point of the world.
-float lightAt(const Picture& picture, const view::ViewSettings& settings, const dvec3& world) {
+float lightAt(const Picture& picture, const settings::ViewSettings& settings, const dvec3& world) {
     const auto& camera = settings.camera;
     const dvec3 seen = glm::transpose(camera.world_from_view) * (world - camera.eye_world);
     const double half = std::tan(camera.yfov_rad * 0.5) * -seen.z;
@@ -198,7 +198,8 @@ TEST_F(Shadows, ListsStagesAndLoops_AreExact) {
     render::Renderer renderer(device(), room);
     render::ViewRenderer view(renderer);
     for (const auto& camera : room.cameras) {
-        for (const auto shading : {view::ShadingModel::kPbr, view::ShadingModel::kLambert}) {
+        for (const auto shading :
+             {settings::ShadingModel::kPbr, settings::ShadingModel::kLambert}) {
             auto inputs = inputsFrom({0, 0, 0}, {0, 0, -1}, {20, 96});
             inputs.settings.camera = camera.camera;
             inputs.settings.shading = shading;
@@ -206,8 +207,8 @@ TEST_F(Shadows, ListsStagesAndLoops_AreExact) {
             inputs.settings.lights.radius_m = 3;
             inputs.time_s = 2;
             (void)expectExact(view, inputs);
-            for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
-                SCOPED_TRACE(view::kRendererNames[kind]);
+            for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
+                SCOPED_TRACE(settings::kRendererNames[kind]);
                 inputs.settings.renderer = static_cast<Renderer>(kind);
                 const Picture usual = draw(view, inputs);
                 EXPECT_EQ(usual.stats.shadows.light_count, 20U);
@@ -221,7 +222,7 @@ TEST_F(Shadows, ListsStagesAndLoops_AreExact) {
                 }
                 if (!render::isForward(inputs.settings.renderer)) {
                     auto fragment = inputs;
-                    fragment.settings.lighting = view::LightingStage::kFragment;
+                    fragment.settings.lighting = settings::LightingStage::kFragment;
                     EXPECT_EQ(differingFloats(usual, draw(view, fragment)), 0U);
                 }
             }

@@ -36,7 +36,7 @@ void writeNoTimestamps(const gpu::Device& device) {
 
 class Times : public GpuTest {};
 
-render::FrameInputs inputsFor(const scene::Scene& scene, const view::Size& size) {
+render::FrameInputs inputsFor(const scene::Scene& scene, const settings::Size& size) {
     render::FrameInputs inputs;
     inputs.settings.camera = scene.cameras[0].camera;
     inputs.settings.size = size;
@@ -81,7 +81,7 @@ TEST_F(Times, LightingInCompute_HasTheTimeOfItsLights) {
     auto inputs = inputsFor(scene, {160, 90});
     inputs.settings.lights.count = 2000;
     inputs.settings.lights.radius_m = 1000;
-    inputs.settings.light_loop = view::LightLoop::kAllLights; // most of the frame
+    inputs.settings.light_loop = settings::LightLoop::kAllLights; // most of the frame
     render::ViewRenderer view(renderer);
     (void)drawPixels(view, inputs); // compiles
     const FrameStats stats = drawPixels(view, inputs).stats;

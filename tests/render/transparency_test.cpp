@@ -12,15 +12,15 @@ namespace froxel::test {
 
 namespace {
 
+using settings::Renderer;
+using settings::Transparency;
 using ::testing::Contains;
 using ::testing::Key;
 using ::testing::Not;
-using view::Renderer;
-using view::Transparency;
 
 class TransparencyTest : public SharedGpuTest {};
 
-constexpr view::Size kSize{96, 54};
+constexpr settings::Size kSize{96, 54};
 
 render::FrameInputs inputsFor(Transparency transparency, uint32_t layers = 16) {
     render::FrameInputs inputs;
@@ -99,7 +99,8 @@ struct Composed {
 };
 
 // From far to near, in double.
-Composed composed(const Crossing& crossing, const view::Camera& camera, uint32_t x, uint32_t y) {
+Composed
+composed(const Crossing& crossing, const settings::Camera& camera, uint32_t x, uint32_t y) {
     const double half_y = std::tan(camera.yfov_rad / 2);
     const glm::dvec3 ray(((x + 0.5) / kSize.width_px * 2 - 1) * half_y * kSize.width_px /
                              kSize.height_px,
@@ -130,7 +131,7 @@ struct Errors {
 };
 
 // At pixels whose layers are further apart than depth's rounding and the snapping of corners.
-Errors errorsOf(const Picture& picture, const Crossing& crossing, const view::Camera& camera) {
+Errors errorsOf(const Picture& picture, const Crossing& crossing, const settings::Camera& camera) {
     Errors errors;
     for (uint32_t y = 0; y < kSize.height_px; ++y) {
         for (uint32_t x = 0; x < kSize.width_px; ++x) {
@@ -173,15 +174,16 @@ TEST_F(TransparencyTest, Peeled_CrossingPanes_AreAsSortedInDouble) {
 TEST_F(TransparencyTest, Peeled_OverEveryRenderer_IsTheSameLayers) {
     const auto crossing = crossingPanes(6);
     render::Renderer renderer(device(), crossing.scene);
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
-        for (const auto stage : {view::LightingStage::kFragment, view::LightingStage::kCompute}) {
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
+        for (const auto stage :
+             {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
             auto inputs = inputsFor(Transparency::kPeeled);
             inputs.settings.renderer = static_cast<Renderer>(kind);
             inputs.settings.lighting = stage;
             const Picture picture = draw(renderer, inputs);
             const bool toon = inputs.settings.renderer == Renderer::kToonCompute; // ramps the wall
             EXPECT_LT(errorsOf(picture, crossing, inputs.settings.camera).rmse, toon ? 0.2 : 0.003)
-                << view::kRendererNames[kind];
+                << settings::kRendererNames[kind];
         }
     }
 }
@@ -228,7 +230,7 @@ TEST_F(TransparencyTest, OneLayer_IsTheSameInEveryWay) {
     auto scene = makeRoom();
     scene.instances.erase(scene.instances.begin() + 4); // the second pane
     render::Renderer renderer(device(), scene);
-    for (size_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         auto inputs = inputsFor(Transparency::kSorted);
         inputs.settings.camera = scene.cameras[0].camera;
         inputs.settings.renderer = static_cast<Renderer>(kind);
@@ -250,7 +252,7 @@ TEST_F(TransparencyTest, Lists_InEveryWay_AreAllLights) {
     for (const auto transparency : {Transparency::kWeighted, Transparency::kPeeled}) {
         auto inputs = inputsFor(transparency);
         inputs.settings.camera = scene.cameras[1].camera;
-        inputs.settings.light_loop = view::LightLoop::kLists;
+        inputs.settings.light_loop = settings::LightLoop::kLists;
         const Picture lists = draw(renderer, inputs);
         inputs.settings.renderer = Renderer::kNaive;
         EXPECT_EQ(differingFloats(lists, draw(renderer, inputs)), 0U);
@@ -301,7 +303,8 @@ TEST_F(TransparencyTest, WhatAFrameDoesNotBlend_HasNeitherPassNorMemory) {
     EXPECT_THAT(memory(), Contains(Key("blend weights")));
     EXPECT_THAT(memory(), Not(Contains(Key("peeled layer keys"))));
     inputs.settings.transparency = Transparency::kPeeled;
-    inputs.settings.camera = view::lookAt({0, 1, 9}, {0, 1, 12}, {0, 1, 0}); // away from the panes
+    inputs.settings.camera =
+        settings::lookAt({0, 1, 9}, {0, 1, 12}, {0, 1, 0}); // away from the panes
     for (int i = 0; i < 3; ++i) {
         const Picture none = draw(view, inputs);
         EXPECT_FALSE(hasPass(none, "peel") || hasPass(none, "blend_resolve"));
@@ -318,9 +321,9 @@ TEST_F(TransparencyTest, WithOtherPasses_OneLayerIsAsSorted) {
     auto inputs = inputsFor(Transparency::kSorted);
     inputs.settings.camera = scene.cameras[0].camera;
     inputs.settings.renderer = Renderer::kClusteredDeferred;
-    inputs.settings.antialiasing = view::Antialiasing::kSsaa4;
-    inputs.settings.bloom.kind = view::BloomKind::kMipChain;
-    inputs.settings.debug.view = view::DebugView::kClusterWires;
+    inputs.settings.antialiasing = settings::Antialiasing::kSsaa4;
+    inputs.settings.bloom.kind = settings::BloomKind::kMipChain;
+    inputs.settings.debug.view = settings::DebugView::kClusterWires;
     const Picture sorted = draw(renderer, inputs);
     inputs.settings.transparency = Transparency::kPeeled;
     EXPECT_EQ(differingFloats(sorted, draw(renderer, inputs)), 0U);

@@ -15,10 +15,10 @@ namespace {
 
 using render::FrameInputs;
 using render::GenericParts;
+using settings::Renderer;
 using ::testing::Contains;
 using ::testing::Key;
 using ::testing::Not;
-using view::Renderer;
 
 class Variants : public GpuTest {
   protected:
@@ -36,7 +36,7 @@ FrameInputs inputsFor(const scene::Scene& scene, Renderer renderer, uint32_t lig
     inputs.settings.camera = scene.cameras[0].camera;
     inputs.settings.size = {120, 68};
     inputs.settings.renderer = renderer;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     inputs.settings.lights.count = lights;
     inputs.time_s = 1.5;
     return inputs;
@@ -106,7 +106,7 @@ void expectEveryPartNeutral(render::Renderer& renderer,
                                                             .uncut_loops = true}}};
     for (const auto kind : kAllRenderers) {
         for (const auto& [name, part] : parts) {
-            SCOPED_TRACE(std::string(view::kRendererNames[static_cast<size_t>(kind)]) + ", " +
+            SCOPED_TRACE(std::string(settings::kRendererNames[static_cast<size_t>(kind)]) + ", " +
                          name);
             expectSameBits(renderer, inputsFor(scene, kind, lights), part);
         }
@@ -123,7 +123,7 @@ void expectScenesAlike(gpu::Device& device,
     for (const auto kind : kAllRenderers) {
         const auto inputs = inputsFor(lean, kind, 40);
         EXPECT_EQ(differingFloats(draw(a, inputs), draw(b, inputs)), 0U)
-            << view::kRendererNames[static_cast<size_t>(kind)];
+            << settings::kRendererNames[static_cast<size_t>(kind)];
     }
     EXPECT_FALSE(anyMaterialFlag(a, generic_flags));
     EXPECT_TRUE(anyMaterialFlag(b, generic_flags));

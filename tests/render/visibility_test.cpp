@@ -14,18 +14,18 @@ namespace froxel::test {
 namespace {
 
 using render::GeometryPath;
-using view::LightingStage;
-using view::Renderer;
+using settings::LightingStage;
+using settings::Renderer;
 
 class Visibility : public GpuTest {};
 
-render::FrameInputs inputsFor(const view::Camera& camera, Renderer renderer) {
+render::FrameInputs inputsFor(const settings::Camera& camera, Renderer renderer) {
     render::FrameInputs inputs;
     inputs.settings.camera = camera;
     inputs.settings.size = {240, 136};
     inputs.settings.renderer = renderer;
     inputs.settings.lights.count = 200;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     inputs.time_s = 3.25;
     return inputs;
 }
@@ -121,7 +121,7 @@ TEST_F(Visibility, Orthographic_ById_LooksAsRastered) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kClusteredDeferred);
-    inputs.settings.camera.projection = view::Projection::kOrthographic;
+    inputs.settings.camera.projection = settings::Projection::kOrthographic;
     inputs.geometry = GeometryPath::kRaster;
     const Picture raster = draw(renderer, inputs);
     inputs.geometry = GeometryPath::kVisibility;

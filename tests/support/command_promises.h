@@ -4,8 +4,8 @@
 #include "core/text.h"
 #include "session/command.h"
 #include "session/rejection.h"
+#include "settings/ranges.h"
 #include "support/setting_values.h"
-#include "view/ranges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ struct PromiseKept {
             c.lights.begin(), c.lights.end(), [](const session::PlacedLightChange& light) {
                 return light.id > 0 && (!light.position_world || finite(*light.position_world)) &&
                        (!light.direction_world || glm::length(*light.direction_world) > 0) &&
-                       (!light.radius_m || view::kLightRadiusRange.contains(*light.radius_m));
+                       (!light.radius_m || settings::kLightRadiusRange.contains(*light.radius_m));
             });
     }
     bool operator()(const session::PickLight& c) const {
@@ -50,8 +50,8 @@ struct PromiseKept {
     }
     bool operator()(const session::SetDebugView& c) const { return inRange(c.changes); }
     bool operator()(const session::SetSize& c) const {
-        return view::kWidthRange.contains(c.size.width_px) &&
-               view::kHeightRange.contains(c.size.height_px);
+        return settings::kWidthRange.contains(c.size.width_px) &&
+               settings::kHeightRange.contains(c.size.height_px);
     }
     bool operator()(const session::SetToon& c) const {
         return (!c.compute || c.compute->count >= 2) && (!c.fragment || c.fragment->count >= 2) &&

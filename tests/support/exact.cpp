@@ -7,17 +7,17 @@
 
 namespace froxel::test {
 
-using view::Renderer;
+using settings::Renderer;
 
 namespace {
 
 // A deferred renderer by lists, checked against all lights.
 Picture listsAndAll(render::ViewRenderer& view, render::FrameInputs inputs, Renderer kind) {
-    SCOPED_TRACE(view::kRendererNames[static_cast<size_t>(kind)]);
+    SCOPED_TRACE(settings::kRendererNames[static_cast<size_t>(kind)]);
     inputs.settings.renderer = kind;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     Picture lists = draw(view, inputs);
-    inputs.settings.light_loop = view::LightLoop::kAllLights;
+    inputs.settings.light_loop = settings::LightLoop::kAllLights;
     EXPECT_EQ(differingFloats(lists, draw(view, inputs)), 0U);
     EXPECT_EQ(nonFinite(lists), 0U);
     return lists;
@@ -30,8 +30,8 @@ render::FrameInputs hardInputs() {
     auto& settings = inputs.settings;
     settings.camera.yfov_rad = glm::radians(60.0);
     settings.size = {64, 36};
-    settings.shading = view::ShadingModel::kLambert;
-    settings.light_loop = view::LightLoop::kLists;
+    settings.shading = settings::ShadingModel::kLambert;
+    settings.light_loop = settings::LightLoop::kLists;
     settings.grid = {.automatic = false, .size = {16, 9, 24}, .law = {}};
     settings.lights.count = 0;
     settings.lights.ambient = 0;
@@ -40,7 +40,7 @@ render::FrameInputs hardInputs() {
 
 Picture drawByPlanes(render::Renderer& renderer, render::FrameInputs inputs) {
     inputs.settings.renderer = Renderer::kNaive;
-    inputs.settings.lighting = view::LightingStage::kCompute;
+    inputs.settings.lighting = settings::LightingStage::kCompute;
     inputs.geometry = render::GeometryPath::kComputeRaster;
     return draw(renderer, inputs);
 }
@@ -51,7 +51,7 @@ ExactPictures expectExact(render::ViewRenderer& view, render::FrameInputs inputs
     pictures.naive = draw(view, inputs);
     EXPECT_EQ(nonFinite(pictures.naive), 0U);
     inputs.settings.renderer = Renderer::kForwardPlus;
-    inputs.settings.light_loop = view::LightLoop::kLists;
+    inputs.settings.light_loop = settings::LightLoop::kLists;
     inputs.depth_prepass = true; // which small scenes would not be given
     pictures.forward_plus = draw(view, inputs);
     inputs.depth_prepass.reset();

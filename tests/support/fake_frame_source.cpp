@@ -23,12 +23,12 @@ void FakeDevice::passTime(uint32_t pieces) {
     changed_.wait_for(lock, Seconds(frame_time.load()) / pieces, [] { return false; });
 }
 
-void FakeDevice::addDone(view::Size size) {
+void FakeDevice::addDone(settings::Size size) {
     const std::lock_guard lock(mutex_);
     done_.push_back(size);
 }
 
-std::vector<view::Size> FakeDevice::done() {
+std::vector<settings::Size> FakeDevice::done() {
     const std::lock_guard lock(mutex_);
     return done_;
 }
@@ -38,14 +38,14 @@ namespace {
 constexpr int kReadbackSlots = 3;
 
 // A grey that tells renderers and exposures apart.
-std::byte shadeOf(const view::ViewSettings& settings) {
+std::byte shadeOf(const settings::ViewSettings& settings) {
     const auto renderer = static_cast<unsigned>(settings.renderer);
     return std::byte(std::clamp(40.0F + 30.0F * static_cast<float>(renderer), 0.0F, 200.0F) +
                      std::min(settings.exposure, 4.0F) * 10.0F);
 }
 
 // As a real renderer's would be, in round numbers.
-void fillStats(FrameStats& stats, const view::ViewSettings& settings) {
+void fillStats(FrameStats& stats, const settings::ViewSettings& settings) {
     static const auto kDetails = std::make_shared<const FrameDetails>(FrameDetails{
         {"nothing is drawn: no passes"}, {{"pixels", 4096}, {"light lists", 512}}, {}});
     stats.details = kDetails;
@@ -57,12 +57,12 @@ void fillStats(FrameStats& stats, const view::ViewSettings& settings) {
     stats.lists.p95 = 9;
     stats.lists.largest = 10;
     stats.lists.bytes = 184;
-    const view::GridSize& size = settings.grid.size;
+    const settings::GridSize& size = settings.grid.size;
     stats.grid = {size.x, size.y, size.z, 32, 24, 0.5, 40, settings.grid.automatic, "a fake"};
     stats.pairs = {settings.count_pairs, 1000, 250};
 }
 
-uint64_t areaOf(const view::Size& size) {
+uint64_t areaOf(const settings::Size& size) {
     return uint64_t{size.width_px} * size.height_px;
 }
 
@@ -78,8 +78,9 @@ class FakeView final : public stream::ViewSource {
         return waiting_ == 0 && static_cast<int>(frames_.size()) + *own_leases_ < kReadbackSlots;
     }
 
-    [[nodiscard]] Result<stream::FrameWork>
-    begin(const view::ViewSettings& settings, double /*time_s*/, uint64_t beside_bytes) override {
+    [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& settings,
+                                                  double /*time_s*/,
+                                                  uint64_t beside_bytes) override {
         device_->beside_bytes = beside_bytes;
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
@@ -88,7 +89,7 @@ class FakeView final : public stream::ViewSource {
             ++device_->unfit_count;
             return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
         }
-        if (!device_->computes && settings.lighting == view::LightingStage::kCompute) {
+        if (!device_->computes && settings.lighting == settings::LightingStage::kCompute) {
             return Error{ErrorCode::kUnsupported, "the fake device has no compute stage"};
         }
         if (device_->unready_count > 0) {
@@ -140,7 +141,7 @@ class FakeView final : public stream::ViewSource {
             }
             return stream::Collected{};
         }
-        const view::ViewSettings settings = frame.settings;
+        const settings::ViewSettings settings = frame.settings;
         frames_.pop_front();
         device_->addDone(settings.size);
         if (settings.lights.count > device_->max_lights) {
@@ -155,15 +156,15 @@ class FakeView final : public stream::ViewSource {
 
   private:
     struct Frame {
-        view::ViewSettings settings;
+        settings::ViewSettings settings;
         uint32_t piece_count = 1;
         uint32_t on_device = 0;
         uint32_t done = 0;
         bool abandoned = false;
     };
 
-    [[nodiscard]] stream::SourceFrame picture(const view::ViewSettings& settings) {
-        const view::Size size = settings.size;
+    [[nodiscard]] stream::SourceFrame picture(const settings::ViewSettings& settings) {
+        const settings::Size size = settings.size;
         auto pixels = std::make_shared<std::vector<std::byte>>(
             size_t{4} * size.width_px * size.height_px, shadeOf(settings));
         if (device_->noisy) {
@@ -189,10 +190,10 @@ class FakeView final : public stream::ViewSource {
 
     std::shared_ptr<FakeDevice> device_;
     std::shared_ptr<std::atomic<int>> own_leases_ = std::make_shared<std::atomic<int>>(0);
-    std::deque<Frame> frames_; // oldest first
-    uint32_t waiting_ = 0;     // pieces of the newest
-    view::ViewSettings built_; // what begin() was called for last
-    uint32_t built_count_ = 0; // how often
+    std::deque<Frame> frames_;     // oldest first
+    uint32_t waiting_ = 0;         // pieces of the newest
+    settings::ViewSettings built_; // what begin() was called for last
+    uint32_t built_count_ = 0;     // how often
     uint32_t noise_ = 1;
 };
 

@@ -46,14 +46,14 @@ class FakeDevice {
     // Takes a piece's part of frame_time.
     void passTime(uint32_t pieces);
     // The sizes of whole frames, in the order in which they were done.
-    void addDone(view::Size size);
-    [[nodiscard]] std::vector<view::Size> done();
+    void addDone(settings::Size size);
+    [[nodiscard]] std::vector<settings::Size> done();
 
   private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool open_ = true;
-    std::vector<view::Size> done_;
+    std::vector<settings::Size> done_;
 };
 
 [[nodiscard]] std::unique_ptr<stream::FrameSource>

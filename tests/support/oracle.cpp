@@ -17,9 +17,10 @@ namespace froxel::test {
 namespace {
 
 // Where a pixel's surface lies, from the device's depth: view space, in double.
-glm::dvec3 positionOf(const view::ViewSettings& settings, uint32_t x, uint32_t y, double distance) {
+glm::dvec3
+positionOf(const settings::ViewSettings& settings, uint32_t x, uint32_t y, double distance) {
     const auto& camera = settings.camera;
-    const bool perspective = camera.projection == view::Projection::kPerspective;
+    const bool perspective = camera.projection == settings::Projection::kPerspective;
     const double half = perspective ? std::tan(camera.yfov_rad / 2) : camera.half_height_m;
     const double aspect = static_cast<double>(settings.size.width_px) / settings.size.height_px;
     const double scale = perspective ? half * distance : half;
@@ -45,8 +46,9 @@ bool reaches(const light::FrameLights& lights, size_t index, const glm::dvec3& p
     return towards * static_cast<double>(spot.scale) + static_cast<double>(spot.offset) > 0;
 }
 
-double distanceOf(const view::Camera& camera, float depth) {
-    EXPECT_EQ(camera.projection, view::Projection::kPerspective) << "no far plane is known here";
+double distanceOf(const settings::Camera& camera, float depth) {
+    EXPECT_EQ(camera.projection, settings::Projection::kPerspective)
+        << "no far plane is known here";
     return camera.near_m / static_cast<double>(depth);
 }
 
@@ -77,8 +79,8 @@ PairCheck checkPairs(const scene::Scene& scene,
     light::FrameLights lights;
     light::LightRig(scene).evaluate(settings.lights, settings.camera, inputs.time_s, lights);
     auto clustered = settings;
-    clustered.renderer = view::Renderer::kForwardPlus;
-    clustered.light_loop = view::LightLoop::kLists;
+    clustered.renderer = settings::Renderer::kForwardPlus;
+    clustered.light_loop = settings::LightLoop::kLists;
     render::LightGrid chosen;
     chosen.choose(clustered, lights, scene.bounds_world, cluster::kCpuCosts);
     const cluster::ClusterGrid& grid = chosen.grid();

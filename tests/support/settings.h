@@ -15,12 +15,12 @@
 namespace froxel::test {
 
 template <class Enum>
-view::SettingValue chosen(Enum value) {
-    return view::Choice{static_cast<size_t>(value)};
+settings::SettingValue chosen(Enum value) {
+    return settings::Choice{static_cast<size_t>(value)};
 }
 
 inline session::SettingChanges
-changes(std::initializer_list<std::pair<std::string_view, view::SettingValue>> values) {
+changes(std::initializer_list<std::pair<std::string_view, settings::SettingValue>> values) {
     session::SettingChanges all;
     for (const auto& [name, value] : values) {
         all.push_back({session::findSetting(name), value});
@@ -30,20 +30,20 @@ changes(std::initializer_list<std::pair<std::string_view, view::SettingValue>> v
 }
 
 inline session::SetSettings
-settings(std::initializer_list<std::pair<std::string_view, view::SettingValue>> values) {
+settings(std::initializer_list<std::pair<std::string_view, settings::SettingValue>> values) {
     return {changes(values)};
 }
 
 // What a command gives for this setting; fails the test where it gives nothing.
 template <class Value, class Command>
 Value givenBy(const Command& command, std::string_view name) {
-    const view::SettingValue* value = session::givenIn(command.changes, name);
+    const settings::SettingValue* value = session::givenIn(command.changes, name);
     if (value == nullptr) {
         ADD_FAILURE() << name << " is not given";
         return {};
     }
     if constexpr (std::is_enum_v<Value>) {
-        return static_cast<Value>(std::get<view::Choice>(*value).index);
+        return static_cast<Value>(std::get<settings::Choice>(*value).index);
     } else {
         return std::get<Value>(*value);
     }

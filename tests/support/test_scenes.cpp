@@ -115,8 +115,8 @@ scene::Scene makeRoom() {
     place(scene, 5, {3, 2, -3}, {0.3, 0.3, 0.3});
     scene.bounds_world.add(glm::dvec3(-6, 0, -4));
     scene.bounds_world.add(glm::dvec3(6, 6, 6));
-    scene.cameras = {{"front", view::lookAt({0.5, 2.2, 7}, {0, 1, 0}, {0, 1, 0})},
-                     {"low", view::lookAt({-5, 0.4, 3}, {2, 1, -2}, {0, 1, 0})}};
+    scene.cameras = {{"front", settings::lookAt({0.5, 2.2, 7}, {0, 1, 0}, {0, 1, 0})},
+                     {"low", settings::lookAt({-5, 0.4, 3}, {2, 1, -2}, {0, 1, 0})}};
     return scene;
 }
 

@@ -81,7 +81,7 @@ class BloomPipelines {
 };
 
 // One of bloom's own pictures.
-gpu::ImageInfo bloomImage(const view::Size& size) {
+gpu::ImageInfo bloomImage(const settings::Size& size) {
     return {.format = Pipelines::kRadianceFormat,
             .extent = {size.width_px, size.height_px},
             .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eStorage};
@@ -109,7 +109,7 @@ class BloomTargets final : public EffectTargets {
 
   private:
     std::shared_ptr<const ViewTargets> view_; // whose picture the sets name
-    std::vector<view::Size> sizes_;
+    std::vector<settings::Size> sizes_;
     std::vector<BloomWire> wires_;
     gpu::MemoryArena arena_;
     std::vector<gpu::Image> images_;
@@ -150,7 +150,7 @@ BloomTargets::BloomTargets(const gpu::Device& device,
     }
 }
 
-view::Size targetSize(const BloomStep& step) {
+settings::Size targetSize(const BloomStep& step) {
     return {step.pass.target_width_px, step.pass.target_height_px};
 }
 
@@ -160,7 +160,7 @@ class Bloom final : public Effect {
 
     Result<void> build(const EffectInputs& inputs, const EffectPlan& /*plan*/) override {
         const auto& settings = inputs.settings;
-        metered_ = settings.exposure_mode == view::ExposureMode::kFrame;
+        metered_ = settings.exposure_mode == settings::ExposureMode::kFrame;
         plan_ = planBloom(settings.bloom, settings.size, metered_ ? 1.0F : settings.exposure);
         return checkKernels(plan_, scene_.device.traits().is_cpu);
     }
@@ -245,21 +245,22 @@ class Bloom final : public Effect {
     std::shared_ptr<BloomTargets> targets_; // null: the last frame has none
 };
 
-std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& /*facts*/) {
-    if (settings.bloom.kind == view::BloomKind::kNone || settings.bloom.strength <= 0) {
+std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
+                                 const FrameFacts& /*facts*/) {
+    if (settings.bloom.kind == settings::BloomKind::kNone || settings.bloom.strength <= 0) {
         return {};
     }
     return EffectPlan{.way = static_cast<uint32_t>(settings.bloom.kind), .samples_radiance = true};
 }
 
-std::string wordsOf(const view::ViewSettings& /*settings*/, const EffectPlan& plan) {
-    return "bloom by " + std::string(view::kBloomKindNames[plan.way]) +
+std::string wordsOf(const settings::ViewSettings& /*settings*/, const EffectPlan& plan) {
+    return "bloom by " + std::string(settings::kBloomKindNames[plan.way]) +
            ": bright light is spread over the linear picture";
 }
 
-std::optional<std::string> memoryWordsOf(const view::ViewSettings& settings) {
-    return settings.bloom.kind != view::BloomKind::kNone ? std::optional<std::string>("bloom")
-                                                         : std::nullopt;
+std::optional<std::string> memoryWordsOf(const settings::ViewSettings& settings) {
+    return settings.bloom.kind != settings::BloomKind::kNone ? std::optional<std::string>("bloom")
+                                                             : std::nullopt;
 }
 
 } // namespace

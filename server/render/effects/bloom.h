@@ -5,7 +5,7 @@
 
 namespace froxel::render {
 
-// EffectPlan::way is a view::BloomKind.
+// EffectPlan::way is a settings::BloomKind.
 extern const EffectRow kBloomEffect;
 
 } // namespace froxel::render

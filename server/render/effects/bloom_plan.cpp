@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kPicture = BloomWire::kPicture;
 
-view::Size halved(const view::Size& size) {
+settings::Size halved(const settings::Size& size) {
     return {(size.width_px + 1) / 2, (size.height_px + 1) / 2};
 }
 
@@ -41,7 +41,8 @@ double powerOf4(uint32_t k) {
 
 class Planner {
   public:
-    Planner(const view::Bloom& bloom, const view::Size& size, float exposure) : size_(size) {
+    Planner(const settings::Bloom& bloom, const settings::Size& size, float exposure)
+        : size_(size) {
         sigma_px_ = static_cast<double>(bloom.radius) * std::min(size.width_px, size.height_px);
         common_.share = 1;
         common_.threshold = bloom.threshold / exposure;
@@ -86,7 +87,7 @@ class Planner {
     BloomPlan mipChain() {
         const auto depth =
             depthFor(sigma_px_ * sigma_px_, [](uint32_t k) { return (powerOf4(k) - 1) / 2; });
-        view::Size level = size_;
+        settings::Size level = size_;
         for (uint32_t i = 0; i < depth.count; ++i) {
             level = halved(level);
             plan_.images.push_back(level);
@@ -113,7 +114,7 @@ class Planner {
         return plan_.steps.back().pass;
     }
 
-    view::Size size_;
+    settings::Size size_;
     double sigma_px_ = 0;
     io::BloomPass common_{};
     BloomPlan plan_;
@@ -134,18 +135,18 @@ std::vector<BloomWire> BloomPlan::wires() const {
     return wires;
 }
 
-BloomPlan planBloom(const view::Bloom& bloom, const view::Size& size, float exposure) {
+BloomPlan planBloom(const settings::Bloom& bloom, const settings::Size& size, float exposure) {
     Planner planner(bloom, size, exposure);
     switch (bloom.kind) {
-    case view::BloomKind::kNone:
+    case settings::BloomKind::kNone:
         break;
-    case view::BloomKind::kSinglePass:
+    case settings::BloomKind::kSinglePass:
         return planner.single();
-    case view::BloomKind::kSeparable:
+    case settings::BloomKind::kSeparable:
         return planner.separable();
-    case view::BloomKind::kATrous:
+    case settings::BloomKind::kATrous:
         return planner.aTrous();
-    case view::BloomKind::kMipChain:
+    case settings::BloomKind::kMipChain:
         return planner.mipChain();
     }
     return {};

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "interface/bloom_io.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <vector>
@@ -30,15 +30,16 @@ struct BloomStep {
 };
 
 struct BloomPlan {
-    std::vector<view::Size> images; // bloom's own pictures
-    std::vector<BloomStep> steps;   // in order, each reading what those before wrote
+    std::vector<settings::Size> images; // bloom's own pictures
+    std::vector<BloomStep> steps;       // in order, each reading what those before wrote
 
     [[nodiscard]] std::vector<BloomWire> wires() const;
 };
 
 // Of a picture of `size`; the kind is not none. What every kind comes to is a Gaussian of standard
 // deviation radius x the smaller side, cut at three of them or by splines of the same variance.
-[[nodiscard]] BloomPlan planBloom(const view::Bloom& bloom, const view::Size& size, float exposure);
+[[nodiscard]] BloomPlan
+planBloom(const settings::Bloom& bloom, const settings::Size& size, float exposure);
 
 // That a step takes for each pixel of its target.
 [[nodiscard]] double tapsOf(const BloomStep& step);

@@ -116,7 +116,7 @@ class Exposure final : public Effect {
 
   private:
     // Of the histogram's pass.
-    static view::Size invocationsOver(const view::Size& drawn) {
+    static settings::Size invocationsOver(const settings::Size& drawn) {
         const auto over = [](uint32_t side_px) {
             return (side_px + io::kMeterPixels - 1) / io::kMeterPixels;
         };
@@ -194,9 +194,10 @@ void Exposure::recordMeter(const FrameContext& frame) {
     frame.slot.cmd.dispatch(1, 1, 1);
 }
 
-std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& /*facts*/) {
-    return settings.exposure_mode == view::ExposureMode::kFrame ? std::optional(EffectPlan{})
-                                                                : std::nullopt;
+std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
+                                 const FrameFacts& /*facts*/) {
+    return settings.exposure_mode == settings::ExposureMode::kFrame ? std::optional(EffectPlan{})
+                                                                    : std::nullopt;
 }
 
 } // namespace
@@ -205,7 +206,7 @@ const EffectRow kExposureEffect{
     .place = EffectPlace::kPicture,
     .plan = planOf,
     .words =
-        [](const view::ViewSettings&, const EffectPlan&) {
+        [](const settings::ViewSettings&, const EffectPlan&) {
             return std::string("exposure of this frame alone: by a histogram of its luminance, in "
                                "a pass of its own");
         },

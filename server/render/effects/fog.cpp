@@ -159,7 +159,7 @@ class Fog final : public Effect {
     [[nodiscard]] uint64_t volumeBytes() const {
         return hasVolume() ? kFroxelBytes * froxelCount(fog_) : 0;
     }
-    [[nodiscard]] view::Size nodes() const { return {fog_.node_count_x, fog_.node_count_y}; }
+    [[nodiscard]] settings::Size nodes() const { return {fog_.node_count_x, fog_.node_count_y}; }
     [[nodiscard]] RegionCost scatterCost(const FrameCosts& costs) const; // over the nodes
     static void bind(const FrameContext& frame,
                      FogShader shader,
@@ -268,7 +268,7 @@ void Fog::recordApply(const FrameContext& frame, const vk::Rect2D& region) const
     dispatchOver(frame.slot.cmd, region);
 }
 
-std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& facts) {
+std::optional<EffectPlan> planOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
     if (!settings.fog.present()) {
         return {};
     }
@@ -280,7 +280,7 @@ std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const Frame
     return plan;
 }
 
-std::string wordsOf(const view::ViewSettings& /*settings*/, const EffectPlan& plan) {
+std::string wordsOf(const settings::ViewSettings& /*settings*/, const EffectPlan& plan) {
     return (plan.way & kFogVolume) != 0
                ? "fog: lights are scattered in a froxel volume by the same lists, in two passes, "
                  "and all is seen through it, in one"

@@ -1,7 +1,7 @@
 #include "render/effects/fog_plan.h"
 
 #include "interface/constants.h"
-#include "view/environment.h"
+#include "settings/environment.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -31,8 +31,8 @@ uint32_t fogLightFlags(uint32_t surface_light_flags) {
             io::kLightDirectional | io::kLightSlicesLinear | io::kLightSlicesHyperbolic);
 }
 
-io::Fog makeFog(const view::ViewSettings& settings, double lit_far_m, double time_s) {
-    const view::Fog& medium = settings.fog;
+io::Fog makeFog(const settings::ViewSettings& settings, double lit_far_m, double time_s) {
+    const settings::Fog& medium = settings.fog;
     // A tile is of the picture's pixels, however many samples they have.
     const uint32_t coarser = medium.half_rate ? 2 : 1;
     const auto density = static_cast<double>(medium.density);
@@ -45,8 +45,9 @@ io::Fog makeFog(const view::ViewSettings& settings, double lit_far_m, double tim
     fog.anisotropy = medium.anisotropy;
     fog.albedo = medium.albedo;
     fog.far_m = static_cast<float>(far_m);
-    fog.ambient = 0.5F * (view::kAmbientSky + view::kAmbientGround) * settings.lights.ambient;
-    fog.tile_px = medium.tile_px * coarser * view::samplesAcross(settings.antialiasing);
+    fog.ambient =
+        0.5F * (settings::kAmbientSky + settings::kAmbientGround) * settings.lights.ambient;
+    fog.tile_px = medium.tile_px * coarser * settings::samplesAcross(settings.antialiasing);
     fog.node_count_x = nodesAcross(settings.size.width_px, fog.tile_px);
     fog.node_count_y = nodesAcross(settings.size.height_px, fog.tile_px);
     fog.slice_count = medium.slice_count / coarser;

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "interface/fog_io.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 
@@ -18,7 +18,8 @@ inline constexpr double kOpaqueDepth = 16;
 
 // `settings.size` is what is drawn, `lit_far_m` where lights end (cluster::litDepthRange); a medium
 // of constant density ends the volume earlier, where it lets nothing through.
-[[nodiscard]] io::Fog makeFog(const view::ViewSettings& settings, double lit_far_m, double time_s);
+[[nodiscard]] io::Fog
+makeFog(const settings::ViewSettings& settings, double lit_far_m, double time_s);
 
 // Of the light flags of surfaces the part that says how lights are fetched, each invocation by
 // itself.

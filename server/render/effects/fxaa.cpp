@@ -104,9 +104,10 @@ class Fxaa final : public Effect {
     SceneResources& scene_;
 };
 
-std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& /*facts*/) {
-    return settings.antialiasing == view::Antialiasing::kFxaa ? std::optional(EffectPlan{})
-                                                              : std::nullopt;
+std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
+                                 const FrameFacts& /*facts*/) {
+    return settings.antialiasing == settings::Antialiasing::kFxaa ? std::optional(EffectPlan{})
+                                                                  : std::nullopt;
 }
 
 } // namespace
@@ -115,7 +116,7 @@ const EffectRow kFxaaEffect{
     .place = EffectPlace::kPixels,
     .plan = planOf,
     .words =
-        [](const view::ViewSettings&, const EffectPlan&) {
+        [](const settings::ViewSettings&, const EffectPlan&) {
             return std::string(
                 "fxaa: edges of the finished picture are filtered, in a pass of its own");
         },

@@ -208,7 +208,7 @@ class FaceDraws {
 
 io::ShadowLight tableEntry(const io::Light& light,
                            const ShadowPlace& place,
-                           const view::Camera& camera,
+                           const settings::Camera& camera,
                            uint32_t size_px,
                            uint32_t first_tile) {
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
@@ -279,7 +279,7 @@ bool meetsFace(const glm::dvec3& center, double radius, uint32_t face, double sc
 
 void buildShadows(const SceneResources& scene,
                   const light::FrameLights& lights,
-                  const view::ViewSettings& settings,
+                  const settings::ViewSettings& settings,
                   double time_s,
                   ShadowFrame& out) {
     out.clear();

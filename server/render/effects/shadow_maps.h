@@ -11,7 +11,7 @@
 #include "light/light_rig.h"
 #include "render/frame/draw_list.h"
 #include "render/scene/scene_resources.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <vector>
@@ -71,7 +71,7 @@ shadowPlace(const light::LightRig::Place& place, double reach_m, uint32_t size_p
 // light stands inside its bulb. Pure.
 void buildShadows(const SceneResources& scene,
                   const light::FrameLights& lights,
-                  const view::ViewSettings& settings,
+                  const settings::ViewSettings& settings,
                   double time_s,
                   ShadowFrame& out);
 

@@ -34,7 +34,7 @@ constexpr size_t kShadowAtlasBinding = 10;
 // A lookup of a light at a pixel. Measured on lavapipe on two cores and on an H200.
 constexpr Measured<double> kShadowPair{6e-8, 3e-11};
 
-uint32_t tilesFor(const view::Shadows& settings, uint32_t light_count) {
+uint32_t tilesFor(const settings::Shadows& settings, uint32_t light_count) {
     return 6 * std::clamp(light_count, 1U, settings.light_count);
 }
 
@@ -44,7 +44,7 @@ vk::Extent2D extentOf(uint32_t tile_count, uint32_t size_px) {
 }
 
 // The atlas that `light_count` point lights have, or as many as the settings allow.
-gpu::ImageInfo atlasImage(const view::Shadows& settings, uint32_t light_count) {
+gpu::ImageInfo atlasImage(const settings::Shadows& settings, uint32_t light_count) {
     using Usage = vk::ImageUsageFlagBits;
     return {.format = Pipelines::kDepthFormat,
             .extent = extentOf(tilesFor(settings, light_count), settings.size_px),
@@ -54,11 +54,13 @@ gpu::ImageInfo atlasImage(const view::Shadows& settings, uint32_t light_count) {
 
 // Tiles of shadows.size_px in rows of io::kShadowColumns.
 struct ShadowTargets final : EffectTargets {
-    ShadowTargets(const gpu::Device& device, const view::Shadows& settings, uint32_t light_count)
+    ShadowTargets(const gpu::Device& device,
+                  const settings::Shadows& settings,
+                  uint32_t light_count)
         : size_px(settings.size_px), tile_count(tilesFor(settings, light_count)), arena(device),
           atlas(arena.makeImage(atlasImage(settings, light_count), "shadow atlas")) {}
 
-    [[nodiscard]] bool fits(const view::Shadows& settings, uint32_t light_count) const {
+    [[nodiscard]] bool fits(const settings::Shadows& settings, uint32_t light_count) const {
         return size_px == settings.size_px && tile_count == tilesFor(settings, light_count);
     }
     void forEachImage(const Visit& visit) const override {
@@ -165,7 +167,7 @@ class Shadows final : public Effect {
     void drawFace(const FrameContext& frame, const ShadowFace& face, uint32_t size_px) const;
 
     SceneResources& scene_;
-    view::Shadows settings_;
+    settings::Shadows settings_;
     uint32_t caster_count_ = 0; // lights that may have maps
     bool drawn_ = false;
     ShadowFrame frame_;
@@ -296,11 +298,11 @@ ShadowAtlas Shadows::copy() const {
     return atlas;
 }
 
-bool looks(const view::ViewSettings& settings) {
-    return settings.shadows.light_count > 0 && !view::replacesPicture(settings.debug.view);
+bool looks(const settings::ViewSettings& settings) {
+    return settings.shadows.light_count > 0 && !settings::replacesPicture(settings.debug.view);
 }
 
-std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const FrameFacts& facts) {
+std::optional<EffectPlan> planOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
     const bool drawn = facts.shadows && facts.local_lights;
     if (!drawn && settings.shadows.light_count == 0) {
         return {};
@@ -309,7 +311,7 @@ std::optional<EffectPlan> planOf(const view::ViewSettings& settings, const Frame
                  : EffectPlan{};
 }
 
-std::string wordsOf(const view::ViewSettings& settings, const EffectPlan& plan) {
+std::string wordsOf(const settings::ViewSettings& settings, const EffectPlan& plan) {
     if ((plan.way & kShadowsDrawn) == 0) {
         return {};
     }
@@ -319,14 +321,14 @@ std::string wordsOf(const view::ViewSettings& settings, const EffectPlan& plan) 
            " pixels a side, drawn each frame";
 }
 
-std::optional<std::string> memoryWordsOf(const view::ViewSettings& settings) {
+std::optional<std::string> memoryWordsOf(const settings::ViewSettings& settings) {
     if (settings.shadows.light_count == 0) {
         return {};
     }
     return "shadow maps of " + std::to_string(settings.shadows.light_count) + " lights";
 }
 
-Result<void> ableTo(const view::ViewSettings& settings, const gpu::Device& device) {
+Result<void> ableTo(const settings::ViewSettings& settings, const gpu::Device& device) {
     const uint32_t limit_px = device.limits().maxImageDimension2D;
     if (settings.shadows.light_count > 0 &&
         io::kShadowColumns * settings.shadows.size_px > limit_px) {

@@ -7,7 +7,8 @@
 
 namespace froxel::render {
 
-std::vector<BlendImage> blendImages(view::Transparency transparency, const view::Size& drawn) {
+std::vector<BlendImage> blendImages(settings::Transparency transparency,
+                                    const settings::Size& drawn) {
     using Usage = vk::ImageUsageFlagBits;
     const auto color = [&](const char* name, vk::Format format) {
         return BlendImage{name,
@@ -16,7 +17,7 @@ std::vector<BlendImage> blendImages(view::Transparency transparency, const view:
                            .usage = Usage::eColorAttachment | Usage::eSampled}};
     };
     std::vector images = {color("blended sums", Pipelines::kRadianceFormat)};
-    if (transparency == view::Transparency::kWeighted) {
+    if (transparency == settings::Transparency::kWeighted) {
         images.push_back(color("blend weights", Pipelines::kBlendWeightFormat));
     } else {
         images.push_back({"peeled layer depth",
@@ -31,7 +32,7 @@ std::vector<BlendImage> blendImages(view::Transparency transparency, const view:
 
 BlendTargets::BlendTargets(const gpu::Device& device,
                            const Pipelines& pipelines,
-                           view::Transparency transparency,
+                           settings::Transparency transparency,
                            std::shared_ptr<const ViewTargets> view)
     : arena(device), transparency_(transparency), view_(std::move(view)),
       solid_depth_(*view_->solidDepth().view) {
@@ -40,7 +41,7 @@ BlendTargets::BlendTargets(const gpu::Device& device,
         images.push_back(arena.makeImage(info, name));
     }
     sums = std::move(images[0]);
-    if (transparency == view::Transparency::kWeighted) {
+    if (transparency == settings::Transparency::kWeighted) {
         weights = std::move(images[1]);
     } else {
         layer_depth = std::move(images[1]);
@@ -49,7 +50,7 @@ BlendTargets::BlendTargets(const gpu::Device& device,
     writeSets(device, pipelines);
 }
 
-bool BlendTargets::fits(view::Transparency transparency, const ViewTargets& view) const {
+bool BlendTargets::fits(settings::Transparency transparency, const ViewTargets& view) const {
     return transparency_ == transparency && view_.get() == &view &&
            solid_depth_ == *view.solidDepth().view;
 }
@@ -85,7 +86,7 @@ std::shared_ptr<BlendTargets> blendTargetsFor(const FramePlan& plan,
                                               const Pipelines& pipelines,
                                               std::shared_ptr<const ViewTargets> view,
                                               std::shared_ptr<BlendTargets> kept) {
-    if (!plan.transparent || plan.transparency == view::Transparency::kSorted) {
+    if (!plan.transparent || plan.transparency == settings::Transparency::kSorted) {
         return nullptr;
     }
     if (kept && kept->fits(plan.transparency, *view)) {

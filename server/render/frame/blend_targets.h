@@ -18,8 +18,8 @@ struct BlendImage {
     const char* name;
     gpu::ImageInfo info;
 };
-[[nodiscard]] std::vector<BlendImage> blendImages(view::Transparency transparency,
-                                                  const view::Size& drawn);
+[[nodiscard]] std::vector<BlendImage> blendImages(settings::Transparency transparency,
+                                                  const settings::Size& drawn);
 
 // One view's, for one kind of transparency. Frames in flight keep theirs alive.
 class BlendTargets {
@@ -27,11 +27,11 @@ class BlendTargets {
     // Throws vk::OutOfDeviceMemoryError.
     BlendTargets(const gpu::Device& device,
                  const Pipelines& pipelines,
-                 view::Transparency transparency,
+                 settings::Transparency transparency,
                  std::shared_ptr<const ViewTargets> view);
 
     // Whether frames with this kind and these targets, as they are now, can use them.
-    [[nodiscard]] bool fits(view::Transparency transparency, const ViewTargets& view) const;
+    [[nodiscard]] bool fits(settings::Transparency transparency, const ViewTargets& view) const;
     // For selecting a layer; selectedSet() names what that selected.
     [[nodiscard]] vk::DescriptorSet selectSet(uint32_t layer) const {
         return selectedSet(layer + 1); // of the layer before
@@ -49,7 +49,7 @@ class BlendTargets {
   private:
     void writeSets(const gpu::Device& device, const Pipelines& pipelines);
 
-    view::Transparency transparency_;
+    settings::Transparency transparency_;
     std::shared_ptr<const ViewTargets> view_; // whose depth the sets name
     vk::ImageView solid_depth_;
     vk::raii::DescriptorPool pool_{nullptr};

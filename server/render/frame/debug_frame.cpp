@@ -14,7 +14,7 @@ namespace froxel::render {
 
 namespace {
 
-using view::DebugView;
+using settings::DebugView;
 
 static_assert(io::kDebugPosition == static_cast<uint32_t>(DebugView::kPosition));
 static_assert(io::kDebugOverdraw == static_cast<uint32_t>(DebugView::kOverdraw));
@@ -82,15 +82,15 @@ const char* wordsOf(DebugView view) {
         "Where lights end; faint behind surfaces",
         "Clusters; faint behind surfaces",
     };
-    static_assert(kWords.size() == view::kDebugViewNames.size());
+    static_assert(kWords.size() == settings::kDebugViewNames.size());
     return kWords[static_cast<size_t>(view)];
 }
 
 class WireMaker {
   public:
     WireMaker(const cluster::ClusterGrid& grid,
-              const view::Camera& grid_camera,
-              const view::Camera& camera)
+              const settings::Camera& grid_camera,
+              const settings::Camera& camera)
         : grid_(grid),
           view_from_grid_(glm::transpose(camera.world_from_view) * grid_camera.world_from_view),
           eye_(glm::transpose(camera.world_from_view) *
@@ -98,7 +98,8 @@ class WireMaker {
 
     // Of cell coordinates x, y at a depth.
     void corner(double x, double y, double depth_m, uint32_t color) {
-        const double spread = grid_.projection == view::Projection::kPerspective ? depth_m : 1.0;
+        const double spread =
+            grid_.projection == settings::Projection::kPerspective ? depth_m : 1.0;
         const glm::dvec3 p(x * spread, -y * spread, -depth_m); // cells have y down
         wires.push_back({glm::vec3(view_from_grid_ * p + eye_), color});
     }
@@ -113,9 +114,9 @@ class WireMaker {
 
 } // namespace
 
-DebugLegend makeLegend(const view::Debug& debug, const DebugFacts& facts) {
+DebugLegend makeLegend(const settings::Debug& debug, const DebugFacts& facts) {
     DebugLegend legend;
-    legend.view = view::nameOf(debug.view);
+    legend.view = settings::nameOf(debug.view);
     legend.words = wordsOf(debug.view);
     const Scale scale = scaleOf(debug.view, facts);
     if (scale.unit == nullptr) {
@@ -140,12 +141,12 @@ uint32_t shownBytes(DebugView view, uint32_t gbuffer_output_flags) {
     return view == DebugView::kGbufferExtra ? extraBytes(extraFormat(gbuffer_output_flags)) : 0;
 }
 
-io::DebugFrame makeDebugValues(const view::ViewSettings& settings,
+io::DebugFrame makeDebugValues(const settings::ViewSettings& settings,
                                const BoundsD3& scene_bounds_world,
                                const DebugLegend& legend,
                                uint32_t byte_count) {
     io::DebugFrame values{};
-    const view::Camera& camera = settings.camera;
+    const settings::Camera& camera = settings.camera;
     const BoundsD3& box = scene_bounds_world;
     const glm::dvec3 from_box = box.empty() ? glm::dvec3(0) : camera.eye_world - box.min;
     const glm::dmat3 view_from_world =
@@ -161,8 +162,8 @@ io::DebugFrame makeDebugValues(const view::ViewSettings& settings,
 }
 
 std::vector<io::WireVertex> clusterWires(const cluster::ClusterGrid& grid,
-                                         const view::Camera& grid_camera,
-                                         const view::Camera& camera) {
+                                         const settings::Camera& grid_camera,
+                                         const settings::Camera& camera) {
     constexpr uint32_t kWhite = 0xffffffff;
     WireMaker maker(grid, grid_camera, camera);
     const uint32_t columns = grid.usedColumns();
@@ -192,9 +193,9 @@ std::vector<io::WireVertex> clusterWires(const cluster::ClusterGrid& grid,
 namespace {
 
 // Of a metre at a depth along the view axis.
-double pixelsAt(const view::Camera& camera, const view::Size& size, double depth_m) {
+double pixelsAt(const settings::Camera& camera, const settings::Size& size, double depth_m) {
     const double half_px = 0.5 * size.height_px;
-    return camera.projection == view::Projection::kPerspective
+    return camera.projection == settings::Projection::kPerspective
                ? half_px / (std::tan(0.5 * camera.yfov_rad) * std::max(depth_m, camera.near_m))
                : half_px / camera.half_height_m;
 }
@@ -202,8 +203,8 @@ double pixelsAt(const view::Camera& camera, const view::Size& size, double depth
 } // namespace
 
 double wirePixels(std::span<const io::WireVertex> wires,
-                  const view::Camera& camera,
-                  const view::Size& size) {
+                  const settings::Camera& camera,
+                  const settings::Size& size) {
     const glm::dvec2 half(0.5 * size.width_px, 0.5 * size.height_px);
     const auto shown = [&](const io::WireVertex& vertex) {
         const glm::dvec3 p(vertex.position_view);
@@ -217,8 +218,8 @@ double wirePixels(std::span<const io::WireVertex> wires,
 }
 
 double lightWirePixels(const light::FrameLights& lights,
-                       const view::Camera& camera,
-                       const view::Size& size) {
+                       const settings::Camera& camera,
+                       const settings::Size& size) {
     constexpr double kCircles = 3;
     const double most = 2.0 * (size.width_px + size.height_px); // of a circle, in the picture
     double sum = 0;

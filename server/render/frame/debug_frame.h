@@ -6,7 +6,7 @@
 #include "core/math.h"
 #include "interface/debug_io.h"
 #include "light/frame_lights.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <span>
@@ -25,12 +25,12 @@ struct DebugFacts {
 
 // The colours of a view in words, and its scale. A scale that is not given is a power of two, so
 // that it seldom changes while a camera moves.
-[[nodiscard]] DebugLegend makeLegend(const view::Debug& debug, const DebugFacts& facts);
+[[nodiscard]] DebugLegend makeLegend(const settings::Debug& debug, const DebugFacts& facts);
 
-// Bytes of a texel that view::showsGbuffer() shows; 0: the layout has no such target.
-[[nodiscard]] uint32_t shownBytes(view::DebugView view, uint32_t gbuffer_output_flags);
+// Bytes of a texel that settings::showsGbuffer() shows; 0: the layout has no such target.
+[[nodiscard]] uint32_t shownBytes(settings::DebugView view, uint32_t gbuffer_output_flags);
 
-[[nodiscard]] io::DebugFrame makeDebugValues(const view::ViewSettings& settings,
+[[nodiscard]] io::DebugFrame makeDebugValues(const settings::ViewSettings& settings,
                                              const BoundsD3& scene_bounds_world,
                                              const DebugLegend& legend,
                                              uint32_t byte_count);
@@ -38,17 +38,17 @@ struct DebugFacts {
 // Pairs of vertices in the camera's view space: the edges between the tiles of `grid`, from the eye
 // of grid_camera on, in white, and the tiles of each slice's far plane in the slice's colour.
 [[nodiscard]] std::vector<io::WireVertex> clusterWires(const cluster::ClusterGrid& grid,
-                                                       const view::Camera& grid_camera,
-                                                       const view::Camera& camera);
+                                                       const settings::Camera& grid_camera,
+                                                       const settings::Camera& camera);
 
 // Pixels that pairs of vertices cover as lines, about.
 [[nodiscard]] double wirePixels(std::span<const io::WireVertex> wires,
-                                const view::Camera& camera,
-                                const view::Size& size);
+                                const settings::Camera& camera,
+                                const settings::Size& size);
 // Likewise the three circles of each light, at most.
 [[nodiscard]] double lightWirePixels(const light::FrameLights& lights,
-                                     const view::Camera& camera,
-                                     const view::Size& size);
+                                     const settings::Camera& camera,
+                                     const settings::Size& size);
 
 // A frame's.
 struct DebugFrame {

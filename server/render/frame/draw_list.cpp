@@ -46,8 +46,8 @@ struct ObjectView {
 };
 
 // Rows of clip_from_view, for planes and for triangles.
-glm::mat4 clipFromView(const view::Camera& camera, const ViewProjection& projection) {
-    const bool perspective = camera.projection == view::Projection::kPerspective;
+glm::mat4 clipFromView(const settings::Camera& camera, const ViewProjection& projection) {
+    const bool perspective = camera.projection == settings::Projection::kPerspective;
     glm::mat4 m(0.0F);
     m[0][0] = static_cast<float>(projection.clip_scale.x);
     m[1][1] = static_cast<float>(projection.clip_scale.y);
@@ -103,8 +103,8 @@ std::vector<Run> splitRuns(std::span<const Visible> visible, Same same) {
 class Builder {
   public:
     Builder(const SceneResources& scene,
-            const view::Camera& camera,
-            const view::Size& size,
+            const settings::Camera& camera,
+            const settings::Size& size,
             const ViewProjection& projection,
             bool by_triangle,
             DrawList& out)
@@ -132,7 +132,7 @@ class Builder {
     [[nodiscard]] vk::Rect2D partOf(const Visible& visible) const;
 
     const SceneResources& scene_;
-    const view::Camera& camera_;
+    const settings::Camera& camera_;
     const bool by_triangle_;
     const glm::mat4 clip_from_view_;
     const glm::vec2 half_size_px_;
@@ -169,7 +169,7 @@ ObjectView Builder::objectView(const DrawItem& item) const {
     for (size_t i = 0; i < v.planes.size(); ++i) {
         v.lengths[i] = glm::length(glm::vec3(v.planes[i]));
     }
-    v.cones = camera_.projection == view::Projection::kPerspective &&
+    v.cones = camera_.projection == settings::Projection::kPerspective &&
               (item.material_flags & io::kMaterialDoubleSided) == 0;
     if (v.cones) {
         const glm::dmat4& world = scene_.instances[item.instance];
@@ -370,8 +370,8 @@ void Builder::build(bool solid_wanted, TransparentOrder order) {
 } // namespace
 
 void buildDrawList(const SceneResources& scene,
-                   const view::Camera& camera,
-                   const view::Size& size,
+                   const settings::Camera& camera,
+                   const settings::Size& size,
                    const ViewProjection& projection,
                    bool by_triangle,
                    bool solid,

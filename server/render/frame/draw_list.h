@@ -48,8 +48,8 @@ enum class TransparentOrder : uint8_t { kByDistance, kOfTheScene };
 // by_triangle: also cull single triangles, into DrawList::indices. solid: false leaves out all but
 // transparent surfaces. Pure.
 void buildDrawList(const SceneResources& scene,
-                   const view::Camera& camera,
-                   const view::Size& size,
+                   const settings::Camera& camera,
+                   const settings::Size& size,
                    const ViewProjection& projection,
                    bool by_triangle,
                    bool solid,

@@ -26,7 +26,7 @@ struct ViewTargets;
 
 // What the host knows of a frame that has effects.
 struct EffectInputs {
-    const view::ViewSettings& settings; // their size: what is drawn
+    const settings::ViewSettings& settings; // their size: what is drawn
     const light::FrameLights& lights;
     double time_s = 0;
 };

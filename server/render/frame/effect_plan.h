@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/error.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <memory>
@@ -42,18 +42,20 @@ struct EffectPlan {
 struct EffectRow {
     EffectPlace place;
     // None: the frame lacks it.
-    std::optional<EffectPlan> (*plan)(const view::ViewSettings& settings, const FrameFacts& facts);
+    std::optional<EffectPlan> (*plan)(const settings::ViewSettings& settings,
+                                      const FrameFacts& facts);
     // What it does, in a line for people; empty: nothing to speak of.
-    std::string (*words)(const view::ViewSettings& settings, const EffectPlan& plan);
+    std::string (*words)(const settings::ViewSettings& settings, const EffectPlan& plan);
     // One view's. Throws vk::SystemError.
     std::unique_ptr<Effect> (*make)(SceneResources& scene);
     // Whether Effect::look() has something to see before a frame is planned. Null: never.
-    bool (*looks)(const view::ViewSettings& settings) = nullptr;
+    bool (*looks)(const settings::ViewSettings& settings) = nullptr;
     // Whether the device can do what is asked for. Errors: kUnsupported. Null: always.
-    Result<void> (*able)(const view::ViewSettings& settings, const gpu::Device& device) = nullptr;
+    Result<void> (*able)(const settings::ViewSettings& settings,
+                         const gpu::Device& device) = nullptr;
     // What it takes memory for, in words for people; none: for nothing of these settings. Null: for
     // nothing to speak of.
-    std::optional<std::string> (*memory_words)(const view::ViewSettings& settings) = nullptr;
+    std::optional<std::string> (*memory_words)(const settings::ViewSettings& settings) = nullptr;
 };
 
 // All that there are, in the order of the frame: effects.cpp.

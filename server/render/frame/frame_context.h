@@ -42,7 +42,7 @@ struct FrameContext {
 // Calls record(frame, part) for parts of a picture of `size`, where pieces may end.
 template <class Record>
 void inParts(const FrameContext& frame,
-             const view::Size& size,
+             const settings::Size& size,
              const RegionCost& cost,
              const Record& record) {
     VariantMaker& variants = frame.scene.variants;

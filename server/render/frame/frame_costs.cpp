@@ -7,7 +7,7 @@
 namespace froxel::render {
 namespace {
 
-vk::Extent2D extentOf(const view::Size& size) {
+vk::Extent2D extentOf(const settings::Size& size) {
     return {size.width_px, size.height_px};
 }
 
@@ -28,15 +28,15 @@ vk::Rect2D common(const vk::Rect2D& a, const vk::Rect2D& b) {
             {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
 }
 
-Seconds timeOver(const RegionCost& cost, const view::Size& size) {
+Seconds timeOver(const RegionCost& cost, const settings::Size& size) {
     return cost.each + std::max(cost.of({{0, 0}, extentOf(size)}), cost.least);
 }
 
 Result<void>
-checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Seconds limit) {
-    const bool all = settings.renderer == view::Renderer::kNaive ||
-                     settings.light_loop == view::LightLoop::kAllLights;
-    if (!all || view::replacesPicture(settings.debug.view)) {
+checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Seconds limit) {
+    const bool all = settings.renderer == settings::Renderer::kNaive ||
+                     settings.light_loop == settings::LightLoop::kAllLights;
+    if (!all || settings::replacesPicture(settings.debug.view)) {
         return {};
     }
     const double pixels = static_cast<double>(settings.size.width_px) * settings.size.height_px;
@@ -117,7 +117,7 @@ RegionCost FrameCosts::countPairs() const {
 }
 
 RegionCost FrameCosts::debugView() const {
-    if (!view::testsLights(load_.plan.debug)) {
+    if (!settings::testsLights(load_.plan.debug)) {
         return screen();
     }
     return shading(unit_.counting);
@@ -145,7 +145,7 @@ RegionCost FrameCosts::screen() const {
 
 void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     const auto& plan = load_.plan;
-    const view::Size& drawn = load_.drawn;
+    const settings::Size& drawn = load_.drawn;
     const auto add = [&](const char* name, const RegionCost& cost) {
         passes.push_back({name, timeOver(cost, drawn)});
     };
@@ -185,10 +185,10 @@ void FrameCosts::addEffects(EffectPlace place, std::vector<PassEstimate>& passes
 }
 
 void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
-    const view::Size& drawn = load_.drawn;
+    const settings::Size& drawn = load_.drawn;
     addEffects(EffectPlace::kSolid, passes);
     if (load_.plan.transparent) {
-        const bool peeled = load_.plan.transparency == view::Transparency::kPeeled;
+        const bool peeled = load_.plan.transparency == settings::Transparency::kPeeled;
         const double layers = peeled ? load_.peel_layers : 1;
         passes.push_back({peeled ? "peel" : "transparent", layers * timeOver(blended(), drawn)});
     }
@@ -197,8 +197,8 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
     addEffects(EffectPlace::kLights, passes);
-    if (view::replacesPicture(load_.plan.debug)) {
-        if (load_.plan.debug == view::DebugView::kOverdraw) {
+    if (settings::replacesPicture(load_.plan.debug)) {
+        if (load_.plan.debug == settings::DebugView::kOverdraw) {
             passes.push_back({"overdraw", timeOver(gbuffer(), load_.drawn)});
         } else {
             addSurfaces(passes);
@@ -254,14 +254,14 @@ Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
 
 double FrameCosts::slowestLoop() const {
     const FramePlan& plan = load_.plan;
-    const bool replaced = view::replacesPicture(plan.debug);
+    const bool replaced = settings::replacesPicture(plan.debug);
     double slowest = 0;
     const auto add = [&](bool is_there, const PairCost& cost) {
         slowest = is_there ? std::max(slowest, cost.loop) : slowest;
     };
     add(!replaced && (plan.lighting_compute || plan.visibility_shade), unit_.compute);
     add(!replaced && (plan.forward || plan.lighting_fragment || plan.transparent), unit_.fragment);
-    add(plan.count_pairs || (replaced && view::testsLights(plan.debug)), unit_.counting);
+    add(plan.count_pairs || (replaced && settings::testsLights(plan.debug)), unit_.counting);
     for (const auto& [place, effect] : load_.effects) {
         slowest = std::max(slowest, effect->loopCost(unit_));
     }

@@ -28,8 +28,8 @@ struct FrameLoad {
 
     const FramePlan& plan;
     const DrawList& draws;
-    view::Size drawn;
-    view::Size shown;
+    settings::Size drawn;
+    settings::Size shown;
     PairBound pairs;
     uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;
@@ -57,12 +57,12 @@ struct PassEstimate {
 }
 
 // Of a pass over all of a target.
-[[nodiscard]] Seconds timeOver(const RegionCost& cost, const view::Size& size);
+[[nodiscard]] Seconds timeOver(const RegionCost& cost, const settings::Size& size);
 
 // Errors: kCapacity where looping over all lights, as these settings ask for, takes longer than
 // `limit` whatever there is to see: told before any light is looked at.
 [[nodiscard]] Result<void>
-checkAllLights(const UnitCosts& unit, const view::ViewSettings& settings, Seconds limit);
+checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Seconds limit);
 
 class FrameCosts {
   public:

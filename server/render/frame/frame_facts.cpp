@@ -6,7 +6,7 @@
 
 namespace froxel::render {
 
-double farthestDepth(const view::Camera& camera, const BoundsD3& bounds) {
+double farthestDepth(const settings::Camera& camera, const BoundsD3& bounds) {
     double farthest = 0;
     for (uint32_t i = 0; i < 8 && !bounds.empty(); ++i) {
         const glm::dvec3 corner((i & 1U) != 0 ? bounds.max.x : bounds.min.x,
@@ -18,11 +18,11 @@ double farthestDepth(const view::Camera& camera, const BoundsD3& bounds) {
     return farthest * 1.001;
 }
 
-bool equalRadii(const light::FrameLights& lights, const view::Lights& settings) {
+bool equalRadii(const light::FrameLights& lights, const settings::Lights& settings) {
     const auto& radii = lights.radii_m;
     const bool seeded_alike =
         settings.cutoff <= 0 &&
-        std::ranges::none_of(settings.placed.lights(), [&](const view::PlacedLight& placed) {
+        std::ranges::none_of(settings.placed.lights(), [&](const settings::PlacedLight& placed) {
             return light::standsForSeeded(settings, placed);
         });
     const uint32_t seeded_count = seeded_alike ? settings.count : 0;

@@ -3,7 +3,7 @@
 
 #include "core/clock.h"
 #include "render/frame/frame_plan.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,7 +19,7 @@ enum class GeometryPath : uint8_t { kAuto, kRaster, kVisibility, kComputeRaster 
 enum class AssignmentPlace : uint8_t { kAuto, kHost, kDevice };
 
 struct FrameInputs {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     double time_s = 0;          // the lights' clock; pauses and speed are already folded in
     bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
     // For tests and measurements.

@@ -10,32 +10,34 @@ namespace froxel::render {
 
 namespace {
 
-uint32_t sliceFlags(view::GridLaw law) {
+uint32_t sliceFlags(settings::GridLaw law) {
     switch (law) {
-    case view::GridLaw::kLogarithmic:
+    case settings::GridLaw::kLogarithmic:
         return 0;
-    case view::GridLaw::kLinear:
+    case settings::GridLaw::kLinear:
         return io::kLightSlicesLinear;
-    case view::GridLaw::kHyperbolic:
+    case settings::GridLaw::kHyperbolic:
         return io::kLightSlicesHyperbolic;
     }
     return 0;
 }
 
-uint32_t shadingFlag(view::ShadingModel model) {
+uint32_t shadingFlag(settings::ShadingModel model) {
     switch (model) {
-    case view::ShadingModel::kPbr:
+    case settings::ShadingModel::kPbr:
         return 0;
-    case view::ShadingModel::kLambert:
+    case settings::ShadingModel::kLambert:
         return io::kLightLambert;
-    case view::ShadingModel::kBlinnPhong:
+    case settings::ShadingModel::kBlinnPhong:
         return io::kLightBlinnPhong;
     }
     return 0;
 }
 
-uint32_t
-lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lists, bool compute) {
+uint32_t lightFlags(const settings::ViewSettings& settings,
+                    const FrameFacts& facts,
+                    bool lists,
+                    bool compute) {
     uint32_t flags = 0;
     if (facts.local_lights) {
         flags |= io::kLightLocal;
@@ -55,20 +57,23 @@ lightFlags(const view::ViewSettings& settings, const FrameFacts& facts, bool lis
         flags |= culled && (flags & io::kLightBatched) != 0 ? io::kLightCulled : 0U;
     }
     flags |= facts.directional ? io::kLightDirectional : 0U;
-    if (flags != 0 && settings.renderer == view::Renderer::kToonFragment) {
+    if (flags != 0 && settings.renderer == settings::Renderer::kToonFragment) {
         flags |= io::kLightToon;
     }
     flags |= shadingFlag(settings.shading);
-    flags |= facts.edges && settings.shading != view::ShadingModel::kLambert ? io::kLightEdges : 0U;
+    flags |=
+        facts.edges && settings.shading != settings::ShadingModel::kLambert ? io::kLightEdges : 0U;
     return flags;
 }
 
 // A debug view in the picture's place: the surfaces that it shows, and no lighting.
-void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const FrameFacts& facts) {
-    const view::DebugView debug = settings.debug.view;
-    const bool overdraw = debug == view::DebugView::kOverdraw;
+void replacePicture(FramePlan& plan,
+                    const settings::ViewSettings& settings,
+                    const FrameFacts& facts) {
+    const settings::DebugView debug = settings.debug.view;
+    const bool overdraw = debug == settings::DebugView::kOverdraw;
     // Depths that compute rasters are exact once the G-buffer is filled.
-    plan.gbuffer = !overdraw && (!isForward(settings.renderer) || view::showsMaterial(debug) ||
+    plan.gbuffer = !overdraw && (!isForward(settings.renderer) || settings::showsMaterial(debug) ||
                                  plan.compute_raster);
     plan.depth_prepass &= plan.gbuffer;
     plan.depth_prepass |= !overdraw && !plan.gbuffer && !plan.visibility;
@@ -76,23 +81,23 @@ void replacePicture(FramePlan& plan, const view::ViewSettings& settings, const F
     plan.forward = plan.visibility_shade = false;
     plan.lighting_compute = plan.lighting_fragment = false;
     plan.toon_pass = plan.transparent = false;
-    plan.transparency = view::Transparency::kSorted;
+    plan.transparency = settings::Transparency::kSorted;
     plan.peel_layers = 0;
     plan.outline = plan.samples = false; // nothing is done to what it shows
     std::erase_if(plan.effects,
                   [](const auto& it) { return it.row->place != EffectPlace::kLights; });
-    plan.lists &= view::countsLights(debug) || view::showsClusters(debug);
+    plan.lists &= settings::countsLights(debug) || settings::showsClusters(debug);
 }
 
 } // namespace
 
-bool isForward(view::Renderer renderer) {
-    return renderer == view::Renderer::kNaive || renderer == view::Renderer::kForwardPlus;
+bool isForward(settings::Renderer renderer) {
+    return renderer == settings::Renderer::kNaive || renderer == settings::Renderer::kForwardPlus;
 }
 
-bool storesSpecular(const view::ViewSettings& settings, bool scene_specular) {
+bool storesSpecular(const settings::ViewSettings& settings, bool scene_specular) {
     return scene_specular && !isForward(settings.renderer) &&
-           settings.shading != view::ShadingModel::kLambert;
+           settings.shading != settings::ShadingModel::kLambert;
 }
 
 bool FramePlan::hasEffect(EffectPlace place) const {
@@ -111,17 +116,18 @@ FrameFacts generalised(FrameFacts facts, const GenericParts& parts) {
     return facts;
 }
 
-view::Size drawnSize(const view::ViewSettings& settings) {
-    const uint32_t across =
-        view::replacesPicture(settings.debug.view) ? 1 : view::samplesAcross(settings.antialiasing);
+settings::Size drawnSize(const settings::ViewSettings& settings) {
+    const uint32_t across = settings::replacesPicture(settings.debug.view)
+                                ? 1
+                                : settings::samplesAcross(settings.antialiasing);
     return {settings.size.width_px * across, settings.size.height_px * across};
 }
 
 namespace {
 
 // Which passes there are.
-FramePlan planPasses(const view::ViewSettings& settings, const FrameFacts& facts) {
-    using view::Renderer;
+FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& facts) {
+    using settings::Renderer;
     FramePlan plan;
     const Renderer renderer = settings.renderer;
     plan.visibility = facts.visibility;
@@ -133,12 +139,12 @@ FramePlan planPasses(const view::ViewSettings& settings, const FrameFacts& facts
     const bool rastered = plan.forward || (plan.gbuffer && !plan.visibility);
     plan.depth_prepass = rastered && renderer != Renderer::kNaive && facts.prepass_pays;
     plan.count_samples = rastered && facts.overdraw_unknown;
-    plan.lighting_compute = plan.gbuffer && settings.lighting != view::LightingStage::kFragment;
+    plan.lighting_compute = plan.gbuffer && settings.lighting != settings::LightingStage::kFragment;
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.toon_pass = renderer == Renderer::kToonCompute;
     plan.outline = (renderer == Renderer::kToonFragment || renderer == Renderer::kToonCompute) &&
                    settings.toon_outline.strength > 0;
-    plan.samples = view::samplesAcross(settings.antialiasing) > 1;
+    plan.samples = settings::samplesAcross(settings.antialiasing) > 1;
     for (const EffectRow* row : effectRows()) {
         if (const auto effect = row->plan(settings, facts)) {
             plan.effects.push_back({row, *effect});
@@ -148,14 +154,14 @@ FramePlan planPasses(const view::ViewSettings& settings, const FrameFacts& facts
     if (plan.transparent) {
         plan.transparency = settings.transparency;
         plan.peel_layers =
-            settings.transparency == view::Transparency::kPeeled ? settings.peel_layers : 0;
+            settings.transparency == settings::Transparency::kPeeled ? settings.peel_layers : 0;
     }
     plan.debug = settings.debug.view;
-    plan.lists = (renderer != Renderer::kNaive || view::showsClusters(plan.debug)) &&
+    plan.lists = (renderer != Renderer::kNaive || settings::showsClusters(plan.debug)) &&
                  facts.local_lights && !facts.all_lights;
     plan.count_pairs = settings.count_pairs && facts.local_lights;
 
-    if (view::replacesPicture(plan.debug)) {
+    if (settings::replacesPicture(plan.debug)) {
         replacePicture(plan, settings, facts);
     }
     return plan;
@@ -163,18 +169,18 @@ FramePlan planPasses(const view::ViewSettings& settings, const FrameFacts& facts
 
 } // namespace
 
-FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts) {
+FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& facts) {
     FramePlan plan = planPasses(settings, facts);
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
     const bool follows = plan.transparent || plan.outline || plan.samples ||
                          plan.hasEffect(EffectPlace::kSolid) ||
-                         plan.hasEffect(EffectPlace::kPicture) || view::isOverlay(plan.debug);
+                         plan.hasEffect(EffectPlace::kPicture) || settings::isOverlay(plan.debug);
     const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
-    plan.tonemap = !compute_ends && !view::replacesPicture(plan.debug);
+    plan.tonemap = !compute_ends && !settings::replacesPicture(plan.debug);
     plan.radiance = plan.tonemap || plan.toon_pass || facts.keep_radiance ||
-                    plan.debug == view::DebugView::kOverdraw;
+                    plan.debug == settings::DebugView::kOverdraw;
 
     plan.forward_light_flags = lightFlags(settings, facts, plan.lists, false);
     plan.lighting_light_flags = lightFlags(settings, facts, plan.lists, compute_lights);
@@ -189,14 +195,14 @@ FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts)
                               ? io::kOutputWideGbuffer | facts.emission_exponent
                                                              << io::kOutputEmissionShift
                               : 0U;
-    const uint32_t tone = settings.tone_map == view::ToneMap::kClamp ? io::kOutputClamp : 0U;
+    const uint32_t tone = settings.tone_map == settings::ToneMap::kClamp ? io::kOutputClamp : 0U;
     const uint32_t pixels = io::kOutputPixels | tone;
-    const view::GbufferLayout layout = // a forward renderer's, for a debug view: the default
-        isForward(settings.renderer) ? view::GbufferLayout{} : settings.gbuffer;
+    const settings::GbufferLayout layout = // a forward renderer's, for a debug view: the default
+        isForward(settings.renderer) ? settings::GbufferLayout{} : settings.gbuffer;
     const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
     plan.gbuffer_output_flags = plan.gbuffer ? wide | specular | layoutFlags(layout) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
-    if (settings.shading == view::ShadingModel::kLambert) {
+    if (settings.shading == settings::ShadingModel::kLambert) {
         plan.gbuffer_unused_material_flags =
             io::kMaterialRoughnessTexture | io::kMaterialSpecularAll;
     }

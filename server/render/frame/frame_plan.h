@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/frame/effect_plan.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <cstdint>
 #include <vector>
@@ -66,15 +66,16 @@ struct FramePlan {
     bool toon_pass = false;
     bool outline = false; // edges darkened, before anything is blended
     bool transparent = false;
-    view::Transparency transparency = view::Transparency::kSorted; // where transparent
-    uint32_t peel_layers = 0;                                      // at most; 0: nothing is peeled
-    bool samples = false;  // four a pixel: everything is drawn at twice the sides
-    bool tonemap = false;  // a pass of its own
-    bool lists = false;    // lights are assigned to clusters
-    bool radiance = false; // the radiance target exists
+    settings::Transparency transparency = settings::Transparency::kSorted; // where transparent
+    uint32_t peel_layers = 0; // at most; 0: nothing is peeled
+    bool samples = false;     // four a pixel: everything is drawn at twice the sides
+    bool tonemap = false;     // a pass of its own
+    bool lists = false;       // lights are assigned to clusters
+    bool radiance = false;    // the radiance target exists
     bool count_pairs = false;
-    view::DebugView debug = view::DebugView::kNone; // its passes; view::replacesPicture(): and no
-                                                    // lighting
+    settings::DebugView debug =
+        settings::DebugView::kNone; // its passes; settings::replacesPicture(): and no
+                                    // lighting
 
     std::vector<PlannedEffect> effects = {}; // in their order
 
@@ -93,14 +94,14 @@ struct FramePlan {
 };
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.
-[[nodiscard]] bool isForward(view::Renderer renderer);
+[[nodiscard]] bool isForward(settings::Renderer renderer);
 
 // Whether the G-buffer has a word of what dielectrics reflect.
-[[nodiscard]] bool storesSpecular(const view::ViewSettings& settings, bool scene_specular);
+[[nodiscard]] bool storesSpecular(const settings::ViewSettings& settings, bool scene_specular);
 
 // What the settings' pictures are drawn at: twice the sides where pixels have four samples.
-[[nodiscard]] view::Size drawnSize(const view::ViewSettings& settings);
+[[nodiscard]] settings::Size drawnSize(const settings::ViewSettings& settings);
 
-[[nodiscard]] FramePlan planFrame(const view::ViewSettings& settings, const FrameFacts& facts);
+[[nodiscard]] FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& facts);
 
 } // namespace froxel::render

@@ -1,6 +1,6 @@
 #include "render/frame/frame_uniforms.h"
 
-#include "view/environment.h"
+#include "settings/environment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr float kNever = 1e30F;
 
 // Hermite points to cubics in u = x - x0, constant before the first and after the last point.
-void fillToon(const view::ToonRamp& ramp, io::Frame& frame) {
+void fillToon(const settings::ToonRamp& ramp, io::Frame& frame) {
     for (auto& segment : frame.toon) {
         segment = {kNever, 0, 0, 0, 0};
     }
@@ -46,10 +46,11 @@ void fillGrid(const cluster::ClusterGrid& grid, io::Frame& frame) {
 
 } // namespace
 
-ViewProjection makeProjection(const view::Camera& camera, const view::Size& size, double far_m) {
-    const double aspect = view::aspectOf(size);
+ViewProjection
+makeProjection(const settings::Camera& camera, const settings::Size& size, double far_m) {
+    const double aspect = settings::aspectOf(size);
     ViewProjection p;
-    const double half = camera.projection == view::Projection::kPerspective
+    const double half = camera.projection == settings::Projection::kPerspective
                             ? std::tan(camera.yfov_rad * 0.5)
                             : camera.half_height_m;
     p.clip_scale = {1.0 / (half * aspect), -1.0 / half}; // Vulkan's clip space has y down
@@ -58,7 +59,7 @@ ViewProjection makeProjection(const view::Camera& camera, const view::Size& size
     return p;
 }
 
-io::Frame makeFrameUniforms(const view::ViewSettings& settings,
+io::Frame makeFrameUniforms(const settings::ViewSettings& settings,
                             const ViewProjection& projection,
                             const cluster::ClusterGrid* grid,
                             uint32_t light_count,
@@ -68,7 +69,7 @@ io::Frame makeFrameUniforms(const view::ViewSettings& settings,
     frame.clip_scale = projection.clip_scale;
     frame.clip_offset = projection.clip_offset;
     const double near = camera.near_m;
-    if (camera.projection == view::Projection::kPerspective) {
+    if (camera.projection == settings::Projection::kPerspective) {
         // Reversed-Z, infinite far: depth = near / distance.
         frame.clip_z = {near, 0};
         frame.clip_w = {0, -1};
@@ -99,16 +100,16 @@ io::Frame makeFrameUniforms(const view::ViewSettings& settings,
     frame.directional_count = directional_count;
     frame.up_view = glm::vec3(glm::transpose(camera.world_from_view)[1]);
     frame.exposure = settings.exposure;
-    frame.ambient_sky = view::kAmbientSky * settings.lights.ambient;
-    frame.ambient_ground = view::kAmbientGround * settings.lights.ambient;
-    frame.background = view::kBackground;
+    frame.ambient_sky = settings::kAmbientSky * settings.lights.ambient;
+    frame.ambient_ground = settings::kAmbientGround * settings.lights.ambient;
+    frame.background = settings::kBackground;
     const auto& outline = settings.toon_outline;
     const auto side_px =
         static_cast<float>(std::min(settings.size.width_px, settings.size.height_px));
     frame.outline_strength = outline.strength;
     frame.outline_reach_px = std::max(1.0F, outline.width * side_px);
-    fillToon(settings.renderer == view::Renderer::kToonCompute ? settings.toon_compute
-                                                               : settings.toon_fragment,
+    fillToon(settings.renderer == settings::Renderer::kToonCompute ? settings.toon_compute
+                                                                   : settings.toon_fragment,
              frame);
     return frame;
 }

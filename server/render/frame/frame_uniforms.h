@@ -4,7 +4,7 @@
 #include "cluster/cluster_grid.h"
 #include "core/math.h"
 #include "interface/frame_io.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 namespace froxel::render {
 
@@ -17,10 +17,10 @@ struct ViewProjection {
 
 // far_m: the farthest depth of the scene, for orthographic cameras (perspective is infinite).
 [[nodiscard]] ViewProjection
-makeProjection(const view::Camera& camera, const view::Size& size, double far_m);
+makeProjection(const settings::Camera& camera, const settings::Size& size, double far_m);
 
 // grid: null where no lists are used.
-[[nodiscard]] io::Frame makeFrameUniforms(const view::ViewSettings& settings,
+[[nodiscard]] io::Frame makeFrameUniforms(const settings::ViewSettings& settings,
                                           const ViewProjection& projection,
                                           const cluster::ClusterGrid* grid,
                                           uint32_t light_count,

@@ -48,14 +48,14 @@ std::string lightWords(const FrameFacts& facts, const FramePlan& plan, bool naiv
                  : "lists do not pay or are not asked for: every pixel loops over all lights";
 }
 
-void addWords(Lines& lines, const PlannedEffect& effect, const view::ViewSettings& settings) {
+void addWords(Lines& lines, const PlannedEffect& effect, const settings::ViewSettings& settings) {
     if (auto words = effect.row->words(settings, effect.plan); !words.empty()) {
         lines.push_back(std::move(words));
     }
 }
 
 void addWordsAt(Lines& lines,
-                const view::ViewSettings& settings,
+                const settings::ViewSettings& settings,
                 const FramePlan& plan,
                 EffectPlace place) {
     for (const PlannedEffect& effect : plan.effects) {
@@ -66,10 +66,10 @@ void addWordsAt(Lines& lines,
 }
 
 void addLightWords(Lines& lines,
-                   const view::ViewSettings& settings,
+                   const settings::ViewSettings& settings,
                    const FrameFacts& facts,
                    const FramePlan& plan) {
-    lines.push_back(lightWords(facts, plan, settings.renderer == view::Renderer::kNaive));
+    lines.push_back(lightWords(facts, plan, settings.renderer == settings::Renderer::kNaive));
     const uint32_t flags = plan.gbuffer || plan.visibility_shade ? plan.lighting_light_flags
                                                                  : plan.forward_light_flags;
     if (facts.local_lights) {
@@ -77,7 +77,7 @@ void addLightWords(Lines& lines,
                                        : "no spot light: no cone data");
         if (facts.areas) {
             lines.emplace_back(
-                settings.shading == view::ShadingModel::kLambert
+                settings.shading == settings::ShadingModel::kLambert
                     ? "area lights: their rectangles are fetched and integrated"
                     : "area lights: rectangles and the highlight's table are fetched");
         }
@@ -98,15 +98,15 @@ void addLightWords(Lines& lines,
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
     }
-    if (settings.shading == view::ShadingModel::kLambert) {
+    if (settings.shading == settings::ShadingModel::kLambert) {
         lines.emplace_back("lambert: no specular part, no roughness textures");
-    } else if (settings.shading == view::ShadingModel::kBlinnPhong) {
+    } else if (settings.shading == settings::ShadingModel::kBlinnPhong) {
         lines.emplace_back("blinn_phong: highlights by a power of the half vector's cosine");
     }
 }
 
 void addSolidWords(Lines& lines,
-                   const view::ViewSettings& settings,
+                   const settings::ViewSettings& settings,
                    const FrameFacts& facts,
                    const FramePlan& plan) {
     if (plan.visibility) {
@@ -129,14 +129,15 @@ void addSolidWords(Lines& lines,
                                "second target, which only the rasteriser writes");
         }
     } else {
-        lines.emplace_back(view::replacesPicture(plan.debug)
+        lines.emplace_back(settings::replacesPicture(plan.debug)
                                ? "no G-buffer: depth alone"
                                : "no G-buffer: surfaces are shaded at once");
     }
     if (plan.depth_prepass) {
         lines.emplace_back("depth prepass: each pixel is shaded once");
     } else if (!plan.visibility) {
-        lines.emplace_back(settings.renderer == view::Renderer::kNaive ? "naive: no depth prepass"
+        lines.emplace_back(settings.renderer == settings::Renderer::kNaive
+                               ? "naive: no depth prepass"
                            : facts.overdraw_unknown
                                ? "no depth prepass: how often surfaces overlap is being measured"
                                : "no depth prepass: it would cost more than it spares");
@@ -144,7 +145,7 @@ void addSolidWords(Lines& lines,
 }
 
 // Of what is done to the picture once it is lit.
-void addEffectWords(Lines& lines, const view::ViewSettings& settings, const FramePlan& plan) {
+void addEffectWords(Lines& lines, const settings::ViewSettings& settings, const FramePlan& plan) {
     if (plan.outline) {
         lines.emplace_back(
             "outline: edges of depth and normals are darkened, in a pass of its own");
@@ -163,12 +164,12 @@ std::string transparentWords(const FramePlan& plan) {
         return "no transparent surface in view: no sort, no blend pass";
     }
     switch (plan.transparency) {
-    case view::Transparency::kWeighted:
+    case settings::Transparency::kWeighted:
         return "transparent surfaces in view: summed at once by weights of distance, approximate";
-    case view::Transparency::kPeeled:
+    case settings::Transparency::kPeeled:
         return "transparent surfaces in view: up to " + std::to_string(plan.peel_layers) +
                " layers peeled from the eye, each pixel's next one shaded alone";
-    case view::Transparency::kSorted:
+    case settings::Transparency::kSorted:
         break;
     }
     return "transparent surfaces in view: sorted and blended";
@@ -182,7 +183,7 @@ std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     if (facts.transparent_visible) {
         return "tone map in a pass of its own, after blending";
     }
-    if (view::isOverlay(plan.debug)) {
+    if (settings::isOverlay(plan.debug)) {
         return "tone map in a pass of its own, after the debug view's lines";
     }
     if (plan.samples || plan.outline || plan.hasEffect(EffectPlace::kSolid) ||
@@ -227,18 +228,18 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
 }
 
 std::vector<std::string>
-frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan) {
-    if (view::replacesPicture(plan.debug)) {
-        Lines lines = {"debug view " + std::string(view::nameOf(plan.debug)) +
+frameWords(const settings::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan) {
+    if (settings::replacesPicture(plan.debug)) {
+        Lines lines = {"debug view " + std::string(settings::nameOf(plan.debug)) +
                        " in the picture's place: solid surfaces only, no lighting"};
-        if (plan.debug != view::DebugView::kOverdraw) {
+        if (plan.debug != settings::DebugView::kOverdraw) {
             addSolidWords(lines, settings, facts, plan);
         }
         return lines;
     }
     const bool compute = plan.lighting_compute || plan.visibility_shade;
-    Lines lines = {nameOf(view::kRendererNames, settings.renderer) + ", " +
-                   nameOf(view::kShadingModelNames, settings.shading) + ", lighting in " +
+    Lines lines = {nameOf(settings::kRendererNames, settings.renderer) + ", " +
+                   nameOf(settings::kShadingModelNames, settings.shading) + ", lighting in " +
                    (compute ? "compute" : "the fragment stage")};
     addSolidWords(lines, settings, facts, plan);
     addLightWords(lines, settings, facts, plan);
@@ -248,8 +249,8 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     if (plan.count_pairs) {
         lines.emplace_back("light-pixel pairs are counted, in a pass of its own");
     }
-    if (view::isOverlay(plan.debug)) {
-        lines.push_back("debug view " + std::string(view::nameOf(plan.debug)) +
+    if (settings::isOverlay(plan.debug)) {
+        lines.push_back("debug view " + std::string(settings::nameOf(plan.debug)) +
                         ": lines over the picture, in a pass of their own");
     }
     if (!plan.radiance) {
@@ -258,7 +259,8 @@ frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
     return lines;
 }
 
-std::vector<std::string> effectWords(const view::ViewSettings& settings, const FramePlan& plan) {
+std::vector<std::string> effectWords(const settings::ViewSettings& settings,
+                                     const FramePlan& plan) {
     Lines lines;
     for (const PlannedEffect& effect : plan.effects) {
         addWords(lines, effect, settings);

@@ -14,10 +14,10 @@ namespace froxel::render {
 
 // Of a frame: a pure function of what planFrame() took and gave.
 [[nodiscard]] std::vector<std::string>
-frameWords(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan);
+frameWords(const settings::ViewSettings& settings, const FrameFacts& facts, const FramePlan& plan);
 
 // What its effects say of that, in their order.
-[[nodiscard]] std::vector<std::string> effectWords(const view::ViewSettings& settings,
+[[nodiscard]] std::vector<std::string> effectWords(const settings::ViewSettings& settings,
                                                    const FramePlan& plan);
 
 } // namespace froxel::render

@@ -8,7 +8,7 @@
 
 namespace froxel::render {
 
-std::vector<TargetImage> targetImages(const view::Size& drawn, const TargetNeeds& needs) {
+std::vector<TargetImage> targetImages(const settings::Size& drawn, const TargetNeeds& needs) {
     using Usage = vk::ImageUsageFlagBits;
     const vk::Extent2D extent{drawn.width_px, drawn.height_px};
     std::vector<TargetImage> images;
@@ -50,8 +50,8 @@ std::vector<TargetImage> targetImages(const view::Size& drawn, const TargetNeeds
 }
 
 ViewTargets::ViewTargets(const gpu::Device& device,
-                         const view::Size& drawn,
-                         const view::Size& shown_in,
+                         const settings::Size& drawn,
+                         const settings::Size& shown_in,
                          const TargetNeeds& needs_in)
     : size(drawn), shown(shown_in), needs(needs_in), arena(device) {
     using BufferUsage = vk::BufferUsageFlagBits;
@@ -79,8 +79,8 @@ ViewTargets::ViewTargets(const gpu::Device& device,
 
 TargetNeeds targetNeeds(const FramePlan& plan,
                         const gpu::Device& device,
-                        const view::Size& drawn,
-                        const view::Size& shown,
+                        const settings::Size& drawn,
+                        const settings::Size& shown,
                         const ViewTargets* kept) {
     TargetNeeds needs{.gbuffer = plan.gbuffer,
                       .gbuffer_flags = plan.gbuffer_output_flags,

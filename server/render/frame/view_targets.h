@@ -4,7 +4,7 @@
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "render/frame/frame_plan.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <vector>
 
@@ -39,25 +39,25 @@ struct TargetImage {
     gpu::ImageInfo info;
 };
 // Those that frames drawn at this size need.
-[[nodiscard]] std::vector<TargetImage> targetImages(const view::Size& drawn,
+[[nodiscard]] std::vector<TargetImage> targetImages(const settings::Size& drawn,
                                                     const TargetNeeds& needs);
 
 // Of ViewTargets::words, a pixel.
 inline constexpr vk::DeviceSize kWordBytes = 8;
 
-[[nodiscard]] inline vk::DeviceSize packedBytes(const view::Size& shown) {
+[[nodiscard]] inline vk::DeviceSize packedBytes(const settings::Size& shown) {
     return vk::DeviceSize{4} * shown.width_px * shown.height_px;
 }
 
 struct ViewTargets {
     // All images end in the GENERAL layout, where they stay. Throws vk::OutOfDeviceMemoryError.
     ViewTargets(const gpu::Device& device,
-                const view::Size& drawn,
-                const view::Size& shown,
+                const settings::Size& drawn,
+                const settings::Size& shown,
                 const TargetNeeds& needs);
 
-    view::Size size;  // drawn at
-    view::Size shown; // of the pixels; smaller where they have several samples
+    settings::Size size;  // drawn at
+    settings::Size shown; // of the pixels; smaller where they have several samples
     TargetNeeds needs;
     gpu::MemoryArena arena;
     gpu::Image depth;
@@ -72,8 +72,9 @@ struct ViewTargets {
     bool fresh = true;        // the images still await their first transition
     bool rastered_in_compute = false; // solid surfaces of the frame last submitted
 
-    [[nodiscard]] bool
-    fits(const view::Size& drawn, const view::Size& shown_now, const TargetNeeds& wanted) const {
+    [[nodiscard]] bool fits(const settings::Size& drawn,
+                            const settings::Size& shown_now,
+                            const TargetNeeds& wanted) const {
         return size == drawn && shown == shown_now && needs == wanted;
     }
     // Of that frame's solid surfaces.
@@ -86,8 +87,8 @@ struct ViewTargets {
 // to and fro.
 [[nodiscard]] TargetNeeds targetNeeds(const FramePlan& plan,
                                       const gpu::Device& device,
-                                      const view::Size& drawn,
-                                      const view::Size& shown,
+                                      const settings::Size& drawn,
+                                      const settings::Size& shown,
                                       const ViewTargets* kept);
 
 } // namespace froxel::render

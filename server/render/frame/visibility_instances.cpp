@@ -24,7 +24,7 @@ uint32_t bucketOf(const io::PlacedMeshlet& m, const InstanceRows& rows) {
 } // namespace
 
 void placeInstances(const SceneResources& scene,
-                    const view::Camera& camera,
+                    const settings::Camera& camera,
                     std::span<const InstanceRows> rows,
                     std::vector<io::InstanceView>& out) {
     out.resize(rows.size());

@@ -12,7 +12,7 @@ namespace froxel::render {
 
 // rows: DrawList::rows of the same camera. Pure.
 void placeInstances(const SceneResources& scene,
-                    const view::Camera& camera,
+                    const settings::Camera& camera,
                     std::span<const InstanceRows> rows,
                     std::vector<io::InstanceView>& out);
 

@@ -76,7 +76,8 @@ AssignSlot::AssignSlot(const gpu::Device& device, const AssignPipelines& pipelin
       readback_(arena_.makeBuffer(
           kTotalsBytes, Usage::eTransferDst, gpu::MemoryUse::kReadback, "light list counters")),
       pool_(nullptr) {
-    static_assert(uint64_t{view::kGridXRange.max} * view::kGridYRange.max <= io::kAssignMaxTiles);
+    static_assert(uint64_t{settings::kGridXRange.max} * settings::kGridYRange.max <=
+                  io::kAssignMaxTiles);
     const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer,
                                       AssignPipelines::kBindings};
     pool_ = gpu::makeDescriptorPool(device, std::array{size});
@@ -168,26 +169,26 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
                  // Also holds the list of all lights.
                  .entries = std::max({wanted_.entries, light_count, had.entries}),
                  .tasks = std::max(wanted_.tasks, had.tasks)};
-    data_.frame.assign(1,
-                       {.columns = sweep_.columns(),
-                        .rows = sweep_.rows(),
-                        .grid_x = grid.size.x,
-                        .grid_y = grid.size.y,
-                        .grid_z = grid.size.z,
-                        .used_columns = grid.usedColumns(),
-                        .used_rows = grid.usedRows(),
-                        .perspective = grid.projection == view::Projection::kPerspective ? 1U : 0U,
-                        .light_count = light_count,
-                        .cluster_count = grid.clusterCount(),
-                        .index_capacity = capacity_.entries,
-                        .task_capacity = capacity_.tasks,
-                        .max_entries = static_cast<uint32_t>(limits_.max_entries),
-                        .max_pairs = 0,
-                        .max_list = UINT32_MAX,
-                        .image_width_px = grid.image.width_px,
-                        .image_height_px = grid.image.height_px,
-                        .tile_width_px = grid.tile_width_px,
-                        .tile_height_px = grid.tile_height_px});
+    data_.frame.assign(
+        1, {.columns = sweep_.columns(),
+            .rows = sweep_.rows(),
+            .grid_x = grid.size.x,
+            .grid_y = grid.size.y,
+            .grid_z = grid.size.z,
+            .used_columns = grid.usedColumns(),
+            .used_rows = grid.usedRows(),
+            .perspective = grid.projection == settings::Projection::kPerspective ? 1U : 0U,
+            .light_count = light_count,
+            .cluster_count = grid.clusterCount(),
+            .index_capacity = capacity_.entries,
+            .task_capacity = capacity_.tasks,
+            .max_entries = static_cast<uint32_t>(limits_.max_entries),
+            .max_pairs = 0,
+            .max_list = UINT32_MAX,
+            .image_width_px = grid.image.width_px,
+            .image_height_px = grid.image.height_px,
+            .tile_width_px = grid.tile_width_px,
+            .tile_height_px = grid.tile_height_px});
     return data_;
 }
 

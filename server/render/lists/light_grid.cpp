@@ -4,16 +4,16 @@
 
 namespace froxel::render {
 
-void LightGrid::choose(const view::ViewSettings& settings,
+void LightGrid::choose(const settings::ViewSettings& settings,
                        const light::FrameLights& lights,
                        const BoundsD3& scene_bounds_world,
                        const cluster::GridCosts& costs) {
     lists_ = false;
     if (lights.lights.empty()) {
         why_ = "there is no point or spot light";
-    } else if (settings.renderer == view::Renderer::kNaive) {
+    } else if (settings.renderer == settings::Renderer::kNaive) {
         why_ = "the naive renderer loops over all lights";
-    } else if (settings.light_loop == view::LightLoop::kAllLights) {
+    } else if (settings.light_loop == settings::LightLoop::kAllLights) {
         why_ = "looping over all lights was asked for";
     } else {
         chooseGrid(settings, lights, scene_bounds_world, costs);
@@ -22,7 +22,7 @@ void LightGrid::choose(const view::ViewSettings& settings,
     frames_left_ = 0; // the last choice's reason is gone
 }
 
-void LightGrid::chooseGrid(const view::ViewSettings& settings,
+void LightGrid::chooseGrid(const settings::ViewSettings& settings,
                            const light::FrameLights& lights,
                            const BoundsD3& scene_bounds_world,
                            const cluster::GridCosts& costs) {
@@ -44,7 +44,7 @@ void LightGrid::chooseGrid(const view::ViewSettings& settings,
     }
 }
 
-void LightGrid::makeChoice(const view::ViewSettings& settings,
+void LightGrid::makeChoice(const settings::ViewSettings& settings,
                            const light::FrameLights& lights,
                            const cluster::GridCosts& costs) {
     const cluster::ClusterGrid frustum = cluster::makeClusterGrid(
@@ -70,7 +70,7 @@ void LightGrid::makeChoice(const view::ViewSettings& settings,
     const bool capped = settings.list_cap > 0;
     cluster::LoopChoice loop{false, capped ? "lists are capped" : "lists were asked for"};
     // All lights instead of capped lists would be another picture.
-    if (settings.light_loop == view::LightLoop::kAuto && !capped) {
+    if (settings.light_loop == settings::LightLoop::kAuto && !capped) {
         loop = cluster::chooseLoop(facts, list_length_, memory_);
     }
     memory_.all_lights = loop.all_lights;

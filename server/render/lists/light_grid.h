@@ -6,7 +6,7 @@
 #include "core/frame_stats.h"
 #include "core/math.h"
 #include "light/frame_lights.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <string>
 
@@ -17,7 +17,7 @@ namespace froxel::render {
 class LightGrid {
   public:
     // Decides for one frame and makes the grid if it needs one. `costs` lives as long as this.
-    void choose(const view::ViewSettings& settings,
+    void choose(const settings::ViewSettings& settings,
                 const light::FrameLights& lights,
                 const BoundsD3& scene_bounds_world,
                 const cluster::GridCosts& costs);
@@ -34,24 +34,24 @@ class LightGrid {
   private:
     // What a choice is made for, besides what moves: the camera and the lights.
     struct Asked {
-        view::Size size;
-        view::Renderer renderer{};
-        view::Grid grid;
-        view::LightLoop light_loop{};
+        settings::Size size;
+        settings::Renderer renderer{};
+        settings::Grid grid;
+        settings::LightLoop light_loop{};
         uint32_t list_cap = 0;
-        view::Lights lights;
+        settings::Lights lights;
         const cluster::GridCosts* costs = nullptr;
         bool operator==(const Asked&) const = default;
     };
     // A choice takes 0.3 ms, and what moves changes little in so many frames.
     static constexpr uint32_t kFramesAChoice = 16;
 
-    void chooseGrid(const view::ViewSettings& settings,
+    void chooseGrid(const settings::ViewSettings& settings,
                     const light::FrameLights& lights,
                     const BoundsD3& scene_bounds_world,
                     const cluster::GridCosts& costs);
     // From range_.
-    void makeChoice(const view::ViewSettings& settings,
+    void makeChoice(const settings::ViewSettings& settings,
                     const light::FrameLights& lights,
                     const cluster::GridCosts& costs);
 

@@ -6,14 +6,14 @@ namespace froxel::render {
 
 namespace {
 
-using view::NormalEncoding;
-using view::PositionSource;
+using settings::NormalEncoding;
+using settings::PositionSource;
 
 static_assert(io::kNormalSpheremap16 == static_cast<uint32_t>(NormalEncoding::kSpheremap16));
 static_assert(io::kPositionFp16 == static_cast<uint32_t>(PositionSource::kFp16));
 
 // Halves of a word that packLayout() (shaders/lib/gbuffer.glsl) fills.
-uint32_t layoutHalves(const view::GbufferLayout& layout) {
+uint32_t layoutHalves(const settings::GbufferLayout& layout) {
     const uint32_t z = layout.normal == NormalEncoding::kXyz16 ? 1 : 0;
     switch (layout.position) {
     case PositionSource::kDepth:
@@ -29,23 +29,23 @@ uint32_t layoutHalves(const view::GbufferLayout& layout) {
 }
 
 // What dielectrics reflect takes the next whole word.
-uint32_t extraHalves(const view::GbufferLayout& layout, bool specular) {
+uint32_t extraHalves(const settings::GbufferLayout& layout, bool specular) {
     const uint32_t halves = layoutHalves(layout);
     return specular ? (halves + 1) / 2 * 2 + 2 : halves;
 }
 
 } // namespace
 
-bool holdsSpecular(const view::GbufferLayout& layout) {
+bool holdsSpecular(const settings::GbufferLayout& layout) {
     return extraHalves(layout, true) <= 8;
 }
 
-uint32_t layoutFlags(const view::GbufferLayout& layout) {
+uint32_t layoutFlags(const settings::GbufferLayout& layout) {
     return static_cast<uint32_t>(layout.normal) << io::kOutputNormalShift |
            static_cast<uint32_t>(layout.position) << io::kOutputPositionShift;
 }
 
-vk::Format extraFormat(const view::GbufferLayout& layout, bool specular) {
+vk::Format extraFormat(const settings::GbufferLayout& layout, bool specular) {
     const uint32_t halves = extraHalves(layout, specular);
     // Three words are no colour target anywhere: the fourth stays empty.
     return halves == 0   ? vk::Format::eUndefined
@@ -57,7 +57,7 @@ vk::Format extraFormat(const view::GbufferLayout& layout, bool specular) {
 
 vk::Format extraFormat(uint32_t output_flags) {
     return extraFormat(
-        view::GbufferLayout{
+        settings::GbufferLayout{
             .normal = static_cast<NormalEncoding>(output_flags >> io::kOutputNormalShift & 7U),
             .position = static_cast<PositionSource>(output_flags >> io::kOutputPositionShift & 3U)},
         (output_flags & io::kOutputSpecular) != 0);
@@ -78,7 +78,7 @@ uint32_t extraBytes(vk::Format format) {
     }
 }
 
-uint32_t gbufferBytesPerPixel(const view::GbufferLayout& layout, bool wide, bool specular) {
+uint32_t gbufferBytesPerPixel(const settings::GbufferLayout& layout, bool wide, bool specular) {
     return (wide ? 16U : 8U) + extraBytes(extraFormat(layout, specular));
 }
 

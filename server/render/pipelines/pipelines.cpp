@@ -214,7 +214,7 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, V
                                            sizeof(io::PeelDraw),
                                            Stage::eFragment)),
       resolve_layout_(gpu::makePipelineLayout(device, {*blend_set_layout_})),
-      blend_resolve_(timeline, maker, view::kTransparencyNames.size()),
+      blend_resolve_(timeline, maker, settings::kTransparencyNames.size()),
       geometry_(timeline, maker, kKeptGeometry), screen_(timeline, maker, kKeptScreen),
       fragment_lighting_(timeline, maker, kKeptScreen) {}
 
@@ -290,11 +290,11 @@ vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
     });
 }
 
-vk::Pipeline Pipelines::blendResolve(view::Transparency transparency) {
+vk::Pipeline Pipelines::blendResolve(settings::Transparency transparency) {
     return *blend_resolve_.findOrMake(transparency, [=, this] {
         gpu::GraphicsPipelineInfo info;
         info.vertex = shaders::fullscreen_vert();
-        info.fragment = transparency == view::Transparency::kWeighted
+        info.fragment = transparency == settings::Transparency::kWeighted
                             ? shaders::blend_resolve_weighted_frag()
                             : shaders::blend_resolve_peeled_frag();
         info.layout = *resolve_layout_;

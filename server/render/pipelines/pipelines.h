@@ -5,7 +5,7 @@
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
 #include "render/pipelines/variant_cache.h"
-#include "view/settings.h"
+#include "settings/settings.h"
 
 #include <array>
 #include <cstdint>
@@ -104,7 +104,7 @@ class Pipelines {
         return geometry_.isNew(std::tuple(pass, key));
     }
     // What weighted or peeled surfaces came to, over the picture.
-    [[nodiscard]] vk::Pipeline blendResolve(view::Transparency transparency);
+    [[nodiscard]] vk::Pipeline blendResolve(settings::Transparency transparency);
     [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
     // The lighting pass in the fragment stage.
     [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key);
@@ -145,7 +145,7 @@ class Pipelines {
     vk::raii::DescriptorSetLayout blend_set_layout_;
     vk::raii::PipelineLayout peel_layout_;
     vk::raii::PipelineLayout resolve_layout_;
-    VariantCache<view::Transparency> blend_resolve_;
+    VariantCache<settings::Transparency> blend_resolve_;
     VariantCache<std::tuple<GeometryPass, VariantKey>> geometry_;
     VariantCache<std::tuple<ScreenPass, VariantKey>> screen_;
     VariantCache<VariantKey> fragment_lighting_;

@@ -24,12 +24,14 @@ gpu::GraphicsPipelineInfo wiresInfo(gpu::Spirv vertex, vk::PipelineLayout layout
 }
 
 // What the view's part of the shader looks at.
-VariantKey
-valuesKey(view::DebugView view, uint32_t light_flags, uint32_t output_flags, bool device_is_cpu) {
-    using View = view::DebugView;
+VariantKey valuesKey(settings::DebugView view,
+                     uint32_t light_flags,
+                     uint32_t output_flags,
+                     bool device_is_cpu) {
+    using View = settings::DebugView;
     const bool packed = view == View::kPosition || view == View::kNormal ||
                         view == View::kBaseColor || view == View::kRoughness;
-    const bool lists = view::countsLights(view) || view::showsClusters(view);
+    const bool lists = settings::countsLights(view) || settings::showsClusters(view);
     return {static_cast<uint32_t>(view), lists ? countingFlags(light_flags, device_is_cpu) : 0U,
             packed ? output_flags : 0U};
 }
@@ -71,7 +73,7 @@ vk::raii::Pipeline DebugPass::make(DebugShader shader, const VariantKey& key) co
 
 void DebugPass::recordValues(const vk::raii::CommandBuffer& cmd,
                              const DebugSets& sets,
-                             view::DebugView view,
+                             settings::DebugView view,
                              uint32_t light_flags,
                              uint32_t output_flags,
                              const io::DebugFrame& values,

@@ -26,7 +26,7 @@ class DebugPass {
     // G-buffer is packed.
     void recordValues(const vk::raii::CommandBuffer& cmd,
                       const DebugSets& sets,
-                      view::DebugView view,
+                      settings::DebugView view,
                       uint32_t light_flags,
                       uint32_t output_flags,
                       const io::DebugFrame& values,

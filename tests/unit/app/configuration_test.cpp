@@ -92,7 +92,7 @@ TEST_F(ConfigurationTest, EveryKindOfOption_IsTakenFromTheFile) {
     EXPECT_EQ(serve(options).lens_shift, glm::dvec2(0.5, -1));
     EXPECT_THAT(serve(options).allowed_origins,
                 ElementsAre("https://a.example", "https://b.example"));
-    EXPECT_EQ(serve(options).first_view.renderer, view::Renderer::kNaive);
+    EXPECT_EQ(serve(options).first_view.renderer, settings::Renderer::kNaive);
     EXPECT_EQ(options.log_format, LogFormat::kJson);
 }
 

@@ -28,22 +28,23 @@ TEST(Options, RenderWithAll_FillsEveryField) {
             .command;
     const auto& options = std::get<RenderOptions>(command);
     EXPECT_EQ(options.scene, "sponza.glb");
-    EXPECT_EQ(options.settings.renderer, view::Renderer::kForwardPlus);
+    EXPECT_EQ(options.settings.renderer, settings::Renderer::kForwardPlus);
     EXPECT_EQ(options.settings.lights.count, 5000U);
     EXPECT_EQ(options.settings.lights.radius_m, 1.5F);
     ASSERT_TRUE(options.settings.lights.box);
     EXPECT_EQ(options.settings.lights.box->max, glm::dvec3(10, 8, 5));
     EXPECT_EQ(options.settings.lights.seed, 9U);
     EXPECT_EQ(options.time_s, 2.5);
-    EXPECT_EQ(options.settings.size, (view::Size{640, 361}));
-    EXPECT_EQ(std::get<view::Camera>(options.camera).eye_world, glm::dvec3(-7, 2, 0));
-    EXPECT_EQ(options.settings.grid, (view::Grid{false, {15, 15, 15}, view::GridLaw::kHyperbolic}));
-    EXPECT_EQ(options.settings.light_loop, view::LightLoop::kAllLights);
-    EXPECT_EQ(options.settings.shading, view::ShadingModel::kLambert);
-    EXPECT_EQ(options.settings.gbuffer,
-              (view::GbufferLayout{view::NormalEncoding::kOct10, view::PositionSource::kFp16}));
+    EXPECT_EQ(options.settings.size, (settings::Size{640, 361}));
+    EXPECT_EQ(std::get<settings::Camera>(options.camera).eye_world, glm::dvec3(-7, 2, 0));
+    EXPECT_EQ(options.settings.grid,
+              (settings::Grid{false, {15, 15, 15}, settings::GridLaw::kHyperbolic}));
+    EXPECT_EQ(options.settings.light_loop, settings::LightLoop::kAllLights);
+    EXPECT_EQ(options.settings.shading, settings::ShadingModel::kLambert);
+    EXPECT_EQ(options.settings.gbuffer, (settings::GbufferLayout{settings::NormalEncoding::kOct10,
+                                                                 settings::PositionSource::kFp16}));
     EXPECT_TRUE(options.settings.count_pairs);
-    EXPECT_EQ(options.settings.debug.view, view::DebugView::kClusterWires);
+    EXPECT_EQ(options.settings.debug.view, settings::DebugView::kClusterWires);
     EXPECT_EQ(options.settings.debug.scale_max, 12.5);
     EXPECT_EQ(options.settings.lights.speed, 2.5F);
     EXPECT_EQ(options.grid_camera, CameraChoice(std::string("nave")));
@@ -54,8 +55,8 @@ TEST(Options, RenderWithAll_FillsEveryField) {
     EXPECT_EQ(options.device.choice, gpu::DeviceChoice::kCpu);
     EXPECT_TRUE(options.device.validation);
     EXPECT_EQ(options.settings.exposure, 0.5F);
-    EXPECT_EQ(options.settings.tone_map, view::ToneMap::kClamp);
-    EXPECT_EQ(options.settings.lighting, view::LightingStage::kFragment);
+    EXPECT_EQ(options.settings.tone_map, settings::ToneMap::kClamp);
+    EXPECT_EQ(options.settings.lighting, settings::LightingStage::kFragment);
     EXPECT_FALSE(options.settings.lights.scene_lights);
     EXPECT_FALSE(options.settings.lights.animate);
 }
@@ -63,7 +64,7 @@ TEST(Options, RenderWithAll_FillsEveryField) {
 TEST(Options, RenderWithNone_KeepsTheDefaults) {
     const auto options = parseRender({});
     EXPECT_EQ(options.scene, "builtin");
-    EXPECT_EQ(options.settings, view::ViewSettings{});
+    EXPECT_EQ(options.settings, settings::ViewSettings{});
     EXPECT_EQ(options.camera, CameraChoice(DefaultCamera{}));
     EXPECT_EQ(options.frame_count, 1U);
 }
@@ -76,10 +77,10 @@ TEST(Options, ServeWithNone_LeavesTheViewersDefaultsToTheDevice) {
     EXPECT_EQ(serve.admin, (net::BindAddress{"127.0.0.1", 9090}));
     EXPECT_FALSE(serve.agones);
     EXPECT_FALSE(serve.size || serve.quality);
-    EXPECT_EQ(serve.first_view, view::ViewSettings{});
+    EXPECT_EQ(serve.first_view, settings::ViewSettings{});
     EXPECT_FALSE(serve.min_rate_hz);
     EXPECT_EQ(serve.resume_grace_s, 10);
-    EXPECT_EQ(serve.delivery, (session::DeliverySettings{true, 0, view::Refine::kHigh}));
+    EXPECT_EQ(serve.delivery, (session::DeliverySettings{true, 0, settings::Refine::kHigh}));
     EXPECT_EQ(options.log_level, LogLevel::kInfo);
 }
 
@@ -106,16 +107,17 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.port, 0);
     EXPECT_EQ(serve.admin, (net::BindAddress{"::1", 0}));
     EXPECT_EQ(serve.scene, "a.glb");
-    EXPECT_EQ(serve.size, (view::Size{320, 200}));
+    EXPECT_EQ(serve.size, (settings::Size{320, 200}));
     EXPECT_EQ(serve.quality, 90U);
     EXPECT_EQ(serve.first_view.lights.count, 7U);
     EXPECT_EQ(serve.first_view.lights.radius_m, 3.0F);
-    EXPECT_EQ(serve.first_view.renderer, view::Renderer::kNaive);
-    EXPECT_EQ(serve.delivery, (session::DeliverySettings{false, 12.5, view::Refine::kLossless}));
-    EXPECT_EQ(serve.first_view.lighting, view::LightingStage::kCompute);
-    EXPECT_EQ(serve.first_view.grid, (view::Grid{.automatic = false, .size = {4, 5, 6}}));
-    EXPECT_EQ(serve.first_view.light_loop, view::LightLoop::kLists);
-    EXPECT_EQ(serve.first_view.debug.view, view::DebugView::kOverdraw);
+    EXPECT_EQ(serve.first_view.renderer, settings::Renderer::kNaive);
+    EXPECT_EQ(serve.delivery,
+              (session::DeliverySettings{false, 12.5, settings::Refine::kLossless}));
+    EXPECT_EQ(serve.first_view.lighting, settings::LightingStage::kCompute);
+    EXPECT_EQ(serve.first_view.grid, (settings::Grid{.automatic = false, .size = {4, 5, 6}}));
+    EXPECT_EQ(serve.first_view.light_loop, settings::LightLoop::kLists);
+    EXPECT_EQ(serve.first_view.debug.view, settings::DebugView::kOverdraw);
     EXPECT_EQ(serve.first_view.lights.intensity, 3.0F);
     EXPECT_EQ(serve.first_view.lights.speed, 0.5F);
     EXPECT_EQ(serve.first_view.lights.box, (BoundsD3{{-1, -1, -1}, {1, 1, 1}}));
@@ -173,10 +175,10 @@ TEST(Options, Bench_FillsEveryField) {
     EXPECT_THAT(bench.presets, testing::ElementsAre("grid", "smoke"));
     EXPECT_EQ(bench.scene, "a.glb");
     EXPECT_THAT(bench.cameras, testing::ElementsAre("-7,2,0;0,2,0;45", "Nave"));
-    EXPECT_EQ(bench.settings.size, (view::Size{320, 200}));
+    EXPECT_EQ(bench.settings.size, (settings::Size{320, 200}));
     EXPECT_EQ(bench.settings.lights.count, 70U);
     EXPECT_EQ(bench.seconds_per_row, 2.5);
-    EXPECT_EQ(bench.error_size, (view::Size{64, 36}));
+    EXPECT_EQ(bench.error_size, (settings::Size{64, 36}));
     EXPECT_EQ(bench.r1_pairs_limit, 1e6);
     EXPECT_EQ(bench.r2_pairs_limit, 0.0);
     EXPECT_EQ(bench.out, "a.json");

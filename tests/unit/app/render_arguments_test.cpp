@@ -46,8 +46,8 @@ TEST(RenderArguments, EveryRow_ParsesBackToItsSettings) {
         EXPECT_EQ(parsed.device.choice, gpu::DeviceChoice::kCpu);
         EXPECT_EQ(parsed.time_s, view.time_s);
         EXPECT_EQ(parsed.frame_count, 40U);
-        if (const auto* camera = std::get_if<view::Camera>(&parsed.camera)) {
-            EXPECT_EQ(*camera, std::get<view::Camera>(parseCamera(view.name).value()));
+        if (const auto* camera = std::get_if<settings::Camera>(&parsed.camera)) {
+            EXPECT_EQ(*camera, std::get<settings::Camera>(parseCamera(view.name).value()));
         } else {
             EXPECT_EQ(std::get<std::string>(parsed.camera), view.name);
         }

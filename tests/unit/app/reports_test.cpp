@@ -47,8 +47,8 @@ TEST(TimingsReport, TimesThatTheDriverDoesNotTell_AreNull) {
 TEST(TimingsReport, Settings_AreRecorded) {
     TimedRun run;
     run.frames.resize(1);
-    run.settings.renderer = view::Renderer::kForwardPlus;
-    run.settings.camera = view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
+    run.settings.renderer = settings::Renderer::kForwardPlus;
+    run.settings.camera = settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
     run.settings.lights.box = BoundsD3{{-10, 0, -5}, {10, 8, 5}};
     const auto settings = timingsReport(run)["settings"];
     EXPECT_EQ(settings["renderer"], "forward_plus");

@@ -8,12 +8,12 @@
 namespace froxel::app {
 namespace {
 
-constexpr view::Size kSize{100, 200};
+constexpr settings::Size kSize{100, 200};
 
 scene::Scene twoCameras() {
     scene::Scene scene;
-    scene.cameras = {{"nave", view::lookAt({1, 0, 0}, {0, 0, 0}, {0, 1, 0})},
-                     {"apse", view::lookAt({2, 0, 0}, {0, 0, 0}, {0, 1, 0})}};
+    scene.cameras = {{"nave", settings::lookAt({1, 0, 0}, {0, 0, 0}, {0, 1, 0})},
+                     {"apse", settings::lookAt({2, 0, 0}, {0, 0, 0}, {0, 1, 0})}};
     scene.bounds_world.add(glm::dvec3(-1));
     scene.bounds_world.add(glm::dvec3(1));
     return scene;
@@ -33,7 +33,7 @@ TEST(FindCamera, DefaultWithoutCameras_IsTheOverview) {
     scene.meshes = {{"", {primitive}}};
     scene.instances = {{}};
     EXPECT_EQ(findCamera(DefaultCamera{}, scene, kSize).value(),
-              view::overview(scene::enclosingSphere(scene), 0.5));
+              settings::overview(scene::enclosingSphere(scene), 0.5));
 }
 
 TEST(FindCamera, Name_IsThatOne) {
@@ -50,7 +50,7 @@ TEST(FindCamera, UnknownName_RefusedWithTheNames) {
 }
 
 TEST(FindCamera, Numbers_AreTaken) {
-    const auto camera = view::lookAt({3, 4, 5}, {0, 0, 0}, {0, 1, 0});
+    const auto camera = settings::lookAt({3, 4, 5}, {0, 0, 0}, {0, 1, 0});
     EXPECT_EQ(findCamera(camera, twoCameras(), kSize).value(), camera);
 }
 

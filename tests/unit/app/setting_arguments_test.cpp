@@ -1,9 +1,9 @@
 // Every row of the table as an option and in command lines that repeat a picture.
 #include "app/light_set_file.h"
 #include "app/setting_options.h"
+#include "settings/setting_rows.h"
 #include "support/settings.h"
 #include "unit/app/parsed_options.h"
-#include "view/setting_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +15,11 @@ namespace froxel::app {
 namespace {
 
 TEST(SettingArguments, EachSettingAlone_ParsesBack) {
-    for (const auto& row : view::kSettingRows) {
+    for (const auto& row : settings::kSettingRows) {
         RenderOptions options;
         options.timings = "t.json";
         row.set(options.settings, test::otherValue(row, row.get(options.settings)));
-        EXPECT_NE(options.settings, view::ViewSettings{}) << row.name;
+        EXPECT_NE(options.settings, settings::ViewSettings{}) << row.name;
         EXPECT_EQ(parsedBack(options).settings, options.settings) << row.name;
     }
 }
@@ -27,7 +27,7 @@ TEST(SettingArguments, EachSettingAlone_ParsesBack) {
 TEST(SettingArguments, AllTogether_WithWhatIsByHand_ParseBack) {
     RenderOptions options;
     auto& settings = options.settings;
-    for (const auto& row : view::kSettingRows) {
+    for (const auto& row : settings::kSettingRows) {
         row.set(settings, test::otherValue(row, row.get(settings)));
     }
     settings.grid.automatic = false;
@@ -47,13 +47,13 @@ TEST(SettingArguments, AllTogether_WithWhatIsByHand_ParseBack) {
 }
 
 TEST(SettingArguments, Serve_TakesThemForTheFirstView) {
-    for (const auto& row : view::kSettingRows) {
-        const view::ViewSettings usual;
-        const view::SettingValue value = test::otherValue(row, row.get(usual));
+    for (const auto& row : settings::kSettingRows) {
+        const settings::ViewSettings usual;
+        const settings::SettingValue value = test::otherValue(row, row.get(usual));
         const std::string option = optionName(row, row.get(usual));
-        const std::string text = view::textOf(row, value);
+        const std::string text = settings::textOf(row, value);
         std::vector<const char*> arguments{"serve", option.c_str()};
-        if (row.kind != view::SettingKind::kSwitch) {
+        if (row.kind != settings::SettingKind::kSwitch) {
             arguments.push_back(text.c_str());
         }
         const auto parsed = parse(arguments);
@@ -62,11 +62,11 @@ TEST(SettingArguments, Serve_TakesThemForTheFirstView) {
 }
 
 TEST(SettingArguments, OutOfRangeOrUnknown_IsRefusedByOptionValueAndWhatWouldBeRight) {
-    for (const auto& row : view::kSettingRows) {
-        const std::string option = optionName(row, row.get(view::ViewSettings{}));
-        const bool color = row.kind == view::SettingKind::kColor;
+    for (const auto& row : settings::kSettingRows) {
+        const std::string option = optionName(row, row.get(settings::ViewSettings{}));
+        const bool color = row.kind == settings::SettingKind::kColor;
         const std::string bad = color ? "0,2,0" : "-100000000";
-        if (row.kind != view::SettingKind::kSwitch) {
+        if (row.kind != settings::SettingKind::kSwitch) {
             const std::string why =
                 refusal({"render", "--out", "a.png", option.c_str(), bad.c_str()});
             EXPECT_THAT(why, testing::HasSubstr(option));
@@ -77,8 +77,8 @@ TEST(SettingArguments, OutOfRangeOrUnknown_IsRefusedByOptionValueAndWhatWouldBeR
 
 TEST(SettingArguments, Help_HasOptionsWithDefaultsRangesAndUnits) {
     const auto text = std::get<PrintText>(parse({"render", "--help"}).command).text;
-    for (const auto& row : view::kSettingRows) {
-        EXPECT_THAT(text, testing::HasSubstr(optionName(row, row.get(view::ViewSettings{}))));
+    for (const auto& row : settings::kSettingRows) {
+        EXPECT_THAT(text, testing::HasSubstr(optionName(row, row.get(settings::ViewSettings{}))));
     }
     EXPECT_THAT(text, testing::HasSubstr("--no-animate"));
     EXPECT_THAT(text, testing::HasSubstr("[0.015]"));

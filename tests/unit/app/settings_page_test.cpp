@@ -24,24 +24,24 @@ name with dashes: `--fog-density`. A switch that is usually on has an option tha
 |---|---|---|---|---|
 )";
 
-std::string valuesOf(const view::Setting& setting) {
+std::string valuesOf(const settings::Setting& setting) {
     switch (setting.kind) {
-    case view::SettingKind::kSwitch:
+    case settings::SettingKind::kSwitch:
         return "on or off";
-    case view::SettingKind::kChoice: {
+    case settings::SettingKind::kChoice: {
         std::string names;
         for (const std::string_view name : setting.names) {
             names += (names.empty() ? "`" : ", `") + std::string(name) + "`";
         }
         return names;
     }
-    case view::SettingKind::kWhole:
-    case view::SettingKind::kReal:
-    case view::SettingKind::kColor:
+    case settings::SettingKind::kWhole:
+    case settings::SettingKind::kReal:
+    case settings::SettingKind::kColor:
         break;
     }
     std::string range = numberText(setting.min) + " to " + numberText(setting.max);
-    if (setting.kind == view::SettingKind::kColor) {
+    if (setting.kind == settings::SettingKind::kColor) {
         range = "red, green, blue: " + range;
     }
     return setting.words.unit.empty() ? range : range + " " + std::string(setting.words.unit);
@@ -51,8 +51,8 @@ std::string page() {
     std::string text = kIntroduction;
     const session::SessionState usual = session::initialState({}, {});
     for (const session::SessionSetting& setting : session::sessionSettings()) {
-        const view::Setting& facts = setting.facts();
-        const view::SettingValue value = setting.valueIn(usual);
+        const settings::Setting& facts = setting.facts();
+        const settings::SettingValue value = setting.valueIn(usual);
         const bool* on = std::get_if<bool>(&value);
         const std::string shown = on == nullptr ? "`" + textOf(facts, value) + "`"
                                   : *on         ? "on"

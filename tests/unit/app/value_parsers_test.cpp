@@ -21,19 +21,19 @@ void expectRefused(const Result<T>& result, std::string_view text, std::string_v
 }
 
 TEST(ParseNumber, WholeInRange_Accepted) {
-    EXPECT_EQ(parseNumber("0", view::kLightCountRange).value(), 0U);
-    EXPECT_EQ(parseNumber("100000", view::kLightCountRange).value(), 100'000U);
+    EXPECT_EQ(parseNumber("0", settings::kLightCountRange).value(), 0U);
+    EXPECT_EQ(parseNumber("100000", settings::kLightCountRange).value(), 100'000U);
 }
 
 TEST(ParseNumber, RealInRange_Accepted) {
-    EXPECT_EQ(parseNumber("0.001", view::kLightRadiusRange).value(), 0.001);
-    EXPECT_EQ(parseNumber("1e4", view::kLightRadiusRange).value(), 1e4);
+    EXPECT_EQ(parseNumber("0.001", settings::kLightRadiusRange).value(), 0.001);
+    EXPECT_EQ(parseNumber("1e4", settings::kLightRadiusRange).value(), 1e4);
 }
 
 class BadWhole : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(BadWhole, Parsed_RefusedWithRange) {
-    expectRefused(parseNumber(GetParam(), view::kLightCountRange), GetParam(),
+    expectRefused(parseNumber(GetParam(), settings::kLightCountRange), GetParam(),
                   "a whole number from 0 to 1000000");
 }
 
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(ParseNumber,
 class BadReal : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(BadReal, Parsed_RefusedWithRange) {
-    expectRefused(parseNumber(GetParam(), view::kLightRadiusRange), GetParam(),
+    expectRefused(parseNumber(GetParam(), settings::kLightRadiusRange), GetParam(),
                   "a number from 0.001 to 10000");
 }
 
@@ -64,19 +64,19 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values("", "nan", "NaN", "inf", "-inf", "0", "10000.5", "1e999", "2m", "1,5", "-2"));
 
 TEST(ParseName, Known_GivesItsPosition) {
-    for (size_t i = 0; i < view::kRendererNames.size(); ++i) {
-        EXPECT_EQ(parseName(view::kRendererNames[i], view::kRendererNames).value(), i);
+    for (size_t i = 0; i < settings::kRendererNames.size(); ++i) {
+        EXPECT_EQ(parseName(settings::kRendererNames[i], settings::kRendererNames).value(), i);
     }
 }
 
 TEST(ParseName, Unknown_RefusedWithAllNames) {
-    expectRefused(parseName("Naive", view::kRendererNames), "Naive",
+    expectRefused(parseName("Naive", settings::kRendererNames), "Naive",
                   "naive, forward_plus, clustered_deferred, toon_fragment or toon_compute");
 }
 
 TEST(ParseSize, Edges_Accepted) {
-    EXPECT_EQ(parseSize("16x4096").value(), (view::Size{16, 4096}));
-    EXPECT_EQ(parseSize("1281x719").value(), (view::Size{1281, 719}));
+    EXPECT_EQ(parseSize("16x4096").value(), (settings::Size{16, 4096}));
+    EXPECT_EQ(parseSize("1281x719").value(), (settings::Size{1281, 719}));
 }
 
 class BadSize : public testing::TestWithParam<std::string_view> {};
@@ -101,8 +101,8 @@ INSTANTIATE_TEST_SUITE_P(ParseSize,
                                          "-1280x720"));
 
 TEST(ParseGrid, SeedGrids_Accepted) {
-    EXPECT_EQ(parseGrid("16x16x24").value(), (view::GridSize{16, 16, 24}));
-    EXPECT_EQ(parseGrid("32x16x64").value(), (view::GridSize{32, 16, 64}));
+    EXPECT_EQ(parseGrid("16x16x24").value(), (settings::GridSize{16, 16, 24}));
+    EXPECT_EQ(parseGrid("32x16x64").value(), (settings::GridSize{32, 16, 64}));
 }
 
 TEST(ParseGrid, OutOfRange_RefusedWithRange) {
@@ -112,11 +112,11 @@ TEST(ParseGrid, OutOfRange_RefusedWithRange) {
 }
 
 TEST(ParseGridChoice, AutoOrASize_KeepsTheLaw) {
-    const view::Grid before{.automatic = true, .size = {}, .law = view::GridLaw::kLinear};
-    const view::Grid sized = parseGridChoice("3x4x5", before).value();
-    EXPECT_EQ(sized, (view::Grid{false, {3, 4, 5}, view::GridLaw::kLinear}));
+    const settings::Grid before{.automatic = true, .size = {}, .law = settings::GridLaw::kLinear};
+    const settings::Grid sized = parseGridChoice("3x4x5", before).value();
+    EXPECT_EQ(sized, (settings::Grid{false, {3, 4, 5}, settings::GridLaw::kLinear}));
     EXPECT_EQ(parseGridChoice("auto", sized).value(),
-              (view::Grid{true, {3, 4, 5}, view::GridLaw::kLinear}));
+              (settings::Grid{true, {3, 4, 5}, settings::GridLaw::kLinear}));
     expectRefused(parseGridChoice("automatic", before), "automatic", "auto or XxYxZ");
 }
 
@@ -144,7 +144,7 @@ TEST(ParseBox, Malformed_RefusedWithExample) {
 }
 
 TEST(ParseCamera, Numbers_GiveThatCamera) {
-    const auto camera = std::get<view::Camera>(parseCamera("-7,2,0;0,2,0;45").value());
+    const auto camera = std::get<settings::Camera>(parseCamera("-7,2,0;0,2,0;45").value());
     EXPECT_EQ(camera.eye_world, glm::dvec3(-7, 2, 0));
     EXPECT_DOUBLE_EQ(camera.focus_m, 7);
     EXPECT_DOUBLE_EQ(camera.yfov_rad, glm::radians(45.0));

@@ -75,7 +75,7 @@ TEST(BudgetFor, BothKinds_AllowTheLeastFramesOfATest) {
 }
 
 TEST(ViewsWithin, Limit_LeavesViewsOut) {
-    const view::Size size{100, 10};
+    const settings::Size size{100, 10};
     EXPECT_EQ(viewsWithin(3e6, size, 1000, 3), 3U);
     EXPECT_EQ(viewsWithin(2.9e6, size, 1000, 3), 2U);
     EXPECT_EQ(viewsWithin(0.9e6, size, 1000, 3), 0U);
@@ -85,46 +85,46 @@ TEST(ViewsWithin, Limit_LeavesViewsOut) {
 TEST(ErrorSizes, LargeSmallAndScaledRows) {
     Row row;
     row.settings.size = {1280, 720};
-    EXPECT_EQ(errorSizes(row, {640, 360}).compared, (view::Size{640, 360}));
-    EXPECT_EQ(errorSizes(row, {640, 360}).drawn, (view::Size{640, 360}));
+    EXPECT_EQ(errorSizes(row, {640, 360}).compared, (settings::Size{640, 360}));
+    EXPECT_EQ(errorSizes(row, {640, 360}).drawn, (settings::Size{640, 360}));
     row.settings.size = {64, 36};
-    EXPECT_EQ(errorSizes(row, {640, 360}).compared, (view::Size{64, 36}));
+    EXPECT_EQ(errorSizes(row, {640, 360}).compared, (settings::Size{64, 36}));
     row.settings.size = {640, 360};
-    row.scaled_to = view::Size{1280, 720};
-    EXPECT_EQ(errorSizes(row, {640, 360}).compared, (view::Size{640, 360}));
-    EXPECT_EQ(errorSizes(row, {640, 360}).drawn, (view::Size{320, 180}));
+    row.scaled_to = settings::Size{1280, 720};
+    EXPECT_EQ(errorSizes(row, {640, 360}).compared, (settings::Size{640, 360}));
+    EXPECT_EQ(errorSizes(row, {640, 360}).drawn, (settings::Size{320, 180}));
 }
 
 TEST(R1Settings, ForwardIsNaive_DeferredLoopsOverAllOverTheSameGbuffer) {
-    view::ViewSettings settings;
-    settings.gbuffer.normal = view::NormalEncoding::kOct8;
+    settings::ViewSettings settings;
+    settings.gbuffer.normal = settings::NormalEncoding::kOct8;
     settings.lights.cutoff = 1;
-    settings.lighting = view::LightingStage::kCompute;
+    settings.lighting = settings::LightingStage::kCompute;
     const auto deferred = r1Settings(settings);
-    EXPECT_EQ(deferred.renderer, view::Renderer::kClusteredDeferred);
-    EXPECT_EQ(deferred.light_loop, view::LightLoop::kAllLights);
+    EXPECT_EQ(deferred.renderer, settings::Renderer::kClusteredDeferred);
+    EXPECT_EQ(deferred.light_loop, settings::LightLoop::kAllLights);
     EXPECT_EQ(deferred.gbuffer, settings.gbuffer);
     EXPECT_EQ(deferred.lights, settings.lights);
-    settings.renderer = view::Renderer::kForwardPlus;
-    EXPECT_EQ(r1Settings(settings).renderer, view::Renderer::kNaive);
+    settings.renderer = settings::Renderer::kForwardPlus;
+    EXPECT_EQ(r1Settings(settings).renderer, settings::Renderer::kNaive);
     EXPECT_EQ(r1Settings(settings).lighting, settings.lighting);
 }
 
 TEST(R2Settings, WhatTradesError_IsAtItsDefaultAndWaysOfDrawingAreOne) {
-    view::ViewSettings settings;
-    settings.gbuffer.normal = view::NormalEncoding::kOct8;
+    settings::ViewSettings settings;
+    settings.gbuffer.normal = settings::NormalEncoding::kOct8;
     settings.lights.cutoff = 1;
     settings.lights.count = 7;
-    settings.renderer = view::Renderer::kNaive;
-    settings.transparency = view::Transparency::kWeighted;
+    settings.renderer = settings::Renderer::kNaive;
+    settings.transparency = settings::Transparency::kWeighted;
     settings.peel_layers = 2;
     settings.fog = {0.5F, 0.25F, -3, 0.75F, {0.5F, 0.25F, 1}, 8, 32, true, true};
-    view::ViewSettings meant;
+    settings::ViewSettings meant;
     meant.lights.count = 7;
     meant.fog = {0.5F, 0.25F, -3, 0.75F, {0.5F, 0.25F, 1}};
     EXPECT_EQ(r2Settings(settings), meant);
-    settings.renderer = view::Renderer::kToonCompute;
-    EXPECT_EQ(r2Settings(settings).renderer, view::Renderer::kToonCompute);
+    settings.renderer = settings::Renderer::kToonCompute;
+    EXPECT_EQ(r2Settings(settings).renderer, settings::Renderer::kToonCompute);
 }
 
 LinearImage ramp(uint32_t width_px, uint32_t height_px) {
@@ -161,7 +161,7 @@ TEST(Scaled, SameSize_IsTheSame) {
               std::vector<std::byte>(size_t{7} * 9 * 4, std::byte{77}));
 }
 
-std::vector<int> shown(float r, float g, float b, view::ToneMap tone_map) {
+std::vector<int> shown(float r, float g, float b, settings::ToneMap tone_map) {
     std::vector<int> values;
     for (const std::byte value : shownPicture({1, 1, {r, g, b}}, 1, tone_map)) {
         values.push_back(std::to_integer<int>(value));
@@ -171,19 +171,19 @@ std::vector<int> shown(float r, float g, float b, view::ToneMap tone_map) {
 
 TEST(ShownPicture, Clamp_IsSrgb) {
     const float inf = std::numeric_limits<float>::infinity();
-    EXPECT_THAT(shown(0, 1, 2, view::ToneMap::kClamp), testing::ElementsAre(0, 255, 255, 255));
+    EXPECT_THAT(shown(0, 1, 2, settings::ToneMap::kClamp), testing::ElementsAre(0, 255, 255, 255));
     // 0.21586 is sRGB's 128; 0.001 lies on the straight part.
-    EXPECT_THAT(shown(0.21586F, 0.001F, -1, view::ToneMap::kClamp),
+    EXPECT_THAT(shown(0.21586F, 0.001F, -1, settings::ToneMap::kClamp),
                 testing::ElementsAre(128, 3, 0, 255));
-    EXPECT_THAT(shown(std::nanf(""), inf, -inf, view::ToneMap::kClamp),
+    EXPECT_THAT(shown(std::nanf(""), inf, -inf, settings::ToneMap::kClamp),
                 testing::ElementsAre(0, 255, 0, 255));
 }
 
 TEST(ShownPicture, PbrNeutral_KeepsBaseColoursLessTheirFresnelAndBoundsHighlights) {
     // 0.5 grey loses 0.04: 0.46 is 0.7088 in sRGB.
-    EXPECT_THAT(shown(0.5F, 0.5F, 0.5F, view::ToneMap::kPbrNeutral),
+    EXPECT_THAT(shown(0.5F, 0.5F, 0.5F, settings::ToneMap::kPbrNeutral),
                 testing::ElementsAre(181, 181, 181, 255));
-    const auto bright = shown(100, 10, 10, view::ToneMap::kPbrNeutral);
+    const auto bright = shown(100, 10, 10, settings::ToneMap::kPbrNeutral);
     EXPECT_GE(bright[0], 250);
     EXPECT_GT(bright[1], 200) << "highlights desaturate";
     EXPECT_LT(bright[1], 255);

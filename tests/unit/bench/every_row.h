@@ -13,7 +13,7 @@ inline Base base() {
     base.settings.lights.intensity = 0.7F;
     base.settings.lights.seed = 9;
     for (const char* name : {"-7,2,0;0,2,0.3;45", "Nave of 'Hall'"}) {
-        base.views.push_back({name, view::lookAt({-7, 2, 0}, {0, 2, 0.3}, {0, 1, 0}),
+        base.views.push_back({name, settings::lookAt({-7, 2, 0}, {0, 2, 0.3}, {0, 1, 0}),
                               static_cast<double>(base.views.size()) * 2.5});
     }
     base.views.front().camera.yfov_rad = glm::radians(45.0);

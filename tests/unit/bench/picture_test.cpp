@@ -35,7 +35,7 @@ class BenchPictureTest : public test::SharedGpuTest {
 
 TEST_F(BenchPictureTest, ShownPicture_OfTheDevicesRadiance_IsTheDevicesPicture) {
     Pictures pictures(renderer_, scene_);
-    for (const auto tone_map : {view::ToneMap::kPbrNeutral, view::ToneMap::kClamp}) {
+    for (const auto tone_map : {settings::ToneMap::kPbrNeutral, settings::ToneMap::kClamp}) {
         row_.settings.tone_map = tone_map;
         const auto picture = pictures.draw(row_.settings, 0).value();
         const auto right = shownPicture(picture->linear, 1, tone_map);
@@ -69,7 +69,7 @@ TEST_F(BenchPictureTest, Errors_PairsLimit_LeavesViewsOutAndSaysWhy) {
 
 // That a difference would be seen.
 TEST_F(BenchPictureTest, Errors_OtherPictures_AreNotExact) {
-    row_.settings.gbuffer.normal = view::NormalEncoding::kXy16; // loses the sign of z
+    row_.settings.gbuffer.normal = settings::NormalEncoding::kXy16; // loses the sign of z
     const auto rough = measure(1e18);
     EXPECT_TRUE(rough.r1.exact()) << "R1 has the same G-buffer";
     row_.settings.gbuffer = {};

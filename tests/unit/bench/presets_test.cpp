@@ -1,9 +1,9 @@
 #include "bench/budget.h"
 #include "bench/presets.h"
+#include "settings/ranges.h"
+#include "settings/setting_rows.h"
 #include "support/setting_values.h"
 #include "unit/bench/every_row.h"
-#include "view/ranges.h"
-#include "view/setting_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -36,17 +36,17 @@ TEST(Presets, EverySweep_IsNamedByItsPresetAndHasRows) {
 TEST(Presets, EveryRow_IsInRange) {
     for (const auto& row : everyRow()) {
         const auto& s = row.settings;
-        EXPECT_TRUE(view::kWidthRange.contains(s.size.width_px)) << row.label;
-        EXPECT_TRUE(view::kHeightRange.contains(s.size.height_px)) << row.label;
-        for (const auto& setting : view::kSettingRows) {
+        EXPECT_TRUE(settings::kWidthRange.contains(s.size.width_px)) << row.label;
+        EXPECT_TRUE(settings::kHeightRange.contains(s.size.height_px)) << row.label;
+        for (const auto& setting : settings::kSettingRows) {
             EXPECT_TRUE(test::accepts(setting, setting.get(s))) << setting.name << row.label;
         }
-        EXPECT_TRUE(view::kGridXRange.contains(s.grid.size.x)) << row.label;
-        EXPECT_TRUE(view::kGridYRange.contains(s.grid.size.y)) << row.label;
-        EXPECT_TRUE(view::kGridZRange.contains(s.grid.size.z)) << row.label;
+        EXPECT_TRUE(settings::kGridXRange.contains(s.grid.size.x)) << row.label;
+        EXPECT_TRUE(settings::kGridYRange.contains(s.grid.size.y)) << row.label;
+        EXPECT_TRUE(settings::kGridZRange.contains(s.grid.size.z)) << row.label;
         EXPECT_LT(row.timedView(), base().views.size());
         if (row.stream) {
-            EXPECT_TRUE(view::kQualityRange.contains(row.stream->quality)) << row.label;
+            EXPECT_TRUE(settings::kQualityRange.contains(row.stream->quality)) << row.label;
         }
     }
 }
@@ -88,16 +88,16 @@ TEST(Presets, LightCount_GoesToAMillionForEveryWay) {
 }
 
 TEST(Presets, Renderer_HasAllFiveInBothStages) {
-    std::set<std::pair<view::Renderer, view::LightingStage>> ways;
+    std::set<std::pair<settings::Renderer, settings::LightingStage>> ways;
     for (const auto& row : makeSweep("renderer", base()).rows) {
         ways.emplace(row.settings.renderer, row.settings.lighting);
     }
-    EXPECT_EQ(ways.size(), 2 * view::kRendererNames.size());
+    EXPECT_EQ(ways.size(), 2 * settings::kRendererNames.size());
 }
 
 TEST(Presets, ResolutionScale_IsScaledToTheBase) {
     for (const auto& row : makeSweep("resolution_scale", base()).rows) {
-        EXPECT_EQ(row.scaled_to, view::Size{});
+        EXPECT_EQ(row.scaled_to, settings::Size{});
         EXPECT_EQ(row.settings.size.width_px, row.value * 1280) << row.label;
     }
 }

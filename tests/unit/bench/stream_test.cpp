@@ -7,7 +7,7 @@ namespace froxel::bench {
 namespace {
 
 using encode::makePicture;
-using view::Chroma;
+using settings::Chroma;
 
 StreamError measured(uint32_t quality, Chroma chroma) {
     const auto picture = makePicture(160, 120);
@@ -39,7 +39,7 @@ TEST(MeasureStream, FullChroma_IsCloser) {
 
 TEST(MeasureStream, Row_HasItsNumbers) {
     const auto row = measured(80, Chroma::k420);
-    EXPECT_EQ(row.encoding, (view::Encoding{80, Chroma::k420}));
+    EXPECT_EQ(row.encoding, (settings::Encoding{80, Chroma::k420}));
     EXPECT_EQ(row.shown.pixel_count, 160u * 120u);
     EXPECT_DOUBLE_EQ(row.bits_per_pixel, 8.0 * static_cast<double>(row.bytes) / (160 * 120));
     EXPECT_EQ(row.encode_us.count, 3u);

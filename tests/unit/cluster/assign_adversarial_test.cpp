@@ -27,9 +27,9 @@ class Draw {
     std::mt19937 random_;
 };
 
-view::Camera randomCamera(Draw& draw) {
-    view::Camera camera = draw.between(0, 1) < 0.3 ? orthographic(draw.decades(0.01, 1000))
-                                                   : perspective(draw.between(1, 170));
+settings::Camera randomCamera(Draw& draw) {
+    settings::Camera camera = draw.between(0, 1) < 0.3 ? orthographic(draw.decades(0.01, 1000))
+                                                       : perspective(draw.between(1, 170));
     if (draw.between(0, 1) < 0.5) {
         camera.lens_shift = {draw.between(-3, 3), draw.between(-3, 3)};
     }
@@ -37,11 +37,13 @@ view::Camera randomCamera(Draw& draw) {
 }
 
 ClusterGrid randomGrid(Draw& draw) {
-    const GridShape shape{.size = {draw.oneOf({1U, 2U, 5U, 13U}), draw.oneOf({1U, 2U, 7U, 9U}),
-                                   draw.oneOf({1U, 2U, 6U, 24U})},
-                          .law = draw.oneOf({view::GridLaw::kLogarithmic, view::GridLaw::kLinear,
-                                             view::GridLaw::kHyperbolic})};
-    const view::Size image{draw.oneOf({1U, 17U, 640U, 1919U}), draw.oneOf({1U, 33U, 360U, 1079U})};
+    const GridShape shape{
+        .size = {draw.oneOf({1U, 2U, 5U, 13U}), draw.oneOf({1U, 2U, 7U, 9U}),
+                 draw.oneOf({1U, 2U, 6U, 24U})},
+        .law = draw.oneOf({settings::GridLaw::kLogarithmic, settings::GridLaw::kLinear,
+                           settings::GridLaw::kHyperbolic})};
+    const settings::Size image{draw.oneOf({1U, 17U, 640U, 1919U}),
+                               draw.oneOf({1U, 33U, 360U, 1079U})};
     const double near_m = draw.decades(1e-3, 100);
     return makeClusterGrid(shape, image, randomCamera(draw), near_m, near_m * draw.decades(1, 1e5));
 }
@@ -57,7 +59,7 @@ glm::dvec3 randomPoint(Draw& draw, const ClusterGrid& grid) {
         return low + (high - low) * draw.between(-0.7, 1.7);
     };
     const double z = along(cell.z0, cell.z1);
-    const double scale = grid.projection == view::Projection::kPerspective ? z : 1.0;
+    const double scale = grid.projection == settings::Projection::kPerspective ? z : 1.0;
     return {along(cell.x0, cell.x1) * scale, along(cell.y0, cell.y1) * scale, z};
 }
 
@@ -73,7 +75,7 @@ double planeDistance(Draw& draw, const ClusterGrid& grid, const glm::dvec3& p) {
     const auto index = [&](uint32_t count) {
         return static_cast<uint32_t>(draw.between(0, count + 1 - 1e-9));
     };
-    const bool perspective = grid.projection == view::Projection::kPerspective;
+    const bool perspective = grid.projection == settings::Projection::kPerspective;
     const auto side = [&](double value, double edge) {
         return perspective ? std::abs(value - edge * p.z) / std::sqrt(1 + edge * edge)
                            : std::abs(value - edge);

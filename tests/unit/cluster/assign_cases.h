@@ -5,7 +5,7 @@
 #include "cluster/cluster_grid.h"
 #include "cluster/light_assigner.h"
 #include "light/frame_lights.h"
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +20,15 @@ namespace froxel::cluster::testing {
 
 inline constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
-inline view::Camera perspective(double fov_deg) {
-    view::Camera camera;
+inline settings::Camera perspective(double fov_deg) {
+    settings::Camera camera;
     camera.yfov_rad = glm::radians(fov_deg);
     return camera;
 }
 
-inline view::Camera orthographic(double half_height_m) {
-    view::Camera camera;
-    camera.projection = view::Projection::kOrthographic;
+inline settings::Camera orthographic(double half_height_m) {
+    settings::Camera camera;
+    camera.projection = settings::Projection::kOrthographic;
     camera.half_height_m = half_height_m;
     camera.near_m = 0;
     return camera;

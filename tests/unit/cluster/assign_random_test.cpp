@@ -8,12 +8,12 @@ namespace {
 
 struct Shape {
     const char* name;
-    view::GridSize grid;
-    view::Size image;
-    view::Camera camera;
+    settings::GridSize grid;
+    settings::Size image;
+    settings::Camera camera;
     double near_m;
     double far_m;
-    view::GridLaw law = view::GridLaw::kLogarithmic;
+    settings::GridLaw law = settings::GridLaw::kLogarithmic;
 };
 
 void PrintTo(const Shape& shape, std::ostream* out) {
@@ -39,19 +39,19 @@ TEST_P(AssignRandom, Lights_MeetExactlyTheClustersOfTheOracle) {
     const Shape& shape = GetParam();
     const ClusterGrid grid = makeClusterGrid({shape.grid, shape.law}, shape.image, shape.camera,
                                              shape.near_m, shape.far_m);
-    const bool flat = shape.camera.projection == view::Projection::kOrthographic;
+    const bool flat = shape.camera.projection == settings::Projection::kOrthographic;
     const double extent = flat ? grid.half_x / shape.far_m : grid.half_x;
     std::mt19937 random(7);
     expectExact(grid, randomLights(random, shape.far_m, extent, 600));
 }
 
-view::Camera shifted(view::Camera camera, double x, double y) {
+settings::Camera shifted(settings::Camera camera, double x, double y) {
     camera.lens_shift = {x, y};
     return camera;
 }
 
-constexpr auto kLinear = view::GridLaw::kLinear;
-constexpr auto kHyperbolic = view::GridLaw::kHyperbolic;
+constexpr auto kLinear = settings::GridLaw::kLinear;
+constexpr auto kHyperbolic = settings::GridLaw::kHyperbolic;
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes,

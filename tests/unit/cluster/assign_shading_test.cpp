@@ -47,9 +47,9 @@ bool reaches(const light::FrameLights& lights, const io::Light& light, const glm
 
 struct Scene {
     const char* name;
-    view::Size image;
-    view::GridSize grid;
-    view::Camera camera;
+    settings::Size image;
+    settings::GridSize grid;
+    settings::Camera camera;
     double spread;
     double far_m;
     double radius;
@@ -68,7 +68,7 @@ TEST_P(AssignShading, Fp32Pixels_FindEveryLightThatReachesThem) {
     const ClusterGrid grid = makeClusterGrid({scene.grid}, scene.image, scene.camera,
                                              scene.far_m / 100, scene.far_m * 1.5);
     const LightLists lists = assigned(grid, lights);
-    const bool flat = scene.camera.projection == view::Projection::kOrthographic;
+    const bool flat = scene.camera.projection == settings::Projection::kOrthographic;
     std::uniform_int_distribution<uint32_t> column(0, scene.image.width_px - 1);
     std::uniform_int_distribution<uint32_t> row(0, scene.image.height_px - 1);
     std::uniform_int_distribution<size_t> plane(0, grid.size.z);

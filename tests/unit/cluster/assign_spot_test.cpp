@@ -54,7 +54,7 @@ Count expectNoneMissing(const ClusterGrid& grid, const light::FrameLights& light
 
 struct View {
     const char* name;
-    view::Camera camera;
+    settings::Camera camera;
 };
 
 void PrintTo(const View& view, std::ostream* out) {

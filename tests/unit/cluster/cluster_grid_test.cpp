@@ -8,11 +8,12 @@ namespace {
 
 // The centre of every pixel lies in the cell of the tile that its integer coordinates name.
 TEST(ClusterGrid, Tiles_CoverEveryPixelOfAnySize) {
-    const view::Size sizes[] = {{1, 1},   {1, 97},      {97, 1},     {17, 33},
-                                {16, 16}, {1919, 1079}, {1280, 720}, {4096, 16}};
-    const view::GridSize grids[] = {{16, 9, 1}, {15, 15, 1}, {32, 16, 1}, {128, 128, 1}, {1, 1, 1}};
-    for (const view::Size& size : sizes) {
-        for (const view::GridSize& tiles : grids) {
+    const settings::Size sizes[] = {{1, 1},   {1, 97},      {97, 1},     {17, 33},
+                                    {16, 16}, {1919, 1079}, {1280, 720}, {4096, 16}};
+    const settings::GridSize grids[] = {
+        {16, 9, 1}, {15, 15, 1}, {32, 16, 1}, {128, 128, 1}, {1, 1, 1}};
+    for (const settings::Size& size : sizes) {
+        for (const settings::GridSize& tiles : grids) {
             const ClusterGrid grid = makeClusterGrid({tiles}, size, perspective(60), 0.1, 10);
             ASSERT_LE(grid.usedColumns(), tiles.x);
             ASSERT_LE(grid.usedRows(), tiles.y);
@@ -48,7 +49,7 @@ TEST(ClusterGrid, Edges_FollowTheProjection) {
 }
 
 TEST(ClusterGrid, ShiftedLens_MovesTheEdges) {
-    for (view::Camera camera : {perspective(90), orthographic(1)}) {
+    for (settings::Camera camera : {perspective(90), orthographic(1)}) {
         camera.lens_shift = {0.5, -0.25};
         const ClusterGrid grid = makeClusterGrid({2, 2, 1}, {200, 100}, camera, 0.1, 10);
         EXPECT_NEAR(grid.columnEdge(0), -2 + 1, 1e-12); // right by half of 2

@@ -65,7 +65,7 @@ TEST(LitDepthRange, AnyInput_GivesAscendingPositiveDepths) {
                                BoundsD3{{0, 0, 0}, {0, 0, 0}}};
     for (const auto& lights : sets) {
         for (const auto& scene : scenes) {
-            for (const view::Camera& camera : {perspective(45), orthographic(1)}) {
+            for (const settings::Camera& camera : {perspective(45), orthographic(1)}) {
                 for (const Lit what : {Lit::kSurfaces, Lit::kMedium}) {
                     const DepthRange range = litDepthRange(lights, camera, scene, what);
                     EXPECT_GT(range.near_m, 0);

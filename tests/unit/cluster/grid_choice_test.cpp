@@ -26,11 +26,11 @@ struct Situation {
     LightSpread spread;
     DepthRange range{3, 19};
     GridCosts costs = kCpuCosts;
-    view::GridLaw law = view::GridLaw::kLogarithmic;
+    settings::GridLaw law = settings::GridLaw::kLogarithmic;
 
     Situation(const light::FrameLights& lights,
-              const view::Size& image = {1280, 720},
-              const view::Camera& camera = perspective(45))
+              const settings::Size& image = {1280, 720},
+              const settings::Camera& camera = perspective(45))
         : frustum(makeClusterGrid({}, image, camera, 1, 2)), spread(lightSpread(frustum, lights)) {}
     [[nodiscard]] GridFacts facts() const { return {frustum, range, law, spread, costs}; }
 };
@@ -47,9 +47,9 @@ TEST(GridChoice, AnyPicture_IsCoveredWithinTheBudget) {
                 EXPECT_EQ(grid.tile_width_px, choice.memory.tile_px);
                 EXPECT_EQ(grid.usedColumns(), choice.shape.size.x);
                 EXPECT_EQ(grid.usedRows(), choice.shape.size.y);
-                EXPECT_TRUE(view::kGridXRange.contains(choice.shape.size.x));
-                EXPECT_TRUE(view::kGridYRange.contains(choice.shape.size.y));
-                EXPECT_TRUE(view::kGridZRange.contains(choice.shape.size.z));
+                EXPECT_TRUE(settings::kGridXRange.contains(choice.shape.size.x));
+                EXPECT_TRUE(settings::kGridYRange.contains(choice.shape.size.y));
+                EXPECT_TRUE(settings::kGridZRange.contains(choice.shape.size.z));
                 EXPECT_LE(grid.clusterCount() * kClusterBytes, kAutomaticGridBytes);
                 EXPECT_FALSE(choice.why.empty());
             }
@@ -97,8 +97,8 @@ TEST(GridChoice, LargeChanges_MoveIt) {
 
 TEST(GridChoice, Laws_AreKept) {
     Situation situation(hallLights(1000, 2));
-    for (const auto law :
-         {view::GridLaw::kLogarithmic, view::GridLaw::kLinear, view::GridLaw::kHyperbolic}) {
+    for (const auto law : {settings::GridLaw::kLogarithmic, settings::GridLaw::kLinear,
+                           settings::GridLaw::kHyperbolic}) {
         situation.law = law;
         EXPECT_EQ(chooseGrid(situation.facts(), {}).shape.law, law);
     }

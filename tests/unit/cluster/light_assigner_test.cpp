@@ -49,7 +49,8 @@ TEST(LightAssigner, Threads_DoNotChangeTheResult) {
 // The largest grid there is, its lines in uneven shares; and one line.
 TEST(LightAssigner, Threads_OnExtremeGrids_DoNotChangeTheResult) {
     const auto lights = scattered(1500, 6);
-    for (const view::GridSize size : {view::GridSize{128, 128, 256}, {128, 1, 1}, {1, 128, 256}}) {
+    for (const settings::GridSize size :
+         {settings::GridSize{128, 128, 256}, {128, 1, 1}, {1, 128, 256}}) {
         const ClusterGrid grid = makeClusterGrid({size}, {1280, 720}, perspective(45), 0.5, 35);
         const LightLists one = assigned(grid, lights, 1);
         expectSame(one, assigned(grid, lights, 2));
@@ -105,7 +106,7 @@ TEST(LightAssigner, DuplicateLights_AreAllListed) {
 TEST(LightAssigner, ReusedBuffers_HoldNothingOfTheFrameBefore) {
     LightAssigner assigner(2);
     LightLists reused;
-    const view::Size sizes[] = {{1280, 720}, {17, 33}, {1919, 1079}, {640, 360}, {640, 360}};
+    const settings::Size sizes[] = {{1280, 720}, {17, 33}, {1919, 1079}, {640, 360}, {640, 360}};
     const size_t counts[] = {5000, 10, 0, 5000, 700};
     for (size_t i = 0; i < std::size(counts); ++i) {
         const uint32_t slices = i % 2 == 0 ? 24U : 7U;

@@ -12,7 +12,7 @@
 namespace froxel::cluster {
 namespace {
 
-constexpr view::Size kImage{320, 180};
+constexpr settings::Size kImage{320, 180};
 
 struct Capped {
     ClusterGrid grid;
@@ -21,12 +21,13 @@ struct Capped {
     LightLists capped;
 };
 
-Capped cappedLists(uint32_t cap, view::Projection projection = view::Projection::kPerspective) {
-    view::Lights settings;
+Capped cappedLists(uint32_t cap,
+                   settings::Projection projection = settings::Projection::kPerspective) {
+    settings::Lights settings;
     settings.count = 400;
     settings.radius_m = 3;
     settings.box = BoundsD3{{-8, -4, -12}, {8, 4, -1}};
-    view::Camera camera;
+    settings::Camera camera;
     camera.projection = projection;
     camera.half_height_m = 4;
     Capped result;
@@ -82,7 +83,7 @@ TEST(ListCap, Reached_KeepsAscendingLightsOfTheList) {
 // What a pixel lacks at points all over the clusters, in double: never more than was told.
 TEST(ListCap, Dropped_IsAtLeastWhatAnyPointLacks) {
     for (const auto projection :
-         {view::Projection::kPerspective, view::Projection::kOrthographic}) {
+         {settings::Projection::kPerspective, settings::Projection::kOrthographic}) {
         const Capped result = cappedLists(8, projection);
         std::mt19937 random(3);
         std::uniform_real_distribution<double> share(0, 1);
@@ -95,7 +96,7 @@ TEST(ListCap, Dropped_IsAtLeastWhatAnyPointLacks) {
             const auto kept = listOf(result.capped, cluster);
             for (int i = 0; i < 20; ++i) {
                 const double depth = cell.z0 + share(random) * (cell.z1 - cell.z0);
-                const double scale = projection == view::Projection::kPerspective ? depth : 1;
+                const double scale = projection == settings::Projection::kPerspective ? depth : 1;
                 const glm::dvec3 point(scale * (cell.x0 + share(random) * (cell.x1 - cell.x0)),
                                        -scale * (cell.y0 + share(random) * (cell.y1 - cell.y0)),
                                        -depth);
@@ -116,7 +117,7 @@ TEST(ListCap, Dropped_IsAtLeastWhatAnyPointLacks) {
 
 // A light that fills its cluster with light stays, whatever its place in the list.
 TEST(ListCap, Strongest_Stays) {
-    view::Lights settings;
+    settings::Lights settings;
     settings.count = 0;
     light::FrameLights lights;
     for (int i = 0; i < 5; ++i) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-class EverySliceLaw : public ::testing::TestWithParam<view::GridLaw> {
+class EverySliceLaw : public ::testing::TestWithParam<settings::GridLaw> {
   protected:
     [[nodiscard]] static ClusterGrid gridOf(uint32_t slices, double near_m, double far_m) {
         return makeClusterGrid({{1, 1, slices}, GetParam()}, {64, 64}, perspective(45), near_m,
@@ -26,11 +26,11 @@ uint32_t sliceInShader(const SliceLaw& law, float distance) {
         return static_cast<uint32_t>(std::min(distance * law.unit, 2147483520.0F));
     };
     uint32_t key = 0;
-    if (law.kind == view::GridLaw::kHyperbolic) {
+    if (law.kind == settings::GridLaw::kHyperbolic) {
         const uint32_t left = 0xffffffffU / std::max(fixed(), 1U);
         key = law.first - std::min(left, law.first);
     } else {
-        key = law.kind == view::GridLaw::kLinear ? fixed() : std::bit_cast<uint32_t>(distance);
+        key = law.kind == settings::GridLaw::kLinear ? fixed() : std::bit_cast<uint32_t>(distance);
         key = std::max(key, law.first) - law.first;
     }
     return static_cast<uint32_t>((uint64_t{key} * law.scale) >> 32U) >> law.shift;
@@ -54,7 +54,7 @@ TEST_P(EverySliceLaw, Planes_AscendForExtremeRanges) {
 }
 
 TEST_P(EverySliceLaw, LastPlane_IsNotBelowTheFarAskedFor) {
-    const double slack = GetParam() == view::GridLaw::kHyperbolic ? 0.04 : 1e-6;
+    const double slack = GetParam() == settings::GridLaw::kHyperbolic ? 0.04 : 1e-6;
     for (double far_m = 1; far_m < 1e6; far_m *= 1.37) {
         const ClusterGrid grid = gridOf(24, 0.1, far_m);
         EXPECT_GE(static_cast<double>(grid.plane_depths_m.back()), far_m);
@@ -117,23 +117,23 @@ TEST_P(EverySliceLaw, DepthsOutsideTheGrid_AreInNoSlice) {
 
 INSTANTIATE_TEST_SUITE_P(Laws,
                          EverySliceLaw,
-                         ::testing::Values(view::GridLaw::kLogarithmic,
-                                           view::GridLaw::kLinear,
-                                           view::GridLaw::kHyperbolic),
+                         ::testing::Values(settings::GridLaw::kLogarithmic,
+                                           settings::GridLaw::kLinear,
+                                           settings::GridLaw::kHyperbolic),
                          [](const auto& tested) {
                              return std::string(
-                                 view::kGridLawNames[static_cast<size_t>(tested.param)]);
+                                 settings::kGridLawNames[static_cast<size_t>(tested.param)]);
                          });
 
 TEST(SliceLaw, Logarithmic_MultipliesDepth) {
-    const SliceLaw law = makeSliceLaw(view::GridLaw::kLogarithmic, 3, 1, 1000);
+    const SliceLaw law = makeSliceLaw(settings::GridLaw::kLogarithmic, 3, 1, 1000);
     EXPECT_NEAR(planeDepth(law, 1), 10, 0.6);
     EXPECT_NEAR(planeDepth(law, 2), 100, 6);
     EXPECT_NEAR(planeDepth(law, 3), 1000, 1e-2);
 }
 
 TEST(SliceLaw, Linear_AddsDepth) {
-    const SliceLaw law = makeSliceLaw(view::GridLaw::kLinear, 10, 1, 101);
+    const SliceLaw law = makeSliceLaw(settings::GridLaw::kLinear, 10, 1, 101);
     for (uint32_t k = 1; k <= 10; ++k) {
         EXPECT_NEAR(planeDepth(law, k), 1 + 10.0 * k, 1e-3);
     }
@@ -141,7 +141,7 @@ TEST(SliceLaw, Linear_AddsDepth) {
 
 // What NDC depth (far - far near / z) / (far - near) cuts into equal parts.
 TEST(SliceLaw, Hyperbolic_DividesTheReciprocal) {
-    const SliceLaw law = makeSliceLaw(view::GridLaw::kHyperbolic, 16, 0.1, 20);
+    const SliceLaw law = makeSliceLaw(settings::GridLaw::kHyperbolic, 16, 0.1, 20);
     for (uint32_t k = 1; k <= 16; ++k) {
         const double reciprocal = 10 + (0.05 - 10) * k / 16.0;
         EXPECT_NEAR(1 / static_cast<double>(planeDepth(law, k)), reciprocal, 2e-3);

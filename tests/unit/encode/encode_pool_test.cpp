@@ -15,14 +15,14 @@
 namespace froxel::encode {
 namespace {
 
-constexpr view::Encoding kEncoding{80, view::Chroma::k420};
+constexpr settings::Encoding kEncoding{80, settings::Chroma::k420};
 
 EncodeJob job(PixelLease pixels, std::function<void(Result<EncodedFrame>)> done) {
     return {std::move(pixels), kEncoding, std::move(done)};
 }
 
-view::Codec codecOf(bool lossless) {
-    return lossless ? view::kLosslessCodec : view::kPlainCodec;
+settings::Codec codecOf(bool lossless) {
+    return lossless ? settings::kLosslessCodec : settings::kPlainCodec;
 }
 
 // An encoder thread that waits in a job's `done` until told to go on.
@@ -62,9 +62,9 @@ TEST(EncodePool, Job_GivesTheEncodersBytes) {
 
 TEST(EncodePool, VideoJobs_ContinueTheirEncodersStream) {
     const Picture picture = makePicture(640, 400); // enough for stripes, were it a JPEG
-    view::Encoding encoding;
-    encoding.codec = view::Codec::kVp9;
-    const auto encoder = std::shared_ptr(makeEncoder(view::Codec::kVp9, 1));
+    settings::Encoding encoding;
+    encoding.codec = settings::Codec::kVp9;
+    const auto encoder = std::shared_ptr(makeEncoder(settings::Codec::kVp9, 1));
     EncodePool pool(2, 4);
     std::vector<bool> keys;
     for (int i = 0; i < 3; ++i) {
@@ -195,7 +195,7 @@ TEST(EncodePool, LargeAndLossless_DoNotKeepOthersWaiting) {
     std::promise<void> quick;
     const auto count = [&](const Result<EncodedFrame>& frame) { patient += frame ? 1 : 0; };
     auto lossless = job({picture.view(), nullptr}, count);
-    lossless.encoding.codec = view::kLosslessCodec;
+    lossless.encoding.codec = settings::kLosslessCodec;
     ASSERT_TRUE(pool.submit(std::move(lossless)));
     ASSERT_TRUE(pool.submit(job({large.view(), nullptr}, count)));
     ASSERT_TRUE(pool.submit(

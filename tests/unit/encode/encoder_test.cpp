@@ -9,9 +9,9 @@
 namespace froxel::encode {
 namespace {
 
-constexpr view::Size kSize{64, 48};
+constexpr settings::Size kSize{64, 48};
 
-class EncoderOf : public testing::TestWithParam<view::CodecRow> {
+class EncoderOf : public testing::TestWithParam<settings::CodecRow> {
   protected:
     [[nodiscard]] Result<EncodedPart> next() {
         at_ += std::chrono::milliseconds(33);
@@ -43,7 +43,7 @@ TEST_P(EncoderOf, EmptyView_IsRefused) {
 }
 
 TEST_P(EncoderOf, Memory_CountsWhatIsKept) {
-    const view::EncoderMemory& kept = GetParam().memory;
+    const settings::EncoderMemory& kept = GetParam().memory;
     const uint64_t plain = memoryBytes({}, kSize);
     EXPECT_EQ(memoryBytes({.codec = GetParam().codec}, kSize),
               plain + kept.base_bytes + kept.bytes_420 * kSize.width_px * kSize.height_px);
@@ -51,7 +51,7 @@ TEST_P(EncoderOf, Memory_CountsWhatIsKept) {
 
 INSTANTIATE_TEST_SUITE_P(Codecs,
                          EncoderOf,
-                         testing::ValuesIn(view::kCodecRows),
+                         testing::ValuesIn(settings::kCodecRows),
                          [](const auto& one) { return std::string(one.param.name); });
 
 } // namespace

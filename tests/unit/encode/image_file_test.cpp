@@ -95,8 +95,9 @@ TEST_F(ImageFile, WrongUse_NamesTheFile) {
     EXPECT_THAT(writePfm(file("b.pfm"), 4, 5, rgb).error().message,
                 HasSubstr("b.pfm: 48 values do not make 4x5 pixels"));
     EXPECT_THAT(writeImage(file("c.png"), {}, {}).error().message, HasSubstr("c.png"));
-    EXPECT_THAT(writeImage(file("d.jpg"), picture.view(), {0, view::Chroma::k420}).error().message,
-                HasSubstr("d.jpg: JPEG quality is 0"));
+    EXPECT_THAT(
+        writeImage(file("d.jpg"), picture.view(), {0, settings::Chroma::k420}).error().message,
+        HasSubstr("d.jpg: JPEG quality is 0"));
     EXPECT_FALSE(fs::exists(file("b.pfm")) || fs::exists(file("c.png")) ||
                  fs::exists(file("d.jpg")));
 }

@@ -9,7 +9,7 @@
 namespace froxel::encode {
 namespace {
 
-using view::Chroma;
+using settings::Chroma;
 
 double psnr(const Picture& picture, const Decoded& decoded) {
     double sum = 0;
@@ -24,7 +24,7 @@ double psnr(const Picture& picture, const Decoded& decoded) {
     return 10 * std::log10(255.0 * 255.0 * 3 * picture.width_px * picture.height_px / sum);
 }
 
-double psnrOf(const Picture& picture, const view::Encoding& encoding) {
+double psnrOf(const Picture& picture, const settings::Encoding& encoding) {
     JpegEncoder encoder;
     return psnr(picture, decode(encoder.encode(picture.view(), encoding).value()));
 }

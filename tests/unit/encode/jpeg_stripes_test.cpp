@@ -9,10 +9,10 @@
 namespace froxel::encode {
 namespace {
 
-using view::Chroma;
+using settings::Chroma;
 
 std::vector<std::vector<std::byte>> encodeStripes(const std::vector<PixelView>& stripes,
-                                                  const view::Encoding& encoding) {
+                                                  const settings::Encoding& encoding) {
     std::vector<std::vector<std::byte>> parts;
     JpegEncoder encoder;
     for (const PixelView& stripe : stripes) {
@@ -50,8 +50,8 @@ TEST(JpegStripes, Cut_SmallPicture_StaysWhole) {
 TEST(JpegStripes, Joined_AnySizeAndCount_DecodesToTheSamePixels) {
     for (const auto& [width, height] : {std::pair{1280U, 720U}, {1001U, 777U}, {4096U, 517U}}) {
         const Picture picture = makePicture(width, height);
-        for (const view::Encoding encoding :
-             {view::Encoding{80, Chroma::k420}, {95, Chroma::k444}, {5, Chroma::k420}}) {
+        for (const settings::Encoding encoding :
+             {settings::Encoding{80, Chroma::k420}, {95, Chroma::k444}, {5, Chroma::k420}}) {
             const auto whole = decode(JpegEncoder().encode(picture.view(), encoding).value());
             for (const size_t wanted : {2U, 5U, 20U}) {
                 const auto stripes = cutStripes(picture.view(), encoding.chroma, wanted);
@@ -72,7 +72,7 @@ TEST(JpegStripes, Joined_AnySizeAndCount_DecodesToTheSamePixels) {
 // Two stripes would have 131,072 coded units each, more than a restart interval may.
 TEST(JpegStripes, LargestPicture_KeepsToTheFormatsInterval) {
     const Picture picture = makePicture(4096, 4096);
-    const view::Encoding encoding{20, Chroma::k444};
+    const settings::Encoding encoding{20, Chroma::k444};
     const auto stripes = cutStripes(picture.view(), encoding.chroma, 2);
     EXPECT_GT(stripes.size(), 2U);
     const auto joined = joinStripes(encodeStripes(stripes, encoding), 4096).value();
@@ -93,7 +93,7 @@ TEST(JpegStripes, NoJpeg_IsAnError) {
 
 TEST(JpegStripes, Pool_IdleThreads_ShareOnePicture) {
     const Picture picture = makePicture(1280, 720);
-    const view::Encoding encoding{80, Chroma::k420};
+    const settings::Encoding encoding{80, Chroma::k420};
     const auto whole = decode(JpegEncoder().encode(picture.view(), encoding).value());
     EncodePool pool(4, 4);
     bool shared = false;

@@ -21,8 +21,8 @@ using namespace std::chrono_literals;
 constexpr TimePoint kStart = TimePoint() + 1h;
 constexpr auto kFrameTime = 33ms;
 
-view::Encoding encoding(uint32_t kbps, view::Chroma chroma = view::Chroma::k420) {
-    return {.chroma = chroma, .codec = view::Codec::kVp9, .video_kbps = kbps};
+settings::Encoding encoding(uint32_t kbps, settings::Chroma chroma = settings::Chroma::k420) {
+    return {.chroma = chroma, .codec = settings::Codec::kVp9, .video_kbps = kbps};
 }
 
 // A pattern that moves by two pixels a frame.
@@ -97,7 +97,7 @@ class Film {
   public:
     explicit Film(uint32_t width_px = 320, uint32_t height_px = 180)
         : width_px_(width_px), height_px_(height_px) {}
-    EncodedPart next(const view::Encoding& encoding, bool key = false) {
+    EncodedPart next(const settings::Encoding& encoding, bool key = false) {
         picture = moving(width_px_, height_px_, number_++);
         if (noisy) {
             addNoise(picture, random_);
@@ -119,7 +119,7 @@ class Film {
 };
 
 TEST(Vp9Encoder, Frames_EachDecodesAtOnceToItsPicture) {
-    for (const view::Chroma chroma : {view::Chroma::k420, view::Chroma::k444}) {
+    for (const settings::Chroma chroma : {settings::Chroma::k420, settings::Chroma::k444}) {
         Film film(161, 99);
         Decoder decoder;
         for (int i = 0; i < 10; ++i) {
@@ -131,13 +131,13 @@ TEST(Vp9Encoder, Frames_EachDecodesAtOnceToItsPicture) {
             EXPECT_EQ(image->d_h, 99U);
             EXPECT_EQ(image->range, VPX_CR_FULL_RANGE);
             EXPECT_EQ(image->cs, VPX_CS_BT_601);
-            EXPECT_GT(psnr(film.picture, *image), chroma == view::Chroma::k444 ? 30 : 22) << i;
+            EXPECT_GT(psnr(film.picture, *image), chroma == settings::Chroma::k444 ? 30 : 22) << i;
         }
     }
 }
 
 TEST(Vp9Encoder, SmallestAndOddSizes_AreEncoded) {
-    for (const view::Size size : {view::Size{16, 16}, {17, 33}, {1, 1}, {4096, 16}}) {
+    for (const settings::Size size : {settings::Size{16, 16}, {17, 33}, {1, 1}, {4096, 16}}) {
         Film film(size.width_px, size.height_px);
         Decoder decoder;
         for (int i = 0; i < 3; ++i) {
@@ -172,15 +172,15 @@ TEST(Vp9Encoder, SizeOrChromaChanges_GivesAKeyFrame) {
     Vp9Encoder encoder(1);
     const Picture small = makePicture(64, 48);
     const Picture large = makePicture(65, 48);
-    auto encode = [&, at = kStart](const Picture& picture, view::Chroma chroma) mutable {
+    auto encode = [&, at = kStart](const Picture& picture, settings::Chroma chroma) mutable {
         at += kFrameTime;
         return encoder.encode(picture.view(), encoding(1000, chroma), false, at).value().key;
     };
-    EXPECT_TRUE(encode(small, view::Chroma::k420));
-    EXPECT_FALSE(encode(small, view::Chroma::k420));
-    EXPECT_TRUE(encode(large, view::Chroma::k420));
-    EXPECT_TRUE(encode(large, view::Chroma::k444));
-    EXPECT_FALSE(encode(large, view::Chroma::k444));
+    EXPECT_TRUE(encode(small, settings::Chroma::k420));
+    EXPECT_FALSE(encode(small, settings::Chroma::k420));
+    EXPECT_TRUE(encode(large, settings::Chroma::k420));
+    EXPECT_TRUE(encode(large, settings::Chroma::k444));
+    EXPECT_FALSE(encode(large, settings::Chroma::k444));
 }
 
 TEST(Vp9Encoder, Rate_IsHeldAndFollowsWithoutAKeyFrame) {
@@ -230,8 +230,9 @@ TEST(Vp9Encoder, WhatCannotBeEncoded_IsRefusedAndStartsAnew) {
 
 // By what the allocator has handed out, which libvpx and its threads go through.
 TEST(VideoMemory, OfAnySize_IsNoMoreThanIsSaid) {
-    for (const auto chroma : {view::Chroma::k420, view::Chroma::k444}) {
-        for (const view::Size size : {view::Size{64, 64}, {640, 360}, {1280, 720}, {1920, 1080}}) {
+    for (const auto chroma : {settings::Chroma::k420, settings::Chroma::k444}) {
+        for (const settings::Size size :
+             {settings::Size{64, 64}, {640, 360}, {1280, 720}, {1920, 1080}}) {
             const auto used = [] {
                 const auto heap = mallinfo2();
                 return heap.uordblks + heap.hblkhd;

@@ -63,8 +63,8 @@ TEST_F(HallRoundTrip, Geometry_IsTheSame) {
 TEST_F(HallRoundTrip, CamerasAndLights_AreTheSame) {
     ASSERT_EQ(read_->cameras.size(), hall_->cameras.size());
     for (size_t i = 0; i < hall_->cameras.size(); ++i) {
-        const view::Camera& expected = hall_->cameras[i].camera;
-        const view::Camera& camera = read_->cameras[i].camera;
+        const settings::Camera& expected = hall_->cameras[i].camera;
+        const settings::Camera& camera = read_->cameras[i].camera;
         EXPECT_EQ(read_->cameras[i].name, hall_->cameras[i].name);
         EXPECT_EQ(camera.projection, expected.projection);
         EXPECT_LT(glm::distance(camera.eye_world, expected.eye_world), 1e-6);

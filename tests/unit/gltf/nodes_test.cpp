@@ -199,8 +199,8 @@ TEST(Cameras, Perspective_IsPlacedByItsNode) {
     const scene::Scene scene = loaded(file.load());
     ASSERT_EQ(scene.cameras.size(), 1U);
     EXPECT_EQ(scene.cameras[0].name, "eye");
-    const view::Camera& camera = scene.cameras[0].camera;
-    EXPECT_EQ(camera.projection, view::Projection::kPerspective);
+    const settings::Camera& camera = scene.cameras[0].camera;
+    EXPECT_EQ(camera.projection, settings::Projection::kPerspective);
     EXPECT_EQ(camera.yfov_rad, 0.9);
     EXPECT_EQ(camera.near_m, 0.25);
     expectNear(camera.eye_world, {1, 2, 3});
@@ -213,8 +213,8 @@ TEST(Cameras, Orthographic_KeepsItsHalfHeight) {
     file.json["cameras"] = Json::parse(R"([{"type": "orthographic",
         "orthographic": {"xmag": 2, "ymag": 3, "znear": 0, "zfar": 10}}])");
     file.json["nodes"][0]["camera"] = 0;
-    const view::Camera camera = loaded(file.load()).cameras.at(0).camera;
-    EXPECT_EQ(camera.projection, view::Projection::kOrthographic);
+    const settings::Camera camera = loaded(file.load()).cameras.at(0).camera;
+    EXPECT_EQ(camera.projection, settings::Projection::kOrthographic);
     EXPECT_EQ(camera.half_height_m, 3);
 }
 
@@ -238,7 +238,7 @@ TEST(Cameras, MirroredNode_GivesARightHandedView) {
     file.json["cameras"] =
         Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])");
     file.json["nodes"][0].update({{"camera", 0}, {"scale", {-1, 1, 1}}});
-    const view::Camera camera = loaded(file.load()).cameras.at(0).camera;
+    const settings::Camera camera = loaded(file.load()).cameras.at(0).camera;
     EXPECT_NEAR(glm::determinant(camera.world_from_view), 1, 1e-12);
 }
 

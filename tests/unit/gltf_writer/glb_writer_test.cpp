@@ -148,9 +148,9 @@ scene::Scene everything() {
     glm::dmat4 shifted(1.0);
     shifted[3] = {0, 5, 0, 1};
     scene.instances = {{0, glm::dmat4(1.0), "here"}, {0, mirrored, "mirror"}, {0, shifted, ""}};
-    view::Camera flat_camera = view::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0});
-    flat_camera.projection = view::Projection::kOrthographic;
-    scene.cameras = {{"front", view::lookAt({1, 2, 5}, {0, 0, 0}, {0, 1, 0})},
+    settings::Camera flat_camera = settings::lookAt({0, 0, 5}, {0, 0, 0}, {0, 1, 0});
+    flat_camera.projection = settings::Projection::kOrthographic;
+    scene.cameras = {{"front", settings::lookAt({1, 2, 5}, {0, 0, 0}, {0, 1, 0})},
                      {"flat", flat_camera}};
     scene::PunctualLight point;
     point.range_m = 7;

@@ -127,7 +127,7 @@ TEST(LightCutoff, Compensated_KeepsWhatALightAddsInTheMean) {
 TEST(LightCutoff, LightRig_CutsWhereItIsAskedTo) {
     scene::Scene scene;
     scene.bounds_world = {{-1, -1, -1}, {1, 1, 1}};
-    view::Lights settings;
+    settings::Lights settings;
     settings.count = 50;
     FrameLights whole;
     LightRig(scene).evaluate(settings, {}, 0, whole);

@@ -8,7 +8,7 @@ namespace froxel::light {
 namespace {
 
 using ::testing::HasSubstr;
-using Of = view::LightRef::Of;
+using Of = settings::LightRef::Of;
 
 constexpr double kTime_s = 12.5;
 
@@ -32,24 +32,24 @@ scene::Scene roomWithTwoLights() {
     return scene;
 }
 
-view::ViewSettings looking(uint32_t seeded_count) {
-    view::ViewSettings settings;
-    settings.camera = view::lookAt({0.2, 1.6, 1}, {0, 1.4, -5}, {0.1, 1, 0});
+settings::ViewSettings looking(uint32_t seeded_count) {
+    settings::ViewSettings settings;
+    settings.camera = settings::lookAt({0.2, 1.6, 1}, {0, 1.4, -5}, {0.1, 1, 0});
     settings.size = {640, 360};
     settings.lights.count = seeded_count;
     return settings;
 }
 
 // By the definition of PickLight, through the frame's own lights.
-glm::dvec2 pictureOf(const view::ViewSettings& settings, const glm::vec3& position_view) {
+glm::dvec2 pictureOf(const settings::ViewSettings& settings, const glm::vec3& position_view) {
     const auto& camera = settings.camera;
-    const double half = camera.projection == view::Projection::kPerspective
+    const double half = camera.projection == settings::Projection::kPerspective
                             ? static_cast<double>(-position_view.z) * std::tan(camera.yfov_rad / 2)
                             : camera.half_height_m;
     return glm::dvec2(position_view) / half / glm::dvec2(640.0 / 360, 1) - camera.lens_shift;
 }
 
-FrameLights lightsOf(const LightRig& rig, const view::ViewSettings& settings) {
+FrameLights lightsOf(const LightRig& rig, const settings::ViewSettings& settings) {
     FrameLights lights;
     rig.evaluate(settings.lights, settings.camera, kTime_s, lights);
     return lights;
@@ -62,10 +62,10 @@ bool within(const glm::dvec2& at) {
 TEST(LightPick, SeededLight_IsFoundWhereItIs_ThroughAnyCamera) {
     const LightRig rig(roomWithTwoLights());
     for (const int kind : {0, 1, 2}) {
-        view::ViewSettings settings = looking(12);
+        settings::ViewSettings settings = looking(12);
         settings.lights.scene_lights = false;
         if (kind == 1) {
-            settings.camera.projection = view::Projection::kOrthographic;
+            settings.camera.projection = settings::Projection::kOrthographic;
             settings.camera.half_height_m = 3;
         } else if (kind == 2) {
             settings.camera.lens_shift = {0.2, -0.3};
@@ -78,7 +78,7 @@ TEST(LightPick, SeededLight_IsFoundWhereItIs_ThroughAnyCamera) {
                 continue;
             }
             const auto picked = rig.pick(settings, kTime_s, at).value();
-            EXPECT_EQ(picked.replaces, (view::LightRef{Of::kSeed, i}));
+            EXPECT_EQ(picked.replaces, (settings::LightRef{Of::kSeed, i}));
             ++found;
         }
         EXPECT_GT(found, 4U) << kind;
@@ -87,17 +87,17 @@ TEST(LightPick, SeededLight_IsFoundWhereItIs_ThroughAnyCamera) {
 
 TEST(LightPick, Picked_ShinesAsWhatItStandsFor_AtItsIndex) {
     const LightRig rig(roomWithTwoLights());
-    view::ViewSettings settings = looking(12);
+    settings::ViewSettings settings = looking(12);
     const FrameLights before = lightsOf(rig, settings);
-    std::vector<view::PlacedLight> placed;
+    std::vector<settings::PlacedLight> placed;
     for (const size_t i : {3U, 7U, 12U}) { // 12: the scene's spot
         const glm::dvec2 at = pictureOf(settings, before.lights[i].position_view);
         ASSERT_TRUE(within(at)) << i;
         placed.push_back(rig.pick(settings, kTime_s, at).value());
         placed.back().id = static_cast<uint32_t>(placed.size());
     }
-    EXPECT_EQ(placed[2].replaces, (view::LightRef{Of::kScene, 1}));
-    settings.lights.placed = view::PlacedLights(placed);
+    EXPECT_EQ(placed[2].replaces, (settings::LightRef{Of::kScene, 1}));
+    settings.lights.placed = settings::PlacedLights(placed);
     const FrameLights after = lightsOf(rig, settings);
     ASSERT_EQ(after.lights.size(), before.lights.size());
     for (size_t i = 0; i < before.lights.size(); ++i) {
@@ -122,14 +122,14 @@ TEST(LightPick, Picked_ShinesAsWhatItStandsFor_AtItsIndex) {
 
 TEST(LightPick, WhatIsReplaced_AndNotThere_LeavesOneMore) {
     const LightRig rig(roomWithTwoLights());
-    view::ViewSettings settings = looking(5);
-    view::PlacedLight seeded;
+    settings::ViewSettings settings = looking(5);
+    settings::PlacedLight seeded;
     seeded.id = 1;
-    seeded.replaces = view::LightRef{Of::kSeed, 5};
-    view::PlacedLight of_scene;
+    seeded.replaces = settings::LightRef{Of::kSeed, 5};
+    settings::PlacedLight of_scene;
     of_scene.id = 2;
-    of_scene.replaces = view::LightRef{Of::kScene, 2};
-    settings.lights.placed = view::PlacedLights({seeded, of_scene});
+    of_scene.replaces = settings::LightRef{Of::kScene, 2};
+    settings.lights.placed = settings::PlacedLights({seeded, of_scene});
     EXPECT_EQ(lightsOf(rig, settings).lights.size(), 5U + 2 + 1);
     settings.lights.scene_lights = false;
     EXPECT_EQ(lightsOf(rig, settings).lights.size(), 5U + 2);
@@ -144,22 +144,22 @@ TEST(LightPick, WhatCanBePlaced_IsPreferred_AndSunsStay) {
     scene.lights.back().position_world.x += 0.02;
     scene.lights.back().range_m = 2;
     const LightRig rig(scene);
-    view::ViewSettings settings = looking(0);
+    settings::ViewSettings settings = looking(0);
     const FrameLights lights = lightsOf(rig, settings);
     const auto picked =
         rig.pick(settings, kTime_s, pictureOf(settings, lights.lights[1].position_view)).value();
-    EXPECT_EQ(picked.replaces, (view::LightRef{Of::kScene, 3}));
-    view::PlacedLight sun = picked;
+    EXPECT_EQ(picked.replaces, (settings::LightRef{Of::kScene, 3}));
+    settings::PlacedLight sun = picked;
     sun.id = 1;
-    sun.replaces = view::LightRef{Of::kScene, 0};
-    settings.lights.placed = view::PlacedLights({sun});
+    sun.replaces = settings::LightRef{Of::kScene, 0};
+    settings.lights.placed = settings::PlacedLights({sun});
     EXPECT_EQ(lightsOf(rig, settings).directionals.size(), 1U);
     EXPECT_EQ(lightsOf(rig, settings).lights.size(), 3U + 1);
 }
 
 TEST(LightPick, WhatCannotBePicked_IsToldWhy) {
     const LightRig rig(roomWithTwoLights());
-    view::ViewSettings settings = looking(0);
+    settings::ViewSettings settings = looking(0);
     const auto why = [&](const glm::dvec2& at) {
         const auto picked = rig.pick(settings, kTime_s, at);
         return picked ? "" : picked.error().message;

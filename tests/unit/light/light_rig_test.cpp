@@ -21,15 +21,15 @@ scene::PunctualLight punctual(scene::LightType type) {
 }
 
 FrameLights evaluated(const scene::Scene& scene,
-                      const view::Lights& settings,
-                      const view::Camera& camera = {}) {
+                      const settings::Lights& settings,
+                      const settings::Camera& camera = {}) {
     FrameLights out;
     LightRig(scene).evaluate(settings, camera, 0, out);
     return out;
 }
 
-view::Lights noSeeded() {
-    view::Lights settings;
+settings::Lights noSeeded() {
+    settings::Lights settings;
     settings.count = 0;
     return settings;
 }
@@ -39,7 +39,7 @@ TEST(LightRig, Order_IsSeededThenSceneLights) {
     scene.bounds_world = {{-1, -1, -1}, {1, 1, 1}};
     scene.lights = {punctual(scene::LightType::kDirectional), punctual(scene::LightType::kSpot),
                     punctual(scene::LightType::kPoint)};
-    view::Lights settings;
+    settings::Lights settings;
     settings.count = 3;
     const FrameLights lights = evaluated(scene, settings);
     ASSERT_EQ(lights.lights.size(), 5U);
@@ -56,9 +56,9 @@ TEST(LightRig, Order_IsSeededThenSceneLights) {
 
 // Whatever its direction and roll, and through any camera.
 TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
-    view::PlacedLight area;
+    settings::PlacedLight area;
     area.id = 2;
-    area.kind = view::LightKind::kArea;
+    area.kind = settings::LightKind::kArea;
     area.position_world = {1, 2, 3};
     area.width_m = 3;
     area.height_m = 0.5;
@@ -67,11 +67,11 @@ TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
         for (const double roll : {0.0, 30.0, -120.0}) {
             area.direction_world = direction;
             area.roll_deg = roll;
-            view::Lights settings = noSeeded();
-            view::PlacedLight before = area;
+            settings::Lights settings = noSeeded();
+            settings::PlacedLight before = area;
             before.id = 1;
-            before.kind = view::LightKind::kPoint;
-            settings.placed = view::PlacedLights({before, area});
+            before.kind = settings::LightKind::kPoint;
+            settings.placed = settings::PlacedLights({before, area});
             const FrameLights lights = evaluated({}, settings);
             ASSERT_EQ(lights.areas.size(), 1U);
             ASSERT_EQ(lights.spots.size(), 1U);
@@ -95,15 +95,15 @@ TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
 
 // What a viewer places shines as a light of the scene does.
 TEST(LightRig, PlacedLights_AreTheScenesOwnAndComeLast) {
-    view::PlacedLight point;
+    settings::PlacedLight point;
     point.id = 4;
     point.position_world = {1, 2, -3};
     point.color = {1, 0.5F, 0.25F};
     point.intensity = 4;
     point.radius_m = 3;
-    view::PlacedLight spot = point;
+    settings::PlacedLight spot = point;
     spot.id = 5;
-    spot.kind = view::LightKind::kSpot;
+    spot.kind = settings::LightKind::kSpot;
     spot.direction_world = {0, -2, 0};
     spot.inner_cone_deg = 15;
     spot.outer_cone_deg = 30;
@@ -114,8 +114,8 @@ TEST(LightRig, PlacedLights_AreTheScenesOwnAndComeLast) {
         scene.lights.back().inner_cone_rad = glm::radians(15.0);
         scene.lights.back().outer_cone_rad = glm::radians(30.0);
     }
-    view::Lights settings = noSeeded();
-    settings.placed = view::PlacedLights({point, spot});
+    settings::Lights settings = noSeeded();
+    settings.placed = settings::PlacedLights({point, spot});
     const FrameLights lights = evaluated(scene, settings);
     ASSERT_EQ(lights.lights.size(), 4U);
     ASSERT_EQ(lights.spots.size(), 2U);
@@ -136,7 +136,7 @@ TEST(LightRig, PlacedLights_AreTheScenesOwnAndComeLast) {
 TEST(LightRig, SceneLightsOff_LeavesThemOut) {
     scene::Scene scene;
     scene.lights = {punctual(scene::LightType::kPoint), punctual(scene::LightType::kDirectional)};
-    view::Lights settings = noSeeded();
+    settings::Lights settings = noSeeded();
     settings.scene_lights = false;
     const FrameLights lights = evaluated(scene, settings);
     EXPECT_TRUE(lights.lights.empty());
@@ -159,7 +159,7 @@ TEST(LightRig, PositionsAndDirections_AreInViewSpace) {
     scene::Scene scene;
     scene.lights = {punctual(scene::LightType::kSpot), punctual(scene::LightType::kDirectional)};
     // Looking along +X: view's right is world's +Z, its back -X.
-    const auto camera = view::lookAt({-9, 2, -3}, {0, 2, -3}, {0, 1, 0});
+    const auto camera = settings::lookAt({-9, 2, -3}, {0, 2, -3}, {0, 1, 0});
     scene.lights[0].direction_world = {3, 0, 0};
     scene.lights[1].direction_world = {0, -1e-9, 0};
     const FrameLights lights = evaluated(scene, noSeeded(), camera);
@@ -235,7 +235,7 @@ TEST(LightRig, ExtremeSceneLights_StayFinite) {
 TEST(LightRig, SeededBox_IsTheSettingsOrTheShrunkScene) {
     scene::Scene scene;
     scene.bounds_world = {{0, 0, 0}, {100, 10, 50}};
-    view::Lights settings;
+    settings::Lights settings;
     const LightRig rig(scene);
     EXPECT_LT(glm::distance(rig.seededBox(settings).min, glm::dvec3(4, 0.4, 2)), 1e-9);
     EXPECT_LT(glm::distance(rig.seededBox(settings).max, glm::dvec3(96, 9.6, 48)), 1e-9);
@@ -245,7 +245,7 @@ TEST(LightRig, SeededBox_IsTheSettingsOrTheShrunkScene) {
 }
 
 TEST(LightRig, EmptyScene_HasFiniteLights) {
-    view::Lights settings;
+    settings::Lights settings;
     settings.count = 10;
     for (const io::Light& light : evaluated(scene::Scene{}, settings).lights) {
         EXPECT_EQ(light.position_view, glm::vec3(0));
@@ -256,7 +256,7 @@ TEST(LightRig, ReusedBuffers_HoldNothingOfTheFrameBefore) {
     scene::Scene scene;
     scene.lights = {punctual(scene::LightType::kSpot), punctual(scene::LightType::kDirectional)};
     const LightRig rig(scene);
-    view::Lights settings;
+    settings::Lights settings;
     settings.count = 100;
     FrameLights lights;
     rig.evaluate(settings, {}, 1, lights);

@@ -14,16 +14,16 @@ namespace {
 
 const BoundsD3 kBox{{-10, 0, -5}, {10, 8, 5}};
 
-view::Lights settingsOf(uint32_t count, uint32_t seed = 1) {
-    view::Lights settings;
+settings::Lights settingsOf(uint32_t count, uint32_t seed = 1) {
+    settings::Lights settings;
     settings.count = count;
     settings.seed = seed;
     return settings;
 }
 
-std::vector<io::Light> lightsAt(const view::Lights& settings,
+std::vector<io::Light> lightsAt(const settings::Lights& settings,
                                 double time_s,
-                                const view::Camera& camera = {},
+                                const settings::Camera& camera = {},
                                 const BoundsD3& box = kBox) {
     std::vector<io::Light> lights(settings.count);
     fillSeededLights(settings, camera, box, time_s, lights);
@@ -79,7 +79,7 @@ TEST(SeededLights, Speeds_AreAsStatedAlsoAfterThirtyYears) {
 }
 
 TEST(SeededLights, Speed_IsTheClockOwnersMatter) {
-    view::Lights settings = settingsOf(100);
+    settings::Lights settings = settingsOf(100);
     const auto a = lightsAt(settings, 7);
     settings.speed = 50;
     settings.animate = false;
@@ -125,7 +125,7 @@ TEST(SeededLights, KnownSeed_GivesKnownLights) {
 }
 
 TEST(SeededLights, Colors_AreSaturatedAndScaled) {
-    view::Lights settings = settingsOf(3000);
+    settings::Lights settings = settingsOf(3000);
     settings.intensity = 2;
     for (const io::Light& light : lightsAt(settings, 0)) {
         const float most = std::max({light.color.x, light.color.y, light.color.z});
@@ -160,11 +160,11 @@ TEST(SeededLights, InverseRadius_IsFiniteForEveryRadius) {
 // The far-away scene is the same picture: positions are made relative in double.
 TEST(SeededLights, SceneFarFromTheOrigin_LooksTheSame) {
     const auto settings = settingsOf(500);
-    const auto near_camera = view::lookAt({-7.13, 2.29, 0.41}, {0, 2, 1}, {0, 1, 0});
+    const auto near_camera = settings::lookAt({-7.13, 2.29, 0.41}, {0, 2, 1}, {0, 1, 0});
     const auto at_home = lightsAt(settings, 12, near_camera);
     for (const double distance : {1e4 + 0.37, 1e6 + 0.37}) {
         const glm::dvec3 offset(distance, -distance, distance);
-        view::Camera camera = near_camera;
+        settings::Camera camera = near_camera;
         camera.eye_world += offset;
         const auto away = lightsAt(settings, 12, camera, {kBox.min + offset, kBox.max + offset});
         for (size_t i = 0; i < away.size(); ++i) {

@@ -15,8 +15,8 @@ using ::testing::IsEmpty;
 // White point lights ahead of the eye at the origin, which looks along -Z.
 struct Ahead {
     FrameLights lights;
-    view::Camera camera;
-    view::Size size{160, 90};
+    settings::Camera camera;
+    settings::Size size{160, 90};
 
     Ahead& add(const glm::vec3& position_view, float radius_m = 1, float intensity = 1) {
         lights.lights.push_back({.position_view = position_view,
@@ -102,7 +102,7 @@ TEST(ChooseShadowed, ATileOfALargerPicture_CountsAllThatLiesAhead) {
 
 TEST(ChooseShadowed, ParallelRays_RankByIntensityAlone) {
     Ahead ahead;
-    ahead.camera.projection = view::Projection::kOrthographic;
+    ahead.camera.projection = settings::Projection::kOrthographic;
     ahead.camera.half_height_m = 3;
     ahead.add({0, 0, -1}, 1, 1).add({0, 0, -50}, 1, 2).add({0, 5, -1}, 1, 9);
     EXPECT_THAT(ahead.choose(1), ElementsAre(1));
@@ -138,9 +138,9 @@ TEST(LightRig, PlaceOf_IsWhereTheFrameHasIt) {
     point.position_world = {0.5, 0.25, 2};
     scene.lights = {sun, spot, sun, point};
     const LightRig rig(scene);
-    view::Lights settings;
+    settings::Lights settings;
     settings.count = 300; // more than one batch
-    const view::Camera camera = view::lookAt({0.5, 1, 6}, {0, 1, 0}, {0, 1, 0});
+    const settings::Camera camera = settings::lookAt({0.5, 1, 6}, {0, 1, 0}, {0, 1, 0});
     FrameLights lights;
     rig.evaluate(settings, camera, 7.25, lights);
     ASSERT_EQ(lights.lights.size(), 302U);

@@ -3,8 +3,8 @@
 #include "load/script.h"
 #include "session/command_decode.h"
 #include "session/state_message.h"
+#include "settings/ranges.h"
 #include "unit/session/context.h"
-#include "view/ranges.h"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/reflection.h>
@@ -112,7 +112,7 @@ void noteFields(const google::protobuf::Message& message,
 TEST(Scripts, Storm_SaysEverySetting_AllAccepted) {
     const session::SessionContext context = session::makeContext();
     session::SessionState state = session::initialState(context, TimePoint(1s));
-    state.decodable.set(static_cast<size_t>(view::Codec::kVp9));
+    state.decodable.set(static_cast<size_t>(settings::Codec::kVp9));
     const auto script = makeScript(Storm{}, session::makeWelcome(1, context, state).welcome(), 3);
     std::set<std::string> said;
     std::map<uint32_t, int> widths;
@@ -131,8 +131,8 @@ TEST(Scripts, Storm_SaysEverySetting_AllAccepted) {
         noteFields(step->message, "", said);
         ++widths[step->message.set_size().width()];
     }
-    EXPECT_GT(widths[view::kWidthRange.min], 100);
-    EXPECT_GT(widths[view::kWidthRange.max], 100);
+    EXPECT_GT(widths[settings::kWidthRange.min], 100);
+    EXPECT_GT(widths[settings::kWidthRange.max], 100);
     EXPECT_GT(widths.size(), 100U);
 
     std::set<std::string> all;

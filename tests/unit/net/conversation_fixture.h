@@ -68,7 +68,7 @@ class ConversationTest : public testing::Test {
     }
     void video(uint64_t id, bool key) {
         session::ReadyFrame ready;
-        ready.record.delivered.encoding.codec = view::Codec::kVp9;
+        ready.record.delivered.encoding.codec = settings::Codec::kVp9;
         ready.record.key = key;
         put(id, std::move(ready));
     }

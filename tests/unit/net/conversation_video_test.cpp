@@ -19,7 +19,7 @@ TEST_F(ConversationTest, Codec_InHello_IsTaken) {
     hello(true);
     drainAnswers();
     setCodec(v1::CODEC_VP9);
-    EXPECT_EQ(port_.session().states.back().encoding.codec, view::Codec::kVp9);
+    EXPECT_EQ(port_.session().states.back().encoding.codec, settings::Codec::kVp9);
     EXPECT_EQ(nextAnswer()->state().state().codec(), v1::CODEC_VP9);
 }
 

@@ -340,7 +340,7 @@ TEST_F(LobbyTest, Welcome_TellsPlaceTokenAndDefaults) {
     ASSERT_TRUE(apply(first, exposure(3)));
     const Guest second = enter("hall");
     session::WelcomePlace place{second.seat.resume_token, 10s, true, nullptr, 0, nullptr};
-    view::PlacedLights placed;
+    settings::PlacedLights placed;
     const auto told =
         second.seat.session->welcome(second.seat.place.member, place, placed).welcome();
     EXPECT_EQ(told.resume_token(), second.seat.resume_token);

@@ -146,10 +146,10 @@ TEST(Metrics, BuildAndProcess_AreThere) {
 TEST(Metrics, Delivery_IsCountedByWhatFramesWereMadeWith) {
     Metrics metrics;
     auto record = aRecord();
-    record.delivered = {0.75, {55, view::Chroma::k420}, session::Refinement::kInteractive, 2};
+    record.delivered = {0.75, {55, settings::Chroma::k420}, session::Refinement::kInteractive, 2};
     record.queue_delay_us = 30'000;
     metrics.frameSent(record);
-    record.delivered = {1, {92, view::Chroma::k444}, session::Refinement::kLossless, 0};
+    record.delivered = {1, {92, settings::Chroma::k444}, session::Refinement::kLossless, 0};
     metrics.frameSent(record);
     metrics.rateStepped(session::RateStep::kNone);
     metrics.rateStepped(session::RateStep::kCongested);

@@ -15,7 +15,7 @@ session::ReadyFrame frame(uint64_t id) {
 
 session::ReadyFrame video(uint64_t id, bool key = false) {
     session::ReadyFrame ready = frame(id);
-    ready.record.delivered.encoding.codec = view::Codec::kVp9;
+    ready.record.delivered.encoding.codec = settings::Codec::kVp9;
     ready.record.key = key;
     return ready;
 }

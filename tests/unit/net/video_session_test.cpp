@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr TimePoint kNow = TimePoint() + 1h;
-constexpr auto kVp9 = static_cast<size_t>(view::Codec::kVp9);
+constexpr auto kVp9 = static_cast<size_t>(settings::Codec::kVp9);
 
 class VideoSessionTest : public testing::Test {
   protected:
@@ -33,14 +33,14 @@ class VideoSessionTest : public testing::Test {
         hello.codecs.set(kVp9, decodes_video);
         return lobby_.enter(serving_, hello, {}, viewer, kNow).value();
     }
-    static bool setCodec(const Seat& seat, view::Codec codec) {
+    static bool setCodec(const Seat& seat, settings::Codec codec) {
         const auto set = test::settings({{"codec", test::chosen(codec)}});
         return seat.session->apply(seat.place, {{1, 0}, set}, kNow).has_value();
     }
     void deliver(uint64_t id, bool key) {
         session::ReadyFrame frame;
         frame.record.frame_id = id;
-        frame.record.delivered.encoding.codec = view::Codec::kVp9;
+        frame.record.delivered.encoding.codec = settings::Codec::kVp9;
         frame.record.key = key;
         port_.sink()->deliver(std::move(frame));
     }
@@ -55,20 +55,20 @@ class VideoSessionTest : public testing::Test {
 
 TEST_F(VideoSessionTest, Codec_OnlyWhileAllViewersDecodeIt) {
     const Seat first = enter(first_, true);
-    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    EXPECT_TRUE(setCodec(first, settings::Codec::kVp9));
     const uint32_t news = first_->state_news;
     const Seat second = enter(second_, false);
-    EXPECT_EQ(state().encoding.codec, view::Codec::kJpeg);
+    EXPECT_EQ(state().encoding.codec, settings::Codec::kJpeg);
     EXPECT_GT(first_->state_news, news);
-    EXPECT_FALSE(setCodec(first, view::Codec::kVp9));
+    EXPECT_FALSE(setCodec(first, settings::Codec::kVp9));
     lobby_.depart(second, Departure::kLost, kNow);
-    EXPECT_TRUE(setCodec(first, view::Codec::kVp9)) << "it may never come back";
-    EXPECT_EQ(state().encoding.codec, view::Codec::kVp9);
+    EXPECT_TRUE(setCodec(first, settings::Codec::kVp9)) << "it may never come back";
+    EXPECT_EQ(state().encoding.codec, settings::Codec::kVp9);
 }
 
 TEST_F(VideoSessionTest, LateViewer_BeginsWithAKeyFrame) {
     const Seat first = enter(first_, true);
-    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    EXPECT_TRUE(setCodec(first, settings::Codec::kVp9));
     deliver(1, true);
     const uint64_t before = state().key_requests;
     EXPECT_EQ(enter(second_, true).picture->record.frame_id, 1U) << "decodes by itself";
@@ -81,7 +81,7 @@ TEST_F(VideoSessionTest, LateViewer_BeginsWithAKeyFrame) {
 TEST_F(VideoSessionTest, KeyFrames_AreSharedByThoseWhoAskMeanwhile) {
     const Seat first = enter(first_, true);
     const Seat second = enter(second_, true);
-    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    EXPECT_TRUE(setCodec(first, settings::Codec::kVp9));
     deliver(1, true);
     const session::SessionState before = state();
     EXPECT_FALSE(first.session->requestKeyFrame(second.place, kNow)); // watches, and may
@@ -98,7 +98,7 @@ TEST_F(VideoSessionTest, KeyFrames_AreSharedByThoseWhoAskMeanwhile) {
 
 TEST_F(VideoSessionTest, KeyFrames_AskedForAgainAndAgain_AreLeftOutAndToldWhen) {
     const Seat first = enter(first_, true);
-    EXPECT_TRUE(setCodec(first, view::Codec::kVp9));
+    EXPECT_TRUE(setCodec(first, settings::Codec::kVp9));
     deliver(1, true);
     const uint64_t before = state().key_requests;
     for (uint64_t id = 2; id < 12; ++id) {

@@ -39,7 +39,7 @@ TEST(ReferenceBloom, BrightPart_SetsInAsAParabolaAroundTheThreshold) {
 TEST(ReferenceBloom, OnePixel_BecomesAGaussian) {
     LinearImage image = black(200, 200);
     red(image, 100, 100) = 100;
-    const view::Bloom bloom{view::BloomKind::kSeparable, 0, 0, 0.5F, 0.02F};
+    const settings::Bloom bloom{settings::BloomKind::kSeparable, 0, 0, 0.5F, 0.02F};
     LinearImage result = spread(image, bloom, 1);
     const double peak = 50 / (2 * std::numbers::pi * 16);
     EXPECT_NEAR(red(result, 100, 100), 50 + peak, 1e-4);
@@ -52,14 +52,14 @@ TEST(ReferenceBloom, LightAtABorder_StaysInThePicture) {
     LinearImage image = black(30, 20);
     red(image, 0, 0) = 7;
     red(image, 29, 10) = 5;
-    const view::Bloom bloom{view::BloomKind::kMipChain, 0.5F, 1, 1, 0.05F};
+    const settings::Bloom bloom{settings::BloomKind::kMipChain, 0.5F, 1, 1, 0.05F};
     EXPECT_NEAR(sumOf(spread(image, bloom, 1)), 12, 1e-5);
 }
 
 TEST(ReferenceBloom, Threshold_IsOfExposedRadiance) {
     LinearImage image = black(16, 16);
     red(image, 8, 8) = 3;
-    const view::Bloom bloom{view::BloomKind::kMipChain, 1, 0, 1, 0.05F};
+    const settings::Bloom bloom{settings::BloomKind::kMipChain, 1, 0, 1, 0.05F};
     EXPECT_EQ(spread(image, bloom, 0.25).rgb, image.rgb); // 3 is 0.75 there
     EXPECT_NE(spread(image, bloom, 1).rgb, image.rgb);
 }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 const Model kPbr{};
-const Model kLambert{view::ShadingModel::kLambert, nullptr};
-const Model kBlinnPhong{view::ShadingModel::kBlinnPhong, nullptr};
+const Model kLambert{settings::ShadingModel::kLambert, nullptr};
+const Model kBlinnPhong{settings::ShadingModel::kBlinnPhong, nullptr};
 
 glm::dvec3 direction(double from_up_rad, double turn_rad) {
     return {std::sin(from_up_rad) * std::cos(turn_rad), std::cos(from_up_rad),
@@ -275,7 +275,7 @@ TEST(ReferenceBrdf, LightBehindOrAtGrazingAngles_IsFiniteAndNeverNegative) {
 }
 
 TEST(ReferenceBrdf, ToonRamp_AtItsPointsAndBetween_IsHermite) {
-    view::ToonRamp ramp{.count = 2, .points = {}};
+    settings::ToonRamp ramp{.count = 2, .points = {}};
     ramp.points[0] = {0.25F, 0.5F, 1};
     ramp.points[1] = {0.75F, 1.0F, -1};
     EXPECT_EQ(toonRamp(ramp, 0), 0.5);

@@ -12,8 +12,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const Open kNothingBetween = [](const glm::dvec3&, const glm::dvec3&) { return true; };
 
-view::Camera eyeAt(double height_m) {
-    view::Camera camera;
+settings::Camera eyeAt(double height_m) {
+    settings::Camera camera;
     camera.eye_world = {0, height_m, 0};
     return camera;
 }
@@ -47,7 +47,8 @@ TEST(ReferenceFog, OpticalDepth_IsTheDensitysIntegral) {
     const Lights lights;
     for (const float falloff : {0.0F, 0.01F, 0.5F, 8.0F}) {
         for (const double eye_m : {-3.0, 0.0, 2.0}) {
-            const view::Fog fog{.density = 0.25F, .height_falloff = falloff, .base_height_m = 0.5};
+            const settings::Fog fog{
+                .density = 0.25F, .height_falloff = falloff, .base_height_m = 0.5};
             const Medium medium(fog, eyeAt(eye_m), lights, kNothingBetween);
             for (const glm::dvec3& to : {glm::dvec3(3, 5, -4), glm::dvec3(1, -6, 2),
                                          glm::dvec3(4, 0, 1), glm::dvec3(0, 9, 0)}) {
@@ -60,7 +61,7 @@ TEST(ReferenceFog, OpticalDepth_IsTheDensitysIntegral) {
 
 TEST(ReferenceFog, Light_IsTheSumOfManySteps) {
     const Lights none;
-    const view::Fog fog{.density = 0.2F, .height_falloff = 0.3F, .anisotropy = 0.6F};
+    const settings::Fog fog{.density = 0.2F, .height_falloff = 0.3F, .anisotropy = 0.6F};
     const Medium medium(fog, eyeAt(1), none, kNothingBetween);
     PointLight light{.position = {0.4, 0.3, -5}, .radius2 = 9, .color = {2, 1, 0}};
     PointLight spot = light;
@@ -98,7 +99,7 @@ TEST(ReferenceFog, Light_IsTheSumOfManySteps) {
 
 TEST(ReferenceFog, LightAtTheRay_IsFiniteAndLarge) {
     const Lights none;
-    const view::Fog fog{.density = 1e-4F};
+    const settings::Fog fog{.density = 1e-4F};
     const Medium medium(fog, eyeAt(0), none, kNothingBetween);
     const PointLight light{.position = {0, 0, -5}, .color = {1, 1, 1}};
     const double sum = medium.scattered(light, {{}, {0, 0, -1}}, 1e9).x;
@@ -111,7 +112,7 @@ TEST(ReferenceFog, Furnace_OfAlbedoOne_ShowsNothing) {
     Lights lights;
     lights.sky = lights.ground = glm::dvec3(0.25);
     for (const float falloff : {0.0F, 0.4F}) {
-        const view::Fog fog{.density = 0.3F, .height_falloff = falloff};
+        const settings::Fog fog{.density = 0.3F, .height_falloff = falloff};
         const Medium medium(fog, eyeAt(1), lights, kNothingBetween);
         for (const double distance : {0.1, 3.0, 1e3, std::numeric_limits<double>::infinity()}) {
             const glm::dvec3 seen =
@@ -123,7 +124,7 @@ TEST(ReferenceFog, Furnace_OfAlbedoOne_ShowsNothing) {
 
 TEST(ReferenceFog, NoDensity_IsTransparent) {
     const Lights lights;
-    const view::Fog fog;
+    const settings::Fog fog;
     const Medium medium(fog, eyeAt(1), lights, kNothingBetween);
     EXPECT_EQ(medium.seenThrough({1, 2, 3}, {{}, {0, 0, -1}}, 1e300), glm::dvec3(1, 2, 3));
 }

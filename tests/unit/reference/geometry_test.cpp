@@ -32,14 +32,14 @@ scene::Instance placed(const glm::dvec3& at, const glm::dvec3& scale) {
 }
 
 TEST(ReferenceRays, CornersOfAPicture_LieOnTheFrustum) {
-    view::Camera camera;
+    settings::Camera camera;
     camera.yfov_rad = 2 * std::atan(0.5);
     const PixelRays rays(camera, {4, 2});
     expectNear(rays.through(0, 0).direction, {-0.75, 0.25, -1}, 1e-15);
     expectNear(rays.through(3, 1).direction, {0.75, -0.25, -1}, 1e-15);
     camera.lens_shift = {1, 0}; // the axis meets the left edge
     expectNear(PixelRays(camera, {4, 2}).through(0, 0).direction, {0.25, 0.25, -1}, 1e-15);
-    camera.projection = view::Projection::kOrthographic;
+    camera.projection = settings::Projection::kOrthographic;
     camera.half_height_m = 3;
     const Ray ray = PixelRays(camera, {4, 2}).through(0, 0);
     expectNear(ray.origin, {1.5, 1.5, 0}, 1e-15);
@@ -47,9 +47,10 @@ TEST(ReferenceRays, CornersOfAPicture_LieOnTheFrustum) {
 }
 
 TEST(ReferenceRays, ProjectedPoint_IsThePixelThatItsRayGoesThrough) {
-    view::Camera camera = view::lookAt({1, 2, 3}, {4, 0, -2}, {0, 1, 0});
+    settings::Camera camera = settings::lookAt({1, 2, 3}, {4, 0, -2}, {0, 1, 0});
     camera.lens_shift = {0.3, -0.6};
-    for (const auto kind : {view::Projection::kPerspective, view::Projection::kOrthographic}) {
+    for (const auto kind :
+         {settings::Projection::kPerspective, settings::Projection::kOrthographic}) {
         camera.projection = kind;
         const PixelRays rays(camera, {320, 200});
         const Ray ray = rays.through(37, 150);
@@ -91,7 +92,7 @@ TEST(ReferenceGeometry, MirroredAndUnevenlyScaled_NormalsStandOnTheSurface) {
     p.positions = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}};
     p.normals.assign(3, glm::normalize(glm::vec3(-1, -2, 1)));
     const Placement placement(placed({0, 0, -9}, {1, -1, 3}), {0, 0, 0});
-    view::Camera camera;
+    settings::Camera camera;
     const PixelRays rays(camera, {64, 64});
     const Triangle t = placedTriangle(placement, p, 0);
     const PixelHit hit{31, 32, meetPlane(rays.through(31, 32), t)};
@@ -105,7 +106,7 @@ TEST(ReferenceGeometry, MirroredAndUnevenlyScaled_NormalsStandOnTheSurface) {
 
 TEST(ReferenceGeometry, FarFromTheOrigin_PointsAreAsNearIt) {
     const scene::Primitive p = rightTriangle();
-    view::Camera camera;
+    settings::Camera camera;
     const PixelRays rays(camera, {64, 64});
     std::array<glm::dvec3, 2> positions;
     for (size_t i = 0; i < 2; ++i) {
@@ -126,7 +127,7 @@ TEST(ReferenceGeometry, Gradients_OfAPlane_AreItsDerivatives) {
     p.positions = {{-50, -1, 50}, {50, -1, 50}, {-50, -1, -50}};
     p.normals.assign(3, {0, 1, 0});
     const Placement placement(placed({0, 0, -60}, glm::dvec3(1)), {0, 0, 0});
-    const view::Camera camera;
+    const settings::Camera camera;
     const PixelRays coarse(camera, {64, 64});
     const Triangle t = placedTriangle(placement, p, 0);
     const PixelHit hit{20, 40, meetPlane(coarse.through(20, 40), t)};

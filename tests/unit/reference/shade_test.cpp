@@ -1,6 +1,6 @@
 // Whole pictures of the reference against closed forms.
 #include "reference/shade.h"
-#include "view/environment.h"
+#include "settings/environment.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ scene::Primitive quad(float s, float y, uint32_t material) {
 
 struct Setting {
     scene::Scene scene;
-    view::ViewSettings view;
+    settings::ViewSettings view;
     Visibility visibility;
 
     [[nodiscard]] glm::dvec3 pixel(uint32_t x, uint32_t y) const {
@@ -40,9 +40,9 @@ Setting floorFromAbove() {
     s.scene.materials[0].metallic = 0;
     s.scene.meshes = {{"floor", {quad(100, 0, 0)}}};
     s.scene.instances = {{}};
-    s.view.camera = view::lookAt({0, 5, 0}, {0, 0, 0}, {0, 0, -1});
+    s.view.camera = settings::lookAt({0, 5, 0}, {0, 0, 0}, {0, 0, -1});
     s.view.size = {16, 16};
-    s.view.shading = view::ShadingModel::kLambert;
+    s.view.shading = settings::ShadingModel::kLambert;
     s.view.lights.count = 0;
     s.view.lights.ambient = 0;
     s.visibility = {16, 16, {}, {}};
@@ -79,7 +79,7 @@ TEST(ReferenceShade, EverythingAThousandKilometresAway_IsTheSamePicture) {
     scene::PunctualLight light;
     light.position_world = {1, 2, -0.5};
     near.scene.lights = {light};
-    near.view.shading = view::ShadingModel::kPbr;
+    near.view.shading = settings::ShadingModel::kPbr;
     Setting far = near;
     const glm::dvec3 offset(1e6, -1e6, 1e6);
     far.view.camera.eye_world += offset;
@@ -92,16 +92,16 @@ TEST(ReferenceShade, AmbientAlone_IsTheSkyOnAFloorAndTheGroundBelow) {
     Setting s = floorFromAbove();
     s.view.lights.ambient = 2;
     s.scene.materials[0].base_color = {0.5F, 0.5F, 0.5F, 1};
-    EXPECT_NEAR(s.pixel(4, 4).z, static_cast<double>(view::kAmbientSky.z), 1e-8);
+    EXPECT_NEAR(s.pixel(4, 4).z, static_cast<double>(settings::kAmbientSky.z), 1e-8);
     s.scene.materials[0].double_sided = true;
     s.scene.instances[0].world_from_object[1][1] = -1; // mirrored: its front looks down
-    EXPECT_NEAR(s.pixel(4, 4).z, static_cast<double>(view::kAmbientSky.z), 1e-8);
+    EXPECT_NEAR(s.pixel(4, 4).z, static_cast<double>(settings::kAmbientSky.z), 1e-8);
 }
 
 TEST(ReferenceShade, EmptyPixels_AreTheBackground) {
     Setting s = floorFromAbove();
     s.visibility.pixels[0].instance = VisibleTriangle::kNothing;
-    EXPECT_NEAR(s.pixel(0, 0).z, static_cast<double>(view::kBackground.z), 1e-9);
+    EXPECT_NEAR(s.pixel(0, 0).z, static_cast<double>(settings::kBackground.z), 1e-9);
 }
 
 // Two panes over an emissive floor: a1 c1 + (1 - a1) (a2 c2 + (1 - a2) c0), the higher one first.

@@ -7,13 +7,13 @@
 namespace froxel::render {
 namespace {
 
-using view::BloomKind;
+using settings::BloomKind;
 
 constexpr std::array kKinds = {BloomKind::kSinglePass, BloomKind::kSeparable, BloomKind::kATrous,
                                BloomKind::kMipChain};
 
-view::Bloom bloomOf(BloomKind kind, float radius) {
-    view::Bloom bloom;
+settings::Bloom bloomOf(BloomKind kind, float radius) {
+    settings::Bloom bloom;
     bloom.kind = kind;
     bloom.radius = radius;
     return bloom;
@@ -23,7 +23,8 @@ view::Bloom bloomOf(BloomKind kind, float radius) {
 // writes.
 TEST(BloomPlan, AnyKindAndSize_IsWiredRight) {
     for (const auto kind : kKinds) {
-        for (const view::Size size : {view::Size{16, 16}, {17, 4096}, {1280, 720}, {8192, 8192}}) {
+        for (const settings::Size size :
+             {settings::Size{16, 16}, {17, 4096}, {1280, 720}, {8192, 8192}}) {
             for (const float radius : {0.001F, 0.015F, 0.05F}) {
                 const auto plan = planBloom(bloomOf(kind, radius), size, 1);
                 ASSERT_FALSE(plan.steps.empty());
@@ -45,7 +46,7 @@ TEST(BloomPlan, AnyKindAndSize_IsWiredRight) {
 
 // Within the picture mirrored once, whatever the kind.
 TEST(BloomPlan, AnyReach_IsWithinTheSmallerSide) {
-    for (const view::Size size : {view::Size{16, 4096}, {100, 90}, {8192, 8192}}) {
+    for (const settings::Size size : {settings::Size{16, 4096}, {100, 90}, {8192, 8192}}) {
         for (const auto kind : kKinds) {
             for (const auto& step : planBloom(bloomOf(kind, 0.05F), size, 1).steps) {
                 const auto side = std::min(step.pass.source_width_px, step.pass.source_height_px);
@@ -95,7 +96,7 @@ TEST(BloomPlan, Threshold_IsOfExposedRadiance) {
 }
 
 TEST(BloomPlan, Kernels_OfMoreTapsThanASoftwareLoopHas_AreRefusedThere) {
-    const view::Size full{1920, 1080};
+    const settings::Size full{1920, 1080};
     const auto check = [&](BloomKind kind, float radius, bool cpu) {
         return checkKernels(planBloom(bloomOf(kind, radius), full, 1), cpu);
     };

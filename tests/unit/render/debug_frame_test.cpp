@@ -13,7 +13,7 @@ namespace froxel::render {
 
 namespace {
 
-using view::DebugView;
+using settings::DebugView;
 
 DebugLegend legendOf(DebugView view, const DebugFacts& facts, double scale_max = 0) {
     return makeLegend({.view = view, .scale_max = scale_max, .grid_camera = {}}, facts);
@@ -57,7 +57,7 @@ TEST(DebugLegend, Scales_AreChosenOrGiven) {
 }
 
 TEST(ClusterWires, FrozenCamera_IsWhereItWas) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     const auto grid =
         cluster::makeClusterGrid({.size = {4, 3, 5}}, {80, 60}, settings.camera, 0.5, 20);
     const auto own = clusterWires(grid, settings.camera, settings.camera);
@@ -70,7 +70,7 @@ TEST(ClusterWires, FrozenCamera_IsWhereItWas) {
     EXPECT_NEAR(own[1].position_view.y, half * far_m, 1e-4);
     EXPECT_NEAR(own[1].position_view.z, -far_m, 1e-4);
 
-    const auto other = view::lookAt({3, 4, 5}, {1, 0, -7}, {0, 1, 0});
+    const auto other = settings::lookAt({3, 4, 5}, {1, 0, -7}, {0, 1, 0});
     const auto seen = clusterWires(grid, settings.camera, other);
     ASSERT_EQ(seen.size(), own.size());
     for (size_t i = 0; i < own.size(); ++i) {
@@ -82,23 +82,23 @@ TEST(ClusterWires, FrozenCamera_IsWhereItWas) {
 }
 
 TEST(WirePixels, OfALineAcross_AreThePicturesWidth) {
-    const view::Size size{400, 200};
-    view::Camera camera;
+    const settings::Size size{400, 200};
+    settings::Camera camera;
     const auto depth = static_cast<float>(100 / std::tan(camera.yfov_rad / 2)); // 1 m, 1 pixel
     const auto at = [&](float x, float y) {
         return io::WireVertex{.position_view = {x, y, -depth}, .color = {}};
     };
     const std::vector<io::WireVertex> lines{at(-50, 0), at(50, 0), at(0, -1e6F), at(0, 1e6F)};
     EXPECT_NEAR(wirePixels(lines, camera, size), 100 + 200, 0.01);
-    camera.projection = view::Projection::kOrthographic;
+    camera.projection = settings::Projection::kOrthographic;
     camera.half_height_m = 50;
     EXPECT_NEAR(wirePixels(lines, camera, size), 200 + 200, 0.01);
     EXPECT_EQ(wirePixels({}, camera, size), 0);
 }
 
 TEST(WirePixels, OfLights_AreNoMoreThanThePictureShows) {
-    const view::Size size{400, 200};
-    const view::Camera camera;
+    const settings::Size size{400, 200};
+    const settings::Camera camera;
     const double depth = 100 / std::tan(camera.yfov_rad / 2);
     light::FrameLights lights;
     const auto add = [&](float radius_m) {

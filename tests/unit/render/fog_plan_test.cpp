@@ -5,8 +5,8 @@
 namespace froxel::render {
 namespace {
 
-view::ViewSettings settingsOf(const view::Size& size) {
-    view::ViewSettings settings;
+settings::ViewSettings settingsOf(const settings::Size& size) {
+    settings::ViewSettings settings;
     settings.size = size;
     settings.fog.density = 0.1F;
     return settings;
@@ -40,7 +40,7 @@ TEST(FogPlan, HalfRate_IsHalfOnEachAxis) {
 TEST(FogPlan, SamplesOfAPixel_NeedNoMoreFroxels) {
     auto settings = settingsOf({640, 360});
     const uint64_t once = froxelCount(makeFog(settings, 50, 0));
-    settings.antialiasing = view::Antialiasing::kSsaa4;
+    settings.antialiasing = settings::Antialiasing::kSsaa4;
     settings.size = {1280, 720}; // drawn
     EXPECT_EQ(froxelCount(makeFog(settings, 50, 0)), once);
 }

@@ -7,8 +7,8 @@
 namespace froxel::render {
 namespace {
 
-cluster::ClusterGrid gridOf(const view::GridSize& size, const view::Size& image) {
-    return cluster::makeClusterGrid({.size = size}, image, view::Camera{}, 0.1, 100);
+cluster::ClusterGrid gridOf(const settings::GridSize& size, const settings::Size& image) {
+    return cluster::makeClusterGrid({.size = size}, image, settings::Camera{}, 0.1, 100);
 }
 
 struct Load {

@@ -21,12 +21,12 @@ namespace froxel::render {
 
 namespace {
 
-using view::LightingStage;
-using view::Renderer;
+using settings::LightingStage;
+using settings::Renderer;
 
 FramePlan
 plan(Renderer renderer, const FrameFacts& facts, LightingStage stage = LightingStage::kCompute) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.renderer = renderer;
     settings.lighting = stage;
     return planFrame(settings, facts);
@@ -39,9 +39,10 @@ const EffectPlan* effectOf(const FramePlan& p, const EffectRow& row) {
     return at != p.effects.end() ? &at->plan : nullptr;
 }
 
-view::BloomKind bloomOf(const FramePlan& p) {
+settings::BloomKind bloomOf(const FramePlan& p) {
     const EffectPlan* bloom = effectOf(p, kBloomEffect);
-    return bloom != nullptr ? static_cast<view::BloomKind>(bloom->way) : view::BloomKind::kNone;
+    return bloom != nullptr ? static_cast<settings::BloomKind>(bloom->way)
+                            : settings::BloomKind::kNone;
 }
 
 constexpr FrameFacts kLit{.local_lights = true, .compute_batches = true};
@@ -87,25 +88,25 @@ TEST(FramePlan, Deferred_GlassInView_AddsBlendingAndToneMap) {
 }
 
 TEST(FramePlan, Transparency_IsPlannedWhereSomethingIsBlended) {
-    view::ViewSettings settings;
-    settings.transparency = view::Transparency::kPeeled;
+    settings::ViewSettings settings;
+    settings.transparency = settings::Transparency::kPeeled;
     settings.peel_layers = 6;
     const auto usual = planFrame({}, kLit);
     EXPECT_EQ(planFrame(settings, kLit), usual);
     FrameFacts facts = kLit;
     facts.transparent_visible = true;
-    EXPECT_EQ(planFrame(settings, facts).transparency, view::Transparency::kPeeled);
+    EXPECT_EQ(planFrame(settings, facts).transparency, settings::Transparency::kPeeled);
     EXPECT_EQ(planFrame(settings, facts).peel_layers, 6U);
-    settings.transparency = view::Transparency::kWeighted;
-    EXPECT_EQ(planFrame(settings, facts).transparency, view::Transparency::kWeighted);
+    settings.transparency = settings::Transparency::kWeighted;
+    EXPECT_EQ(planFrame(settings, facts).transparency, settings::Transparency::kWeighted);
     EXPECT_EQ(planFrame(settings, facts).peel_layers, 0U);
-    settings.debug.view = view::DebugView::kNormal; // shows no blended surface
+    settings.debug.view = settings::DebugView::kNormal; // shows no blended surface
     EXPECT_FALSE(planFrame(settings, facts).transparent);
-    EXPECT_EQ(planFrame(settings, facts).transparency, view::Transparency::kSorted);
+    EXPECT_EQ(planFrame(settings, facts).transparency, settings::Transparency::kSorted);
 }
 
 TEST(FramePlan, NoLights_AnyRenderer_NeitherListsNorLightCode) {
-    for (uint8_t kind = 0; kind < view::kRendererNames.size(); ++kind) {
+    for (uint8_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         const auto p = plan(static_cast<Renderer>(kind), {});
         EXPECT_FALSE(p.lists);
         EXPECT_EQ(p.forward_light_flags, 0U);
@@ -130,8 +131,9 @@ std::string_view firstBroken(std::span<const std::pair<bool, const char*>> rules
 }
 
 // What must hold of every plan; empty when it does.
-std::string_view
-brokenPassRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
+std::string_view brokenPassRule(const settings::ViewSettings& settings,
+                                const FrameFacts& facts,
+                                const FramePlan& p) {
     const bool compute_lights = p.lighting_compute || p.visibility_shade;
     const bool lighting_packs = has(p.lighting_output_flags, io::kOutputPixels);
     const bool toon_packs = has(p.toon_output_flags, io::kOutputPixels);
@@ -174,10 +176,10 @@ brokenPassRule(const view::ViewSettings& settings, const FrameFacts& facts, cons
          "wide if the scene needs it"},
         {has(p.gbuffer_output_flags, io::kOutputSpecular) ==
              (p.gbuffer && facts.specular && !isForward(settings.renderer) &&
-              settings.shading != view::ShadingModel::kLambert),
+              settings.shading != settings::ShadingModel::kLambert),
          "what dielectrics reflect where it is shown"},
         {has(p.lighting_light_flags, io::kLightEdges) ==
-             (facts.edges && settings.shading != view::ShadingModel::kLambert),
+             (facts.edges && settings.shading != settings::ShadingModel::kLambert),
          "edges where one reflects less than all"},
         {!p.gbuffer || (p.lighting_output_flags & p.gbuffer_output_flags) == p.gbuffer_output_flags,
          "lighting reads the layout that was written"},
@@ -186,8 +188,9 @@ brokenPassRule(const view::ViewSettings& settings, const FrameFacts& facts, cons
 }
 
 // The same of its effects.
-std::string_view
-brokenEffectRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
+std::string_view brokenEffectRule(const settings::ViewSettings& settings,
+                                  const FrameFacts& facts,
+                                  const FramePlan& p) {
     const bool is_toon =
         settings.renderer == Renderer::kToonFragment || settings.renderer == Renderer::kToonCompute;
     const EffectPlan* shadows = effectOf(p, kShadowsEffect);
@@ -195,23 +198,23 @@ brokenEffectRule(const view::ViewSettings& settings, const FrameFacts& facts, co
     const uint32_t fog_way = fog != nullptr ? fog->way : 0;
     const std::pair<bool, const char*> rules[] = {
         {has(p.tonemap_output_flags, io::kOutputClamp) ==
-             (settings.tone_map == view::ToneMap::kClamp),
+             (settings.tone_map == settings::ToneMap::kClamp),
          "the tone map asked for"},
         {p.outline == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
         {bloomOf(p) == settings.bloom.kind, "the bloom asked for"},
         {(effectOf(p, kExposureEffect) != nullptr) ==
-             (settings.exposure_mode == view::ExposureMode::kFrame),
+             (settings.exposure_mode == settings::ExposureMode::kFrame),
          "exposure is metered where asked for"},
         {has(shadows != nullptr ? shadows->way : 0, kShadowsDrawn) ==
              (facts.shadows && facts.local_lights),
          "maps of lights that have them"},
-        {p.samples == (settings.antialiasing == view::Antialiasing::kSsaa4),
+        {p.samples == (settings.antialiasing == settings::Antialiasing::kSsaa4),
          "four samples where asked for"},
         {p.samples == has(p.tonemap_output_flags, io::kOutputSamples),
          "which the tone map averages"},
         {(effectOf(p, kFxaaEffect) != nullptr) ==
-             (settings.antialiasing == view::Antialiasing::kFxaa),
+             (settings.antialiasing == settings::Antialiasing::kFxaa),
          "the filter asked for"},
         {(fog != nullptr) == settings.fog.present(), "fog where there is a medium"},
         {has(fog_way, kFogVolume) == (settings.fog.scatters() && facts.local_lights),
@@ -232,7 +235,7 @@ brokenEffectRule(const view::ViewSettings& settings, const FrameFacts& facts, co
 }
 
 // Of the flags of a pass that adds up lights.
-std::string_view brokenLightRule(const view::ViewSettings& settings,
+std::string_view brokenLightRule(const settings::ViewSettings& settings,
                                  const FrameFacts& facts,
                                  const FramePlan& p,
                                  uint32_t flags) {
@@ -265,16 +268,17 @@ std::string_view brokenLightRule(const view::ViewSettings& settings,
          "batches if a subgroup can"},
         {has(flags, io::kLightToon) == (any && settings.renderer == Renderer::kToonFragment),
          "the ramp if there is light to bend"},
-        {has(flags, io::kLightLambert) == (settings.shading == view::ShadingModel::kLambert),
+        {has(flags, io::kLightLambert) == (settings.shading == settings::ShadingModel::kLambert),
          "lambert where it is asked for"},
-        {has(flags, io::kLightBlinnPhong) == (settings.shading == view::ShadingModel::kBlinnPhong),
+        {has(flags, io::kLightBlinnPhong) ==
+             (settings.shading == settings::ShadingModel::kBlinnPhong),
          "blinn_phong where it is asked for"},
     };
     return firstBroken(rules);
 }
 
 std::string_view
-brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
+brokenRule(const settings::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
     for (const std::string_view broken :
          {brokenPassRule(settings, facts, p), brokenEffectRule(settings, facts, p),
           brokenLightRule(settings, facts, p, p.forward_light_flags),
@@ -296,7 +300,7 @@ brokenRule(const view::ViewSettings& settings, const FrameFacts& facts, const Fr
 // facts, by the rules above.
 TEST(FramePlan, EveryCombination_KeepsTheRules) {
     constexpr uint32_t kFacts = 15;
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 3 * 2; ++setting) {
         uint32_t rest = setting;
         const auto next = [&rest](uint32_t count) {
@@ -306,9 +310,10 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
         };
         settings.renderer = static_cast<Renderer>(next(5));
         settings.lighting = static_cast<LightingStage>(next(3));
-        settings.shading = static_cast<view::ShadingModel>(next(view::kShadingModelNames.size()));
-        settings.tone_map = static_cast<view::ToneMap>(next(2));
-        settings.grid.law = static_cast<view::GridLaw>(next(3));
+        settings.shading =
+            static_cast<settings::ShadingModel>(next(settings::kShadingModelNames.size()));
+        settings.tone_map = static_cast<settings::ToneMap>(next(2));
+        settings.grid.law = static_cast<settings::GridLaw>(next(3));
         settings.count_pairs = next(2) != 0;
         for (uint32_t bits = 0; bits < (1U << kFacts); ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
@@ -342,18 +347,18 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
 }
 
 TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     for (uint32_t setting = 0; setting < 5 * 3 * 3 * 2 * 2 * 4 * 2; ++setting) {
         const uint32_t fog = setting / 180 % 4;
         settings.fog.density = fog != 0 ? 0.5F : 0.0F;
         settings.fog.albedo = glm::vec3(fog == 1 ? 0.0F : 0.5F);
         settings.fog.noise = fog == 3;
-        settings.exposure_mode = static_cast<view::ExposureMode>(setting / 720);
+        settings.exposure_mode = static_cast<settings::ExposureMode>(setting / 720);
         settings.renderer = static_cast<Renderer>(setting % 5);
         settings.lighting = static_cast<LightingStage>(setting / 5 % 3);
-        settings.antialiasing = static_cast<view::Antialiasing>(setting / 15 % 3);
+        settings.antialiasing = static_cast<settings::Antialiasing>(setting / 15 % 3);
         settings.bloom.kind =
-            setting / 45 % 2 != 0 ? view::BloomKind::kMipChain : view::BloomKind::kNone;
+            setting / 45 % 2 != 0 ? settings::BloomKind::kMipChain : settings::BloomKind::kNone;
         settings.toon_outline.strength = setting / 90 % 2 != 0 ? 0.5F : 0.0F;
         for (uint32_t bits = 0; bits < 32; ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
@@ -369,7 +374,7 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
 }
 
 TEST(FramePlan, FogOfNoDensity_IsNotThere) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     const FrameFacts facts{.local_lights = true, .directional = true};
     const FramePlan without = planFrame(settings, facts);
     settings.fog = {.density = 0, .height_falloff = 1, .half_rate = true, .noise = true};
@@ -377,31 +382,31 @@ TEST(FramePlan, FogOfNoDensity_IsNotThere) {
 }
 
 TEST(FramePlan, BloomOfNoStrength_IsNone) {
-    view::ViewSettings settings;
-    settings.bloom.kind = view::BloomKind::kSeparable;
+    settings::ViewSettings settings;
+    settings.bloom.kind = settings::BloomKind::kSeparable;
     settings.bloom.strength = 0;
-    EXPECT_EQ(bloomOf(planFrame(settings, {})), view::BloomKind::kNone);
+    EXPECT_EQ(bloomOf(planFrame(settings, {})), settings::BloomKind::kNone);
 }
 
 // A fixed exposure leaves the frame as it is; a metered one needs the linear picture, and a debug
 // view has none.
 TEST(FramePlan, MeteredExposure_AsksForRadianceAndAToneMap) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     const FramePlan fixed = planFrame(settings, kLit);
     settings.exposure = 8;
     EXPECT_EQ(planFrame(settings, kLit), fixed);
-    settings.exposure_mode = view::ExposureMode::kFrame;
+    settings.exposure_mode = settings::ExposureMode::kFrame;
     const FramePlan metered = planFrame(settings, kLit);
     EXPECT_TRUE(metered.tonemap && metered.radiance);
     EXPECT_EQ(metered.tonemap_output_flags, planFrame({}, {}).tonemap_output_flags);
-    settings.debug.view = view::DebugView::kDepth;
+    settings.debug.view = settings::DebugView::kDepth;
     EXPECT_TRUE(planFrame(settings, kLit).effects.empty());
 }
 
 TEST(FramePlan, Exposure_IsMeteredBeforeBloom) {
-    view::ViewSettings settings;
-    settings.exposure_mode = view::ExposureMode::kFrame;
-    settings.bloom.kind = view::BloomKind::kMipChain;
+    settings::ViewSettings settings;
+    settings.exposure_mode = settings::ExposureMode::kFrame;
+    settings.bloom.kind = settings::BloomKind::kMipChain;
     const auto plan = planFrame(settings, kLit);
     ASSERT_EQ(plan.effects.size(), 2U);
     EXPECT_EQ(plan.effects[0].row, &kExposureEffect);
@@ -409,11 +414,11 @@ TEST(FramePlan, Exposure_IsMeteredBeforeBloom) {
 }
 
 TEST(FramePlan, DrawnSize_IsTwiceTheSidesForFourSamples) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.size = {101, 57};
     EXPECT_EQ(drawnSize(settings), settings.size);
-    settings.antialiasing = view::Antialiasing::kSsaa4;
-    EXPECT_EQ(drawnSize(settings), (view::Size{202, 114}));
+    settings.antialiasing = settings::Antialiasing::kSsaa4;
+    EXPECT_EQ(drawnSize(settings), (settings::Size{202, 114}));
 }
 
 TEST(FramePlan, GenericParts_OnlyWiden) {
@@ -430,37 +435,37 @@ TEST(FramePlan, GenericParts_OnlyWiden) {
 }
 
 TEST(FramePlan, DebugViews_InThePicturesPlace_DrawSurfacesAndNoLight) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     FrameFacts facts = kLit;
     facts.transparent_visible = true;
     settings.renderer = Renderer::kForwardPlus;
-    settings.debug.view = view::DebugView::kListedLights;
+    settings.debug.view = settings::DebugView::kListedLights;
     const auto lists = planFrame(settings, facts);
     EXPECT_TRUE(lists.depth_prepass);
     EXPECT_TRUE(lists.lists);
     EXPECT_FALSE(lists.forward || lists.gbuffer || lists.transparent || lists.tonemap ||
                  lists.radiance);
-    settings.debug.view = view::DebugView::kNormal;
+    settings.debug.view = settings::DebugView::kNormal;
     const auto normal = planFrame(settings, facts);
     EXPECT_TRUE(normal.gbuffer);
     EXPECT_FALSE(normal.lighting_compute || normal.lighting_fragment || normal.lists);
     settings.renderer = Renderer::kToonCompute;
-    settings.debug.view = view::DebugView::kOverdraw;
+    settings.debug.view = settings::DebugView::kOverdraw;
     const auto overdraw = planFrame(settings, facts);
     EXPECT_TRUE(overdraw.radiance);
     EXPECT_FALSE(overdraw.gbuffer || overdraw.depth_prepass || overdraw.toon_pass);
     settings.renderer = Renderer::kNaive;
-    settings.debug.view = view::DebugView::kEvaluatedLights;
+    settings.debug.view = settings::DebugView::kEvaluatedLights;
     EXPECT_FALSE(planFrame(settings, facts).lists); // it loops over all
 }
 
 TEST(FramePlan, DebugViews_OverThePicture_AddRadianceAndAToneMap) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.lighting = LightingStage::kCompute;
-    settings.debug.view = view::DebugView::kLightSpheres;
+    settings.debug.view = settings::DebugView::kLightSpheres;
     const auto p = planFrame(settings, kLit);
     EXPECT_TRUE(p.lighting_compute && p.radiance && p.tonemap);
-    settings.debug.view = view::DebugView::kNone;
+    settings.debug.view = settings::DebugView::kNone;
     EXPECT_FALSE(planFrame(settings, kLit).tonemap);
 }
 

@@ -18,7 +18,7 @@ double toonAt(const io::Frame& frame, double x) {
     return ((d(s.a) * u + d(s.b)) * u + d(s.c)) * u + d(s.d);
 }
 
-io::Frame frameFor(const view::ViewSettings& settings, double far_m = 100) {
+io::Frame frameFor(const settings::ViewSettings& settings, double far_m = 100) {
     const auto projection = makeProjection(settings.camera, settings.size, far_m);
     return makeFrameUniforms(settings, projection, nullptr, 0, 0);
 }
@@ -35,20 +35,21 @@ double roundTrip(const io::Frame& f, double distance) {
 } // namespace
 
 TEST(FrameUniforms, Depth_BothProjections_GivesTheDistanceBack) {
-    for (const auto kind : {view::Projection::kPerspective, view::Projection::kOrthographic}) {
-        view::ViewSettings settings;
+    for (const auto kind :
+         {settings::Projection::kPerspective, settings::Projection::kOrthographic}) {
+        settings::ViewSettings settings;
         settings.camera.projection = kind;
         const auto frame = frameFor(settings);
         for (const double distance : {0.06, 1.0, 12.5, 99.0}) {
             // Orthographic depth is linear: its error is a share of the whole range of 100 m.
-            const double share = kind == view::Projection::kPerspective ? distance : 100.0;
+            const double share = kind == settings::Projection::kPerspective ? distance : 100.0;
             EXPECT_NEAR(roundTrip(frame, distance), distance, share * 1e-6);
         }
     }
 }
 
 TEST(FrameUniforms, Ray_OfAPixelCentre_ProjectsBackToIt) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.size = {17, 33};
     const auto frame = frameFor(settings);
     for (const float pixel : {0.5F, 8.5F, 16.5F}) {
@@ -61,13 +62,14 @@ TEST(FrameUniforms, Ray_OfAPixelCentre_ProjectsBackToIt) {
 
 // The middle pixel of a shifted picture looks half a picture to the right and a quarter down.
 TEST(FrameUniforms, ShiftedLens_MovesRaysAndProjectionAlike) {
-    for (const auto kind : {view::Projection::kPerspective, view::Projection::kOrthographic}) {
-        view::ViewSettings settings;
+    for (const auto kind :
+         {settings::Projection::kPerspective, settings::Projection::kOrthographic}) {
+        settings::ViewSettings settings;
         settings.size = {640, 360};
         settings.camera.projection = kind;
         settings.camera.lens_shift = {0.5, -0.25};
         const auto frame = frameFor(settings);
-        const double half_y = kind == view::Projection::kPerspective
+        const double half_y = kind == settings::Projection::kPerspective
                                   ? std::tan(settings.camera.yfov_rad / 2)
                                   : settings.camera.half_height_m;
         const glm::vec2 ray = glm::vec2(320, 180) * frame.ray_scale + frame.ray_offset;
@@ -83,7 +85,7 @@ TEST(FrameUniforms, ShiftedLens_MovesRaysAndProjectionAlike) {
 }
 
 TEST(FrameUniforms, Toon_HermitePoints_AreMetWithTheirSlopes) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.toon_fragment.count = 3;
     settings.toon_fragment.points[0] = {0.1F, 0.2F, 0.5F};
     settings.toon_fragment.points[1] = {0.4F, 0.6F, -1.0F};

@@ -7,9 +7,9 @@ namespace froxel::render {
 
 namespace {
 
-using view::GbufferLayout;
-using view::NormalEncoding;
-using view::PositionSource;
+using settings::GbufferLayout;
+using settings::NormalEncoding;
+using settings::PositionSource;
 
 } // namespace
 
@@ -38,8 +38,8 @@ TEST(GbufferLayout, Default_HasNoFlagsAndNoSecondTarget) {
 }
 
 TEST(GbufferLayout, EveryLayout_GivesItsFormatFromItsFlags) {
-    for (size_t n = 0; n < view::kNormalEncodingNames.size(); ++n) {
-        for (size_t p = 0; p < view::kPositionSourceNames.size(); ++p) {
+    for (size_t n = 0; n < settings::kNormalEncodingNames.size(); ++n) {
+        for (size_t p = 0; p < settings::kPositionSourceNames.size(); ++p) {
             const GbufferLayout layout{static_cast<NormalEncoding>(n),
                                        static_cast<PositionSource>(p)};
             EXPECT_EQ(extraFormat(layoutFlags(layout)), extraFormat(layout, false));

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-std::vector<std::string> wordsOf(const view::ViewSettings& settings, const FrameFacts& facts) {
+std::vector<std::string> wordsOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
     return frameWords(settings, facts, planFrame(settings, facts));
 }
 
@@ -38,14 +38,14 @@ TEST(PlanWords, NoLights_SayWhatIsSaved) {
 }
 
 TEST(PlanWords, IorAndSpecular_AreNamedWhereTheyAreStored) {
-    view::ViewSettings settings;
-    settings.renderer = view::Renderer::kClusteredDeferred;
+    settings::ViewSettings settings;
+    settings.renderer = settings::Renderer::kClusteredDeferred;
     const FrameFacts facts{.specular = true, .edges = true};
     EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("ior, specular or glossiness")));
     EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("G-buffer of 12 bytes")));
     EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("specular strength below 1")));
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("specular strength"))));
-    settings.renderer = view::Renderer::kForwardPlus;
+    settings.renderer = settings::Renderer::kForwardPlus;
     EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("ior"))));
 }
 
@@ -57,40 +57,40 @@ TEST(PlanWords, LightsOfOneRadius_AreNamed) {
 }
 
 TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     const auto of_post =
         ::testing::AnyOf(HasSubstr("bloom"), HasSubstr("outline"), HasSubstr("fxaa"),
                          HasSubstr("ssaa4"), HasSubstr("fog"), HasSubstr("exposure"));
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(of_post)));
-    settings.renderer = view::Renderer::kToonCompute;
+    settings.renderer = settings::Renderer::kToonCompute;
     settings.toon_outline.strength = 1;
-    settings.bloom.kind = view::BloomKind::kATrous;
-    settings.exposure_mode = view::ExposureMode::kFrame;
-    settings.antialiasing = view::Antialiasing::kSsaa4;
+    settings.bloom.kind = settings::BloomKind::kATrous;
+    settings.exposure_mode = settings::ExposureMode::kFrame;
+    settings.antialiasing = settings::Antialiasing::kSsaa4;
     const auto words = wordsOf(settings, {});
     EXPECT_THAT(words, Contains(HasSubstr("outline")));
     EXPECT_THAT(words, Contains(HasSubstr("bloom by a_trous")));
     EXPECT_THAT(words, Contains(HasSubstr("exposure of this frame alone")));
     EXPECT_THAT(words, Contains(HasSubstr("ssaa4")));
     EXPECT_THAT(words, Contains("tone map in a pass of its own, after those over the lit picture"));
-    settings.antialiasing = view::Antialiasing::kFxaa;
+    settings.antialiasing = settings::Antialiasing::kFxaa;
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("fxaa")));
 }
 
 TEST(PlanWords, Transparency_IsNamedWhereSomethingIsBlended) {
-    view::ViewSettings settings;
-    settings.transparency = view::Transparency::kPeeled;
+    settings::ViewSettings settings;
+    settings.transparency = settings::Transparency::kPeeled;
     settings.peel_layers = 5;
     EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("peeled"))));
     EXPECT_THAT(wordsOf(settings, {.transparent_visible = true}),
                 Contains(HasSubstr("up to 5 layers peeled")));
-    settings.transparency = view::Transparency::kWeighted;
+    settings.transparency = settings::Transparency::kWeighted;
     EXPECT_THAT(wordsOf(settings, {.transparent_visible = true}),
                 Contains(HasSubstr("weights of distance")));
 }
 
 TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.fog.density = 0.1F;
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("no froxel volume")));
     const auto words = wordsOf(settings, {.local_lights = true});
@@ -99,7 +99,7 @@ TEST(PlanWords, Fog_SaysWhetherLightsAreScattered) {
 }
 
 TEST(PlanWords, ShadowMaps_AreNamedWhereTheyAreDrawn) {
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.shadows = {8, 128};
     EXPECT_THAT(wordsOf(settings, {.local_lights = true}), Not(Contains(HasSubstr("shadow maps"))));
     EXPECT_THAT(wordsOf(settings, {.local_lights = true, .shadows = true}),

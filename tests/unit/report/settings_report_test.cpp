@@ -1,7 +1,7 @@
 // Every setting is in reports: two runs that differ in one must not read the same.
 #include "report/settings_report.h"
+#include "settings/setting_rows.h"
 #include "support/settings.h"
-#include "view/setting_rows.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,13 +12,13 @@
 namespace froxel::report {
 namespace {
 
-using view::ViewSettings;
+using settings::ViewSettings;
 using Change = std::function<void(ViewSettings&)>;
 
-view::PlacedLights onePlaced() {
-    view::PlacedLight light;
+settings::PlacedLights onePlaced() {
+    settings::PlacedLight light;
     light.id = 1;
-    return view::PlacedLights({light});
+    return settings::PlacedLights({light});
 }
 
 // Every row's, and what is by hand.
@@ -32,7 +32,7 @@ std::vector<Change> everyChange() {
             v.grid.automatic = false;
             v.grid.size.x += 1;
         },
-        [](auto& v) { v.debug.grid_camera = view::Camera(); },
+        [](auto& v) { v.debug.grid_camera = settings::Camera(); },
         [](auto& v) {
             v.lights.box = BoundsD3{{0, 0, 0}, {1, 1, 1}};
         },
@@ -40,7 +40,7 @@ std::vector<Change> everyChange() {
         [](auto& v) { v.toon_fragment.points[1].y = 0.5F; },
         [](auto& v) { v.toon_compute.points[1].y = 0.5F; },
     };
-    for (const auto& row : view::kSettingRows) {
+    for (const auto& row : settings::kSettingRows) {
         changes.emplace_back(
             [&row](ViewSettings& v) { row.set(v, test::otherValue(row, row.get(v))); });
     }

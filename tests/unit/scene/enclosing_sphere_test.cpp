@@ -55,7 +55,7 @@ void eachVertex(const Scene& scene, const Visit& visit) {
 TEST(EnclosingSphere, OfManyInstances_GoesThroughTheFarthestVertex) {
     for (const uint32_t count : {1U, 2U, 40U}) {
         const Scene scene = makeCrowd(count);
-        const view::Sphere sphere = enclosingSphere(scene);
+        const settings::Sphere sphere = enclosingSphere(scene);
         EXPECT_EQ(sphere.center, scene.bounds_world.center());
         double farthest = 0;
         eachVertex(scene, [&](const glm::dvec3& world) {
@@ -67,14 +67,15 @@ TEST(EnclosingSphere, OfManyInstances_GoesThroughTheFarthestVertex) {
 }
 
 TEST(EnclosingSphere, OfNothing_IsTheUsualOne) {
-    EXPECT_EQ(enclosingSphere(Scene{}).radius_m, view::Sphere{}.radius_m);
+    EXPECT_EQ(enclosingSphere(Scene{}).radius_m, settings::Sphere{}.radius_m);
 }
 
 // Portrait and landscape.
 TEST(FirstCamera, OfASceneWithoutCameras_HasEveryVertexInThePicture) {
     const Scene scene = makeCrowd(12);
-    for (const view::Size size : {view::Size{360, 640}, {1000, 1000}, {1280, 720}, {64, 1024}}) {
-        const view::Camera camera = firstCamera(scene, size);
+    for (const settings::Size size :
+         {settings::Size{360, 640}, {1000, 1000}, {1280, 720}, {64, 1024}}) {
+        const settings::Camera camera = firstCamera(scene, size);
         const double half = std::tan(camera.yfov_rad / 2);
         const double aspect = static_cast<double>(size.width_px) / size.height_px;
         eachVertex(scene, [&](const glm::dvec3& world) {

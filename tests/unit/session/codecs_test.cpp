@@ -13,33 +13,34 @@ TEST(Codecs, EveryValueOfTheSchema_HasARow) {
     const auto& schema = *google::protobuf::GetEnumDescriptor<v1::Codec>();
     for (int i = 0; i < schema.value_count(); ++i) {
         const auto* value = schema.value(i);
-        const auto codec =
-            fromProto<view::Codec>(view::kCodecNames, static_cast<v1::Codec>(value->number()));
+        const auto codec = fromProto<settings::Codec>(settings::kCodecNames,
+                                                      static_cast<v1::Codec>(value->number()));
         EXPECT_EQ(codec.has_value(), value->number() != v1::CODEC_UNSPECIFIED) << value->name();
     }
 }
 
 TEST(Codecs, EveryRow_HasAValueOfTheSchemaByItsName) {
     std::set<std::string_view> names;
-    for (const view::CodecRow& row : view::kCodecRows) {
+    for (const settings::CodecRow& row : settings::kCodecRows) {
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
-        const auto proto = toProto<v1::Codec>(view::kCodecNames, row.codec);
-        EXPECT_EQ(fromProto<view::Codec>(view::kCodecNames, proto), row.codec) << row.name;
+        const auto proto = toProto<v1::Codec>(settings::kCodecNames, row.codec);
+        EXPECT_EQ(fromProto<settings::Codec>(settings::kCodecNames, proto), row.codec) << row.name;
     }
 }
 
 TEST(Codecs, WhatViewersNeedNotChoose_EveryClientDecodes) {
-    for (const view::CodecRow& row : view::kCodecRows) {
-        EXPECT_EQ(view::contains(view::commonCodecs(), row.codec), !row.announced) << row.name;
+    for (const settings::CodecRow& row : settings::kCodecRows) {
+        EXPECT_EQ(settings::contains(settings::commonCodecs(), row.codec), !row.announced)
+            << row.name;
         EXPECT_TRUE(row.chosen || !row.announced) << row.name;
     }
 }
 
 TEST(Codecs, RefinedPictures_StandAlone) {
-    for (const view::CodecRow& row : view::kCodecRows) {
+    for (const settings::CodecRow& row : settings::kCodecRows) {
         for (const auto stage : {Refinement::kHigh, Refinement::kLossless}) {
             const Delivered with = delivered({.codec = row.codec}, {}, stage);
-            const view::CodecRow& refined = view::rowOf(with.encoding.codec);
+            const settings::CodecRow& refined = settings::rowOf(with.encoding.codec);
             EXPECT_FALSE(refined.frames_depend || refined.announced) << row.name;
             EXPECT_EQ(refined.lossless, stage == Refinement::kLossless) << row.name;
         }

@@ -170,14 +170,14 @@ TEST(DecodeCommand, SetGridAutomatic_TogetherWithAGrid_OnlyWhereItIsOff) {
     set.mutable_grid()->set_z(5);
     EXPECT_EQ(refused(decodeBinary(message)).field, "automatic");
     set.set_automatic(false);
-    EXPECT_EQ(accepted<SetGrid>(decodeBinary(message)).size, (view::GridSize{5, 5, 5}));
+    EXPECT_EQ(accepted<SetGrid>(decodeBinary(message)).size, (settings::GridSize{5, 5, 5}));
 }
 
 TEST(DecodeCommand, SizeAndAck_AreTaken) {
     v1::ClientMessage size = clientMessage();
     size.mutable_set_size()->set_width(1281);
     size.mutable_set_size()->set_height(17);
-    EXPECT_EQ(accepted<SetSize>(decodeBinary(size)).size, (view::Size{1281, 17}));
+    EXPECT_EQ(accepted<SetSize>(decodeBinary(size)).size, (settings::Size{1281, 17}));
     v1::ClientMessage ack = clientMessage();
     ack.mutable_ack()->set_frame_id(std::numeric_limits<uint64_t>::max());
     EXPECT_EQ(accepted<Ack>(decodeBinary(ack)).frame_id, std::numeric_limits<uint64_t>::max());

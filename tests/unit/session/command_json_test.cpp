@@ -31,11 +31,11 @@ TEST(CommandJson, SixtyFourBitIntegers_AsStringOrNumber) {
 
 TEST(CommandJson, EnumsByNameOrNumber) {
     const auto given = [](const char* body) {
-        return givenBy<view::Renderer>(accepted<SetSettings>(decodeBody(body)), "renderer");
+        return givenBy<settings::Renderer>(accepted<SetSettings>(decodeBody(body)), "renderer");
     };
     EXPECT_EQ(given(R"("setRenderer":{"renderer":"RENDERER_TOON_COMPUTE"})"),
-              view::Renderer::kToonCompute);
-    EXPECT_EQ(given(R"("setRenderer":{"renderer":2})"), view::Renderer::kForwardPlus);
+              settings::Renderer::kToonCompute);
+    EXPECT_EQ(given(R"("setRenderer":{"renderer":2})"), settings::Renderer::kForwardPlus);
 }
 
 TEST(CommandJson, UnknownEnumName_IsUnsupportedEvenWhereOptional) {
@@ -54,7 +54,7 @@ TEST(CommandJson, UnknownFields_AreIgnoredAtAnyDepth) {
         accepted<SetGrid>(
             decodeBody(R"("x":[{"y":null}],"setGrid":{"new":1,"grid":{"x":1,"y":2,"z":3,"w":4}})"))
             .size,
-        (view::GridSize{1, 2, 3}));
+        (settings::GridSize{1, 2, 3}));
 }
 
 TEST(CommandJson, UnknownCommand_IsUnsupported) {

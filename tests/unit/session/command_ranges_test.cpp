@@ -1,8 +1,8 @@
 // Every ranged field, at both edges and one step beyond, in both encodings.
 #include "core/text.h"
 #include "session/settings.h"
+#include "settings/ranges.h"
 #include "unit/session/setting_messages.h"
-#include "view/ranges.h"
 
 #include <google/protobuf/util/json_util.h>
 
@@ -26,7 +26,7 @@ struct RangedField {
 };
 
 template <class T>
-RangedField ranged(const view::Range<T>& range, Set set, std::string field = {}) {
+RangedField ranged(const settings::Range<T>& range, Set set, std::string field = {}) {
     return {field.empty() ? std::string(range.field) : std::move(field),
             static_cast<double>(range.min), static_cast<double>(range.max), std::is_integral_v<T>,
             std::move(set)};
@@ -78,40 +78,43 @@ using M = v1::ClientMessage;
 
 std::vector<RangedField> ofView() {
     return {
-        ranged(view::kWidthRange,
+        ranged(settings::kWidthRange,
                [](M& m, double v) {
                    m.mutable_set_size()->set_height(64);
                    m.mutable_set_size()->set_width(u32(v));
                }),
-        ranged(view::kHeightRange,
+        ranged(settings::kHeightRange,
                [](M& m, double v) {
                    m.mutable_set_size()->set_width(64);
                    m.mutable_set_size()->set_height(u32(v));
                }),
-        ranged(view::kGridXRange, [](M& m, double v) { grid(m).mutable_grid()->set_x(u32(v)); }),
-        ranged(view::kGridYRange, [](M& m, double v) { grid(m).mutable_grid()->set_y(u32(v)); }),
-        ranged(view::kGridZRange, [](M& m, double v) { grid(m).mutable_grid()->set_z(u32(v)); }),
-        ranged(view::kTimeRange, [](M& m, double v) { m.mutable_set_lights()->set_time_s(v); }),
-        ranged(view::kFovRange, [](M& m, double v) { camera(m).set_fov_deg(v); }),
-        ranged(view::kLensShiftXRange,
+        ranged(settings::kGridXRange,
+               [](M& m, double v) { grid(m).mutable_grid()->set_x(u32(v)); }),
+        ranged(settings::kGridYRange,
+               [](M& m, double v) { grid(m).mutable_grid()->set_y(u32(v)); }),
+        ranged(settings::kGridZRange,
+               [](M& m, double v) { grid(m).mutable_grid()->set_z(u32(v)); }),
+        ranged(settings::kTimeRange, [](M& m, double v) { m.mutable_set_lights()->set_time_s(v); }),
+        ranged(settings::kFovRange, [](M& m, double v) { camera(m).set_fov_deg(v); }),
+        ranged(settings::kLensShiftXRange,
                [](M& m, double v) { camera(m).mutable_lens_shift()->set_x(v); }),
-        ranged(view::kLensShiftYRange,
+        ranged(settings::kLensShiftYRange,
                [](M& m, double v) { camera(m).mutable_lens_shift()->set_y(v); }),
-        ranged(view::kHalfHeightRange, [](M& m, double v) { camera(m).set_half_height_m(v); }),
+        ranged(settings::kHalfHeightRange, [](M& m, double v) { camera(m).set_half_height_m(v); }),
         ranged(
-            view::kPositionRange, [](M& m, double v) { camera(m).mutable_eye()->set_z(v); },
+            settings::kPositionRange, [](M& m, double v) { camera(m).mutable_eye()->set_z(v); },
             "eye.z"),
         ranged(
-            view::kPositionRange, [](M& m, double v) { camera(m).mutable_target()->set_y(v); },
+            settings::kPositionRange, [](M& m, double v) { camera(m).mutable_target()->set_y(v); },
             "target.y"),
         ranged(
-            view::kPositionRange, [](M& m, double v) { unit(*camera(m).mutable_up()).set_y(v); },
-            "up.y"),
+            settings::kPositionRange,
+            [](M& m, double v) { unit(*camera(m).mutable_up()).set_y(v); }, "up.y"),
         ranged(
-            view::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
+            settings::kToonRange, [](M& m, double v) { firstPoint(m).set_y(v); },
             "toon_compute.points[0].y"),
         ranged(
-            view::kToonSlopeRange, [](M& m, double v) { firstPoint(m).set_slope(v); },
+            settings::kToonSlopeRange, [](M& m, double v) { firstPoint(m).set_slope(v); },
             "toon_compute.points[0].slope"),
     };
 }
@@ -119,54 +122,54 @@ std::vector<RangedField> ofView() {
 std::vector<RangedField> ofPlacedLights() {
     return {
         ranged(
-            view::kPlacedColorRange, [](M& m, double v) { placed(m).mutable_color()->set_z(v); },
-            "lights[0].color"),
+            settings::kPlacedColorRange,
+            [](M& m, double v) { placed(m).mutable_color()->set_z(v); }, "lights[0].color"),
         ranged(
-            view::kLightRadiusRange, [](M& m, double v) { placed(m).set_radius_m(v); },
+            settings::kLightRadiusRange, [](M& m, double v) { placed(m).set_radius_m(v); },
             "lights[0].radius_m"),
         ranged(
-            view::kConeRange, [](M& m, double v) { placed(m).set_outer_cone_deg(v); },
+            settings::kConeRange, [](M& m, double v) { placed(m).set_outer_cone_deg(v); },
             "lights[0].outer_cone_deg"),
         ranged(
-            view::kAreaSideRange, [](M& m, double v) { placed(m).set_height_m(v); },
+            settings::kAreaSideRange, [](M& m, double v) { placed(m).set_height_m(v); },
             "lights[0].height_m"),
         ranged(
-            view::kAreaSideRange, [](M& m, double v) { placed(m).set_width_m(v); },
+            settings::kAreaSideRange, [](M& m, double v) { placed(m).set_width_m(v); },
             "lights[0].width_m"),
         ranged(
-            view::kRollRange, [](M& m, double v) { placed(m).set_roll_deg(v); },
+            settings::kRollRange, [](M& m, double v) { placed(m).set_roll_deg(v); },
             "lights[0].roll_deg"),
         ranged(
-            view::kReplacedRange, [](M& m, double v) { placed(m).set_replaces_scene(u32(v)); },
+            settings::kReplacedRange, [](M& m, double v) { placed(m).set_replaces_scene(u32(v)); },
             "lights[0].replaces_scene"),
         ranged(
-            view::kPickRange, [](M& m, double v) { picked(m).set_x(v); }, "x"),
+            settings::kPickRange, [](M& m, double v) { picked(m).set_x(v); }, "x"),
         ranged(
-            view::kPickRange, [](M& m, double v) { picked(m).set_y(v); }, "y"),
+            settings::kPickRange, [](M& m, double v) { picked(m).set_y(v); }, "y"),
         ranged(
-            view::kPositionRange, [](M& m, double v) { placed(m).mutable_position()->set_x(v); },
-            "lights[0].position.x"),
+            settings::kPositionRange,
+            [](M& m, double v) { placed(m).mutable_position()->set_x(v); }, "lights[0].position.x"),
     };
 }
 
 // From their rows.
 void addSettings(std::vector<RangedField>& all) {
     for (const SessionSetting& setting : sessionSettings()) {
-        const view::Setting& facts = setting.facts();
+        const settings::Setting& facts = setting.facts();
         const auto add = [&](const std::string& field, bool whole, auto value_of) {
             all.push_back({field, facts.min, facts.max, whole, [&facts, value_of](M& m, double v) {
                                m.MergeFrom(commandOf(facts, value_of(v)));
                            }});
         };
         const std::string name(facts.name);
-        if (facts.kind == view::SettingKind::kReal) {
-            add(name, false, [](double v) -> view::SettingValue { return v; });
-        } else if (facts.kind == view::SettingKind::kColor) {
+        if (facts.kind == settings::SettingKind::kReal) {
+            add(name, false, [](double v) -> settings::SettingValue { return v; });
+        } else if (facts.kind == settings::SettingKind::kColor) {
             add(name + ".y", false,
-                [](double v) -> view::SettingValue { return glm::dvec3(0, v, 0); });
-        } else if (facts.kind == view::SettingKind::kWhole &&
+                [](double v) -> settings::SettingValue { return glm::dvec3(0, v, 0); });
+        } else if (facts.kind == settings::SettingKind::kWhole &&
                    facts.max < std::numeric_limits<uint32_t>::max()) {
-            add(name, true, [](double v) -> view::SettingValue { return u32(v); });
+            add(name, true, [](double v) -> settings::SettingValue { return u32(v); });
         }
     }
 }

@@ -9,11 +9,11 @@ namespace froxel::session {
 inline SessionContext makeContext() {
     scene::NamedCamera nave;
     nave.name = "nave";
-    nave.camera = view::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
+    nave.camera = settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0});
     scene::NamedCamera plan;
     plan.name = "plan";
-    plan.camera = view::lookAt({0, 30, 0}, {0, 0, 0}, {0, 0, -1});
-    plan.camera.projection = view::Projection::kOrthographic;
+    plan.camera = settings::lookAt({0, 30, 0}, {0, 0, 0}, {0, 0, -1});
+    plan.camera.projection = settings::Projection::kOrthographic;
     plan.camera.half_height_m = 12;
 
     SessionContext context;

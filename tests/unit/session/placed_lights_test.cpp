@@ -13,7 +13,7 @@ SetPlacedLights decoded(const std::string& body) {
     return accepted<SetPlacedLights>(decodeBody("\"setPlacedLights\":{" + body + "}"));
 }
 
-view::PlacedLights after(const view::PlacedLights& before, const std::string& body) {
+settings::PlacedLights after(const settings::PlacedLights& before, const std::string& body) {
     const auto result = changed(before, decoded(body));
     if (!result) {
         ADD_FAILURE() << result.error().message;
@@ -22,7 +22,7 @@ view::PlacedLights after(const view::PlacedLights& before, const std::string& bo
     return *result;
 }
 
-std::string refusal(const view::PlacedLights& before, const std::string& body) {
+std::string refusal(const settings::PlacedLights& before, const std::string& body) {
     const auto result = changed(before, decoded(body));
     EXPECT_FALSE(result) << body;
     return result ? "" : result.error().message;
@@ -36,14 +36,14 @@ TEST(PlacedLights, New_HaveDefaultsAndAscendById) {
     ASSERT_EQ(placed.lights().size(), 2U);
     EXPECT_EQ(placed.lights()[0].id, 2U);
     EXPECT_EQ(placed.lights()[1].id, 9U);
-    const view::PlacedLight* light = placed.find(9);
+    const settings::PlacedLight* light = placed.find(9);
     ASSERT_NE(light, nullptr);
-    EXPECT_EQ(light->kind, view::LightKind::kPoint);
+    EXPECT_EQ(light->kind, settings::LightKind::kPoint);
     EXPECT_EQ(light->position_world, glm::dvec3(1, 0, 0));
     EXPECT_EQ(light->color, glm::vec3(1));
     EXPECT_EQ(light->intensity, 1);
     EXPECT_EQ(light->radius_m, 2);
-    EXPECT_EQ(placed.find(2)->kind, view::LightKind::kSpot);
+    EXPECT_EQ(placed.find(2)->kind, settings::LightKind::kSpot);
     EXPECT_EQ(placed.find(3), nullptr);
 }
 
@@ -65,7 +65,7 @@ TEST(PlacedLights, ClearAndRemove_ComeFirst) {
     EXPECT_TRUE(after(before, R"("clear":true)").lights().empty());
     const auto replaced = after(before, R"("clear":true,"lights":[{"id":2,"position":{}}])");
     ASSERT_EQ(replaced.lights().size(), 1U);
-    EXPECT_EQ(replaced.find(2)->kind, view::LightKind::kPoint); // new, not changed
+    EXPECT_EQ(replaced.find(2)->kind, settings::LightKind::kPoint); // new, not changed
 }
 
 TEST(PlacedLights, WhatCannotBe_IsRefusedByName) {
@@ -86,7 +86,7 @@ TEST(PlacedLights, WhatCannotBe_IsRefusedByName) {
 TEST(PlacedLights, WhatALightStandsFor_IsKeptAndTold) {
     const auto before = after({}, R"("lights":[{"id":3,"position":{},"replacesSeeded":7}])");
     const auto placed = after(before, R"("lights":[{"id":3,"intensity":4}])");
-    const view::LightRef seventh{view::LightRef::Of::kSeed, 7};
+    const settings::LightRef seventh{settings::LightRef::Of::kSeed, 7};
     EXPECT_EQ(placed.find(3)->replaces, seventh);
     EXPECT_EQ(changeOf({}, placed).lights(0).replaces_seeded(), 7U);
     EXPECT_FALSE(changeOf({}, placed).lights(0).has_replaces_scene());
@@ -108,10 +108,10 @@ TEST(PlacedLights, WhatALightNoLongerStandsFor_IsTold) {
 
 TEST(PlacedLights, Picked_IsOneMore_UnlessItsIdIsInUse) {
     const auto before = after({}, kTwo);
-    view::PlacedLight picked;
+    settings::PlacedLight picked;
     picked.id = 5;
     picked.position_world = {1, 2, 3};
-    picked.replaces = view::LightRef{view::LightRef::Of::kScene, 0};
+    picked.replaces = settings::LightRef{settings::LightRef::Of::kScene, 0};
     const auto placed = withPicked(before, picked).value();
     EXPECT_EQ(placed.lights().size(), 3U);
     EXPECT_EQ(*placed.find(5), picked);
@@ -139,7 +139,7 @@ TEST(PlacedLights, Fields_AreCheckedWhenDecoded) {
 
 TEST(PlacedLights, MoreThanAreKept_AreRefused) {
     SetPlacedLights command;
-    for (uint32_t id = 1; id <= view::kPlacedCountRange.max + 1; ++id) {
+    for (uint32_t id = 1; id <= settings::kPlacedCountRange.max + 1; ++id) {
         PlacedLightChange light;
         light.id = id;
         light.position_world = glm::dvec3(id);

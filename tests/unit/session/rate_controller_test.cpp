@@ -32,8 +32,8 @@ size_t rungsOf(const std::vector<Simulation::Shown>& shown) {
 
 TEST(RateLadder, FromTheTop_EachRungAsksForLess) {
     for (const uint32_t quality : {1U, 45U, 60U, 75U, 80U, 100U}) {
-        for (const view::Chroma chroma : {view::Chroma::k420, view::Chroma::k444}) {
-            const view::Encoding asked{quality, chroma};
+        for (const settings::Chroma chroma : {settings::Chroma::k420, settings::Chroma::k444}) {
+            const settings::Encoding asked{quality, chroma};
             const auto ladder = makeLadder(asked);
             ASSERT_EQ(limited(asked, ladder[0].delivery), asked);
             ASSERT_EQ(ladder[0].bits, 1.0);
@@ -49,11 +49,11 @@ TEST(RateLadder, FromTheTop_EachRungAsksForLess) {
 }
 
 TEST(RateLadder, Order_IsQualityChromaScaleRate) {
-    const auto ladder = makeLadder({75, view::Chroma::k444});
+    const auto ladder = makeLadder({75, settings::Chroma::k444});
     ASSERT_EQ(ladder.size(), 10U);
     EXPECT_EQ(ladder[3].delivery.quality_max, 45U);
-    EXPECT_EQ(ladder[3].delivery.chroma_max, view::Chroma::k444);
-    EXPECT_EQ(ladder[4].delivery.chroma_max, view::Chroma::k420);
+    EXPECT_EQ(ladder[3].delivery.chroma_max, settings::Chroma::k444);
+    EXPECT_EQ(ladder[4].delivery.chroma_max, settings::Chroma::k420);
     EXPECT_EQ(ladder[4].delivery.scale, 1);
     EXPECT_EQ(ladder[5].delivery.scale, 0.75);
     EXPECT_EQ(ladder[6].delivery.scale, 0.5);
@@ -70,7 +70,7 @@ TEST(RateController, FastLink_ChangesNothing) {
 
 TEST(RateController, HalfTheBandwidth_SettlesAtOnceAndStaysFresh) {
     for (const uint32_t seed : {1U, 2U, 3U, 4U, 5U}) {
-        Simulation simulation({75, view::Chroma::k420}, seed);
+        Simulation simulation({75, settings::Chroma::k420}, seed);
         simulation.run(kCpu, 10s);
         simulation.run(with(kCpu, 208e3), 1s);
         EXPECT_GT(simulation.rate().delivery().rung, 0U) << "down within a second";
@@ -156,7 +156,7 @@ TEST(RateController, WanderingContent_OnASlowLink_StepsSeldom) {
         link.travel = Seconds(0.02);
         link.wander = 0.3;
         link.refresh = Seconds(1.0 / 60);
-        Simulation simulation({75, view::Chroma::k420}, seed);
+        Simulation simulation({75, settings::Chroma::k420}, seed);
         const auto shown = simulation.run(link, 60s);
         EXPECT_LE(simulation.count(RateStep::kCongested), 8) << seed;
         EXPECT_LE(simulation.steps().size(), 16U) << seed;
@@ -218,7 +218,7 @@ TEST(RateController, NotAdaptive_OnlyMeasures) {
     Simulation simulation;
     DeliverySettings fixed;
     fixed.adaptive = false;
-    simulation.rate().setWanted({75, view::Chroma::k420}, fixed);
+    simulation.rate().setWanted({75, settings::Chroma::k420}, fixed);
     simulation.run(with(kCpu, 100e3), 20s);
     EXPECT_TRUE(simulation.steps().empty());
     EXPECT_EQ(simulation.rate().delivery(), Delivery{});
@@ -232,22 +232,22 @@ TEST(RateController, QualityAskedAnew_KeepsWhatTheLinkCarries) {
     RateController& rate = simulation.rate();
     const Delivery before = rate.delivery();
     ASSERT_GT(before.rung, 0U);
-    rate.setWanted({95, view::Chroma::k444}, {});
+    rate.setWanted({95, settings::Chroma::k444}, {});
     EXPECT_EQ(rate.delivery().scale, before.scale);
     EXPECT_EQ(rate.delivery().quality_max, before.quality_max);
-    EXPECT_EQ(rate.delivery().chroma_max, view::Chroma::k420);
-    rate.setWanted({30, view::Chroma::k420}, {});
+    EXPECT_EQ(rate.delivery().chroma_max, settings::Chroma::k420);
+    rate.setWanted({30, settings::Chroma::k420}, {});
     EXPECT_EQ(rate.delivery().scale, before.scale);
     DeliverySettings fixed;
     fixed.adaptive = false;
-    rate.setWanted({30, view::Chroma::k420}, fixed);
+    rate.setWanted({30, settings::Chroma::k420}, fixed);
     EXPECT_EQ(rate.delivery().rung, 0U);
 }
 
 TEST(Scaled, Sides_RoundAndKeepTheSmallest) {
-    EXPECT_EQ(scaled({1281, 719}, 1), (view::Size{1281, 719}));
-    EXPECT_EQ(scaled({1281, 719}, 0.5), (view::Size{641, 360}));
-    EXPECT_EQ(scaled({20, 16}, 0.5), (view::Size{16, 16}));
+    EXPECT_EQ(scaled({1281, 719}, 1), (settings::Size{1281, 719}));
+    EXPECT_EQ(scaled({1281, 719}, 0.5), (settings::Size{641, 360}));
+    EXPECT_EQ(scaled({20, 16}, 0.5), (settings::Size{16, 16}));
 }
 
 } // namespace

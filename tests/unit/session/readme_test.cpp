@@ -3,7 +3,7 @@
 #include "froxel/v1/client.pb.h"
 #include "froxel/v1/server.pb.h"
 #include "protocol/limits.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(ProtocolReadme, RangeTable_IsTheCodes) {
         EXPECT_THAT(row, HasSubstr(" | " + numberText(min) + " | " + numberText(max)));
     };
     std::apply([&](const auto&... range) { (check(range.field, range.min, range.max), ...); },
-               view::kOtherRanges);
+               settings::kOtherRanges);
 }
 
 void addMessage(const google::protobuf::Descriptor& message, std::string& lines) {

@@ -7,10 +7,10 @@ namespace froxel::session {
 namespace {
 
 using namespace std::chrono_literals;
-using view::Refine;
+using settings::Refine;
 
 constexpr TimePoint kStart{10s};
-constexpr view::Size kSize{640, 360};
+constexpr settings::Size kSize{640, 360};
 
 Delivery carrying(double bits_per_s) {
     Delivery delivery;
@@ -80,18 +80,19 @@ TEST(Delivered, Stages_AreMadeWithWhatTheyPromise) {
     Delivery limits;
     limits.scale = 0.5;
     limits.quality_max = 45;
-    limits.chroma_max = view::Chroma::k420;
+    limits.chroma_max = settings::Chroma::k420;
     limits.rung = 6;
-    const view::Encoding asked{75, view::Chroma::k444};
+    const settings::Encoding asked{75, settings::Chroma::k444};
     const Delivered moving = delivered(asked, limits, Refinement::kInteractive);
-    EXPECT_EQ(moving.encoding, (view::Encoding{45, view::Chroma::k420}));
+    EXPECT_EQ(moving.encoding, (settings::Encoding{45, settings::Chroma::k420}));
     EXPECT_EQ(moving.scale, 0.5);
     EXPECT_EQ(moving.rung, 6U);
     const Delivered settled = delivered(asked, limits, Refinement::kSettled);
     EXPECT_EQ(settled.encoding, asked);
     EXPECT_EQ(settled.scale, 1);
     EXPECT_EQ(delivered(asked, limits, Refinement::kHigh).encoding, kRefinedEncoding);
-    EXPECT_EQ(delivered({97, view::Chroma::k420}, limits, Refinement::kHigh).encoding.quality, 97U);
+    EXPECT_EQ(delivered({97, settings::Chroma::k420}, limits, Refinement::kHigh).encoding.quality,
+              97U);
 }
 
 // A renderer whose frames cost a part that stays and one that goes with the area.

@@ -1,5 +1,5 @@
 #include "session/session_context.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <gtest/gtest.h>
 
@@ -40,9 +40,9 @@ TEST(Summarize, Instances_AreCountedEach) {
 TEST(DefaultsFor, BothKinds_AreWithinTheRanges) {
     for (const DeviceKind kind : {DeviceKind::kCpu, DeviceKind::kGpu}) {
         const SessionDefaults defaults = defaultsFor(kind);
-        EXPECT_TRUE(view::kWidthRange.contains(defaults.settings.size.width_px));
-        EXPECT_TRUE(view::kHeightRange.contains(defaults.settings.size.height_px));
-        EXPECT_TRUE(view::kQualityRange.contains(defaults.encoding.quality));
+        EXPECT_TRUE(settings::kWidthRange.contains(defaults.settings.size.width_px));
+        EXPECT_TRUE(settings::kHeightRange.contains(defaults.settings.size.height_px));
+        EXPECT_TRUE(settings::kQualityRange.contains(defaults.encoding.quality));
         EXPECT_LE(uint64_t{defaults.settings.size.width_px} * defaults.settings.size.height_px,
                   defaults.max_area_px);
         EXPECT_LE(defaults.max_area_px, uint64_t{4096} * 4096);

@@ -15,7 +15,8 @@ using test::chosen;
 using test::settings;
 using ::testing::HasSubstr;
 
-SetLights lights(std::initializer_list<std::pair<std::string_view, view::SettingValue>> values) {
+SetLights
+lights(std::initializer_list<std::pair<std::string_view, settings::SettingValue>> values) {
     return {{changes(values)}, {}, false, {}};
 }
 
@@ -33,7 +34,7 @@ TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
     context.scene.cameras.clear();
     const BoundsD3& bounds = context.scene.bounds_world;
     context.scene.framed_world = {bounds.center(), glm::length(bounds.size()) / 2};
-    const view::Camera camera = initialState(context, kStart).settings.camera;
+    const settings::Camera camera = initialState(context, kStart).settings.camera;
     const double half_angle = camera.yfov_rad / 2;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 world(corner & 1 ? bounds.max.x : bounds.min.x,
@@ -45,7 +46,7 @@ TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
         EXPECT_LT(std::abs(position_view.y), -position_view.z * std::tan(half_angle));
     }
     context.scene.framed_world = {};
-    const view::Camera empty = initialState(context, kStart).settings.camera;
+    const settings::Camera empty = initialState(context, kStart).settings.camera;
     EXPECT_GT(empty.focus_m, 0);
 }
 
@@ -57,7 +58,7 @@ TEST_F(State, SetSize_OfTheOpeningView_FramesTheSceneAnew) {
     const auto upright = [&](const SessionState& state) {
         return applied(state, SetSize{{360, 640}}).settings.camera;
     };
-    EXPECT_EQ(upright(before), view::overview({{1, 2, 3}, 4}, 360.0 / 640));
+    EXPECT_EQ(upright(before), settings::overview({{1, 2, 3}, 4}, 360.0 / 640));
     SessionState moved = before;
     moved.settings.camera.eye_world.x += 1;
     EXPECT_EQ(upright(moved), moved.settings.camera);
@@ -66,7 +67,7 @@ TEST_F(State, SetSize_OfTheOpeningView_FramesTheSceneAnew) {
 TEST_F(State, Initial_TinyScene_IsBeyondTheNearPlane) {
     context.scene.cameras.clear();
     context.scene.framed_world = {{0, 0, 0}, 0.0017};
-    const view::Camera camera = initialState(context, kStart).settings.camera;
+    const settings::Camera camera = initialState(context, kStart).settings.camera;
     EXPECT_LT(camera.near_m, 0.5 * camera.focus_m);
 }
 
@@ -79,7 +80,7 @@ TEST_F(State, SetCamera_KeepsTheProjectionUnlessTold) {
 
     command.half_height_m = 4;
     const SessionState ortho = applied(moved, command);
-    EXPECT_EQ(ortho.settings.camera.projection, view::Projection::kOrthographic);
+    EXPECT_EQ(ortho.settings.camera.projection, settings::Projection::kOrthographic);
     EXPECT_EQ(ortho.settings.camera.half_height_m, 4);
 
     command.half_height_m.reset();
@@ -88,10 +89,11 @@ TEST_F(State, SetCamera_KeepsTheProjectionUnlessTold) {
     EXPECT_EQ(shifted.settings.camera.lens_shift, glm::dvec2(0.5, -1));
     command.lens_shift.reset();
     EXPECT_EQ(applied(shifted, command).settings.camera.lens_shift, glm::dvec2(0.5, -1));
-    EXPECT_EQ(applied(ortho, command).settings.camera.projection, view::Projection::kOrthographic);
+    EXPECT_EQ(applied(ortho, command).settings.camera.projection,
+              settings::Projection::kOrthographic);
     command.yfov_rad = 1.0;
     const SessionState perspective = applied(ortho, command);
-    EXPECT_EQ(perspective.settings.camera.projection, view::Projection::kPerspective);
+    EXPECT_EQ(perspective.settings.camera.projection, settings::Projection::kPerspective);
     EXPECT_EQ(perspective.settings.camera.yfov_rad, 1.0);
 }
 
@@ -175,29 +177,30 @@ TEST_F(State, SetGrid_ASizeTurnsAutomaticOff_TrueTurnsItOn) {
     EXPECT_TRUE(initial.settings.grid.automatic);
     SessionState state = applied(initial, gridOf({2, 3, 4}));
     EXPECT_FALSE(state.settings.grid.automatic);
-    const SetGrid law{{changes({{"grid_law", chosen(view::GridLaw::kHyperbolic)}})}, {}, {}};
+    const SetGrid law{{changes({{"grid_law", chosen(settings::GridLaw::kHyperbolic)}})}, {}, {}};
     state = applied(state, law);
     EXPECT_FALSE(state.settings.grid.automatic);
-    EXPECT_EQ(state.settings.grid.law, view::GridLaw::kHyperbolic);
+    EXPECT_EQ(state.settings.grid.law, settings::GridLaw::kHyperbolic);
     SetGrid automatic;
     automatic.automatic = true;
     state = applied(state, automatic);
     EXPECT_TRUE(state.settings.grid.automatic);
-    EXPECT_EQ(state.settings.grid.size, (view::GridSize{2, 3, 4})) << "to go back to";
+    EXPECT_EQ(state.settings.grid.size, (settings::GridSize{2, 3, 4})) << "to go back to";
     automatic.automatic = false;
     state = applied(state, automatic);
-    EXPECT_EQ(state.settings.grid, (view::Grid{false, {2, 3, 4}, view::GridLaw::kHyperbolic}));
+    EXPECT_EQ(state.settings.grid,
+              (settings::Grid{false, {2, 3, 4}, settings::GridLaw::kHyperbolic}));
 }
 
 TEST_F(State, PickLight_PlacesWhatIsThere_UnlessNothingIs) {
-    context.pick_light = [](const view::ViewSettings&, double, const glm::dvec2& at) {
-        view::PlacedLight light;
+    context.pick_light = [](const settings::ViewSettings&, double, const glm::dvec2& at) {
+        settings::PlacedLight light;
         light.position_world = {at.x, at.y, 4};
-        light.replaces = view::LightRef{view::LightRef::Of::kSeed, 11};
+        light.replaces = settings::LightRef{settings::LightRef::Of::kSeed, 11};
         return light;
     };
     const SessionState state = applied(initial, PickLight{3, {0.5, -0.25}});
-    const view::PlacedLight* light = state.settings.lights.placed.find(3);
+    const settings::PlacedLight* light = state.settings.lights.placed.find(3);
     ASSERT_NE(light, nullptr);
     EXPECT_EQ(light->position_world, glm::dvec3(0.5, -0.25, 4));
     EXPECT_EQ(light->replaces->index, 11U);
@@ -208,17 +211,17 @@ TEST_F(State, PickLight_PlacesWhatIsThere_UnlessNothingIs) {
 }
 
 TEST_F(State, TheOtherCommands_SetTheirFields) {
-    view::ToonRamp ramp;
+    settings::ToonRamp ramp;
     ramp.count = 2;
     SetToon toon{{changes({{"outline_strength", 0.5}})}, ramp, {}};
     SessionState state = applied(initial, gridOf({15, 15, 15}));
     state = applied(state, toon);
     state = applied(state, SetSize{{17, 4096}});
-    EXPECT_EQ(state.settings.grid.size, (view::GridSize{15, 15, 15}));
+    EXPECT_EQ(state.settings.grid.size, (settings::GridSize{15, 15, 15}));
     EXPECT_EQ(state.settings.toon_fragment, ramp);
     EXPECT_EQ(state.settings.toon_compute, initial.settings.toon_compute);
     EXPECT_EQ(state.settings.toon_outline.strength, 0.5F);
-    EXPECT_EQ(state.settings.size, (view::Size{17, 4096}));
+    EXPECT_EQ(state.settings.size, (settings::Size{17, 4096}));
     EXPECT_EQ(state.version, initial.version + 3);
 }
 
@@ -234,31 +237,31 @@ TEST_F(State, Settings_AreSetTogetherAndOneByOne) {
 }
 
 TEST_F(State, DebugView_Freeze_KeepsTheCameraOfThen) {
-    const SetDebugView set{{changes({{"debug_view", chosen(view::DebugView::kClusterWires)},
+    const SetDebugView set{{changes({{"debug_view", chosen(settings::DebugView::kClusterWires)},
                                      {"debug_scale_max", 12.0}})},
                            {}};
     SessionState state = applied(initial, set);
-    EXPECT_EQ(state.settings.debug.view, view::DebugView::kClusterWires);
+    EXPECT_EQ(state.settings.debug.view, settings::DebugView::kClusterWires);
     EXPECT_EQ(state.settings.debug.scale_max, 12);
     EXPECT_FALSE(state.settings.debug.grid_camera);
     SetDebugView freeze;
     freeze.freeze = true;
     state = applied(state, freeze);
-    const view::Camera kept = state.settings.camera;
+    const settings::Camera kept = state.settings.camera;
     SetCamera camera;
     camera.target_world = {1, 2, 3};
     state = applied(state, camera);
     EXPECT_NE(state.settings.camera, kept);
     state = applied(state, freeze); // it is frozen already
     EXPECT_EQ(state.settings.debug.grid_camera, kept);
-    EXPECT_EQ(state.settings.debug.view, view::DebugView::kClusterWires);
+    EXPECT_EQ(state.settings.debug.view, settings::DebugView::kClusterWires);
     freeze.freeze = false;
     EXPECT_FALSE(applied(state, freeze).settings.debug.grid_camera);
 }
 
 TEST_F(State, Codec_OnlyOneThatTheClientDecodes) {
     const SetSettings video =
-        settings({{"codec", chosen(view::Codec::kVp9)}, {"video_kbps", 1234U}});
+        settings({{"codec", chosen(settings::Codec::kVp9)}, {"video_kbps", 1234U}});
     const auto refused = apply(initial, {{3, 0}, video}, context, kStart);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, RejectCode::kUnsupported);
@@ -266,11 +269,11 @@ TEST_F(State, Codec_OnlyOneThatTheClientDecodes) {
     EXPECT_EQ(refused.error().field, "codec");
     initial.decodable.set();
     const SessionState state = applied(initial, video);
-    EXPECT_EQ(state.encoding.codec, view::Codec::kVp9);
+    EXPECT_EQ(state.encoding.codec, settings::Codec::kVp9);
     EXPECT_EQ(state.encoding.video_kbps, 1234U);
     EXPECT_EQ(state.version, initial.version + 1);
-    const SetSettings jpeg = settings({{"codec", chosen(view::Codec::kJpeg)}});
-    EXPECT_EQ(applied(state, jpeg).encoding.codec, view::Codec::kJpeg);
+    const SetSettings jpeg = settings({{"codec", chosen(settings::Codec::kJpeg)}});
+    EXPECT_EQ(applied(state, jpeg).encoding.codec, settings::Codec::kJpeg);
 }
 
 TEST_F(State, TooLargeAPicture_IsRefused) {
@@ -287,10 +290,10 @@ TEST_F(State, TooLargeAPicture_IsRefused) {
 
 TEST_F(State, SamplesOfAPixel_CountAsPixels) {
     context.defaults.max_area_px = 1'000'000;
-    const SetSettings smooth = settings({{"antialiasing", chosen(view::Antialiasing::kSsaa4)}});
+    const SetSettings smooth = settings({{"antialiasing", chosen(settings::Antialiasing::kSsaa4)}});
     const SessionState small = applied(initial, SetSize{{500, 500}});
     const SessionState smoothed = applied(small, smooth);
-    EXPECT_EQ(smoothed.settings.antialiasing, view::Antialiasing::kSsaa4);
+    EXPECT_EQ(smoothed.settings.antialiasing, settings::Antialiasing::kSsaa4);
     const auto larger = apply(smoothed, {{3, 0}, SetSize{{501, 500}}}, context, kStart);
     ASSERT_FALSE(larger);
     EXPECT_EQ(larger.error().field, "width");
@@ -324,9 +327,9 @@ TEST(Apply, SetDelivery_ChangesThatAlone) {
     const SessionContext context = makeContext();
     const SessionState before = initialState(context, kStart);
     const SetSettings command =
-        settings({{"target_fps", 20.0}, {"refine", chosen(view::Refine::kLossless)}});
+        settings({{"target_fps", 20.0}, {"refine", chosen(settings::Refine::kLossless)}});
     const SessionState after = apply(before, {{1, 0}, command}, context, kStart).value();
-    EXPECT_EQ(after.delivery, (DeliverySettings{true, 20.0, view::Refine::kLossless}));
+    EXPECT_EQ(after.delivery, (DeliverySettings{true, 20.0, settings::Refine::kLossless}));
     EXPECT_EQ(after.settings, before.settings);
     EXPECT_EQ(after.encoding, before.encoding);
     EXPECT_GT(after.version, before.version);

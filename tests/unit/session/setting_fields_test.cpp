@@ -15,10 +15,10 @@ namespace froxel::session {
 namespace {
 
 using google::protobuf::Message;
+using settings::Setting;
+using settings::SettingKind;
+using settings::SettingValue;
 using test::otherValue;
-using view::Setting;
-using view::SettingKind;
-using view::SettingValue;
 
 using SettingFields = State;
 

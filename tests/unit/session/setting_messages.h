@@ -2,8 +2,8 @@
 #pragma once
 
 #include "froxel/v1/options.pb.h"
+#include "settings/setting.h"
 #include "unit/session/messages.h"
-#include "view/setting.h"
 
 #include <cctype>
 #include <map>
@@ -66,22 +66,23 @@ inline int numberOf(const google::protobuf::FieldDescriptor& field, std::string_
 
 inline void put(google::protobuf::Message& message,
                 const FieldPath& path,
-                const view::Setting& setting,
-                const view::SettingValue& value) {
+                const settings::Setting& setting,
+                const settings::SettingValue& value) {
     google::protobuf::Message& holder = holderOf(message, path);
     const google::protobuf::FieldDescriptor* field = path.back();
     const auto& reflection = *holder.GetReflection();
     switch (setting.kind) {
-    case view::SettingKind::kSwitch:
+    case settings::SettingKind::kSwitch:
         return reflection.SetBool(&holder, field, std::get<bool>(value));
-    case view::SettingKind::kWhole:
+    case settings::SettingKind::kWhole:
         return reflection.SetUInt32(&holder, field, std::get<uint32_t>(value));
-    case view::SettingKind::kReal:
+    case settings::SettingKind::kReal:
         return reflection.SetDouble(&holder, field, std::get<double>(value));
-    case view::SettingKind::kChoice:
+    case settings::SettingKind::kChoice:
         return reflection.SetEnumValue(
-            &holder, field, numberOf(*field, setting.names[std::get<view::Choice>(value).index]));
-    case view::SettingKind::kColor:
+            &holder, field,
+            numberOf(*field, setting.names[std::get<settings::Choice>(value).index]));
+    case settings::SettingKind::kColor:
         break;
     }
     auto& color = static_cast<v1::Vec3&>(*reflection.MutableMessage(&holder, field));
@@ -91,7 +92,8 @@ inline void put(google::protobuf::Message& message,
 }
 
 // A command with this one value; a renderer, which is never absent, stays the usual one.
-inline v1::ClientMessage commandOf(const view::Setting& setting, const view::SettingValue& value) {
+inline v1::ClientMessage commandOf(const settings::Setting& setting,
+                                   const settings::SettingValue& value) {
     static const auto paths = fieldsOf(*v1::ClientMessage::descriptor());
     v1::ClientMessage message = clientMessage(7);
     const auto path = paths.find(std::string(setting.name));

@@ -39,7 +39,7 @@ class Simulation {
         uint32_t rung;
     };
 
-    explicit Simulation(view::Encoding asked = {75, view::Chroma::k420}, uint32_t seed = 1)
+    explicit Simulation(settings::Encoding asked = {75, settings::Chroma::k420}, uint32_t seed = 1)
         : random_(seed) {
         rate_.setWanted(asked, {});
         ladder_ = makeLadder(asked);

@@ -22,7 +22,7 @@ class State : public ::testing::Test {
         }
         return *result;
     }
-    static SetGrid gridOf(const view::GridSize& size) {
+    static SetGrid gridOf(const settings::GridSize& size) {
         SetGrid command;
         command.size = size;
         return command;

@@ -1,8 +1,8 @@
 #include "froxel/v1/server.pb.h"
 #include "protocol/limits.h"
 #include "session/state_message.h"
+#include "settings/ranges.h"
 #include "unit/session/context.h"
-#include "view/ranges.h"
 
 #include <gtest/gtest.h>
 
@@ -36,11 +36,11 @@ TEST(Welcome, TellsTheServerTheSceneAndTheState) {
 TEST(Welcome, PlacedLights_AreToldWhole) {
     const SessionContext context = makeContext();
     SessionState state = initialState(context, TimePoint(1s));
-    view::PlacedLight light;
+    settings::PlacedLight light;
     light.id = 7;
-    light.kind = view::LightKind::kSpot;
+    light.kind = settings::LightKind::kSpot;
     light.color = {0.25F, 0.5F, 1};
-    state.settings.lights.placed = view::PlacedLights({light});
+    state.settings.lights.placed = settings::PlacedLights({light});
     const auto message = makeWelcome(12, context, state);
     ASSERT_EQ(message.welcome().placed_lights().lights_size(), 1);
     const v1::PlacedLight& told = message.welcome().placed_lights().lights(0);
@@ -76,30 +76,31 @@ SessionState unusualState(const SessionContext& context) {
     state.applied = {44, 5};
     state.settings.camera = context.scene.cameras[1].camera;
     state.settings.camera.lens_shift = {0.25, -0.5};
-    state.settings.renderer = view::Renderer::kToonCompute;
-    state.settings.lighting = view::LightingStage::kFragment;
+    state.settings.renderer = settings::Renderer::kToonCompute;
+    state.settings.lighting = settings::LightingStage::kFragment;
     state.settings.lights = {3, 1.5F, 2.5F, 0.125F, true, 9, false, 0.5F, {}, 0.25F, false, {}};
-    state.settings.shading = view::ShadingModel::kLambert;
-    state.settings.gbuffer = {view::NormalEncoding::kXy16, view::PositionSource::kFp16};
-    state.settings.light_loop = view::LightLoop::kLists;
+    state.settings.shading = settings::ShadingModel::kLambert;
+    state.settings.gbuffer = {settings::NormalEncoding::kXy16, settings::PositionSource::kFp16};
+    state.settings.light_loop = settings::LightLoop::kLists;
     state.settings.count_pairs = true;
     state.settings.list_cap = 40;
-    state.settings.grid = {.automatic = false, .size = {1, 2, 3}, .law = view::GridLaw::kLinear};
+    state.settings.grid = {
+        .automatic = false, .size = {1, 2, 3}, .law = settings::GridLaw::kLinear};
     state.light_clock =
         state.light_clock.withTime(TimePoint(2s), 6.5).withRate(TimePoint(2s), 1, false);
-    state.settings.debug = {view::DebugView::kOverdraw, 6, state.settings.camera};
+    state.settings.debug = {settings::DebugView::kOverdraw, 6, state.settings.camera};
     state.settings.exposure = 0.5F;
-    state.settings.tone_map = view::ToneMap::kClamp;
+    state.settings.tone_map = settings::ToneMap::kClamp;
     state.settings.toon_compute.count = 2;
     state.settings.toon_outline = {0.5F, 0.0078125F};
-    state.settings.bloom = {view::BloomKind::kATrous, 2.5F, 0.25F, 0.75F, 0.03125F};
+    state.settings.bloom = {settings::BloomKind::kATrous, 2.5F, 0.25F, 0.75F, 0.03125F};
     state.settings.fog = {0.5F, 0.25F, 2, -0.5F, {0.5F, 0.25F, 1}, 8, 32, true, true};
-    state.settings.antialiasing = view::Antialiasing::kFxaa;
-    state.settings.transparency = view::Transparency::kPeeled;
+    state.settings.antialiasing = settings::Antialiasing::kFxaa;
+    state.settings.transparency = settings::Transparency::kPeeled;
     state.settings.peel_layers = 7;
     state.settings.shadows = {12, 320};
-    state.delivery = {true, 12.5, view::Refine::kHigh};
-    state.encoding = {42, view::Chroma::k444, view::Codec::kVp9, 777};
+    state.delivery = {true, 12.5, settings::Refine::kHigh};
+    state.encoding = {42, settings::Chroma::k444, settings::Codec::kVp9, 777};
     return state;
 }
 
@@ -182,15 +183,15 @@ TEST(StateChanged, PlacedLights_OnlyWhatIsOtherThanWasTold) {
     const SessionContext context = makeContext();
     SessionState state = initialState(context, TimePoint(1s));
     EXPECT_FALSE(makeStateChanged(context, state, {}).state().has_placed_lights());
-    view::PlacedLight kept;
+    settings::PlacedLight kept;
     kept.id = 1;
-    view::PlacedLight moved = kept;
+    settings::PlacedLight moved = kept;
     moved.id = 2;
-    view::PlacedLight gone = kept;
+    settings::PlacedLight gone = kept;
     gone.id = 3;
-    const view::PlacedLights told({kept, moved, gone});
+    const settings::PlacedLights told({kept, moved, gone});
     moved.position_world = {1, 2, 3};
-    state.settings.lights.placed = view::PlacedLights({kept, moved});
+    state.settings.lights.placed = settings::PlacedLights({kept, moved});
     const auto change = makeStateChanged(context, state, told).state().placed_lights();
     EXPECT_FALSE(change.clear());
     ASSERT_EQ(change.remove_size(), 1);
@@ -199,7 +200,7 @@ TEST(StateChanged, PlacedLights_OnlyWhatIsOtherThanWasTold) {
     EXPECT_EQ(change.lights(0).id(), 2U);
     EXPECT_EQ(change.lights(0).position().y(), 2);
     // Equal lights in other memory are no news.
-    const view::PlacedLights same({kept, moved});
+    const settings::PlacedLights same({kept, moved});
     EXPECT_FALSE(makeStateChanged(context, state, same).state().has_placed_lights());
 }
 
@@ -256,7 +257,7 @@ FrameRecord record() {
     record.queue_us = 1.4;
     record.render_us = 2.5;
     record.encode_wait_us = 3;
-    record.delivered = {0.75, {55, view::Chroma::k420}, Refinement::kInteractive, 4};
+    record.delivered = {0.75, {55, settings::Chroma::k420}, Refinement::kInteractive, 4};
     record.queue_delay_us = 1500;
     record.link_bits_per_s = 1.7e6;
     record.encode_us = 4;

@@ -27,9 +27,9 @@ TEST(DecodeCommand, SetToon_TakesAscendingRamps) {
     const auto command = accepted<SetToon>(decodeBinary(message));
     EXPECT_FALSE(command.fragment);
     EXPECT_EQ(command.compute->count, 2U);
-    EXPECT_EQ(command.compute->points[0], (view::ToonRamp::Point{0, 0.25F, 2}));
-    EXPECT_EQ(command.compute->points[1], (view::ToonRamp::Point{1, 1, -20}));
-    EXPECT_EQ(command.compute->points[2], view::ToonRamp::Point{});
+    EXPECT_EQ(command.compute->points[0], (settings::ToonRamp::Point{0, 0.25F, 2}));
+    EXPECT_EQ(command.compute->points[1], (settings::ToonRamp::Point{1, 1, -20}));
+    EXPECT_EQ(command.compute->points[2], settings::ToonRamp::Point{});
 }
 
 TEST(DecodeCommand, SetToon_PointCountAndOrder_AreChecked) {
@@ -58,7 +58,7 @@ TEST(DecodeCommand, SetToonOutline_IsTakenWithoutARamp) {
     message.mutable_set_toon()->set_outline_strength(0.75);
     const auto command = accepted<SetToon>(decodeBinary(message));
     ASSERT_EQ(command.changes.size(), 1U);
-    EXPECT_EQ(command.changes[0].value, view::SettingValue(0.75));
+    EXPECT_EQ(command.changes[0].value, settings::SettingValue(0.75));
     EXPECT_FALSE(command.fragment || command.compute);
 }
 

@@ -7,9 +7,9 @@
 namespace froxel::session {
 namespace {
 
-view::Encoding video(uint32_t kbps) {
-    view::Encoding encoding;
-    encoding.codec = view::Codec::kVp9;
+settings::Encoding video(uint32_t kbps) {
+    settings::Encoding encoding;
+    encoding.codec = settings::Codec::kVp9;
     encoding.video_kbps = kbps;
     return encoding;
 }
@@ -24,7 +24,7 @@ Delivery slow(double link_bits_per_s) {
 TEST(VideoDelivery, LinkThatIsTooSlow_BoundsTheRate) {
     EXPECT_EQ(limited(video(6000), slow(2e6)), video(1600));
     EXPECT_EQ(limited(video(1000), slow(2e6)), video(1000));
-    EXPECT_EQ(limited(video(6000), slow(1000)), video(view::kVideoKbpsRange.min));
+    EXPECT_EQ(limited(video(6000), slow(1000)), video(settings::kVideoKbpsRange.min));
     EXPECT_EQ(limited(video(6000), slow(1e12)), video(6000));
 }
 
@@ -40,7 +40,7 @@ TEST(VideoDelivery, Ladder_LowersTheRateBeforeTheSize_AndAsksForLessAtEachRung) 
     uint32_t kbps = 6001;
     double bits_per_s = 1e9;
     for (const Rung& rung : ladder) {
-        const view::Encoding encoding = limited(video(6000), rung.delivery);
+        const settings::Encoding encoding = limited(video(6000), rung.delivery);
         const Seconds interval = std::max(Seconds(1.0 / 30), rung.delivery.min_interval);
         EXPECT_EQ(encoding.quality, video(6000).quality) << "means nothing to video";
         EXPECT_TRUE(encoding.video_kbps < kbps || rung.alone) << rung.delivery.rung;
@@ -55,10 +55,10 @@ TEST(VideoDelivery, Ladder_LowersTheRateBeforeTheSize_AndAsksForLessAtEachRung) 
 
 TEST(VideoDelivery, RestingView_IsRefinedByImages) {
     EXPECT_EQ(delivered(video(500), slow(1e6), Refinement::kInteractive).encoding.codec,
-              view::Codec::kVp9);
+              settings::Codec::kVp9);
     EXPECT_EQ(delivered(video(500), slow(1e6), Refinement::kSettled).encoding, video(500));
     EXPECT_EQ(delivered(video(500), slow(1e6), Refinement::kHigh).encoding.codec,
-              view::Codec::kJpeg);
+              settings::Codec::kJpeg);
 }
 
 } // namespace

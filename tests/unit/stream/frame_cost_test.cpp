@@ -12,7 +12,7 @@ TEST(FrameCost, IsADevicesTimeForAFrame_AndLeavesNothing) {
     const auto device = std::make_shared<test::FakeDevice>();
     device->frame_time = 5ms;
     const auto source = test::makeFakeSource(device);
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.size = {64, 48};
     const auto cost = measureFrameCost(*source, settings);
     ASSERT_TRUE(cost);
@@ -25,7 +25,7 @@ TEST(FrameCost, PictureThatCannotBeMade_SaysWhy) {
     const auto device = std::make_shared<test::FakeDevice>();
     device->max_lights = 10;
     const auto source = test::makeFakeSource(device);
-    view::ViewSettings settings;
+    settings::ViewSettings settings;
     settings.size = {64, 48};
     settings.lights.count = 11;
     const auto cost = measureFrameCost(*source, settings);

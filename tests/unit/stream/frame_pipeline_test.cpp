@@ -25,7 +25,7 @@ class FramePipelineTest : public testing::Test {
     }
     DrawnFrame video(uint64_t id, uint64_t key_requests = 0) {
         DrawnFrame drawn = frame(id);
-        drawn.record.delivered.encoding.codec = view::Codec::kVp9;
+        drawn.record.delivered.encoding.codec = settings::Codec::kVp9;
         drawn.key_requests = key_requests;
         return drawn;
     }
@@ -34,9 +34,9 @@ class FramePipelineTest : public testing::Test {
         std::string text;
         for (const auto& ready : sink_->frames()) {
             const auto& record = ready.record;
-            text += record.delivered.encoding.codec == view::Codec::kJpeg ? 'j'
-                    : record.key                                          ? 'K'
-                                                                          : 'd';
+            text += record.delivered.encoding.codec == settings::Codec::kJpeg ? 'j'
+                    : record.key                                              ? 'K'
+                                                                              : 'd';
         }
         return text;
     }
@@ -49,7 +49,7 @@ class FramePipelineTest : public testing::Test {
     void occupy(encode::EncodePool& pool, std::latch& release, bool lossless = false) {
         encode::EncodeJob job{
             PixelLease({pixels_.data(), kSide, kSide, size_t{4} * kSide}, nullptr),
-            {.codec = lossless ? view::kLosslessCodec : view::kPlainCodec},
+            {.codec = lossless ? settings::kLosslessCodec : settings::kPlainCodec},
             [&](const Result<EncodedFrame>&) { release.wait(); }};
         while (!pool.submit(std::move(job))) {
             std::this_thread::yield(); // the thread has not taken the job before this one yet

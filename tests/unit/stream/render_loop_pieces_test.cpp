@@ -108,7 +108,7 @@ TEST_F(RenderLoopPiecesTest, OfTwoViewers_AreMixed) {
     device_->setGate(true);
     ASSERT_TRUE(first->waitForFrames(1));
     ASSERT_TRUE(second->waitForFrames(1));
-    EXPECT_EQ(device_->done(), (std::vector<view::Size>{{48, 24}, {32, 16}}));
+    EXPECT_EQ(device_->done(), (std::vector<settings::Size>{{48, 24}, {32, 16}}));
 }
 
 TEST_F(RenderLoopPiecesTest, ViewerLeft_AreGivenUp) {

@@ -103,7 +103,7 @@ TEST_F(RenderLoopTest, Refuse_PictureDoesNotFit_TellsAndKeepsServing) {
     EXPECT_EQ(refusal.error.code, ErrorCode::kCapacity);
     EXPECT_EQ(refusal.refused.version, state.version);
     ASSERT_TRUE(refusal.drawn);
-    EXPECT_EQ(refusal.drawn->settings.size, (view::Size{32, 16}));
+    EXPECT_EQ(refusal.drawn->settings.size, (settings::Size{32, 16}));
 
     settle();
     EXPECT_EQ(sink->record().refusals.size(), 1U) << "a refused state must not be tried again";
@@ -121,12 +121,12 @@ TEST_F(RenderLoopTest, Refuse_DeviceCannot_TellsAndKeepsServing) {
     auto state = still();
     const auto id = join(sink, state, kPlenty);
     ASSERT_TRUE(sink->waitForFrames(1));
-    state.settings.lighting = view::LightingStage::kCompute;
+    state.settings.lighting = settings::LightingStage::kCompute;
     ++state.version;
     loop_->update(id, state, Clock::now());
     ASSERT_TRUE(sink->waitFor([](const auto& record) { return !record.refusals.empty(); }));
     EXPECT_EQ(sink->record().refusals[0].error.code, ErrorCode::kUnsupported);
-    state.settings.lighting = view::LightingStage::kAuto;
+    state.settings.lighting = settings::LightingStage::kAuto;
     ++state.version;
     loop_->update(id, state, Clock::now());
     EXPECT_TRUE(sink->waitForFrames(2));
@@ -293,7 +293,7 @@ TEST_F(RenderLoopTest, Rest_IsRefinedInStagesAndThenNothing) {
     start();
     const auto sink = makeSink();
     auto state = still();
-    state.delivery.refine = view::Refine::kLossless;
+    state.delivery.refine = settings::Refine::kLossless;
     join(sink, state, kPlenty);
     ASSERT_TRUE(sink->waitForFrames(3));
     const auto frames = sink->frames();
@@ -312,8 +312,8 @@ TEST_F(RenderLoopTest, RestOfVideo_CountsTheEncoderThatIsKept) {
     start();
     const auto sink = makeSink();
     auto state = still();
-    state.encoding.codec = view::Codec::kVp9;
-    state.delivery.refine = view::Refine::kHigh;
+    state.encoding.codec = settings::Codec::kVp9;
+    state.delivery.refine = settings::Refine::kHigh;
     join(sink, state, kPlenty);
     ASSERT_TRUE(sink->waitForFrames(2));
     ASSERT_FALSE(sink->frames()[1].isVideo());
@@ -324,7 +324,7 @@ TEST_F(RenderLoopTest, Delivery_LimitsMovingFramesAndMakesRestingOnesWhole) {
     start();
     const auto sink = makeSink();
     auto state = moving();
-    state.encoding = {80, view::Chroma::k444};
+    state.encoding = {80, settings::Chroma::k444};
     const auto id = join(sink, state, kPlenty);
     session::Delivery limits;
     limits.scale = 0.5;

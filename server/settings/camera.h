@@ -3,7 +3,7 @@
 
 #include "core/math.h"
 
-namespace froxel::view {
+namespace froxel::settings {
 
 enum class Projection { kPerspective, kOrthographic };
 
@@ -39,4 +39,4 @@ struct Sphere {
 // of the distance to spare, from above the front right; for scenes without one.
 [[nodiscard]] Camera overview(const Sphere& sphere_world, double aspect);
 
-} // namespace froxel::view
+} // namespace froxel::settings

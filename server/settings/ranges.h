@@ -6,7 +6,7 @@
 #include <string_view>
 #include <tuple>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 template <class T>
 struct Range {
@@ -56,4 +56,4 @@ inline constexpr std::tuple kOtherRanges{
     kPlacedCountRange, kPlacedColorRange, kConeRange,       kAreaSideRange,   kRollRange,
     kReplacedRange,    kPickRange,        kTimeRange};
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -4,12 +4,12 @@
 // lights' box, placed lights and ramps.
 #pragma once
 
-#include "view/setting.h"
-#include "view/settings.h"
+#include "settings/setting.h"
+#include "settings/settings.h"
 
 #include <limits>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 inline constexpr std::array kSettingRows = {
     row<&ViewSettings::renderer>(Names{"renderer", kRendererNames}, "renderer", {"How to draw"}),
@@ -200,4 +200,4 @@ inline constexpr std::array kEncodingRows = {
                                {"Bits that a video codec aims at", "kbit/s", "higher: more bytes"}),
 };
 
-} // namespace froxel::view
+} // namespace froxel::settings

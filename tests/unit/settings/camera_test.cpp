@@ -1,10 +1,10 @@
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace froxel::view {
+namespace froxel::settings {
 namespace {
 
 void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-12) {
@@ -89,4 +89,4 @@ TEST(Overview, ScaledSphere_IsSeenFromAsFarInItsRadii) {
 }
 
 } // namespace
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 enum class LightKind : uint8_t { kPoint, kSpot, kArea };
 inline constexpr std::array kLightKindNames = {std::string_view("point"), std::string_view("spot"),
@@ -60,4 +60,4 @@ class PlacedLights {
     std::shared_ptr<const std::vector<PlacedLight>> lights_; // null: none
 };
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -1,11 +1,11 @@
-#include "view/placed_lights.h"
+#include "settings/placed_lights.h"
 
 #include "core/assert.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 PlacedLights::PlacedLights(std::vector<PlacedLight> lights) {
     const auto unordered = [](const PlacedLight& a, const PlacedLight& b) { return a.id >= b.id; };
@@ -36,4 +36,4 @@ bool PlacedLights::operator==(const PlacedLights& other) const {
            std::equal(mine.begin(), mine.end(), theirs.begin(), theirs.end());
 }
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -1,9 +1,9 @@
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 Camera lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
     Camera camera;
@@ -39,4 +39,4 @@ Camera overview(const Sphere& sphere_world, double aspect) {
     return camera;
 }
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 // A hemisphere of constant radiance from above and one from below: a cool dusk, a warm bounce. A
 // surface sees (1 + up . normal) / 2 of the first and the rest of the second.
@@ -11,4 +11,4 @@ inline constexpr glm::vec3 kAmbientSky{0.050F, 0.058F, 0.075F};
 inline constexpr glm::vec3 kAmbientGround{0.030F, 0.026F, 0.022F};
 inline constexpr glm::vec3 kBackground{0.010F, 0.013F, 0.020F}; // of empty pixels
 
-} // namespace froxel::view
+} // namespace froxel::settings

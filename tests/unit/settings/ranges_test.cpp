@@ -1,6 +1,6 @@
+#include "settings/ranges.h"
+#include "settings/setting_rows.h"
 #include "support/setting_values.h"
-#include "view/ranges.h"
-#include "view/setting_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-namespace froxel::view {
+namespace froxel::settings {
 namespace {
 
 TEST(Range, EdgesAreInside_NanIsNot) {
@@ -90,4 +90,4 @@ TEST(Settings, Text_IsTheShortestThatReadsBackInTheMembersOwnType) {
 }
 
 } // namespace
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -1,14 +1,14 @@
 // For static_assert: whether a table has a row for each member of a struct.
 #pragma once
 
-#include "view/setting.h"
+#include "settings/setting.h"
 
 #include <boost/pfr/tuple_size.hpp>
 
 #include <algorithm>
 #include <cstddef>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 // So many members have no row, since they are by hand.
 template <class Struct, class Rows>
@@ -19,4 +19,4 @@ constexpr bool covers(const Rows& rows, size_t by_hand) {
     return static_cast<size_t>(held) + by_hand == boost::pfr::tuple_size_v<Struct>;
 }
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -1,9 +1,9 @@
 // Holds the table against the structs: a member without a row does not compile.
-#include "view/setting_rows.h"
+#include "settings/setting_rows.h"
 
-#include "view/setting_cover.h"
+#include "settings/setting_cover.h"
 
-namespace froxel::view {
+namespace froxel::settings {
 namespace {
 
 // The camera, the size, two ramps, and the structs below.
@@ -19,4 +19,4 @@ static_assert(covers<Fog>(kSettingRows, 0));
 static_assert(covers<Encoding>(kEncodingRows, 0));
 
 } // namespace
-} // namespace froxel::view
+} // namespace froxel::settings

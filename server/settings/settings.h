@@ -3,17 +3,17 @@
 #pragma once
 
 #include "core/math.h"
-#include "view/camera.h"
-#include "view/codecs.h"
-#include "view/debug_view.h"
-#include "view/placed_lights.h"
+#include "settings/camera.h"
+#include "settings/codecs.h"
+#include "settings/debug_view.h"
+#include "settings/placed_lights.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 enum class Renderer : uint8_t {
     kNaive,
@@ -267,4 +267,4 @@ struct Encoding {
     bool operator==(const Encoding&) const = default;
 };
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/math.h"
-#include "view/ranges.h"
+#include "settings/ranges.h"
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <variant>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 // An enumerator, as its place among the names.
 struct Choice {
@@ -183,4 +183,4 @@ constexpr auto row(const MayBe& may_be, std::string_view path, const SettingWord
     return made;
 }
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -1,8 +1,8 @@
-#include "view/setting.h"
+#include "settings/setting.h"
 
 #include "core/text.h"
 
-namespace froxel::view {
+namespace froxel::settings {
 
 std::string textOf(const Setting& setting, const SettingValue& value) {
     switch (setting.kind) {
@@ -24,4 +24,4 @@ std::string textOf(const Setting& setting, const SettingValue& value) {
     return part(0) + "," + part(1) + "," + part(2);
 }
 
-} // namespace froxel::view
+} // namespace froxel::settings

@@ -2,14 +2,14 @@
 // not.
 #pragma once
 
-#include "view/camera.h"
+#include "settings/camera.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 enum class DebugView : uint8_t {
     kNone,
@@ -91,4 +91,4 @@ struct Debug {
     bool operator==(const Debug&) const = default;
 };
 
-} // namespace froxel::view
+} // namespace froxel::settings

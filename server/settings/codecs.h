@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace froxel::view {
+namespace froxel::settings {
 
 enum class Codec : uint8_t { kJpeg, kVp9, kPng };
 
@@ -110,4 +110,4 @@ using CodecSet = std::bitset<kCodecRows.size()>;
     return set;
 }
 
-} // namespace froxel::view
+} // namespace froxel::settings
