@@ -33,8 +33,8 @@ class VariantCache {
             throw VariantsMissing();
         }
         Entry& entry = entries_.find(key)->second;
-        if (!entry.used) {
-            entry.used = true;
+        if (!entry.used &&
+            std::exchange(entry.noted_in, maker_.recording()) != maker_.recording()) {
             maker_.noteFirstUse(entry.used);
         }
         entry.last_use = timeline_.next();
@@ -73,10 +73,11 @@ class VariantCache {
         return true;
     }
 
-    // It is there, and no recording has used it.
+    // It is there, neither this recording nor a frame that has run has used it.
     [[nodiscard]] bool isNew(const Key& key) const {
         const auto found = entries_.find(key);
-        return found != entries_.end() && !found->second.used;
+        return found != entries_.end() && !found->second.used &&
+               found->second.noted_in != maker_.recording();
     }
 
     template <class Visit>
@@ -89,8 +90,9 @@ class VariantCache {
   private:
     struct Entry {
         Pipeline pipeline;
-        uint64_t last_use; // the timeline's value once its frame is finished
-        bool used = false;
+        uint64_t last_use;     // the timeline's value once its frame is finished
+        bool used = false;     // by a frame that has run
+        uint64_t noted_in = 0; // the last recording that used it before any had
     };
     // What another thread makes.
     struct Making {

@@ -23,15 +23,10 @@ VariantUses& VariantUses::operator=(VariantUses&& other) noexcept {
     return *this;
 }
 
-void VariantUses::giveUp() {
-    for (bool* used : first_uses_) {
-        *used = false;
-    }
-    first_uses_.clear();
-}
-
 void VariantUses::end() {
-    first_uses_.clear();
+    for (bool* used : std::exchange(first_uses_, {})) {
+        *used = true;
+    }
     if (maker_ != nullptr) {
         maker_->held_.erase(maker_->held_.find(since_));
         maker_ = nullptr;

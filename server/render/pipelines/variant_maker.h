@@ -34,8 +34,8 @@ class VariantUses {
     VariantUses& operator=(VariantUses&& other) noexcept;
 
     // Not all of it will run: what it was the first to use is still to be used for the first time.
-    void giveUp();
-    // All that will run of it has run.
+    void giveUp() { first_uses_.clear(); }
+    // All that will run of it has run: what it used is no longer new.
     void end();
 
   private:
@@ -72,7 +72,8 @@ class VariantMaker {
     // The asker is gone: what was not begun for it is dropped.
     void forget(const void* asker);
 
-    // A variant is recorded for the first time: a software device compiles it when it draws.
+    // A variant is recorded that no frame has drawn with: a software device compiles it when it
+    // draws. `used` becomes true once this frame has run.
     void noteFirstUse(bool& used) { first_uses_.push_back(&used); }
     // In the recording that beginRecording() was called for.
     [[nodiscard]] size_t firstUses() const { return first_uses_.size(); }

@@ -108,21 +108,33 @@ TEST(VariantMaker, WhatAnAskerThatIsGoneWanted_IsDropped_AndMadeForTheNext) {
     EXPECT_EQ(made, 1);
 }
 
-TEST(VariantMaker, FirstUses_OfARecordingThatCameToNothing_AreStillToCome) {
+TEST(VariantMaker, FirstUses_AreThoseOfAllFrames_UntilOneHasRun) {
     const NoTimeline timeline;
     VariantMaker maker;
     Cache cache(timeline, maker, 4);
-    const auto make = [] { return 1; };
-    maker.beginRecording();
-    (void)cache.findOrMake(1, make);
-    EXPECT_EQ(maker.firstUses(), 1U);
-    maker.endRecording(1).giveUp();
-    maker.beginRecording();
-    (void)cache.findOrMake(1, make);
-    EXPECT_EQ(maker.firstUses(), 1U);
-    maker.beginRecording();
-    (void)cache.findOrMake(1, make);
-    EXPECT_EQ(maker.firstUses(), 0U);
+    const auto record = [&] {
+        maker.setAsker(&cache);
+        maker.beginRecording();
+        (void)cache.findOrMake(1, [] { return 1; });
+        EXPECT_FALSE(cache.isNew(1)) << "one recording counts it once";
+        (void)cache.findOrMake(1, [] { return 1; });
+        const size_t first_uses = maker.firstUses();
+        return std::pair(first_uses, maker.endRecording(1));
+    };
+    auto [of_given_up, given_up] = record();
+    EXPECT_EQ(of_given_up, 1U);
+    given_up.giveUp();
+    given_up.end();
+    maker.setAsker(&cache);
+    EXPECT_TRUE(cache.isNew(1));
+
+    auto [of_waiting, waiting] = record();
+    auto [of_running, running] = record();
+    EXPECT_EQ(of_waiting, 1U);
+    EXPECT_EQ(of_running, 1U);
+    running.end();
+    auto [of_next, next] = record();
+    EXPECT_EQ(of_next, 0U);
 }
 
 } // namespace froxel::render
