@@ -118,7 +118,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     using Code = boost::system::error_code;
     using CountedTcp =
         boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor, ByteCounter>;
-    using Stream = boost::beast::websocket::stream<transport::PeerStream<CountedTcp>>;
+    using Stream = boost::beast::websocket::stream<transport::PeerStream<CountedTcp>, false>;
 
     // A handler that does nothing once the viewer has ended, and fails it on an error.
     template <class Work>

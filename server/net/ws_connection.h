@@ -32,7 +32,8 @@ class WsConnection final : public SessionViewer,
     void onServiceChanged() override;
 
   private:
-    using Stream = boost::beast::websocket::stream<PeerStream>;
+    // What is sent is compressed already: no permessage-deflate.
+    using Stream = boost::beast::websocket::stream<PeerStream, false>;
     using ErrorCode = boost::beast::error_code;
     static constexpr uint16_t kNoCloseCode = 1006; // RFC 6455 section 7.4.1
 
