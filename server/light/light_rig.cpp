@@ -143,8 +143,23 @@ bool standsForSeeded(const settings::Lights& settings, const settings::PlacedLig
 }
 
 LightRig::LightRig(const scene::Scene& scene) : scene_bounds_world_(scene.bounds_world) {
-    std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(scene_lights_),
-                 usable);
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+        if (usable(scene.lights[i])) {
+            scene_lights_.push_back(scene.lights[i]);
+            scene_indices_.push_back(i);
+        }
+    }
+}
+
+void LightRig::place(uint32_t light,
+                     const glm::dvec3& position_world,
+                     const glm::dvec3& direction_world) {
+    const auto found = std::lower_bound(scene_indices_.begin(), scene_indices_.end(), light);
+    if (found != scene_indices_.end() && *found == light) {
+        auto& placed = scene_lights_[static_cast<size_t>(found - scene_indices_.begin())];
+        placed.position_world = position_world;
+        placed.direction_world = direction_world;
+    }
 }
 
 bool LightRig::standsForScene(const settings::Lights& settings,

@@ -21,13 +21,16 @@ namespace froxel::light {
 [[nodiscard]] bool standsForSeeded(const settings::Lights& settings,
                                    const settings::PlacedLight& placed);
 
-// Immutable after construction: any number of threads may evaluate at once, each into its own
-// FrameLights.
+// Any number of threads may evaluate at once, each into its own FrameLights.
 class LightRig {
   public:
     // Copies what it needs. A scene light whose position, direction, colour or cone is not finite,
     // or whose range is negative, is left out (the loader reports it): no frame holds a NaN.
     explicit LightRig(const scene::Scene& scene);
+
+    // Puts a light of Scene::lights elsewhere, while nobody evaluates. All numbers are finite, the
+    // direction is unit. A light that was left out stays out.
+    void place(uint32_t light, const glm::dvec3& position_world, const glm::dvec3& direction_world);
 
     // Replaces the contents of `out`. `time_s` is the lights' clock: whoever owns it
     // folds speed and pauses in. Positions are subtracted from the eye and rotated in double, then
@@ -103,6 +106,7 @@ class LightRig {
     sceneStandIns(const settings::Lights& settings) const;
 
     std::vector<scene::PunctualLight> scene_lights_;
+    std::vector<uint32_t> scene_indices_; // of these in Scene::lights, rising
     BoundsD3 scene_bounds_world_;
 };
 

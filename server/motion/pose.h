@@ -1,6 +1,7 @@
 // The nodes of a scene at a time: clips sampled, blended and carried down the tree.
 #pragma once
 
+#include "motion/affine.h"
 #include "motion/clip_clock.h"
 #include "scene/motion.h"
 
@@ -28,5 +29,19 @@ struct Pose {
 // share, and what is beyond 1 is divided out. Rotations are summed in the first's hemisphere, the
 // rest pose last, and made unit. Replaces the contents of `out`, whose memory is reused.
 void pose(const scene::Motion& motion, std::span<const PlayedClip> clips, double time_s, Pose& out);
+
+// Calls visit(index of Scene::lights, position, direction) for the lights that nodes move, all
+// finite and the direction unit. A light whose node has none, or leaves the range of numbers, is
+// left where it was.
+template <class Visit>
+void eachMovedLight(const scene::Motion& motion, const Pose& pose, const Visit& visit) {
+    for (const scene::MovedThing& moved : motion.lights) {
+        const glm::dmat4& world_from_node = pose.world_from_node[moved.node];
+        const auto axes = axesOf(world_from_node);
+        if (axes && usable(world_from_node)) {
+            visit(moved.index, glm::dvec3(world_from_node[3]), -(*axes)[2]);
+        }
+    }
+}
 
 } // namespace froxel::motion

@@ -24,13 +24,6 @@ void bend(const Player& player, const Moment& moment, size_t deformed, scene::Me
     }
 }
 
-void placeLight(const glm::dmat4& world_from_node, scene::PunctualLight& light) {
-    if (const auto axes = axesOf(world_from_node)) {
-        light.position_world = glm::dvec3(world_from_node[3]);
-        light.direction_world = -(*axes)[2];
-    }
-}
-
 void placeCamera(const glm::dmat4& world_from_node, settings::Camera& camera) {
     if (const auto axes = axesOf(world_from_node)) {
         camera.eye_world = glm::dvec3(world_from_node[3]);
@@ -38,7 +31,21 @@ void placeCamera(const glm::dmat4& world_from_node, settings::Camera& camera) {
     }
 }
 
+void placeCameras(scene::Scene& scene, const scene::Motion& motion, const Pose& pose) {
+    for (const scene::MovedThing& moved : motion.cameras) {
+        placeCamera(pose.world_from_node[moved.node], scene.cameras[moved.index].camera);
+    }
+}
+
 } // namespace
+
+void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double time_s) {
+    if (scene.motion) {
+        Pose then;
+        pose(*scene.motion, clips, time_s, then);
+        placeCameras(scene, *scene.motion, then);
+    }
+}
 
 scene::Scene posedScene(scene::Scene scene, std::span<const PlayedClip> clips, double time_s) {
     if (!scene.motion) {
@@ -54,13 +61,12 @@ scene::Scene posedScene(scene::Scene scene, std::span<const PlayedClip> clips, d
     for (size_t d = 0; d < motion.deformed.size(); ++d) {
         bend(player, moment, d, scene.meshes[motion.deformed[d].mesh]);
     }
-    const auto& worlds = moment.pose.world_from_node;
-    for (const scene::MovedThing& moved : motion.lights) {
-        placeLight(worlds[moved.node], scene.lights[moved.index]);
-    }
-    for (const scene::MovedThing& moved : motion.cameras) {
-        placeCamera(worlds[moved.node], scene.cameras[moved.index].camera);
-    }
+    eachMovedLight(motion, moment.pose,
+                   [&](uint32_t light, const glm::dvec3& position, const glm::dvec3& direction) {
+                       scene.lights[light].position_world = position;
+                       scene.lights[light].direction_world = direction;
+                   });
+    placeCameras(scene, motion, moment.pose);
     scene.bounds_world.add(moment.bounds_world);
     scene.motion = nullptr;
     return scene;

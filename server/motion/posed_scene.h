@@ -14,4 +14,7 @@ namespace froxel::motion {
 [[nodiscard]] scene::Scene
 posedScene(scene::Scene scene, std::span<const PlayedClip> clips, double time_s);
 
+// Only its cameras.
+void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double time_s);
+
 } // namespace froxel::motion

@@ -214,6 +214,23 @@ TEST(LightRig, UnusableSceneLights_AreLeftOut) {
     EXPECT_EQ(evaluated(scene, noSeeded()).lights.size(), 1U);
 }
 
+// By its number in the file, whatever was left out before it.
+TEST(LightRig, PlacedSceneLight_StandsElsewhere) {
+    scene::Scene scene;
+    scene.lights.assign(3, punctual(scene::LightType::kSpot));
+    scene.lights[0].intensity = std::numeric_limits<float>::infinity();
+    LightRig rig(scene);
+    rig.place(0, {9, 9, 9}, {1, 0, 0});
+    rig.place(2, {4, 5, 6}, {0, 0, 1});
+    FrameLights lights;
+    rig.evaluate(noSeeded(), {}, 0, lights);
+    ASSERT_EQ(lights.lights.size(), 2U);
+    EXPECT_EQ(lights.lights[0].position_view, glm::vec3(1, 2, -3));
+    EXPECT_EQ(lights.lights[1].position_view, glm::vec3(4, 5, 6));
+    EXPECT_EQ(rig.placeOf(noSeeded(), 0, 0).direction_world, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(rig.placeOf(noSeeded(), 0, 1).direction_world, glm::dvec3(0, 0, 1));
+}
+
 TEST(LightRig, ExtremeSceneLights_StayFinite) {
     scene::Scene scene;
     scene.lights.assign(3, punctual(scene::LightType::kPoint));

@@ -123,6 +123,35 @@ TEST(PosedScene, AtATime_RestsAsItStood) {
     EXPECT_GE(posed.bounds_world.max.x, 6);
 }
 
+TEST(PosedScene, PlacedCameras_AreThoseOfThePosedScene) {
+    Scene scene = threeInstances();
+    scene.cameras.resize(2);
+    Motion motion = *scene.motion;
+    motion.cameras = {{1, 0}};
+    scene.motion = std::make_shared<const Motion>(std::move(motion));
+    placeCameras(scene, usualClips(*scene.motion), 0.25);
+    EXPECT_EQ(scene.cameras[1].camera.eye_world, glm::dvec3(2.5, 0, 0));
+    EXPECT_EQ(scene.cameras[0].camera.eye_world, settings::Camera().eye_world);
+}
+
+TEST(MovedLights, OfFlatOrFarNodes_AreLeftOut) {
+    Motion motion;
+    motion.nodes.resize(3);
+    motion.nodes[1].rest.scale = {1, 1, 0};
+    motion.nodes[2].rest.translation = {1e30F, 0, 0};
+    motion.lights = {{0, 0}, {1, 1}, {2, 2}};
+    Pose then;
+    pose(motion, {}, 0, then);
+    std::vector<uint32_t> moved;
+    eachMovedLight(
+        motion, then,
+        [&](uint32_t light, const glm::dvec3& /*position*/, const glm::dvec3& direction) {
+            moved.push_back(light);
+            EXPECT_EQ(direction, glm::dvec3(0, 0, -1));
+        });
+    EXPECT_EQ(moved, std::vector<uint32_t>{0});
+}
+
 TEST(PosedScene, MirroredSkin_IsAMirroredInstance) {
     Scene scene = threeInstances();
     Motion motion = *scene.motion;
