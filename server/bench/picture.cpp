@@ -2,6 +2,7 @@
 
 #include "bench/shown_picture.h"
 #include "image_metrics/flip.h"
+#include "motion/posed_scene.h"
 #include "reference/bloom.h"
 #include "reference/exposure.h"
 #include "reference/shade.h"
@@ -32,6 +33,13 @@ std::vector<std::byte> withoutPadding(const PixelView& pixels) {
         rgba8.insert(rgba8.end(), row, row + row_bytes);
     }
     return rgba8;
+}
+
+// As it stands at a time; seeded lights keep their box.
+scene::Scene standing(const scene::Scene& scene, double time_s) {
+    scene::Scene posed = motion::posedScene(scene, motion::usualClips(*scene.motion), time_s);
+    posed.bounds_world = scene.bounds_world;
+    return posed;
 }
 
 } // namespace
@@ -85,7 +93,9 @@ Result<Pictures::Shared> Pictures::shade(const settings::ViewSettings& settings,
     if (!visibility) {
         return visibility.error();
     }
-    auto linear = reference::shade(scene_, settings, time_s, *visibility);
+    auto linear = scene_.motion
+                      ? reference::shade(standing(scene_, time_s), settings, time_s, *visibility)
+                      : reference::shade(scene_, settings, time_s, *visibility);
     if (!linear) {
         return linear.error();
     }

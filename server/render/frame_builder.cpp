@@ -63,7 +63,8 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
             : !second_target && (byIds(inputs.geometry) || pays);
-    return wanted && scene_.visibility_unusable.empty() && !scene_.visibility().groups.empty();
+    return wanted && scene_.visibility_unusable.empty() && pose_.windsAsAtStart() &&
+           !scene_.visibility().groups.empty();
 }
 
 bool FrameBuilder::choosesComputeRaster(const FrameInputs& inputs) {
@@ -117,7 +118,8 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .compute_raster = compute_raster_,
             .cull_meshlets = inputs.cull_meshlets,
             .prepass_pays = prepass(inputs),
-            .overdraw_unknown = traits.counts_samples && !scene_.overdraw};
+            .overdraw_unknown = traits.counts_samples && !scene_.overdraw,
+            .bends = scene_.poser() != nullptr};
 }
 
 bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
@@ -168,7 +170,8 @@ void FrameBuilder::start(const FrameInputs& inputs, uint32_t lights_at_once) {
     lights_at_once_ = lights_at_once;
     cap_.reset();
     const auto& settings = inputs_.settings;
-    farthest_m_ = farthestDepth(settings.camera, scene_.bounds_world);
+    pose_.standAt(inputs_.time_s);
+    farthest_m_ = farthestDepth(settings.camera, pose_.boundsWorld());
     projection_ = makeProjection(settings.camera, settings.size, farthest_m_);
     visibility_ = choosesVisibility(inputs_);
     compute_raster_ = visibility_ && choosesComputeRaster(inputs_);
@@ -183,13 +186,14 @@ void FrameBuilder::startCulling(bool aside) {
     culling_ =
         std::async(is_cpu && aside ? std::launch::async : std::launch::deferred, [this, is_cpu] {
             const auto& settings = inputs_.settings;
-            buildDrawList(scene_, settings.camera, settings.size, projection_, is_cpu, !visibility_,
+            buildDrawList(scene_, pose_, settings.camera, settings.size, projection_, is_cpu,
+                          !visibility_,
                           settings.transparency == settings::Transparency::kSorted
                               ? TransparentOrder::kByDistance
                               : TransparentOrder::kOfTheScene,
                           draws_);
             if (visibility_) {
-                placeInstances(scene_, settings.camera, draws_.rows, instances_);
+                placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
                 orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
             }
         });
@@ -239,7 +243,7 @@ void FrameBuilder::evaluateLights() {
         lights.scene_lights = false;
         lights.placed = {};
     }
-    scene_.light_rig.evaluate(lights, inputs_.settings.camera, inputs_.time_s, lights_);
+    pose_.lightRig().evaluate(lights, inputs_.settings.camera, inputs_.time_s, lights_);
 }
 
 void FrameBuilder::chooseGrid() {
@@ -249,7 +253,7 @@ void FrameBuilder::chooseGrid() {
     }
     light_grid_.choose(settings::showsClusters(settings.debug.view) ? withLists(settings)
                                                                     : settings,
-                       reach(), scene_.bounds_world, gridCosts(settings));
+                       reach(), pose_.boundsWorld(), gridCosts(settings));
 }
 
 bool FrameBuilder::capMore() {
@@ -291,7 +295,7 @@ FramePlan FrameBuilder::plan(ViewEffects& effects) {
         needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
     drawn_ = settings.size;
     FrameFacts found = facts(inputs_);
-    effects.look({settings, lights_, inputs_.time_s}, found);
+    effects.look({settings, pose_, lights_, inputs_.time_s}, found);
     planned_ = generalised(found, inputs_.generic);
     const FramePlan plan = planFrame(settings, planned_);
     uniforms_ = makeFrameUniforms(settings, projection_, plan.lists ? &light_grid_.grid() : nullptr,
@@ -314,10 +318,10 @@ std::vector<io::WireVertex> FrameBuilder::buildWires(const FrameInputs& inputs,
     const LightGrid* shown = &light_grid_;
     settings::Camera camera = settings.debug.grid_camera.value_or(settings.camera);
     if (camera != settings.camera || !light_grid_.lists()) {
-        scene_.light_rig.evaluate(settings.lights, camera, inputs.time_s, wire_lights_);
+        pose_.lightRig().evaluate(settings.lights, camera, inputs.time_s, wire_lights_);
         settings::ViewSettings frozen = withLists(settings);
         frozen.camera = camera;
-        wire_grid_.choose(frozen, wire_lights_, scene_.bounds_world, gridCosts(settings));
+        wire_grid_.choose(frozen, wire_lights_, pose_.boundsWorld(), gridCosts(settings));
         shown = &wire_grid_;
     }
     if (!shown->lists()) {
@@ -343,7 +347,7 @@ void FrameBuilder::buildDebug(const FrameInputs& inputs, const FramePlan& plan, 
                          : wirePixels(debug_.wires, settings.camera, settings.size);
     debug_.light_count = facts.light_count;
     debug_.legend = makeLegend(settings.debug, facts);
-    debug_.values = makeDebugValues(settings, scene_.bounds_world, debug_.legend,
+    debug_.values = makeDebugValues(settings, pose_.boundsWorld(), debug_.legend,
                                     shownBytes(plan.debug, plan.gbuffer_output_flags));
 }
 
@@ -403,6 +407,9 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     if (!lights_.areas.empty()) {
         load.costly_lights.push_back({.count = static_cast<uint32_t>(lights_.areas.size()),
                                       .pair = scene_.unit_costs.area_pair});
+    }
+    if (plan.pose) {
+        load.posed_vertices = scene_.poser()->vertex_count;
     }
     for (const auto& [place, effect] : effects) {
         effect->addLoad(scene_.unit_costs, load);
@@ -474,6 +481,10 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
     if (!debug_.wires.empty()) {
         offsets.wires = upload.add(std::span<const io::WireVertex>(debug_.wires));
     }
+    if (scene_.poser() != nullptr) {
+        offsets.joints = upload.add(pose_.joints());
+        offsets.weights = upload.add(pose_.weights());
+    }
     offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
     for (const ActiveEffect& active : effects) {
         active.effect->gather(upload, blocks_);
@@ -525,9 +536,13 @@ ListCapacity FrameBuilder::listCapacity() const {
                                      : ListCapacity{};
 }
 
+uint64_t FrameBuilder::posedBytes() const {
+    return scene_.poser() != nullptr ? PosedVertices::bytes(scene_) : 0;
+}
+
 uint64_t FrameBuilder::hostBytes() const {
     const auto kept = [](const auto& items) { return items.capacity() * sizeof(items[0]); };
-    uint64_t bytes = kept(lists_.clusters) + kept(lists_.indices);
+    uint64_t bytes = kept(lists_.clusters) + kept(lists_.indices) + pose_.hostBytes();
     for (const auto* lights : {&lights_, &grown_, &wire_lights_}) {
         bytes += kept(lights->lights) + kept(lights->radii_m) + kept(lights->spots) +
                  kept(lights->cones);

@@ -29,7 +29,7 @@ class ViewEffects;
 class FrameBuilder {
   public:
     FrameBuilder(SceneResources& scene, const ListLimits& limits)
-        : scene_(scene), device_lists_(scene.device, limits) {}
+        : scene_(scene), pose_(scene), device_lists_(scene.device, limits) {}
 
     // Culls, evaluates lights, assigns them to clusters, lets effects look, plans: a stage at a
     // time, so that whoever shares the thread waits for one of them at most. Starting anew forgets
@@ -65,11 +65,15 @@ class FrameBuilder {
     [[nodiscard]] UploadOffsets upload(FrameSlot& slot, std::span<const ActiveEffect> effects);
     // Of what was built: light lists on the device; none: the host made them, or there are none.
     [[nodiscard]] ListCapacity listCapacity() const;
-    // Kept on the host for the next frame, for what grows with the number of lights.
+    // Of the view's own vertices; 0: no mesh bends.
+    [[nodiscard]] uint64_t posedBytes() const;
+    // Kept on the host for the next frame, for what grows with the number of lights, and where the
+    // scene moves with its size.
     [[nodiscard]] uint64_t hostBytes() const;
     // Frees that.
     void letGo();
 
+    [[nodiscard]] const ScenePose& pose() const { return pose_; }
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const light::FrameLights& lights() const { return lights_; }
     // Point and spot lights of the frame.
@@ -126,6 +130,7 @@ class FrameBuilder {
     void buildDebug(const FrameInputs& inputs, const FramePlan& plan, double farthest_m);
 
     SceneResources& scene_;
+    ScenePose pose_;
     FrameInputs inputs_; // of what is built
     uint32_t lights_at_once_ = 0;
     std::optional<Stage> stage_;          // none: nothing is

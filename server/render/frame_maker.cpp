@@ -6,6 +6,8 @@
 #include "render/memory_need.h"
 #include "render/refusals.h"
 
+#include <algorithm>
+
 namespace froxel::render {
 
 namespace {
@@ -62,6 +64,24 @@ void FrameMaker::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     }
 }
 
+void FrameMaker::preparePose(FrameSlot& slot, const UploadOffsets& offsets) {
+    const MeshPoser& poser = *scene_.poser();
+    if (!posed_) {
+        posed_ = std::make_shared<PosedVertices>(scene_);
+    }
+    slot.posed = posed_;
+    if (!slot.pose) {
+        slot.pose = std::make_unique<PoseSet>(scene_.device, poser);
+    }
+    const auto part = [&](vk::DeviceSize offset, size_t bytes) {
+        // Where there are none, of what nothing reads.
+        return vk::DescriptorBufferInfo{slot.upload.buffer(), offset, std::max<size_t>(bytes, 16)};
+    };
+    slot.pose->write(scene_, poser, *posed_,
+                     part(offsets.joints, builder_.pose().joints().size_bytes()),
+                     part(offsets.weights, builder_.pose().weights().size_bytes()));
+}
+
 void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
     if (!slot.visibility) {
         slot.visibility = std::make_unique<VisibilityFrame>(scene_.device, scene_.visibility());
@@ -70,6 +90,7 @@ void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offset
     slot.visibility->write(
         {.resources = scene_,
          .scene = scene_.visibility(),
+         .vertices = vertexBuffers(scene_, slot.posed.get()),
          .instances = {slot.upload.buffer(), offsets.instances,
                        scene_.instances.size() * sizeof(io::InstanceView)},
          .order = {slot.upload.buffer(), offsets.meshlet_order,
@@ -86,6 +107,9 @@ void FrameMaker::prepareParts(FrameSlot& slot,
                               const UploadOffsets& offsets) {
     writeScreenSet(scene_.device, slot,
                    plan.hasEffect(EffectPlace::kPixels) ? targets_->display : pixelsOf(slot));
+    if (plan.pose) {
+        preparePose(slot, offsets);
+    }
     if (plan.visibility) {
         writeVisibilitySet(slot, offsets);
     }
@@ -189,7 +213,8 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
         return tooManyToCap(builder_.localLightCount());
     }
-    if (auto built = effects_.build(plan, {inputs.settings, builder_.lights(), inputs.time_s});
+    if (auto built = effects_.build(
+            plan, {inputs.settings, builder_.pose(), builder_.lights(), inputs.time_s});
         !built) {
         return built;
     }
@@ -234,6 +259,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
 
 void FrameMaker::freeTargets() {
     blend_.reset();
+    posed_.reset();
     effects_.freeTargets();
     targets_.reset();
 }

@@ -71,6 +71,7 @@ class FrameMaker {
                         const settings::Size& drawn,
                         const settings::Size& shown);
     void prepareBlend(FrameSlot& slot, const FramePlan& plan);
+    void preparePose(FrameSlot& slot, const UploadOffsets& offsets);
     void writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const;
     // What a slot needs besides targets. Throws vk::SystemError.
     void prepareParts(FrameSlot& slot, const FramePlan& plan, const UploadOffsets& offsets);
@@ -85,7 +86,8 @@ class FrameMaker {
     MemoryShare memory_;
     TargetNeeds target_needs_; // of the frame that memory was taken for last
     std::shared_ptr<ViewTargets> targets_;
-    std::shared_ptr<BlendTargets> blend_; // null: the last frame has none
+    std::shared_ptr<BlendTargets> blend_;  // null: the last frame has none
+    std::shared_ptr<PosedVertices> posed_; // null: no frame yet, or no mesh bends
     FrameDetailsKeeper details_;
 };
 

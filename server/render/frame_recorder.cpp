@@ -8,6 +8,8 @@
 #include "render/surfaces/raster_passes.h"
 #include "render/surfaces/visibility_passes.h"
 
+#include <utility>
+
 namespace froxel::render {
 
 namespace {
@@ -27,6 +29,34 @@ const settings::Size& shown(const FrameContext& frame) {
 
 vk::Rect2D whole(const FrameContext& frame) {
     return {{0, 0}, {drawn(frame).width_px, drawn(frame).height_px}};
+}
+
+// The frame's vertices over those of the view's frame before.
+void recordPose(const FrameContext& frame) {
+    constexpr vk::PipelineStageFlags2 kReaders =
+        Stage::eVertexAttributeInput | Stage::eVertexShader | kShaders;
+    const auto& cmd = frame.slot.cmd;
+    frame.pieces.add(frame.costs.pose());
+    if (std::exchange(frame.slot.posed->fresh, false)) {
+        // After whatever still reads or writes them, of frames before one that was given up.
+        barrier(cmd, kReaders | Stage::eCopy, Access::eShaderStorageWrite | Access::eTransferWrite,
+                Stage::eCopy, Access::eTransferWrite);
+        frame.slot.posed->recordRest(cmd, frame.scene);
+    }
+    // loads of the frame before, vertices at rest -> stores
+    barrier(cmd, kReaders | Stage::eCopy, Access::eTransferWrite, Stage::eComputeShader,
+            Access::eShaderStorageWrite);
+    recordPoseVertices(frame);
+    if (frame.scene.poser()->flat) {
+        // positions, normals -> normals of moved triangles
+        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
+                Access::eShaderStorageRead | Access::eShaderStorageWrite);
+        recordPoseFlatNormals(frame);
+    }
+    // vertices -> whatever draws or shades them
+    barrier(cmd, Stage::eCopy | Stage::eComputeShader,
+            Access::eTransferWrite | Access::eShaderStorageWrite, kReaders,
+            Access::eVertexAttributeRead | Access::eShaderStorageRead);
 }
 
 void recordPrepass(const FrameContext& frame) {
@@ -234,6 +264,9 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit) {
     frame.pieces.begin(piece_limit);
     slot.timestamps.reset();
     recordFreshTargets(slot);
+    if (frame.plan.pose) {
+        recordPose(frame);
+    }
     if (frame.plan.count_samples) {
         slot.samples->restart();
     }

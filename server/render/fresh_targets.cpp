@@ -58,6 +58,7 @@ void markFresh(FrameSlot& slot) {
     };
     mark(slot.targets);
     mark(slot.blend);
+    mark(slot.posed);
     slot.effect_targets.forEach([](EffectTargets& effect) { effect.fresh = true; });
 }
 

@@ -8,8 +8,8 @@ namespace froxel::render {
 // Moves those of the slot into the GENERAL layout, in which they stay.
 void recordFreshTargets(FrameSlot& slot);
 
-// The commands recorded last will not run: those that they were to move still have to be. What the
-// others hold is of no use to the next frame.
+// The commands recorded last will not run: those that they were to move still have to be, and the
+// view's own vertices to be copied. What the others hold is of no use to the next frame.
 void markFresh(FrameSlot& slot);
 
 } // namespace froxel::render

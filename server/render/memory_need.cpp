@@ -24,6 +24,7 @@ FrameMemory frameMemory(const FrameBuilder& builder,
                       .shown = asked.settings.size,
                       .targets = targets,
                       .lists = builder.listCapacity(),
+                      .posed_bytes = builder.posedBytes(),
                       .host_bytes = builder.hostBytes() + asked.beside_bytes,
                       .effects = effects};
     if (plan.transparent && plan.transparency != settings::Transparency::kSorted) {
@@ -58,6 +59,7 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
         }
         need.buffer("light list counters", kTotalsBytes * ViewRenderer::kReadbackSlots);
     }
+    need.buffer("posed vertices", frame.posed_bytes);
     need.buffer("counters", kSlotBytes * ViewRenderer::kReadbackSlots);
     need.buffer(kHost, frame.host_bytes);
     return std::move(need.uses);

@@ -24,6 +24,7 @@ struct FrameMemory {
     std::optional<settings::Transparency> blend = {}; // weighted or peeled surfaces are in sight
     uint64_t upload_bytes = 0;                        // of all slots together
     ListCapacity lists;                               // on the device
+    uint64_t posed_bytes = 0;                         // of the view's own vertices
     uint64_t host_bytes = 0;                          // kept by the host, encoders with it
     std::span<const ActiveEffect> effects = {};
 };

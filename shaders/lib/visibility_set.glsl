@@ -1,16 +1,6 @@
 // Set 2 of the visibility passes: the scene's geometry and materials, the frame's instances, draws.
 #include "interface/visibility_io.h"
-
-struct SurfaceVertex {
-    vec3 normal;
-    vec2 uv0;
-};
-
-struct ExtendedVertex {
-    vec2 uv1;
-    vec4 color;
-    vec4 tangent;
-};
+#include "lib/vertex_streams.glsl"
 
 layout(set = 2, binding = 0, scalar) readonly buffer PositionBlock { vec3 positions[]; };
 layout(set = 2, binding = 1, scalar) readonly buffer SurfaceBlock { SurfaceVertex surfaces[]; };

@@ -123,8 +123,8 @@ class Fog final : public Effect {
     Result<void> build(const EffectInputs& inputs, const EffectPlan& plan) override {
         plan_ = plan;
         const auto& settings = inputs.settings;
-        const auto lit = cluster::litDepthRange(inputs.lights, settings.camera, scene_.bounds_world,
-                                                cluster::Lit::kMedium);
+        const auto lit = cluster::litDepthRange(inputs.lights, settings.camera,
+                                                inputs.pose.boundsWorld(), cluster::Lit::kMedium);
         fog_ = makeFog(settings, lit.far_m, inputs.time_s);
         return checkFroxels(fog_, scene_.device.limits().maxTexelBufferElements);
     }

@@ -88,20 +88,25 @@ InstanceRows faceRows(const PlacedItem& item, uint32_t face, double scale) {
 // What one light's faces show.
 class FaceDraws {
   public:
-    FaceDraws(const SceneResources& scene, const ShadowPlace& place, ShadowFrame& out)
-        : scene_(scene), place_(place), out_(out) {}
+    FaceDraws(const SceneResources& scene,
+              const ScenePose& pose,
+              const ShadowPlace& place,
+              ShadowFrame& out)
+        : scene_(scene), instances_(pose.instances()), place_(place), out_(out) {}
 
     void add(const DrawItem& item) {
-        const PlacedItem placed = placeItem(scene_.instances[item.instance], place_);
+        const PlacedItem placed = placeItem(instances_[item.instance], place_);
         const auto& primitive = item.primitive;
-        if (facesOf(placed, primitive.center, primitive.radius) == 0) {
+        const uint32_t faces_of_all = facesOf(placed, primitive.center, primitive.radius);
+        if (faces_of_all == 0) {
             return;
         }
         open_.fill({});
         const uint32_t end = primitive.first_meshlet + primitive.meshlet_count;
         for (uint32_t i = primitive.first_meshlet; i < end; ++i) {
             const Meshlet& meshlet = scene_.meshlets[i];
-            const uint32_t faces = facesOf(placed, meshlet.center, meshlet.radius);
+            const uint32_t faces =
+                item.bends ? faces_of_all : facesOf(placed, meshlet.center, meshlet.radius);
             for (uint32_t face = firstFace(); face < endFace(); ++face) {
                 if ((faces >> face & 1U) != 0) {
                     extend(item, placed, face, meshlet);
@@ -200,6 +205,7 @@ class FaceDraws {
     }
 
     const SceneResources& scene_;
+    const std::span<const glm::dmat4> instances_;
     const ShadowPlace& place_;
     ShadowFrame& out_;
     std::array<Run, 6> open_{};
@@ -278,12 +284,13 @@ bool meetsFace(const glm::dvec3& center, double radius, uint32_t face, double sc
 }
 
 void buildShadows(const SceneResources& scene,
+                  const ScenePose& pose,
                   const light::FrameLights& lights,
                   const settings::ViewSettings& settings,
                   double time_s,
                   ShadowFrame& out) {
     out.clear();
-    const double diagonal_m = glm::length(scene.bounds_world.size());
+    const double diagonal_m = glm::length(pose.boundsWorld().size());
     const auto chosen = light::chooseShadowed(lights, settings.camera, settings.size, diagonal_m,
                                               settings.shadows.light_count);
     if (chosen.empty()) {
@@ -294,9 +301,9 @@ void buildShadows(const SceneResources& scene,
     out.uniforms = mapUniforms();
     uint32_t tile = 0;
     for (const uint32_t index : chosen) {
-        const auto at = scene.light_rig.placeOf(settings.lights, time_s, index);
+        const auto at = pose.lightRig().placeOf(settings.lights, time_s, index);
         const double reach_m = std::min(static_cast<double>(lights.radii_m[index]),
-                                        farthestCorner(scene.bounds_world, at.position_world));
+                                        farthestCorner(pose.boundsWorld(), at.position_world));
         if (!(reach_m > 0)) {
             continue;
         }
@@ -304,8 +311,8 @@ void buildShadows(const SceneResources& scene,
         out.shadow_of_light[index] = static_cast<uint32_t>(out.lights.size());
         out.lights.push_back(
             tableEntry(lights.lights[index], place, settings.camera, size_px, tile));
-        FaceDraws draws(scene, place, out);
-        for (const DrawItem& item : scene.items) {
+        FaceDraws draws(scene, pose, place, out);
+        for (const DrawItem& item : pose.items()) {
             if (castsShadows(scene, item)) {
                 draws.add(item);
             }

@@ -70,6 +70,7 @@ shadowPlace(const light::LightRig::Place& place, double reach_m, uint32_t size_p
 // ones do not, nor do those that glow all over (an emissive factor without a texture): a lamp's
 // light stands inside its bulb. Pure.
 void buildShadows(const SceneResources& scene,
+                  const ScenePose& pose,
                   const light::FrameLights& lights,
                   const settings::ViewSettings& settings,
                   double time_s,

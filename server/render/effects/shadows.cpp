@@ -118,7 +118,7 @@ class Shadows final : public Effect {
     explicit Shadows(SceneResources& scene) : scene_(scene) {}
 
     void look(const EffectInputs& inputs, FrameFacts& facts) override {
-        buildShadows(scene_, inputs.lights, inputs.settings, inputs.time_s, frame_);
+        buildShadows(scene_, inputs.pose, inputs.lights, inputs.settings, inputs.time_s, frame_);
         facts.shadows = !frame_.lights.empty();
     }
     Result<void> build(const EffectInputs& inputs, const EffectPlan& plan) override {

@@ -103,13 +103,14 @@ std::vector<Run> splitRuns(std::span<const Visible> visible, Same same) {
 class Builder {
   public:
     Builder(const SceneResources& scene,
+            const ScenePose& pose,
             const settings::Camera& camera,
             const settings::Size& size,
             const ViewProjection& projection,
             bool by_triangle,
             DrawList& out)
-        : scene_(scene), camera_(camera), by_triangle_(by_triangle),
-          clip_from_view_(clipFromView(camera, projection)),
+        : scene_(scene), instances_(pose.instances()), items_(pose.items()), camera_(camera),
+          by_triangle_(by_triangle), clip_from_view_(clipFromView(camera, projection)),
           half_size_px_(glm::vec2(size.width_px, size.height_px) * 0.5F), out_(out) {}
 
     void build(bool solid_wanted, TransparentOrder order);
@@ -131,7 +132,9 @@ class Builder {
     void addCommand(const DrawItem& item, uint32_t first, uint32_t end, DrawGroup& group);
     [[nodiscard]] vk::Rect2D partOf(const Visible& visible) const;
 
-    const SceneResources& scene_;
+    const SceneResources& scene_; // what rests of it
+    const std::span<const glm::dmat4> instances_;
+    const std::span<const DrawItem> items_;
     const settings::Camera& camera_;
     const bool by_triangle_;
     const glm::mat4 clip_from_view_;
@@ -142,9 +145,9 @@ class Builder {
 // view_from_object in double, relative to the eye, then rounded once.
 void Builder::placeInstances() {
     const glm::dmat3 view_from_world = glm::transpose(camera_.world_from_view);
-    out_.rows.resize(scene_.instances.size());
-    for (size_t i = 0; i < scene_.instances.size(); ++i) {
-        const glm::dmat4& world = scene_.instances[i];
+    out_.rows.resize(instances_.size());
+    for (size_t i = 0; i < instances_.size(); ++i) {
+        const glm::dmat4& world = instances_[i];
         const glm::dmat3 linear = view_from_world * glm::dmat3(world);
         const glm::dvec3 offset = view_from_world * (glm::dvec3(world[3]) - camera_.eye_world);
         for (int r = 0; r < 3; ++r) {
@@ -172,7 +175,7 @@ ObjectView Builder::objectView(const DrawItem& item) const {
     v.cones = camera_.projection == settings::Projection::kPerspective &&
               (item.material_flags & io::kMaterialDoubleSided) == 0;
     if (v.cones) {
-        const glm::dmat4& world = scene_.instances[item.instance];
+        const glm::dmat4& world = instances_[item.instance];
         v.eye = glm::inverse(glm::dmat3(world)) * (camera_.eye_world - glm::dvec3(world[3]));
         v.cones = glm::all(glm::lessThan(glm::abs(v.eye), glm::vec3(1e6F))); // singular: keep all
     }
@@ -193,12 +196,19 @@ float Builder::distance(const DrawItem& item, const glm::vec3& center) const {
 }
 
 void Builder::collect(uint32_t item_index, std::vector<Visible>& visible) const {
-    const DrawItem& item = scene_.items[item_index];
+    const DrawItem& item = items_[item_index];
     const ObjectView v = objectView(item);
     if (v.outside(item.primitive.center, item.primitive.radius)) {
         return;
     }
     const uint32_t end = item.primitive.first_meshlet + item.primitive.meshlet_count;
+    if (item.bends) {
+        const uint32_t bucket = distanceBucket(distance(item, item.primitive.center));
+        for (uint32_t i = item.primitive.first_meshlet; i < end; ++i) {
+            visible.push_back({bucket, item_index, i});
+        }
+        return;
+    }
     for (uint32_t i = item.primitive.first_meshlet; i < end; ++i) {
         const Meshlet& m = scene_.meshlets[i];
         if (!v.outside(m.center, m.radius) && !v.facesAway(m)) {
@@ -232,16 +242,19 @@ void Builder::addCommand(const DrawItem& item, uint32_t first, uint32_t end, Dra
 
 // Appends the run's indices, culled triangle by triangle.
 void Builder::cullRun(Run& run, std::vector<uint32_t>& indices) const {
-    const DrawItem& item = scene_.items[run.meshlets.front().item];
+    const DrawItem& item = items_[run.meshlets.front().item];
     const TriangleCull cull = triangleCull(item);
     const auto positions =
         std::span(scene_.positions).subspan(static_cast<size_t>(item.primitive.vertex_offset));
     run.first = static_cast<uint32_t>(indices.size());
     for (const Visible& v : run.meshlets) {
         const Meshlet& m = scene_.meshlets[v.meshlet];
-        appendVisibleTriangles(cull,
-                               std::span(scene_.indices).subspan(m.first_index, m.index_count),
-                               positions, indices);
+        const auto triangles = std::span(scene_.indices).subspan(m.first_index, m.index_count);
+        if (item.bends) {
+            indices.insert(indices.end(), triangles.begin(), triangles.end());
+        } else {
+            appendVisibleTriangles(cull, triangles, positions, indices);
+        }
     }
     run.end = static_cast<uint32_t>(indices.size());
 }
@@ -274,7 +287,7 @@ void Builder::addRuns(std::vector<Run> runs, std::vector<DrawGroup>& groups) {
         cullRuns(runs);
     }
     for (const Run& run : runs) {
-        const DrawItem& item = scene_.items[run.meshlets.front().item];
+        const DrawItem& item = items_[run.meshlets.front().item];
         openGroup(item, groups);
         if (by_triangle_) {
             addCommand(item, run.first, run.end, groups.back());
@@ -304,7 +317,7 @@ void Builder::addMeshlets(const DrawItem& item,
 // Near buckets first, so that the depth test spares what lies behind; in a bucket by material.
 void Builder::addSolid(std::vector<Visible>& visible) {
     const auto key = [&](const Visible& v) {
-        const DrawItem& item = scene_.items[v.item];
+        const DrawItem& item = items_[v.item];
         return std::tuple(v.bucket, item.primitive.material, item.material_flags, item.mirrored,
                           v.item, v.meshlet);
     };
@@ -318,21 +331,23 @@ void Builder::addSolid(std::vector<Visible>& visible) {
 }
 
 vk::Rect2D Builder::partOf(const Visible& visible) const {
-    const DrawItem& item = scene_.items[visible.item];
+    const DrawItem& item = items_[visible.item];
     const Meshlet& m = scene_.meshlets[visible.meshlet];
+    const glm::vec3 center = item.bends ? item.primitive.center : m.center;
+    const float radius = item.bends ? item.primitive.radius : m.radius;
     const glm::mat4 view_from_object = viewFromObject(item);
     const float scale = std::max({glm::length(glm::vec3(view_from_object[0])),
                                   glm::length(glm::vec3(view_from_object[1])),
                                   glm::length(glm::vec3(view_from_object[2]))});
-    return coveredPart(clip_from_view_, glm::vec3(view_from_object * glm::vec4(m.center, 1.0F)),
-                       m.radius * scale, half_size_px_);
+    return coveredPart(clip_from_view_, glm::vec3(view_from_object * glm::vec4(center, 1.0F)),
+                       radius * scale, half_size_px_);
 }
 
 // Whole items: blending needs order more than it needs few draws.
 void Builder::addTransparent(std::vector<Visible>& visible, TransparentOrder order) {
     const auto before = [&](const Visible& a, const Visible& b) {
         const auto key = [&](const Visible& v) {
-            const DrawItem& item = scene_.items[v.item];
+            const DrawItem& item = items_[v.item];
             const float nearness = order == TransparentOrder::kByDistance
                                        ? -distance(item, item.primitive.center)
                                        : 0.0F;
@@ -354,8 +369,8 @@ void Builder::build(bool solid_wanted, TransparentOrder order) {
     placeInstances();
     std::vector<Visible> solid;
     std::vector<Visible> transparent;
-    for (uint32_t i = 0; i < scene_.items.size(); ++i) {
-        const bool blend = (scene_.items[i].material_flags & io::kMaterialBlend) != 0;
+    for (uint32_t i = 0; i < items_.size(); ++i) {
+        const bool blend = (items_[i].material_flags & io::kMaterialBlend) != 0;
         if (blend || solid_wanted) {
             collect(i, blend ? transparent : solid);
         }
@@ -370,6 +385,7 @@ void Builder::build(bool solid_wanted, TransparentOrder order) {
 } // namespace
 
 void buildDrawList(const SceneResources& scene,
+                   const ScenePose& pose,
                    const settings::Camera& camera,
                    const settings::Size& size,
                    const ViewProjection& projection,
@@ -383,7 +399,7 @@ void buildDrawList(const SceneResources& scene,
     out.transparent_parts.clear();
     out.indices.clear();
     out.triangle_count = 0;
-    Builder(scene, camera, size, projection, by_triangle, out).build(solid, order);
+    Builder(scene, pose, camera, size, projection, by_triangle, out).build(solid, order);
 }
 
 } // namespace froxel::render

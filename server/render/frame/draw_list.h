@@ -4,6 +4,7 @@
 
 #include "gpu/vulkan.h"
 #include "render/frame/frame_uniforms.h"
+#include "render/frame/scene_pose.h"
 #include "render/scene/scene_resources.h"
 
 #include <glm/glm.hpp>
@@ -45,9 +46,10 @@ struct DrawList {
 // scene, whatever the camera.
 enum class TransparentOrder : uint8_t { kByDistance, kOfTheScene };
 
-// by_triangle: also cull single triangles, into DrawList::indices. solid: false leaves out all but
-// transparent surfaces. Pure.
+// by_triangle: also cull single triangles, into DrawList::indices; of what bends, whose vertices
+// only the device knows, all. solid: false leaves out all but transparent surfaces. Pure.
 void buildDrawList(const SceneResources& scene,
+                   const ScenePose& pose,
                    const settings::Camera& camera,
                    const settings::Size& size,
                    const ViewProjection& projection,

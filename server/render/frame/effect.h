@@ -9,6 +9,7 @@
 #include "light/frame_lights.h"
 #include "render/frame/effect_plan.h"
 #include "render/frame/frame_blocks.h"
+#include "render/frame/scene_pose.h"
 
 #include <vector>
 
@@ -27,6 +28,7 @@ struct ViewTargets;
 // What the host knows of a frame that has effects.
 struct EffectInputs {
     const settings::ViewSettings& settings; // their size: what is drawn
+    const ScenePose& pose;
     const light::FrameLights& lights;
     double time_s = 0;
 };

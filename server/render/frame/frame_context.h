@@ -23,6 +23,9 @@ struct UploadOffsets {
     vk::DeviceSize instances = 0;
     vk::DeviceSize meshlet_order = 0;
     vk::DeviceSize wires = 0; // of the cluster grid
+    // What vertices that bend follow.
+    vk::DeviceSize joints = 0;
+    vk::DeviceSize weights = 0;
 };
 
 struct FrameContext {

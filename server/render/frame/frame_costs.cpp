@@ -196,6 +196,9 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
 
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
+    if (load_.plan.pose) {
+        passes.push_back({"pose", pose()});
+    }
     addEffects(EffectPlace::kLights, passes);
     if (settings::replacesPicture(load_.plan.debug)) {
         if (load_.plan.debug == settings::DebugView::kOverdraw) {

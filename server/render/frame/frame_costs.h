@@ -36,7 +36,8 @@ struct FrameLoad {
     std::vector<CostlyLights> costly_lights = {};
     double overdraw = 1;           // of solid surfaces, in fragments per pixel
     uint32_t device_triangles = 0; // that the host does not cull
-    uint32_t resolve_count = 1;    // dispatches over the picture where ids are resolved
+    uint64_t posed_vertices = 0;
+    uint32_t resolve_count = 1; // dispatches over the picture where ids are resolved
     uint32_t peel_layers = 0;
     uint64_t wire_lines = 0; // of an overlay
     double wire_px = 0;      // that they cover
@@ -68,6 +69,9 @@ class FrameCosts {
   public:
     FrameCosts(const UnitCosts& unit, FrameLoad load) : unit_(unit), load_(std::move(load)) {}
 
+    [[nodiscard]] Seconds pose() const {
+        return Seconds(static_cast<double>(load_.posed_vertices) * unit_.posed_vertex);
+    }
     // Of passes over the drawn picture.
     [[nodiscard]] RegionCost depthPrepass() const;
     [[nodiscard]] RegionCost forward() const;

@@ -130,6 +130,7 @@ FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& f
     using settings::Renderer;
     FramePlan plan;
     const Renderer renderer = settings.renderer;
+    plan.pose = facts.bends;
     plan.visibility = facts.visibility;
     plan.compute_raster = facts.visibility && facts.compute_raster;
     plan.visibility_shade = facts.visibility && isForward(renderer);

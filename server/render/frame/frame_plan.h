@@ -35,6 +35,7 @@ struct FrameFacts {
     bool cull_meshlets = true;
     bool prepass_pays = false;     // drawing depth first costs less than it spares
     bool overdraw_unknown = false; // the scene's was not measured yet
+    bool bends = false;            // meshes follow joints or morph targets
     bool operator==(const FrameFacts&) const = default;
 };
 
@@ -53,6 +54,7 @@ struct GenericParts {
 [[nodiscard]] FrameFacts generalised(FrameFacts facts, const GenericParts& parts);
 
 struct FramePlan {
+    bool pose = false; // vertices that bend are posed, once for all passes
     bool depth_prepass = false;
     bool count_samples = false;    // that pass the depth test where depth is drawn first
     bool forward = false;          // solid surfaces by the forward shader

@@ -17,6 +17,7 @@
 #include "render/lists/pair_counter.h"
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
+#include "render/scene/mesh_poser.h"
 #include "render/scene/visibility_scene.h"
 
 #include <array>
@@ -103,8 +104,10 @@ struct FrameSlot {
     std::shared_ptr<ViewTargets> targets;
     TypedStore kept; // what effects keep of the slot
     HeldTargets effect_targets;
-    std::vector<ActiveEffect> effects;   // of the frame last recorded
-    std::shared_ptr<BlendTargets> blend; // null: the frame last recorded has none
+    std::vector<ActiveEffect> effects;    // of the frame last recorded
+    std::shared_ptr<PosedVertices> posed; // null: no mesh bends
+    std::unique_ptr<PoseSet> pose;        // likewise
+    std::shared_ptr<BlendTargets> blend;  // null: the frame last recorded has none
     std::shared_ptr<Readback> readback;
     vk::raii::DescriptorPool pool;
     vk::raii::DescriptorSet frame_set{nullptr};

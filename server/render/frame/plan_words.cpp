@@ -109,6 +109,9 @@ void addSolidWords(Lines& lines,
                    const settings::ViewSettings& settings,
                    const FrameFacts& facts,
                    const FramePlan& plan) {
+    if (plan.pose) {
+        lines.emplace_back("skins or morph targets: their vertices are posed in compute");
+    }
     if (plan.visibility) {
         lines.push_back(std::string("visibility: the device ") +
                         (plan.cull_meshlets ? "culls meshlets and rasters triangle ids"

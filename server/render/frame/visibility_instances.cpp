@@ -23,13 +23,13 @@ uint32_t bucketOf(const io::PlacedMeshlet& m, const InstanceRows& rows) {
 
 } // namespace
 
-void placeInstances(const SceneResources& scene,
+void placeInstances(std::span<const glm::dmat4> world_from_objects,
                     const settings::Camera& camera,
                     std::span<const InstanceRows> rows,
                     std::vector<io::InstanceView>& out) {
     out.resize(rows.size());
     for (size_t i = 0; i < rows.size(); ++i) {
-        const glm::dmat4& world = scene.instances[i];
+        const glm::dmat4& world = world_from_objects[i];
         const glm::dmat3 linear(world);
         // Of a flattened instance the eye has no place in object space; shaders take what is far
         // away as unknown.

@@ -11,7 +11,7 @@
 namespace froxel::render {
 
 // rows: DrawList::rows of the same camera. Pure.
-void placeInstances(const SceneResources& scene,
+void placeInstances(std::span<const glm::dmat4> world_from_objects,
                     const settings::Camera& camera,
                     std::span<const InstanceRows> rows,
                     std::vector<io::InstanceView>& out);

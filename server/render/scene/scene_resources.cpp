@@ -53,20 +53,36 @@ io::Material materialUniforms(const scene::Material& m) {
             .uv_specular_color = uvTransform(m.specular_color_texture)};
 }
 
-std::vector<DrawItem>
-makeItems(const scene::Scene& scene, const PackedGeometry& geometry, const SceneNeeds& needs) {
+std::vector<glm::dmat4> placesOf(const scene::Scene& scene, const SceneMotion* motion) {
+    if (motion != nullptr) {
+        motion::Moment start;
+        motion->player.at(motion->clips, 0, start);
+        return start.instances;
+    }
+    std::vector<glm::dmat4> places;
+    for (const auto& instance : scene.instances) {
+        places.push_back(instance.world_from_object);
+    }
+    return places;
+}
+
+std::vector<DrawItem> makeItems(const scene::Scene& scene,
+                                const PackedGeometry& geometry,
+                                const SceneNeeds& needs,
+                                const SceneMotion* motion,
+                                std::span<const glm::dmat4> places) {
     std::vector<DrawItem> items;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const auto& instance = scene.instances[i];
-        const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
-        for (const auto& primitive : geometry.meshes[instance.mesh]) {
+        const bool mirrored = glm::determinant(glm::dmat3(places[i])) < 0;
+        const bool bends = motion != nullptr && motion->deformed_of_instance[i] != scene::kNone;
+        for (const auto& primitive : geometry.meshes[scene.instances[i].mesh]) {
             if (primitive.index_count == 0) {
                 continue;
             }
             uint32_t flags = needs.material_flags[primitive.material];
             flags |= primitive.extended ? io::kMaterialExtended : 0U;
             flags |= primitive.tangents ? io::kMaterialTangents : 0U;
-            items.push_back({i, primitive, flags, mirrored});
+            items.push_back({i, primitive, flags, mirrored, bends});
         }
     }
     return items;
@@ -100,12 +116,13 @@ SceneResources::SceneResources(gpu::Device& device_in,
         throw StartupError({ErrorCode::kScene, *fault});
     }
     auto geometry = packGeometry(scene);
-    for (const auto& instance : scene.instances) {
-        instances.push_back(instance.world_from_object);
-    }
-    items = makeItems(scene, geometry, needs);
     gpu::Uploader uploader(device, timeline, kStagingBytes);
-    uploadGeometry(geometry, uploader);
+    if (scene.motion) {
+        motion = std::make_unique<const SceneMotion>(device, arena, uploader, scene, geometry);
+    }
+    instances = placesOf(scene, motion.get());
+    items = makeItems(scene, geometry, needs, motion.get(), instances);
+    uploadGeometry(geometry, poser() != nullptr, uploader);
     uploadMaterials(scene, uploader);
     visibility_unusable = VisibilityScene::unusable(*this);
     meshlets = std::move(geometry.meshlets);
@@ -119,15 +136,19 @@ SceneResources::SceneResources(gpu::Device& device_in,
                  items.size(), meshlets.size(), textures_->imageCount(), device_bytes);
 }
 
-void SceneResources::uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader) {
+void SceneResources::uploadGeometry(const PackedGeometry& geometry,
+                                    bool bends,
+                                    gpu::Uploader& uploader) {
     using Usage = vk::BufferUsageFlagBits;
-    constexpr auto kVertices = Usage::eVertexBuffer | Usage::eStorageBuffer;
-    position_buffer = uploadVector(arena, uploader, geometry.positions, kVertices, "positions");
-    surface_buffer =
-        uploadVector(arena, uploader, geometry.surfaces, kVertices, "surface vertices");
+    auto vertices = Usage::eVertexBuffer | Usage::eStorageBuffer;
+    if (bends) {
+        vertices |= Usage::eTransferSrc; // to PosedVertices
+    }
+    position_buffer = uploadVector(arena, uploader, geometry.positions, vertices, "positions");
+    surface_buffer = uploadVector(arena, uploader, geometry.surfaces, vertices, "surface vertices");
     if (!geometry.extended.empty()) {
         extended_buffer =
-            uploadVector(arena, uploader, geometry.extended, kVertices, "extended vertices");
+            uploadVector(arena, uploader, geometry.extended, vertices, "extended vertices");
     }
     index_buffer = uploadVector(arena, uploader, geometry.indices,
                                 Usage::eIndexBuffer | Usage::eStorageBuffer, "indices");

@@ -12,12 +12,14 @@
 #include "render/scene/debug_pass.h"
 #include "render/scene/geometry_pack.h"
 #include "render/scene/memory_budget.h"
+#include "render/scene/scene_motion.h"
 #include "render/scene/scene_needs.h"
 #include "render/scene/texture_store.h"
 #include "render/scene/unit_costs.h"
 #include "render/scene/visibility_scene.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace froxel::render {
@@ -28,6 +30,7 @@ struct DrawItem {
     PackedPrimitive primitive;
     uint32_t material_flags = 0; // with kMaterialExtended and kMaterialTangents
     bool mirrored = false;       // the instance turns the winding round
+    bool bends = false;          // of its meshlets nothing but the primitive's sphere is known
 };
 
 class SceneResources {
@@ -45,12 +48,15 @@ class SceneResources {
     const light::LightRig light_rig;
     cluster::LightAssigner light_assigner;
 
+    // As they stand at time 0, where the scene moves; a frame has its ScenePose. bounds_world and
+    // the rig's seeded lights are over all clips.
     std::vector<glm::dmat4> instances; // world_from_object
     std::vector<DrawItem> items;
     std::vector<Meshlet> meshlets;
     // The host's copies, for culling by triangle; empty on a GPU, which does not.
     std::vector<uint32_t> indices;
     std::vector<glm::vec3> positions;
+    std::unique_ptr<const SceneMotion> motion; // null: all of it rests
 
     gpu::MemoryArena arena; // geometry and materials
     gpu::MemoryArena texture_arena;
@@ -69,6 +75,8 @@ class SceneResources {
     // Of this device; see device_speed.h.
     UnitCosts unit_costs;
 
+    // Null: no mesh bends.
+    [[nodiscard]] const MeshPoser* poser() const { return motion ? motion->poser.get() : nullptr; }
     // Made at the first call. Null: the device cannot assign lights as the host does.
     [[nodiscard]] const AssignPipelines* assignment();
     // What views that ask for it share, such as pipelines: made from this at the first call. Throws
@@ -90,7 +98,7 @@ class SceneResources {
     }
 
   private:
-    void uploadGeometry(const PackedGeometry& geometry, gpu::Uploader& uploader);
+    void uploadGeometry(const PackedGeometry& geometry, bool bends, gpu::Uploader& uploader);
     void makeMaterialSets(uint32_t count);
     void uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader);
 

@@ -21,6 +21,7 @@ struct PairCost {
 struct UnitCosts {
     bool is_cpu = false;      // the kind of device
     double lights_scale = 1;  // by which scaled() has multiplied
+    double posed_vertex = 0;  // moved by joints and morph targets
     double triangle = 0;      // culled, set up, rastered, without its pixels
     double depth_pixel = 0;   // depth alone
     double surface_pixel = 0; // a material's textures, with depth
@@ -37,8 +38,9 @@ struct UnitCosts {
 
 // Of a device that takes so many times as long for lights, and for surfaces.
 [[nodiscard]] constexpr UnitCosts scaled(UnitCosts unit, double lights, double surfaces) {
-    for (double UnitCosts::*cost : {&UnitCosts::triangle, &UnitCosts::depth_pixel,
-                                    &UnitCosts::surface_pixel, &UnitCosts::resolve_pixel}) {
+    for (double UnitCosts::*cost :
+         {&UnitCosts::posed_vertex, &UnitCosts::triangle, &UnitCosts::depth_pixel,
+          &UnitCosts::surface_pixel, &UnitCosts::resolve_pixel}) {
         unit.*cost *= surfaces;
     }
     unit.lights_scale *= lights;
@@ -70,6 +72,7 @@ struct Measured {
 }
 
 inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
+                                         .posed_vertex = 3e-7,
                                          .triangle = 3e-7,
                                          .depth_pixel = 1.2e-8,
                                          .surface_pixel = 6e-8,
@@ -82,7 +85,8 @@ inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
                                          .area_pair = 1.5e-7,
                                          .wire_line = 5e-7,
                                          .wire_pixel = 2e-8};
-inline constexpr UnitCosts kGpuUnitCosts{.triangle = 2e-9,
+inline constexpr UnitCosts kGpuUnitCosts{.posed_vertex = 1e-9,
+                                         .triangle = 2e-9,
                                          .depth_pixel = 1e-10,
                                          .surface_pixel = 6e-10,
                                          .resolve_pixel = 1e-10,

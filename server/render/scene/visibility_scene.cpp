@@ -17,6 +17,9 @@ using Usage = vk::BufferUsageFlagBits;
 
 constexpr size_t kMostMeshlets = size_t{1} << (32 - io::kTriangleBits);
 
+// Of meshlets that bend: larger than any scene, and far from the end of single precision.
+constexpr float kAnywhere_m = 1e18F;
+
 bool solid(const DrawItem& item) {
     return (item.material_flags & io::kMaterialBlend) == 0;
 }
@@ -92,8 +95,9 @@ class Placer {
             const Meshlet& m = scene_.meshlets[primitive.first_meshlet + i];
             FROXEL_ASSERT(m.index_count <= 3U << io::kTriangleBits,
                           "an id has bits for every triangle of a meshlet");
-            meshlets.push_back({item_index, m.first_index, m.index_count, m.radius, m.center,
-                                m.cone_cutoff, m.cone_axis,
+            meshlets.push_back({item_index, m.first_index, m.index_count,
+                                item.bends ? kAnywhere_m : m.radius, m.center,
+                                item.bends ? 1.0F : m.cone_cutoff, m.cone_axis,
                                 static_cast<uint32_t>(groups.size()) - 1});
             triangle_count += m.index_count / 3;
         }
@@ -214,27 +218,21 @@ VisibilityFrame::VisibilityFrame(const gpu::Device& device, const VisibilityScen
 }
 
 void VisibilityFrame::write(const Bindings& bindings) {
-    const auto whole = [](const gpu::Buffer& buffer) {
-        return vk::DescriptorBufferInfo{*buffer.handle, 0, VK_WHOLE_SIZE};
+    const auto all = [](vk::Buffer buffer) {
+        return vk::DescriptorBufferInfo{buffer, 0, VK_WHOLE_SIZE};
     };
+    const auto whole = [&](const gpu::Buffer& buffer) { return all(*buffer.handle); };
     const auto& r = bindings.resources;
+    const auto& v = bindings.vertices;
     const auto& s = bindings.scene;
     // What the frame lacks is described as none.
     const vk::DescriptorBufferInfo none{.buffer = {}, .offset = 0, .range = VK_WHOLE_SIZE};
     const auto* raster = bindings.raster;
     std::array<vk::DescriptorBufferInfo, VisibilityPipelines::kBindings> buffers = {
-        whole(r.position_buffer),
-        whole(r.surface_buffer),
-        whole(*r.extended_buffer.handle ? r.extended_buffer : r.surface_buffer),
-        whole(r.index_buffer),
-        whole(s.items),
-        whole(s.meshlets),
-        whole(s.group_buffer),
-        whole(s.materials),
-        bindings.instances,
-        whole(s.commands),
-        whole(s.ranks),
-        whole(s.counts),
+        all(v.positions),      all(v.surfaces),    all(v.extended ? v.extended : v.surfaces),
+        whole(r.index_buffer), whole(s.items),     whole(s.meshlets),
+        whole(s.group_buffer), whole(s.materials), bindings.instances,
+        whole(s.commands),     whole(s.ranks),     whole(s.counts),
         bindings.order};
     buffers[15] =
         raster != nullptr ? vk::DescriptorBufferInfo{bindings.words, 0, VK_WHOLE_SIZE} : none;

@@ -7,6 +7,7 @@
 #include "interface/frame_io.h"
 #include "interface/visibility_io.h"
 #include "render/scene/compute_raster.h"
+#include "render/scene/mesh_poser.h"
 #include "render/scene/visibility_pipelines.h"
 
 #include <cstdint>
@@ -83,6 +84,7 @@ class VisibilityFrame {
     struct Bindings {
         const SceneResources& resources;
         const VisibilityScene& scene;
+        VertexBuffers vertices;
         vk::DescriptorBufferInfo instances; // io::InstanceView
         vk::DescriptorBufferInfo order;     // of the placed meshlets
         vk::ImageView ids;

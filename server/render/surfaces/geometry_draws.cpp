@@ -13,9 +13,9 @@ void bindGeometry(const FrameContext& frame,
                   vk::Buffer indices,
                   vk::DeviceSize rows) {
     const auto& cmd = frame.slot.cmd;
-    const auto& scene = frame.scene;
-    const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
-                                *scene.extended_buffer.handle, // none: no pipeline reads it
+    const VertexBuffers vertices = vertexBuffers(frame.scene, frame.slot.posed.get());
+    const std::array buffers = {vertices.positions, vertices.surfaces,
+                                vertices.extended, // none: no pipeline reads it
                                 frame.slot.upload.buffer()};
     const std::array<vk::DeviceSize, 4> offsets = {0, 0, 0, rows};
     cmd.bindVertexBuffers(0, buffers, offsets);

@@ -70,6 +70,16 @@ void inWires(const FrameContext& frame, Record record) {
 
 } // namespace
 
+void recordPoseVertices(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "pose");
+    frame.scene.poser()->recordVertices(frame.slot.cmd, frame.slot.pose->set());
+}
+
+void recordPoseFlatNormals(const FrameContext& frame) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "pose");
+    frame.scene.poser()->recordFlatNormals(frame.slot.cmd, frame.slot.pose->set());
+}
+
 void recordDepthPrepass(const FrameContext& frame, const vk::Rect2D& region) {
     inGroups(frame, GeometryPass::kDepth, frame.draws.solid, [&](const auto& groups, bool first) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "depth_prepass");

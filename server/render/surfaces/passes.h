@@ -6,6 +6,8 @@
 
 namespace froxel::render {
 
+void recordPoseVertices(const FrameContext& frame);    // writes vertices that bend
+void recordPoseFlatNormals(const FrameContext& frame); // reads and writes these
 void recordDepthPrepass(const FrameContext& frame, const vk::Rect2D& region); // writes depth
 void recordForwardPass(const FrameContext& frame,
                        const vk::Rect2D& region); // writes radiance, depth where no prepass did

@@ -56,9 +56,9 @@ void resolve(const FrameContext& frame, const vk::Rect2D& region, const char* na
 void bindGeometry(const FrameContext& frame) {
     const auto& cmd = frame.slot.cmd;
     const auto& scene = frame.scene;
-    const std::array buffers = {*scene.position_buffer.handle, *scene.surface_buffer.handle,
-                                *scene.extended_buffer.handle ? *scene.extended_buffer.handle
-                                                              : *scene.surface_buffer.handle};
+    const VertexBuffers vertices = vertexBuffers(scene, frame.slot.posed.get());
+    const std::array buffers = {vertices.positions, vertices.surfaces,
+                                vertices.extended ? vertices.extended : vertices.surfaces};
     const std::array<vk::DeviceSize, 3> offsets = {0, 0, 0};
     cmd.bindVertexBuffers(0, buffers, offsets);
     cmd.bindIndexBuffer(*scene.index_buffer.handle, 0, vk::IndexType::eUint32);

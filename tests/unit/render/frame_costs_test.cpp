@@ -105,6 +105,17 @@ TEST(FrameCosts, AllPasses_CountTogether) {
     EXPECT_FALSE(more.check(one.total(), Seconds(1)));
 }
 
+TEST(FrameCosts, PosedVertices_CountFirst) {
+    Load load;
+    load.plan.pose = true;
+    FrameLoad posed = load.of({});
+    posed.posed_vertices = 1'000'000;
+    const auto passes = FrameCosts(kCpuUnitCosts, posed).passes();
+    EXPECT_STREQ(passes.front().pass, "pose");
+    EXPECT_NEAR(passes.front().time.count(), 1e6 * kCpuUnitCosts.posed_vertex, 1e-12);
+    EXPECT_STRNE(FrameCosts(kCpuUnitCosts, Load().of({})).passes().front().pass, "pose");
+}
+
 TEST(FrameCosts, Effects_CountInTheirOrder) {
     Load load;
     load.plan.tonemap = true;

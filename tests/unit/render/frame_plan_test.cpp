@@ -373,6 +373,16 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
     }
 }
 
+TEST(FramePlan, MeshesThatBend_ArePosedInEveryFrame) {
+    settings::ViewSettings settings;
+    for (const auto debug : {settings::DebugView::kNone, settings::DebugView::kDepth,
+                             settings::DebugView::kOverdraw}) {
+        settings.debug.view = debug;
+        EXPECT_TRUE(planFrame(settings, {.bends = true}).pose);
+        EXPECT_FALSE(planFrame(settings, {}).pose);
+    }
+}
+
 TEST(FramePlan, FogOfNoDensity_IsNotThere) {
     settings::ViewSettings settings;
     const FrameFacts facts{.local_lights = true, .directional = true};

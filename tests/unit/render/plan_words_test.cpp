@@ -49,6 +49,11 @@ TEST(PlanWords, IorAndSpecular_AreNamedWhereTheyAreStored) {
     EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("ior"))));
 }
 
+TEST(PlanWords, MeshesThatBend_AreNamed) {
+    EXPECT_THAT(wordsOf({}, {.bends = true}), Contains(HasSubstr("skins or morph targets")));
+    EXPECT_THAT(wordsOf({}, {}), Not(Contains(HasSubstr("skins"))));
+}
+
 TEST(PlanWords, LightsOfOneRadius_AreNamed) {
     const auto words = wordsOf({}, {.local_lights = true, .equal_radii = true});
     EXPECT_THAT(words, Contains("all radii equal: radius is a constant"));

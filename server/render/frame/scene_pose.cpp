@@ -1,0 +1,71 @@
+#include "render/frame/scene_pose.h"
+
+namespace froxel::render {
+
+static_assert(sizeof(io::PoseJoint) == sizeof(motion::JointMatrix));
+
+ScenePose::ScenePose(const SceneResources& scene) : scene_(scene) {
+    if (scene.motion) {
+        moved_ = std::unique_ptr<Moved>(new Moved{.time_s = {},
+                                                  .moment = {},
+                                                  .items = scene.items,
+                                                  .bounds_world = scene.bounds_world,
+                                                  .light_rig = scene.light_rig,
+                                                  .joints = {},
+                                                  .weights = {}});
+        standAt(0);
+    }
+}
+
+void ScenePose::placeItems() {
+    const auto& deformed_of_instance = scene_.motion->deformed_of_instance;
+    moved_->winds_as_at_start = true;
+    for (size_t i = 0; i < moved_->items.size(); ++i) {
+        DrawItem& item = moved_->items[i];
+        item.mirrored = glm::determinant(glm::dmat3(moved_->moment.instances[item.instance])) < 0;
+        moved_->winds_as_at_start &= item.mirrored == scene_.items[i].mirrored;
+        if (item.bends) {
+            const BoundsD3& box = moved_->moment.deformed[deformed_of_instance[item.instance]];
+            item.primitive.center = glm::vec3(box.center());
+            // Half a diagonal, by the rounding of both to single precision more.
+            const double reach = glm::length(box.size()) * 0.5 + glm::length(box.center()) * 1e-6;
+            item.primitive.radius = static_cast<float>(reach * (1 + 1e-6));
+        }
+    }
+}
+
+void ScenePose::standAt(double time_s) {
+    if (!moved_ || moved_->time_s == time_s) {
+        return;
+    }
+    const SceneMotion& shared = *scene_.motion;
+    motion::Moment& moment = moved_->moment;
+    shared.player.at(shared.clips, time_s, moment);
+    moved_->bounds_world = scene_.bounds_world;
+    moved_->bounds_world.add(moment.bounds_world);
+    if (!shared.player.motion().lights.empty()) {
+        moved_->light_rig = scene_.light_rig; // whatever stood elsewhere before
+        motion::eachMovedLight(shared.player.motion(), moment.pose,
+                               [&](const auto&... light) { moved_->light_rig.place(light...); });
+    }
+    placeItems();
+    if (shared.poser) {
+        moved_->joints.clear();
+        for (const motion::SkinPose& skin : moment.skins) {
+            moved_->joints.insert(moved_->joints.end(), skin.joints.begin(), skin.joints.end());
+        }
+        moved_->weights.assign(moment.pose.weights.begin(), moment.pose.weights.end());
+    }
+    moved_->time_s = time_s;
+}
+
+uint64_t ScenePose::hostBytes() const {
+    const auto kept = [](const auto& elements) {
+        return elements.capacity() * sizeof(elements[0]);
+    };
+    return moved_ ? kept(moved_->moment.instances) + kept(moved_->items) +
+                        kept(moved_->moment.pose.world_from_node) + kept(moved_->joints)
+                  : 0;
+}
+
+} // namespace froxel::render

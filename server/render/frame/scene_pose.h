@@ -1,0 +1,67 @@
+// Where all of a scene is in a frame, for what the host makes of one.
+#pragma once
+
+#include "render/scene/scene_resources.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace froxel::render {
+
+// Each view has its own, so that views at different times are built side by side. One thread at a
+// time changes it, any number may read. A scene that rests is read where it is: nothing is copied.
+class ScenePose {
+  public:
+    explicit ScenePose(const SceneResources& scene);
+
+    // Stands where the clips have the scene then: a pure function of the time. Spans handed out
+    // before end.
+    void standAt(double time_s);
+
+    [[nodiscard]] std::span<const glm::dmat4> instances() const { // world_from_object
+        return moved_ ? moved_->moment.instances : scene_.instances;
+    }
+    [[nodiscard]] std::span<const DrawItem> items() const {
+        return moved_ ? moved_->items : scene_.items;
+    }
+    [[nodiscard]] const BoundsD3& boundsWorld() const {
+        return moved_ ? moved_->bounds_world : scene_.bounds_world;
+    }
+    [[nodiscard]] const light::LightRig& lightRig() const {
+        return moved_ ? moved_->light_rig : scene_.light_rig;
+    }
+    // Whether all items are mirrored as SceneResources::items are: the visibility passes' groups
+    // are cut by that.
+    [[nodiscard]] bool windsAsAtStart() const { return !moved_ || moved_->winds_as_at_start; }
+
+    // What MeshPoser's vertices follow.
+    [[nodiscard]] std::span<const motion::JointMatrix> joints() const {
+        return moved_ ? moved_->joints : std::span<const motion::JointMatrix>();
+    }
+    [[nodiscard]] std::span<const float> weights() const {
+        return moved_ ? moved_->weights : std::span<const float>();
+    }
+    // Kept on the host, for what grows with the scene.
+    [[nodiscard]] uint64_t hostBytes() const;
+
+  private:
+    struct Moved {
+        std::optional<double> time_s;
+        motion::Moment moment;
+        std::vector<DrawItem> items;
+        BoundsD3 bounds_world;
+        light::LightRig light_rig;
+        bool winds_as_at_start = true;
+        std::vector<motion::JointMatrix> joints;
+        std::vector<float> weights;
+    };
+    void placeItems();
+
+    const SceneResources& scene_;
+    std::unique_ptr<Moved> moved_; // null: the scene rests
+};
+
+} // namespace froxel::render
