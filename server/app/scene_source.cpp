@@ -5,42 +5,19 @@
 #include "gltf/gltf_loader.h"
 #include "motion/posed_scene.h"
 
-#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <utility>
-
 namespace froxel::app {
-
-namespace {
-
-scene::Scene still(scene::Scene scene, double time_s) {
-    const auto& clips = scene.motion->clips;
-    if (!clips.empty()) {
-        // With the gravest, which come first.
-        scene.warnings.insert(
-            scene.warnings.begin(),
-            scene::Warning{
-                "ANIMATION_NOT_PLAYED", scene::Severity::kWarning, "/animations",
-                fmt::format(
-                    "animations are not played: the first of {} is shown as it stands at {} s",
-                    clips.size(), time_s)});
-    }
-    const auto usual = motion::usualClips(*scene.motion);
-    return motion::posedScene(std::move(scene), usual, time_s);
-}
-
-} // namespace
 
 Result<scene::Scene> loadScene(const std::string& source, double time_s) {
     if (source == "builtin") {
         return builtin_scene::makeHall();
     }
     auto scene = gltf::load(source);
-    if (!scene || !scene->motion) {
-        return scene;
+    if (scene && scene->motion) {
+        motion::placeCameras(*scene, motion::usualClips(*scene->motion), time_s);
     }
-    return still(std::move(*scene), time_s);
+    return scene;
 }
 
 void logWarnings(const scene::Scene& scene) {

@@ -8,9 +8,8 @@
 
 namespace froxel::app {
 
-// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. What moves
-// stands as its usual clips have it at `time_s`, with a warning. Errors: ErrorCode::kScene with one
-// line.
+// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. Cameras that
+// move stand where its usual clips have them at `time_s`. Errors: ErrorCode::kScene with one line.
 [[nodiscard]] Result<scene::Scene> loadScene(const std::string& source, double time_s = 0);
 
 // A line of the log for each of the scene's warnings, which are few.

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "gpu/device.h"
 #include "light/light_rig.h"
+#include "motion/pose.h"
 #include "net/stop_signal.h"
 #include "net/tls.h"
 #include "net/token_gate.h"
@@ -67,6 +68,22 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
 // A third of the weight of the render thread.
 constexpr int kCpuDeviceNiceness = 5;
 
+// Lights are picked where they stand at the time.
+session::LightPicker lightPicker(const scene::Scene& scene) {
+    light::LightRig rig(scene);
+    if (!scene.motion || scene.motion->lights.empty()) {
+        return [rig = std::move(rig)](const auto&... where) { return rig.pick(where...); };
+    }
+    return [rig = std::move(rig), moved = scene.motion, clips = motion::usualClips(*scene.motion)](
+               const settings::ViewSettings& settings, double time_s, const glm::dvec2& at) {
+        motion::Pose pose;
+        motion::pose(*moved, clips, time_s, pose);
+        light::LightRig then = rig;
+        motion::eachMovedLight(*moved, pose, [&](const auto&... light) { then.place(light...); });
+        return then.pick(settings, time_s, at);
+    };
+}
+
 // On the render thread, which owns all of it from then on.
 OpenedScene openScene(const ServeOptions& options,
                       const std::function<void(net::LoadingProgress)>& report) {
@@ -80,9 +97,8 @@ OpenedScene openScene(const ServeOptions& options,
     report({"loading the scene", 0.1});
     const scene::Scene scene = loadScene(options.scene).value();
     logWarnings(scene);
-    session::SessionContext context{
-        session::summarize(scene), defaultsOf(options, traits.is_cpu), FROXEL_VERSION, traits.name,
-        [rig = light::LightRig(scene)](const auto&... where) { return rig.pick(where...); }};
+    session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
+                                    FROXEL_VERSION, traits.name, lightPicker(scene)};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());

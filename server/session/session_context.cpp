@@ -1,6 +1,7 @@
 #include "session/session_context.h"
 
 #include "scene/enclosing_sphere.h"
+#include "scene/motion.h"
 
 namespace froxel::session {
 
@@ -13,6 +14,7 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.cameras = scene.cameras;
     summary.bounds_world = scene.bounds_world;
     summary.framed_world = scene::enclosingSphere(scene);
+    summary.moves = scene.motion && !scene.motion->clips.empty();
     summary.warnings = scene.warnings;
     summary.warnings_left_out = scene.warnings_left_out;
     for (const scene::Instance& instance : scene.instances) {

@@ -26,6 +26,7 @@ struct SceneSummary {
     std::vector<scene::NamedCamera> cameras;
     BoundsD3 bounds_world;         // empty for an empty scene
     settings::Sphere framed_world; // scene::enclosingSphere()
+    bool moves = false;            // as time passes, whatever the lights do
     std::vector<scene::Warning> warnings;
     uint64_t warnings_left_out = 0;
 };

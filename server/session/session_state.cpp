@@ -197,7 +197,9 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
     settings::ViewSettings settings = defaults.settings;
     settings.camera = openingCamera(context, settings.size);
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
-    return {settings, defaults.encoding, defaults.delivery, clock, {}};
+    SessionState state{settings, defaults.encoding, defaults.delivery, clock, {}};
+    state.scene_moves = context.scene.moves;
+    return state;
 }
 
 bool setsState(const Command& command) {

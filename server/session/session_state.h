@@ -19,10 +19,11 @@ struct SessionState {
     uint64_t version = 1; // grows whenever anything above but `applied` is set anew, or below
     settings::CodecSet decodable = settings::commonCodecs(); // by all who see it
     uint64_t key_requests = 0;                               // key frames asked for so far
+    bool scene_moves = false;                                // by the lights' clock, too
 
     // Whether the picture changes without a command.
     [[nodiscard]] bool animating() const {
-        return light_clock.moving() && settings.lights.count > 0;
+        return light_clock.moving() && (scene_moves || settings.lights.count > 0);
     }
 };
 

@@ -156,6 +156,14 @@ TEST_F(State, LightClock_PausesResumesAndChangesSpeedWithoutJumps) {
     EXPECT_FALSE(applied(state, speed(0)).animating());
 }
 
+// It goes by the lights' clock.
+TEST_F(State, SceneThatMoves_IsAnimatingWithoutLights) {
+    context.scene.moves = true;
+    const SessionState moving = applied(initialState(context, kStart), lights({{"lights", 0U}}));
+    EXPECT_TRUE(moving.animating());
+    EXPECT_FALSE(applied(moving, lights({{"animate", false}})).animating());
+}
+
 TEST_F(State, LightClock_TimeGiven_IsTakenWhetherItStandsOrRuns) {
     SetLights at_three;
     at_three.time_s = 3.0;
