@@ -82,6 +82,11 @@ void addSceneOption(CommandBuilder& command, std::string& target, const std::str
     command.text("--scene", "PATH|builtin", target, shown, "glTF 2.0 or GLB file, or the hall");
 }
 
+void addAnimationOption(CommandBuilder& command, std::string& target) {
+    command.text("--animation", "NAME|NUMBER|none", target, "the scene's first",
+                 "Which of the scene's animations plays, numbers from 1");
+}
+
 void checkServe(const ServeOptions& options) {
     if (options.tls_certificate.empty() != options.tls_key.empty()) {
         throw CLI::RequiredError("--tls-cert FILE and --tls-key FILE, or neither");
@@ -155,6 +160,7 @@ void addServe(CLI::App& app, Targets& targets) {
     CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
     addServeAddresses(command, options);
     addSceneOption(command, options.scene, options.scene);
+    addAnimationOption(command, options.animation);
     command.device(options.device, options.validation);
     command.pipelineCache(options.pipeline_cache);
     addServeLimits(command, options);
@@ -182,6 +188,7 @@ void addRender(CLI::App& app, Targets& targets) {
     CommandBuilder command(app, "render", "Draw a picture of a scene, or time its frames");
     auto& settings = options.settings;
     addSceneOption(command, options.scene, options.scene);
+    addAnimationOption(command, options.animation);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
     addViewSettings(command, settings, options.light_set);

@@ -93,7 +93,7 @@ void runRender(const RenderOptions& options) try {
             requireFolderOf(*file);
         }
     }
-    const auto scene = loadScene(options.scene, options.time_s).value();
+    const auto scene = loadScene(options.scene, options.animation, options.time_s).value();
     logWarnings(scene);
     gpu::Device device(options.device);
     auto run = describeRun(options, device.traits());

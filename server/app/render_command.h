@@ -14,6 +14,7 @@ namespace froxel::app {
 
 struct RenderOptions {
     std::string scene = "builtin";
+    std::string animation; // as for loadScene()
     gpu::DeviceOptions device;
     settings::ViewSettings settings; // but for the camera, which `camera` chooses
     std::filesystem::path light_set; // that settings.lights.placed was read from; empty: none

@@ -1,20 +1,75 @@
 #include "app/scene_source.h"
 
+#include "app/value_parsers.h"
 #include "builtin_scene/hall.h"
 #include "core/text.h"
 #include "gltf/gltf_loader.h"
 #include "motion/posed_scene.h"
+#include "scene/motion.h"
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace froxel::app {
 
-Result<scene::Scene> loadScene(const std::string& source, double time_s) {
-    if (source == "builtin") {
-        return builtin_scene::makeHall();
+namespace {
+
+// Of Motion::clips; scene::kNone: none plays.
+Result<uint32_t> findAnimation(const std::string& wanted, const std::vector<scene::Clip>& clips) {
+    const auto named = std::ranges::find(clips, wanted, &scene::Clip::name);
+    if (named != clips.end()) {
+        return static_cast<uint32_t>(named - clips.begin());
     }
-    auto scene = gltf::load(source);
-    if (scene && scene->motion) {
+    if (wanted == "none") {
+        return scene::kNone;
+    }
+    const settings::Range<uint32_t> numbers{"", 1, static_cast<uint32_t>(clips.size())};
+    if (const auto number = parseNumber(wanted, numbers)) {
+        return *number - 1;
+    }
+    std::string known;
+    for (size_t i = 0; i < clips.size(); ++i) {
+        const std::string name = clips[i].name.empty() ? "(nameless)" : printable(clips[i].name);
+        known += fmt::format("{}{} {}", known.empty() ? "" : ", ", i + 1, name);
+    }
+    return Error{ErrorCode::kInvalidArgument,
+                 fmt::format("--animation: '{}' is no animation of this scene; it has {}",
+                             printable(wanted), known.empty() ? "none" : printable(known, 400))};
+}
+
+Result<void> choose(const std::string& animation, scene::Scene& scene) {
+    static const std::vector<scene::Clip> kNoClips;
+    const auto found = findAnimation(animation, scene.motion ? scene.motion->clips : kNoClips);
+    if (!found) {
+        return found.error();
+    }
+    if (scene.motion) {
+        auto motion = std::make_shared<scene::Motion>(*scene.motion);
+        motion->played = *found;
+        scene.motion = std::move(motion);
+    }
+    return {};
+}
+
+} // namespace
+
+Result<scene::Scene>
+loadScene(const std::string& source, const std::string& animation, double time_s) {
+    auto scene =
+        source == "builtin" ? Result<scene::Scene>(builtin_scene::makeHall()) : gltf::load(source);
+    if (!scene) {
+        return scene;
+    }
+    if (!animation.empty()) {
+        if (auto chosen = choose(animation, *scene); !chosen) {
+            return chosen.error();
+        }
+    }
+    if (scene->motion) {
         motion::placeCameras(*scene, motion::usualClips(*scene->motion), time_s);
     }
     return scene;

@@ -8,9 +8,12 @@
 
 namespace froxel::app {
 
-// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. Cameras that
-// move stand where its usual clips have them at `time_s`. Errors: ErrorCode::kScene with one line.
-[[nodiscard]] Result<scene::Scene> loadScene(const std::string& source, double time_s = 0);
+// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. `animation`
+// plays: a name in the file, else a number there from 1, or "none"; empty: the first, if there is
+// one. Cameras that move stand where it has them at `time_s`. Errors with one line: kScene;
+// kInvalidArgument where there is no such animation.
+[[nodiscard]] Result<scene::Scene>
+loadScene(const std::string& source, const std::string& animation = {}, double time_s = 0);
 
 // A line of the log for each of the scene's warnings, which are few.
 void logWarnings(const scene::Scene& scene);

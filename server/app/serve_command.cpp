@@ -95,7 +95,7 @@ OpenedScene openScene(const ServeOptions& options,
     const gpu::DeviceTraits& traits = device->traits();
 
     report({"loading the scene", 0.1});
-    const scene::Scene scene = loadScene(options.scene).value();
+    const scene::Scene scene = loadScene(options.scene, options.animation).value();
     logWarnings(scene);
     session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
                                     FROXEL_VERSION, traits.name, lightPicker(scene)};

@@ -130,7 +130,10 @@ class Blend {
 } // namespace
 
 std::vector<PlayedClip> usualClips(const scene::Motion& motion) {
-    return motion.clips.empty() ? std::vector<PlayedClip>() : std::vector<PlayedClip>(1);
+    if (motion.played >= motion.clips.size()) {
+        return {};
+    }
+    return {PlayedClip{.clip = motion.played, .clock = {}, .fade = {}}};
 }
 
 void pose(const scene::Motion& motion,

@@ -21,7 +21,7 @@ struct Pose {
     std::vector<double> weights;             // of morph targets, as Motion::rest_weights
 };
 
-// What plays where nobody chose: the first clip, again and again from time 0; nothing without one.
+// What plays where nobody chose: Motion::played, again and again from time 0.
 [[nodiscard]] std::vector<PlayedClip> usualClips(const scene::Motion& motion);
 
 // A pure function: the same bytes whatever was asked before. Each property is the sum of the clips

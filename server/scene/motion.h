@@ -108,6 +108,7 @@ struct Motion {
     std::vector<MovedThing> lights;
     std::vector<MovedThing> cameras;
     std::vector<Clip> clips;
+    uint32_t played = 0; // of clips, where nobody chose another; none there: nothing plays
 };
 
 } // namespace froxel::scene

@@ -14,7 +14,7 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.cameras = scene.cameras;
     summary.bounds_world = scene.bounds_world;
     summary.framed_world = scene::enclosingSphere(scene);
-    summary.moves = scene.motion && !scene.motion->clips.empty();
+    summary.moves = scene.motion && scene.motion->played < scene.motion->clips.size();
     summary.warnings = scene.warnings;
     summary.warnings_left_out = scene.warnings_left_out;
     for (const scene::Instance& instance : scene.instances) {

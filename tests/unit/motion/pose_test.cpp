@@ -76,6 +76,14 @@ TEST(Pose, Usual_IsTheFirstClipForEver) {
     EXPECT_TRUE(usualClips(Motion()).empty());
 }
 
+TEST(Pose, Usual_IsTheOneThatTheSceneNames) {
+    Motion motion = twoNodes();
+    motion.played = 1;
+    EXPECT_EQ(usualClips(motion).at(0).clip, 1U);
+    motion.played = scene::kNone;
+    EXPECT_TRUE(usualClips(motion).empty());
+}
+
 TEST(Pose, CrossFade_IsHalfWayInTheMiddle) {
     Motion motion = twoNodes();
     motion.clips.push_back(
