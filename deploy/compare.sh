@@ -4,7 +4,8 @@
 # Usage: compare.sh three [--write] [FILE...]   beside those of three.js in headless Chromium, by LDR-FLIP; without
 #                                               FILE, of generated files and of ../shared/scenes/models; --write
 #                                               puts the table into docs/figures/three.md
-#        compare.sh sheet FOLDER                a contact sheet of all files of a folder at default settings
+#        compare.sh sheet FOLDER [OPTION...]    a contact sheet of all files of a folder, at default settings or with
+#                                               options of froxel render
 # shellcheck source=deploy/common.sh
 source "$(dirname "$0")/common.sh"
 
