@@ -17,7 +17,7 @@ export default tseslint.config(
     },
   },
   {
-    files: ['src/**/*.ts', 'report/**/*.ts'], // in tests a suite is a function
+    files: ['src/**/*.ts', 'report/**/*.ts', 'compare/**/*.ts'], // in tests a suite is a function
     rules: { 'max-lines-per-function': ['error', 60] },
   },
   {

@@ -7,8 +7,9 @@ import { Renderer } from '../src/gen/froxel/v1/common_pb';
 import type { Field, NumberField } from '../src/settings/field';
 import { choicesFor, isGridSide, kAllFields } from '../src/settings/fields';
 import { settingsOf, valueOf, type Settings } from '../src/settings/settings';
+import { launch } from './chromium';
 import { startServer, type Server } from './server';
-import { difference, launch, until, Viewer } from './viewer';
+import { difference, until, Viewer } from './viewer';
 
 /**
  * Values for numbers that show in a still picture, in an order in which they do, and for those that

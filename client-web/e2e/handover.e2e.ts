@@ -5,8 +5,9 @@ import { createServer, type AddressInfo } from 'node:net';
 import { expect, it } from 'vitest';
 
 import type { ServerMessage } from '../src/gen/froxel/v1/server_pb';
+import { launch } from './chromium';
 import { startServer } from './server';
-import { launch, until, Viewer } from './viewer';
+import { until, Viewer } from './viewer';
 
 function freePort(): Promise<number> {
   return new Promise((resolve) => {

@@ -2,8 +2,9 @@
 
 import { it } from 'vitest';
 
+import { launch } from './chromium';
 import { startServer } from './server';
-import { launch, until, Viewer } from './viewer';
+import { until, Viewer } from './viewer';
 
 const kWarmUpMs = 5_000;
 const kDragMs = 30_000;

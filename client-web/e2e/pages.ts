@@ -3,8 +3,9 @@
 import type { Browser, BrowserContextOptions } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect } from 'vitest';
 
+import { launch } from './chromium';
 import { startServer, type Server } from './server';
-import { launch, Viewer } from './viewer';
+import { Viewer } from './viewer';
 
 export interface Pages {
   readonly url: string;

@@ -9,7 +9,8 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { kSamplePath, sample } from '../test/report/fakes';
-import { launch, until } from './viewer';
+import { launch } from './chromium';
+import { until } from './viewer';
 
 const kTemplate = fileURLToPath(new URL('../dist/report.html', import.meta.url));
 const kPlace = '<script type="application/json" id="results">null</script>';

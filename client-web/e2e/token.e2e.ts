@@ -7,8 +7,9 @@ import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 
+import { launch } from './chromium';
 import { startServer, type Server } from './server';
-import { launch, until, Viewer } from './viewer';
+import { until, Viewer } from './viewer';
 
 const kToken = 'the-right-token-0123456789';
 const kWrong = 'another-token-0123456789';

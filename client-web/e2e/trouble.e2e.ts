@@ -5,8 +5,9 @@ import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 
 import { LightingStage, Renderer, type ViewState } from '../src/gen/froxel/v1/common_pb';
 import { ErrorCode } from '../src/gen/froxel/v1/server_pb';
+import { launch } from './chromium';
 import { startServer, type Server } from './server';
-import { launch, until, Viewer } from './viewer';
+import { until, Viewer } from './viewer';
 
 const kStill = '#size=320x180&animate=0&lights=50';
 

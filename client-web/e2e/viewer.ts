@@ -4,13 +4,7 @@ import { mkdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 import { fromBinary } from '@bufbuild/protobuf';
-import {
-  chromium,
-  type Browser,
-  type BrowserContextOptions,
-  type Locator,
-  type Page,
-} from 'playwright-core';
+import type { Browser, BrowserContextOptions, Locator, Page } from 'playwright-core';
 
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
 import { Refine, Refinement, type ViewState } from '../src/gen/froxel/v1/common_pb';
@@ -20,22 +14,6 @@ import { decodeBinary } from '../src/protocol/framing';
 const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
 const kPatienceMs = 60_000;
 const kPollMs = 50;
-
-export function launch(): Promise<Browser> {
-  return chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: [
-      '--no-sandbox',
-      '--disable-gpu',
-      '--disable-quic',
-      '--no-first-run',
-      '--disable-background-networking',
-      '--disable-component-update',
-      '--disable-sync',
-      '--disable-dev-shm-usage', // small in containers
-    ],
-  });
-}
 
 interface SentCounter {
   sentCount?: number;
