@@ -105,14 +105,16 @@ glm::dmat4 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& war
     return matrix;
 }
 
-void checkFinite(const glm::dmat4& world_from_node, const std::string& name) {
-    const double* values = glm::value_ptr(world_from_node);
-    const double* bad =
-        std::find_if(values, values + 16, [](double value) { return !std::isfinite(value); });
-    if (bad != values + 16) {
-        fail(name + " has a world matrix with " + numberText(*bad) +
-             "; right are transforms whose product is finite");
+void checkUsable(const glm::dmat4& world_from_node, const std::string& name) {
+    if (scene::isUsable(world_from_node)) {
+        return;
     }
+    const double* values = glm::value_ptr(world_from_node);
+    const double* bad = std::find_if(values, values + 16, [](double value) {
+        return !(std::abs(value) <= scene::kLargestElement);
+    });
+    fail(name + " has a world matrix with " + numberText(*bad) +
+         "; right are transforms whose product stays within 1e15");
 }
 
 } // namespace froxel::gltf

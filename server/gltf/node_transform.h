@@ -33,7 +33,7 @@ void checkRotation(const glm::dquat& rotation,
                    const std::string& name,
                    Warnings& warnings);
 
-// Throws Failure where a chain of transforms has left the range of numbers.
-void checkFinite(const glm::dmat4& world_from_node, const std::string& name);
+// Throws Failure where a chain of transforms has left scene::kLargestElement.
+void checkUsable(const glm::dmat4& world_from_node, const std::string& name);
 
 } // namespace froxel::gltf

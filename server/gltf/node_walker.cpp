@@ -179,7 +179,7 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Warnings& warni
     const auto push = [&](size_t node, std::optional<size_t> place, const PlacedNode& parent) {
         const glm::dmat4 world =
             parent.world_from_node * nodeTransform(model.nodes[node], node, warnings);
-        checkFinite(world, thing("node", node));
+        checkUsable(world, thing("node", node));
         stack.push_back({node, place, world, parent.visible && isVisible(model.nodes[node])});
     };
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) {

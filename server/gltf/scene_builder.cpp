@@ -168,7 +168,7 @@ class Builder {
         for (const glm::dmat4& node_from_object :
              nodeInstances(node, placed_[place].node, accessors_, instances_, warnings_)) {
             const glm::dmat4 world = placed_[place].world_from_node * node_from_object;
-            checkFinite(world, name);
+            checkUsable(world, name);
             if (!moves && glm::dmat3(world) == glm::dmat3(0)) {
                 continue; // a point: nothing to see
             }

@@ -8,20 +8,6 @@
 
 namespace froxel::motion {
 
-// Whether products with the transform stay in single precision's range, as scene::findFault() has
-// it.
-[[nodiscard]] inline bool usable(const glm::dmat4& m) {
-    constexpr double kLargest = 1e15;
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            if (!(std::abs(m[column][row]) <= kLargest)) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
 // A box that holds a transformed one.
 [[nodiscard]] inline BoundsD3 transformed(const BoundsD3& box, const glm::dmat4& to_from_box) {
     BoundsD3 result;

@@ -1,6 +1,7 @@
 #include "motion/player.h"
 
 #include "motion/affine.h"
+#include "scene/transform.h"
 
 #include <algorithm>
 #include <iterator>
@@ -85,7 +86,7 @@ void Player::at(std::span<const PlayedClip> clips, double time_s, Moment& out) c
         } else {
             world_from_object = out.pose.world_from_node[moved.node] * moved.node_from_object;
         }
-        if (!usable(world_from_object)) {
+        if (!scene::isUsable(world_from_object)) {
             world_from_object = glm::dmat4(0);
             world_from_object[3].w = 1;
         }

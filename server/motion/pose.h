@@ -4,6 +4,7 @@
 #include "motion/affine.h"
 #include "motion/clip_clock.h"
 #include "scene/motion.h"
+#include "scene/transform.h"
 
 #include <span>
 #include <vector>
@@ -38,7 +39,7 @@ void eachMovedLight(const scene::Motion& motion, const Pose& pose, const Visit& 
     for (const scene::MovedThing& moved : motion.lights) {
         const glm::dmat4& world_from_node = pose.world_from_node[moved.node];
         const auto axes = axesOf(world_from_node);
-        if (axes && usable(world_from_node)) {
+        if (axes && scene::isUsable(world_from_node)) {
             visit(moved.index, glm::dvec3(world_from_node[3]), -(*axes)[2]);
         }
     }

@@ -1,6 +1,7 @@
 #include "motion/skin_pose.h"
 
 #include "motion/affine.h"
+#include "scene/transform.h"
 
 namespace froxel::motion {
 
@@ -9,7 +10,7 @@ void poseSkin(const scene::Skin& skin, const Pose& pose, SkinPose& out) {
         return pose.world_from_node[skin.joints[joint]] * glm::dmat4(skin.joint_from_object[joint]);
     };
     const glm::dmat4 first = worldOf(0);
-    const bool known = usable(first);
+    const bool known = scene::isUsable(first);
     const glm::dvec3 anchor_world = known ? glm::dvec3(first[3]) : glm::dvec3(0);
     const double side = known && glm::determinant(glm::dmat3(first)) < 0 ? -1 : 1;
     out.world_from_posed = glm::dmat4(1);
@@ -18,7 +19,7 @@ void poseSkin(const scene::Skin& skin, const Pose& pose, SkinPose& out) {
     out.joints.assign(skin.joints.size(), {});
     for (size_t i = 0; i < skin.joints.size(); ++i) {
         glm::dmat4 world_from_object = worldOf(i);
-        if (!usable(world_from_object)) {
+        if (!scene::isUsable(world_from_object)) {
             continue;
         }
         world_from_object[3] -= glm::dvec4(anchor_world, 0);

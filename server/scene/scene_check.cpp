@@ -2,6 +2,7 @@
 
 #include "core/finite.h"
 #include "scene/motion_check.h"
+#include "scene/transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,6 @@ namespace froxel::scene {
 namespace {
 
 using Fault = std::optional<std::string>;
-
-// Metres, and scales: products of two are still far from a float's end.
-constexpr double kLargest = 1e15;
 
 std::string numbered(const char* what, size_t index) {
     return std::string(what) + " " + std::to_string(index);
@@ -122,12 +120,8 @@ Fault faultIn(const Instance& instance, size_t mesh_count) {
         return "mesh is " + std::to_string(instance.mesh) + "; there are " +
                std::to_string(mesh_count);
     }
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            if (!(std::abs(instance.world_from_object[column][row]) <= kLargest)) {
-                return "world_from_object has an element that is not finite or beyond 1e15";
-            }
-        }
+    if (!isUsable(instance.world_from_object)) {
+        return "world_from_object has an element that is not finite or beyond 1e15";
     }
     return {};
 }

@@ -18,6 +18,21 @@ struct Transform {
     return length > 0 && std::isfinite(length);
 }
 
+// In metres, and of scales: products of two are still far from a float's end.
+inline constexpr double kLargestElement = 1e15;
+
+// Whether all elements are numbers of at most kLargestElement.
+[[nodiscard]] inline bool isUsable(const glm::dmat4& transform) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!(std::abs(transform[column][row]) <= kLargestElement)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 // translation * rotation * scale.
 [[nodiscard]] inline glm::dmat4 matrixOf(const Transform& transform) {
     const double length = glm::length(transform.rotation);

@@ -90,14 +90,6 @@ TEST_F(VariantCacheTest, FrameWhosePiecesWait_KeepsWhatItUses) {
     EXPECT_THAT(kept(), ::testing::SizeIs(3));
 }
 
-TEST_F(VariantCacheTest, FrameGivenUp_WasNoFirstUse) {
-    maker.beginRecording();
-    frame({1});
-    EXPECT_FALSE(cache.isNew(1));
-    maker.endRecording(1).giveUp();
-    EXPECT_TRUE(cache.isNew(1));
-}
-
 TEST_F(VariantCacheTest, FrameThatNeedsMoreThanTheLimit_IsMadeOnceAndStays) {
     frame({1, 2, 3, 4, 5});
     finish();
