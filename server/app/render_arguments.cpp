@@ -98,6 +98,9 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
     Arguments arguments;
     arguments.texts().emplace_back("render");
     arguments.always("--scene", options.scene);
+    if (!options.environment_file.empty()) {
+        arguments.always("--environment-file", options.environment_file.string());
+    }
     arguments.always(
         "--device",
         std::string(gpu::kDeviceChoiceNames[static_cast<size_t>(options.device.choice)]));

@@ -21,6 +21,7 @@ struct ServeOptions {
     uint16_t port = 8080;                      // 0: any free one; the printed URL tells which
     net::BindAddress admin{"127.0.0.1", 9090}; // for operators; an empty address: nowhere
     std::string scene = "builtin";             // as for loadScene()
+    std::filesystem::path environment_file;    // of light from around; empty: none
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
     gpu::PipelineCacheOptions pipeline_cache;
