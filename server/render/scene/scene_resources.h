@@ -43,6 +43,7 @@ class SceneResources {
     const SceneNeeds needs;
     const BoundsD3 bounds_world;
     const light::LightRig light_rig;
+    const std::shared_ptr<const environment::Surroundings> surroundings; // scene::Scene's
     cluster::LightAssigner light_assigner;
 
     std::vector<glm::dmat4> instances; // world_from_object
