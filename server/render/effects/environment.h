@@ -11,8 +11,8 @@ namespace froxel::render {
 
 extern const EffectRow kEnvironmentEffect;
 
-// What a pixel sees of it, seconds. Measured on lavapipe on two cores; of a GPU an estimate by the
-// texels that it reads.
+// What a pixel sees of it, seconds. On lavapipe, two cores: 3e-8 in compute, up to 1.5e-7 in
+// fragments. Of a GPU an estimate by the texels that it reads.
 inline constexpr Measured<double> kEnvironmentLookup{1e-7, 5e-11};
 
 // Whether the frame's surfaces are lit by it.
