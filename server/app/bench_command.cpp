@@ -1,5 +1,6 @@
 #include "app/bench_command.h"
 
+#include "app/environment_file.h"
 #include "app/output_file.h"
 #include "app/row_command.h"
 #include "app/scene_camera.h"
@@ -184,7 +185,8 @@ std::vector<bench::Sweep> sweepsOf(const BenchOptions& options, const bench::Bas
 
 int measureSweeps(const BenchOptions& options, const std::string& page) {
     const StopFlag stop;
-    const auto scene = loadScene(options.scene).value();
+    auto scene = loadScene(options.scene).value();
+    surround(scene, options.environment_file);
     gpu::Device device(options.device);
     render::Renderer renderer(device, scene);
     logWarnings(scene);

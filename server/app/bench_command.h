@@ -17,6 +17,7 @@ struct BenchOptions {
     std::vector<std::filesystem::path> join;    // results to write as one, and nothing else
     std::vector<std::string> presets;           // none: all but `smoke`
     std::string scene = "builtin";
+    std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceOptions device;
     settings::ViewSettings settings;  // what no sweep varies, but for the camera
     std::filesystem::path light_set;  // that settings.lights.placed was read from; empty: none

@@ -1,5 +1,6 @@
 #include "app/info_command.h"
 
+#include "app/environment_file.h"
 #include "app/exit_codes.h"
 #include "app/info_report.h"
 #include "app/scene_camera.h"
@@ -83,6 +84,9 @@ void runInfo(const InfoOptions& options) try {
         const auto scene = loadScene(options.scene).value();
         info["scene"] = sceneReport(scene);
         info["frame"] = drawOnce(device, scene);
+    }
+    if (!options.environment_file.empty()) {
+        info["environment"] = environmentReport(readPanorama(options.environment_file).value());
     }
     info["device"] = report::toJson(report::summarize(device.traits()));
     info["limits"] = limitsOf(device);

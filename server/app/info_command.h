@@ -3,13 +3,15 @@
 
 #include "gpu/device_options.h"
 
+#include <filesystem>
 #include <string>
 
 namespace froxel::app {
 
 struct InfoOptions {
     gpu::DeviceOptions device;
-    std::string scene; // empty: the device only
+    std::string scene;                      // empty: the device only
+    std::filesystem::path environment_file; // empty: none is looked at
     bool json = false;
 };
 

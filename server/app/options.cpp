@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "encode/image_file.h"
+#include "environment/reader.h"
 #include "session/delivery_rows.h"
 #include "session/session_context.h"
 #include "session/settings.h"
@@ -87,9 +88,21 @@ void addAnimationOption(CommandBuilder& command, std::string& target) {
                  "Which of the scene's animations plays, numbers from 1");
 }
 
+void addEnvironmentFile(CommandBuilder& command, std::filesystem::path& target) {
+    command.text("--environment-file", "FILE", target, "",
+                 fmt::format("Equirectangular panorama of light from around, .hdr or .exr, up to "
+                             "{}x{}",
+                             environment::kMaxPanoramaWidth_px,
+                             environment::kMaxPanoramaWidth_px / 2));
+}
+
 void checkServe(const ServeOptions& options) {
     if (options.tls_certificate.empty() != options.tls_key.empty()) {
         throw CLI::RequiredError("--tls-cert FILE and --tls-key FILE, or neither");
+    }
+    if (options.first_view.environment.light == settings::EnvironmentLight::kFile &&
+        options.environment_file.empty()) {
+        throw CLI::RequiredError("--environment-file FILE, which --environment file shows");
     }
 }
 
@@ -161,6 +174,7 @@ void addServe(CLI::App& app, Targets& targets) {
     addServeAddresses(command, options);
     addSceneOption(command, options.scene, options.scene);
     addAnimationOption(command, options.animation);
+    addEnvironmentFile(command, options.environment_file);
     command.device(options.device, options.validation);
     command.pipelineCache(options.pipeline_cache);
     addServeLimits(command, options);
@@ -189,6 +203,7 @@ void addRender(CLI::App& app, Targets& targets) {
     auto& settings = options.settings;
     addSceneOption(command, options.scene, options.scene);
     addAnimationOption(command, options.animation);
+    addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
     addViewSettings(command, settings, options.light_set);
@@ -239,6 +254,7 @@ void addBench(CLI::App& app, Targets& targets) {
         ->type_name("FILE.json...")
         ->expected(1, 1000);
     addSceneOption(command, options.scene, options.scene);
+    addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
     command
@@ -271,6 +287,7 @@ void addInfo(CLI::App& app, Targets& targets) {
     auto& options = targets.info;
     CommandBuilder command(app, "info", "Print the device, and what a scene holds and needs");
     addSceneOption(command, options.scene, "none");
+    addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.cli().add_flag("--json", options.json, "Print JSON");
     finish(command, options, LogLevel::kWarn, targets);

@@ -101,6 +101,9 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
     if (!options.animation.empty()) {
         arguments.always("--animation", options.animation);
     }
+    if (!options.environment_file.empty()) {
+        arguments.always("--environment-file", options.environment_file.string());
+    }
     arguments.always(
         "--device",
         std::string(gpu::kDeviceChoiceNames[static_cast<size_t>(options.device.choice)]));

@@ -1,5 +1,6 @@
 #include "app/render_command.h"
 
+#include "app/environment_file.h"
 #include "app/output_file.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
@@ -93,7 +94,8 @@ void runRender(const RenderOptions& options) try {
             requireFolderOf(*file);
         }
     }
-    const auto scene = loadScene(options.scene, options.animation, options.time_s).value();
+    auto scene = loadScene(options.scene, options.animation, options.time_s).value();
+    surround(scene, options.environment_file);
     logWarnings(scene);
     gpu::Device device(options.device);
     auto run = describeRun(options, device.traits());

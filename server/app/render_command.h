@@ -14,7 +14,8 @@ namespace froxel::app {
 
 struct RenderOptions {
     std::string scene = "builtin";
-    std::string animation; // as for loadScene()
+    std::string animation;                  // as for loadScene()
+    std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceOptions device;
     settings::ViewSettings settings; // but for the camera, which `camera` chooses
     std::filesystem::path light_set; // that settings.lights.placed was read from; empty: none

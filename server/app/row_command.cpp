@@ -13,6 +13,7 @@ std::string rowCommand(const BenchOptions& options,
     const auto& view = result.base.views[row.timedView()];
     RenderOptions render;
     render.scene = options.scene;
+    render.environment_file = options.environment_file;
     render.device.choice = options.device.choice;
     render.settings = row.settings;
     render.light_set = row.light_set.empty() ? options.light_set : row.light_set;

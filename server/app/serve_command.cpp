@@ -2,6 +2,7 @@
 
 #include "app/bind_option.h"
 #include "app/device_losses.h"
+#include "app/environment_file.h"
 #include "app/output_file.h"
 #include "app/scene_source.h"
 #include "app/serve_end.h"
@@ -95,7 +96,8 @@ OpenedScene openScene(const ServeOptions& options,
     const gpu::DeviceTraits& traits = device->traits();
 
     report({"loading the scene", 0.1});
-    const scene::Scene scene = loadScene(options.scene, options.animation).value();
+    scene::Scene scene = loadScene(options.scene, options.animation).value();
+    surround(scene, options.environment_file);
     logWarnings(scene);
     session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
                                     FROXEL_VERSION, traits.name, lightPicker(scene)};

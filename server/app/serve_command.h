@@ -22,6 +22,7 @@ struct ServeOptions {
     net::BindAddress admin{"127.0.0.1", 9090}; // for operators; an empty address: nowhere
     std::string scene = "builtin";             // as for loadScene()
     std::string animation;                     // likewise
+    std::filesystem::path environment_file;    // of light from around; empty: none
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
     gpu::PipelineCacheOptions pipeline_cache;

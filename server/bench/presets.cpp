@@ -260,6 +260,7 @@ constexpr std::array kPresets = {
     Preset{"fog", fogSweep},
     Preset{"shadows", shadowSweep},
     Preset{"area_lights", areaSweep},
+    Preset{"environment", environmentSweep},
     Preset{"stream", streamSweep},
     Preset{"smoke", smokeSweep},
 };

@@ -302,6 +302,29 @@ Sweep areaSweep(const Base& base) {
     return sweep;
 }
 
+Sweep environmentSweep(const Base& base) {
+    Sweep sweep{"environment",
+                "Light from around",
+                "light",
+                "",
+                Axis::kCategory,
+                "R2 has the same approximation in double; environment_error prices it.",
+                {}};
+    for (const auto shading : {settings::ShadingModel::kPbr, settings::ShadingModel::kLambert}) {
+        for (const auto light :
+             {settings::EnvironmentLight::kOff, settings::EnvironmentLight::kStudio}) {
+            auto row = rowOf(base, kDeferred, nameOf(settings::kEnvironmentLightNames, light),
+                             static_cast<double>(light), [&](auto& s) {
+                                 s.shading = shading;
+                                 s.environment.light = light;
+                             });
+            row.series = nameOf(settings::kShadingModelNames, shading);
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
 Sweep streamSweep(const Base& base) {
     Sweep sweep{"stream",
                 "Error of the stream's JPEG",
@@ -348,6 +371,8 @@ Sweep smokeSweep(const Base& base) {
     add(rowOf(small, kDeferred, "metered", 0,
               [](auto& s) { s.exposure_mode = settings::ExposureMode::kFrame; }));
     add(rowOf(small, kDeferred, "fog", 0, [](auto& s) { s.fog.density = 0.05F; }));
+    add(rowOf(small, kDeferred, "studio", 0,
+              [](auto& s) { s.environment.light = settings::EnvironmentLight::kStudio; }));
     auto smooth = rowOf(small, kDeferred, "ssaa4", 0,
                         [](auto& s) { s.antialiasing = settings::Antialiasing::kSsaa4; });
     smooth.against_samples = true;

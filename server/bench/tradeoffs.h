@@ -16,6 +16,7 @@ namespace froxel::bench {
 [[nodiscard]] Sweep antialiasingSweep(const Base& base);
 [[nodiscard]] Sweep transparencySweep(const Base& base);
 [[nodiscard]] Sweep fogSweep(const Base& base);
+[[nodiscard]] Sweep environmentSweep(const Base& base);
 [[nodiscard]] Sweep streamSweep(const Base& base);
 // One row of every kind, small.
 [[nodiscard]] Sweep smokeSweep(const Base& base);

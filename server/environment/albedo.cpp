@@ -11,7 +11,6 @@
 namespace froxel::environment {
 namespace {
 
-constexpr double kLeastRoughness = 0.045;
 constexpr double kLast = kAlbedoTableSize - 1;
 
 } // namespace

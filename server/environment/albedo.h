@@ -24,8 +24,9 @@ struct Albedo {
 // grazing. Least at 0, most at kAlbedoTableSize - 1; between entries it is linear, and off by up to
 // 0.003 (below n_dot_v = 0.01 by up to 0.01).
 inline constexpr uint32_t kAlbedoTableSize = 32;
+inline constexpr double kLeastRoughness = 0.045;   // of a surface
 [[nodiscard]] double albedoColumn(double n_dot_v); // the cube root: lobes change most at the edge
-[[nodiscard]] double albedoRow(double roughness);  // the root, from 0.045, the least of a surface
+[[nodiscard]] double albedoRow(double roughness);  // the root, from the least on
 [[nodiscard]] double cosineOfColumn(uint32_t column);
 [[nodiscard]] double roughnessOfRow(uint32_t row);
 

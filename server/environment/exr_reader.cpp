@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <stdexcept>
@@ -60,8 +61,14 @@ struct Source {
     }
 };
 
-// The header, by the C library: it holds sizes that the header tells against the file's, while the
-// C++ library allocates them first. That one reads the pixels, since 3.1 has DWA there alone.
+// Sizes in the header are allocated before they are held against the file's.
+constexpr size_t kMaxHeaderBytes = size_t{1} << 20U;
+void* allocate(size_t bytes) {
+    return bytes <= kMaxHeaderBytes ? std::malloc(bytes) : nullptr;
+}
+
+// The header, by the C library, whose allocations can be bounded: what it has read is of sizes that
+// the C++ library may allocate. That one reads the pixels, since 3.1 has DWA there alone.
 class Header {
   public:
     explicit Header(std::span<const std::byte> file) : source_{file, {}} {}
@@ -72,6 +79,8 @@ class Header {
     [[nodiscard]] Result<void> open() {
         exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
         how.user_data = &source_;
+        how.alloc_fn = allocate;
+        how.free_fn = std::free;
         how.read_fn = Source::read;
         how.size_fn = Source::size;
         how.error_handler_fn = Source::onError;

@@ -18,19 +18,13 @@ namespace {
 
 constexpr uint32_t kFaces = 6;
 
-glm::dvec3 texel(const CubeLevel& level, const CubePlace& place) {
+glm::dvec3 texelAt(const CubeLevel& level, const CubePlace& place) {
     const auto index = [&](double at) {
         return std::min(static_cast<uint32_t>(at * level.size_px), level.size_px - 1);
     };
     const size_t row = size_t{place.face} * level.size_px + index(place.y);
     const float* rgb = &level.rgb[(row * level.size_px + index(place.x)) * 3];
     return {rgb[0], rgb[1], rgb[2]};
-}
-
-// A texel that lies beyond its face's edge is the one that lies there on the neighbour.
-glm::dvec3 texel(const CubeLevel& level, uint32_t face, double x, double y) {
-    const bool on_face = x > 0 && x < 1 && y > 0 && y < 1;
-    return texel(level, on_face ? CubePlace{face, x, y} : cubePlace(cubeDirection(face, x, y)));
 }
 
 double roughnessOf(size_t level, size_t level_count) {
@@ -84,14 +78,21 @@ CubePlace cubePlace(const glm::dvec3& d) {
     return d.x >= 0 ? on(0, -d.z, -d.y, size.x) : on(1, d.z, -d.y, size.x);
 }
 
+glm::dvec3 CubeLevel::texel(uint32_t face, int64_t column, int64_t row) const {
+    const double x = (static_cast<double>(column) + 0.5) / size_px;
+    const double y = (static_cast<double>(row) + 0.5) / size_px;
+    const bool on_face = x > 0 && x < 1 && y > 0 && y < 1;
+    return texelAt(*this, on_face ? CubePlace{face, x, y} : cubePlace(cubeDirection(face, x, y)));
+}
+
 glm::dvec3 CubeLevel::at(const glm::dvec3& direction) const {
     const CubePlace place = cubePlace(direction);
     const glm::dvec2 position = glm::dvec2(place.x, place.y) * double(size_px) - 0.5;
     const glm::dvec2 corner = glm::floor(position);
     const glm::dvec2 share = position - corner;
-    const auto of = [&](double dx, double dy) {
-        return texel(*this, place.face, (corner.x + dx + 0.5) / size_px,
-                     (corner.y + dy + 0.5) / size_px);
+    const auto of = [&](int64_t dx, int64_t dy) {
+        return texel(place.face, static_cast<int64_t>(corner.x) + dx,
+                     static_cast<int64_t>(corner.y) + dy);
     };
     return glm::mix(glm::mix(of(0, 0), of(1, 0), share.x), glm::mix(of(0, 1), of(1, 1), share.x),
                     share.y);

@@ -25,6 +25,9 @@ struct CubeLevel {
     double roughness = 0;
     std::vector<float> rgb; // [face][y][x][3]
 
+    // Column and row from -1 to size_px: beyond its face's edge it is the one that lies there on
+    // the neighbour.
+    [[nodiscard]] glm::dvec3 texel(uint32_t face, int64_t column, int64_t row) const;
     // Between the centres of texels, linearly, across edges too.
     [[nodiscard]] glm::dvec3 at(const glm::dvec3& direction) const;
 };

@@ -35,7 +35,7 @@ constexpr std::array kTurns = {
     Turn::kSetPost,         Turn::kRequestKeyFrame,
     Turn::kSetDebugView,    Turn::kSetShadows,
     Turn::kSetFog,          Turn::kSetTransparency,
-    Turn::kSetPlacedLights,
+    Turn::kSetPlacedLights, Turn::kSetEnvironment,
 };
 
 v1::Vec3 vec(double x, double y, double z) {
@@ -123,6 +123,14 @@ void StormScript::fillEncoding(v1::SetEncoding& command) {
     command.set_codec(session::toProto<v1::Codec>(settings::kCodecNames, chosen));
 }
 
+// A server may have no panorama.
+void StormScript::fillEnvironment(v1::SetEnvironment& command) {
+    values_.fill(command, kAll);
+    if (command.light() == v1::ENVIRONMENT_LIGHT_FILE) {
+        command.set_light(v1::ENVIRONMENT_LIGHT_STUDIO);
+    }
+}
+
 void StormScript::fillToon(v1::SetToon& command) {
     values_.fill(command, kSome);
     for (v1::ToonRamp* ramp : {command.mutable_fragment(), command.mutable_compute()}) {
@@ -184,6 +192,8 @@ void StormScript::fillCommand(v1::ClientMessage& message) {
         return fillGrid(*message.mutable_set_grid());
     case Turn::kSetFog:
         return fillFog(*message.mutable_set_fog()->mutable_fog());
+    case Turn::kSetEnvironment:
+        return fillEnvironment(*message.mutable_set_environment());
     case Turn::kSetToon:
         return fillToon(*message.mutable_set_toon());
     case Turn::kSetEncoding:

@@ -20,6 +20,7 @@ class StormScript final : public Script {
     void fillBox(v1::Box& box);
     void fillGrid(v1::SetGrid& command);
     void fillFog(v1::Fog& fog);
+    void fillEnvironment(v1::SetEnvironment& command);
     void fillEncoding(v1::SetEncoding& command);
     void fillToon(v1::SetToon& command);
     void fillPlacedLights(v1::PlacedLights& command);

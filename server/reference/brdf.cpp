@@ -1,6 +1,7 @@
 #include "reference/brdf.h"
 
 #include "core/lobes.h"
+#include "reference/around.h"
 #include "reference/toon.h"
 
 #include <algorithm>
@@ -112,7 +113,9 @@ glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, 
     for (const DirectionalLight& light : lights.directionals) {
         sum += light.color * reflected(s, model, -light.direction);
     }
-    return sum + ambient(s, model, lights) + s.emissive;
+    const glm::dvec3 all_around =
+        lights.around ? fromAround(s, model, *lights.around) : ambient(s, model, lights);
+    return sum + all_around + s.emissive;
 }
 
 } // namespace froxel::reference

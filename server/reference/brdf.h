@@ -46,7 +46,8 @@ reflected(const Surface& surface, const Model& model, const glm::dvec3& to_light
 // on a plane that faces it; 0 from its radius on.
 [[nodiscard]] double attenuation(const PointLight& light, const glm::dvec3& to_light);
 
-// All lights, ambient and emission; of an unlit surface its base colour. open: of shadowed lights.
+// All lights, light from around or the ambient light, and emission; of an unlit surface its base
+// colour. open: of shadowed lights.
 [[nodiscard]] glm::dvec3
 radiance(const Surface& surface, const Model& model, const Lights& lights, const Open& open = {});
 

@@ -2,9 +2,9 @@
 // the shaders: lights are integrated along the ray, not sampled in a volume.
 //
 // Stated model: extinction is `density` up to the base height and falls off exponentially above it;
-// light from all around is the mean of sky and ground, it and suns arrive undimmed; what a lamp
-// sends is dimmed on its way to where it scatters, as what scatters is on its way to the eye.
-// Surfaces are lit as without the medium.
+// light from all around is the mean of sky and ground, or of the environment; it and suns arrive
+// undimmed; what a lamp sends is dimmed on its way to where it scatters, as what scatters is on its
+// way to the eye. Surfaces are lit as without the medium.
 #pragma once
 
 #include "reference/brdf.h"

@@ -3,6 +3,7 @@
 #include "light/light_rig.h"
 #include "light/seeded_lights.h"
 #include "light/shadow_choice.h"
+#include "reference/around.h"
 #include "settings/environment.h"
 
 #include <algorithm>
@@ -85,6 +86,16 @@ unshadowed(const light::LightRig& rig, const settings::ViewSettings& settings, d
     return lights;
 }
 
+void addAround(const environment::Surroundings& seen,
+               const settings::Environment& settings,
+               Lights& lights) {
+    const double rotation_rad = glm::radians(static_cast<double>(settings.rotation_deg));
+    const auto strength = static_cast<double>(settings.strength);
+    lights.around = Around{&seen, rotation_rad, strength,
+                           environment::placed(seen.matt, rotation_rad, strength)};
+    lights.sky = lights.ground = seen.mean() * strength;
+}
+
 } // namespace
 
 Lights lightsAt(const scene::Scene& scene, const settings::ViewSettings& settings, double time_s) {
@@ -92,6 +103,9 @@ Lights lightsAt(const scene::Scene& scene, const settings::ViewSettings& setting
     Lights lights = unshadowed(rig, settings, time_s);
     for (PointLight& point : lights.points) {
         point.nearest_m = light::nearestDistance(scene.bounds_world);
+    }
+    if (const auto* seen = surroundingsFor(scene, settings.environment)) {
+        addAround(*seen, settings.environment, lights);
     }
     if (settings.shadows.light_count > 0) {
         addShadows(rig, scene.bounds_world, settings, time_s, lights);

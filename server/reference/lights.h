@@ -1,6 +1,7 @@
 // The lights of a frame in double, from their definitions.
 #pragma once
 
+#include "environment/surroundings.h"
 #include "light/falloff.h"
 #include "scene/scene.h"
 #include "settings/settings.h"
@@ -71,11 +72,21 @@ struct DirectionalLight {
     glm::dvec3 color{0};
 };
 
+// Light from around; see around.h.
+struct Around {
+    const environment::Surroundings* seen = nullptr;
+    double rotation_rad = 0;
+    double strength = 1;
+    environment::Diffuse matt; // turned, and with the strength
+};
+
 struct Lights {
     std::vector<PointLight> points; // seeded ones, then the scene's points and spots
     std::vector<DirectionalLight> directionals;
-    glm::dvec3 sky{0}; // ambient radiance
+    // Ambient radiance; of light from around, which takes its place on surfaces, the mean.
+    glm::dvec3 sky{0};
     glm::dvec3 ground{0};
+    std::optional<Around> around;
 };
 
 // Shadowed: those that have maps by light/shadow_choice.h.

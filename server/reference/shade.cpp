@@ -1,5 +1,6 @@
 #include "reference/shade.h"
 
+#include "reference/around.h"
 #include "reference/blended.h"
 #include "reference/brdf.h"
 #include "reference/fog.h"
@@ -87,7 +88,8 @@ class Shader {
 
     [[nodiscard]] glm::dvec3 pixel(uint32_t x, uint32_t y) const {
         const auto& visible = visibility_.pixels[size_t{y} * visibility_.width_px + x];
-        glm::dvec3 color(settings::kBackground);
+        const Ray ray = rays_.through(x, y);
+        glm::dvec3 color = behind(ray);
         double distance = std::numeric_limits<double>::infinity();
         if (visible.instance != VisibleTriangle::kNothing) {
             const PixelHit hit{x, y, meet(visible, x, y)};
@@ -98,7 +100,6 @@ class Shader {
                 color *= norm > 0 ? toonRamp(settings_.toon_compute, norm) / norm : 0.0;
             }
         }
-        const Ray ray = rays_.through(x, y);
         color = medium_.seenThrough(color, ray, distance);
         for (const auto& layer : blended_.at(x, y)) {
             if (layer.point.distance <= distance) {
@@ -113,6 +114,14 @@ class Shader {
     }
 
   private:
+    // Where nothing is.
+    [[nodiscard]] glm::dvec3 behind(const Ray& ray) const {
+        const settings::Environment& environment = settings_.environment;
+        return lights_.around && environment.background
+                   ? radianceFrom(*lights_.around, ray.direction,
+                                  static_cast<double>(environment.blur))
+                   : glm::dvec3(settings::kBackground);
+    }
     [[nodiscard]] PlanePoint meet(const VisibleTriangle& visible, uint32_t x, uint32_t y) const {
         const auto& primitive = primitiveOf(scene_, visible.instance, visible.primitive);
         return meetPlane(rays_.through(x, y), placedTriangle(placements_[visible.instance],
@@ -179,6 +188,10 @@ Result<LinearImage> shade(const scene::Scene& scene,
                           const Filtering& filtering) {
     if (const auto fault = findFault(scene, settings.size, visibility); !fault.empty()) {
         return Error{ErrorCode::kInvalidArgument, fault};
+    }
+    if (settings.environment.present() && !surroundingsFor(scene, settings.environment)) {
+        return Error{ErrorCode::kInvalidArgument,
+                     "the settings ask for a panorama, which the scene does not have"};
     }
     const Shader shader(scene, settings, time_s, visibility, filtering);
     LinearImage image{settings.size.width_px, settings.size.height_px, {}};

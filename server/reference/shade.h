@@ -26,10 +26,11 @@ using froxel::VisibleTriangle;
 // Stated model, besides glTF 2.0 with KHR_lights_punctual, KHR_materials_unlit, _ior and _specular
 // and KHR_texture_transform: visibility is height-correlated Smith (Heitz 2014); roughness is at
 // least kLeastRoughness; attenuation as in brdf.h; missing tangents are the gradients of the
-// texture coordinates over the triangle, seen by the interpolated normal.
+// texture coordinates over the triangle, seen by the interpolated normal; light from around as in
+// around.h.
 //
 // Errors: kInvalidArgument where the visibility is not of the settings' size or names a triangle
-// that the scene does not have.
+// that the scene does not have, and where the settings ask for a panorama that it does not have.
 [[nodiscard]] Result<LinearImage> shade(const scene::Scene& scene,
                                         const settings::ViewSettings& settings,
                                         double time_s,

@@ -13,6 +13,10 @@
 #include <string>
 #include <vector>
 
+namespace froxel::environment {
+struct Surroundings;
+}
+
 namespace froxel::scene {
 
 struct Motion;
@@ -166,7 +170,9 @@ struct Scene {
     std::vector<PunctualLight> lights;
     BoundsD3 bounds_world;                // of all instances; empty for an empty scene
     std::shared_ptr<const Motion> motion; // scene/motion.h; null: all of the scene rests
-    std::vector<Warning> warnings;        // the gravest first; few, however many there are
+    // Light from around that belongs to it (environment/surroundings.h); null: none does.
+    std::shared_ptr<const environment::Surroundings> surroundings;
+    std::vector<Warning> warnings; // the gravest first; few, however many there are
     uint64_t warnings_left_out = 0;
 };
 

@@ -90,9 +90,33 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::lights, &Lights::speed>(
         Range<double>{"light_speed", 0, 100}, "lights.speed", {"Scales the clock that moves them"}),
     row<&ViewSettings::lights, &Lights::ambient>(
-        Range<double>{"ambient", 0, 1'000}, "lights.ambient", {"Scales the ambient term"}),
+        Range<double>{"ambient", 0, 1'000},
+        "lights.ambient",
+        {"Scales the ambient term, where the environment is off"}),
     row<&ViewSettings::lights, &Lights::scene_lights>(
         Switch{"scene_lights"}, "lights.scene_lights", {"The scene's own lights"}),
+
+    row<&ViewSettings::environment, &Environment::light>(
+        Names{"environment", kEnvironmentLightNames},
+        "environment.light",
+        {"Light from all around: a studio, or the panorama of --environment-file", "",
+         "not off: a lookup at every pixel; its first picture waits a second"}),
+    row<&ViewSettings::environment, &Environment::rotation_deg>(
+        Range<double>{"environment_rotation", -180, 180},
+        "environment.rotation_deg",
+        {"Turns it about the world's y, from z towards x", "deg"}),
+    row<&ViewSettings::environment, &Environment::strength>(
+        Range<double>{"environment_strength", 0, 1'000},
+        "environment.strength",
+        {"Scales its radiance"}),
+    row<&ViewSettings::environment, &Environment::background>(
+        Switch{"environment_background"},
+        "environment.background",
+        {"It shows behind the scene", "", "a pass over the picture"}),
+    row<&ViewSettings::environment, &Environment::blur>(
+        Range<double>{"environment_blur", 0, 1},
+        "environment.blur",
+        {"Of what shows there: the roughness of a surface that mirrors it so"}),
 
     row<&ViewSettings::exposure_mode>(
         Names{"exposure_mode", kExposureModeNames},

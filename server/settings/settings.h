@@ -205,6 +205,23 @@ struct Shadows {
     bool operator==(const Shadows&) const = default;
 };
 
+// Light from all around, in the ambient light's place. studio: a grey room with soft boxes. file:
+// the panorama that the server was given.
+enum class EnvironmentLight : uint8_t { kOff, kStudio, kFile };
+inline constexpr std::array kEnvironmentLightNames = {
+    std::string_view("off"), std::string_view("studio"), std::string_view("file")};
+
+struct Environment {
+    EnvironmentLight light = EnvironmentLight::kOff;
+    float rotation_deg = 0;  // about +Y by the right hand's rule: +Z goes towards +X
+    float strength = 1;      // multiplies its radiance
+    bool background = false; // it shows behind the scene
+    float blur = 0.3F;       // as a surface of this roughness mirrors it
+    bool operator==(const Environment&) const = default;
+
+    [[nodiscard]] bool present() const { return light != EnvironmentLight::kOff; }
+};
+
 // A cubic Hermite ramp from [0, 1] to [0, 1]: points in ascending x; constant outside.
 struct ToonRamp {
     static constexpr uint32_t kMaxPoints = 8;
@@ -238,6 +255,7 @@ struct ViewSettings {
     uint32_t peel_layers = 4; // at most, while peeled; pixels with more are counted
     Lights lights;
     Shadows shadows;
+    Environment environment;
     ExposureMode exposure_mode = ExposureMode::kFixed;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;

@@ -52,7 +52,8 @@ FROXEL_CONST uint kLightAreas = 1U << 14;      // some of the spots are rectangl
 FROXEL_CONST uint kLightSmallScene = 1U << 15; // Frame::light_most_inverse2, else 1 / (1 cm)^2
 // Some surface reflects less than all at its edges: lights add up what it scatters there, too.
 FROXEL_CONST uint kLightEdges = 1U << 16;
-FROXEL_CONST uint kLightShadows = 1U << 17; // some local lights have shadow maps
+FROXEL_CONST uint kLightShadows = 1U << 17;     // some local lights have shadow maps
+FROXEL_CONST uint kLightEnvironment = 1U << 18; // light from around, in the ambient light's place
 
 // Output flags: targets and what the last pass does.
 FROXEL_CONST uint kOutputPixels = 1U << 0;      // lighting also exposes, tone maps and packs

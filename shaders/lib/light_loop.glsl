@@ -3,6 +3,7 @@
 // what they add.
 #include "lib/light_fetch.glsl"
 #include "lib/area_loop.glsl"
+#include "lib/environment.glsl"
 #ifdef FROXEL_SUBGROUPS
 #include "lib/light_block.glsl"
 #endif
@@ -170,10 +171,14 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
     return sum;
 }
 
-// A hemisphere of constant radiance from the sky and from the ground, of which a surface returns
-// its base colour and its f0; the less of its base colour the more its dielectric part reflects.
+// Of light from around, where the frame has it. Else of a hemisphere of constant radiance from the
+// sky and from the ground, of which a surface returns its base colour and its f0; the less of its
+// base colour the more its dielectric part reflects.
 vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric dielectric,
                      float occlusion) {
+    if (hasLight(kLightEnvironment)) {
+        return environmentRadiance(s, base_color, metallic, dielectric, occlusion);
+    }
     vec3 sky = mix(frame.ambient_ground, frame.ambient_sky,
                    fma(0.5, dot(s.normal_view, frame.up_view), 0.5));
     if (hasLight(kLightLambert)) {

@@ -113,6 +113,11 @@ TEST_F(Golden, EveryOption_BuiltinScene_LooksAsCommitted) {
              s.lights.intensity = 30;
              s.shadows = {16, 256};
          }},
+        {"studio",
+         [](auto& s) {
+             s.environment = {settings::EnvironmentLight::kStudio, 120, 0.7F, true};
+             s.lights.count = 0;
+         }},
         {"outline", [](auto& s) {
              s.renderer = settings::Renderer::kToonFragment;
              s.toon_outline.strength = 0.9F;

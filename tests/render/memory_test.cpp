@@ -52,6 +52,10 @@ const std::vector<Named> kFrames = {
     {"metered exposure",
      [](FrameInputs& f) { f.settings.exposure_mode = settings::ExposureMode::kFrame; }},
     {"fog", [](FrameInputs& f) { f.settings.fog.density = 0.05F; }},
+    {"studio",
+     [](FrameInputs& f) {
+         f.settings.environment = {settings::EnvironmentLight::kStudio, 0, 1, true};
+     }},
     {"shadows", [](FrameInputs& f) { f.settings.shadows = {.light_count = 4, .size_px = 64}; }},
     {"weighted",
      [](FrameInputs& f) { f.settings.transparency = settings::Transparency::kWeighted; }},

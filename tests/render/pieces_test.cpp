@@ -180,6 +180,10 @@ TEST_F(Pieces, Effects_DrawTheSameBits) {
              in.settings.shadows.size_px = 64;
              in.settings.lights.radius_m = 6;
          }},
+        {"studio",
+         [](auto& in) {
+             in.settings.environment = {settings::EnvironmentLight::kStudio, 0, 1, true};
+         }},
         {"bloom, one pass",
          [](auto& in) { in.settings.bloom.kind = settings::BloomKind::kSinglePass; }},
         {"bloom, separable",

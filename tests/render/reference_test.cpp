@@ -220,6 +220,42 @@ TEST_F(Reference, RoomOfReflectances_Deferred_IsWithinTheGbuffersSteps) {
     }
 }
 
+// As both. Levels are filtered in fp32: a direction's rounding is 1e-5 of a texel. What is around
+// scatters in fog by its mean.
+TEST_F(Reference, RoomInTheStudio_Forward_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    giveReflectances(room);
+    Compared compared(device(), room);
+    for (const auto& camera : room.cameras) {
+        for (const auto model :
+             {ShadingModel::kLambert, ShadingModel::kBlinnPhong, ShadingModel::kPbr}) {
+            auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
+            inputs.settings.shading = model;
+            inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
+            EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 1e-4);
+            inputs.settings.lights.count = 0;
+            inputs.settings.lights.scene_lights = false;
+            inputs.settings.fog.density = 0.1F;
+            inputs.settings.environment.background = true;
+            EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 1e-4);
+        }
+    }
+}
+
+TEST_F(Reference, RoomInTheStudio_Deferred_IsWithinTheGbuffersSteps) {
+    auto room = makePlainRoom();
+    giveReflectances(room);
+    Compared compared(device(), room);
+    for (const auto renderer : {Renderer::kClusteredDeferred, Renderer::kToonFragment}) {
+        SCOPED_TRACE(nameOf(renderer));
+        auto inputs = inputsFor(room.cameras[0].camera, renderer);
+        inputs.settings.environment = {settings::EnvironmentLight::kStudio, -130, 1};
+        const Errors errors = compared.against(inputs);
+        EXPECT_LT(errors.max_relative, 0.02);
+        EXPECT_LT(errors.rmse, 7e-3);
+    }
+}
+
 // Strength, colour and glossiness out of textures, nearest so that nothing is filtered.
 TEST_F(Reference, RoomOfTexturedReflectances_IsWithinArithmetic) {
     auto room = makePlainRoom();

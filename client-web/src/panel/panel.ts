@@ -33,6 +33,7 @@ const kTitles: Readonly<Record<Section, string>> = {
   rendering: 'Rendering',
   effects: 'Effects',
   lights: 'Lights',
+  environment: 'Environment',
   clusters: 'Clusters',
   debug: 'Debug view',
   stream: 'Picture',
@@ -104,6 +105,7 @@ export class Panel {
     const lights = this.section('lights', server);
     this.addBox(lights, server);
     this.lightEditor = new LightEditor(lights, this.actions);
+    this.section('environment', server);
     const clusters = this.section('clusters', server);
     this.addGridInUse(clusters);
     clusters.close();

@@ -20,6 +20,7 @@ export interface Scale {
 /** The scale that suits a number's range; null: none does, its numbers are typed. */
 export function scaleFor(range: Range, number: NumberKind, usual: number): Scale | null {
   const { min, max } = range;
+  if (number.angle) return linearScale(range, number.integer);
   if (min < kLowest || max >= kMaxUint32) return null;
   const decades = min > 0 ? max / min >= kLogRatio : min === 0 && max >= kLogMax;
   return decades ? logScale(range, number, usual) : linearScale(range, number.integer);

@@ -7,6 +7,7 @@ export type Kind =
       readonly kind: 'number';
       readonly integer: boolean;
       readonly softMin?: number; // the least above 0 that is worth asking for; none: not known
+      readonly angle?: boolean;
     }
   | { readonly kind: 'boolean' }
   | { readonly kind: 'choice'; readonly schema: DescEnum }

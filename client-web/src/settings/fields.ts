@@ -1,7 +1,7 @@
 // The fields of the panel and of the address: the schema's settings, and the few scalars that stand
 // beside them. Under `name` Welcome.ranges tells what the server accepts.
 
-import { BloomKind, Transparency } from '../gen/froxel/v1/common_pb';
+import { BloomKind, EnvironmentLight, Transparency } from '../gen/froxel/v1/common_pb';
 import { rowOf } from '../picture/codecs';
 import { choicesOf, type Choice } from '../protocol/schema_names';
 import type { ChoiceField, Field, Kind } from './field';
@@ -13,6 +13,7 @@ export type Section =
   | 'rendering'
   | 'effects'
   | 'lights'
+  | 'environment'
   | 'clusters'
   | 'debug'
   | 'stream';
@@ -22,6 +23,7 @@ const kSections: Readonly<Partial<Record<CommandName, Section>>> = {
   setRenderer: 'rendering',
   setExposure: 'rendering',
   setLights: 'lights',
+  setEnvironment: 'environment',
   setGrid: 'clusters',
   setDebugView: 'debug',
   setEncoding: 'stream',
@@ -73,6 +75,12 @@ const kUses: readonly (readonly [string, (settings: Settings) => boolean])[] = [
   ['outline_', isToon],
   ['fog_density', () => true],
   ['fog_', ({ fogDensity }) => fogDensity > 0],
+  [
+    'environment_blur',
+    ({ environment, environmentBackground }) =>
+      environmentBackground && environment !== EnvironmentLight.OFF,
+  ],
+  ['environment_', ({ environment }) => environment !== EnvironmentLight.OFF],
   ['shadow_size', ({ shadowLights }) => shadowLights > 0],
   ['bloom_', ({ bloom }) => bloom !== BloomKind.NONE],
   ['peel_layers', ({ transparency }) => transparency === Transparency.PEELED],

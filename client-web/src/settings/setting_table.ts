@@ -5,7 +5,7 @@ import { getOption, ScalarType, type DescField, type DescMessage } from '@bufbui
 
 import { ClientMessageSchema, type ClientMessage } from '../gen/froxel/v1/client_pb';
 import { Vec3Schema, ViewStateSchema } from '../gen/froxel/v1/common_pb';
-import { setting, soft_min } from '../gen/froxel/v1/options_pb';
+import { angle, setting, soft_min } from '../gen/froxel/v1/options_pb';
 import type { Field, Kind } from './field';
 
 export type CommandName = NonNullable<ClientMessage['body']['case']>;
@@ -37,9 +37,9 @@ function settingsBelow(message: DescMessage, groups: readonly string[] = []): Fo
   });
 }
 
-function softMinOf(field: DescField): { softMin?: number } {
+function sliderOf(field: DescField): { softMin?: number; angle?: boolean } {
   const softMin = getOption(field, soft_min);
-  return softMin > 0 ? { softMin } : {};
+  return { ...(softMin > 0 && { softMin }), ...(getOption(field, angle) && { angle: true }) };
 }
 
 function kindOf(field: DescField): Kind {
@@ -53,7 +53,7 @@ function kindOf(field: DescField): Kind {
     case ScalarType.UINT32:
       return { kind: 'number', integer: true };
     case ScalarType.DOUBLE:
-      return { kind: 'number', integer: false, ...softMinOf(field) };
+      return { kind: 'number', integer: false, ...sliderOf(field) };
     default:
       throw new Error(`${field.toString()} is of no kind that a setting can have`);
   }

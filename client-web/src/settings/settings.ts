@@ -5,6 +5,7 @@ import {
   Renderer,
   type BloomKind,
   type Codec,
+  type EnvironmentLight,
   type Refine,
   type ToonRamp,
   type Transparency,
@@ -37,6 +38,8 @@ interface TableSettings {
   readonly lights: number;
   readonly lightRadius: number;
   readonly animate: boolean;
+  readonly environment: EnvironmentLight;
+  readonly environmentBackground: boolean;
   readonly exposure: number;
   readonly bloom: BloomKind;
   readonly transparency: Transparency;

@@ -57,6 +57,12 @@ describe('a range', () => {
     expect(scale?.toPosition(0.2)).toBe(1); // what was typed
   });
 
+  it('OfAnAngle_HasALinearSlider', () => {
+    const scale = scaleFor({ min: -180, max: 180 }, { ...kReal, angle: true }, 0);
+    expect(scale?.toValue(kSliderSteps / 2)).toBe(0);
+    expect(scale?.toValue(kSliderSteps / 4)).toBe(-90);
+  });
+
   it('OfOneKindOfSize_HasALinearSlider', () => {
     expect(middle(0, 1)).toBe(0.5);
     expect(middle(-0.95, 0.95)).toBe(0);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { BloomKind, Renderer } from '../../src/gen/froxel/v1/common_pb';
+import { BloomKind, EnvironmentLight, Renderer } from '../../src/gen/froxel/v1/common_pb';
 import { fieldsOf, isInUse, kAllFields, patchFor } from '../../src/settings/fields';
 import { valueOf } from '../../src/settings/settings';
 import { sampleSettings } from '../sample';
@@ -13,7 +13,16 @@ describe('fields', () => {
   });
 
   it('Sections_HaveEveryFieldOnce', () => {
-    const sections = ['camera', 'rendering', 'effects', 'lights', 'clusters', 'debug', 'stream'] as const;
+    const sections = [
+      'camera',
+      'rendering',
+      'effects',
+      'lights',
+      'environment',
+      'clusters',
+      'debug',
+      'stream',
+    ] as const;
     const names = sections.flatMap((section) => fieldsOf(section).map(({ name }) => name));
     expect(names.sort()).toEqual(kAllFields.map(({ name }) => name).sort());
   });
@@ -23,6 +32,8 @@ describe('fields', () => {
     ['fog_albedo', { fogDensity: 1 }],
     ['outline_width', { renderer: Renderer.TOON_COMPUTE }],
     ['shadow_size', { shadowLights: 1 }],
+    ['environment_strength', { environment: EnvironmentLight.STUDIO }],
+    ['environment_blur', { environment: EnvironmentLight.STUDIO, environmentBackground: true }],
     ['grid.x', { gridAutomatic: false }],
   ])('Field_%s_IsInUseOnlyWithWhatItBelongsTo', (name, change) => {
     const field = kAllFields.find((candidate) => candidate.name === name);

@@ -34,8 +34,8 @@ describe('the table', () => {
   it('Rows_HaveTheSettingsThatCodeNames', () => {
     const named: Readonly<Record<string, readonly (keyof Settings)[]>> = {
       number: ['lights', 'lightRadius', 'exposure', 'fogDensity', 'shadowLights', 'quality'],
-      boolean: ['animate'],
-      choice: ['renderer', 'bloom', 'transparency', 'codec', 'refine'],
+      boolean: ['animate', 'environmentBackground'],
+      choice: ['renderer', 'bloom', 'transparency', 'environment', 'codec', 'refine'],
     };
     for (const [kind, keys] of Object.entries(named)) {
       for (const key of keys) expect(kRows.find((row) => row.key === key)?.kind).toBe(kind);
@@ -53,6 +53,7 @@ describe('the table', () => {
       inState: { groups: ['fog'], name: 'tile' },
     });
     expect(kRows.find(({ name }) => name === 'target_fps')).toMatchObject({ softMin: 1 });
+    expect(kRows.find(({ name }) => name === 'environment_rotation')).toMatchObject({ angle: true });
     expect(kRows.find(({ name }) => name === 'seed')).toMatchObject({
       key: 'seed',
       command: 'setLights',

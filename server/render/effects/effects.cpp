@@ -1,6 +1,8 @@
 #include "render/effects/effects.h"
 
+#include "render/effects/background.h"
 #include "render/effects/bloom.h"
+#include "render/effects/environment.h"
 #include "render/effects/exposure.h"
 #include "render/effects/fog.h"
 #include "render/effects/fxaa.h"
@@ -12,8 +14,9 @@
 namespace froxel::render {
 
 std::span<const EffectRow* const> effectRows() {
-    static constexpr std::array kRows = {&kShadowsEffect, &kFogEffect, &kExposureEffect,
-                                         &kBloomEffect, &kFxaaEffect};
+    static constexpr std::array kRows = {&kShadowsEffect, &kEnvironmentEffect, &kBackgroundEffect,
+                                         &kFogEffect,     &kExposureEffect,    &kBloomEffect,
+                                         &kFxaaEffect};
     return kRows;
 }
 

@@ -18,7 +18,8 @@ class ViewEffects {
 
     // Before a frame is planned: what effects must see of it.
     void look(const EffectInputs& inputs, FrameFacts& facts);
-    // Builds those of the plan. Errors: kCapacity, kUnsupported. Throws vk::SystemError.
+    // Builds those of the plan. Errors: kCapacity, kUnsupported. Throws VariantsMissing,
+    // vk::SystemError.
     [[nodiscard]] Result<void> build(const FramePlan& plan, const EffectInputs& inputs);
     // Of the frame built last, in its order.
     [[nodiscard]] std::span<const ActiveEffect> ofFrame() const { return of_frame_; }

@@ -3,6 +3,7 @@
 #include "cluster/depth_range.h"
 #include "embedded.h"
 #include "gpu/pipeline.h"
+#include "render/effects/environment.h"
 #include "render/effects/fog_plan.h"
 #include "render/frame/effect.h"
 #include "render/frame/effect_targets.h"
@@ -126,6 +127,13 @@ class Fog final : public Effect {
         const auto lit = cluster::litDepthRange(inputs.lights, settings.camera,
                                                 inputs.pose.boundsWorld(), cluster::Lit::kMedium);
         fog_ = makeFog(settings, lit.far_m, inputs.time_s);
+        if (hasEnvironment(settings)) {
+            const auto map = scene_.shared<EnvironmentMaps>().find(settings.environment.light);
+            if (!map) {
+                return map.error();
+            }
+            fog_.ambient = glm::vec3((*map)->seen->mean()) * settings.environment.strength;
+        }
         return checkFroxels(fog_, scene_.device.limits().maxTexelBufferElements);
     }
 

@@ -44,7 +44,8 @@ class Effect {
 
     // Before a frame is planned, where its row asks for it: tells the plan what there is.
     virtual void look(const EffectInputs& /*inputs*/, FrameFacts& /*facts*/) {}
-    // The host's part; all that follows is about that frame. Errors: kCapacity, kUnsupported.
+    // The host's part; all that follows is about that frame. Errors: kCapacity, kUnsupported. May
+    // throw VariantsMissing, vk::SystemError.
     [[nodiscard]] virtual Result<void> build(const EffectInputs& /*inputs*/,
                                              const EffectPlan& /*plan*/) {
         return {};

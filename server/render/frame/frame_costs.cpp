@@ -54,7 +54,7 @@ checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Se
 
 double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
     const uint64_t longest = load_.pairs.longest();
-    double each = unit_.lit_pixel + load_.directional_count * unit.pair;
+    double each = unit_.lit_pixel + load_.lit_pixel + load_.directional_count * unit.pair;
     for (const auto& [count, pair] : load_.costly_lights) {
         each += static_cast<double>(std::min<uint64_t>(count, longest)) * pair;
     }

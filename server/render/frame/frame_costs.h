@@ -34,6 +34,7 @@ struct FrameLoad {
     uint64_t longest_loop = 0; // of `pairs`, where it is more than a bound; 0: not known
     uint32_t directional_count = 0;
     std::vector<CostlyLights> costly_lights = {};
+    double lit_pixel = 0;          // seconds more to light a pixel, whatever its lights
     double overdraw = 1;           // of solid surfaces, in fragments per pixel
     uint32_t device_triangles = 0; // that the host does not cull
     uint64_t posed_vertices = 0;

@@ -13,7 +13,7 @@ namespace {
 vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     using Type = vk::DescriptorType;
     const std::array sizes = {
-        vk::DescriptorPoolSize{Type::eUniformBuffer, 2},
+        vk::DescriptorPoolSize{Type::eUniformBuffer, 3},
         vk::DescriptorPoolSize{Type::eUniformTexelBuffer, Pipelines::kFrameBindings},
         vk::DescriptorPoolSize{Type::eStorageBuffer, 2},
         vk::DescriptorPoolSize{Type::eSampledImage, 4},

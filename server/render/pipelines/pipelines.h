@@ -57,7 +57,7 @@ class Pipelines {
     static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
     static constexpr vk::Format kBlendWeightFormat = vk::Format::eR32Sfloat;
     static constexpr vk::Format kPeelKeyFormat = vk::Format::eR32G32Uint; // depth's bits, order
-    static constexpr uint32_t kFrameBindings = 13;
+    static constexpr uint32_t kFrameBindings = 16;
     static constexpr std::array<vk::DescriptorType, kFrameBindings> kFrameBindingTypes = {
         vk::DescriptorType::eUniformBuffer,       // frame
         vk::DescriptorType::eUniformTexelBuffer,  // lights
@@ -71,7 +71,10 @@ class Pipelines {
         vk::DescriptorType::eUniformTexelBuffer,  // lights with shadow maps
         vk::DescriptorType::eSampledImage,        // shadow atlas
         vk::DescriptorType::eUniformTexelBuffer,  // rectangular lights
-        vk::DescriptorType::eUniformTexelBuffer}; // what their highlights take
+        vk::DescriptorType::eUniformTexelBuffer,  // what their highlights take
+        vk::DescriptorType::eUniformBuffer,       // light from around
+        vk::DescriptorType::eUniformTexelBuffer,  // its levels
+        vk::DescriptorType::eUniformTexelBuffer}; // what lobes reflect of it
     // Of the texel buffers among them; undefined for the others.
     static constexpr std::array<vk::Format, kFrameBindings> kFrameTexelFormats = {
         vk::Format::eUndefined,
@@ -86,7 +89,10 @@ class Pipelines {
         vk::Format::eR32G32B32A32Sfloat,
         vk::Format::eUndefined,
         vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eR32G32B32A32Sfloat};
+        vk::Format::eR32G32B32A32Sfloat,
+        vk::Format::eUndefined,
+        vk::Format::eR32G32B32A32Sfloat,
+        vk::Format::eR32G32Sfloat};
 
     // Variants kept: of surfaces, where a frame takes one for each kind of material, and of passes
     // over the picture. llvmpipe takes 4 MB for one.

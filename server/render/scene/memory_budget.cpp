@@ -32,6 +32,15 @@ Result<void> fits(uint64_t bytes,
 
 } // namespace
 
+Result<void> MemoryBudget::share(uint64_t bytes, const std::string& what) {
+    auto room =
+        fits(bytes, shared_bytes_ + views_.device_bytes, limits_.device_bytes, "device", what);
+    if (room) {
+        shared_bytes_ += bytes;
+    }
+    return room;
+}
+
 Result<void> MemoryShare::take(const MemoryTaken& need, const std::string& picture) {
     const MemoryLimits& limits = budget_.limits_;
     if (need.total() > limits.session_bytes) {

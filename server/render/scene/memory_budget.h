@@ -32,6 +32,9 @@ class MemoryBudget {
 
     // What all views share: the scene.
     void setShared(uint64_t bytes) { shared_bytes_ = bytes; }
+    // From now on they share so much more of the device's. Errors: kCapacity, with the figures, and
+    // nothing changes. `what`: what the memory is for, in words.
+    [[nodiscard]] Result<void> share(uint64_t bytes, const std::string& what);
     // What views and scene take.
     [[nodiscard]] uint64_t takenBytes() const { return shared_bytes_ + views_.total(); }
 

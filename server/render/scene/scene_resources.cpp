@@ -107,7 +107,7 @@ SceneResources::SceneResources(gpu::Device& device_in,
                                const scene::Scene& scene,
                                const MemoryLimits& limits)
     : device(device_in), timeline(device_in), memory(limits), needs(findNeeds(scene)),
-      bounds_world(scene.bounds_world), light_rig(scene),
+      bounds_world(scene.bounds_world), light_rig(scene), surroundings(scene.surroundings),
       light_assigner(std::max(1U, std::thread::hardware_concurrency()), kHostListEntries),
       arena(device_in), texture_arena(device_in, kTextureChunkBytes, "textures"),
       pipelines(device_in, timeline, variants),

@@ -46,6 +46,7 @@ class SceneResources {
     const SceneNeeds needs;
     const BoundsD3 bounds_world;
     const light::LightRig light_rig;
+    const std::shared_ptr<const environment::Surroundings> surroundings; // scene::Scene's
     cluster::LightAssigner light_assigner;
 
     // As they stand at time 0, where the scene moves; a frame has its ScenePose. bounds_world and

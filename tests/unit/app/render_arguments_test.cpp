@@ -57,6 +57,7 @@ TEST(RenderArguments, EveryRow_ParsesBackToItsSettings) {
 TEST(RowCommand, Row_IsDrawnAsItWasTimed) {
     BenchOptions options;
     options.scene = "my scene.gltf";
+    options.environment_file = "sky.hdr";
     options.light_set = "placed.json";
     bench::RunResult result;
     result.base = bench::base();
@@ -65,7 +66,8 @@ TEST(RowCommand, Row_IsDrawnAsItWasTimed) {
     row.settings.lights.count = 12;
     row.only_view = 0;
     EXPECT_EQ(rowCommand(options, result, row, 40),
-              "froxel render --scene 'my scene.gltf' --device auto --camera '-7,2,0;0,2,0.3;45' "
+              "froxel render --scene 'my scene.gltf' --environment-file sky.hdr --device auto "
+              "--camera '-7,2,0;0,2,0.3;45' "
               "--size 1280x720 --renderer clustered_deferred --lights 12 --light-radius 2 "
               "--light-set placed.json --frames 40 --warmup 7 --timings timings.json");
     row.only_view = 1;

@@ -169,7 +169,7 @@ TEST(CompareReports, WithItself_NothingDiffers) {
     const auto report = reportOf(result(100));
     const auto comparison = compareReports(report, report).value();
     EXPECT_EQ(comparison.measure, "gpu_us");
-    EXPECT_EQ(comparison.rows.size(), 11U);
+    EXPECT_EQ(comparison.rows.size(), 12U);
     EXPECT_THAT(comparison.warnings, IsEmpty());
     EXPECT_THAT(comparison.only_a, IsEmpty());
     EXPECT_FALSE(comparison.worse());
@@ -185,7 +185,7 @@ TEST(CompareReports, TenPercentSlower_IsWorseAndTheOtherWayFaster) {
     const auto faster = compareReports(after, before).value();
     EXPECT_FALSE(faster.worse());
     EXPECT_TRUE(faster.rows[0].faster);
-    EXPECT_THAT(toText(slower), HasSubstr("11 rows: 11 slower, 0 faster"));
+    EXPECT_THAT(toText(slower), HasSubstr("12 rows: 12 slower, 0 faster"));
 }
 
 TEST(CompareReports, LargerError_IsWorseAndNamed) {

@@ -145,6 +145,16 @@ TEST(Exr, EveryPart_IsOneLine) {
     expectPartsRefused(exrFile({.compression = Imf::NO_COMPRESSION, .tiled = true}, kRgb));
 }
 
+// Not 2 GB for an attribute of a file of 400 bytes.
+TEST(Exr, SizesInTheHeader_AreNotBelieved) {
+    std::string file = exrFile({}, kRgb);
+    const size_t size_at = file.find("string") + sizeof "string";
+    for (size_t i = 0; i < 4; ++i) {
+        file[size_at + i] = "\xFF\xFF\xFF\x7F"[i];
+    }
+    expectRefused(file, ErrorCode::kIo, "broken OpenEXR");
+}
+
 TEST(Exr, OtherLayouts_AreRefused) {
     expectRefused(exrFile({.width = 3, .height = 2}, kRgb), ErrorCode::kInvalidArgument,
                   "has 3x2 pixels; right is");

@@ -62,6 +62,15 @@ TEST(FrameCosts, OneLongList_CountsWhole) {
     EXPECT_NE(refused.error().message.find("for lighting"), std::string::npos);
 }
 
+TEST(FrameCosts, MoreToLightAPixel_CountsOnceForEach) {
+    const Load load;
+    FrameLoad more = load.of(PairBound::uniform(10));
+    const Seconds before = FrameCosts(kCpuUnitCosts, more).total();
+    more.lit_pixel = 1e-6;
+    const Seconds after = FrameCosts(kCpuUnitCosts, more).total();
+    EXPECT_NEAR((after - before).count(), 640 * 360 * 1e-6, 1e-9);
+}
+
 // On a GPU: few pixels are few pairs, and each takes its lights one after another.
 TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
     const Load load;

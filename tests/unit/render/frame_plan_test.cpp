@@ -1,7 +1,9 @@
 #include "interface/constants.h"
 #include "interface/fog_io.h"
 #include "interface/gbuffer_io.h"
+#include "render/effects/background.h"
 #include "render/effects/bloom.h"
+#include "render/effects/environment.h"
 #include "render/effects/exposure.h"
 #include "render/effects/fog.h"
 #include "render/effects/fog_plan.h"
@@ -389,6 +391,41 @@ TEST(FramePlan, FogOfNoDensity_IsNotThere) {
     const FramePlan without = planFrame(settings, facts);
     settings.fog = {.density = 0, .height_falloff = 1, .half_rate = true, .noise = true};
     EXPECT_EQ(planFrame(settings, facts), without);
+}
+
+TEST(FramePlan, Environment_IsAFlagOfWhatLightsSurfacesAndNoPass) {
+    settings::ViewSettings settings;
+    for (uint8_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
+        settings = {};
+        settings.renderer = static_cast<Renderer>(kind);
+        const FramePlan off = planFrame(settings, kLit);
+        settings.environment.strength = 2;
+        EXPECT_EQ(planFrame(settings, kLit), off);
+        settings.environment.light = settings::EnvironmentLight::kStudio;
+        FramePlan studio = planFrame(settings, kLit);
+        EXPECT_EQ(studio.forward_light_flags, off.forward_light_flags | io::kLightEnvironment);
+        EXPECT_EQ(studio.lighting_light_flags, off.lighting_light_flags | io::kLightEnvironment);
+        EXPECT_NE(effectOf(studio, kEnvironmentEffect), nullptr);
+        studio.effects = off.effects;
+        studio.forward_light_flags = off.forward_light_flags;
+        studio.lighting_light_flags = off.lighting_light_flags;
+        EXPECT_EQ(studio, off);
+    }
+    settings.renderer = Renderer::kClusteredDeferred;
+    settings.debug.view = settings::DebugView::kBaseColor;
+    EXPECT_EQ(effectOf(planFrame(settings, kLit), kEnvironmentEffect), nullptr);
+}
+
+TEST(FramePlan, Background_IsThereWithAnEnvironment) {
+    settings::ViewSettings settings;
+    settings.environment.background = true;
+    EXPECT_EQ(effectOf(planFrame(settings, kLit), kBackgroundEffect), nullptr);
+    settings.environment.light = settings::EnvironmentLight::kStudio;
+    const FramePlan shown = planFrame(settings, kLit);
+    EXPECT_NE(effectOf(shown, kBackgroundEffect), nullptr);
+    EXPECT_TRUE(shown.radiance && shown.tonemap);
+    settings.debug.view = settings::DebugView::kBaseColor;
+    EXPECT_EQ(effectOf(planFrame(settings, kLit), kBackgroundEffect), nullptr);
 }
 
 TEST(FramePlan, BloomOfNoStrength_IsNone) {

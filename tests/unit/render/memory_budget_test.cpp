@@ -31,6 +31,20 @@ TEST(MemoryBudget, Shares_AddUpWithTheScene) {
     EXPECT_EQ(budget.takenBytes(), 100 * kMib);
 }
 
+TEST(MemoryBudget, WhatViewsShareBesides_IsAskedFor) {
+    MemoryBudget budget({.device_bytes = 100 * kMib});
+    budget.setShared(30 * kMib);
+    MemoryShare view(budget);
+    ASSERT_TRUE(view.take({.device_bytes = 40 * kMib}, "a picture"));
+    const auto refused = budget.share(31 * kMib, "light");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    EXPECT_THAT(refused.error().message, testing::HasSubstr("light takes 32 MiB of memory"));
+    EXPECT_EQ(budget.takenBytes(), 70 * kMib);
+    EXPECT_TRUE(budget.share(30 * kMib, "light"));
+    EXPECT_EQ(budget.takenBytes(), 100 * kMib);
+}
+
 TEST(MemoryBudget, RefusedTake_KeepsWhatWasTaken) {
     MemoryBudget budget({.session_bytes = 10 * kMib});
     MemoryShare share(budget);

@@ -112,6 +112,18 @@ TEST(PlanWords, ShadowMaps_AreNamedWhereTheyAreDrawn) {
                          "frame"));
 }
 
+TEST(PlanWords, Environment_IsNamed) {
+    settings::ViewSettings settings;
+    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("environment"))));
+    settings.environment.light = settings::EnvironmentLight::kStudio;
+    EXPECT_THAT(wordsOf(settings, {}),
+                Contains("environment: light from around by the studio, in the ambient light's "
+                         "place"));
+    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("background"))));
+    settings.environment.background = true;
+    EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("background: what is around")));
+}
+
 TEST(PlanWords, Scene_CountsMaterials) {
     EXPECT_THAT(sceneWords(findNeeds(sceneOf(25, 18))),
                 Contains("normal maps on 18 of 25 materials"));

@@ -41,6 +41,9 @@ std::vector<v1::ClientMessage> seeds() {
     all[6].mutable_set_post()->set_bloom_radius(0.01);
     all[6].mutable_set_post()->set_antialiasing(v1::ANTIALIASING_SSAA4);
     all.push_back(clientMessage());
+    all.back().mutable_set_environment()->set_light(v1::ENVIRONMENT_LIGHT_STUDIO);
+    all.back().mutable_set_environment()->set_rotation_deg(30);
+    all.push_back(clientMessage());
     all.back().mutable_pick_light()->set_id(5);
     all.back().mutable_pick_light()->set_x(0.25);
     return all;

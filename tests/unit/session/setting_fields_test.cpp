@@ -82,6 +82,7 @@ TEST_F(SettingFields, CommandsWithoutAny_NameWhatIsMissing) {
     EXPECT_EQ(missing([](auto& m) { m.mutable_set_fog(); }), "fog is missing");
     EXPECT_EQ(missing([](auto& m) { m.mutable_set_fog()->mutable_fog(); }), "fog is missing");
     EXPECT_EQ(missing([](auto& m) { m.mutable_set_shadows(); }), "shadow_lights is missing");
+    EXPECT_EQ(missing([](auto& m) { m.mutable_set_environment(); }), "environment is missing");
     EXPECT_EQ(missing([](auto& m) { m.mutable_set_transparency(); }), "transparency is missing");
     EXPECT_EQ(missing([](auto& m) { m.mutable_set_delivery(); }), "adaptive is missing");
     EXPECT_EQ(missing([](auto& m) { m.mutable_set_grid(); }), "grid is missing");

@@ -1,0 +1,65 @@
+#include "reference/around.h"
+
+#include "environment/albedo.h"
+#include "environment/glossy.h"
+#include "environment/panorama.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace froxel::reference {
+namespace {
+
+// Of f0 alone, at each channel.
+glm::dvec3 reflectedShare(const glm::dvec3& f0, double f90, const environment::Albedo& albedo) {
+    const glm::dvec3 once = f0 * (albedo.all - albedo.grazing) + f90 * albedo.grazing;
+    return once * (1.0 + f0 * (1 / albedo.all - 1));
+}
+
+// Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 26.
+double glossyOcclusion(double n_dot_v, double occlusion, double roughness) {
+    const double seen = std::pow(n_dot_v + occlusion, std::exp2(-16 * roughness - 1));
+    return std::clamp(seen - 1 + occlusion, 0.0, 1.0);
+}
+
+} // namespace
+
+const environment::Surroundings* surroundingsFor(const scene::Scene& scene,
+                                                 const settings::Environment& settings) {
+    switch (settings.light) {
+    case settings::EnvironmentLight::kOff:
+        return nullptr;
+    case settings::EnvironmentLight::kStudio:
+        return &environment::studioSurroundings();
+    case settings::EnvironmentLight::kFile:
+        return scene.surroundings.get();
+    }
+    return nullptr;
+}
+
+glm::dvec3 radianceFrom(const Around& around, const glm::dvec3& direction, double roughness) {
+    return around.seen->glossy.at(environment::turned(direction, -around.rotation_rad), roughness) *
+           around.strength;
+}
+
+glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around) {
+    const glm::dvec3 matt = around.matt.at(s.normal) * s.occlusion;
+    if (model.shading == settings::ShadingModel::kLambert) {
+        return s.base_color * matt;
+    }
+    const double roughness = std::max(s.roughness, kLeastRoughness);
+    const double cosine = glm::dot(s.normal, s.to_eye);
+    const double n_dot_v = std::max(std::abs(cosine), 1e-4);
+    const auto albedo = environment::albedoFromTable(n_dot_v, roughness);
+    const glm::dvec3 of_dielectric = reflectedShare(s.dielectric_f0, s.dielectric_f90, albedo);
+    const glm::dvec3 of_metal = reflectedShare(s.base_color, 1, albedo);
+    const glm::dvec3 towards =
+        environment::lobeDirection(s.normal, 2 * cosine * s.normal - s.to_eye, roughness);
+    const glm::dvec3 glossy =
+        radianceFrom(around, towards, roughness) * glossyOcclusion(n_dot_v, s.occlusion, roughness);
+    const double entering = 1 - std::max({of_dielectric.x, of_dielectric.y, of_dielectric.z});
+    return glm::mix(of_dielectric, of_metal, s.metallic) * glossy +
+           s.base_color * ((1 - s.metallic) * entering) * matt;
+}
+
+} // namespace froxel::reference

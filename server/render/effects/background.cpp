@@ -1,0 +1,76 @@
+#include "render/effects/background.h"
+
+#include "embedded.h"
+#include "gpu/pipeline.h"
+#include "render/effects/environment.h"
+#include "render/frame/effect.h"
+#include "render/frame/frame_context.h"
+#include "render/pipelines/screen_groups.h"
+
+#include <array>
+
+namespace froxel::render {
+
+namespace {
+
+// Shared by every view.
+struct BackgroundPipeline {
+    explicit BackgroundPipeline(const SceneResources& scene)
+        : pipeline(gpu::makeComputePipeline(scene.device,
+                                            shaders::background_comp(),
+                                            {},
+                                            scene.pipelines.screenPipelineLayout(),
+                                            "background")) {}
+
+    vk::raii::Pipeline pipeline;
+};
+
+class Background final : public Effect {
+  public:
+    explicit Background(SceneResources& /*scene*/) {}
+
+    void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
+        passes.push_back({"background", timeOver(costOf(costs), costs.load().drawn)});
+    }
+    void record(const FrameContext& frame) const override {
+        inParts(frame, frame.slot.targets->size, costOf(frame.costs), recordPart);
+    }
+
+  private:
+    static RegionCost costOf(const FrameCosts& costs) {
+        const double each = costs.unit().screen_pixel + onDevice(costs.unit(), kEnvironmentLookup);
+        return {Seconds(0),
+                [each](const vk::Rect2D& region) { return Seconds(areaOf(region) * each); }};
+    }
+    // Reads depth, writes radiance.
+    static void recordPart(const FrameContext& frame, const vk::Rect2D& region) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "background");
+        const auto& cmd = frame.slot.cmd;
+        cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
+                         *frame.scene.shared<BackgroundPipeline>().pipeline);
+        const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
+        cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
+                               frame.scene.pipelines.screenPipelineLayout(), 0, sets, {});
+        dispatchOver(cmd, region);
+    }
+};
+
+std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
+                                 const FrameFacts& /*facts*/) {
+    return hasEnvironment(settings) && settings.environment.background ? std::optional(EffectPlan{})
+                                                                       : std::nullopt;
+}
+
+} // namespace
+
+const EffectRow kBackgroundEffect{
+    .place = EffectPlace::kSolid,
+    .plan = planOf,
+    .words =
+        [](const settings::ViewSettings&, const EffectPlan&) {
+            return std::string("background: what is around shows behind the scene, in a pass of "
+                               "its own");
+        },
+    .make = makeEffect<Background>};
+
+} // namespace froxel::render
