@@ -45,7 +45,7 @@ class Bench(unittest.TestCase):
         self.assertEqual(self.result["schema"], "froxel.bench.v1")
         self.assertTrue(self.result["complete"])
         sweep, = self.result["sweeps"]
-        self.assertEqual(len(sweep["rows"]) + len(sweep["skipped"]), 12)
+        self.assertEqual(len(sweep["rows"]) + len(sweep["skipped"]), 13)
         self.assertGreaterEqual(len(sweep["rows"]), 1)
         for row in sweep["skipped"]:
             self.assertNotEqual(row["reason"], "")
