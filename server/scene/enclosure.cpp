@@ -1,0 +1,116 @@
+#include "scene/enclosure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace froxel::scene {
+
+namespace {
+
+constexpr size_t kRayCount = 64;
+// An open court or a hall without its roof has walls and a floor.
+constexpr size_t kRoomHits = kRayCount * 2 / 3;
+
+struct Ray {
+    glm::dvec3 from;
+    glm::dvec3 along;
+};
+
+bool meets(const Ray& ray, const Bounds3& box, double nearest) {
+    const glm::dvec3 a = (glm::dvec3(box.min) - ray.from) / ray.along;
+    const glm::dvec3 b = (glm::dvec3(box.max) - ray.from) / ray.along;
+    double first = 0;
+    double last = nearest;
+    for (int i = 0; i < 3; ++i) {
+        // 0 / 0, in a side of the box: std::min and std::max leave the NaN out.
+        first = std::max(first, std::min(a[i], b[i]));
+        last = std::min(last, std::max(a[i], b[i]));
+    }
+    return first <= last;
+}
+
+// Distance in lengths of `along`, by Moeller and Trumbore (1997), and on which side; the triangle's
+// own if there is none nearer than `best`.
+void meetTriangle(const Ray& ray,
+                  const Primitive& primitive,
+                  size_t triangle,
+                  bool both_sides,
+                  std::optional<RayHit>& best) {
+    const auto corner = [&](size_t k) {
+        return glm::dvec3(primitive.positions[primitive.indices[3 * triangle + k]]);
+    };
+    const glm::dvec3 a = corner(0);
+    const glm::dvec3 ab = corner(1) - a;
+    const glm::dvec3 ac = corner(2) - a;
+    const glm::dvec3 p = glm::cross(ray.along, ac);
+    const double det = glm::dot(ab, p);
+    if (det == 0) {
+        return;
+    }
+    const glm::dvec3 s = ray.from - a;
+    const double u = glm::dot(s, p) / det;
+    const glm::dvec3 q = glm::cross(s, ab);
+    const double v = glm::dot(ray.along, q) / det;
+    const double t = glm::dot(ac, q) / det;
+    if (u >= 0 && v >= 0 && u + v <= 1 && t > 0 && (!best || t < best->distance_m)) {
+        best = RayHit{t, both_sides || det > 0};
+    }
+}
+
+} // namespace
+
+std::vector<std::optional<RayHit>> castRays(const Scene& scene,
+                                            const glm::dvec3& from_world,
+                                            const std::vector<glm::dvec3>& directions_world) {
+    std::vector<std::optional<RayHit>> hits(directions_world.size());
+    for (const Instance& instance : scene.instances) {
+        const glm::dmat4& world_from_object = instance.world_from_object;
+        const double det = glm::determinant(glm::dmat3(world_from_object));
+        if (det == 0 || !std::isfinite(det)) {
+            continue; // flat: nothing of it has an inside
+        }
+        const glm::dmat4 object_from_world = glm::inverse(world_from_object);
+        for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            const Material& material = scene.materials[primitive.material];
+            if (material.alpha_mode == AlphaMode::kBlend || primitive.bounds.empty()) {
+                continue;
+            }
+            for (size_t i = 0; i < hits.size(); ++i) {
+                // Along is not made unit again: distances stay the world's.
+                const Ray ray{glm::dvec3(object_from_world * glm::dvec4(from_world, 1)),
+                              glm::dmat3(object_from_world) * directions_world[i]};
+                const double nearest =
+                    hits[i] ? hits[i]->distance_m : std::numeric_limits<double>::infinity();
+                if (!meets(ray, primitive.bounds, nearest)) {
+                    continue;
+                }
+                for (size_t k = 0; k < primitive.indices.size() / 3; ++k) {
+                    meetTriangle(ray, primitive, k, material.double_sided, hits[i]);
+                }
+            }
+        }
+    }
+    return hits;
+}
+
+bool isRoom(const Scene& scene) {
+    if (scene.bounds_world.empty()) {
+        return false;
+    }
+    // Points of a spiral with the golden angle from row to row.
+    const double golden_rad = glm::pi<double>() * (3 - std::sqrt(5.0));
+    std::vector<glm::dvec3> directions;
+    for (size_t i = 0; i < kRayCount; ++i) {
+        const double y = 1 - (2 * static_cast<double>(i) + 1) / kRayCount;
+        const double ring = std::sqrt(1 - y * y);
+        const double angle_rad = golden_rad * static_cast<double>(i);
+        directions.emplace_back(ring * std::cos(angle_rad), y, ring * std::sin(angle_rad));
+    }
+    const auto hits = castRays(scene, scene.bounds_world.center(), directions);
+    const auto fronts =
+        std::count_if(hits.begin(), hits.end(), [](const auto& hit) { return hit && hit->front; });
+    return static_cast<size_t>(fronts) >= kRoomHits;
+}
+
+} // namespace froxel::scene

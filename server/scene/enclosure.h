@@ -1,0 +1,29 @@
+// Whether a scene is looked at from inside, as a room is, or from outside, as a thing is.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace froxel::scene {
+
+// What a ray from a point meets first. Blended surfaces are passed through.
+struct RayHit {
+    double distance_m = 0;
+    bool front = false; // of the surface; of a double-sided one both sides are
+};
+
+// One for each direction (unit, world), where there is any. O(directions x triangles whose boxes
+// are met), in double.
+[[nodiscard]] std::vector<std::optional<RayHit>>
+castRays(const Scene& scene,
+         const glm::dvec3& from_world,
+         const std::vector<glm::dvec3>& directions_world);
+
+// Of 64 rays from the middle of the scene's bounds, evenly spread, most meet fronts: walls, a floor
+// and perhaps a ceiling. From within a solid thing they meet backs.
+[[nodiscard]] bool isRoom(const Scene& scene);
+
+} // namespace froxel::scene
