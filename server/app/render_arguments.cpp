@@ -8,6 +8,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <string_view>
 #include <utility>
@@ -56,9 +57,13 @@ class Arguments {
     std::vector<std::string> texts_;
 };
 
-// Told even at their defaults: what people look for first.
+// Told even at their defaults: what people look for first, and what would go by the scene.
 bool isTold(const settings::Setting& setting) {
-    return setting.name == "renderer" || setting.name == "lights" || setting.name == "light_radius";
+    static constexpr std::array kTold = {
+        std::string_view("renderer"),      std::string_view("lights"),
+        std::string_view("light_radius"),  std::string_view("light_intensity"),
+        std::string_view("exposure_mode"), std::string_view("environment")};
+    return std::ranges::find(kTold, setting.name) != kTold.end();
 }
 
 void addSettings(Arguments& arguments, const settings::ViewSettings& settings) {

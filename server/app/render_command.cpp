@@ -99,6 +99,7 @@ void runRender(const RenderOptions& options) try {
     logWarnings(scene);
     gpu::Device device(options.device);
     auto run = describeRun(options, device.traits());
+    run.settings = firstLook(options.scene, scene, options.settings, options.given);
     run.settings.camera = findCamera(options.camera, scene, run.settings.size).value();
     auto& lens_shift = run.settings.camera.lens_shift;
     lens_shift = options.lens_shift.value_or(lens_shift);

@@ -1,6 +1,7 @@
 // `froxel render`: a scene to a picture, or to timings along the lights' animation.
 #pragma once
 
+#include "app/setting_options.h"
 #include "app/value_parsers.h"
 #include "gpu/device_options.h"
 #include "settings/settings.h"
@@ -18,6 +19,7 @@ struct RenderOptions {
     std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceOptions device;
     settings::ViewSettings settings; // but for the camera, which `camera` chooses
+    GivenSettings given;             // of them; what was not goes by the scene, as firstLook()
     std::filesystem::path light_set; // that settings.lights.placed was read from; empty: none
     CameraChoice camera;
     std::optional<glm::dvec2> lens_shift;    // of whichever camera it is

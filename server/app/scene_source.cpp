@@ -5,7 +5,9 @@
 #include "core/text.h"
 #include "gltf/gltf_loader.h"
 #include "motion/posed_scene.h"
+#include "scene/first_look.h"
 #include "scene/motion.h"
+#include "settings/setting_rows.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -17,6 +19,8 @@
 namespace froxel::app {
 
 namespace {
+
+constexpr const char* kBuiltin = "builtin";
 
 // Of Motion::clips; scene::kNone: none plays.
 Result<uint32_t> findAnimation(const std::string& wanted, const std::vector<scene::Clip>& clips) {
@@ -60,7 +64,7 @@ Result<void> choose(const std::string& animation, scene::Scene& scene) {
 Result<scene::Scene>
 loadScene(const std::string& source, const std::string& animation, double time_s) {
     auto scene =
-        source == "builtin" ? Result<scene::Scene>(builtin_scene::makeHall()) : gltf::load(source);
+        source == kBuiltin ? Result<scene::Scene>(builtin_scene::makeHall()) : gltf::load(source);
     if (!scene) {
         return scene;
     }
@@ -73,6 +77,22 @@ loadScene(const std::string& source, const std::string& animation, double time_s
         motion::placeCameras(*scene, motion::usualClips(*scene->motion), time_s);
     }
     return scene;
+}
+
+settings::ViewSettings firstLook(const std::string& source,
+                                 const scene::Scene& scene,
+                                 const settings::ViewSettings& settings,
+                                 const GivenSettings& given) {
+    settings::ViewSettings look = settings;
+    if (source != kBuiltin) {
+        scene::lookFor(scene, look);
+        for (const auto& row : settings::kSettingRows) {
+            if (given.count(row.name) > 0) {
+                row.set(look, row.get(settings));
+            }
+        }
+    }
+    return look;
 }
 
 void logWarnings(const scene::Scene& scene) {

@@ -1,6 +1,7 @@
 // Where a scene comes from: the one entry point for `--scene PATH|builtin`.
 #pragma once
 
+#include "app/setting_options.h"
 #include "core/error.h"
 #include "scene/scene.h"
 
@@ -14,6 +15,13 @@ namespace froxel::app {
 // kInvalidArgument where there is no such animation.
 [[nodiscard]] Result<scene::Scene>
 loadScene(const std::string& source, const std::string& animation = {}, double time_s = 0);
+
+// The settings of a view of it where nobody has asked for others: those given stay, the rest goes
+// by the scene (scene::lookFor()). The built-in scene has the defaults for its look.
+[[nodiscard]] settings::ViewSettings firstLook(const std::string& source,
+                                               const scene::Scene& scene,
+                                               const settings::ViewSettings& settings,
+                                               const GivenSettings& given);
 
 // A line of the log for each of the scene's warnings, which are few.
 void logWarnings(const scene::Scene& scene);

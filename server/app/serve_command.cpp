@@ -41,11 +41,12 @@ std::chrono::milliseconds milliseconds(double seconds) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(seconds));
 }
 
-session::SessionDefaults defaultsOf(const ServeOptions& options, bool device_is_cpu) {
+session::SessionDefaults
+defaultsOf(const ServeOptions& options, const scene::Scene& scene, bool device_is_cpu) {
     auto defaults =
         session::defaultsFor(device_is_cpu ? session::DeviceKind::kCpu : session::DeviceKind::kGpu);
     const settings::Size size = options.size.value_or(defaults.settings.size);
-    defaults.settings = options.first_view;
+    defaults.settings = firstLook(options.scene, scene, options.first_view, options.given);
     defaults.settings.size = size;
     defaults.encoding.quality = options.quality.value_or(defaults.encoding.quality);
     defaults.min_rate_hz = options.min_rate_hz.value_or(defaults.min_rate_hz);
@@ -99,8 +100,9 @@ OpenedScene openScene(const ServeOptions& options,
     scene::Scene scene = loadScene(options.scene, options.animation).value();
     surround(scene, options.environment_file);
     logWarnings(scene);
-    session::SessionContext context{session::summarize(scene), defaultsOf(options, traits.is_cpu),
-                                    FROXEL_VERSION, traits.name, lightPicker(scene)};
+    session::SessionContext context{session::summarize(scene),
+                                    defaultsOf(options, scene, traits.is_cpu), FROXEL_VERSION,
+                                    traits.name, lightPicker(scene)};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());

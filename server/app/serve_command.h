@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/memory_limits.h"
+#include "app/setting_options.h"
 #include "gpu/device_options.h"
 #include "net/bind_address.h"
 #include "session/session_context.h"
@@ -52,7 +53,8 @@ struct ServeOptions {
     session::DeliverySettings delivery =
         session::defaultsFor(session::DeviceKind::kCpu).delivery; // the same on both
     settings::ViewSettings first_view; // but for its camera, and its size where that is given above
-    std::filesystem::path light_set;   // that first_view.lights.placed was read from; empty: none
+    GivenSettings given; // of first_view; what was not goes by the scene, as firstLook()
+    std::filesystem::path light_set; // that first_view.lights.placed was read from; empty: none
     std::optional<glm::dvec2> lens_shift;
     // The built page. Empty: web/ beside the binary, else where this build made it.
     std::filesystem::path web_root;

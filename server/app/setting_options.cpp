@@ -110,9 +110,14 @@ void addSettingValue(CommandBuilder& command,
 
 void addViewSettings(CommandBuilder& command,
                      settings::ViewSettings& settings,
+                     GivenSettings& given,
                      std::filesystem::path& light_set) {
     for (const auto& row : settings::kSettingRows) {
-        addSetting(command, row, settings);
+        addSetting(command, row, row.get(settings),
+                   [&row, &settings, &given](const SettingValue& value) {
+                       row.set(settings, value);
+                       given.insert(row.name);
+                   });
     }
     addGrid(command, settings.grid);
     addLightPlaces(command, settings.lights, light_set);

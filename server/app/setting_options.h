@@ -8,7 +8,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
+#include <string_view>
 
 namespace froxel::app {
 
@@ -35,10 +37,14 @@ void addSetting(CommandBuilder& command, const settings::SettingOf<Whole>& row, 
                [&row, &target](const settings::SettingValue& value) { row.set(target, value); });
 }
 
+// The rows whose option was there, by name.
+using GivenSettings = std::set<std::string_view>;
+
 // All settings of the view's table, its grid and its lights; `light_set` becomes the file that
 // placed ones were read from.
 void addViewSettings(CommandBuilder& command,
                      settings::ViewSettings& settings,
+                     GivenSettings& given,
                      std::filesystem::path& light_set);
 // Of them the lights alone.
 void addLights(CommandBuilder& command,

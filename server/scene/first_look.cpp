@@ -20,6 +20,11 @@ double roundNumber(double value) {
                                              : 10);
 }
 
+bool allUnlit(const Scene& scene) {
+    return std::all_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& material) { return material.unlit; });
+}
+
 double within(const settings::Range<double>& range, double value) {
     return std::clamp(value, range.min, range.max);
 }
@@ -36,9 +41,13 @@ void lookFor(const Scene& scene, settings::ViewSettings& settings) {
         lights.intensity = static_cast<float>(
             within(settings::kLightIntensityRange, std::pow(radius_m / usual_m, 2)));
     }
-    if (!scene.lights.empty() || !isRoom(scene)) {
+    if (!scene.lights.empty()) {
         lights.count = 0;
         settings.exposure_mode = settings::ExposureMode::kFrame;
+    } else if (!isRoom(scene)) {
+        lights.count = 0;
+        settings.environment.light = allUnlit(scene) ? settings::EnvironmentLight::kOff
+                                                     : settings::EnvironmentLight::kStudio;
     }
 }
 

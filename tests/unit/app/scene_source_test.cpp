@@ -65,5 +65,16 @@ TEST_F(SceneSource, MovingCamera_StandsWhereItIsThen) {
     EXPECT_EQ(loadScene(file_, "none", 0.25)->cameras.at(0).camera.eye_world, glm::dvec3(0));
 }
 
+// An empty scene is no room: it has no seeded lights.
+TEST(FirstLook, WhatWasGiven_Stays_AndTheHallKeepsTheDefaults) {
+    const scene::Scene scene;
+    settings::ViewSettings asked;
+    EXPECT_EQ(firstLook("builtin", scene, asked, {}), asked);
+    EXPECT_EQ(firstLook("a.glb", scene, asked, {}).lights.count, 0U);
+    EXPECT_EQ(firstLook("a.glb", scene, asked, {"lights"}), asked);
+    asked.lights.count = 7;
+    EXPECT_EQ(firstLook("a.glb", scene, asked, {"lights"}).lights.count, 7U);
+}
+
 } // namespace
 } // namespace froxel::app

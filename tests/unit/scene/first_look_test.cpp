@@ -95,11 +95,16 @@ TEST(IsRoom, AFlatOrBrokenPlace_HasNoInside) {
     EXPECT_FALSE(isRoom(scene));
 }
 
-TEST(LookFor, AThing_HasNoSeededLights_AndIsExposedByItsPicture) {
+TEST(LookFor, AThingWithoutLights_StandsInTheStudio) {
     settings::ViewSettings settings;
-    lookFor(makeBox({0, 0, 0}, 1), settings);
+    Scene thing = makeBox({0, 0, 0}, 1);
+    lookFor(thing, settings);
     EXPECT_EQ(settings.lights.count, 0U);
-    EXPECT_EQ(settings.exposure_mode, settings::ExposureMode::kFrame);
+    EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
+    EXPECT_EQ(settings.exposure_mode, settings::ExposureMode::kFixed);
+    thing.materials[0].unlit = true;
+    lookFor(thing, settings);
+    EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kOff);
 }
 
 TEST(LookFor, ARoom_KeepsItsSeededLights_UnlessItHasItsOwn) {
@@ -111,6 +116,7 @@ TEST(LookFor, ARoom_KeepsItsSeededLights_UnlessItHasItsOwn) {
     room.lights.resize(1);
     lookFor(room, settings);
     EXPECT_EQ(settings.lights.count, 0U);
+    EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kOff);
     EXPECT_EQ(settings.exposure_mode, settings::ExposureMode::kFrame);
 }
 
@@ -127,7 +133,7 @@ TEST(LookFor, SeededLights_GrowWithTheScene) {
 }
 
 TEST(LookFor, ReachIsARoundNumber_AndInItsRange) {
-    for (const auto [half, radius] :
+    for (const auto& [half, radius] :
          {std::pair(1e-6, 0.001), {0.5, 0.1}, {1.0, 0.2}, {2.0, 0.5}, {1e9, 1e4}}) {
         settings::ViewSettings settings;
         lookFor(makeBox({0, 0, 0}, half), settings);
