@@ -1,6 +1,7 @@
 #include "app/scene_camera.h"
 
 #include "core/text.h"
+#include "motion/posed_scene.h"
 #include "scene/first_camera.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -16,7 +17,7 @@ struct Finder {
     const settings::Size& size;
 
     Result<settings::Camera> operator()(const DefaultCamera&) const {
-        return scene::firstCamera(scene, size);
+        return scene::firstCamera(scene.cameras, framing(scene), size);
     }
     Result<settings::Camera> operator()(const settings::Camera& camera) const { return camera; }
     Result<settings::Camera> operator()(const std::string& name) const {
@@ -35,6 +36,17 @@ struct Finder {
 };
 
 } // namespace
+
+settings::Sphere framing(const scene::Scene& scene) {
+    constexpr uint32_t kSamples = 8;
+    if (!scene.motion || !scene.cameras.empty()) {
+        return scene::enclosingSphere(scene);
+    }
+    const BoundsD3 bounds =
+        motion::sampledBounds(scene, motion::usualClips(*scene.motion), kSamples);
+    return bounds.empty() ? settings::Sphere{}
+                          : settings::Sphere{bounds.center(), glm::length(bounds.size()) / 2};
+}
 
 Result<settings::Camera>
 findCamera(const CameraChoice& choice, const scene::Scene& scene, const settings::Size& size) {

@@ -6,6 +6,10 @@
 
 namespace froxel::app {
 
+// What a camera that nobody has chosen frames: scene::enclosingSphere(), or about what moves while
+// it does.
+[[nodiscard]] settings::Sphere framing(const scene::Scene& scene);
+
 // size: of the pictures. Errors: kInvalidArgument, naming the camera asked for and those that the
 // scene has.
 [[nodiscard]] Result<settings::Camera>

@@ -4,6 +4,7 @@
 #include "app/device_losses.h"
 #include "app/environment_file.h"
 #include "app/output_file.h"
+#include "app/scene_camera.h"
 #include "app/scene_source.h"
 #include "app/serve_end.h"
 #include "app/serve_run.h"
@@ -103,6 +104,7 @@ OpenedScene openScene(const ServeOptions& options,
     session::SessionContext context{session::summarize(scene),
                                     defaultsOf(options, scene, traits.is_cpu), FROXEL_VERSION,
                                     traits.name, lightPicker(scene)};
+    context.scene.framed_world = framing(scene);
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());

@@ -17,4 +17,9 @@ posedScene(scene::Scene scene, std::span<const PlayedClip> clips, double time_s)
 // Only its cameras.
 void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double time_s);
 
+// Of all vertices at so many times, evenly spread over the longest of the clips: for framing, much
+// tighter than what holds any pose. The scene has motion.
+[[nodiscard]] BoundsD3
+sampledBounds(const scene::Scene& scene, std::span<const PlayedClip> clips, uint32_t sample_count);
+
 } // namespace froxel::motion

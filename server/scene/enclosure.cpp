@@ -35,7 +35,6 @@ bool meets(const Ray& ray, const Bounds3& box, double nearest) {
 void meetTriangle(const Ray& ray,
                   const Primitive& primitive,
                   size_t triangle,
-                  bool both_sides,
                   std::optional<RayHit>& best) {
     const auto corner = [&](size_t k) {
         return glm::dvec3(primitive.positions[primitive.indices[3 * triangle + k]]);
@@ -54,7 +53,7 @@ void meetTriangle(const Ray& ray,
     const double v = glm::dot(ray.along, q) / det;
     const double t = glm::dot(ac, q) / det;
     if (u >= 0 && v >= 0 && u + v <= 1 && t > 0 && (!best || t < best->distance_m)) {
-        best = RayHit{t, both_sides || det > 0};
+        best = RayHit{t, det > 0};
     }
 }
 
@@ -86,7 +85,7 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
                     continue;
                 }
                 for (size_t k = 0; k < primitive.indices.size() / 3; ++k) {
-                    meetTriangle(ray, primitive, k, material.double_sided, hits[i]);
+                    meetTriangle(ray, primitive, k, hits[i]);
                 }
             }
         }

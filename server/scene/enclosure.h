@@ -12,7 +12,7 @@ namespace froxel::scene {
 // What a ray from a point meets first. Blended surfaces are passed through.
 struct RayHit {
     double distance_m = 0;
-    bool front = false; // of the surface; of a double-sided one both sides are
+    bool front = false; // of the surface, as its triangles wind, whether or not the back is drawn
 };
 
 // One for each direction (unit, world), where there is any. O(directions x triangles whose boxes
