@@ -54,7 +54,9 @@ const kNeeded = {
   peel_: { name: 'transparency', label: 'peeled', usual: 'sorted' },
   bloom_: { name: 'bloom', label: 'mip chain', usual: 'none' },
   outline_: { name: 'renderer', label: 'toon fragment', usual: 'clustered deferred' },
+  environment_: { name: 'environment', label: 'studio', usual: 'off' },
 } as const;
+const neededFor = (name: string) => Object.entries(kNeeded).find(([prefix]) => name.startsWith(prefix))?.[1];
 
 let server: Server;
 let browser: Browser;
@@ -114,7 +116,7 @@ describe('numbers', () => {
     it(`Control_${field.name}_SetsIt`, async () => {
       const [value, visible] = kGiven[field.name] ?? [otherValue(field), false];
       if (isGridSide(field)) await setSwitch('grid.auto', false);
-      const needed = Object.entries(kNeeded).find(([prefix]) => field.name.startsWith(prefix))?.[1];
+      const needed = neededFor(field.name);
       if (needed) await viewer.choose(needed.name, needed.label);
       const before = await viewer.settled();
       await viewer.type(field.name, value);
@@ -217,12 +219,15 @@ describe('switches', () => {
   for (const field of kAllFields) {
     if (field.kind !== 'boolean') continue;
     it(`Control_${field.name}_GoesOnAndOff`, async () => {
+      const needed = neededFor(field.name);
+      if (needed) await viewer.choose(needed.name, needed.label);
       const now = told();
       const before = now !== null && valueOf(now, field);
       for (const value of [!before, before]) {
         await viewer.control(field.name).locator('input').click();
         await expectState(field, value);
       }
+      if (needed) await viewer.choose(needed.name, needed.usual);
     });
   }
 
