@@ -118,10 +118,12 @@ describe('numbers', () => {
       if (isGridSide(field)) await setSwitch('grid.auto', false);
       const needed = neededFor(field.name);
       if (needed) await viewer.choose(needed.name, needed.label);
+      if (field.name === 'environment_blur') await setSwitch('environment_background', true);
       const before = await viewer.settled();
       await viewer.type(field.name, value);
       await expectState(field, value);
       if (visible) await viewer.changed(field.name, before);
+      if (field.name === 'environment_blur') await setSwitch('environment_background', false);
       if (needed) await viewer.choose(needed.name, needed.usual);
       // Capped, pictures depend on the grid.
       if (field.name === 'list_cap') await viewer.type(field.name, 0);
