@@ -90,7 +90,7 @@ class RendererSource final : public FrameSource {
   private:
     [[nodiscard]] static render::WorkLimits limitsOf(const gpu::Device& device, Seconds frame) {
         return device.traits().is_cpu
-                   ? render::WorkLimits{frame, kCpuPiece, kCpuPiece, kLightsAtOnce}
+                   ? render::WorkLimits{frame, kCpuPiece, kCpuLoop, kLightsAtOnce}
                    : render::WorkLimits{frame, kGpuPiece, kGpuLoop, kLightsAtOnce};
     }
     [[nodiscard]] static Error noMemory(const std::string& whose) {

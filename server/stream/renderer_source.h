@@ -16,11 +16,12 @@ struct Scene;
 
 namespace froxel::stream {
 
-// For how long one frame may keep the device from others, by its estimate. A GPU's is half of the
-// 50 ms that nobody should wait: in storms pieces took up to twice what was expected.
-inline constexpr Seconds kCpuPiece{0.25};
+// For how long one frame may keep the device from others, by its estimate: half of the 250 ms, or
+// 50 on a GPU, that nobody should wait. In storms pieces took up to twice what was expected.
+inline constexpr Seconds kCpuPiece{0.125};
 inline constexpr Seconds kGpuPiece{0.025};
 // Likewise one pixel's loop over its lights, which nothing cuts.
+inline constexpr Seconds kCpuLoop{0.25};
 inline constexpr Seconds kGpuLoop{0.05};
 // More lights take the host so long that it builds their frames in stages: a million up to 0.5 s
 // beside a software device's threads.
