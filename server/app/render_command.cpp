@@ -43,10 +43,12 @@ void writePicture(const RenderOptions& options,
     }
 }
 
-TimedRun describeRun(const RenderOptions& options, const gpu::DeviceTraits& device) {
+TimedRun describeRun(const RenderOptions& options,
+                     const scene::Scene& scene,
+                     const gpu::DeviceTraits& device) {
     return {.device = report::summarize(device),
             .scene = options.scene,
-            .settings = options.settings,
+            .settings = firstLook(options.scene, scene, options.settings, options.given),
             .time_s = options.time_s,
             .step_s = report::lightStepS(options.settings.lights),
             .warmup_count = options.warmup_count,
@@ -98,8 +100,7 @@ void runRender(const RenderOptions& options) try {
     surround(scene, options.environment_file);
     logWarnings(scene);
     gpu::Device device(options.device);
-    auto run = describeRun(options, device.traits());
-    run.settings = firstLook(options.scene, scene, options.settings, options.given);
+    auto run = describeRun(options, scene, device.traits());
     run.settings.camera = findCamera(options.camera, scene, run.settings.size).value();
     auto& lens_shift = run.settings.camera.lens_shift;
     lens_shift = options.lens_shift.value_or(lens_shift);

@@ -241,7 +241,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
          .effects = effects_.ofFrame(),
          .pieces = slot.pieces,
          .costs = costs},
-        work_.piece);
+        work_.piece, piece_share_);
     if (slot.pieces.estimate() > work_.frame) { // with what each piece does again
         markFresh(slot);
         return tooLongInPieces(asked.settings.size, slot.pieces, work_.frame);

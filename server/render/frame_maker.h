@@ -35,6 +35,8 @@ class FrameMaker {
     // view's. Errors: kCapacity, kUnsupported. Throws vk::SystemError.
     [[nodiscard]] Result<Made>
     record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots);
+    // See ViewRenderer::setPieceShare().
+    void setPieceShare(double share) { piece_share_ = share; }
     // Whether what the device told of a completed frame's lists lets it be shown.
     [[nodiscard]] bool accepts(const FrameSlot& slot) {
         return !slot.device_lists || builder_.acceptLists(*slot.assignment);
@@ -79,6 +81,7 @@ class FrameMaker {
 
     SceneResources& scene_;
     const WorkLimits work_;
+    double piece_share_ = 1;
     FrameBuilder builder_;
     std::chrono::steady_clock::time_point started_; // what it builds
     double built_us_ = 0;                           // of the host, spent on that

@@ -259,9 +259,9 @@ void recordPairs(const FrameContext& frame) {
 
 } // namespace
 
-void recordFrame(const FrameContext& frame, Seconds piece_limit) {
+void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_share) {
     auto& slot = frame.slot;
-    frame.pieces.begin(piece_limit);
+    frame.pieces.begin(piece_limit, piece_share);
     slot.timestamps.reset();
     recordFreshTargets(slot);
     if (frame.plan.pose) {

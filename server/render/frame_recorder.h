@@ -8,8 +8,8 @@
 namespace froxel::render {
 
 // Records the slot's pieces from begin to end, none longer than `piece_limit` where work can be
-// cut: between two of them other views' frames may be drawn.
-void recordFrame(const FrameContext& frame, Seconds piece_limit);
+// cut: between two of them other views' frames may be drawn. See FramePieces::begin().
+void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_share);
 
 // Records the assignment of lights on the device, from clearing its counters to copying them to the
 // host; lists and indices are ready for shaders.

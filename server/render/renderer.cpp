@@ -134,6 +134,10 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     return FrameWork{.estimate = slot->pieces.estimate(), .piece_count = slot->pieces.count()};
 }
 
+void ViewRenderer::setPieceShare(double share) {
+    impl_->maker.setPieceShare(share);
+}
+
 Result<void> ViewRenderer::submitPiece() {
     FROXEL_ASSERT(!impl_->pending.empty() && impl_->pending.back()->unfinished(),
                   "submitPiece needs a frame whose pieces wait");

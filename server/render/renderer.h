@@ -83,6 +83,9 @@ class ViewRenderer {
     // or the frame would take longer than allowed; kDevice when the device is lost; kUnsupported
     // when the settings ask for what the device lacks.
     [[nodiscard]] Result<FrameWork> begin(const FrameInputs& inputs);
+    // Frames begun from now on are cut finer, where that costs nothing: into pieces that by their
+    // estimate take this share, of 1, of the limit.
+    void setPieceShare(double share);
     // Gives the device the next piece of the frame begun last; returns at once where the device
     // runs on its own. Errors: kDevice.
     [[nodiscard]] Result<void> submitPiece();

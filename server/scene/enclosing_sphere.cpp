@@ -33,9 +33,6 @@ double farthestCorner(const Placed& placed, const glm::dvec3& middle) {
 
 settings::Sphere enclosingSphere(const Scene& scene) {
     const glm::dvec3 middle = scene.bounds_world.center();
-    if (scene.motion && !scene.bounds_world.empty()) {
-        return {middle, glm::length(scene.bounds_world.size()) / 2};
-    }
     std::vector<Placed> all;
     for (const Instance& instance : scene.instances) {
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {

@@ -7,8 +7,8 @@ namespace froxel::scene {
 
 // About the middle of bounds_world, through the vertex farthest from it; settings::Sphere{} where
 // the scene has none. A model fills much less of the sphere about its box. Looks at the vertices of
-// those primitives alone whose boxes reach farther than what was found. Of a scene that moves the
-// sphere about bounds_world, which holds it at any time.
+// those primitives alone whose boxes reach farther than what was found. A scene that moves is taken
+// at rest.
 [[nodiscard]] settings::Sphere enclosingSphere(const Scene& scene);
 
 } // namespace froxel::scene

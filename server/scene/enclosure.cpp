@@ -70,6 +70,7 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
             continue; // flat: nothing of it has an inside
         }
         const glm::dmat4 object_from_world = glm::inverse(world_from_object);
+        const glm::dvec3 from(object_from_world * glm::dvec4(from_world, 1));
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[primitive.material];
             if (material.alpha_mode == AlphaMode::kBlend || primitive.bounds.empty()) {
@@ -77,8 +78,7 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
             }
             for (size_t i = 0; i < hits.size(); ++i) {
                 // Along is not made unit again: distances stay the world's.
-                const Ray ray{glm::dvec3(object_from_world * glm::dvec4(from_world, 1)),
-                              glm::dmat3(object_from_world) * directions_world[i]};
+                const Ray ray{from, glm::dmat3(object_from_world) * directions_world[i]};
                 const double nearest =
                     hits[i] ? hits[i]->distance_m : std::numeric_limits<double>::infinity();
                 if (!meets(ray, primitive.bounds, nearest)) {

@@ -36,6 +36,7 @@ constexpr Seconds kLongStep{0.5};
 
 void warnOfLongStep(std::string_view step,
                     Seconds took,
+                    Seconds expected,
                     SessionId id,
                     const session::SessionState& state) {
     if (took < kLongStep) {
@@ -43,9 +44,9 @@ void warnOfLongStep(std::string_view step,
     }
     const settings::Size& size = state.settings.size;
     const settings::GridSize& grid = state.settings.grid.size;
-    spdlog::warn("event=long_step step={} seconds={:.2f} session={} size={}x{} grid={}x{}x{} "
-                 "placed={} settings={}",
-                 step, took.count(), id, size.width_px, size.height_px, grid.x, grid.y, grid.z,
+    spdlog::warn("event=long_step step={} seconds={:.2f} expected={:.2f} session={} size={}x{} "
+                 "grid={}x{}x{} placed={} settings={}",
+                 step, took.count(), expected.count(), id, size.width_px, size.height_px, grid.x, grid.y, grid.z,
                  state.settings.lights.placed.lights().size(),
                  logValue(session::unusualSettings(state), 1000));
 }
@@ -289,7 +290,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     const Seconds host = spentSince(now);
     scheduler_.charge(id, host);
     options_.on_begun(host);
-    warnOfLongStep("begin", host, id, frame->state);
+    warnOfLongStep("begin", host, {}, id, frame->state);
     frame->cost += host;
     if (work && work->half_built) {
         return false;
@@ -395,7 +396,7 @@ void RenderLoop::finishOldest() {
     }
     const Seconds cost = spentSince(piece.submitted);
     options_.on_piece(cost);
-    warnOfLongStep("piece", cost, frame.id, frame.state);
+    warnOfLongStep("piece", cost, frame.piece_estimate, frame.id, frame.state);
     scheduler_.onFinished(frame.id, cost - piece.charged, accounted_);
     frame.cost += cost;
     frame.longest_piece = std::max(frame.longest_piece, cost);

@@ -4,9 +4,11 @@
 #include "render/device_speed.h"
 #include "render/renderer.h"
 #include "scene/first_camera.h"
+#include "stream/piece_share.h"
 
 #include <spdlog/spdlog.h>
 
+#include <deque>
 #include <utility>
 
 namespace froxel::stream {
@@ -18,12 +20,13 @@ constexpr int kCpuNiceness = 10;
 class RendererView final : public ViewSource {
   public:
     RendererView(render::Renderer& renderer, const render::WorkLimits& limits)
-        : view_(renderer, {}, limits) {}
+        : view_(renderer, {}, limits), share_(limits.piece) {}
 
     [[nodiscard]] bool canBegin() const override { return view_.canSubmit(); }
 
     [[nodiscard]] Result<FrameWork>
     begin(const settings::ViewSettings& settings, double time_s, uint64_t beside_bytes) override {
+        view_.setPieceShare(share_.value());
         const auto work =
             view_.begin({.settings = settings, .time_s = time_s, .beside_bytes = beside_bytes});
         if (!work) {
@@ -31,7 +34,10 @@ class RendererView final : public ViewSource {
         }
         return FrameWork{work->estimate, work->piece_count, work->half_built};
     }
-    [[nodiscard]] Result<void> submitPiece() override { return view_.submitPiece(); }
+    [[nodiscard]] Result<void> submitPiece() override {
+        submitted_.push_back(Clock::now());
+        return view_.submitPiece();
+    }
     void abandon() override { view_.abandon(); }
 
     [[nodiscard]] Result<Collected> collect() override {
@@ -39,19 +45,30 @@ class RendererView final : public ViewSource {
         if (!piece) {
             return piece.error();
         }
+        noteCollected(Clock::now());
         if (piece->again) {
             return Collected{.outcome = Collected::Outcome::kAgain};
         }
         if (!piece->frame) {
             return Collected{.outcome = Collected::Outcome::kPiece};
         }
+        share_.onFrame();
         return Collected{
             .outcome = Collected::Outcome::kFrame,
             .frame = SourceFrame{std::move(piece->frame->pixels), std::move(piece->frame->stats)}};
     }
 
   private:
+    // Where others' pieces ran in between they count, too: the device is busy.
+    void noteCollected(TimePoint now) {
+        share_.onPiece(now - std::max(submitted_.front(), std::exchange(collected_, now)));
+        submitted_.pop_front();
+    }
+
     render::ViewRenderer view_;
+    PieceShare share_;
+    std::deque<TimePoint> submitted_; // pieces on the device
+    TimePoint collected_;             // the last one
 };
 
 class RendererSource final : public FrameSource {

@@ -53,9 +53,10 @@ void beginBuffer(const vk::raii::CommandBuffer& cmd) {
 FramePieces::FramePieces(const gpu::Timeline& timeline, vk::raii::CommandBuffer& current)
     : timeline_(timeline), current_(current) {}
 
-void FramePieces::begin(Seconds limit) {
+void FramePieces::begin(Seconds limit, double share) {
     used_ = 0;
     limit_ = limit;
+    fine_ = share * limit;
     piece_ = estimate_ = Seconds(0);
     closed_ = false;
     beginBuffer(current_);
@@ -74,7 +75,7 @@ void FramePieces::cut() {
 }
 
 void FramePieces::add(Seconds cost) {
-    if (closed_ || (piece_ > Seconds(0) && piece_ + cost > limit_)) {
+    if (closed_ || (piece_ > Seconds(0) && piece_ + cost > fine_)) {
         cut();
     }
     piece_ += cost;
@@ -93,7 +94,8 @@ void FramePieces::overPart(const vk::Rect2D& part,
                            const RegionCost& cost,
                            const std::function<void(const vk::Rect2D&)>& record) {
     const Seconds own = cost.of(part);
-    const Seconds room = std::max(limit_ - std::min(cost.each, limit_ / 2), cost.least);
+    const Seconds limit = cost.each > Seconds(0) ? limit_ : fine_;
+    const Seconds room = std::max(limit - std::min(cost.each, limit / 2), cost.least);
     const auto parts = own > room ? halves(part) : std::nullopt;
     if (parts) {
         overPart((*parts)[0], cost, record);
@@ -105,7 +107,7 @@ void FramePieces::overPart(const vk::Rect2D& part,
 }
 
 size_t FramePieces::fits(Seconds cost) const {
-    return std::max<size_t>(1, static_cast<size_t>(limit_ / std::max(cost, Seconds(1e-9))));
+    return std::max<size_t>(1, static_cast<size_t>(fine_ / std::max(cost, Seconds(1e-9))));
 }
 
 void FramePieces::end() {

@@ -24,12 +24,13 @@ class FramePieces {
     // `current` is where everybody records: ending a piece puts another buffer in its place.
     FramePieces(const gpu::Timeline& timeline, vk::raii::CommandBuffer& current);
 
-    // Starts over, in an empty buffer that has begun.
-    void begin(Seconds limit);
+    // Starts over, in an empty buffer that has begun. What can be cut without doing anything twice
+    // gets `share`, of 1, of the limit.
+    void begin(Seconds limit, double share);
     // What was recorded last may take much longer than was said: nothing else goes into its piece.
     void close() { closed_ = true; }
     // What is recorded next takes about this long and is not cut: a piece ends here where both
-    // would take longer than the limit. Outside of rendering; buffers that views share must hold
+    // would take longer than that share. Outside of rendering; buffers that views share must hold
     // nothing that is still needed.
     void add(Seconds cost);
     // Calls record(part) for parts of a picture, each within the limit where its cost lets it be,
@@ -57,6 +58,7 @@ class FramePieces {
     std::vector<vk::raii::CommandBuffer> ended_;
     uint32_t used_ = 0; // of `ended_`, in this frame
     Seconds limit_{0};
+    Seconds fine_{0}; // the share of it
     Seconds piece_{0}; // of the present one
     bool closed_ = false;
     Seconds estimate_{0};
