@@ -103,8 +103,8 @@ OpenedScene openScene(const ServeOptions& options,
     logWarnings(scene);
     session::SessionContext context{session::summarize(scene),
                                     defaultsOf(options, scene, traits.is_cpu), FROXEL_VERSION,
-                                    traits.name, lightPicker(scene)};
-    context.scene.framed_world = framing(scene);
+                                    traits.name, lightPicker(scene),
+                                    framing(scene)};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());

@@ -1,6 +1,5 @@
 #include "session/session_context.h"
 
-#include "scene/enclosing_sphere.h"
 #include "scene/motion.h"
 
 namespace froxel::session {
@@ -13,7 +12,6 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.punctual_light_count = static_cast<uint32_t>(scene.lights.size());
     summary.cameras = scene.cameras;
     summary.bounds_world = scene.bounds_world;
-    summary.framed_world = scene::enclosingSphere(scene);
     summary.moves = scene.motion && scene.motion->played < scene.motion->clips.size();
     summary.warnings = scene.warnings;
     summary.warnings_left_out = scene.warnings_left_out;

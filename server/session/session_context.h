@@ -24,9 +24,8 @@ struct SceneSummary {
     uint32_t texture_count = 0;
     uint32_t punctual_light_count = 0;
     std::vector<scene::NamedCamera> cameras;
-    BoundsD3 bounds_world;         // empty for an empty scene
-    settings::Sphere framed_world; // scene::enclosingSphere()
-    bool moves = false;            // as time passes, whatever the lights do
+    BoundsD3 bounds_world; // empty for an empty scene
+    bool moves = false;    // as time passes, whatever the lights do
     std::vector<scene::Warning> warnings;
     uint64_t warnings_left_out = 0;
 };
@@ -63,6 +62,7 @@ struct SessionContext {
     std::string server_version;
     std::string device_name;
     LightPicker pick_light = pickNone;
+    settings::Sphere framed_world; // by the first camera of a scene that has none
 };
 
 } // namespace froxel::session
