@@ -1,6 +1,5 @@
 #include "scene/enclosing_sphere.h"
 #include "scene/first_camera.h"
-#include "scene/motion.h"
 
 #include <gtest/gtest.h>
 
@@ -65,16 +64,6 @@ TEST(EnclosingSphere, OfManyInstances_GoesThroughTheFarthestVertex) {
         EXPECT_EQ(sphere.radius_m, farthest);
         EXPECT_LT(sphere.radius_m, glm::length(scene.bounds_world.size()) / 2);
     }
-}
-
-// Its vertices say nothing of where they will be.
-TEST(EnclosingSphere, OfWhatMoves_GoesAboutTheBoxOfAllTimes) {
-    Scene scene = makeCrowd(3);
-    scene.motion = std::make_shared<const Motion>();
-    scene.bounds_world.add(glm::dvec3(90, 0, 0));
-    const settings::Sphere sphere = enclosingSphere(scene);
-    EXPECT_EQ(sphere.center, scene.bounds_world.center());
-    EXPECT_DOUBLE_EQ(sphere.radius_m, glm::distance(sphere.center, scene.bounds_world.max));
 }
 
 TEST(EnclosingSphere, OfNothing_IsTheUsualOne) {
