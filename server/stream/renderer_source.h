@@ -21,7 +21,7 @@ namespace froxel::stream {
 inline constexpr Seconds kCpuPiece{0.125};
 inline constexpr Seconds kGpuPiece{0.025};
 // Likewise one pixel's loop over its lights, which nothing cuts.
-inline constexpr Seconds kCpuLoop{0.25};
+inline constexpr Seconds kCpuLoop{0.125};
 inline constexpr Seconds kGpuLoop{0.05};
 // More lights take the host so long that it builds their frames in stages: a million up to 0.5 s
 // beside a software device's threads.

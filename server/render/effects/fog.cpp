@@ -27,7 +27,7 @@ using Type = vk::DescriptorType;
 constexpr size_t kFogBinding = 6;
 constexpr size_t kVolumeBinding = 7;
 
-constexpr Measured<PairCost> kPair{.cpu = {5e-9, 0}, .gpu = {8e-12, 1e-6}};
+constexpr Measured<PairCost> kPair{.cpu = {5e-9, 8e-7}, .gpu = {8e-12, 1e-6}};
 constexpr Measured<double> kFroxel{.cpu = 6e-8, .gpu = 1e-10}; // without lights
 
 enum class FogShader : uint8_t { kScatter, kIntegrate, kApply };
@@ -144,7 +144,7 @@ class Fog final : public Effect {
         passes.push_back({"fog", timeOver(costs.screen(), costs.load().drawn)});
     }
     double loopCost(const UnitCosts& unit) const override {
-        return hasVolume() ? onDevice(unit, kPair).loop : 0;
+        return hasVolume() ? pairCost(unit).loop : 0;
     }
     void addMemory(NeedList& need) const override { need.buffer("fog volume", volumeBytes()); }
     void gather(FrameUpload& upload, FrameBlocks& blocks) override {
@@ -168,6 +168,12 @@ class Fog final : public Effect {
         return hasVolume() ? kFroxelBytes * froxelCount(fog_) : 0;
     }
     [[nodiscard]] settings::Size nodes() const { return {fog_.node_count_x, fog_.node_count_y}; }
+    // A CPU device's cores go through a node's slices one after another.
+    [[nodiscard]] PairCost pairCost(const UnitCosts& unit) const {
+        PairCost cost = onDevice(unit, kPair);
+        cost.loop *= unit.is_cpu ? fog_.slice_count : 1;
+        return cost;
+    }
     [[nodiscard]] RegionCost scatterCost(const FrameCosts& costs) const; // over the nodes
     static void bind(const FrameContext& frame,
                      FogShader shader,
@@ -185,7 +191,7 @@ class Fog final : public Effect {
 };
 
 RegionCost Fog::scatterCost(const FrameCosts& costs) const {
-    const PairCost pair = onDevice(costs.unit(), kPair);
+    const PairCost pair = pairCost(costs.unit());
     const double froxel = onDevice(costs.unit(), kFroxel);
     return {Seconds(0),
             [&costs, &fog = fog_, pair, froxel](const vk::Rect2D& nodes) {

@@ -6,7 +6,7 @@
 namespace froxel::render {
 
 // Of lights that pixels loop over, seconds. A loop of few pixels, which nothing can cut, waits for
-// each of its lights.
+// each of its lights; on a CPU device a workgroup's pixels have one core.
 struct PairCost {
     double pair = 0; // a light at a pixel
     double loop = 0; // the next light of one pixel's loop, however few pixels go through it
@@ -79,9 +79,9 @@ inline constexpr UnitCosts kCpuUnitCosts{.is_cpu = true,
                                          .resolve_pixel = 9e-8,
                                          .lit_pixel = 4e-8,
                                          .screen_pixel = 4e-8,
-                                         .compute = {5e-9, 0},
-                                         .fragment = {2.2e-8, 0},
-                                         .counting = {1.2e-8, 0},
+                                         .compute = {5e-9, 1.7e-6},
+                                         .fragment = {2.2e-8, 4.8e-6},
+                                         .counting = {1.2e-8, 6.5e-7},
                                          .area_pair = 1.5e-7,
                                          .wire_line = 5e-7,
                                          .wire_pixel = 2e-8};

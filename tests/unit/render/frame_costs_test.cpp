@@ -90,6 +90,18 @@ TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
     EXPECT_FALSE(FrameCosts(kGpuUnitCosts, few).check(Seconds(1), Seconds(0.05)));
 }
 
+// On a CPU device a part of 8x8 pixels has one core.
+TEST(FrameCosts, LongLoopOnACpu_IsLongerThanItsPixelsShareOfAllCores) {
+    const Load load;
+    FrameLoad few = load.of(PairBound::uniform(100'000));
+    few.drawn = few.shown = {8, 8};
+    few.longest_loop = 100'000;
+    const FrameCosts costs(kCpuUnitCosts, few);
+    EXPECT_GT(costs.lighting().least, costs.lighting().of({{0, 0}, {8, 8}}));
+    EXPECT_FALSE(costs.check(Seconds(10), costs.lighting().least / 2));
+    EXPECT_TRUE(costs.check(Seconds(10), costs.lighting().least * 10));
+}
+
 // Cutting a picture does not make one pixel's loop shorter.
 TEST(FrameCosts, Loop_IsOfEveryPart) {
     const Load load;
