@@ -1,7 +1,6 @@
 #include "session/session_context.h"
 
 #include "scene/enclosing_sphere.h"
-#include "scene/motion.h"
 
 namespace froxel::session {
 
@@ -14,7 +13,7 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.cameras = scene.cameras;
     summary.bounds_world = scene.bounds_world;
     summary.framed_world = scene::enclosingSphere(scene);
-    summary.moves = scene.motion && scene.motion->played < scene.motion->clips.size();
+    summary.motion = scene.motion;
     summary.warnings = scene.warnings;
     summary.warnings_left_out = scene.warnings_left_out;
     for (const scene::Instance& instance : scene.instances) {
@@ -26,8 +25,10 @@ SceneSummary summarize(const scene::Scene& scene) {
     return summary;
 }
 
-Result<settings::PlacedLight>
-pickNone(const settings::ViewSettings& /*settings*/, double /*time_s*/, const glm::dvec2& /*at*/) {
+Result<settings::PlacedLight> pickNone(const settings::ViewSettings& /*settings*/,
+                                       double /*time_s*/,
+                                       const std::optional<motion::Playing>& /*playing*/,
+                                       const glm::dvec2& /*at*/) {
     return Error{ErrorCode::kInvalidArgument, "is at no light"};
 }
 
