@@ -43,7 +43,9 @@ struct Fade {
 
     // 0 to 1, by smoothstep.
     [[nodiscard]] double weightAt(double now_s) const;
-    [[nodiscard]] bool isOverAt(double now_s) const { return !(now_s - start_s < duration_s); }
+    [[nodiscard]] bool isOverAt(double now_s) const {
+        return !(duration_s > 0) || now_s - start_s >= duration_s;
+    }
 
     bool operator==(const Fade&) const = default;
 };

@@ -20,15 +20,15 @@ struct SessionState {
     uint64_t version = 1; // grows whenever anything above but `applied` is set anew, or below
     settings::CodecSet decodable = settings::commonCodecs(); // by all who see it
     uint64_t key_requests = 0;                               // key frames asked for so far
-    motion::Playback playback{}; // of the scene's animations, by secondsOf() the host's clock
-    std::optional<uint32_t>
-        followed{}; // of SceneSummary::cameras, as it moves; none: settings.camera
+    motion::Playback playback{};        // of the scene's animations, by secondsOf(the host's clock)
+    std::optional<uint32_t> followed{}; // of SceneSummary::cameras, one that moves
 
     // Whether pictures after that time are others without a command.
     [[nodiscard]] bool animatingAt(TimePoint now) const {
         return (light_clock.moving() && settings.lights.count > 0) ||
                playback.movesAt(secondsOf(now));
     }
+    // The one that is followed, or settings.camera.
     [[nodiscard]] settings::Camera cameraAt(TimePoint now) const;
 
     [[nodiscard]] static double secondsOf(TimePoint now) {

@@ -1,6 +1,7 @@
 // Where all of a scene is in a frame, for what the host makes of one.
 #pragma once
 
+#include "motion/playback.h"
 #include "render/scene/scene_resources.h"
 
 #include <cstdint>
