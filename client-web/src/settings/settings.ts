@@ -103,6 +103,9 @@ export type CameraSettings = Pick<
   'eye' | 'target' | 'up' | 'fovDeg' | 'halfHeight' | 'orthographic' | 'lensShiftX' | 'lensShiftY'
 >;
 
+/** Where it stands, and which way it looks. */
+export type CameraPose = Pick<CameraSettings, 'eye' | 'target' | 'up'>;
+
 export function cameraOf(settings: Settings): CameraSettings {
   const { eye, target, up, fovDeg, halfHeight, orthographic, lensShiftX, lensShiftY } = settings;
   return { eye, target, up, fovDeg, halfHeight, orthographic, lensShiftX, lensShiftY };

@@ -16,7 +16,7 @@ import {
 } from '../gen/froxel/v1/server_pb';
 import type { Link } from '../protocol/connection';
 import { findLight, placedAfter, type PlacedLights } from '../settings/placed_lights';
-import { cameraOf, settingsOf, type Bounds, type Settings } from '../settings/settings';
+import { cameraOf, settingsOf, type Bounds, type CameraPose, type Settings } from '../settings/settings';
 import { mayControl, roomOf, type Room } from './room';
 import type { SizeMode } from './size_policy';
 
@@ -39,9 +39,6 @@ export interface Notice {
   readonly text: string;
   readonly tone: 'error' | 'info';
 }
-
-/** Of the scene's camera that is followed, in a frame. */
-export type CameraPose = Pick<Settings, 'eye' | 'target' | 'up'>;
 
 /** Of a PickLight: its seq, and the id that the light is to have. */
 export interface Pick {
