@@ -1,5 +1,6 @@
 // What the panel, the keys and the pointer can do, as actions on the store and the connection.
 
+import type { AnimationActions } from './cards/animation_card';
 import type { RoomActions } from './cards/room_card';
 import { add, length, normalize, scale, sub } from './core/vec3';
 import { RendererSchema } from './gen/froxel/v1/common_pb';
@@ -33,7 +34,7 @@ const kFlightSeconds = 12;
 /** How far before the eye a new light is put, at most. */
 const kAheadM = 4;
 
-export class Commands implements PanelActions, InputTarget, RoomActions {
+export class Commands implements PanelActions, InputTarget, RoomActions, AnimationActions {
   constructor(
     private readonly store: Store,
     private readonly connection: Connection,
@@ -139,7 +140,7 @@ export class Commands implements PanelActions, InputTarget, RoomActions {
     if (name !== undefined) this.selectCamera(name);
   }
 
-  toggleAnimation(): void {
+  toggleLights(): void {
     const { settings } = this.store.state;
     if (settings) this.edit({ animate: !settings.animate });
   }

@@ -1,5 +1,6 @@
 // The composition root: puts the parts together and ties them to the page.
 
+import { AnimationCard } from './cards/animation_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
 import { RoomCard } from './cards/room_card';
@@ -19,6 +20,7 @@ import { Connection } from './protocol/connection';
 import { Recorder } from './protocol/recorder';
 import { askRefusal } from './protocol/refusal';
 import { Resume, tabShelf } from './protocol/resume';
+import { toVec } from './settings/settings';
 import { AddressKeeper } from './state/address_keeper';
 import { mayControl, roomFromAddress } from './state/room';
 import { SettingsSync } from './state/settings_sync';
@@ -60,6 +62,12 @@ const presenter = new Presenter({
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
     panel.showGrid(header.grid);
+    animationCard.showTime(header.animationTimeS);
+    if (header.camera) {
+      const { eye, target, up } = header.camera;
+      const pose = { eye: toVec(eye), target: toVec(target), up: toVec(up) };
+      store.dispatch({ type: 'camera_moved', appliedSeq: header.appliedSeq, pose });
+    }
     banner.pictureShown();
   },
   problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
@@ -117,6 +125,7 @@ const banner = new Banner({
   nowMs,
 });
 const roomCard = new RoomCard(commands);
+const animationCard = new AnimationCard(commands);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
@@ -128,6 +137,7 @@ store.listen((state) => {
   panel.show(state);
   banner.show(state);
   roomCard.show(state.room);
+  animationCard.show(state);
   handles.show(state);
   element('panel', HTMLElement).inert = !mayControl(state.room);
 });
@@ -173,7 +183,8 @@ const shortcuts = {
   toggleStats: () => statsCard.toggle(),
   togglePanel: () => panel.toggle(),
   toggleHelp: () => (help.open ? help.close() : help.showModal()),
-  toggleAnimation: () => commands.toggleAnimation(),
+  toggleLights: () => commands.toggleLights(),
+  togglePlaying: () => animationCard.toggle(),
   nextRenderer: () => commands.nextRenderer(),
   sceneCamera: (index: number) => commands.selectCameraAt(index),
 };

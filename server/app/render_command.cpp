@@ -6,6 +6,7 @@
 #include "app/scene_source.h"
 #include "app/timings_report.h"
 #include "encode/image_file.h"
+#include "motion/posed_scene.h"
 #include "render/renderer.h"
 #include "report/frame_step.h"
 
@@ -56,15 +57,19 @@ TimedRun describeRun(const RenderOptions& options,
 }
 
 // Draws every frame and fills run.frames; returns the last frame.
-render::RenderedFrame
-drawAll(const RenderOptions& options, render::ViewRenderer& viewer, TimedRun& run) {
-    render::FrameInputs inputs{.settings = run.settings, .time_s = run.time_s};
+render::RenderedFrame drawAll(const RenderOptions& options,
+                              const motion::Playback& playback,
+                              render::ViewRenderer& viewer,
+                              TimedRun& run) {
+    render::FrameInputs inputs{
+        .settings = run.settings, .time_s = run.time_s, .playing = playback.at(run.time_s)};
     for (uint32_t i = 0; i < options.warmup_count; ++i) {
         draw(viewer, inputs);
     }
     render::RenderedFrame last;
     for (uint32_t i = 0; i < options.frame_count; ++i) {
         inputs.time_s = run.time_s + i * run.step_s;
+        inputs.playing = playback.at(run.time_s + i * report::kFrameStepS);
         inputs.keep_radiance = wantsRadiance(options) && i + 1 == options.frame_count;
         last = draw(viewer, inputs);
         run.frames.push_back(last.stats);
@@ -96,11 +101,16 @@ void runRender(const RenderOptions& options) try {
             requireFolderOf(*file);
         }
     }
-    auto scene = loadScene(options.scene, options.animation, options.time_s).value();
+    auto scene = loadScene(options.scene, options.animation).value();
     surround(scene, options.environment_file);
     logWarnings(scene);
     gpu::Device device(options.device);
     auto run = describeRun(options, scene, device.traits());
+    run.settings.animation.number = scene.motion ? motion::usualAnimation(*scene.motion) : 0;
+    const motion::Playback playback(scene.motion, run.settings.animation, 0);
+    if (const auto playing = playback.at(run.time_s)) {
+        motion::placeCameras(scene, playing->clips, playing->now_s);
+    }
     run.settings.camera = findCamera(options.camera, scene, run.settings.size).value();
     auto& lens_shift = run.settings.camera.lens_shift;
     lens_shift = options.lens_shift.value_or(lens_shift);
@@ -110,7 +120,7 @@ void runRender(const RenderOptions& options) try {
     }
     render::Renderer renderer(device, scene);
     render::ViewRenderer viewer(renderer);
-    const auto last = drawAll(options, viewer, run);
+    const auto last = drawAll(options, playback, viewer, run);
     if (!options.out.empty()) {
         writePicture(options, viewer, last.pixels.view());
     }

@@ -35,14 +35,9 @@ Result<uint32_t> findAnimation(const std::string& wanted, const std::vector<scen
     if (const auto number = parseNumber(wanted, numbers)) {
         return *number - 1;
     }
-    std::string known;
-    for (size_t i = 0; i < clips.size(); ++i) {
-        const std::string name = clips[i].name.empty() ? "(nameless)" : printable(clips[i].name);
-        known += fmt::format("{}{} {}", known.empty() ? "" : ", ", i + 1, name);
-    }
     return Error{ErrorCode::kInvalidArgument,
                  fmt::format("--animation: '{}' is no animation of this scene; it has {}",
-                             printable(wanted), known.empty() ? "none" : printable(known, 400))};
+                             printable(wanted), scene::listOf(clips))};
 }
 
 Result<void> choose(const std::string& animation, scene::Scene& scene) {
@@ -61,8 +56,7 @@ Result<void> choose(const std::string& animation, scene::Scene& scene) {
 
 } // namespace
 
-Result<scene::Scene>
-loadScene(const std::string& source, const std::string& animation, double time_s) {
+Result<scene::Scene> loadScene(const std::string& source, const std::string& animation) {
     auto scene =
         source == kBuiltin ? Result<scene::Scene>(builtin_scene::makeHall()) : gltf::load(source);
     if (!scene) {
@@ -74,7 +68,7 @@ loadScene(const std::string& source, const std::string& animation, double time_s
         }
     }
     if (scene->motion) {
-        motion::placeCameras(*scene, motion::usualClips(*scene->motion), time_s);
+        motion::placeCameras(*scene, motion::usualClips(*scene->motion), 0);
     }
     return scene;
 }

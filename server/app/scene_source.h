@@ -11,10 +11,10 @@ namespace froxel::app {
 
 // `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. `animation`
 // plays: a name in the file, else a number there from 1, or "none"; empty: the first, if there is
-// one. Cameras that move stand where it has them at `time_s`. Errors with one line: kScene;
+// one. Cameras that move stand where it begins. Errors with one line: kScene;
 // kInvalidArgument where there is no such animation.
-[[nodiscard]] Result<scene::Scene>
-loadScene(const std::string& source, const std::string& animation = {}, double time_s = 0);
+[[nodiscard]] Result<scene::Scene> loadScene(const std::string& source,
+                                             const std::string& animation = {});
 
 // The settings of a view of it where nobody has asked for others: those given stay, the rest goes
 // by the scene (scene::lookFor()). The built-in scene has the defaults for its look.

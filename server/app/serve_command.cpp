@@ -75,12 +75,16 @@ constexpr int kCpuDeviceNiceness = 5;
 session::LightPicker lightPicker(const scene::Scene& scene) {
     light::LightRig rig(scene);
     if (!scene.motion || scene.motion->lights.empty()) {
-        return [rig = std::move(rig)](const auto&... where) { return rig.pick(where...); };
+        return [rig = std::move(rig)](const auto& settings, double time_s, const auto& /*playing*/,
+                                      const auto& at) { return rig.pick(settings, time_s, at); };
     }
-    return [rig = std::move(rig), moved = scene.motion, clips = motion::usualClips(*scene.motion)](
-               const settings::ViewSettings& settings, double time_s, const glm::dvec2& at) {
+    return [rig = std::move(rig), moved = scene.motion](
+               const settings::ViewSettings& settings, double time_s,
+               const std::optional<motion::Playing>& playing, const glm::dvec2& at) {
         motion::Pose pose;
-        motion::pose(*moved, clips, time_s, pose);
+        const motion::Playing none;
+        const auto& [clips, now_s] = playing ? *playing : none;
+        motion::pose(*moved, clips, now_s, pose);
         light::LightRig then = rig;
         motion::eachMovedLight(*moved, pose, [&](const auto&... light) { then.place(light...); });
         return then.pick(settings, time_s, at);

@@ -36,6 +36,7 @@ constexpr std::array kTurns = {
     Turn::kSetDebugView,    Turn::kSetShadows,
     Turn::kSetFog,          Turn::kSetTransparency,
     Turn::kSetPlacedLights, Turn::kSetEnvironment,
+    Turn::kSetAnimation,
 };
 
 v1::Vec3 vec(double x, double y, double z) {
@@ -51,7 +52,11 @@ v1::Vec3 vec(double x, double y, double z) {
 StormScript::StormScript(const v1::Welcome& welcome, uint32_t viewer)
     : start_(welcome.state()),
       cameras_(welcome.scene().cameras().begin(), welcome.scene().cameras().end()),
-      values_(welcome, viewer) {}
+      values_(welcome, viewer) {
+    for (const v1::SceneAnimation& animation : welcome.scene().animations()) {
+        durations_s_.push_back(animation.duration_s());
+    }
+}
 
 void StormScript::fillCamera(v1::SetCamera& command) {
     command = orbitPose(start_, values_.real(0, 2 * std::numbers::pi));
@@ -87,6 +92,15 @@ void StormScript::fillLights(v1::SetLights& command) {
         fillBox(*command.mutable_box());
     } else {
         command.set_clear_box(values_.once(2));
+    }
+}
+
+void StormScript::fillAnimation(v1::SetAnimation& command) {
+    values_.fill(command, kSome);
+    const uint32_t number = values_.whole(0, static_cast<uint32_t>(durations_s_.size()));
+    command.set_animation(number);
+    if (number > 0 && values_.once(2)) {
+        command.set_time_s(values_.real(0, durations_s_[number - 1]));
     }
 }
 
@@ -188,6 +202,8 @@ void StormScript::fillCommand(v1::ClientMessage& message) {
         return fillCamera(*message.mutable_set_camera());
     case Turn::kSetLights:
         return fillLights(*message.mutable_set_lights());
+    case Turn::kSetAnimation:
+        return fillAnimation(*message.mutable_set_animation());
     case Turn::kSetGrid:
         return fillGrid(*message.mutable_set_grid());
     case Turn::kSetFog:

@@ -17,6 +17,7 @@ class StormScript final : public Script {
     // Those whose fields have to do with one another.
     void fillCamera(v1::SetCamera& command);
     void fillLights(v1::SetLights& command);
+    void fillAnimation(v1::SetAnimation& command);
     void fillBox(v1::Box& box);
     void fillGrid(v1::SetGrid& command);
     void fillFog(v1::Fog& fog);
@@ -29,6 +30,7 @@ class StormScript final : public Script {
 
     const v1::ViewState start_;
     std::vector<std::string> cameras_;
+    std::vector<double> durations_s_; // of the scene's animations
     RandomValues values_;
     uint64_t count_ = 0;
 };

@@ -16,6 +16,30 @@ double wrapped(double value, double period) {
 
 } // namespace
 
+ClipClock ClipClock::anchoredAt(double now_s, double duration_s) const {
+    const double phase = phaseAt(now_s);
+    if (!(duration_s > 0) || !std::isfinite(phase)) {
+        return withPhase(now_s, 0);
+    }
+    switch (repeat) {
+    case Repeat::kLoop:
+        return withPhase(now_s, wrapped(phase, duration_s));
+    case Repeat::kPingPong:
+        return withPhase(now_s, wrapped(phase, 2 * duration_s));
+    case Repeat::kOnce:
+        break;
+    }
+    return withPhase(now_s, std::clamp(phase, 0.0, duration_s));
+}
+
+bool ClipClock::restsAt(double now_s, double duration_s) const {
+    const double phase = phaseAt(now_s);
+    if (speed == 0 || !(duration_s > 0) || !std::isfinite(phase)) {
+        return true;
+    }
+    return repeat == Repeat::kOnce && (speed > 0 ? phase >= duration_s : phase <= 0);
+}
+
 double ClipClock::timeAt(double now_s, double duration_s) const {
     const double phase = phaseAt(now_s);
     if (!(duration_s > 0) || !std::isfinite(phase)) {
@@ -39,8 +63,7 @@ double Fade::weightAt(double now_s) const {
         return 1;
     }
     const double t = std::clamp((now_s - start_s) / duration_s, 0.0, 1.0);
-    const double in = t * t * (3 - 2 * t);
-    return out ? 1 - in : in;
+    return t * t * (3 - 2 * t);
 }
 
 } // namespace froxel::motion

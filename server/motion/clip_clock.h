@@ -2,11 +2,11 @@
 // the anchor, and reading changes nothing.
 #pragma once
 
-#include <cstdint>
+#include "settings/settings.h"
 
 namespace froxel::motion {
 
-enum class Repeat : uint8_t { kLoop, kPingPong, kOnce };
+using settings::Repeat;
 
 // seconds of the clip before it repeats = phase_s + speed * (now - anchor_s).
 struct ClipClock {
@@ -26,20 +26,26 @@ struct ClipClock {
     [[nodiscard]] ClipClock withPhase(double now_s, double phase) const {
         return {now_s, phase, speed, repeat};
     }
+    // The same from `now_s` on, by the phase nearest 0 of those that are the same.
+    [[nodiscard]] ClipClock anchoredAt(double now_s, double duration_s) const;
+    // Whether the clip's time never changes from `now_s` on.
+    [[nodiscard]] bool restsAt(double now_s, double duration_s) const;
     // The clip's own time, 0 to duration_s. A phase that is not finite is 0.
     [[nodiscard]] double timeAt(double now_s, double duration_s) const;
 
     bool operator==(const ClipClock&) const = default;
 };
 
-// How much a clip counts: all of it, or more and more from a time on, or less and less.
+// How much a clip counts: all of it, or more and more from a time on.
 struct Fade {
     double start_s = 0;
     double duration_s = 0; // 0: none
-    bool out = false;
 
-    // 0 to 1, by smoothstep. The two of a cross-fade sum to 1 but for rounding.
+    // 0 to 1, by smoothstep.
     [[nodiscard]] double weightAt(double now_s) const;
+    [[nodiscard]] bool isOverAt(double now_s) const {
+        return !(duration_s > 0) || now_s - start_s >= duration_s;
+    }
 
     bool operator==(const Fade&) const = default;
 };

@@ -49,13 +49,12 @@ class Blend {
         : motion_(motion), out_(out), nodes_(motion.nodes.size()),
           weights_(motion.rest_weights.size()) {}
 
-    void add(const PlayedClip& played, double time_s) {
-        FROXEL_ASSERT(played.clip < motion_.clips.size(), "a played clip is the scene's");
-        const scene::Clip& clip = motion_.clips[played.clip];
-        const double share = played.fade.weightAt(time_s);
-        if (!(share > 0)) {
+    void add(const PlayedClip& played, double share, double time_s) {
+        if (!(share > 0) || played.clip == scene::kNone) {
             return;
         }
+        FROXEL_ASSERT(played.clip < motion_.clips.size(), "a played clip is the scene's");
+        const scene::Clip& clip = motion_.clips[played.clip];
         const double clip_s = played.clock.timeAt(time_s, clip.duration_s);
         for (const scene::Channel& channel : clip.channels) {
             const scene::Track& track = clip.tracks[channel.track];
@@ -129,8 +128,12 @@ class Blend {
 
 } // namespace
 
+uint32_t usualAnimation(const scene::Motion& motion) {
+    return motion.played < motion.clips.size() ? motion.played + 1 : 0;
+}
+
 std::vector<PlayedClip> usualClips(const scene::Motion& motion) {
-    if (motion.played >= motion.clips.size()) {
+    if (usualAnimation(motion) == 0) {
         return {};
     }
     return {PlayedClip{.clip = motion.played, .clock = {}, .fade = {}}};
@@ -140,9 +143,16 @@ void pose(const scene::Motion& motion,
           std::span<const PlayedClip> clips,
           double time_s,
           Pose& out) {
+    std::vector<double> shares(clips.size());
+    double uncovered = 1;
+    for (size_t i = clips.size(); i-- > 0;) {
+        const double weight = clips[i].fade.weightAt(time_s);
+        shares[i] = uncovered * weight;
+        uncovered *= clips[i].covers ? 1 - weight : 1;
+    }
     Blend blend(motion, out);
-    for (const PlayedClip& played : clips) {
-        blend.add(played, time_s);
+    for (size_t i = 0; i < clips.size(); ++i) {
+        blend.add(clips[i], shares[i], time_s);
     }
     blend.finish();
 }

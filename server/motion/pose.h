@@ -12,9 +12,12 @@
 namespace froxel::motion {
 
 struct PlayedClip {
-    uint32_t clip = 0; // of Motion::clips
+    uint32_t clip = 0; // of Motion::clips; scene::kNone: the rest pose
     ClipClock clock;
     Fade fade;
+    bool covers = false; // what it weighs is taken from all clips before it
+
+    bool operator==(const PlayedClip&) const = default;
 };
 
 struct Pose {
@@ -25,8 +28,12 @@ struct Pose {
 // What plays where nobody chose: Motion::played, again and again from time 0.
 [[nodiscard]] std::vector<PlayedClip> usualClips(const scene::Motion& motion);
 
+// That one among Motion::clips, from 1; 0: none plays.
+[[nodiscard]] uint32_t usualAnimation(const scene::Motion& motion);
+
 // A pure function: the same bytes whatever was asked before. Each property is the sum of the clips
-// that move it, in the order of `clips`, by their weights; what these lack of 1 is the rest pose's
+// that move it, in the order of `clips`, by their weights (those of their fades, less what later
+// ones cover); what these lack of 1 is the rest pose's
 // share, and what is beyond 1 is divided out. Rotations are summed in the first's hemisphere, the
 // rest pose last, and made unit. Replaces the contents of `out`, whose memory is reused.
 void pose(const scene::Motion& motion, std::span<const PlayedClip> clips, double time_s, Pose& out);

@@ -49,6 +49,24 @@ void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double
     }
 }
 
+bool movesCamera(const scene::Motion& motion, uint32_t index) {
+    return std::ranges::find(motion.cameras, index, &scene::MovedThing::index) !=
+           motion.cameras.end();
+}
+
+settings::Camera cameraAt(const scene::Motion& motion,
+                          uint32_t index,
+                          const Playing& playing,
+                          settings::Camera camera) {
+    const auto moved = std::ranges::find(motion.cameras, index, &scene::MovedThing::index);
+    if (moved != motion.cameras.end()) {
+        Pose then;
+        pose(motion, playing.clips, playing.now_s, then);
+        placeCamera(then.world_from_node[moved->node], camera);
+    }
+    return camera;
+}
+
 scene::Scene posedScene(scene::Scene scene, std::span<const PlayedClip> clips, double time_s) {
     if (!scene.motion) {
         return scene;

@@ -1,6 +1,7 @@
 // A scene that moves as one that rests.
 #pragma once
 
+#include "motion/playback.h"
 #include "motion/pose.h"
 #include "scene/scene.h"
 
@@ -16,6 +17,15 @@ posedScene(scene::Scene scene, std::span<const PlayedClip> clips, double time_s)
 
 // Only its cameras.
 void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double time_s);
+
+// Whether a node moves this one of Scene::cameras.
+[[nodiscard]] bool movesCamera(const scene::Motion& motion, uint32_t index);
+
+// That camera where its node is; else as it is.
+[[nodiscard]] settings::Camera cameraAt(const scene::Motion& motion,
+                                        uint32_t index,
+                                        const Playing& playing,
+                                        settings::Camera camera);
 
 // Of all vertices at so many times, evenly spread over the longest of the clips: for framing, much
 // tighter than what holds any pose. The scene has motion.

@@ -496,6 +496,8 @@ void LiveSession::takeBack(const SessionState& refused,
     const SessionState& good = drawn ? *drawn : first_;
     const settings::Lights& lights = good.settings.lights;
     state_.light_clock = state_.light_clock.withRate(now, lights.speed, lights.animate);
+    state_.playback.follow(good.settings.animation, SessionState::secondsOf(now));
+    state_.followed = good.followed;
     state_.settings = good.settings;
     state_.encoding = good.encoding;
     state_.delivery = good.delivery;

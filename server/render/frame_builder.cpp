@@ -170,7 +170,7 @@ void FrameBuilder::start(const FrameInputs& inputs, uint32_t lights_at_once) {
     lights_at_once_ = lights_at_once;
     cap_.reset();
     const auto& settings = inputs_.settings;
-    pose_.standAt(inputs_.time_s);
+    pose_.standAt(inputs_.time_s, inputs_.playing);
     farthest_m_ = farthestDepth(settings.camera, pose_.boundsWorld());
     projection_ = makeProjection(settings.camera, settings.size, farthest_m_);
     visibility_ = choosesVisibility(inputs_);

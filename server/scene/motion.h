@@ -41,6 +41,9 @@ struct Clip {
     std::vector<Channel> channels;
 };
 
+// "1 walk, 2 (nameless)", for messages: printable and of bounded length. "none": there are none.
+[[nodiscard]] std::string listOf(const std::vector<Clip>& clips);
+
 struct Node {
     uint32_t parent = kNone;          // before it in Motion::nodes
     Transform rest;                   // without clips

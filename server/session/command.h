@@ -49,6 +49,11 @@ struct SetLights : SetSettings {
     std::optional<double> time_s = std::nullopt; // of the lights' clock
 };
 
+struct SetAnimation : SetSettings {
+    std::optional<uint32_t> number = std::nullopt; // as settings::Animation has it
+    std::optional<double> time_s = std::nullopt;   // of the animation
+};
+
 struct PlacedLightChange {
     uint32_t id = 0;
     std::optional<settings::LightKind> kind;
@@ -124,6 +129,7 @@ using Command = std::variant<Hello,
                              SelectSceneCamera,
                              SetSettings,
                              SetLights,
+                             SetAnimation,
                              SetPlacedLights,
                              PickLight,
                              SetGrid,

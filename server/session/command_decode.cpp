@@ -124,6 +124,17 @@ Command decode(const v1::SetLights& lights, FieldValidator& fields) {
     return command;
 }
 
+Command decode(const v1::SetAnimation& set, FieldValidator& fields) {
+    SetAnimation command{{decodeSettings(set, fields)}};
+    if (set.has_animation()) {
+        command.number = set.animation();
+    }
+    if (set.has_time_s()) {
+        command.time_s = fields.number("animation_time", settings::kTimeRange, set.time_s());
+    }
+    return command;
+}
+
 Command decode(const v1::PickLight& pick, FieldValidator& fields) {
     PickLight command;
     command.id = fields.number("id", settings::kPlacedIdRange, pick.id());
@@ -229,6 +240,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.select_scene_camera(), fields);
     case v1::ClientMessage::kSetLights:
         return decode(message.set_lights(), fields);
+    case v1::ClientMessage::kSetAnimation:
+        return decode(message.set_animation(), fields);
     case v1::ClientMessage::kSetPlacedLights:
         return decodePlacedLights(message.set_placed_lights(), fields);
     case v1::ClientMessage::kPickLight:

@@ -1,6 +1,5 @@
 #include "session/session_context.h"
 
-#include "scene/motion.h"
 
 namespace froxel::session {
 
@@ -12,7 +11,7 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.punctual_light_count = static_cast<uint32_t>(scene.lights.size());
     summary.cameras = scene.cameras;
     summary.bounds_world = scene.bounds_world;
-    summary.moves = scene.motion && scene.motion->played < scene.motion->clips.size();
+    summary.motion = scene.motion;
     summary.warnings = scene.warnings;
     summary.warnings_left_out = scene.warnings_left_out;
     for (const scene::Instance& instance : scene.instances) {
@@ -24,8 +23,10 @@ SceneSummary summarize(const scene::Scene& scene) {
     return summary;
 }
 
-Result<settings::PlacedLight>
-pickNone(const settings::ViewSettings& /*settings*/, double /*time_s*/, const glm::dvec2& /*at*/) {
+Result<settings::PlacedLight> pickNone(const settings::ViewSettings& /*settings*/,
+                                       double /*time_s*/,
+                                       const std::optional<motion::Playing>& /*playing*/,
+                                       const glm::dvec2& /*at*/) {
     return Error{ErrorCode::kInvalidArgument, "is at no light"};
 }
 

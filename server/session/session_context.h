@@ -3,12 +3,14 @@
 #pragma once
 
 #include "core/error.h"
+#include "motion/playback.h"
 #include "scene/scene.h"
 #include "session/delivery.h"
 #include "settings/settings.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +26,8 @@ struct SceneSummary {
     uint32_t texture_count = 0;
     uint32_t punctual_light_count = 0;
     std::vector<scene::NamedCamera> cameras;
-    BoundsD3 bounds_world; // empty for an empty scene
-    bool moves = false;    // as time passes, whatever the lights do
+    BoundsD3 bounds_world;                       // empty for an empty scene
+    std::shared_ptr<const scene::Motion> motion; // null: it rests
     std::vector<scene::Warning> warnings;
     uint64_t warnings_left_out = 0;
 };
@@ -49,12 +51,18 @@ struct SessionDefaults {
 
 // The light at a place of the picture (PickLight::at) as a placed one, without an id. Pure, any
 // thread. Errors: kInvalidArgument, the end of a sentence about the place.
-using LightPicker = std::function<Result<settings::PlacedLight>(
-    const settings::ViewSettings& settings, double time_s, const glm::dvec2& at)>;
+// `time_s` is the lights' clock.
+using LightPicker =
+    std::function<Result<settings::PlacedLight>(const settings::ViewSettings& settings,
+                                                double time_s,
+                                                const std::optional<motion::Playing>& playing,
+                                                const glm::dvec2& at)>;
 
 // Of a scene whose lights nobody knows.
-[[nodiscard]] Result<settings::PlacedLight>
-pickNone(const settings::ViewSettings& settings, double time_s, const glm::dvec2& at);
+[[nodiscard]] Result<settings::PlacedLight> pickNone(const settings::ViewSettings& settings,
+                                                     double time_s,
+                                                     const std::optional<motion::Playing>& playing,
+                                                     const glm::dvec2& at);
 
 struct SessionContext {
     SceneSummary scene;

@@ -2,7 +2,9 @@
 
 #include "core/assert.h"
 #include "core/text.h"
+#include "motion/posed_scene.h"
 #include "scene/first_camera.h"
+#include "scene/motion.h"
 #include "session/placed_lights.h"
 
 #include <algorithm>
@@ -23,6 +25,13 @@ settings::Camera openingCamera(const SessionContext& context, const settings::Si
         scene::firstCamera(context.scene.cameras, context.framed_world, size);
     camera.lens_shift = context.defaults.lens_shift.value_or(camera.lens_shift);
     return camera;
+}
+
+// A camera of the scene that its animations move.
+std::optional<uint32_t> followedOf(const SessionContext& context, size_t camera) {
+    const auto index = static_cast<uint32_t>(camera);
+    const bool moves = context.scene.motion && motion::movesCamera(*context.scene.motion, index);
+    return moves ? std::optional(index) : std::nullopt;
 }
 
 // One overload a command; each changes the state or says why not.
@@ -50,6 +59,7 @@ struct Reducer {
             camera.half_height_m = *command.half_height_m;
         }
         state.settings.camera = camera;
+        state.followed.reset();
         return {};
     }
 
@@ -68,6 +78,7 @@ struct Reducer {
                                           (names.empty() ? "none" : printable(names, 400)));
         }
         state.settings.camera = found->camera;
+        state.followed = followedOf(context, static_cast<size_t>(found - cameras.begin()));
         return {};
     }
 
@@ -100,6 +111,35 @@ struct Reducer {
         return outcome;
     }
 
+    Outcome operator()(const SetAnimation& command) const {
+        static const std::vector<scene::Clip> kNoClips;
+        const auto& clips = context.scene.motion ? context.scene.motion->clips : kNoClips;
+        settings::Animation& animation = state.settings.animation;
+        assignIfGiven(animation.number, command.number);
+        if (animation.number > clips.size()) {
+            return outOfRange("animation", "is " + numberText(animation.number) +
+                                               "; this scene has " + scene::listOf(clips));
+        }
+        Outcome outcome = set(command.changes);
+        state.playback.follow(animation, SessionState::secondsOf(now));
+        return command.time_s && !outcome ? seek(clips, *command.time_s) : outcome;
+    }
+
+    Outcome seek(const std::vector<scene::Clip>& clips, double time_s) const {
+        const uint32_t number = state.settings.animation.number;
+        const double duration_s = number == 0 ? 0 : clips[number - 1].duration_s;
+        if (number == 0 || time_s > duration_s) {
+            return outOfRange("animation_time",
+                              "is " + numberText(time_s) +
+                                  (number == 0
+                                       ? "; no animation is chosen"
+                                       : "; it must be from 0 to " + numberText(duration_s) +
+                                             " for animation " + numberText(number)));
+        }
+        state.playback.seek(time_s, SessionState::secondsOf(now));
+        return {};
+    }
+
     Outcome operator()(const SetPlacedLights& command) const {
         const auto placed = changed(state.settings.lights.placed, command);
         if (!placed) {
@@ -110,8 +150,11 @@ struct Reducer {
     }
 
     Outcome operator()(const PickLight& command) const {
+        settings::ViewSettings seen = state.settings;
+        seen.camera = state.cameraAt(now);
         auto picked =
-            context.pick_light(state.settings, state.light_clock.secondsAt(now), command.at);
+            context.pick_light(seen, state.light_clock.secondsAt(now),
+                               state.playback.at(SessionState::secondsOf(now)), command.at);
         if (!picked) {
             Rejection miss = outOfRange("x", picked.error().message);
             miss.blameless = true;
@@ -144,7 +187,7 @@ struct Reducer {
         if (command.freeze && !*command.freeze) {
             debug.grid_camera.reset();
         } else if (command.freeze && !debug.grid_camera) {
-            debug.grid_camera = state.settings.camera;
+            debug.grid_camera = state.cameraAt(now);
         }
         return set(command.changes);
     }
@@ -192,13 +235,24 @@ bool holdsOneOf(const Command& command) {
 
 } // namespace
 
+settings::Camera SessionState::cameraAt(TimePoint now) const {
+    const auto playing = followed ? playback.at(secondsOf(now)) : std::nullopt;
+    return playing ? motion::cameraAt(*playback.motion(), *followed, *playing, settings.camera)
+                   : settings.camera;
+}
+
 SessionState initialState(const SessionContext& context, TimePoint now) {
     const SessionDefaults& defaults = context.defaults;
     settings::ViewSettings settings = defaults.settings;
     settings.camera = openingCamera(context, settings.size);
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
+    const auto& motion = context.scene.motion;
+    settings.animation.number = motion ? motion::usualAnimation(*motion) : 0;
     SessionState state{settings, defaults.encoding, defaults.delivery, clock, {}};
-    state.scene_moves = context.scene.moves;
+    state.playback = {motion, settings.animation, SessionState::secondsOf(now)};
+    if (!context.scene.cameras.empty()) {
+        state.followed = followedOf(context, 0);
+    }
     return state;
 }
 
@@ -215,13 +269,16 @@ CommandResult<SessionState> apply(SessionState state,
     const settings::Encoding encoding_before = state.encoding;
     const DeliverySettings delivery_before = state.delivery;
     const double time_before_s = state.light_clock.secondsAt(now);
+    const motion::Playback playback_before = state.playback;
+    const auto followed_before = state.followed;
     if (auto rejection = std::visit(Reducer{state, context, now}, message.body)) {
         rejection->ref_seq = message.stamp.seq;
         return *rejection;
     }
     state.applied = message.stamp;
     if (state.settings != settings_before || state.encoding != encoding_before ||
-        state.delivery != delivery_before || state.light_clock.secondsAt(now) != time_before_s) {
+        state.delivery != delivery_before || state.light_clock.secondsAt(now) != time_before_s ||
+        !(state.playback == playback_before) || state.followed != followed_before) {
         ++state.version;
     }
     return state;

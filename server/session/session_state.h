@@ -2,6 +2,7 @@
 // protobuf: the caller serialises access and passes the time.
 #pragma once
 
+#include "motion/playback.h"
 #include "session/command.h"
 #include "session/delivery.h"
 #include "session/light_clock.h"
@@ -19,11 +20,19 @@ struct SessionState {
     uint64_t version = 1; // grows whenever anything above but `applied` is set anew, or below
     settings::CodecSet decodable = settings::commonCodecs(); // by all who see it
     uint64_t key_requests = 0;                               // key frames asked for so far
-    bool scene_moves = false;                                // by the lights' clock, too
+    motion::Playback playback{};        // of the scene's animations, by secondsOf(the host's clock)
+    std::optional<uint32_t> followed{}; // of SceneSummary::cameras, one that moves
 
-    // Whether the picture changes without a command.
-    [[nodiscard]] bool animating() const {
-        return light_clock.moving() && (scene_moves || settings.lights.count > 0);
+    // Whether pictures after that time are others without a command.
+    [[nodiscard]] bool animatingAt(TimePoint now) const {
+        return (light_clock.moving() && settings.lights.count > 0) ||
+               playback.movesAt(secondsOf(now));
+    }
+    // The one that is followed, or settings.camera.
+    [[nodiscard]] settings::Camera cameraAt(TimePoint now) const;
+
+    [[nodiscard]] static double secondsOf(TimePoint now) {
+        return Seconds(now.time_since_epoch()).count();
     }
 };
 
@@ -34,8 +43,8 @@ struct SessionState {
 [[nodiscard]] bool setsState(const Command& command);
 
 // The state after the command; `version` tells whether anything differs. Refused: kOutOfRange
-// (unknown scene camera), kCapacity (picture too large), kUnsupported (a codec that is not
-// decodable). Only for commands with setsState().
+// (unknown scene camera or animation), kCapacity (picture too large), kUnsupported (a codec that is
+// not decodable). Only for commands with setsState().
 [[nodiscard]] CommandResult<SessionState> apply(SessionState state,
                                                 const CommandMessage& message,
                                                 const SessionContext& context,

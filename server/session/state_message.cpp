@@ -2,8 +2,10 @@
 
 #include "froxel/v1/server.pb.h"
 #include "protocol/limits.h"
+#include "scene/motion.h"
 #include "session/placed_lights.h"
 #include "session/proto_enums.h"
+#include "session/proto_vec.h"
 #include "session/view_state.h"
 #include "settings/ranges.h"
 
@@ -26,6 +28,13 @@ void fill(v1::SceneInfo& out, const SceneSummary& scene) {
     }
     if (!scene.bounds_world.empty()) {
         fillBox(*out.mutable_bounds(), scene.bounds_world);
+    }
+    if (scene.motion) {
+        for (const scene::Clip& clip : scene.motion->clips) {
+            v1::SceneAnimation& row = *out.add_animations();
+            row.set_name(clip.name);
+            row.set_duration_s(clip.duration_s);
+        }
     }
     const size_t told = std::min(scene.warnings.size(), protocol::kMaxSceneWarningsTold);
     for (size_t i = 0; i < told; ++i) {
@@ -155,6 +164,12 @@ void fill(v1::FrameGrid& out, const GridStats& grid) {
     out.set_far_m(grid.far_m);
     out.set_automatic(grid.automatic);
     out.set_why(grid.why);
+}
+
+void fill(v1::CameraPose& out, const settings::Camera& camera) {
+    fillVec(*out.mutable_eye(), camera.eye_world);
+    fillVec(*out.mutable_target(), camera.target_world());
+    fillVec(*out.mutable_up(), camera.world_from_view[1]);
 }
 
 // Durations and counts on the wire stop at the largest u32: 71 minutes, where exactness is moot.
@@ -340,6 +355,12 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     fillDelivery(header, record);
     header.set_dropped_frames(record.dropped_count);
     header.set_time_s(record.time_s);
+    if (record.animation_time_s) {
+        header.set_animation_time_s(*record.animation_time_s);
+    }
+    if (record.followed) {
+        fill(*header.mutable_camera(), *record.followed);
+    }
     header.set_triangles(record.stats.triangle_count);
     return header;
 }

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace froxel::session {
@@ -55,9 +56,11 @@ struct FrameRecord {
     double encode_us = 0;
     double send_wait_us = 0; // in the slot before the socket
     uint32_t dropped_count = 0;
-    double queue_delay_us = 0;  // on the link, of late
-    double link_bits_per_s = 0; // 0: unknown
-    double time_s = 0;          // the lights' clock
+    double queue_delay_us = 0;                // on the link, of late
+    double link_bits_per_s = 0;               // 0: unknown
+    double time_s = 0;                        // the lights' clock
+    std::optional<double> animation_time_s;   // of the one that is chosen
+    std::optional<settings::Camera> followed; // as it stood
     FrameStats stats;
 };
 

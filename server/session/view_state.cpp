@@ -44,6 +44,13 @@ void fillViewState(v1::ViewState& out, const SessionContext& context, const Sess
     if (const auto stopped_s = state.light_clock.stoppedAt()) {
         out.set_light_time_s(*stopped_s);
     }
+    out.set_animation(settings.animation.number);
+    if (const auto paused_s = state.playback.pausedAt()) {
+        out.set_animation_time_s(*paused_s);
+    }
+    if (state.followed) {
+        out.set_followed_camera(context.scene.cameras[*state.followed].name);
+    }
     out.mutable_grid()->set_x(settings.grid.size.x);
     out.mutable_grid()->set_y(settings.grid.size.y);
     out.mutable_grid()->set_z(settings.grid.size.z);

@@ -1,7 +1,7 @@
 // The table of settings: a row for each number, switch, name and colour that a viewer may set.
 // Options, commands, messages, reports and documents take everything from here; the protocol's
 // fields name their row by the option (setting). By hand are the camera, sizes, grid sizes,
-// lights' box, placed lights and ramps.
+// lights' box, placed lights, the animation's number and ramps.
 #pragma once
 
 #include "settings/setting.h"
@@ -95,6 +95,21 @@ inline constexpr std::array kSettingRows = {
         {"Scales the ambient term, where the environment is off"}),
     row<&ViewSettings::lights, &Lights::scene_lights>(
         Switch{"scene_lights"}, "lights.scene_lights", {"The scene's own lights"}),
+
+    row<&ViewSettings::animation, &Animation::playing>(
+        Switch{"animation_playing"},
+        "animation.playing",
+        {"The scene's animation goes on", "", "what moves is drawn anew"}),
+    row<&ViewSettings::animation, &Animation::speed>(
+        Range<double>{"animation_speed", -100, 100},
+        "animation.speed",
+        {"Scales the clock of the scene's animation; below 0: backwards"}),
+    row<&ViewSettings::animation, &Animation::repeat>(
+        Names{"animation_repeat", kRepeatNames}, "animation.repeat", {"What it does at its ends"}),
+    row<&ViewSettings::animation, &Animation::fade_s>(
+        Range<double>{"animation_fade", 0, 10},
+        "animation.fade_s",
+        {"That going over to another animation takes", "s", "meanwhile both are sampled"}),
 
     row<&ViewSettings::environment, &Environment::light>(
         Names{"environment", kEnvironmentLightNames},

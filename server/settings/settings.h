@@ -110,6 +110,11 @@ enum class Refine : uint8_t { kNone, kHigh, kLossless };
 inline constexpr std::array kRefineNames = {std::string_view("none"), std::string_view("high"),
                                             std::string_view("lossless")};
 
+// What an animation does at its ends.
+enum class Repeat : uint8_t { kLoop, kPingPong, kOnce };
+inline constexpr std::array kRepeatNames = {std::string_view("loop"), std::string_view("ping_pong"),
+                                            std::string_view("once")};
+
 struct Size {
     uint32_t width_px = 1280;
     uint32_t height_px = 720;
@@ -222,6 +227,16 @@ struct Environment {
     [[nodiscard]] bool present() const { return light != EnvironmentLight::kOff; }
 };
 
+// How the scene's own animations play, by a clock of their own.
+struct Animation {
+    uint32_t number = 0; // of the scene's, from 1; 0: none, the rest pose
+    bool playing = true;
+    float speed = 1; // below 0: backwards
+    Repeat repeat = Repeat::kLoop;
+    float fade_s = 0; // that the way from one animation to another takes
+    bool operator==(const Animation&) const = default;
+};
+
 // A cubic Hermite ramp from [0, 1] to [0, 1]: points in ascending x; constant outside.
 struct ToonRamp {
     static constexpr uint32_t kMaxPoints = 8;
@@ -256,6 +271,7 @@ struct ViewSettings {
     Lights lights;
     Shadows shadows;
     Environment environment;
+    Animation animation;
     ExposureMode exposure_mode = ExposureMode::kFixed;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;

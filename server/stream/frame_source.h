@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/frame_stats.h"
 #include "core/pixel_view.h"
+#include "motion/playback.h"
 #include "settings/settings.h"
 
 #include <cstdint>
@@ -13,6 +14,12 @@
 #include <optional>
 
 namespace froxel::stream {
+
+// Where all that moves stands in a frame.
+struct FrameTime {
+    double lights_s = 0;                                   // the lights' clock
+    std::optional<motion::Playing> playing = std::nullopt; // of a scene that moves
+};
 
 // What a frame will ask of the device, known when it begins.
 struct FrameWork {
@@ -49,13 +56,12 @@ class ViewSource {
     virtual ~ViewSource() = default;
     // Whether begin() may be called: a readback slot is free, and no frame has pieces that wait.
     [[nodiscard]] virtual bool canBegin() const = 0;
-    // Builds and records a frame at `time_s` of the lights' clock; nothing runs yet. `beside_bytes`
-    // is what encoding its pictures takes, of the same memory. Errors: kCapacity when this size
-    // does not fit or the frame would take too long, and kUnsupported when
-    // the device cannot do what the settings ask for (earlier ones still work), kDevice when the
-    // device is lost.
+    // Builds and records a frame as all stands at `time`; nothing runs yet. `beside_bytes` is what
+    // encoding its pictures takes, of the same memory. Errors: kCapacity when this size does not
+    // fit or the frame would take too long, and kUnsupported when the device cannot do what the
+    // settings ask for (earlier ones still work), kDevice when the device is lost.
     [[nodiscard]] virtual Result<FrameWork>
-    begin(const settings::ViewSettings& settings, double time_s, uint64_t beside_bytes) = 0;
+    begin(const settings::ViewSettings& settings, const FrameTime& time, uint64_t beside_bytes) = 0;
     // Gives the device the next piece of the frame begun last. Errors: kDevice.
     [[nodiscard]] virtual Result<void> submitPiece() = 0;
     // Gives up the pieces that wait of the frame begun last. Those on the device are still to be

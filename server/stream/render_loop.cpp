@@ -337,7 +337,10 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     const uint64_t encoding_bytes =
         std::max(encode::memoryBytes(with.encoding, settings.size),
                  encode::memoryBytes(frame.state.encoding, settings.size));
-    return viewer.source->begin(settings, frame.record.time_s, encoding_bytes);
+    settings.camera = frame.record.followed.value_or(settings.camera);
+    const FrameTime time{frame.record.time_s,
+                         frame.state.playback.at(session::SessionState::secondsOf(frame.started))};
+    return viewer.source->begin(settings, time, encoding_bytes);
 }
 
 void RenderLoop::submitPiece(Viewer& viewer) {

@@ -24,11 +24,14 @@ class RendererView final : public ViewSource {
 
     [[nodiscard]] bool canBegin() const override { return view_.canSubmit(); }
 
-    [[nodiscard]] Result<FrameWork>
-    begin(const settings::ViewSettings& settings, double time_s, uint64_t beside_bytes) override {
+    [[nodiscard]] Result<FrameWork> begin(const settings::ViewSettings& settings,
+                                          const FrameTime& time,
+                                          uint64_t beside_bytes) override {
         view_.setPieceShare(share_.value());
-        const auto work =
-            view_.begin({.settings = settings, .time_s = time_s, .beside_bytes = beside_bytes});
+        const auto work = view_.begin({.settings = settings,
+                                       .time_s = time.lights_s,
+                                       .playing = time.playing,
+                                       .beside_bytes = beside_bytes});
         if (!work) {
             return work.error();
         }

@@ -42,6 +42,10 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
         record.applied = state.applied;
         record.delivered = nextDelivered();
         record.time_s = state.light_clock.secondsAt(now);
+        record.animation_time_s = state.playback.timeAt(session::SessionState::secondsOf(now));
+        if (state.followed) {
+            record.followed = state.cameraAt(now);
+        }
         if (!submitted || submitted->applied != state.applied) {
             record.queue_us = Microseconds(now - arrived).count();
         }
@@ -58,6 +62,7 @@ void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
     }
     changed = frame.state.version != state.version;
     submitted = frame.state;
+    shown_at = frame.started;
     ++under_way;
     ++started;
 }

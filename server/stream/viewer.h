@@ -54,6 +54,7 @@ struct Viewer {
     session::SteadyCost frame_cost;
     Seconds piece_cost{0};   // the longest of the last frame; 0 before it
     TimePoint paced_until{}; // by the delivery's interval
+    TimePoint shown_at{};    // of the frame begun last
     TimePoint ask_again{};   // nothing can begin before; see FrameWork::piece_count
     bool changed = true;
     bool blocked = false; // this state was refused; waits for another
@@ -61,7 +62,7 @@ struct Viewer {
     bool gave_up = false; // the last frame, because of what the viewer asked for meanwhile
 
     [[nodiscard]] bool idle() const { return under_way == 0 && pipeline->size() == 0; }
-    [[nodiscard]] bool moves() const { return changed || state.animating(); }
+    [[nodiscard]] bool moves() const { return changed || state.animatingAt(shown_at); }
     // When the next frame is due, as far as that is up to this viewer; none: nothing is to be
     // drawn.
     [[nodiscard]] std::optional<TimePoint> wantsFrameAt() const;

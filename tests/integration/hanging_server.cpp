@@ -21,7 +21,7 @@ class HangingView final : public stream::ViewSource {
 
     [[nodiscard]] bool canBegin() const override { return true; }
     [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& /*settings*/,
-                                                  double /*time_s*/,
+                                                  const stream::FrameTime& /*time*/,
                                                   uint64_t /*beside_bytes*/) override {
         return stream::FrameWork{Seconds(0), 2};
     }

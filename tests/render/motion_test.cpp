@@ -1,5 +1,6 @@
 // Scenes that move, on the device.
 #include "gltf/gltf_loader.h"
+#include "motion/playback.h"
 #include "motion/posed_scene.h"
 #include "render/frame/scene_pose.h"
 #include "render/pipelines/barrier.h"
@@ -203,6 +204,36 @@ TEST_F(Moving, Lists_EqualAllLightsBitForBit) {
         const Picture lists = draw(view, inputs);
         inputs.settings.light_loop = settings::LightLoop::kAllLights;
         EXPECT_EQ(differingFloats(lists, draw(view, inputs)), 0U);
+    }
+}
+
+// Half way from one clip to another.
+TEST_F(Moving, CrossFade_ListsEqualAllLights_AndItIsTheSceneThatStandsSo) {
+    for (const bool bends : {false, true}) {
+        auto scene = movingRoom(bends);
+        Motion motion = *scene.motion;
+        motion.clips.push_back(
+            {"other",
+             2,
+             {line(3, {-1, 0, 0.5F}, {-0.2F, 0.8F, 2}), line(4, {0, 0, 0, 1}, {0.6F, 0, 0, 0.8F})},
+             {{0, 0, ChannelPath::kTranslation}, {1, 3, ChannelPath::kRotation}}});
+        scene.motion = std::make_shared<const Motion>(std::move(motion));
+        motion::Playback playback(scene.motion, {.number = 1}, 0.25);
+        playback.follow({.number = 2, .fade_s = 1.5F}, 1);
+        render::Renderer renderer(device(), scene);
+        render::ViewRenderer view(renderer);
+        auto inputs = inputsFor(scene, Renderer::kNaive, 0.4);
+        inputs.playing = playback.at(1.75);
+        const Picture naive = draw(view, inputs);
+        inputs.settings.renderer = Renderer::kForwardPlus;
+        EXPECT_EQ(differingFloats(naive, draw(view, inputs)), 0U);
+        if (!bends) {
+            const auto& [clips, now_s] = *inputs.playing;
+            render::Renderer resting(device(), motion::posedScene(scene, clips, now_s));
+            EXPECT_EQ(differingFloats(naive, draw(resting, inputs)), 0U);
+        }
+        inputs.playing = playback.at(2.5);
+        EXPECT_GT(differingFloats(naive, draw(view, inputs)), 1000U);
     }
 }
 

@@ -79,7 +79,7 @@ class FakeView final : public stream::ViewSource {
     }
 
     [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& settings,
-                                                  double /*time_s*/,
+                                                  const stream::FrameTime& /*time*/,
                                                   uint64_t beside_bytes) override {
         device_->beside_bytes = beside_bytes;
         if (device_->lost) {

@@ -33,6 +33,7 @@ const kTitles: Readonly<Record<Section, string>> = {
   rendering: 'Rendering',
   effects: 'Effects',
   lights: 'Lights',
+  animation: 'Animation',
   environment: 'Environment',
   clusters: 'Clusters',
   debug: 'Debug view',
@@ -105,6 +106,7 @@ export class Panel {
     const lights = this.section('lights', server);
     this.addBox(lights, server);
     this.lightEditor = new LightEditor(lights, this.actions);
+    if (hasAnimations(server)) this.section('animation', server);
     this.section('environment', server);
     const clusters = this.section('clusters', server);
     this.addGridInUse(clusters);
@@ -242,9 +244,11 @@ function mark(controller: Controller, name: string, label: string, tip: string):
   controller.domElement.dataset.field = name;
 }
 
+const hasAnimations = ({ scene }: ServerInfo): boolean => (scene?.animations.length ?? 0) > 0;
+
 /** Whether a panel built for one server fits another, as after most reconnects. */
 function sameControls(a: ServerInfo, b: ServerInfo): boolean {
   const shape = ({ scene, bounds, ranges }: ServerInfo): string =>
-    JSON.stringify([scene?.cameras, bounds, [...ranges.values()]]);
+    JSON.stringify([scene?.cameras, scene?.animations.length, bounds, [...ranges.values()]]);
   return shape(a) === shape(b);
 }

@@ -35,6 +35,7 @@ const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
     'grid.auto',
     { label: 'Automatic', help: 'The server chooses the grid; off: the size below' },
   ],
+  ['animation', { label: 'Number', help: 'Of the scene’s animations, from 1; 0: none' }],
   ['grid.x', { label: 'Tiles across', help: 'Clusters along the width' }],
   ['grid.y', { label: 'Tiles down', help: 'Clusters along the height' }],
   ['grid.z', { label: 'Depth slices', help: 'Clusters along the depth' }],

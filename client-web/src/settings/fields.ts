@@ -13,6 +13,7 @@ export type Section =
   | 'rendering'
   | 'effects'
   | 'lights'
+  | 'animation'
   | 'environment'
   | 'clusters'
   | 'debug'
@@ -23,6 +24,7 @@ const kSections: Readonly<Partial<Record<CommandName, Section>>> = {
   setRenderer: 'rendering',
   setExposure: 'rendering',
   setLights: 'lights',
+  setAnimation: 'animation',
   setEnvironment: 'environment',
   setGrid: 'clusters',
   setDebugView: 'debug',
@@ -52,6 +54,7 @@ const kByHand: Readonly<Partial<Record<Section, readonly Field[]>>> = {
     byHand('grid.y', 'gridY', kWhole),
     byHand('grid.z', 'gridZ', kWhole),
   ],
+  animation: [byHand('animation', 'animation', kWhole)],
   debug: [byHand('debug_frozen', 'debugFrozen', kSwitch)],
 };
 

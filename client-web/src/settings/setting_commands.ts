@@ -74,6 +74,7 @@ const kOtherChanges: Readonly<
   Partial<Record<CommandName, (from: Settings, to: Settings) => object>>
 > = {
   setLights: lightChanges,
+  setAnimation: animationChanges,
   setGrid: gridChanges,
   setDebugView: debugChanges,
   setToon: toonChanges,
@@ -86,6 +87,16 @@ function lightChanges(from: Settings, to: Settings): BodyOf<'setLights'> {
     ...(to.lightTime !== null && from.lightTime !== to.lightTime && { timeS: to.lightTime }),
     ...(!sameBounds(from.lightBox, to.lightBox) &&
       (to.lightBox ? { box: to.lightBox } : { clearBox: true })),
+  };
+}
+
+/** Another animation begins at its beginning, unless it is told where. */
+function animationChanges(from: Settings, to: Settings): BodyOf<'setAnimation'> {
+  const another = from.animation !== to.animation;
+  const elsewhere = another || from.animationTime !== to.animationTime;
+  return {
+    ...(another && { animation: to.animation }),
+    ...(to.animationTime !== null && elsewhere && { timeS: to.animationTime }),
   };
 }
 

@@ -7,6 +7,7 @@ import {
   type Codec,
   type EnvironmentLight,
   type Refine,
+  type Repeat,
   type ToonRamp,
   type Transparency,
   type Vec3,
@@ -38,6 +39,9 @@ interface TableSettings {
   readonly lights: number;
   readonly lightRadius: number;
   readonly animate: boolean;
+  readonly animationPlaying: boolean;
+  readonly animationSpeed: number; // below 0: backwards
+  readonly animationRepeat: Repeat;
   readonly environment: EnvironmentLight;
   readonly environmentBackground: boolean;
   readonly exposure: number;
@@ -62,6 +66,9 @@ export interface Settings extends TableSettings {
   readonly lightBox: Bounds | null; // null: the scene's bounds
   readonly placedLights: PlacedLights;
   readonly lightTime: number | null; // seconds where the lights' clock stands; null: it runs
+  readonly animation: number; // of the scene's, from 1; 0: none
+  readonly animationTime: number | null; // seconds of it where it is paused; null: it plays
+  readonly followedCamera: string; // of the scene's, which moves; empty: none
   readonly gridAutomatic: boolean;
   readonly gridX: number; // the size given by hand, used while not automatic
   readonly gridY: number;
@@ -96,12 +103,15 @@ export type CameraSettings = Pick<
   'eye' | 'target' | 'up' | 'fovDeg' | 'halfHeight' | 'orthographic' | 'lensShiftX' | 'lensShiftY'
 >;
 
+/** Where it stands, and which way it looks. */
+export type CameraPose = Pick<CameraSettings, 'eye' | 'target' | 'up'>;
+
 export function cameraOf(settings: Settings): CameraSettings {
   const { eye, target, up, fovDeg, halfHeight, orthographic, lensShiftX, lensShiftY } = settings;
   return { eye, target, up, fovDeg, halfHeight, orthographic, lensShiftX, lensShiftY };
 }
 
-const toVec = (v: Vec3 | undefined): Vec => vec(v?.x ?? 0, v?.y ?? 0, v?.z ?? 0);
+export const toVec = (v: Vec3 | undefined): Vec => vec(v?.x ?? 0, v?.y ?? 0, v?.z ?? 0);
 const toRamp = (ramp: ToonRamp | undefined): Ramp =>
   (ramp?.points ?? []).map(({ x, y, slope }) => ({ x, y, slope }));
 
@@ -139,6 +149,9 @@ export function settingsOf(
     lightBox: box && sceneBounds && sameBounds(box, sceneBounds) ? null : box,
     placedLights,
     lightTime: state.lightTimeS ?? null,
+    animation: state.animation,
+    animationTime: state.animationTimeS ?? null,
+    followedCamera: state.followedCamera,
     gridAutomatic: state.gridAutomatic,
     gridX: state.grid?.x ?? 0,
     gridY: state.grid?.y ?? 0,

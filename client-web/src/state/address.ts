@@ -40,6 +40,7 @@ export function formatAddress(settings: Settings, size: SizeMode, initial: Setti
   if (settings.orthographic) put('half_height', short(settings.halfHeight));
   // To the last bit: two pages of a scene that stands still show the same picture.
   if (settings.lightTime !== null) put('light_time', String(settings.lightTime));
+  if (settings.animationTime !== null) put('animation_time', String(settings.animationTime));
   for (const name of kVectors) put(name, formatVec(settings[name]));
   if (settings.lightBox) {
     put('light_box', `${formatVec(settings.lightBox.min)};${formatVec(settings.lightBox.max)}`);
@@ -88,6 +89,10 @@ function parseEntry(name: string, text: string): Entry | null {
   if (name === 'light_time') {
     const lightTime = parseNumber(text);
     return lightTime === null ? null : { settings: { lightTime } };
+  }
+  if (name === 'animation_time') {
+    const animationTime = parseNumber(text);
+    return animationTime === null ? null : { settings: { animationTime } };
   }
   if (name === 'light_box') {
     const lightBox = parseBox(text);

@@ -57,6 +57,7 @@ function edited({ settings: before }: AppState, { settings: after, sizeMode }: A
   const commands = settingCommands(before, after);
   return (
     commands.some((command) => command.case !== 'setSize' || !followsWindow) ||
-    cameraCommand(before, after) !== null
+    // One that is followed moves all the time.
+    (after.followedCamera === '' && cameraCommand(before, after) !== null)
   );
 }

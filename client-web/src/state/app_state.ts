@@ -16,7 +16,7 @@ import {
 } from '../gen/froxel/v1/server_pb';
 import type { Link } from '../protocol/connection';
 import { findLight, placedAfter, type PlacedLights } from '../settings/placed_lights';
-import { cameraOf, settingsOf, type Bounds, type Settings } from '../settings/settings';
+import { cameraOf, settingsOf, type Bounds, type CameraPose, type Settings } from '../settings/settings';
 import { mayControl, roomOf, type Room } from './room';
 import type { SizeMode } from './size_policy';
 
@@ -74,6 +74,7 @@ export type Action =
   | { readonly type: 'show_handles'; readonly visible: boolean }
   | { readonly type: 'size_mode'; readonly mode: SizeMode }
   | { readonly type: 'sent'; readonly seq: bigint; readonly settings: Settings }
+  | { readonly type: 'camera_moved'; readonly appliedSeq: bigint; readonly pose: CameraPose }
   | { readonly type: 'restored'; readonly wanted: Partial<Settings>; readonly size: SizeMode | null }
   | ({ readonly type: 'notice' } & Notice)
   | { readonly type: 'dismiss' };
@@ -117,6 +118,8 @@ export function reduce(state: AppState, action: Action): AppState {
       return { ...state, sizeMode: action.mode };
     case 'sent':
       return { ...state, sent: action.settings, sentSeq: action.seq };
+    case 'camera_moved':
+      return cameraMoved(state, action.appliedSeq, action.pose);
     case 'restored':
       return restored(state, action.wanted, action.size);
     case 'notice':
@@ -131,6 +134,14 @@ function linked(state: AppState, link: Link): AppState {
   const forget =
     link.phase === 'live' ? {} : { sent: null, sentSeq: 0n, loading: null, pick: null };
   return { ...state, ...forget, link };
+}
+
+/** Steering goes on from there. What was asked for since that frame counts more. */
+function cameraMoved(state: AppState, appliedSeq: bigint, pose: CameraPose): AppState {
+  const { settings, sent, sentSeq, confirmed } = state;
+  if (!settings || settings !== sent || appliedSeq < sentSeq || !confirmed) return state;
+  const moved = { ...settings, ...pose };
+  return { ...state, settings: moved, sent: moved, confirmed: { ...confirmed, ...pose } };
 }
 
 function roomChanged(state: AppState, room: Room): AppState {
@@ -238,10 +249,14 @@ function desired(state: AppState, server: ServerInfo, present: Settings): Settin
     const refine = present.refine === Refine.HIGH ? Refine.LOSSLESS : present.refine;
     return { ...present, refine, ...state.wanted };
   }
-  if (state.server?.scene?.name === server.scene?.name) return before;
+  const { placedLights, animation, animationTime, followedCamera } = present;
+  if (state.server?.scene?.name === server.scene?.name) {
+    const follows = followedCamera !== '' && followedCamera === before.followedCamera;
+    return follows ? { ...before, ...cameraOf(present) } : before;
+  }
   // Another scene: places of the old one mean nothing in it.
-  const { placedLights } = present;
-  return { ...before, ...cameraOf(present), lightBox: null, placedLights };
+  const places = { placedLights, animation, animationTime, followedCamera };
+  return { ...before, ...cameraOf(present), lightBox: null, ...places };
 }
 
 function boundsOf(scene: SceneInfo | null): Bounds | null {

@@ -7,7 +7,8 @@ export interface ShortcutActions {
   toggleStats(): void;
   togglePanel(): void;
   toggleHelp(): void;
-  toggleAnimation(): void;
+  toggleLights(): void;
+  togglePlaying(): void;
   nextRenderer(): void;
   sceneCamera(index: number): void;
 }
@@ -41,7 +42,10 @@ export function runShortcut(key: string, actions: ShortcutActions): boolean {
       actions.nextRenderer();
       return true;
     case ' ':
-      actions.toggleAnimation();
+      actions.toggleLights();
+      return true;
+    case 'k':
+      actions.togglePlaying();
       return true;
     default:
       return false;

@@ -18,6 +18,7 @@ describe('fields', () => {
       'rendering',
       'effects',
       'lights',
+      'animation',
       'environment',
       'clusters',
       'debug',

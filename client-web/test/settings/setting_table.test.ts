@@ -33,9 +33,9 @@ describe('the table', () => {
 
   it('Rows_HaveTheSettingsThatCodeNames', () => {
     const named: Readonly<Record<string, readonly (keyof Settings)[]>> = {
-      number: ['lights', 'lightRadius', 'exposure', 'fogDensity', 'shadowLights', 'quality'],
-      boolean: ['animate', 'environmentBackground'],
-      choice: ['renderer', 'bloom', 'transparency', 'environment', 'codec', 'refine'],
+      number: ['lights', 'lightRadius', 'animationSpeed', 'exposure', 'fogDensity', 'shadowLights', 'quality'],
+      boolean: ['animate', 'animationPlaying', 'environmentBackground'],
+      choice: ['renderer', 'animationRepeat', 'bloom', 'transparency', 'environment', 'codec', 'refine'],
     };
     for (const [kind, keys] of Object.entries(named)) {
       for (const key of keys) expect(kRows.find((row) => row.key === key)?.kind).toBe(kind);

@@ -74,6 +74,12 @@ describe('settingCommands', () => {
     ['animate', { animate: false }, { case: 'setLights', value: { animate: false } }],
     ['box', { lightBox: kBounds }, { case: 'setLights', value: { box: kBounds } }],
     ['lights’ clock', { lightTime: 0 }, { case: 'setLights', value: { timeS: 0 } }],
+    ['animation', { animation: 2 }, { case: 'setAnimation', value: { animation: 2 } }],
+    [
+      'a place of a paused animation',
+      { animationTime: 0.5, animationSpeed: 2 },
+      { case: 'setAnimation', value: { timeS: 0.5, speed: 2 } },
+    ],
     [
       'fog and its colour',
       { fogDensity: 0.1, fogAlbedo: { x: 1, y: 0.5, z: 0 } },
@@ -115,6 +121,17 @@ describe('settingCommands', () => {
     const stopped = { ...base, animate: false, lightTime: 5 };
     expect(settingCommands(stopped, base)).toEqual([
       { case: 'setLights', value: { animate: true } },
+    ]);
+  });
+
+  it('AnimationThatGoesOn_IsNotSeeked', () => {
+    const paused = { ...base, animation: 1, animationTime: 0.5 };
+    const playing = { ...paused, animationPlaying: true };
+    expect(settingCommands(paused, playing)).toEqual([
+      { case: 'setAnimation', value: { playing: true } },
+    ]);
+    expect(settingCommands(paused, { ...paused, animation: 2 })).toEqual([
+      { case: 'setAnimation', value: { animation: 2, timeS: 0.5 } },
     ]);
   });
 

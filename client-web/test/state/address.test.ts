@@ -39,6 +39,8 @@ describe('addresses', () => {
       debugScaleMax: 12.5,
       debugFrozen: true,
       lightTime: 0.1 + 0.2,
+      animation: 2,
+      animationTime: 0.3 + 0.6,
       shading: ShadingModel.BLINN_PHONG,
       bloom: BloomKind.A_TROUS,
       bloomRadius: 0.02,

@@ -55,6 +55,35 @@ describe('a pick', () => {
   });
 });
 
+describe('a camera that is followed', () => {
+  const moved = (appliedSeq: bigint, x: number): Action => ({
+    type: 'camera_moved',
+    appliedSeq,
+    pose: { eye: { x, y: 2, z: 0 }, target: { x: 0, y: 2, z: 0 }, up: { x: 0, y: 1, z: 0 } },
+  });
+
+  it('Moves_WithoutAWord', () => {
+    const state = run(live, moved(0n, -6));
+    expect(state.settings?.eye.x).toBe(-6);
+    expect(state.settings).toBe(state.sent);
+    expect(state.confirmed?.eye.x).toBe(-6);
+  });
+
+  it('FrameFromBeforeACommand_ChangesNothing', () => {
+    const steered = sent(run(live, edit(7)), 3n);
+    expect(run(steered, moved(2n, -6))).toBe(steered);
+    expect(run(live, edit(7), moved(9n, -6)).settings?.eye.x).toBe(-7);
+  });
+
+  it('AfterAReconnect_GoesOn', () => {
+    const state = viewState({ followedCamera: 'nave' });
+    const greeted = received({ case: 'welcome', value: { ...welcome(), state } });
+    const before = run(kInitialState, greeted, moved(0n, -6));
+    const again = run(before, { type: 'link', link: { phase: 'connecting' } }, greeted);
+    expect(again.settings?.eye).toEqual(again.sent?.eye);
+  });
+});
+
 describe('details', () => {
   it('HoldUntilTheNextOnes', () => {
     expect(live.details).toBeNull();

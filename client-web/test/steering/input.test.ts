@@ -164,13 +164,14 @@ describe('shortcuts', () => {
     toggleStats: vi.fn(),
     togglePanel: vi.fn(),
     toggleHelp: vi.fn(),
-    toggleAnimation: vi.fn(),
+    toggleLights: vi.fn(),
+    togglePlaying: vi.fn(),
     nextRenderer: vi.fn(),
     sceneCamera: vi.fn(),
   } satisfies ShortcutActions;
 
   it('Keys_RunTheirActions', () => {
-    for (const letter of ['p', 'L', 'x', 'f', 'c', 'h', 'r', ' ']) {
+    for (const letter of ['p', 'L', 'x', 'f', 'c', 'h', 'r', 'k', ' ']) {
       expect(runShortcut(letter, actions)).toBe(true);
     }
     for (const action of Object.values(actions)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/clock.h"
+#include "motion/playback.h"
 #include "render/frame/frame_plan.h"
 #include "settings/settings.h"
 
@@ -20,7 +21,9 @@ enum class AssignmentPlace : uint8_t { kAuto, kHost, kDevice };
 
 struct FrameInputs {
     settings::ViewSettings settings;
-    double time_s = 0;          // the lights' clock; pauses and speed are already folded in
+    double time_s = 0; // the lights' clock; pauses and speed are already folded in
+    // What plays of the scene; none: what Motion::played says, at time_s.
+    std::optional<motion::Playing> playing = {};
     bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
     // For tests and measurements.
     GenericParts generic = {};

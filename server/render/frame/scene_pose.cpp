@@ -1,12 +1,14 @@
 #include "render/frame/scene_pose.h"
 
+#include <utility>
+
 namespace froxel::render {
 
 static_assert(sizeof(io::PoseJoint) == sizeof(motion::JointMatrix));
 
 ScenePose::ScenePose(const SceneResources& scene) : scene_(scene) {
     if (scene.motion) {
-        moved_ = std::unique_ptr<Moved>(new Moved{.time_s = {},
+        moved_ = std::unique_ptr<Moved>(new Moved{.playing = {},
                                                   .moment = {},
                                                   .items = scene.items,
                                                   .bounds_world = scene.bounds_world,
@@ -34,13 +36,17 @@ void ScenePose::placeItems() {
     }
 }
 
-void ScenePose::standAt(double time_s) {
-    if (!moved_ || moved_->time_s == time_s) {
+void ScenePose::standAt(double time_s, const std::optional<motion::Playing>& playing) {
+    if (!moved_) {
         return;
     }
     const SceneMotion& shared = *scene_.motion;
+    motion::Playing wanted = playing ? *playing : motion::Playing{shared.clips, time_s};
+    if (moved_->playing == wanted) {
+        return;
+    }
     motion::Moment& moment = moved_->moment;
-    shared.player.at(shared.clips, time_s, moment);
+    shared.player.at(wanted.clips, wanted.now_s, moment);
     moved_->bounds_world = scene_.bounds_world;
     moved_->bounds_world.add(moment.bounds_world);
     if (!shared.player.motion().lights.empty()) {
@@ -56,7 +62,7 @@ void ScenePose::standAt(double time_s) {
         }
         moved_->weights.assign(moment.pose.weights.begin(), moment.pose.weights.end());
     }
-    moved_->time_s = time_s;
+    moved_->playing = std::move(wanted);
 }
 
 uint64_t ScenePose::hostBytes() const {

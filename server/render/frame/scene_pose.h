@@ -1,6 +1,7 @@
 // Where all of a scene is in a frame, for what the host makes of one.
 #pragma once
 
+#include "motion/playback.h"
 #include "render/scene/scene_resources.h"
 
 #include <cstdint>
@@ -17,9 +18,9 @@ class ScenePose {
   public:
     explicit ScenePose(const SceneResources& scene);
 
-    // Stands where the clips have the scene then: a pure function of the time. Spans handed out
-    // before end.
-    void standAt(double time_s);
+    // Stands where the clips have the scene then: a pure function of what plays. None: what
+    // Motion::played says, at time_s. Spans handed out before end.
+    void standAt(double time_s, const std::optional<motion::Playing>& playing = {});
 
     [[nodiscard]] std::span<const glm::dmat4> instances() const { // world_from_object
         return moved_ ? moved_->moment.instances : scene_.instances;
@@ -49,7 +50,7 @@ class ScenePose {
 
   private:
     struct Moved {
-        std::optional<double> time_s;
+        std::optional<motion::Playing> playing;
         motion::Moment moment;
         std::vector<DrawItem> items;
         BoundsD3 bounds_world;

@@ -18,7 +18,7 @@ struct SceneMotion {
                 const PackedGeometry& geometry);
 
     motion::Player player;
-    std::vector<motion::PlayedClip> clips;      // that play
+    std::vector<motion::PlayedClip> clips;      // that play where nobody chose others
     std::vector<uint32_t> deformed_of_instance; // of Motion::deformed; scene::kNone: rigid
     std::unique_ptr<const MeshPoser> poser;     // null: no mesh bends
 };

@@ -60,11 +60,6 @@ TEST_F(SceneSource, UnknownAnimation_IsRefusedByName) {
     EXPECT_TRUE(loadScene("builtin", "none"));
 }
 
-TEST_F(SceneSource, MovingCamera_StandsWhereItIsThen) {
-    EXPECT_EQ(loadScene(file_, "", 0.25)->cameras.at(0).camera.eye_world, glm::dvec3(1, 0, 0));
-    EXPECT_EQ(loadScene(file_, "none", 0.25)->cameras.at(0).camera.eye_world, glm::dvec3(0));
-}
-
 // An empty scene is no room: it has no seeded lights.
 TEST(FirstLook, WhatWasGiven_Stays_AndTheHallKeepsTheDefaults) {
     const scene::Scene scene;

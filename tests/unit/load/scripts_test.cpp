@@ -1,6 +1,7 @@
 // What the built-in scripts say, as a server hears it.
 #include "load/orbit_script.h"
 #include "load/script.h"
+#include "scene/motion.h"
 #include "session/command_decode.h"
 #include "session/state_message.h"
 #include "settings/ranges.h"
@@ -110,7 +111,10 @@ void noteFields(const google::protobuf::Message& message,
 }
 
 TEST(Scripts, Storm_SaysEverySetting_AllAccepted) {
-    const session::SessionContext context = session::makeContext();
+    session::SessionContext context = session::makeContext();
+    scene::Motion motion;
+    motion.clips = {{"walk", 2, {}, {}}, {"run", 0.5, {}, {}}};
+    context.scene.motion = std::make_shared<const scene::Motion>(std::move(motion));
     session::SessionState state = session::initialState(context, TimePoint(1s));
     state.decodable.set(static_cast<size_t>(settings::Codec::kVp9));
     const auto script = makeScript(Storm{}, session::makeWelcome(1, context, state).welcome(), 3);

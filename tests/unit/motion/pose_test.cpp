@@ -88,12 +88,50 @@ TEST(Pose, CrossFade_IsHalfWayInTheMiddle) {
     Motion motion = twoNodes();
     motion.clips.push_back(
         {"up", 2, {line(3, {1, 4, 0}, {1, 4, 0})}, {{0, 1, ChannelPath::kTranslation}}});
-    const PlayedClip fading[] = {
-        {.clip = 1, .clock = {.speed = 0}, .fade = {.start_s = 1, .duration_s = 2, .out = true}},
-        {.clip = 2, .clock = {.speed = 0}, .fade = {.start_s = 1, .duration_s = 2}}};
+    const PlayedClip fading[] = {{.clip = 1, .clock = {.speed = 0}, .fade = {}},
+                                 {.clip = 2,
+                                  .clock = {.speed = 0},
+                                  .fade = {.start_s = 1, .duration_s = 2},
+                                  .covers = true}};
     expectNear(placeOf(motion, fading, 0), {1, 0, 0}, 1e-15);
     expectNear(placeOf(motion, fading, 2), {1, 2, 0}, 1e-15);
     expectNear(placeOf(motion, fading, 3), {1, 4, 0}, 1e-15);
+}
+
+// Each takes its share of what all before it made: (1 - b)(1 - c), b (1 - c), c.
+TEST(Pose, CrossFadeDuringAnother_GoesOnFromWhatIsSeen) {
+    Motion motion = twoNodes();
+    for (const float height : {4.0F, 10.0F}) {
+        motion.clips.push_back({"at",
+                                2,
+                                {line(3, {1, height, 0}, {1, height, 0})},
+                                {{0, 1, ChannelPath::kTranslation}}});
+    }
+    const PlayedClip fading[] = {
+        {.clip = 1, .clock = {.speed = 0}, .fade = {}, .covers = true},
+        {.clip = 2, .clock = {.speed = 0}, .fade = {.start_s = 0, .duration_s = 4}, .covers = true},
+        {.clip = 3,
+         .clock = {.speed = 0},
+         .fade = {.start_s = 2, .duration_s = 4},
+         .covers = true}};
+    const auto smooth = [](double t) { return t * t * (3 - 2 * t); };
+    expectNear(placeOf(motion, fading, 2), {1, 2, 0}, 1e-14); // the third has only begun
+    const double b = smooth(0.75);
+    const double c = smooth(0.25);
+    expectNear(placeOf(motion, fading, 3), {1, 4 * b * (1 - c) + 10 * c, 0}, 1e-14);
+    expectNear(placeOf(motion, fading, 6), {1, 10, 0}, 1e-14);
+}
+
+TEST(Pose, CrossFadeToNothing_GoesToTheRestPose) {
+    const PlayedClip fading[] = {
+        {.clip = 1, .clock = {.phase_s = 1, .speed = 0}, .fade = {}, .covers = true},
+        {.clip = scene::kNone,
+         .clock = {},
+         .fade = {.start_s = 0, .duration_s = 2},
+         .covers = true}};
+    expectNear(placeOf(twoNodes(), fading, 0), {1, 0, 4}, 1e-15);
+    expectNear(placeOf(twoNodes(), fading, 1), {1, 0, 2}, 1e-15);
+    EXPECT_EQ(placeOf(twoNodes(), fading, 2), glm::dvec3(1, 0, 0));
 }
 
 TEST(Pose, FadingInAlone_ComesFromTheRestPose) {

@@ -26,7 +26,7 @@ TEST_F(State, Initial_HasTheDefaultsAndTheFirstCamera) {
     EXPECT_EQ(initial.encoding, context.defaults.encoding);
     EXPECT_EQ(initial.settings.lights.count, context.defaults.settings.lights.count);
     EXPECT_EQ(initial.applied, CommandStamp{});
-    EXPECT_TRUE(initial.animating());
+    EXPECT_TRUE(initial.animatingAt(kStart));
     EXPECT_EQ(initial.light_clock.secondsAt(kStart), 0);
 }
 
@@ -143,7 +143,7 @@ TEST_F(State, LightClock_PausesResumesAndChangesSpeedWithoutJumps) {
     const auto animate = [](bool on) { return lights({{"animate", on}}); };
     const auto speed = [](double value) { return lights({{"light_speed", value}}); };
     SessionState state = applied(initial, animate(false), kStart + 10s);
-    EXPECT_FALSE(state.animating());
+    EXPECT_FALSE(state.animatingAt(kStart));
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 99s), 10);
     state = applied(state, animate(true), kStart + 100s);
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 105s), 15);
@@ -152,16 +152,8 @@ TEST_F(State, LightClock_PausesResumesAndChangesSpeedWithoutJumps) {
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 110s), 25);
     state = applied(state, lights({{"lights", 5U}}), kStart + 110s);
     EXPECT_DOUBLE_EQ(state.light_clock.secondsAt(kStart + 111s), 27);
-    EXPECT_FALSE(applied(state, lights({{"lights", 0U}})).animating());
-    EXPECT_FALSE(applied(state, speed(0)).animating());
-}
-
-// It goes by the lights' clock.
-TEST_F(State, SceneThatMoves_IsAnimatingWithoutLights) {
-    context.scene.moves = true;
-    const SessionState moving = applied(initialState(context, kStart), lights({{"lights", 0U}}));
-    EXPECT_TRUE(moving.animating());
-    EXPECT_FALSE(applied(moving, lights({{"animate", false}})).animating());
+    EXPECT_FALSE(applied(state, lights({{"lights", 0U}})).animatingAt(kStart));
+    EXPECT_FALSE(applied(state, speed(0)).animatingAt(kStart));
 }
 
 TEST_F(State, LightClock_TimeGiven_IsTakenWhetherItStandsOrRuns) {
@@ -201,7 +193,7 @@ TEST_F(State, SetGrid_ASizeTurnsAutomaticOff_TrueTurnsItOn) {
 }
 
 TEST_F(State, PickLight_PlacesWhatIsThere_UnlessNothingIs) {
-    context.pick_light = [](const settings::ViewSettings&, double, const glm::dvec2& at) {
+    context.pick_light = [](const auto&, double, const auto&, const glm::dvec2& at) {
         settings::PlacedLight light;
         light.position_world = {at.x, at.y, 4};
         light.replaces = settings::LightRef{settings::LightRef::Of::kSeed, 11};
