@@ -106,8 +106,10 @@ OpenedScene openScene(const ServeOptions& options,
     surround(scene, options.environment_file);
     logWarnings(scene);
     session::SessionContext context{session::summarize(scene),
-                                    defaultsOf(options, scene, traits.is_cpu), FROXEL_VERSION,
-                                    traits.name, lightPicker(scene),
+                                    defaultsOf(options, scene, traits.is_cpu),
+                                    FROXEL_VERSION,
+                                    traits.name,
+                                    lightPicker(scene),
                                     framing(scene)};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,

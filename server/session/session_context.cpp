@@ -1,6 +1,5 @@
 #include "session/session_context.h"
 
-
 namespace froxel::session {
 
 SceneSummary summarize(const scene::Scene& scene) {
