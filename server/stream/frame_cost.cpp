@@ -14,7 +14,7 @@ draw(ViewSource& view, const settings::ViewSettings& settings, uint32_t frames, 
     uint32_t on_device = 0;
     for (uint32_t begun = 0, done = 0; done < frames;) {
         if (waiting == 0 && begun < frames && on_device < depth && view.canBegin()) {
-            const auto work = view.begin(settings, 0, 0);
+            const auto work = view.begin(settings, {}, 0);
             if (!work) {
                 return work.error();
             }
