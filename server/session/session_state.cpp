@@ -21,8 +21,7 @@ void assignIfGiven(Target& target, const std::optional<Value>& value) {
 }
 
 settings::Camera openingCamera(const SessionContext& context, const settings::Size& size) {
-    settings::Camera camera =
-        scene::firstCamera(context.scene.cameras, context.framed_world, size);
+    settings::Camera camera = scene::firstCamera(context.scene.cameras, context.framed_world, size);
     camera.lens_shift = context.defaults.lens_shift.value_or(camera.lens_shift);
     return camera;
 }

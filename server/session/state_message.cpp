@@ -198,6 +198,15 @@ void fillDelivery(v1::FrameHeader& out, const FrameRecord& record) {
     out.set_link_bits_per_s(static_cast<uint64_t>(std::clamp(record.link_bits_per_s, 0.0, kMost)));
 }
 
+void fill(v1::Part& part, const FrameRecord& record) {
+    part.set_length(saturated(record.encoded_bytes));
+    part.set_width(record.width_px);
+    part.set_height(record.height_px);
+    const settings::Codec codec = record.delivered.encoding.codec;
+    part.set_codec(toProto<v1::Codec>(settings::kCodecNames, codec));
+    part.set_key_frame(settings::rowOf(codec).frames_depend && record.key);
+}
+
 } // namespace
 
 v1::ServerMessage
@@ -309,14 +318,7 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
     header.set_applied_client_time_us(record.applied.client_time_us);
     header.set_width(record.width_px);
     header.set_height(record.height_px);
-    v1::Part& part = *header.add_parts();
-    part.set_length(saturated(record.encoded_bytes));
-    part.set_width(record.width_px);
-    part.set_height(record.height_px);
-    const settings::Codec codec = record.delivered.encoding.codec;
-    part.set_codec(toProto<v1::Codec>(settings::kCodecNames, codec));
-    part.set_key_frame(settings::rowOf(codec).frames_depend && record.key);
-
+    fill(*header.add_parts(), record);
     header.set_queue_us(saturated(record.queue_us));
     header.set_render_us(saturated(record.render_us));
     if (record.stats.gpu_us) {

@@ -46,8 +46,8 @@ void warnOfLongStep(std::string_view step,
     const settings::GridSize& grid = state.settings.grid.size;
     spdlog::warn("event=long_step step={} seconds={:.2f} expected={:.2f} session={} size={}x{} "
                  "grid={}x{}x{} placed={} settings={}",
-                 step, took.count(), expected.count(), id, size.width_px, size.height_px, grid.x, grid.y, grid.z,
-                 state.settings.lights.placed.lights().size(),
+                 step, took.count(), expected.count(), id, size.width_px, size.height_px, grid.x,
+                 grid.y, grid.z, state.settings.lights.placed.lights().size(),
                  logValue(session::unusualSettings(state), 1000));
 }
 

@@ -58,7 +58,7 @@ class FramePieces {
     std::vector<vk::raii::CommandBuffer> ended_;
     uint32_t used_ = 0; // of `ended_`, in this frame
     Seconds limit_{0};
-    Seconds fine_{0}; // the share of it
+    Seconds fine_{0};  // the share of it
     Seconds piece_{0}; // of the present one
     bool closed_ = false;
     Seconds estimate_{0};
