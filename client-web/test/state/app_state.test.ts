@@ -63,7 +63,7 @@ describe('a camera that is followed', () => {
   });
 
   it('Moves_WithoutAWord', () => {
-    const state = run(live, moved(0n, -6));
+    const state = run(sent(live, 1n), moved(1n, -6));
     expect(state.settings?.eye.x).toBe(-6);
     expect(state.settings).toBe(state.sent);
     expect(state.confirmed?.eye.x).toBe(-6);
