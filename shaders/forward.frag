@@ -79,8 +79,14 @@ void main() {
         return;
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
+#ifdef FROXEL_LAYERED
+    addCoatSurface(g.coat, s);
+#endif
     LightSum sum = sumLights(s, pixel, distance, true);
     vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
                ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) + g.emissive;
+#ifdef FROXEL_LAYERED
+    lit = underCoat(lit, s, sum, g.coat, g.occlusion);
+#endif
     store(seen(lit, pixel, distance), alpha, distance);
 }

@@ -27,6 +27,22 @@
 
 layout(local_size_x = 64) in;
 
+// Where this dispatch shades nothing.
+GbufferSample emptySample() {
+    GbufferSample g;
+    g.normal_view = vec3(0.0, 0.0, 1.0);
+    g.base_color = g.emissive = vec3(0.0);
+    g.roughness = g.occlusion = 1.0;
+    g.metallic = 0.0;
+    g.unlit = false;
+    g.dielectric = usualDielectric();
+#ifdef FROXEL_LAYERED
+    g.coat = noCoat(g.normal_view);
+    visible_flags = 0u;
+#endif
+    return g;
+}
+
 void main() {
     uvec2 pixel = gl_WorkGroupID.xy * kScreenGroup + pixelInGroup(gl_LocalInvocationIndex);
     bool inside = insideScreen(pixel);
@@ -36,8 +52,7 @@ void main() {
     covered = covered && mine(id);
     float distance = distanceFromDepth(1.0);
     vec3 position = positionFromDistance(pixel, distance);
-    GbufferSample g = GbufferSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, 0.0, 1.0, false, vec3(0.0),
-                                    usualDielectric());
+    GbufferSample g = emptySample();
     if (covered) {
         VisibleTriangle t = fetchTriangle(id);
         distance = solidDistance(t, pixel, depth);
@@ -47,9 +62,15 @@ void main() {
         g = shadeMaterial(v, baseColor(v), position, front);
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
+#ifdef FROXEL_LAYERED
+    addCoatSurface(g.coat, s);
+#endif
     LightSum sum = sumLights(s, pixel, distance, covered && !g.unlit);
     vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
                ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) + g.emissive;
+#ifdef FROXEL_LAYERED
+    lit = underCoat(lit, s, sum, g.coat, g.occlusion);
+#endif
     if (g.unlit) {
         lit = g.base_color;
     }

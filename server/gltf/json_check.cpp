@@ -21,12 +21,19 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view kSupportedExtensions[] = {
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
-    "EXT_texture_webp",        "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",  "KHR_materials_unlit",
-    "KHR_mesh_quantization",   "KHR_node_visibility",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 };
 
@@ -80,6 +87,11 @@ struct KindTable {
         {"cameras", kObjects},
         {"channels", kObjects},
         {"children", kIndices},
+        {"clearcoatFactor", kNumber},
+        {"clearcoatNormalTexture", kObject},
+        {"clearcoatRoughnessFactor", kNumber},
+        {"clearcoatRoughnessTexture", kObject},
+        {"clearcoatTexture", kObject},
         {"color", kNumbers},
         {"componentType", kIndex},
         {"count", kIndex},

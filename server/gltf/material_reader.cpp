@@ -186,6 +186,9 @@ scene::Material MaterialReader::read(const tinygltf::Material& source, const std
     } else {
         readMetallicRoughness(source, name, material);
     }
+    if (!material.unlit) {
+        readCoat(source.extensions, name, material);
+    }
     material.normal_scale = static_cast<float>(source.normalTexture.scale);
     material.occlusion_strength = unit(source.occlusionTexture.strength, "strength", name);
     double strength = 1;
@@ -282,6 +285,29 @@ void MaterialReader::readGlossiness(const tinygltf::Value& extension,
     material.ior = 0;
     material.specular_color_texture = slotIn(extension, "specularGlossinessTexture", name);
     material.glossiness_texture = material.specular_color_texture.texture != scene::kNone;
+}
+
+// KHR_materials_clearcoat.
+void MaterialReader::readCoat(const tinygltf::ExtensionMap& extensions,
+                              const std::string& name,
+                              scene::Material& material) {
+    const auto* ext = findExtension(extensions, "KHR_materials_clearcoat");
+    if (ext == nullptr) {
+        return;
+    }
+    material.coat = unit(numberOr(*ext, "clearcoatFactor", 0), "clearcoatFactor", name);
+    material.coat_roughness =
+        unit(numberOr(*ext, "clearcoatRoughnessFactor", 0), "clearcoatRoughnessFactor", name);
+    material.coat_texture = slotIn(*ext, "clearcoatTexture", name);
+    material.coat_roughness_texture = slotIn(*ext, "clearcoatRoughnessTexture", name);
+    material.coat_normal_texture = slotIn(*ext, "clearcoatNormalTexture", name);
+    if (ext->Has("clearcoatNormalTexture") && ext->Get("clearcoatNormalTexture").Has("scale")) {
+        const tinygltf::Value& scale = ext->Get("clearcoatNormalTexture").Get("scale");
+        if (!scale.IsNumber()) {
+            fail(name + " has a clearcoatNormalTexture with a wrong scale; right is a number");
+        }
+        material.coat_normal_scale = static_cast<float>(scale.GetNumberAsDouble());
+    }
 }
 
 scene::TextureSlot

@@ -46,6 +46,9 @@ class MaterialReader {
     void readGlossiness(const tinygltf::Value& extension,
                         const std::string& name,
                         scene::Material& material);
+    void readCoat(const tinygltf::ExtensionMap& extensions,
+                  const std::string& name,
+                  scene::Material& material);
     // A texture that an extension's object names; none where it does not.
     [[nodiscard]] scene::TextureSlot
     slotIn(const tinygltf::Value& extension, const char* key, const std::string& name);

@@ -10,6 +10,7 @@ constexpr const char* kUnlit = "KHR_materials_unlit";
 constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
 constexpr const char* kIor = "KHR_materials_ior";
 constexpr const char* kSpecular = "KHR_materials_specular";
+constexpr const char* kClearcoat = "KHR_materials_clearcoat";
 constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 Json slotJson(const scene::TextureSlot& slot, std::set<std::string>& extensions) {
@@ -91,6 +92,25 @@ void addGlossiness(const scene::Material& m, Json& json, std::set<std::string>& 
     json["extensions"][kGlossiness] = std::move(glossiness);
 }
 
+void addCoat(const scene::Material& m, Json& json, std::set<std::string>& extensions) {
+    if (m.coat == 0) {
+        return; // there is nothing to see of the rest
+    }
+    Json coat = {{"clearcoatFactor", m.coat}, {"clearcoatRoughnessFactor", m.coat_roughness}};
+    if (m.coat_texture.texture != scene::kNone) {
+        coat["clearcoatTexture"] = slotJson(m.coat_texture, extensions);
+    }
+    if (m.coat_roughness_texture.texture != scene::kNone) {
+        coat["clearcoatRoughnessTexture"] = slotJson(m.coat_roughness_texture, extensions);
+    }
+    if (m.coat_normal_texture.texture != scene::kNone) {
+        coat["clearcoatNormalTexture"] = slotJson(m.coat_normal_texture, extensions);
+        coat["clearcoatNormalTexture"]["scale"] = m.coat_normal_scale;
+    }
+    extensions.insert(kClearcoat);
+    json["extensions"][kClearcoat] = std::move(coat);
+}
+
 int wrapCode(scene::Wrap wrap) {
     switch (wrap) {
     case scene::Wrap::kMirroredRepeat:
@@ -149,6 +169,7 @@ Json materialJson(const scene::Material& m, std::set<std::string>& extensions) {
     } else {
         addSpecular(m, json, extensions);
     }
+    addCoat(m, json, extensions);
     if (m.alpha_mode == scene::AlphaMode::kMask) {
         json["alphaMode"] = "MASK";
         json["alphaCutoff"] = m.alpha_cutoff;

@@ -10,6 +10,8 @@
 namespace froxel::reference {
 namespace {
 
+constexpr double kLeastCosine = 1e-4; // to the eye, as the shaders have it
+
 // Of f0 alone, at each channel.
 glm::dvec3 reflectedShare(const glm::dvec3& f0, double f90, const environment::Albedo& albedo) {
     const glm::dvec3 once = f0 * (albedo.all - albedo.grazing) + f90 * albedo.grazing;
@@ -20,6 +22,17 @@ glm::dvec3 reflectedShare(const glm::dvec3& f0, double f90, const environment::A
 double glossyOcclusion(double n_dot_v, double occlusion, double roughness) {
     const double seen = std::pow(n_dot_v + occlusion, std::exp2(-16 * roughness - 1));
     return std::clamp(seen - 1 + occlusion, 0.0, 1.0);
+}
+
+// What is seen by a lobe about a normal.
+glm::dvec3
+glossyAround(const Surface& s, const glm::dvec3& normal, double roughness, const Around& around) {
+    const double cosine = glm::dot(normal, s.to_eye);
+    const double n_dot_v = std::max(std::abs(cosine), kLeastCosine);
+    const glm::dvec3 towards =
+        environment::lobeDirection(normal, 2 * cosine * normal - s.to_eye, roughness);
+    return radianceFrom(around, towards, roughness) *
+           glossyOcclusion(n_dot_v, s.occlusion, roughness);
 }
 
 } // namespace
@@ -48,18 +61,21 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
         return s.base_color * matt;
     }
     const double roughness = std::max(s.roughness, kLeastRoughness);
-    const double cosine = glm::dot(s.normal, s.to_eye);
-    const double n_dot_v = std::max(std::abs(cosine), 1e-4);
+    const double n_dot_v = std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine);
     const auto albedo = environment::albedoFromTable(n_dot_v, roughness);
     const glm::dvec3 of_dielectric = reflectedShare(s.dielectric_f0, s.dielectric_f90, albedo);
     const glm::dvec3 of_metal = reflectedShare(s.base_color, 1, albedo);
-    const glm::dvec3 towards =
-        environment::lobeDirection(s.normal, 2 * cosine * s.normal - s.to_eye, roughness);
-    const glm::dvec3 glossy =
-        radianceFrom(around, towards, roughness) * glossyOcclusion(n_dot_v, s.occlusion, roughness);
+    const glm::dvec3 glossy = glossyAround(s, s.normal, roughness, around);
     const double entering = 1 - std::max({of_dielectric.x, of_dielectric.y, of_dielectric.z});
     return glm::mix(of_dielectric, of_metal, s.metallic) * glossy +
            s.base_color * ((1 - s.metallic) * entering) * matt;
+}
+
+glm::dvec3 coatAround(const Surface& s, const Around& around) {
+    const double roughness = std::max(s.coat_roughness, kLeastRoughness);
+    const double n_dot_v = std::max(std::abs(glm::dot(s.coat_normal, s.to_eye)), kLeastCosine);
+    return glossyAround(s, s.coat_normal, roughness, around) *
+           environment::albedoFromTable(n_dot_v, roughness).all;
 }
 
 } // namespace froxel::reference

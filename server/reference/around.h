@@ -20,4 +20,7 @@ radianceFrom(const Around& around, const glm::dvec3& direction, double roughness
 [[nodiscard]] glm::dvec3
 fromAround(const Surface& surface, const Model& model, const Around& around);
 
+// What its coat reflects of it, of a share of 1: once, as of lights.
+[[nodiscard]] glm::dvec3 coatAround(const Surface& surface, const Around& around);
+
 } // namespace froxel::reference

@@ -29,7 +29,37 @@ glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     return incoming * glm::mix(dielectric, s.base_color, s.metallic) * s.occlusion;
 }
 
+// D V of a surface's highlight.
+double lobeOf(const Model& model,
+              const glm::dvec3& normal,
+              double roughness,
+              const glm::dvec3& to_eye,
+              const glm::dvec3& half,
+              double facing) {
+    const double alpha = std::pow(std::max(roughness, kLeastRoughness), 2);
+    const double alpha2 = alpha * alpha;
+    const double n_dot_h = glm::dot(normal, half);
+    return model.shading == settings::ShadingModel::kBlinnPhong
+               ? lobes::blinnPhong(n_dot_h, alpha2)
+               : lobes::distribution(n_dot_h, alpha2) *
+                     lobes::visibility(facing, std::abs(glm::dot(normal, to_eye)), alpha2);
+}
+
+// What a coat reflects of the ambient light, of a share of 1.
+glm::dvec3 coatAmbient(const Surface& s, const Lights& lights) {
+    return glm::mix(lights.ground, lights.sky, 0.5 + 0.5 * s.coat_normal.y) * s.occlusion;
+}
+
 } // namespace
+
+// fresnel_coat() of KHR_materials_clearcoat, whose index of refraction is 1.5.
+double coatShare(const Surface& s, const Model& model) {
+    if (model.shading == settings::ShadingModel::kLambert) {
+        return 0;
+    }
+    const double n_dot_v = std::abs(glm::dot(s.coat_normal, s.to_eye));
+    return s.coat * (0.04 + 0.96 * lobes::fifth(std::max(0.0, 1 - n_dot_v)));
+}
 
 glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_light) {
     const double facing = std::max(0.0, glm::dot(s.normal, to_light));
@@ -48,15 +78,16 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     glm::dvec3 out =
         s.base_color * ((1 - greatest(of_dielectric)) * (1 - s.metallic) * scattered * kInvPi);
     if (facing > 0) {
-        const double alpha = std::pow(std::max(s.roughness, kLeastRoughness), 2);
-        const double alpha2 = alpha * alpha;
-        const double n_dot_h = glm::dot(s.normal, half);
-        const double lobe =
-            model.shading == settings::ShadingModel::kBlinnPhong
-                ? lobes::blinnPhong(n_dot_h, alpha2)
-                : lobes::distribution(n_dot_h, alpha2) *
-                      lobes::visibility(facing, std::abs(glm::dot(s.normal, s.to_eye)), alpha2);
+        const double lobe = lobeOf(model, s.normal, s.roughness, s.to_eye, half, facing);
         out += glm::mix(of_dielectric, of_metal, s.metallic) * (facing * lobe);
+    }
+    const double share = coatShare(s, model);
+    if (share > 0) {
+        const double coat_facing = std::max(0.0, glm::dot(s.coat_normal, to_light));
+        const double lobe = coat_facing > 0 ? lobeOf(model, s.coat_normal, s.coat_roughness,
+                                                     s.to_eye, half, coat_facing)
+                                            : 0;
+        out = out * (1 - share) + share * coat_facing * lobe;
     }
     return out;
 }
@@ -115,7 +146,11 @@ glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, 
     }
     const glm::dvec3 all_around =
         lights.around ? fromAround(s, model, *lights.around) : ambient(s, model, lights);
-    return sum + all_around + s.emissive;
+    const double share = coatShare(s, model);
+    if (share > 0) {
+        sum += share * (lights.around ? coatAround(s, *lights.around) : coatAmbient(s, lights));
+    }
+    return sum + (all_around + s.emissive) * (1 - share);
 }
 
 } // namespace froxel::reference

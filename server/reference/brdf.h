@@ -25,6 +25,9 @@ struct Surface {
     double roughness = 1;
     double occlusion = 1;
     glm::dvec3 emissive{0};
+    double coat = 0; // strength of a clear coat
+    double coat_roughness = 0;
+    glm::dvec3 coat_normal{0, 1, 0}; // unit
     double alpha = 1;
     bool unlit = false;
 };
@@ -37,8 +40,11 @@ struct Model {
     const settings::ToonRamp* ramp = nullptr; // over n.l of what is scattered; null: n.l itself
 };
 
+// The share of what the eye sees of a surface that is its coat's own; 0 where the model knows none.
+[[nodiscard]] double coatShare(const Surface& surface, const Model& model);
+
 // Radiance towards the eye for light of unit irradiance from direction `to_light` (unit), per
-// channel: BRDF times cosine.
+// channel: BRDF times cosine, under its coat and with it.
 [[nodiscard]] glm::dvec3
 reflected(const Surface& surface, const Model& model, const glm::dvec3& to_light);
 

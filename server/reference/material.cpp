@@ -60,6 +60,9 @@ Materials::Materials(const scene::Scene& scene,
             look.emissive = slot(m.emissive_texture, true);
             look.specular = slot(m.specular_texture, false);
             look.specular_color = slot(m.specular_color_texture, true);
+            look.coat = slot(m.coat_texture, false);
+            look.coat_roughness = slot(m.coat_roughness_texture, false);
+            look.coat_normal = slot(m.coat_normal_texture, false);
         }
         looks_.emplace(index, look);
     }
@@ -92,26 +95,28 @@ glm::dvec4 Materials::sample(const Slot& slot, const SurfacePoint& point) const 
 
 // The back of a double-sided surface has the front's normal, normal map and all, reversed.
 glm::dvec3 Materials::normalAt(const scene::Material& material,
-                               const Look& look,
+                               const Slot& map,
+                               float scale,
                                const SurfacePoint& point) const {
     const double facing = material.double_sided && !point.front ? -1 : 1;
-    if (look.normal.chain == nullptr) {
+    if (map.chain == nullptr) {
         return point.normal * facing;
     }
-    glm::dvec3 map = glm::dvec3(sample(look.normal, point)) * 2.0 - 1.0;
-    map *= glm::dvec3(glm::dvec2(static_cast<double>(material.normal_scale)), 1);
+    glm::dvec3 bump = glm::dvec3(sample(map, point)) * 2.0 - 1.0;
+    bump *= glm::dvec3(glm::dvec2(static_cast<double>(scale)), 1);
     TangentFrame frame;
     if (point.tangent.w != 0) {
         frame.tangent = glm::dvec3(point.tangent);
         frame.bitangent = glm::cross(point.normal, frame.tangent) * point.tangent.w;
         frame.known = true;
     } else {
-        frame = gradientFrame(point, look.normal.settings);
+        frame = gradientFrame(point, map.settings);
     }
     if (!frame.known) {
         return point.normal * facing;
     }
-    return glm::normalize(frame.tangent * map.x + frame.bitangent * map.y + point.normal * map.z) *
+    return glm::normalize(frame.tangent * bump.x + frame.bitangent * bump.y +
+                          point.normal * bump.z) *
            facing;
 }
 
@@ -129,7 +134,7 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     const double occlusion = sample(look.occlusion, point).x;
     Surface s;
     s.position = point.position;
-    s.normal = normalAt(m, look, point);
+    s.normal = normalAt(m, look.normal, m.normal_scale, point);
     s.to_eye = point.to_eye;
     s.base_color = glm::clamp(glm::dvec3(base), 0.0, 1.0);
     s.alpha = m.alpha_mode == scene::AlphaMode::kBlend ? std::clamp(base.w, 0.0, 1.0) : 1.0;
@@ -148,6 +153,9 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     if (m.glossiness_texture) {
         s.roughness = 1 - (1 - static_cast<double>(m.roughness)) * specular_color.w;
     }
+    s.coat = static_cast<double>(m.coat) * sample(look.coat, point).x;
+    s.coat_roughness = static_cast<double>(m.coat_roughness) * sample(look.coat_roughness, point).y;
+    s.coat_normal = normalAt(m, look.coat_normal, m.coat_normal_scale, point);
     return s;
 }
 

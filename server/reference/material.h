@@ -38,13 +38,19 @@ class Materials {
         Slot emissive;
         Slot specular;
         Slot specular_color;
+        Slot coat;
+        Slot coat_roughness;
+        Slot coat_normal;
     };
 
     Slot slot(const scene::TextureSlot& settings, bool srgb);
     // White where there is no texture.
     [[nodiscard]] glm::dvec4 sample(const Slot& slot, const SurfacePoint& point) const;
-    [[nodiscard]] glm::dvec3
-    normalAt(const scene::Material& material, const Look& look, const SurfacePoint& point) const;
+    // By one of its normal maps.
+    [[nodiscard]] glm::dvec3 normalAt(const scene::Material& material,
+                                      const Slot& map,
+                                      float scale,
+                                      const SurfacePoint& point) const;
 
     const scene::Scene& scene_;
     Filtering filtering_;

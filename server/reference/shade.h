@@ -23,11 +23,11 @@ using froxel::VisibleTriangle;
 // in rays.h says what holds for centres just outside it). Blended triangles are found by ray here
 // and sorted pixel by pixel. Runs on every hardware thread. `scene` is only read.
 //
-// Stated model, besides glTF 2.0 with KHR_lights_punctual, KHR_materials_unlit, _ior and _specular
-// and KHR_texture_transform: visibility is height-correlated Smith (Heitz 2014); roughness is at
-// least kLeastRoughness; attenuation as in brdf.h; missing tangents are the gradients of the
-// texture coordinates over the triangle, seen by the interpolated normal; light from around as in
-// around.h.
+// Stated model, besides glTF 2.0 with KHR_lights_punctual, KHR_materials_unlit, _ior, _specular and
+// _clearcoat and KHR_texture_transform: visibility is height-correlated Smith (Heitz 2014);
+// roughness is at least kLeastRoughness; attenuation as in brdf.h; missing tangents are the
+// gradients of the texture coordinates over the triangle, seen by the interpolated normal; light
+// from around as in around.h.
 //
 // Errors: kInvalidArgument where the visibility is not of the settings' size or names a triangle
 // that the scene does not have, and where the settings ask for a panorama that it does not have.

@@ -54,7 +54,7 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     const bool pays =
         inputs.geometry == GeometryPath::kAuto && !traits.is_cpu && traits.descriptor_indexing;
     const auto stage = inputs.settings.lighting;
-    // Only the rasteriser writes one.
+    // Only the rasteriser writes one, and only it draws layers at depths that it wrote.
     const bool second_target =
         extraFormat(inputs.settings.gbuffer,
                     storesSpecular(inputs.settings, scene_.needs.specular)) !=
@@ -62,7 +62,8 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     const bool wanted =
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
-            : !second_target && (byIds(inputs.geometry) || pays);
+            : !second_target && !drawsLayers(inputs.settings, scene_.needs.layers) &&
+                  (byIds(inputs.geometry) || pays);
     return wanted && scene_.visibility_unusable.empty() && pose_.windsAsAtStart() &&
            !scene_.visibility().groups.empty();
 }
@@ -96,6 +97,9 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .emission_exponent = scene_.needs.emission_exponent,
             .specular = scene_.needs.specular,
             .edges = scene_.needs.edges,
+            .layers_visible = std::ranges::any_of(
+                draws_.solid,
+                [](const DrawGroup& it) { return (it.material_flags & io::kMaterialLayers) != 0; }),
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
@@ -397,6 +401,11 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .wire_lines = wireLines(plan),
                    .wire_px = debug_.wire_px,
                    .effects = effects};
+    if (plan.forward_unused_material_flags == 0 &&
+        std::ranges::any_of(scene_.needs.material_flags,
+                            [](uint32_t it) { return (it & io::kMaterialCoat) != 0; })) {
+        load.lit_surfaces = 2;
+    }
     if (plan.visibility) {
         const VisibilityScene& visible = scene_.visibility();
         load.device_triangles = visible.triangle_count;

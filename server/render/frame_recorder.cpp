@@ -166,6 +166,15 @@ void recordDeferred(const FrameContext& frame) {
     recordGeometry(frame);
     inParts(frame, drawn(frame), frame.costs.lighting(),
             frame.plan.lighting_compute ? recordLightingCompute : recordLightingFragment);
+    if (frame.plan.layers) {
+        // lit radiance, depth that lighting read -> stores, depth test
+        barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
+                Access::eColorAttachmentWrite | Access::eShaderStorageWrite,
+                kDepthStages | Stage::eColorAttachmentOutput,
+                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite |
+                    Access::eColorAttachmentRead | Access::eColorAttachmentWrite);
+        inParts(frame, drawn(frame), frame.costs.layers(), recordLayers);
+    }
     if (frame.plan.toon_pass) {
         radianceToCompute(frame.slot.cmd);
         inParts(frame, drawn(frame), frame.costs.screen(), recordToon);

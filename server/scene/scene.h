@@ -86,15 +86,24 @@ struct Material {
     TextureSlot specular_color_texture; // sRGB
     // Roughness is 1 - (1 - roughness) times A of the specular colour's texture.
     bool glossiness_texture = false;
+    // A clear coat over all of that (KHR_materials_clearcoat); its normal is the shape's where it
+    // has no map of its own.
+    float coat = 0; // strength, 0..1
+    float coat_roughness = 0;
+    float coat_normal_scale = 1;
+    TextureSlot coat_texture;           // linear: R
+    TextureSlot coat_roughness_texture; // linear: G
+    TextureSlot coat_normal_texture;    // linear
 };
 
 // All slots of a material, const or not.
 template <class AnyMaterial>
 [[nodiscard]] auto textureSlots(AnyMaterial& material) {
-    return std::array{&material.base_color_texture,    &material.metallic_roughness_texture,
-                      &material.normal_texture,        &material.occlusion_texture,
-                      &material.emissive_texture,      &material.specular_texture,
-                      &material.specular_color_texture};
+    return std::array{&material.base_color_texture,     &material.metallic_roughness_texture,
+                      &material.normal_texture,         &material.occlusion_texture,
+                      &material.emissive_texture,       &material.specular_texture,
+                      &material.specular_color_texture, &material.coat_texture,
+                      &material.coat_roughness_texture, &material.coat_normal_texture};
 }
 
 // Takes the texture of one of its slots away, and what goes by it.

@@ -95,7 +95,10 @@ Fault faultIn(const Material& m, const Scene& scene) {
         {"alpha_cutoff", isFinite(m.alpha_cutoff)},
         {"ior", isFinite(m.ior)},
         {"specular", isFinite(m.specular)},
-        {"specular_color", isFinite(m.specular_color)}};
+        {"specular_color", isFinite(m.specular_color)},
+        {"coat", isFinite(m.coat)},
+        {"coat_roughness", isFinite(m.coat_roughness)},
+        {"coat_normal_scale", isFinite(m.coat_normal_scale)}};
     for (const auto& [name, right] : factors) {
         if (!right) {
             return std::string(name) + " is not finite";
@@ -107,7 +110,10 @@ Fault faultIn(const Material& m, const Scene& scene) {
                         faultIn(m.occlusion_texture, "occlusion_texture", scene),
                         faultIn(m.emissive_texture, "emissive_texture", scene),
                         faultIn(m.specular_texture, "specular_texture", scene),
-                        faultIn(m.specular_color_texture, "specular_color_texture", scene)}) {
+                        faultIn(m.specular_color_texture, "specular_color_texture", scene),
+                        faultIn(m.coat_texture, "coat_texture", scene),
+                        faultIn(m.coat_roughness_texture, "coat_roughness_texture", scene),
+                        faultIn(m.coat_normal_texture, "coat_normal_texture", scene)}) {
         if (fault) {
             return fault;
         }

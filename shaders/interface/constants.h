@@ -19,7 +19,7 @@ FROXEL_CONST uint kMaterialRoughnessTexture = 1U << 2; // metallic-roughness
 FROXEL_CONST uint kMaterialOcclusionTexture = 1U << 3;
 FROXEL_CONST uint kMaterialEmissiveTexture = 1U << 4;
 // Any texture: coordinates are fetched.
-FROXEL_CONST uint kMaterialTextures = ((1U << 5) - 1U) | (3U << 13);
+FROXEL_CONST uint kMaterialTextures = ((1U << 5) - 1U) | (3U << 13) | (7U << 17);
 FROXEL_CONST uint kMaterialMask = 1U << 5;
 FROXEL_CONST uint kMaterialUnlit = 1U << 6;
 FROXEL_CONST uint kMaterialDoubleSided = 1U << 7;
@@ -32,6 +32,13 @@ FROXEL_CONST uint kMaterialSpecularTexture = 1U << 13;
 FROXEL_CONST uint kMaterialSpecularColorTexture = 1U << 14;
 FROXEL_CONST uint kMaterialGlossiness = 1U << 15; // in A of the specular colour
 FROXEL_CONST uint kMaterialSpecularAll = 15U << 12;
+FROXEL_CONST uint kMaterialCoat = 1U << 16; // a clear coat over it
+FROXEL_CONST uint kMaterialCoatTexture = 1U << 17;
+FROXEL_CONST uint kMaterialCoatRoughnessTexture = 1U << 18;
+FROXEL_CONST uint kMaterialCoatNormalTexture = 1U << 19;
+// Layers over what glTF's core describes: the shaders of FROXEL_LAYERED alone know them.
+FROXEL_CONST uint kMaterialLayers = kMaterialCoat;
+FROXEL_CONST uint kMaterialLayersAll = 15U << 16; // and what belongs to them
 
 // Light flags: which lights a frame has and how they are looped over.
 FROXEL_CONST uint kLightLocal = 1U << 0; // any light that has a place

@@ -87,8 +87,15 @@ struct Material {
     UvTransform uv_emissive;
     UvTransform uv_specular;
     UvTransform uv_specular_color;
+    float coat; // its strength
+    float coat_roughness;
+    float coat_normal_scale;
+    float padding0;
+    UvTransform uv_coat;
+    UvTransform uv_coat_roughness;
+    UvTransform uv_coat_normal;
 };
-FROXEL_SIZE_ASSERT(Material, 288);
+FROXEL_SIZE_ASSERT(Material, 400);
 
 FROXEL_IO_NAMESPACE_END
 

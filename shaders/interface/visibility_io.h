@@ -11,8 +11,9 @@ FROXEL_CONST uint kTriangleBits = 7U;
 FROXEL_CONST uint kCullGroup = 256U; // placed meshlets a workgroup of the culling passes
 FROXEL_CONST uint kCulled = 0xffffffffU;
 FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
-// Base colour, normal, roughness, occlusion, emission, specular, specular colour.
-FROXEL_CONST uint kTexturesOfMaterial = 7U;
+// Base colour, normal, roughness, occlusion, emission, specular, specular colour; coat, its
+// roughness, its normal.
+FROXEL_CONST uint kTexturesOfMaterial = 10U;
 
 // A primitive of an instance.
 struct VisibleItem {

@@ -9,9 +9,25 @@
 // 2, the exponent whose slopes vary as much as those of a Beckmann surface of that alpha (Walter et
 // al. 2007, section 5.2).
 #include "lib/dielectric.glsl"
+#ifdef FROXEL_LAYERED
+#include "lib/coat.glsl"
+#endif
 
 const float kPi = 3.14159265358979;
 const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
+
+#ifdef FROXEL_LAYERED
+// What a coat's surface has of its own.
+struct CoatSurface {
+    vec3 normal_view;
+    float n_dot_v;
+    float n_dot_eye;
+    float alpha2;
+    float visibility_v;
+    float shininess;
+    float lobe;
+};
+#endif
 
 struct Surface {
     vec3 position_view;
@@ -24,6 +40,9 @@ struct Surface {
     float shininess;    // blinn_phong: half of s
     float lobe;         // blinn_phong: 2 pi times the lobe's height
     uvec4 shadows;      // what arrives of the lights with shadow maps (lib/shadow.glsl)
+#ifdef FROXEL_LAYERED
+    CoatSurface coat;
+#endif
 };
 
 struct LightSum {
@@ -31,9 +50,19 @@ struct LightSum {
     vec3 specular; // sum of E D V (1 - p)
     vec3 grazing;  // sum of E D V p
     vec3 edge;     // with kLightEdges: sum of E p
+#ifdef FROXEL_LAYERED
+    vec3 coat; // sum of E D V, all of the coat's own
+#endif
 };
 
-LightSum noLight() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)); }
+LightSum noLight() {
+    LightSum sum;
+    sum.diffuse = sum.specular = sum.grazing = sum.edge = vec3(0.0);
+#ifdef FROXEL_LAYERED
+    sum.coat = vec3(0.0);
+#endif
+    return sum;
+}
 
 Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     Surface s;
@@ -62,6 +91,33 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     }
     return s;
 }
+
+#ifdef FROXEL_LAYERED
+// Lets `s` have a coat: of a normal and roughness that count where the material has one.
+void addCoatSurface(Coat coat, inout Surface s) {
+    Surface c = makeSurface(s.position_view, coat.normal_view, coat.roughness);
+    s.coat = CoatSurface(c.normal_view, c.n_dot_v, c.n_dot_eye, c.alpha2, c.visibility_v,
+                         c.shininess, c.lobe);
+}
+
+// The coat as a surface by itself.
+Surface coatOf(Surface s) {
+    s.normal_view = s.coat.normal_view;
+    s.n_dot_v = s.coat.n_dot_v;
+    s.n_dot_eye = s.coat.n_dot_eye;
+    s.alpha2 = s.coat.alpha2;
+    s.visibility_v = s.coat.visibility_v;
+    s.shininess = s.coat.shininess;
+    s.lobe = s.coat.lobe;
+    return s;
+}
+
+// of_coat: what a light adds to coatOf(). Fresnel's term is the eye's, so its two parts are one.
+void addCoatLight(LightSum of_coat, inout LightSum sum) {
+    precise vec3 coat = sum.coat + (of_coat.specular + of_coat.grazing);
+    sum.coat = coat;
+}
+#endif
 
 // (cosine^2)^power for cosine^2 = c2 / h2. Near 1 by a series in the sine: a software rasteriser's
 // logarithm is off by 1e-5 there, and powers go up to 2e5.

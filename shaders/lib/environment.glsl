@@ -36,6 +36,19 @@ float glossyOcclusion(float n_dot_v, float occlusion, float roughness) {
                  1.0);
 }
 
+float lobeAlpha(Surface s) { return min(sqrt(s.alpha2), 1.0); }
+float lobeRoughness(Surface s) { return sqrt(lobeAlpha(s)); }
+
+// The mean that the surface's lobe sees. A rough one is about a direction nearer to the normal
+// (environment::lobeDirection()).
+vec3 glossyAround(Surface s, float occlusion) {
+    float alpha = lobeAlpha(s);
+    vec3 mirrored = 2.0 * s.n_dot_eye * s.normal_view - s.to_eye_view;
+    precise vec3 towards =
+        mix(s.normal_view, mirrored, (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha));
+    return glossyRadiance(towards, alpha) * glossyOcclusion(s.n_dot_v, occlusion, lobeRoughness(s));
+}
+
 vec3 environmentRadiance(Surface s, vec3 base_color, float metallic, Dielectric dielectric,
                          float occlusion) {
     precise vec3 normal = environment.map_from_view * s.normal_view;
@@ -43,16 +56,10 @@ vec3 environmentRadiance(Surface s, vec3 base_color, float metallic, Dielectric 
     if (hasLight(kLightLambert)) {
         return base_color * matt;
     }
-    float alpha = min(sqrt(s.alpha2), 1.0);
-    float roughness = sqrt(alpha);
-    vec2 albedo = lobeAlbedo(s.n_dot_v, roughness);
+    vec2 albedo = lobeAlbedo(s.n_dot_v, lobeRoughness(s));
     vec3 of_dielectric = reflectedShare(dielectric.f0, dielectric.f90, albedo);
     vec3 of_metal = reflectedShare(base_color, 1.0, albedo);
-    // A rough lobe is about a direction nearer to the normal (environment::lobeDirection()).
-    vec3 mirrored = 2.0 * s.n_dot_eye * s.normal_view - s.to_eye_view;
-    precise vec3 towards =
-        mix(s.normal_view, mirrored, (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha));
-    vec3 glossy = glossyRadiance(towards, alpha) * glossyOcclusion(s.n_dot_v, occlusion, roughness);
+    vec3 glossy = glossyAround(s, occlusion);
     float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
     precise vec3 lit = mix(of_dielectric, of_metal, metallic) * glossy +
                        base_color * ((1.0 - metallic) * entering) * matt;

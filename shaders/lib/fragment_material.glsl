@@ -7,6 +7,11 @@ layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
 layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
 layout(set = 1, binding = 6) uniform sampler2D specular_texture;
 layout(set = 1, binding = 7) uniform sampler2D specular_color_texture;
+#ifdef FROXEL_LAYERED
+layout(set = 1, binding = 8) uniform sampler2D coat_texture;
+layout(set = 1, binding = 9) uniform sampler2D coat_roughness_texture;
+layout(set = 1, binding = 10) uniform sampler2D coat_normal_texture;
+#endif
 
 #define sampleMaterial(slot, v, t) texture(slot##_texture, slotUv(v, t))
 #define uvDx(v, t) dFdx(slotUv(v, t))

@@ -5,6 +5,9 @@
 #include "interface/gbuffer_io.h"
 #include "lib/dielectric.glsl"
 #include "lib/octahedral.glsl"
+#ifdef FROXEL_LAYERED
+#include "lib/coat.glsl"
+#endif
 
 const uint kNormalEncoding = (OUTPUT_FLAGS >> kOutputNormalShift) & 7u;
 const uint kPositionSource = (OUTPUT_FLAGS >> kOutputPositionShift) & 3u;
@@ -22,6 +25,9 @@ struct GbufferSample {
     bool unlit;
     vec3 emissive;
     Dielectric dielectric;
+#ifdef FROXEL_LAYERED
+    Coat coat;
+#endif
 };
 
 // Of radiance where that solid surface is: exposure is not metered where it is 0.

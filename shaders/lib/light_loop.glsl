@@ -122,6 +122,9 @@ void addListBatched(Surface s, bool lit, bool all_lights, uint cluster, inout Li
             share = mine ? 1.0 : 0.0;
         } else {
             shaded.normal_view = mine ? s.normal_view : vec3(0.0);
+#ifdef FROXEL_LAYERED
+            shaded.coat.normal_view = mine ? s.coat.normal_view : vec3(0.0);
+#endif
         }
         if (hasLight(kLightCulled)) {
             addCulledBatches(shaded, list, mine, share, sum);
@@ -166,9 +169,23 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
         for (uint i = 0; i < frame.directional_count; ++i) {
             vec3 l = -suns[i].direction_view;
             addIrradiance(s, dot(s.normal_view, l), dot(s.to_eye_view, l), 1.0, suns[i].color, sum);
+#ifdef FROXEL_LAYERED
+            if (hasMaterial(kMaterialCoat)) {
+                LightSum of_coat = noLight();
+                addIrradiance(coatOf(s), dot(s.coat.normal_view, l), dot(s.to_eye_view, l), 1.0,
+                              suns[i].color, of_coat);
+                addCoatLight(of_coat, sum);
+            }
+#endif
         }
     }
     return sum;
+}
+
+// Of a hemisphere about a normal.
+vec3 skyRadiance(vec3 normal_view) {
+    return mix(frame.ambient_ground, frame.ambient_sky,
+               fma(0.5, dot(normal_view, frame.up_view), 0.5));
 }
 
 // Of light from around, where the frame has it. Else of a hemisphere of constant radiance from the
@@ -179,8 +196,7 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
     if (hasLight(kLightEnvironment)) {
         return environmentRadiance(s, base_color, metallic, dielectric, occlusion);
     }
-    vec3 sky = mix(frame.ambient_ground, frame.ambient_sky,
-                   fma(0.5, dot(s.normal_view, frame.up_view), 0.5));
+    vec3 sky = skyRadiance(s.normal_view);
     if (hasLight(kLightLambert)) {
         return sky * base_color * occlusion;
     }
@@ -191,3 +207,20 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
     }
     return sky * (albedo + f0) * occlusion;
 }
+
+#ifdef FROXEL_LAYERED
+// What the eye sees of a surface whose coat is over `below`; a coat reflects the ambient light as
+// whole as what it covers does.
+vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) {
+    if (!hasMaterial(kMaterialCoat)) {
+        return below;
+    }
+    Surface c = coatOf(s);
+    vec3 around = hasLight(kLightEnvironment)
+                      ? glossyAround(c, occlusion) * lobeAlbedo(c.n_dot_v, lobeRoughness(c)).x
+                      : skyRadiance(c.normal_view) * occlusion;
+    vec3 lobe = min(sum.coat, vec3(1e30)) * (0.5 / kPi) + around;
+    float share = coatShare(coat, c.n_dot_v);
+    return below * (1.0 - share) + lobe * share;
+}
+#endif

@@ -38,9 +38,8 @@ bool maskedOut(vec4 base) { return hasMaterial(kMaterialMask) && base.a < materi
 // The tangent frame of a triangle from screen-space derivatives (Mikkelsen 2020, "Surface Gradient
 // Based Bump Mapping Framework"): constant over a triangle, right for mirrored texture coordinates,
 // and nothing to store. Derivatives are taken of the same values in every renderer.
-vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view) {
-    vec3 sampled = sampleMaterial(normal, v, material.uv_normal).xyz * 2.0 - 1.0;
-    sampled.xy *= material.normal_scale;
+// `sampled`: of a map that `transform` places.
+vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view, vec3 sampled, UvTransform transform) {
     vec3 t;
     vec3 b;
     if (hasMaterial(kMaterialTangents)) {
@@ -49,8 +48,8 @@ vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view) {
     } else {
         vec3 dpx = positionDx(position_view);
         vec3 dpy = positionDy(position_view);
-        vec2 dux = uvDx(v, material.uv_normal);
-        vec2 duy = uvDy(v, material.uv_normal);
+        vec2 dux = uvDx(v, transform);
+        vec2 duy = uvDy(v, transform);
         vec3 across_x = cross(n, dpx);
         vec3 across_y = cross(dpy, n);
         // Gradients of u and v over the surface, up to a common factor. glTF's green channel
@@ -87,12 +86,43 @@ void shadeSpecular(VertexData v, inout GbufferSample g) {
     g.dielectric = Dielectric(false, min(f0, vec3(1.0)) * strength, strength);
 }
 
+vec3 unpackNormalMap(vec4 texel, float scale) {
+    vec3 sampled = texel.xyz * 2.0 - 1.0;
+    sampled.xy *= scale;
+    return sampled;
+}
+
+#ifdef FROXEL_LAYERED
+// Bumps of what it covers are not the coat's.
+Coat shadeCoat(VertexData v, vec3 position_view, bool front) {
+    Coat coat = Coat(material.coat, material.coat_roughness, normalize(v.normal_view));
+    if (hasMaterial(kMaterialCoatTexture)) {
+        coat.strength *= sampleMaterial(coat, v, material.uv_coat).r;
+    }
+    if (hasMaterial(kMaterialCoatRoughnessTexture)) {
+        coat.roughness *= sampleMaterial(coat_roughness, v, material.uv_coat_roughness).g;
+    }
+    if (hasMaterial(kMaterialCoatNormalTexture)) {
+        vec4 texel = sampleMaterial(coat_normal, v, material.uv_coat_normal);
+        coat.normal_view = perturbNormal(v, coat.normal_view, position_view,
+                                         unpackNormalMap(texel, material.coat_normal_scale),
+                                         material.uv_coat_normal);
+    }
+    if (hasMaterial(kMaterialDoubleSided)) {
+        coat.normal_view = front ? coat.normal_view : -coat.normal_view;
+    }
+    return coat;
+}
+#endif
+
 GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
     GbufferSample g;
     g.base_color = clamp(base.rgb, vec3(0.0), vec3(1.0));
     vec3 n = normalize(v.normal_view);
     if (hasMaterial(kMaterialNormalTexture)) {
-        n = perturbNormal(v, n, position_view);
+        vec4 texel = sampleMaterial(normal, v, material.uv_normal);
+        n = perturbNormal(v, n, position_view, unpackNormalMap(texel, material.normal_scale),
+                          material.uv_normal);
     }
     if (hasMaterial(kMaterialDoubleSided)) {
         n = front ? n : -n; // bumps and all: seen from behind they are dents
@@ -119,5 +149,11 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     if (hasMaterial(kMaterialSpecular)) {
         shadeSpecular(v, g);
     }
+#ifdef FROXEL_LAYERED
+    g.coat = noCoat(n);
+    if (hasMaterial(kMaterialCoat)) {
+        g.coat = shadeCoat(v, position_view, front);
+    }
+#endif
     return g;
 }

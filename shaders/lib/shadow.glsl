@@ -97,6 +97,9 @@ uint shadowsInReach(Surface s, uint count) {
         precise float facing =
             fma(s.normal_view.z, l.z, fma(s.normal_view.y, l.y, s.normal_view.x * l.x));
         bool faces = hasLight(kLightToon) || facing > 0.0;
+#ifdef FROXEL_LAYERED
+        faces = faces || dot(s.coat.normal_view, l) > 0.0;
+#endif
         bits |= faces && d2 * reach.w < 1.0 ? 1u << i : 0u;
     }
     return bits;

@@ -9,6 +9,9 @@ const uint occlusion_slot = 3u;
 const uint emissive_slot = 4u;
 const uint specular_slot = 5u;
 const uint specular_color_slot = 6u;
+const uint coat_slot = 7u;
+const uint coat_roughness_slot = 8u;
+const uint coat_normal_slot = 9u;
 #define slotTexture(slot)                                                                          \
     scene_textures[nonuniformEXT(visible_material * kTexturesOfMaterial + slot##_slot)]
 #else
@@ -20,6 +23,11 @@ layout(set = 3, binding = 4) uniform sampler2D occlusion_texture;
 layout(set = 3, binding = 5) uniform sampler2D emissive_texture;
 layout(set = 3, binding = 6) uniform sampler2D specular_texture;
 layout(set = 3, binding = 7) uniform sampler2D specular_color_texture;
+#ifdef FROXEL_LAYERED
+layout(set = 3, binding = 8) uniform sampler2D coat_texture;
+layout(set = 3, binding = 9) uniform sampler2D coat_roughness_texture;
+layout(set = 3, binding = 10) uniform sampler2D coat_normal_texture;
+#endif
 #define slotTexture(slot) slot##_texture
 #endif
 

@@ -163,6 +163,25 @@ TEST_F(HardAreas, DielectricsOfTheirOwn_AreNearTheSampledIntegral) {
     }
 }
 
+// A coat has a highlight of its own, with a look into the table of its own.
+TEST_F(HardAreas, Coats_AreNearTheSampledIntegral) {
+    auto material = chalk();
+    material.base_color = {0, 0, 0, 1};
+    material.specular = 0;
+    material.coat = 1;
+    material.coat_roughness = 0.5F;
+    SceneMaker maker(material);
+    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    render::Renderer renderer(device(), maker.scene);
+    for (const auto& place : places()) {
+        SCOPED_TRACE(place.name);
+        const auto inputs = litBy(place.light, settings::ShadingModel::kPbr);
+        const auto pictures = expectExact(renderer, inputs);
+        const auto off = differenceTo(refer(renderer, maker.scene, inputs).picture, pictures.naive);
+        EXPECT_LT(off.rms, 0.1);
+    }
+}
+
 // Many, with points and spots among them, each ending somewhere in the picture.
 TEST_F(HardAreas, AmongOthers_ListsAreExact) {
     auto material = chalk();

@@ -123,6 +123,42 @@ TEST_F(Environment, WhiteFurnace_EverySphereVanishes) {
     }
 }
 
+// A white surface sends what its coat does not take, and of that the coat returns its lobe's
+// albedo: where it is smooth all but at grazing angles, where it is roughest 1 - u ln(1 + 1 / u),
+// u = n.v. What is lost is most at u = 0.115, and 0.04 ln 2 in the middle of the picture.
+TEST_F(Environment, WhiteFurnace_CoatsLoseWhatTheirLobesLose) {
+    for (const float roughness : {0.0F, 1.0F}) {
+        auto scene = makeSpheres({1, 1, 1, 1});
+        for (auto& material : scene.materials) {
+            material.coat = 1;
+            material.coat_roughness = roughness;
+        }
+        scene.surroundings = surroundingsOf(
+            environment::panoramaOf(8, [](const glm::dvec3&) { return glm::dvec3(1); }));
+        render::Renderer renderer(device(), scene);
+        for (const auto kind : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+            const Picture picture = draw(renderer, inputsFor(kind, EnvironmentLight::kFile));
+            std::vector<double> seen;
+            for (size_t i = 0; i < picture.radiance.size(); i += 3) {
+                if (picture.radiance[i] != settings::kBackground.x) {
+                    seen.push_back(static_cast<double>(picture.radiance[i]));
+                }
+            }
+            const auto middle = static_cast<double>(picture.radiance[3 * (36 * 120 + 60)]);
+            EXPECT_GT(seen.size(), 120U * 72 / 5);
+            EXPECT_LT(*std::ranges::max_element(seen), 1 + 1e-5);
+            std::ranges::sort(seen);
+            if (roughness == 0) {
+                EXPECT_NEAR(middle, 1, 1e-4);
+                EXPECT_GT(seen[seen.size() / 20], 0.999);
+            } else {
+                EXPECT_NEAR(middle, 1 - 0.04 * std::log(2), 1e-3);
+                EXPECT_NEAR(seen.front(), 0.8534, 2e-3);
+            }
+        }
+    }
+}
+
 // Samples of a lobe lie at other angles about its normal: 0.01 of up to 2.5.
 TEST_F(Environment, Rotation_IsThatOfThePanorama) {
     const auto panorama = environment::panoramaOf(64, softSky);

@@ -66,6 +66,54 @@ TEST_F(Exactness, Lists_Sponza_EqualAllLightsBitForBit) {
     expectListsExact(renderer, *scene);
 }
 
+// Coats face lights that what is below them does not. Fewer cases than of other scenes: what else
+// there is to a list is the same.
+TEST_F(Exactness, Lists_Coats_EqualAllLightsBitForBit) {
+    auto scene = makeRoom();
+    giveCoats(scene);
+    render::Renderer renderer(device(), scene);
+    for (const auto transparency :
+         {settings::Transparency::kSorted, settings::Transparency::kWeighted,
+          settings::Transparency::kPeeled}) {
+        for (const float radius : {0.5F, 4.0F}) {
+            auto inputs = inputsFor(scene.cameras[1].camera, Renderer::kNaive);
+            inputs.settings.lights.count = 300;
+            inputs.settings.lights.radius_m = radius;
+            inputs.settings.transparency = transparency;
+            inputs.settings.shadows.light_count = 4;
+            const Picture naive = draw(renderer, inputs);
+            inputs.settings.renderer = Renderer::kForwardPlus;
+            EXPECT_EQ(differingFloats(naive, draw(renderer, inputs)), 0U);
+            inputs.settings.lighting = settings::LightingStage::kCompute;
+            const Picture shaded = draw(renderer, inputs);
+            inputs.settings.light_loop = settings::LightLoop::kAllLights;
+            EXPECT_EQ(differingFloats(shaded, draw(renderer, inputs)), 0U);
+            inputs.settings.renderer = Renderer::kClusteredDeferred;
+            const Picture all = draw(renderer, inputs);
+            inputs.settings.light_loop = settings::LightLoop::kLists;
+            EXPECT_EQ(differingFloats(all, draw(renderer, inputs)), 0U);
+        }
+    }
+}
+
+// What the G-buffer has no room for is drawn over it: a deferred picture is the forward one where
+// all is coated, whichever stage lights the rest.
+TEST_F(Exactness, Coats_OfEveryRenderer_AreTheForwardOnes) {
+    auto scene = makeRoom();
+    giveCoats(scene);
+    scene.materials[1] = scene.materials[0];
+    render::Renderer renderer(device(), scene);
+    auto inputs = inputsFor(scene.cameras[1].camera, Renderer::kForwardPlus);
+    inputs.settings.lights.count = 100;
+    const Picture forward = draw(renderer, inputs);
+    inputs.settings.renderer = Renderer::kClusteredDeferred;
+    for (const auto stage :
+         {settings::LightingStage::kCompute, settings::LightingStage::kFragment}) {
+        inputs.settings.lighting = stage;
+        EXPECT_EQ(differingFloats(forward, draw(renderer, inputs)), 0U);
+    }
+}
+
 TEST_F(Exactness, Grids_AnySize_GiveTheSamePicture) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 namespace froxel::test {
 
@@ -281,6 +282,76 @@ TEST_F(Reference, RoomOfTexturedReflectances_IsWithinArithmetic) {
         const Errors errors = compared.against(inputs);
         EXPECT_LT(errors.median, 1e-5); // the driver's sRGB polynomial
         EXPECT_LT(errors.p999, 5e-3);   // and texels at whose edges a pixel lies
+    }
+}
+
+namespace {
+
+// Of coats in every way that needs no texture.
+void givePlainCoats(scene::Scene& room) {
+    giveReflectances(room);
+    for (const auto& [material, coat, roughness] :
+         {std::tuple(size_t{0}, 1.0F, 0.3F), std::tuple(size_t{2}, 1.0F, 0.5F),
+          std::tuple(size_t{3}, 0.5F, 1.0F), std::tuple(size_t{4}, 0.7F, 0.4F)}) {
+        room.materials[material].coat = coat;
+        room.materials[material].coat_roughness = roughness;
+    }
+}
+
+} // namespace
+
+// As RoomOfReflectances, which is below the coats. Seen along it, the floor shows all of its coat's
+// lobe, whatever the light's half vector: twice the bound.
+TEST_F(Reference, RoomOfCoats_Forward_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    givePlainCoats(room);
+    Compared compared(device(), room);
+    for (const auto& camera : room.cameras) {
+        for (const auto model :
+             {ShadingModel::kLambert, ShadingModel::kBlinnPhong, ShadingModel::kPbr}) {
+            for (const auto stage :
+                 {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
+                auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
+                inputs.settings.shading = model;
+                inputs.settings.lighting = stage;
+                EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 2e-4);
+                inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
+                EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 2e-4);
+            }
+        }
+    }
+}
+
+// The forward shader draws coats and what they cover, here everything that is solid but the leaves.
+TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
+    auto room = makePlainRoom();
+    givePlainCoats(room);
+    Compared compared(device(), room);
+    for (const auto renderer :
+         {Renderer::kClusteredDeferred, Renderer::kToonFragment, Renderer::kToonCompute}) {
+        SCOPED_TRACE(nameOf(renderer));
+        const Errors errors = compared.against(inputsFor(room.cameras[0].camera, renderer));
+        EXPECT_LT(errors.max_relative, 1e-3);
+        EXPECT_LT(errors.median, onGpu() ? 1e-6 : 1e-7);
+    }
+}
+
+// Strength, roughness and bumps out of textures, nearest so that nothing is filtered.
+TEST_F(Reference, RoomOfTexturedCoats_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    room.samplers[0] = {.mag = scene::Filter::kNearest,
+                        .min = scene::Filter::kNearest,
+                        .mip = scene::Filter::kNearest,
+                        .mipmapped = false};
+    giveCoats(room);
+    Compared compared(device(), room);
+    for (const auto stage :
+         {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
+        auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
+        inputs.settings.lighting = stage;
+        const Errors errors = compared.against(inputs);
+        EXPECT_LT(errors.median, 1e-5);
+        EXPECT_LT(errors.p999, 5e-3); // texels at whose edges a pixel lies
     }
 }
 

@@ -131,6 +131,30 @@ void expectScenesAlike(gpu::Device& device,
 
 } // namespace
 
+// A coat of no strength, whatever else it has.
+TEST_F(Variants, CoatOfNoStrength_GivesTheSamePicture) {
+    const auto lean = makeRoom();
+    auto neutral = lean;
+    giveCoats(neutral);
+    auto coated = neutral;
+    for (auto& material : neutral.materials) {
+        material.coat = 0;
+    }
+    render::Renderer a(device(), lean);
+    render::Renderer b(device(), neutral);
+    render::Renderer c(device(), coated);
+    for (const auto kind : kAllRenderers) {
+        auto inputs = inputsFor(lean, kind, 40);
+        const Picture expected = draw(a, inputs);
+        EXPECT_EQ(differingFloats(expected, draw(b, inputs)), 0U);
+        EXPECT_NE(differingFloats(expected, draw(c, inputs)), 0U);
+        inputs.settings.shading = settings::ShadingModel::kLambert; // which has none
+        EXPECT_EQ(differingFloats(draw(a, inputs), draw(c, inputs)), 0U);
+    }
+    EXPECT_FALSE(anyMaterialFlag(b, io::kMaterialLayersAll));
+    EXPECT_TRUE(anyMaterialFlag(c, io::kMaterialLayersAll));
+}
+
 TEST_F(Variants, NothingAtAll_AllocatesAndCompilesNothingForIt) {
     const auto scene = bareRoom();
     render::Renderer renderer(device(), scene);

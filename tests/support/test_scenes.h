@@ -11,6 +11,10 @@ namespace froxel::test {
 // every kind of material and transform.
 [[nodiscard]] scene::Scene makeRoom();
 
+// Its floor, wall, glass and boxes under clear coats: strong and weak, smooth and rough, one bumpy
+// and one in holes.
+void giveCoats(scene::Scene& room);
+
 // Crytek Sponza from FROXEL_SPONZA or beside the checkout; none where it is absent.
 [[nodiscard]] std::optional<scene::Scene> loadSponza();
 

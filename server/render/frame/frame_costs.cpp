@@ -80,10 +80,19 @@ RegionCost FrameCosts::forward() const {
     const double each = load_.plan.depth_prepass ? 1.0 : load_.overdraw;
     return {Seconds(load_.draws.triangle_count * unit_.triangle),
             [this, each](const auto& region) {
-                return Seconds(
-                    each * (areaOf(region) * unit_.surface_pixel + lit(region, unit_.fragment)));
+                return Seconds(each * (areaOf(region) * unit_.surface_pixel +
+                                       load_.lit_surfaces * lit(region, unit_.fragment)));
             },
-            loop(unit_.fragment)};
+            load_.lit_surfaces * loop(unit_.fragment)};
+}
+
+RegionCost FrameCosts::layers() const {
+    return {Seconds(load_.draws.triangle_count * unit_.triangle),
+            [this](const auto& region) {
+                return Seconds(areaOf(region) * unit_.surface_pixel +
+                               load_.lit_surfaces * lit(region, unit_.fragment));
+            },
+            load_.lit_surfaces * loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::gbuffer() const {
@@ -102,9 +111,10 @@ RegionCost FrameCosts::resolve() const {
             [this, shades](const auto& region) {
                 const double surface = areaOf(region) * (unit_.surface_pixel +
                                                          load_.resolve_count * unit_.resolve_pixel);
-                return Seconds(surface + (shades ? lit(region, unit_.compute) : 0.0));
+                return Seconds(surface +
+                               (shades ? load_.lit_surfaces * lit(region, unit_.compute) : 0.0));
             },
-            shades ? loop(unit_.compute) : Seconds(0)};
+            shades ? load_.lit_surfaces * loop(unit_.compute) : Seconds(0)};
 }
 
 RegionCost FrameCosts::lighting() const {
@@ -130,12 +140,13 @@ RegionCost FrameCosts::blended() const {
                 for (const vk::Rect2D& part : load_.draws.transparent_parts) {
                     const vk::Rect2D both = common(part, region);
                     if (both.extent.width > 0) {
-                        sum += areaOf(both) * unit_.surface_pixel + lit(both, unit_.fragment);
+                        sum += areaOf(both) * unit_.surface_pixel +
+                               load_.lit_surfaces * lit(both, unit_.fragment);
                     }
                 }
                 return Seconds(sum + areaOf(region) * unit_.depth_pixel);
             },
-            loop(unit_.fragment)};
+            load_.lit_surfaces * loop(unit_.fragment)};
 }
 
 RegionCost FrameCosts::screen() const {
@@ -164,6 +175,9 @@ void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     }
     if (plan.lighting_compute || plan.lighting_fragment) {
         add("lighting", lighting());
+    }
+    if (plan.layers) {
+        add("layers", layers());
     }
     if (plan.toon_pass) {
         add("toon", screen());
@@ -259,12 +273,15 @@ double FrameCosts::slowestLoop() const {
     const FramePlan& plan = load_.plan;
     const bool replaced = settings::replacesPicture(plan.debug);
     double slowest = 0;
-    const auto add = [&](bool is_there, const PairCost& cost) {
-        slowest = is_there ? std::max(slowest, cost.loop) : slowest;
+    const auto add = [&](bool is_there, double loop) {
+        slowest = is_there ? std::max(slowest, loop) : slowest;
     };
-    add(!replaced && (plan.lighting_compute || plan.visibility_shade), unit_.compute);
-    add(!replaced && (plan.forward || plan.lighting_fragment || plan.transparent), unit_.fragment);
-    add(plan.count_pairs || (replaced && settings::testsLights(plan.debug)), unit_.counting);
+    add(!replaced && plan.lighting_compute, unit_.compute.loop);
+    add(!replaced && plan.visibility_shade, load_.lit_surfaces * unit_.compute.loop);
+    add(!replaced && plan.lighting_fragment, unit_.fragment.loop);
+    add(!replaced && (plan.forward || plan.layers || plan.transparent),
+        load_.lit_surfaces * unit_.fragment.loop);
+    add(plan.count_pairs || (replaced && settings::testsLights(plan.debug)), unit_.counting.loop);
     for (const auto& [place, effect] : load_.effects) {
         slowest = std::max(slowest, effect->loopCost(unit_));
     }

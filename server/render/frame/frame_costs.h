@@ -35,6 +35,7 @@ struct FrameLoad {
     uint32_t directional_count = 0;
     std::vector<CostlyLights> costly_lights = {};
     double lit_pixel = 0;          // seconds more to light a pixel, whatever its lights
+    double lit_surfaces = 1;       // of a pixel of the forward shader: 2 with a clear coat
     double overdraw = 1;           // of solid surfaces, in fragments per pixel
     uint32_t device_triangles = 0; // that the host does not cull
     uint64_t posed_vertices = 0;
@@ -76,6 +77,7 @@ class FrameCosts {
     // Of passes over the drawn picture.
     [[nodiscard]] RegionCost depthPrepass() const;
     [[nodiscard]] RegionCost forward() const;
+    [[nodiscard]] RegionCost layers() const; // over lit surfaces, however few have any
     [[nodiscard]] RegionCost gbuffer() const;
     [[nodiscard]] RegionCost ids() const;
     [[nodiscard]] RegionCost resolve() const; // ids into a G-buffer, or shaded at once

@@ -79,7 +79,7 @@ void replacePicture(FramePlan& plan,
     plan.depth_prepass |= !overdraw && !plan.gbuffer && !plan.visibility;
     plan.count_samples = facts.overdraw_unknown && !overdraw && !plan.visibility;
     plan.forward = plan.visibility_shade = false;
-    plan.lighting_compute = plan.lighting_fragment = false;
+    plan.lighting_compute = plan.lighting_fragment = plan.layers = false;
     plan.toon_pass = plan.transparent = false;
     plan.transparency = settings::Transparency::kSorted;
     plan.peel_layers = 0;
@@ -97,6 +97,11 @@ bool isForward(settings::Renderer renderer) {
 
 bool storesSpecular(const settings::ViewSettings& settings, bool scene_specular) {
     return scene_specular && !isForward(settings.renderer) &&
+           settings.shading != settings::ShadingModel::kLambert;
+}
+
+bool drawsLayers(const settings::ViewSettings& settings, bool scene_layers) {
+    return scene_layers && !isForward(settings.renderer) &&
            settings.shading != settings::ShadingModel::kLambert;
 }
 
@@ -142,6 +147,7 @@ FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& f
     plan.count_samples = rastered && facts.overdraw_unknown;
     plan.lighting_compute = plan.gbuffer && settings.lighting != settings::LightingStage::kFragment;
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
+    plan.layers = drawsLayers(settings, facts.layers_visible);
     plan.toon_pass = renderer == Renderer::kToonCompute;
     plan.outline = (renderer == Renderer::kToonFragment || renderer == Renderer::kToonCompute) &&
                    settings.toon_outline.strength > 0;
@@ -175,7 +181,7 @@ FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& fa
 
     // The last pass that touches a solid pixel also exposes and packs it, unless more follows.
     const bool compute_lights = plan.lighting_compute || plan.visibility_shade;
-    const bool follows = plan.transparent || plan.outline || plan.samples ||
+    const bool follows = plan.layers || plan.transparent || plan.outline || plan.samples ||
                          plan.hasEffect(EffectPlace::kSolid) ||
                          plan.hasEffect(EffectPlace::kPicture) || settings::isOverlay(plan.debug);
     const bool compute_ends = !follows && (compute_lights || plan.toon_pass);
@@ -203,8 +209,10 @@ FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& fa
     const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
     plan.gbuffer_output_flags = plan.gbuffer ? wide | specular | layoutFlags(layout) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
+    plan.gbuffer_unused_material_flags = io::kMaterialLayersAll;
     if (settings.shading == settings::ShadingModel::kLambert) {
-        plan.gbuffer_unused_material_flags =
+        plan.forward_unused_material_flags = io::kMaterialLayersAll;
+        plan.gbuffer_unused_material_flags |=
             io::kMaterialRoughnessTexture | io::kMaterialSpecularAll;
     }
     if (compute_lights) {

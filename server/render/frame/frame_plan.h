@@ -16,6 +16,7 @@ struct FrameFacts {
     uint32_t emission_exponent = 0;   // SceneNeeds::emission_exponent
     bool specular = false;            // SceneNeeds::specular
     bool edges = false;               // SceneNeeds::edges
+    bool layers_visible = false;      // solid surfaces with layers are drawn by the rasteriser
     bool transparent_visible = false; // blended surfaces are in view
     bool local_lights = false;        // any light that has a place
     bool spots = false;
@@ -65,6 +66,7 @@ struct FramePlan {
     bool cull_meshlets = true;
     bool lighting_compute = false;
     bool lighting_fragment = false;
+    bool layers = false; // surfaces with layers by the forward shader, over what lighting left
     bool toon_pass = false;
     bool outline = false; // edges darkened, before anything is blended
     bool transparent = false;
@@ -85,7 +87,9 @@ struct FramePlan {
     uint32_t lighting_light_flags = 0;
     uint32_t blended_output_flags = 0; // what effects ask of blended surfaces
     uint32_t gbuffer_output_flags = 0;
-    uint32_t gbuffer_unused_material_flags = 0; // what the shading model has no use for
+    // What the shading model, or the G-buffer, has no use for.
+    uint32_t forward_unused_material_flags = 0;
+    uint32_t gbuffer_unused_material_flags = 0;
     uint32_t lighting_output_flags = 0;
     uint32_t toon_output_flags = 0;
     uint32_t tonemap_output_flags = 0;
@@ -100,6 +104,9 @@ struct FramePlan {
 
 // Whether the G-buffer has a word of what dielectrics reflect.
 [[nodiscard]] bool storesSpecular(const settings::ViewSettings& settings, bool scene_specular);
+
+// Whether surfaces with layers, for which the G-buffer has no room, are drawn over the lit ones.
+[[nodiscard]] bool drawsLayers(const settings::ViewSettings& settings, bool scene_layers);
 
 // What the settings' pictures are drawn at: twice the sides where pixels have four samples.
 [[nodiscard]] settings::Size drawnSize(const settings::ViewSettings& settings);

@@ -136,6 +136,10 @@ void addSolidWords(Lines& lines,
                                ? "no G-buffer: depth alone"
                                : "no G-buffer: surfaces are shaded at once");
     }
+    if (plan.layers) {
+        lines.emplace_back("clear coats: surfaces that have one are drawn once more, over the lit "
+                           "picture by the forward shader; the G-buffer has no room for them");
+    }
     if (plan.depth_prepass) {
         lines.emplace_back("depth prepass: each pixel is shaded once");
     } else if (!plan.visibility) {
@@ -189,7 +193,7 @@ std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
     if (settings::isOverlay(plan.debug)) {
         return "tone map in a pass of its own, after the debug view's lines";
     }
-    if (plan.samples || plan.outline || plan.hasEffect(EffectPlace::kSolid) ||
+    if (plan.samples || plan.outline || plan.layers || plan.hasEffect(EffectPlace::kSolid) ||
         plan.hasEffect(EffectPlace::kPicture)) {
         return "tone map in a pass of its own, after those over the lit picture";
     }
@@ -214,6 +218,8 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
         materials("unlit shading", io::kMaterialUnlit, "no unlit materials"),
         materials("ior, specular or glossiness", io::kMaterialSpecular,
                   "no ior, specular or glossiness: dielectrics reflect 4 % head-on"),
+        materials("clear coats", io::kMaterialCoat,
+                  "no clear coats: no light is added up a second time"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,

@@ -102,6 +102,24 @@ gpu::Spirv pick(bool extended,
     return batched ? (extended ? both : together) : (extended ? with_streams : plain);
 }
 
+gpu::Spirv layeredShader(GeometryPass pass, bool extended, bool batched) {
+    using namespace shaders;
+    switch (pass) {
+    case GeometryPass::kWeighted:
+        return pick(extended, batched, forward_weighted_layered_frag(),
+                    forward_weighted_layered_extended_frag(),
+                    forward_weighted_layered_batched_frag(),
+                    forward_weighted_layered_batched_extended_frag());
+    case GeometryPass::kPeelShade:
+        return pick(extended, batched, forward_peeled_layered_frag(),
+                    forward_peeled_layered_extended_frag(), forward_peeled_layered_batched_frag(),
+                    forward_peeled_layered_batched_extended_frag());
+    default:
+        return pick(extended, batched, forward_layered_frag(), forward_layered_extended_frag(),
+                    forward_layered_batched_frag(), forward_layered_batched_extended_frag());
+    }
+}
+
 gpu::Spirv forwardShader(GeometryPass pass, bool extended, bool batched) {
     using namespace shaders;
     switch (pass) {
@@ -117,8 +135,10 @@ gpu::Spirv forwardShader(GeometryPass pass, bool extended, bool batched) {
     }
 }
 
-gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32_t output_flags) {
+gpu::Spirv fragmentShader(GeometryPass pass, const VariantKey& key) {
     using namespace shaders;
+    const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
+    const bool batched = (key.light_flags & io::kLightBatched) != 0;
     switch (pass) {
     case GeometryPass::kDepth:
         return extended ? depth_masked_extended_frag() : depth_masked_frag();
@@ -126,12 +146,14 @@ gpu::Spirv fragmentShader(GeometryPass pass, bool extended, bool batched, uint32
         return extended ? overdraw_masked_extended_frag() : overdraw_masked_frag();
     case GeometryPass::kGbuffer:
     case GeometryPass::kGbufferAfterDepth:
-        if (extraFormat(output_flags) != vk::Format::eUndefined) {
+        if (extraFormat(key.output_flags) != vk::Format::eUndefined) {
             return extended ? gbuffer_extra_extended_frag() : gbuffer_extra_frag();
         }
         return extended ? gbuffer_extended_frag() : gbuffer_frag();
     default:
-        return forwardShader(pass, extended, batched);
+        return (key.material_flags & io::kMaterialLayers) != 0
+                   ? layeredShader(pass, extended, batched)
+                   : forwardShader(pass, extended, batched);
     }
 }
 
@@ -226,7 +248,6 @@ gpu::SpecConstants Pipelines::constants(const VariantKey& key) const {
 vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& key) const {
     const bool masked = (key.material_flags & io::kMaterialMask) != 0;
     const bool extended = (key.material_flags & io::kMaterialExtended) != 0;
-    const bool batched = (key.light_flags & io::kLightBatched) != 0;
     const bool surface = !depthOnly(pass) || masked;
     gpu::GraphicsPipelineInfo info;
     info.constants = constants(key);
@@ -238,8 +259,7 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
                   : extended ? shaders::surface_extended_vert()
                   : textured ? shaders::surface_vert()
                              : shaders::surface_untextured_vert();
-    info.fragment =
-        surface ? fragmentShader(pass, extended, batched, key.output_flags) : depthOnlyShader(pass);
+    info.fragment = surface ? fragmentShader(pass, key) : depthOnlyShader(pass);
     info.color_formats = colorFormats(pass, key.output_flags);
     describeTests(info, pass);
     return gpu::makeGraphicsPipeline(device_, info, kGeometryNames[static_cast<size_t>(pass)]);

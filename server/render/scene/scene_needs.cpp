@@ -23,6 +23,23 @@ bool reflectsUnusually(const scene::Material& m) {
            m.specular_color_texture.texture != scene::kNone;
 }
 
+// Of what is shown of its layers.
+uint32_t layerFlags(const scene::Material& m) {
+    uint32_t flags = 0;
+    const auto set = [&](bool condition, uint32_t flag) { flags |= condition ? flag : 0U; };
+    if (m.coat != 0) {
+        set(true, io::kMaterialCoat);
+        set(m.coat_texture.texture != scene::kNone, io::kMaterialCoatTexture);
+        set(m.coat_roughness_texture.texture != scene::kNone && m.coat_roughness != 0,
+            io::kMaterialCoatRoughnessTexture);
+        set(m.coat_normal_texture.texture != scene::kNone, io::kMaterialCoatNormalTexture);
+        set(transformed(m.coat_texture) || transformed(m.coat_roughness_texture) ||
+                transformed(m.coat_normal_texture),
+            io::kMaterialUvTransform);
+    }
+    return flags;
+}
+
 uint32_t materialFlags(const scene::Material& m) {
     uint32_t flags = 0;
     const auto set = [&](bool condition, uint32_t flag) { flags |= condition ? flag : 0U; };
@@ -50,7 +67,7 @@ uint32_t materialFlags(const scene::Material& m) {
     set(transformed(m.normal_texture) || transformed(m.metallic_roughness_texture) ||
             transformed(m.occlusion_texture) || transformed(m.emissive_texture),
         io::kMaterialUvTransform);
-    return flags;
+    return flags | layerFlags(m);
 }
 
 bool needsWide(const scene::Material& m, bool metalness) {
@@ -88,6 +105,8 @@ SceneNeeds findNeeds(const scene::Scene& scene) {
             needs.edges |=
                 material.specular != 1 || material.specular_texture.texture != scene::kNone;
         }
+        needs.layers |= (needs.material_flags.back() & io::kMaterialLayers) != 0 &&
+                        material.alpha_mode != scene::AlphaMode::kBlend;
         needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;
         needs.blended |= material.alpha_mode == scene::AlphaMode::kBlend;
     }

@@ -50,7 +50,14 @@ io::Material materialUniforms(const scene::Material& m) {
             .uv_occlusion = uvTransform(m.occlusion_texture),
             .uv_emissive = uvTransform(m.emissive_texture),
             .uv_specular = uvTransform(m.specular_texture),
-            .uv_specular_color = uvTransform(m.specular_color_texture)};
+            .uv_specular_color = uvTransform(m.specular_color_texture),
+            .coat = m.coat,
+            .coat_roughness = m.coat_roughness,
+            .coat_normal_scale = m.coat_normal_scale,
+            .padding0 = 0,
+            .uv_coat = uvTransform(m.coat_texture),
+            .uv_coat_roughness = uvTransform(m.coat_roughness_texture),
+            .uv_coat_normal = uvTransform(m.coat_normal_texture)};
 }
 
 std::vector<glm::dmat4> placesOf(const scene::Scene& scene, const SceneMotion* motion) {
@@ -198,11 +205,15 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         const auto emissive = used(io::kMaterialEmissiveTexture, m.emissive_texture);
         const auto specular = used(io::kMaterialSpecularTexture, m.specular_texture);
         const auto color = used(io::kMaterialSpecularColorTexture, m.specular_color_texture);
+        const auto coat = used(io::kMaterialCoatTexture, m.coat_texture);
+        const auto coat_rough = used(io::kMaterialCoatRoughnessTexture, m.coat_roughness_texture);
+        const auto coat_normal = used(io::kMaterialCoatNormalTexture, m.coat_normal_texture);
         const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
-            textures_->get(scene, base, true),       textures_->get(scene, normal, false),
-            textures_->get(scene, roughness, false), textures_->get(scene, occlusion, false),
-            textures_->get(scene, emissive, true),   textures_->get(scene, specular, false),
-            textures_->get(scene, color, true)};
+            textures_->get(scene, base, true),        textures_->get(scene, normal, false),
+            textures_->get(scene, roughness, false),  textures_->get(scene, occlusion, false),
+            textures_->get(scene, emissive, true),    textures_->get(scene, specular, false),
+            textures_->get(scene, color, true),       textures_->get(scene, coat, false),
+            textures_->get(scene, coat_rough, false), textures_->get(scene, coat_normal, false)};
         material_textures.insert(material_textures.end(), images.begin(), images.end());
         // The samplers are consecutive bindings of one descriptor each.
         const std::array writes = {

@@ -32,6 +32,19 @@ vk::raii::DescriptorSetLayout texturesLayout(const gpu::Device& device, uint32_t
     return gpu::makeSetLayout(device, bindings);
 }
 
+gpu::Spirv shadeShader(bool layered, bool bindless, bool batched) {
+    using namespace shaders;
+    if (layered) {
+        return bindless ? (batched ? visibility_shade_layered_batched_bindless_comp()
+                                   : visibility_shade_layered_bindless_comp())
+                        : (batched ? visibility_shade_layered_batched_comp()
+                                   : visibility_shade_layered_comp());
+    }
+    return bindless ? (batched ? visibility_shade_batched_bindless_comp()
+                               : visibility_shade_bindless_comp())
+                    : (batched ? visibility_shade_batched_comp() : visibility_shade_comp());
+}
+
 } // namespace
 
 VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
@@ -110,12 +123,9 @@ vk::Pipeline VisibilityPipelines::gbuffer(const VariantKey& key) {
 vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
     return *shade_.findOrMake(key, [=, this] {
         const bool batched = (key.light_flags & io::kLightBatched) != 0;
-        const auto plain = bindless_ ? shaders::visibility_shade_bindless_comp()
-                                     : shaders::visibility_shade_comp();
-        const auto together = bindless_ ? shaders::visibility_shade_batched_bindless_comp()
-                                        : shaders::visibility_shade_batched_comp();
-        return gpu::makeComputePipeline(device_, batched ? together : plain, constants(key),
-                                        *compute_layout_, "visibility to radiance");
+        const bool layered = (key.material_flags & io::kMaterialLayers) != 0;
+        return gpu::makeComputePipeline(device_, shadeShader(layered, bindless_, batched),
+                                        constants(key), *compute_layout_, "visibility to radiance");
     });
 }
 

@@ -44,9 +44,11 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
     case GeometryPass::kTransparent: // effects have passes of their own for solid surfaces
     case GeometryPass::kWeighted:
     case GeometryPass::kPeelShade:
-        return {group.material_flags, plan.forward_light_flags, plan.blended_output_flags};
+        return {group.material_flags & ~plan.forward_unused_material_flags,
+                plan.forward_light_flags, plan.blended_output_flags};
     default:
-        return {group.material_flags, plan.forward_light_flags, 0};
+        return {group.material_flags & ~plan.forward_unused_material_flags,
+                plan.forward_light_flags, 0};
     }
 }
 

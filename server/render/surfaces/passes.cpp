@@ -1,10 +1,13 @@
 #include "render/surfaces/passes.h"
 
+#include "interface/constants.h"
 #include "render/pipelines/screen_groups.h"
 #include "render/surfaces/geometry_draws.h"
 #include "render/surfaces/rendering_scope.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <vector>
 
 namespace froxel::render {
@@ -147,6 +150,22 @@ void recordLightingFragment(const FrameContext& frame, const vk::Rect2D& region)
     frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
     frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
     frame.slot.cmd.draw(3, 1, 0, 0);
+}
+
+// Of surfaces at the same depth one with layers stays, whichever was drawn last.
+void recordLayers(const FrameContext& frame, const vk::Rect2D& region) {
+    std::vector<DrawGroup> layered;
+    std::ranges::copy_if(frame.draws.solid, std::back_inserter(layered), [](const DrawGroup& it) {
+        return (it.material_flags & io::kMaterialLayers) != 0;
+    });
+    const auto pass = GeometryPass::kForwardAfterDepth;
+    inGroups(frame, pass, layered, [&](const auto& groups, bool) {
+        const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "layers");
+        const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
+        const auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
+        const Rendering rendering(frame, region, colors, &depth);
+        drawGroups(frame, pass, groups);
+    });
 }
 
 void recordToon(const FrameContext& frame, const vk::Rect2D& region) {

@@ -16,6 +16,8 @@ void recordLightingCompute(const FrameContext& frame,
                            const vk::Rect2D& region); // reads both; writes radiance and/or pixels
 void recordLightingFragment(const FrameContext& frame,
                             const vk::Rect2D& region); // reads both; writes radiance
+void recordLayers(const FrameContext& frame,
+                  const vk::Rect2D& region); // writes radiance where depth is equal
 void recordToon(const FrameContext& frame,
                 const vk::Rect2D& region); // reads radiance; writes radiance and/or pixels
 void recordOutline(const FrameContext& frame,

@@ -136,8 +136,8 @@ void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region
 void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) {
     resolve(frame, region, "shade", [&] {
         return frame.visibility->pipelines.shade(
-            {frame.visibility->material_flags, frame.plan.lighting_light_flags,
-             frame.plan.lighting_output_flags | depthFlag(frame)});
+            {frame.visibility->material_flags & ~frame.plan.forward_unused_material_flags,
+             frame.plan.lighting_light_flags, frame.plan.lighting_output_flags | depthFlag(frame)});
     });
 }
 

@@ -173,6 +173,54 @@ TEST(Materials, WrongIorOrSpecular_IsToldOrRefused) {
     }
 }
 
+TEST(Materials, Clearcoat_IsRead) {
+    SceneFile file = textured(R"({"extensions": {"KHR_materials_clearcoat": {
+        "clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.25,
+        "clearcoatTexture": {"index": 1}, "clearcoatRoughnessTexture": {"index": 0, "texCoord": 1},
+        "clearcoatNormalTexture": {"index": 0, "scale": 0.5}}}})");
+    file.useExtension("KHR_materials_clearcoat", true);
+    const scene::Scene scene = loaded(file.load());
+    const scene::Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.coat, 0.75F);
+    EXPECT_EQ(material.coat_roughness, 0.25F);
+    EXPECT_EQ(material.coat_normal_scale, 0.5F);
+    EXPECT_EQ(scene.images.at(scene.textures.at(material.coat_texture.texture).image).name,
+              "image1");
+    EXPECT_EQ(
+        scene.images.at(scene.textures.at(material.coat_roughness_texture.texture).image).name,
+        "image0");
+    EXPECT_EQ(material.coat_roughness_texture.texcoord, 1U);
+    EXPECT_EQ(material.coat_normal_texture.texture, material.coat_roughness_texture.texture);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(Materials, WithoutClearcoat_HaveNone) {
+    for (const char* extensions : {R"({"extensions": {"KHR_materials_clearcoat": {}}})",
+                                   R"({"extensions": {"KHR_materials_unlit": {},
+                             "KHR_materials_clearcoat": {"clearcoatFactor": 1}}})"}) {
+        EXPECT_EQ(onlyMaterial(withMaterial(extensions)).coat, 0);
+    }
+}
+
+TEST(Materials, WrongClearcoat_IsToldOrRefused) {
+    const scene::Scene scene = loaded(withMaterial(R"({"extensions": {
+        "KHR_materials_clearcoat": {"clearcoatFactor": 3, "clearcoatRoughnessFactor": -1}}})")
+                                          .load());
+    EXPECT_EQ(scene.materials.at(0).coat, 1);
+    EXPECT_EQ(scene.materials.at(0).coat_roughness, 0);
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("material 0 has the clearcoatFactor 3"),
+                            HasSubstr("material 0 has the clearcoatRoughnessFactor -1")));
+    EXPECT_THAT(failure(withMaterial(R"({"extensions": {"KHR_materials_clearcoat": {
+                            "clearcoatTexture": {"texCoord": 0}}}})")
+                            .load()),
+                HasSubstr("clearcoatTexture without an index"));
+    EXPECT_THAT(failure(textured(R"({"extensions": {"KHR_materials_clearcoat": {
+                            "clearcoatNormalTexture": {"index": 0, "scale": [1, 1]}}}})")
+                            .load()),
+                HasSubstr("clearcoatNormalTexture with a wrong scale"));
+}
+
 // A dielectric of infinite index, so that it reflects its specular colour; and what would have been
 // its metalness and roughness is not even loaded.
 TEST(Materials, SpecularGlossiness_WinsOverMetallicRoughness) {
@@ -339,9 +387,9 @@ TEST(Materials, IndicesOutOfRange_AreRefused) {
 
 TEST(Extensions, UnsupportedOptional_IsIgnoredWithAWarning) {
     SceneFile file;
-    file.useExtension("KHR_materials_clearcoat");
+    file.useExtension("KHR_materials_transmission");
     EXPECT_THAT(test::warningLines(loaded(file.load())),
-                ElementsAre(HasSubstr("KHR_materials_clearcoat")));
+                ElementsAre(HasSubstr("KHR_materials_transmission")));
 }
 
 TEST(Extensions, TextureWithoutSupportedSource_IsIgnoredWithAWarning) {

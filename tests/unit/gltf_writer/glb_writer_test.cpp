@@ -114,6 +114,12 @@ std::vector<scene::Material> everyMaterial() {
     glass.specular_color = {1, 0.5F, 2};
     glass.specular_texture = {1};
     glass.specular_color_texture = {0};
+    glass.coat = 0.5F;
+    glass.coat_roughness = 0.25F;
+    glass.coat_texture = {1};
+    glass.coat_roughness_texture = {0, 1};
+    glass.coat_normal_texture = {2};
+    glass.coat_normal_scale = 2;
     scene::Material glossy;
     glossy.metallic = 0;
     glossy.roughness = 0.25F;
@@ -170,10 +176,11 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
     const Glb glb = written(everything(), "everything.glb");
     const json& d = glb.document;
     EXPECT_EQ(d["asset"]["version"], "2.0");
-    EXPECT_EQ(d["extensionsUsed"],
-              json({"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-                    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_specular",
-                    "KHR_materials_unlit", "KHR_texture_transform"}));
+    EXPECT_EQ(
+        d["extensionsUsed"],
+        json({"KHR_lights_punctual", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+              "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_specular",
+              "KHR_materials_unlit", "KHR_texture_transform"}));
     // The chunk is padded to a multiple of four.
     EXPECT_EQ((d["buffers"][0]["byteLength"].get<size_t>() + 3) / 4 * 4, glb.bin.size());
 
@@ -196,6 +203,12 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
                                                      {"specularColorFactor", {1.0, 0.5, 2.0}},
                                                      {"specularTexture", {{"index", 1}}},
                                                      {"specularColorTexture", {{"index", 0}}}}));
+    EXPECT_EQ(glass["KHR_materials_clearcoat"],
+              json({{"clearcoatFactor", 0.5},
+                    {"clearcoatRoughnessFactor", 0.25},
+                    {"clearcoatTexture", {{"index", 1}}},
+                    {"clearcoatRoughnessTexture", {{"index", 0}, {"texCoord", 1}}},
+                    {"clearcoatNormalTexture", {{"index", 2}, {"scale", 2.0}}}}));
     EXPECT_EQ(d["materials"][3]["extensions"],
               json({{"KHR_materials_pbrSpecularGlossiness",
                      {{"diffuseFactor", {1.0, 1.0, 1.0, 1.0}},

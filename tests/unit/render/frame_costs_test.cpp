@@ -71,6 +71,28 @@ TEST(FrameCosts, MoreToLightAPixel_CountsOnceForEach) {
     EXPECT_NEAR((after - before).count(), 640 * 360 * 1e-6, 1e-9);
 }
 
+// Lights are added up for a coat as for what is below it, where the forward shader adds them up.
+TEST(FrameCosts, Coats_LightForwardPixelsTwice) {
+    Load load;
+    load.plan = {.forward = true};
+    FrameLoad coated = load.of(PairBound::uniform(10));
+    const auto estimate = [&] { return FrameCosts(kCpuUnitCosts, coated).total().count(); };
+    const double once = estimate();
+    coated.lit_surfaces = 2;
+    const UnitCosts& unit = kCpuUnitCosts;
+    EXPECT_NEAR(estimate() - once, 640 * 360 * (10 * unit.fragment.pair + unit.lit_pixel),
+                1e-6 * once);
+    const uint64_t within = FrameCosts(kGpuUnitCosts, coated).lightsWithin(Seconds(1));
+    coated.lit_surfaces = 1;
+    EXPECT_NEAR(static_cast<double>(FrameCosts(kGpuUnitCosts, coated).lightsWithin(Seconds(1))),
+                2.0 * static_cast<double>(within), 2);
+    coated.lit_surfaces = 2;
+    load.plan = {.gbuffer = true, .lighting_compute = true};
+    const double lit = estimate();
+    load.plan.layers = true;
+    EXPECT_GT(estimate(), lit + 640 * 360 * 20 * unit.fragment.pair);
+}
+
 // On a GPU: few pixels are few pairs, and each takes its lights one after another.
 TEST(FrameCosts, LongLoopOfFewPixels_CountsAndMayBeRefused) {
     const Load load;

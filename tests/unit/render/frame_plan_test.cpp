@@ -132,6 +132,23 @@ std::string_view firstBroken(std::span<const std::pair<bool, const char*>> rules
     return {};
 }
 
+// What must hold of surfaces with layers.
+std::string_view brokenLayerRule(const settings::ViewSettings& settings,
+                                 const FrameFacts& facts,
+                                 const FramePlan& p) {
+    const std::pair<bool, const char*> rules[] = {
+        {p.layers == (facts.layers_visible && p.gbuffer &&
+                      settings.shading != settings::ShadingModel::kLambert),
+         "layers over a G-buffer's surfaces, where the model has any"},
+        {!p.layers || p.tonemap, "tones are mapped after layers"},
+        {has(p.gbuffer_unused_material_flags, io::kMaterialLayersAll), "no layers in a G-buffer"},
+        {has(p.forward_unused_material_flags, io::kMaterialLayersAll) ==
+             (settings.shading == settings::ShadingModel::kLambert),
+         "the shader of layers where they are seen"},
+    };
+    return firstBroken(rules);
+}
+
 // What must hold of every plan; empty when it does.
 std::string_view brokenPassRule(const settings::ViewSettings& settings,
                                 const FrameFacts& facts,
@@ -282,7 +299,8 @@ std::string_view brokenLightRule(const settings::ViewSettings& settings,
 std::string_view
 brokenRule(const settings::ViewSettings& settings, const FrameFacts& facts, const FramePlan& p) {
     for (const std::string_view broken :
-         {brokenPassRule(settings, facts, p), brokenEffectRule(settings, facts, p),
+         {brokenPassRule(settings, facts, p), brokenLayerRule(settings, facts, p),
+          brokenEffectRule(settings, facts, p),
           brokenLightRule(settings, facts, p, p.forward_light_flags),
           brokenLightRule(settings, facts, p, p.lighting_light_flags)}) {
         if (!broken.empty()) {
@@ -322,6 +340,7 @@ TEST(FramePlan, EveryCombination_KeepsTheRules) {
             const FrameFacts facts{.wide_gbuffer = has(0),
                                    .specular = has(1) != has(7),
                                    .edges = has(4) != has(14),
+                                   .layers_visible = has(8) != has(2),
                                    .transparent_visible = has(1),
                                    .local_lights = has(2),
                                    .spots = has(3),

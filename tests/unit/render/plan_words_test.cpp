@@ -49,6 +49,17 @@ TEST(PlanWords, IorAndSpecular_AreNamedWhereTheyAreStored) {
     EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("ior"))));
 }
 
+TEST(PlanWords, Coats_AreNamedWhereAPassDrawsThem) {
+    settings::ViewSettings settings;
+    settings.renderer = settings::Renderer::kClusteredDeferred;
+    const FrameFacts facts{.layers_visible = true};
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("clear coats: surfaces that have")));
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("tone map in a pass of its own")));
+    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("clear coat"))));
+    settings.renderer = settings::Renderer::kForwardPlus;
+    EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("clear coat"))));
+}
+
 TEST(PlanWords, MeshesThatBend_AreNamed) {
     EXPECT_THAT(wordsOf({}, {.bends = true}), Contains(HasSubstr("skins or morph targets")));
     EXPECT_THAT(wordsOf({}, {}), Not(Contains(HasSubstr("skins"))));

@@ -78,6 +78,28 @@ TEST(SceneNeeds, IorOrSpecular_SetsTheFlagWhereItIsNotUsual) {
     EXPECT_EQ(findNeeds(sceneWith(dense)).material_flags[0], io::kMaterialUnlit);
 }
 
+TEST(SceneNeeds, Coat_SetsItsFlagsWhereItHasStrength) {
+    auto m = plain();
+    m.coat_roughness = 0.5F;
+    m.coat_texture.texture = 0;
+    m.coat_roughness_texture.texture = 0;
+    m.coat_normal_texture = {.texture = 0, .texcoord = 1};
+    EXPECT_FALSE(findNeeds(sceneWith(m)).layers);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U);
+    m.coat = 1;
+    EXPECT_TRUE(findNeeds(sceneWith(m)).layers);
+    EXPECT_FALSE(findNeeds(sceneWith(m)).wide_gbuffer);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0],
+              io::kMaterialLayersAll | io::kMaterialUvTransform);
+    m.coat_roughness = 0;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialCoatRoughnessTexture, 0U);
+    m.alpha_mode = scene::AlphaMode::kBlend; // is forward anyway
+    EXPECT_FALSE(findNeeds(sceneWith(m)).layers);
+    EXPECT_NE(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialCoat, 0U);
+    m.unlit = true;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialLayersAll, 0U);
+}
+
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {
     auto m = plain();
     m.unlit = true;
