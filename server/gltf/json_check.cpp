@@ -27,7 +27,7 @@ constexpr std::string_view kSupportedExtensions[] = {
     "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",  "KHR_materials_unlit",
     "KHR_mesh_quantization",   "KHR_node_visibility",
-    "KHR_texture_transform",
+    "KHR_texture_basisu",      "KHR_texture_transform",
 };
 
 // They say things about a scene that no picture of it shows.

@@ -33,6 +33,7 @@ RESTRICTED = [
     (re.compile(r"#include <tiny_gltf"), {"gltf"}, "scene files belong to gltf"),
     (re.compile(r"#include <(stb/|stb_|OpenEXR/)"), {"environment"}, "panoramas' files belong to environment"),
     (re.compile(r"#include <png\.h>"), {"png"}, "libpng belongs to png"),
+    (re.compile(r"#include <(zstd|basis)"), {"ktx2"}, "Zstandard and Basis Universal belong to ktx2"),
 ]
 BANNED = [
     (re.compile(r"#include <iostream>"), "it adds static constructors; log or print"),

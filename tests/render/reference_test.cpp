@@ -284,6 +284,22 @@ TEST_F(Reference, RoomOfTexturedReflectances_IsWithinArithmetic) {
     }
 }
 
+// A floor without light whose levels have other colours than their halves would have; the last two
+// are made of the last that is given.
+TEST_F(Reference, GivenMipLevels_AreThoseThatAreDrawn) {
+    auto room = makePlainRoom();
+    room.materials[0].unlit = true;
+    room.materials[0].base_color_texture.texture = 0;
+    room.images[0].mips = {std::vector(size_t{4} * 16 * 16, std::byte{60}),
+                           std::vector(size_t{4} * 8 * 8, std::byte{180}),
+                           std::vector(size_t{4} * 4 * 4, std::byte{250})};
+    Compared compared(device(), room);
+    const auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
+    const Errors errors = compared.against(inputs);
+    EXPECT_LT(errors.median, 1e-3);
+    EXPECT_LT(errors.rmse, 0.02); // the level of detail is one for four pixels
+}
+
 TEST_F(Reference, PlainRoom_OtherCameras_AreWithinArithmetic) {
     const auto room = makePlainRoom();
     Compared compared(device(), room);
