@@ -48,9 +48,9 @@ failBroken(const std::string& user, const char* format, const std::string& reaso
 }
 
 [[noreturn]] void failFormat(std::span<const std::byte> file, const std::string& user) {
-    throw Unusable(warning::kImageFormat,
-                   user + " is of an unknown format (" + std::to_string(file.size()) +
-                       " bytes); right is PNG, JPEG, WebP or KTX2");
+    throw Unusable(warning::kImageFormat, user + " is of an unknown format (" +
+                                              std::to_string(file.size()) +
+                                              " bytes); right is PNG, JPEG, WebP or KTX2");
 }
 
 // Reads the header; `decoder` is ready for the pixels afterwards.
@@ -140,11 +140,11 @@ void decodePng(std::span<const std::byte> file, const std::string& user, scene::
 } // namespace
 
 std::string_view imageType(std::span<const std::byte> file) {
-    return png::isPng(file) ? "image/png"
-           : isJpeg(file)   ? "image/jpeg"
-           : isWebp(file)   ? "image/webp"
+    return png::isPng(file)     ? "image/png"
+           : isJpeg(file)       ? "image/jpeg"
+           : isWebp(file)       ? "image/webp"
            : ktx2::isKtx2(file) ? "image/ktx2"
-                            : "";
+                                : "";
 }
 
 ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {

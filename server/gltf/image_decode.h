@@ -38,8 +38,8 @@ struct ImageSize {
 // a broken one, Failure for sides above kMaxImageSide_px.
 [[nodiscard]] ImageSize imageSize(std::span<const std::byte> file, const std::string& user);
 
-// Fills width, height, pixels and mips of `image`: grey and palette become RGB, no alpha becomes 255,
-// 16 bits become 8. Returns a warning or "". Throws Unusable, naming `user`, where the data is
+// Fills width, height, pixels and mips of `image`: grey and palette become RGB, no alpha becomes
+// 255, 16 bits become 8. Returns a warning or "". Throws Unusable, naming `user`, where the data is
 // broken. Any thread.
 std::string
 decodeImage(std::span<const std::byte> file, const std::string& user, scene::Image& image);

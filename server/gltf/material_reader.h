@@ -32,8 +32,8 @@ class MaterialReader {
                                          const std::string& pointer,
                                          const std::string& user);
 
-    // For every image in `scene.images`, which hold no pixels yet, the numbers of the file's that may
-    // be it, the best first.
+    // For every image in `scene.images`, which hold no pixels yet, the numbers of the file's that
+    // may be it, the best first.
     [[nodiscard]] const std::vector<std::vector<size_t>>& images() const { return images_; }
 
   private:

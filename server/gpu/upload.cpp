@@ -62,10 +62,10 @@ void Uploader::uploadImage(const Image& target,
     for (const std::span<const std::byte> texels : levels) {
         const auto mip = static_cast<uint32_t>(copies.size());
         const vk::Offset3D size = mipCorner(target, mip);
-        copies.push_back({.bufferOffset = bytes,
-                          .imageSubresource = {vk::ImageAspectFlagBits::eColor, mip, 0, 1},
-                          .imageExtent = {static_cast<uint32_t>(size.x),
-                                          static_cast<uint32_t>(size.y), 1}});
+        copies.push_back(
+            {.bufferOffset = bytes,
+             .imageSubresource = {vk::ImageAspectFlagBits::eColor, mip, 0, 1},
+             .imageExtent = {static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y), 1}});
         bytes += texels.size();
     }
     if (bytes > staging_.size_bytes) {

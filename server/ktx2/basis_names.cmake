@@ -1,7 +1,8 @@
 # Writes OUT, a header of the names that wasm2c gives what it makes of the transcoder. In the WebAssembly imports and
 # exports have one letter each; SCRIPT, emscripten's JavaScript beside it, tells whose.
 file(READ ${SCRIPT} script)
-execute_process(COMMAND ${WASM2C} --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${WASM2C} --version OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE
+                COMMAND_ERROR_IS_FATAL ANY)
 if(version VERSION_LESS 1.0.33)
     set(import Z_aZ_)
     set(export Z_basisZ_)

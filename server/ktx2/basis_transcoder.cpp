@@ -3,11 +3,10 @@
 #include "core/assert.h"
 #include "core/text.h"
 
-#include <basis.h>
-#include <basis_names.h>
-
 #include <algorithm>
 #include <array>
+#include <basis.h>
+#include <basis_names.h>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -90,20 +89,8 @@ void froxelBasisTrap(wasm_rt_trap_t code) {
 }
 
 // What the module imports. Of embind's registrations those of functions count.
-void IMPORT_embind_register_class(Host* host,
-                                  u32 number,
-                                  u32,
-                                  u32,
-                                  u32,
-                                  u32,
-                                  u32,
-                                  u32,
-                                  u32,
-                                  u32,
-                                  u32,
-                                  u32 name,
-                                  u32,
-                                  u32) {
+void IMPORT_embind_register_class(
+    Host* host, u32 number, u32, u32, u32, u32, u32, u32, u32, u32, u32, u32 name, u32, u32) {
     if (host->text(name) == "KTX2File") {
         host->file_class = number;
     }

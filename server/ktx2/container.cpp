@@ -159,10 +159,10 @@ Result<Packing> readPacking(std::span<const std::byte> file, Texels texels) {
     const auto scheme = numberAt<uint32_t>(file, kSchemeAt);
     const auto packing = static_cast<Packing>(scheme);
     const bool known = scheme <= static_cast<uint32_t>(Packing::kZlib);
-    const bool fits = texels == Texels::kEtc1s   ? packing == Packing::kBasisLz
-                      : texels == Texels::kUastc ? packing == Packing::kNone ||
-                                                       packing == Packing::kZstandard
-                                                 : packing != Packing::kBasisLz;
+    const bool fits = texels == Texels::kEtc1s ? packing == Packing::kBasisLz
+                      : texels == Texels::kUastc
+                          ? packing == Packing::kNone || packing == Packing::kZstandard
+                          : packing != Packing::kBasisLz;
     if (!known || !fits) {
         const char* right = texels == Texels::kEtc1s   ? "ETC1S is 1 (BasisLZ)"
                             : texels == Texels::kUastc ? "UASTC is 0 or 2 (Zstandard)"
@@ -229,8 +229,8 @@ Result<Container> readContainer(std::span<const std::byte> file) {
     const uint32_t level_count = std::max(1U, numberAt<uint32_t>(file, kLevelsAt));
     const uint64_t index_end = kHeaderBytes + level_count * kIndexEntryBytes;
     if (file.size() < index_end) {
-        return broken("it is cut off after " + numberText(file.size()) + " bytes; its level index " +
-                      "ends at " + numberText(index_end));
+        return broken("it is cut off after " + numberText(file.size()) +
+                      " bytes; its level index " + "ends at " + numberText(index_end));
     }
     Container container{*texels, *packing, {}};
     for (uint32_t i = 0; i < level_count; ++i) {

@@ -4,12 +4,11 @@
 #include "ktx2/basis_transcoder.h"
 #include "ktx2/container.h"
 
-#include <zlib.h>
-#include <zstd.h>
-
 #include <cstring>
 #include <string>
 #include <vector>
+#include <zlib.h>
+#include <zstd.h>
 
 namespace froxel::ktx2 {
 namespace {
@@ -60,8 +59,8 @@ readPlain(const Container& container, const Level& level, size_t number, std::sp
         std::memcpy(texels.data(), level.packed.data(), texels.size());
     }
     if (wrong != nullptr) {
-        return Error{ErrorCode::kIo, "level " + numberText(number) +
-                                         " cannot be unpacked: " + printable(wrong)};
+        return Error{ErrorCode::kIo,
+                     "level " + numberText(number) + " cannot be unpacked: " + printable(wrong)};
     }
     if (!has_alpha) {
         addAlpha(texels, out);
@@ -94,15 +93,15 @@ Result<void> readPixels(std::span<const std::byte> file,
         return container.error();
     }
     if (levels.size() != container->levels.size()) {
-        return Error{ErrorCode::kInvalidArgument, "KTX2 of " + numberText(container->levels.size()) +
+        return Error{ErrorCode::kInvalidArgument, "KTX2 of " +
+                                                      numberText(container->levels.size()) +
                                                       " levels into " + numberText(levels.size())};
     }
     for (size_t i = 0; i < levels.size(); ++i) {
         const Level& level = container->levels[i];
         if (levels[i].size() != size_t{level.width_px} * level.height_px * kChannels) {
-            return Error{ErrorCode::kInvalidArgument,
-                         "KTX2's level " + numberText(i) + " into " +
-                             numberText(levels[i].size()) + " bytes"};
+            return Error{ErrorCode::kInvalidArgument, "KTX2's level " + numberText(i) + " into " +
+                                                          numberText(levels[i].size()) + " bytes"};
         }
     }
     if (container->texels == Texels::kEtc1s || container->texels == Texels::kUastc) {

@@ -128,8 +128,9 @@ TEST(Images, OutOfRangeOrOutside_AreRefused) {
 }
 
 TEST(Images, OtherFormat_LeavesItsTexturesOut) {
-    EXPECT_THAT(leftOut(withImage(Bytes(64, std::byte{0x42}))),
-                HasSubstr("image 0 is of an unknown format (64 bytes); right is PNG, JPEG, WebP or"));
+    EXPECT_THAT(
+        leftOut(withImage(Bytes(64, std::byte{0x42}))),
+        HasSubstr("image 0 is of an unknown format (64 bytes); right is PNG, JPEG, WebP or"));
     EXPECT_THAT(leftOut(withImage(Bytes(1, std::byte{0x89}))), HasSubstr("unknown format (1 byte"));
 }
 
@@ -238,8 +239,8 @@ SceneFile withBasisAndPng(const Bytes& ktx2) {
 }
 
 TEST(Images, Ktx2OfTheExtension_WinsOverTheFallback) {
-    const scene::Scene scene = loaded(
-        withBasisAndPng(froxel::test::ktx2File(froxel::test::uastcLevels())).load());
+    const scene::Scene scene =
+        loaded(withBasisAndPng(froxel::test::ktx2File(froxel::test::uastcLevels())).load());
     ASSERT_EQ(scene.images.size(), 1U) << "the fallback is not read";
     EXPECT_EQ(scene.images[0].width_px, 8U);
     EXPECT_THAT(scene.warnings, testing::IsEmpty());

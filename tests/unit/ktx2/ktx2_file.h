@@ -28,7 +28,7 @@ constexpr size_t kKtx2LevelsAt = 40;
 constexpr size_t kKtx2SchemeAt = 44;
 constexpr size_t kKtx2DescriptorAt = 48;
 constexpr size_t kKtx2GlobalDataAt = 64; // of ETC1S
-constexpr size_t kKtx2IndexAt = 80; // 24 bytes a level: offset, bytes, bytes unpacked
+constexpr size_t kKtx2IndexAt = 80;      // 24 bytes a level: offset, bytes, bytes unpacked
 
 [[nodiscard]] std::vector<std::byte> ktx2File(const Ktx2Spec& spec);
 

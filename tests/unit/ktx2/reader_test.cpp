@@ -1,15 +1,14 @@
 #include "ktx2/reader.h"
-
 #include "unit/ktx2/ktx2_file.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <cstring>
 #include <gmock/gmock.h>
 #include <string>
+#include <zlib.h>
+#include <zstd.h>
 
 namespace froxel::ktx2 {
 namespace {
