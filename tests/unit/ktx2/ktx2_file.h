@@ -11,11 +11,11 @@ struct Ktx2Spec {
     uint32_t vk_format = 37; // R8G8B8A8_UNORM
     uint32_t width_px = 1;
     uint32_t height_px = 1;
-    uint32_t scheme = 0;                        // supercompression
-    uint8_t color_model = 1;                    // RGBSDA
-    uint8_t channel = 0;                        // of the only sample
-    std::vector<std::vector<std::byte>> levels; // as the file stores them
-    std::vector<uint64_t> unpacked_bytes;       // of each level; empty: as they are stored
+    uint32_t scheme = 0;                          // supercompression
+    uint8_t color_model = 1;                      // RGBSDA
+    uint8_t channel = 0;                          // of the only sample
+    std::vector<std::vector<std::byte>> levels{}; // as the file stores them
+    std::vector<uint64_t> unpacked_bytes{};       // of each level; empty: as they are stored
 };
 
 // Where fields lie that tests change.
