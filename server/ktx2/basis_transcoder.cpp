@@ -156,8 +156,11 @@ u32 IMPORT_emval_get_property(Host* host, u32 /*of*/, u32 name) {
     }
     throw Trap{WASM_RT_TRAP_UNREACHABLE};
 }
-u32 IMPORT_emval_get_global(Host*, u32) {
-    throw Trap{WASM_RT_TRAP_UNREACHABLE};
+u32 IMPORT_emval_get_global(Host* host, u32 name) {
+    if (host->text(name) != "Uint8Array") {
+        throw Trap{WASM_RT_TRAP_UNREACHABLE};
+    }
+    return kArrayType;
 }
 f64 IMPORT_emval_as(Host* host, u32 value, u32 /*type*/, u32 /*destructors*/) {
     if (value != kLength) {
