@@ -14,7 +14,7 @@ build_packages=(
     libvulkan-dev glslang-tools spirv-tools
     libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev
     libglm-dev 'libboost-url1.81-dev|libboost-url-dev' libspdlog-dev libcli11-dev
-    libturbojpeg0-dev libpng-dev libwebp-dev libopenexr-dev libstb-dev libvpx-dev
+    libturbojpeg0-dev libpng-dev libwebp-dev libzstd-dev wabt libopenexr-dev libstb-dev libvpx-dev
     libprotobuf-dev protobuf-compiler prometheus-cpp-dev libtomlplusplus-dev libssl-dev
     ca-certificates
 )
@@ -23,7 +23,7 @@ test_packages=(
     vulkan-validationlayers libgtest-dev libgmock-dev libbenchmark-dev
     python3 python3-websockets python3-yaml openssl git ccache clang-format universal-ctags
 )
-build_tools=(c++ cmake ninja pkg-config glslangValidator spirv-val protoc node npm)
+build_tools=(c++ cmake ninja pkg-config glslangValidator spirv-val protoc wasm2c node npm)
 
 say() { printf '%s: %s\n' "$(basename "$0")" "$*"; }
 die() {
@@ -198,8 +198,9 @@ build_page() {
     )
 }
 
-# Both at once: installing the page's packages is mostly waiting.
+# Both at once, when the packages are there that both need.
 build_page_and_binary() { # PRESET
+    install_node_modules
     build_page &
     local page=$! code=0
     build_binary "$1" || code=$?

@@ -18,6 +18,7 @@ for name in "${names[@]}"; do
 done
 
 require_packages "${build_packages[@]}" clang libclang-rt-dev
+install_node_modules
 [[ -f build/fuzz/build.ninja ]] || cmake --preset fuzz >&2
 cmake --build --preset fuzz --parallel "$(job_count)" --target "${names[@]/#/fuzz_}" >&2
 mkdir -p build/fuzz/findings build/fuzz/logs

@@ -13,6 +13,7 @@ targets=("${tests[@]/%/_test}" relay_test integration_test)
 
 cd "$root"
 require_packages "${build_packages[@]}" "${test_packages[@]}"
+install_node_modules
 [[ -f build/tsan/build.ninja ]] || cmake --preset tsan >&2
 cmake --build --preset tsan --parallel "$(job_count)" --target "${targets[@]}" >&2
 

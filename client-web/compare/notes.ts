@@ -14,7 +14,6 @@ const kRounding = 'three.js takes curved surfaces for rougher than the file has 
 const kNotes: Readonly<Record<string, Note>> = {
   'chess-board': { why: 'Froxel has no KHR_materials_clearcoat' },
   'glass-table': { why: 'Froxel has no KHR_materials_transmission' },
-  'jet-fighter': { why: 'Froxel does not read KTX2 textures' },
   alien: { why: kScattering },
   cakeBirthday: { why: kScattering },
   cat: { why: kRounding },

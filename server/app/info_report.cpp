@@ -35,6 +35,9 @@ size_t textureBytes(const scene::Scene& scene) {
     size_t bytes = 0;
     for (const auto& image : scene.images) {
         bytes += bytesOf(image.rgba8);
+        for (const auto& level : image.mips) {
+            bytes += bytesOf(level);
+        }
     }
     return bytes;
 }

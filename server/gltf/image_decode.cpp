@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gltf/failure.h"
 #include "gltf/limits.h"
+#include "ktx2/reader.h"
 #include "png/reader.h"
 
 #include <turbojpeg.h>
@@ -10,6 +11,7 @@
 
 #include <cstring>
 #include <memory>
+#include <vector>
 
 namespace froxel::gltf {
 namespace {
@@ -46,10 +48,9 @@ failBroken(const std::string& user, const char* format, const std::string& reaso
 }
 
 [[noreturn]] void failFormat(std::span<const std::byte> file, const std::string& user) {
-    const bool is_ktx2 = beginsWith(file, "\xABKTX 20\xBB");
-    throw Unusable(warning::kImageFormat,
-                   user + (is_ktx2 ? " is a KTX2 file" : " is of an unknown format") + " (" +
-                       std::to_string(file.size()) + " bytes); right is PNG, JPEG or WebP");
+    throw Unusable(warning::kImageFormat, user + " is of an unknown format (" +
+                                              std::to_string(file.size()) +
+                                              " bytes); right is PNG, JPEG, WebP or KTX2");
 }
 
 // Reads the header; `decoder` is ready for the pixels afterwards.
@@ -106,6 +107,30 @@ void decodeWebp(std::span<const std::byte> file, const std::string& user, scene:
     }
 }
 
+[[noreturn]] void failKtx2(const Error& error, const std::string& user) {
+    if (error.code == ErrorCode::kUnsupported) {
+        throw Unusable(warning::kImageFormat,
+                       user + " is a KTX2 file of a kind that is not read: " + error.message);
+    }
+    throw Unusable(warning::kBrokenImage, user + " is a broken KTX2 file: " + error.message);
+}
+
+ImageSize ktx2Size(std::span<const std::byte> file, const std::string& user) {
+    const auto size = ktx2::readSize(file);
+    if (!size) {
+        failKtx2(size.error(), user);
+    }
+    return {size->width_px, size->height_px, size->level_count};
+}
+
+void decodeKtx2(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
+    std::vector<std::span<std::byte>> levels{image.rgba8};
+    levels.insert(levels.end(), image.mips.begin(), image.mips.end());
+    if (const auto read = ktx2::readPixels(file, levels); !read) {
+        failKtx2(read.error(), user);
+    }
+}
+
 void decodePng(std::span<const std::byte> file, const std::string& user, scene::Image& image) {
     if (const auto read = png::readPixels(file, image.rgba8); !read) {
         failBroken(user, "PNG", read.error().message);
@@ -115,10 +140,11 @@ void decodePng(std::span<const std::byte> file, const std::string& user, scene::
 } // namespace
 
 std::string_view imageType(std::span<const std::byte> file) {
-    return png::isPng(file) ? "image/png"
-           : isJpeg(file)   ? "image/jpeg"
-           : isWebp(file)   ? "image/webp"
-                            : "";
+    return png::isPng(file)     ? "image/png"
+           : isJpeg(file)       ? "image/jpeg"
+           : isWebp(file)       ? "image/webp"
+           : ktx2::isKtx2(file) ? "image/ktx2"
+                                : "";
 }
 
 ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {
@@ -133,6 +159,8 @@ ImageSize imageSize(std::span<const std::byte> file, const std::string& user) {
         size = jpegSize(Decompressor(tjInitDecompress()), file, user);
     } else if (isWebp(file)) {
         size = webpSize(file, user);
+    } else if (ktx2::isKtx2(file)) {
+        size = ktx2Size(file, user);
     } else {
         failFormat(file, user);
     }
@@ -149,12 +177,18 @@ decodeImage(std::span<const std::byte> file, const std::string& user, scene::Ima
     const ImageSize size = imageSize(file, user);
     image.width_px = size.width_px;
     image.height_px = size.height_px;
-    image.rgba8.resize(size.decodedBytes());
+    image.rgba8.resize(size.levelBytes(0));
+    image.mips.resize(size.level_count - 1);
+    for (uint32_t level = 1; level < size.level_count; ++level) {
+        image.mips[level - 1].resize(size.levelBytes(level));
+    }
     if (isJpeg(file)) {
         return decodeJpeg(file, user, image);
     }
     if (isWebp(file)) {
         decodeWebp(file, user, image);
+    } else if (ktx2::isKtx2(file)) {
+        decodeKtx2(file, user, image);
     } else {
         decodePng(file, user, image);
     }

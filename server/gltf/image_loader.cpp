@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 namespace froxel::gltf {
 namespace {
@@ -19,6 +21,8 @@ namespace {
 constexpr size_t kMaxThreads = 16;
 
 struct Job {
+    std::span<const size_t> sources; // the file's images that are still to be tried
+    scene::Image* image = nullptr;
     std::string user;
     Bytes owned; // where the image is a file of its own
     std::span<const std::byte> file;
@@ -51,9 +55,25 @@ void checkMimeType(const Job& job, const ImageSource& source, size_t number, War
     }
 }
 
-void decode(Job& job, scene::Image& image) noexcept {
+void begin(Job& job,
+           const Document& document,
+           SceneFolder& folder,
+           BufferViews& views,
+           Budget& pixels,
+           Warnings& warnings) {
+    const size_t number = job.sources.front();
+    job.user = thing("image", number);
     try {
-        job.warning = decodeImage(job.file, job.user, image);
+        find(job, document.images[number], folder, views, pixels);
+        checkMimeType(job, document.images[number], number, warnings);
+    } catch (const Unusable& unusable) {
+        job.unusable = unusable;
+    }
+}
+
+void decode(Job& job) noexcept {
+    try {
+        job.warning = decodeImage(job.file, job.user, *job.image);
     } catch (const Unusable& unusable) {
         job.unusable = unusable;
     } catch (...) {
@@ -62,12 +82,12 @@ void decode(Job& job, scene::Image& image) noexcept {
     job.owned = {};
 }
 
-void decodeAll(std::vector<Job>& jobs, std::vector<scene::Image>& images) {
+void decodeAll(const std::vector<Job*>& jobs) {
     std::atomic<size_t> next{0};
     const auto work = [&] {
         for (size_t i = next++; i < jobs.size(); i = next++) {
-            if (!jobs[i].unusable) {
-                decode(jobs[i], images[i]);
+            if (!jobs[i]->unusable) {
+                decode(*jobs[i]);
             }
         }
     };
@@ -80,12 +100,37 @@ void decodeAll(std::vector<Job>& jobs, std::vector<scene::Image>& images) {
     work();
 }
 
+// Says what is wrong. Whether another of its sources is to be tried.
+bool goesOn(Job& job, Warnings& warnings) {
+    if (job.failure) {
+        std::rethrow_exception(job.failure);
+    }
+    const std::string pointer = pointerTo("images", job.sources.front());
+    if (!job.unusable) {
+        if (!job.warning.empty()) {
+            warnings.add(warning::kBrokenImage, pointer, job.warning);
+        }
+        return false;
+    }
+    const bool goes_on = job.sources.size() > 1;
+    warnings.add(job.unusable->kind(), pointer,
+                 std::string(job.unusable->what()) +
+                     (goes_on ? "; " + thing("image", job.sources[1]) + " takes its place"
+                              : "; its textures are left out"));
+    if (goes_on) {
+        job.sources = job.sources.subspan(1);
+        job.unusable.reset();
+    }
+    return goes_on;
+}
+
 void leaveOut(const std::vector<Job>& jobs, scene::Scene& scene) {
     for (size_t i = 0; i < jobs.size(); ++i) {
         if (jobs[i].unusable) {
             scene.images[i].width_px = 1;
             scene.images[i].height_px = 1;
             scene.images[i].rgba8.assign(4, std::byte{0xFF});
+            scene.images[i].mips.clear();
         }
     }
     for (scene::Material& material : scene.materials) {
@@ -101,36 +146,28 @@ void leaveOut(const std::vector<Job>& jobs, scene::Scene& scene) {
 } // namespace
 
 void loadImages(const Document& document,
-                const std::vector<size_t>& numbers,
+                const std::vector<std::vector<size_t>>& sources,
                 SceneFolder& folder,
                 BufferViews& views,
                 scene::Scene& scene,
                 Warnings& warnings) {
     Budget pixels("bytes of decoded images", kMaxDecodedImageBytes);
-    std::vector<Job> jobs(numbers.size());
+    std::vector<Job> jobs(sources.size());
+    std::vector<Job*> due;
     for (size_t i = 0; i < jobs.size(); ++i) {
-        jobs[i].user = thing("image", numbers[i]);
-        const ImageSource& source = document.images[numbers[i]];
-        try {
-            find(jobs[i], source, folder, views, pixels);
-            checkMimeType(jobs[i], source, numbers[i], warnings);
-        } catch (const Unusable& unusable) {
-            jobs[i].unusable = unusable;
-        }
+        jobs[i].sources = sources[i];
+        jobs[i].image = &scene.images[i];
+        due.push_back(&jobs[i]);
     }
-    decodeAll(jobs, scene.images);
-    for (size_t i = 0; i < jobs.size(); ++i) {
-        const Job& job = jobs[i];
-        const std::string pointer = pointerTo("images", numbers[i]);
-        if (job.failure) {
-            std::rethrow_exception(job.failure);
+    while (!due.empty()) {
+        for (Job* job : due) {
+            begin(*job, document, folder, views, pixels, warnings);
         }
-        if (job.unusable) {
-            warnings.add(job.unusable->kind(), pointer,
-                         std::string(job.unusable->what()) + "; its textures are left out");
-        } else if (!job.warning.empty()) {
-            warnings.add(warning::kBrokenImage, pointer, job.warning);
-        }
+        decodeAll(due);
+        std::vector<Job*> again;
+        std::copy_if(due.begin(), due.end(), std::back_inserter(again),
+                     [&](Job* job) { return goesOn(*job, warnings); });
+        due = std::move(again);
     }
     leaveOut(jobs, scene);
 }

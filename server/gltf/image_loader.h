@@ -12,12 +12,13 @@
 
 namespace froxel::gltf {
 
-// Fills `scene.images`; numbers[i] is the file's number of image i. All sizes are checked by their
-// headers before the first pixel is decoded. An image that is missing or broken becomes a white
-// pixel that no material uses, with a warning: their slots are emptied. Throws Failure for one that
-// may not be read or is too large.
+// Fills `scene.images`; sources[i] are the file's images that may be image i, the best first: it
+// becomes the first of them that can be read, and those behind it are not touched. Sizes are
+// checked by their headers before the first pixel is decoded. An image of which none can be read
+// becomes a white pixel that no material uses: their slots are emptied. Each that cannot be read is
+// a warning. Throws Failure for one that may not be read or is too large.
 void loadImages(const Document& document,
-                const std::vector<size_t>& numbers,
+                const std::vector<std::vector<size_t>>& sources,
                 SceneFolder& folder,
                 BufferViews& views,
                 scene::Scene& scene,

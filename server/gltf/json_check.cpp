@@ -34,6 +34,7 @@ constexpr std::string_view kSupportedExtensions[] = {
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 };
 

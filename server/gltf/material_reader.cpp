@@ -363,18 +363,26 @@ uint32_t MaterialReader::texture(size_t index, const std::string& user) {
     }
     const tinygltf::Texture& source = document_.model.textures[index];
     const std::string name = thing("texture", index);
-    int source_image = source.source;
-    if (const auto* webp = findExtension(source.extensions, "EXT_texture_webp")) {
-        source_image = intOr(*webp, "source", source_image);
+    std::vector<size_t> sources; // the best first
+    const auto add = [&](int image) {
+        if (image >= 0) {
+            sources.push_back(checkedIndex(image, document_.images.size(), "image", name));
+        }
+    };
+    for (const char* better : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+        if (const auto* extension = findExtension(source.extensions, better)) {
+            add(intOr(*extension, "source", -1));
+        }
     }
-    if (source_image < 0) {
+    add(source.source);
+    if (sources.empty()) {
         warnings_.add(warning::kNoSource, pointerTo("textures", index),
                       user + " is ignored: " + name +
-                          " has no image in a supported format (PNG, JPEG, WebP)");
+                          " has no image in a supported format (PNG, JPEG, WebP, KTX2)");
         return known_textures_.emplace(index, scene::kNone).first->second;
     }
     scene::Texture texture;
-    texture.image = image(checkedIndex(source_image, document_.images.size(), "image", name));
+    texture.image = image(sources);
     texture.sampler = source.sampler < 0 ? scene::kNone : sampler(source.sampler, name);
     const auto position = static_cast<uint32_t>(scene_.textures.size());
     scene_.textures.push_back(texture);
@@ -407,16 +415,16 @@ uint32_t MaterialReader::sampler(int index, const std::string& user) {
     return position;
 }
 
-uint32_t MaterialReader::image(size_t index) {
+uint32_t MaterialReader::image(const std::vector<size_t>& sources) {
     const auto position = static_cast<uint32_t>(scene_.images.size());
-    const auto [known, is_new] = known_images_.emplace(index, position);
+    const auto [known, is_new] = known_images_.emplace(sources, position);
     if (is_new) {
         scene::Image image;
-        const ImageSource& source = document_.images[index];
+        const ImageSource& source = document_.images[sources.front()];
         image.name =
             !source.name.empty() || source.uri.starts_with("data:") ? source.name : source.uri;
         scene_.images.push_back(std::move(image));
-        images_.push_back(index);
+        images_.push_back(sources);
     }
     return known->second;
 }

@@ -32,8 +32,9 @@ class MaterialReader {
                                          const std::string& pointer,
                                          const std::string& user);
 
-    // The file's number of every image in `scene.images`, which hold no pixels yet.
-    [[nodiscard]] const std::vector<size_t>& images() const { return images_; }
+    // For every image in `scene.images`, which hold no pixels yet, the numbers of the file's that
+    // may be it, the best first.
+    [[nodiscard]] const std::vector<std::vector<size_t>>& images() const { return images_; }
 
   private:
     [[nodiscard]] scene::Material read(const tinygltf::Material& source, const std::string& name);
@@ -56,7 +57,7 @@ class MaterialReader {
     [[nodiscard]] scene::TextureSlot slot(const Info& info, const std::string& user);
     [[nodiscard]] uint32_t texture(size_t index, const std::string& user);
     [[nodiscard]] uint32_t sampler(int index, const std::string& user);
-    [[nodiscard]] uint32_t image(size_t index);
+    [[nodiscard]] uint32_t image(const std::vector<size_t>& sources);
     [[nodiscard]] float unit(double value, const char* factor, const std::string& name);
 
     const Document& document_;
@@ -67,8 +68,8 @@ class MaterialReader {
     std::string pointer_; // of the material that is being read
     std::map<size_t, uint32_t> known_textures_;
     std::map<int, uint32_t> known_samplers_;
-    std::map<size_t, uint32_t> known_images_;
-    std::vector<size_t> images_;
+    std::map<std::vector<size_t>, uint32_t> known_images_; // by their sources
+    std::vector<std::vector<size_t>> images_;
 };
 
 } // namespace froxel::gltf

@@ -55,20 +55,33 @@ void Uploader::upload(const Buffer& target, std::span<const std::byte> data) {
     }
 }
 
-void Uploader::uploadImage(const Image& target, std::span<const std::byte> texels) {
-    if (texels.size() > staging_.size_bytes) {
-        grow(texels.size());
+void Uploader::uploadImage(const Image& target,
+                           std::span<const std::span<const std::byte>> levels) {
+    std::vector<vk::BufferImageCopy> copies;
+    vk::DeviceSize bytes = 0;
+    for (const std::span<const std::byte> texels : levels) {
+        const auto mip = static_cast<uint32_t>(copies.size());
+        const vk::Offset3D size = mipCorner(target, mip);
+        copies.push_back(
+            {.bufferOffset = bytes,
+             .imageSubresource = {vk::ImageAspectFlagBits::eColor, mip, 0, 1},
+             .imageExtent = {static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y), 1}});
+        bytes += texels.size();
     }
-    std::memcpy(staging_.mapped, texels.data(), texels.size());
+    if (bytes > staging_.size_bytes) {
+        grow(bytes);
+    }
+    for (size_t i = 0; i < levels.size(); ++i) {
+        std::memcpy(staging_.mapped + copies[i].bufferOffset, levels[i].data(), levels[i].size());
+    }
     timeline_.runNow([&](const auto& cmd) {
         for (uint32_t mip = 0; mip < target.mip_count; ++mip) {
             barrier(cmd, target, mip, Layout::eUndefined, Layout::eTransferDstOptimal);
         }
-        cmd.copyBufferToImage(
-            *staging_.handle, *target.handle, Layout::eTransferDstOptimal,
-            vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                .imageExtent = {target.extent.width, target.extent.height, 1}});
-        for (uint32_t mip = 1; mip < target.mip_count; ++mip) {
+        cmd.copyBufferToImage(*staging_.handle, *target.handle, Layout::eTransferDstOptimal,
+                              copies);
+        const auto given = static_cast<uint32_t>(levels.size());
+        for (uint32_t mip = given; mip < target.mip_count; ++mip) {
             barrier(cmd, target, mip - 1, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal);
             const vk::ImageBlit blit{
                 .srcSubresource = {vk::ImageAspectFlagBits::eColor, mip - 1, 0, 1},
@@ -79,8 +92,9 @@ void Uploader::uploadImage(const Image& target, std::span<const std::byte> texel
                           Layout::eTransferDstOptimal, blit, vk::Filter::eLinear);
         }
         for (uint32_t mip = 0; mip < target.mip_count; ++mip) {
-            const auto from = mip + 1 < target.mip_count ? Layout::eTransferSrcOptimal
-                                                         : Layout::eTransferDstOptimal;
+            const bool was_source = mip + 1 >= given && mip + 1 < target.mip_count;
+            const auto from =
+                was_source ? Layout::eTransferSrcOptimal : Layout::eTransferDstOptimal;
             barrier(cmd, target, mip, from, Layout::eShaderReadOnlyOptimal);
         }
     });

@@ -15,9 +15,9 @@ class Uploader {
 
     // Fills the buffer from offset 0; waits.
     void upload(const Buffer& target, std::span<const std::byte> data);
-    // Fills level 0 with tightly packed texels, makes the other levels by linear blits (in linear
-    // light for sRGB formats) and leaves the image ready for sampling; waits.
-    void uploadImage(const Image& target, std::span<const std::byte> texels);
+    // Fills the first levels with tightly packed texels, makes the others by linear blits (in
+    // linear light for sRGB formats) and leaves the image ready for sampling; waits.
+    void uploadImage(const Image& target, std::span<const std::span<const std::byte>> levels);
 
   private:
     void grow(vk::DeviceSize bytes);

@@ -19,6 +19,11 @@ double decodeByte(std::byte value, bool srgb) {
     return srgb ? table[i] : static_cast<double>(i) / 255;
 }
 
+glm::dvec4 decodeTexel(const std::byte* rgba, bool srgb) {
+    return {decodeByte(rgba[0], srgb), decodeByte(rgba[1], srgb), decodeByte(rgba[2], srgb),
+            decodeByte(rgba[3], false)};
+}
+
 // A texel's index inside [0, size) for any whole number; 0 for what is none.
 uint32_t wrapped(scene::Wrap wrap, double index, uint32_t size) {
     const double n = size;
@@ -45,7 +50,8 @@ double decodeSrgb(double encoded) {
 
 MipChain::MipChain(const scene::Image& image, bool srgb) : image_(image), srgb_(srgb) {
     while (size(levels_.size()) != glm::uvec2(1)) {
-        levels_.push_back(halve(levels_.size()));
+        const size_t last = levels_.size();
+        levels_.push_back(last < image.mips.size() ? given(last + 1) : halve(last));
     }
 }
 
@@ -59,9 +65,16 @@ glm::dvec4 MipChain::texel(size_t level, uint32_t x, uint32_t y) const {
         const Level& of = levels_[level - 1];
         return glm::dvec4(of.texels[size_t{y} * of.width_px + x]);
     }
-    const std::byte* rgba = &image_.rgba8[4 * (size_t{y} * image_.width_px + x)];
-    return {decodeByte(rgba[0], srgb_), decodeByte(rgba[1], srgb_), decodeByte(rgba[2], srgb_),
-            decodeByte(rgba[3], false)};
+    return decodeTexel(&image_.rgba8[4 * (size_t{y} * image_.width_px + x)], srgb_);
+}
+
+MipChain::Level MipChain::given(size_t level) const {
+    const std::vector<std::byte>& rgba8 = image_.mips[level - 1];
+    Level out{std::max(image_.width_px >> level, 1U), std::max(image_.height_px >> level, 1U), {}};
+    for (size_t i = 0; i < rgba8.size(); i += 4) {
+        out.texels.emplace_back(decodeTexel(&rgba8[i], srgb_));
+    }
+    return out;
 }
 
 MipChain::Level MipChain::halve(size_t level) const {

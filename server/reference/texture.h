@@ -24,9 +24,9 @@ struct Footprint {
     glm::dvec2 dy{0};
 };
 
-// An image and its mip levels. A level halves the one before, rounded down, each texel being that
-// one's bilinear sample at its centre: the box of four texels where sizes are even. Averaged in
-// linear light, never rounded to eight bits.
+// An image and its mip levels. A level that the image does not give halves the one before, rounded
+// down, each texel being that one's bilinear sample at its centre: the box of four texels where
+// sizes are even. Averaged in linear light, never rounded to eight bits.
 class MipChain {
   public:
     // Keeps a reference to the image. srgb: its colours are encoded by IEC 61966-2-1, alpha is not.
@@ -49,6 +49,7 @@ class MipChain {
         std::vector<glm::vec4> texels; // the fp32 rounding is far below that of eight bits
     };
 
+    [[nodiscard]] Level given(size_t level) const;
     [[nodiscard]] Level halve(size_t level) const;
     [[nodiscard]] glm::dvec4 sampleLevel(const scene::Sampler& sampler,
                                          size_t level,

@@ -42,6 +42,9 @@ struct Image {
     uint32_t height_px = 0;
     std::vector<std::byte> rgba8; // [height][width][4], top row first; how it is encoded (sRGB or
                                   // linear) depends on the slot that uses it
+    // Levels 1 and on that a file gives, each half of the one before, rounded down, but at least 1;
+    // what it does not give is made by halving.
+    std::vector<std::vector<std::byte>> mips{};
 };
 
 struct Texture {

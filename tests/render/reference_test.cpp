@@ -355,6 +355,22 @@ TEST_F(Reference, RoomOfTexturedCoats_IsWithinArithmetic) {
     }
 }
 
+// A floor without light whose levels have other colours than their halves would have; the last
+// two are made of the last that is given.
+TEST_F(Reference, GivenMipLevels_AreThoseThatAreDrawn) {
+    auto room = makePlainRoom();
+    room.materials[0].unlit = true;
+    room.materials[0].base_color_texture.texture = 0;
+    room.images[0].mips = {std::vector(size_t{4} * 16 * 16, std::byte{60}),
+                           std::vector(size_t{4} * 8 * 8, std::byte{180}),
+                           std::vector(size_t{4} * 4 * 4, std::byte{250})};
+    Compared compared(device(), room);
+    const auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
+    const Errors errors = compared.against(inputs);
+    EXPECT_LT(errors.median, 1e-3);
+    EXPECT_LT(errors.rmse, 0.02); // the level of detail is one for four pixels
+}
+
 TEST_F(Reference, PlainRoom_OtherCameras_AreWithinArithmetic) {
     const auto room = makePlainRoom();
     Compared compared(device(), room);
@@ -385,8 +401,8 @@ TEST_F(Reference, PlainRoom_AThousandKilometresAway_IsWithinArithmetic) {
     EXPECT_LT(compared.against(inputs).max_relative, 1e-4);
 }
 
-// Seen from behind, bumps are dents: normal maps on both sides of a pane. No mip levels: what is
-// left is lavapipe's 8-bit filter of the normal map.
+// Seen from behind, bumps are dents: normal maps on both sides of a pane. No mip levels: what
+// is left is lavapipe's 8-bit filter of the normal map.
 TEST_F(Reference, NormalMapSeenFromBehind_IsReversed) {
     auto room = makeRoom();
     room.samplers[0].mipmapped = false;
@@ -401,10 +417,10 @@ TEST_F(Reference, NormalMapSeenFromBehind_IsReversed) {
     EXPECT_LT(compared.against(inputs).rmse, 2e-3);
 }
 
-// Vertices of random colours and unlit: a pixel that shows another triangle, or the same elsewhere,
-// has another colour. The fragment path's and the visibility path's surfaces are the same. Corners
-// snap to 1/256 of a pixel, so colours move by 0.003 of their change over a pixel, which is up to
-// 0.7.
+// Vertices of random colours and unlit: a pixel that shows another triangle, or the same
+// elsewhere, has another colour. The fragment path's and the visibility path's surfaces are the
+// same. Corners snap to 1/256 of a pixel, so colours move by 0.003 of their change over a
+// pixel, which is up to 0.7.
 TEST_F(Reference, Surfaces_OfTheRasterPath_AreThoseOfTheVisibilityPath) {
     auto scene = makePlainRoom();
     std::mt19937 random(3);
@@ -451,10 +467,10 @@ void expectFigures(gpu::Device& device,
 } // namespace
 
 // RMSE 0.0205 and p99.9 0.091, of which lavapipe's fixed-point filter of 8-bit linear textures
-// (normal maps first) makes most: without it (GALLIVM_PERF=no_aos_sampling) 0.0127 and 0.042. The
-// largest differences are highlights of 30 to 800 in polished stone. The median, 0.00038, is the
-// base colour's: mip levels rounded to 8 bits, and a level of detail for four pixels at once
-// (without mip levels 0.00004, the driver's sRGB polynomial).
+// (normal maps first) makes most: without it (GALLIVM_PERF=no_aos_sampling) 0.0127 and 0.042.
+// The largest differences are highlights of 30 to 800 in polished stone. The median, 0.00038,
+// is the base colour's: mip levels rounded to 8 bits, and a level of detail for four pixels at
+// once (without mip levels 0.00004, the driver's sRGB polynomial).
 TEST_F(Reference, Hall_IsWithinTheTextureFilter) {
     const auto hall = builtin_scene::makeHall();
     expectFigures(device(), hall, inputsFor(hall.cameras[0].camera, Renderer::kNaive), 0.041, 0.19);

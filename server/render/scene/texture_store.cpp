@@ -60,7 +60,9 @@ const gpu::Image& TextureStore::image(const scene::Image& source, uint32_t index
                           .mip_count = mips,
                           .usage = Usage::eSampled | Usage::eTransferDst | Usage::eTransferSrc},
                          source.name);
-    uploader_.uploadImage(made, source.rgba8);
+    std::vector<std::span<const std::byte>> levels{source.rgba8};
+    levels.insert(levels.end(), source.mips.begin(), source.mips.end());
+    uploader_.uploadImage(made, levels);
     return images_.emplace(key, std::move(made)).first->second;
 }
 

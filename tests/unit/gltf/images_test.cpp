@@ -1,11 +1,13 @@
 // Image files: formats, sources and broken ones.
 #include "unit/gltf/image_files.h"
 #include "unit/gltf/scene_file.h"
+#include "unit/ktx2/ktx2_file.h"
 #include "unit/png/png_file.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <gmock/gmock.h>
 #include <numeric>
 
@@ -126,12 +128,10 @@ TEST(Images, OutOfRangeOrOutside_AreRefused) {
 }
 
 TEST(Images, OtherFormat_LeavesItsTexturesOut) {
-    EXPECT_THAT(leftOut(withImage(Bytes(64, std::byte{0x42}))),
-                HasSubstr("image 0 is of an unknown format (64 bytes); right is PNG, JPEG or"));
+    EXPECT_THAT(
+        leftOut(withImage(Bytes(64, std::byte{0x42}))),
+        HasSubstr("image 0 is of an unknown format (64 bytes); right is PNG, JPEG, WebP or"));
     EXPECT_THAT(leftOut(withImage(Bytes(1, std::byte{0x89}))), HasSubstr("unknown format (1 byte"));
-    const char ktx2[] = "\xABKTX 20\xBB\r\n\x1A\n";
-    const auto* first = reinterpret_cast<const std::byte*>(ktx2);
-    EXPECT_THAT(leftOut(withImage(Bytes(first, first + 12))), HasSubstr("image 0 is a KTX2 file"));
 }
 
 TEST(Images, BrokenPng_LeavesItsTexturesOut) {
@@ -211,6 +211,84 @@ TEST(Images, WebpAnimation_LeavesItsTexturesOut) {
     const auto* first = reinterpret_cast<const std::byte*>(file.data());
     EXPECT_THAT(leftOut(withImage(Bytes(first, first + file.size()))),
                 HasSubstr("image 0 is a WebP animation; right is one picture"));
+}
+
+TEST(Images, Ktx2_HasItsPixelsAndItsMips) {
+    const SceneFile file = withImage(froxel::test::ktx2File(froxel::test::uastcLevels()));
+    const scene::Scene scene = loaded(file.load());
+    const scene::Image& image = scene.images.at(0);
+    EXPECT_EQ(image.width_px, 8U);
+    ASSERT_EQ(image.rgba8.size(), 256U);
+    EXPECT_EQ(image.rgba8[0], std::byte{255});
+    ASSERT_EQ(image.mips.size(), 3U);
+    EXPECT_EQ(image.mips[0].size(), 64U);
+    EXPECT_EQ(image.mips[0].at(1), std::byte{255});
+    EXPECT_EQ(image.mips[2], froxel::test::bytesOf({90, 90, 90, 128}));
+    EXPECT_THAT(scene.warnings, testing::IsEmpty()) << "told by its first bytes alone";
+}
+
+// With the PNG of image 0 and the KTX2 of image 1.
+SceneFile withBasisAndPng(const Bytes& ktx2) {
+    SceneFile file = withImages(2);
+    file.useExtension("KHR_texture_basisu");
+    file.json["images"][0]["bufferView"] = file.addView(plainPng(1, 2, 3));
+    file.json["images"][1] = {{"bufferView", file.addView(ktx2)}, {"mimeType", "image/ktx2"}};
+    file.json["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 1;
+    file.json["materials"][0].erase("occlusionTexture");
+    return file;
+}
+
+TEST(Images, Ktx2OfTheExtension_WinsOverTheFallback) {
+    const scene::Scene scene =
+        loaded(withBasisAndPng(froxel::test::ktx2File(froxel::test::uastcLevels())).load());
+    ASSERT_EQ(scene.images.size(), 1U) << "the fallback is not read";
+    EXPECT_EQ(scene.images[0].width_px, 8U);
+    EXPECT_THAT(scene.warnings, testing::IsEmpty());
+}
+
+TEST(Images, BrokenKtx2_LeavesItsPlaceToTheFallback) {
+    Bytes ktx2 = froxel::test::ktx2File(froxel::test::uastcLevels());
+    ktx2.resize(ktx2.size() - 1);
+    const scene::Scene scene = loaded(withBasisAndPng(ktx2).load());
+    EXPECT_EQ(scene.images.at(0).rgba8.at(2), std::byte{3});
+    EXPECT_TRUE(scene.images.at(0).mips.empty());
+    EXPECT_NE(scene.materials.at(0).emissive_texture.texture, scene::kNone);
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(AllOf(HasSubstr("IMAGE_DATA_INVALID at /images/1"),
+                                  HasSubstr("image 1 is a broken KTX2 file: level 3 has 16 bytes"),
+                                  HasSubstr("; image 0 takes its place"))));
+}
+
+// Its header and its index are right; its code books are not.
+TEST(Images, Ktx2WithBrokenTexels_LeavesItsPlaceToTheFallback) {
+    Bytes ktx2 = froxel::test::etc1sFile();
+    uint64_t books_at = 0;
+    std::memcpy(&books_at, &ktx2.at(froxel::test::kKtx2GlobalDataAt), sizeof books_at);
+    std::fill_n(&ktx2.at(books_at), 60, std::byte{0xFF});
+    const scene::Scene scene = loaded(withBasisAndPng(ktx2).load());
+    EXPECT_EQ(scene.images.at(0).rgba8.at(2), std::byte{3});
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("image 1 is a broken KTX2 file: ")));
+}
+
+TEST(Images, BrokenKtx2WithoutFallback_LeavesItsTexturesOut) {
+    Bytes ktx2 = froxel::test::ktx2File(froxel::test::uastcLevels());
+    EXPECT_THAT(leftOut(withImage(Bytes(ktx2.begin(), ktx2.begin() + 60))),
+                HasSubstr("image 0 is a broken KTX2 file: it is cut off after 60 bytes"));
+    ktx2.at(froxel::test::kKtx2FacesAt) = std::byte{6};
+    EXPECT_THAT(leftOut(withImage(ktx2)),
+                AllOf(HasSubstr("IMAGE_UNRECOGNIZED_FORMAT at /images/0"),
+                      HasSubstr("it has 6 faces; right is 1; its textures are left out")));
+}
+
+TEST(Images, Ktx2SideTooLong_IsRefusedByItsHeader) {
+    Bytes ktx2 = froxel::test::etc1sFile();
+    for (const size_t at : {froxel::test::kKtx2WidthAt, froxel::test::kKtx2WidthAt + 4}) {
+        ktx2.at(at) = std::byte{0};
+        ktx2.at(at + 1) = std::byte{0x80};
+    }
+    EXPECT_THAT(failure(withImage(ktx2).load()),
+                HasSubstr("image 0 has 32768x32768 pixels; a side may have 1 to 16384"));
 }
 
 TEST(Images, SideTooLong_IsRefusedByItsHeader) {

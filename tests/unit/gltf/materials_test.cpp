@@ -394,11 +394,11 @@ TEST(Extensions, UnsupportedOptional_IsIgnoredWithAWarning) {
 
 TEST(Extensions, TextureWithoutSupportedSource_IsIgnoredWithAWarning) {
     SceneFile file = textured(R"({"emissiveTexture": {"index": 0}})");
-    file.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    file.json["textures"][0] = {{"extensions", {{"MSFT_texture_dds", {{"source", 0}}}}}};
     const scene::Scene scene = loaded(file.load());
     EXPECT_EQ(scene.materials.at(0).emissive_texture.texture, scene::kNone);
     EXPECT_THAT(test::warningLines(scene),
-                ElementsAre(HasSubstr("'KHR_texture_basisu' is not supported"),
+                ElementsAre(HasSubstr("'MSFT_texture_dds' is not supported"),
                             HasSubstr("texture 0 has no image")));
 }
 

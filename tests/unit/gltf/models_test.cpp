@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace froxel::gltf {
@@ -28,6 +31,50 @@ TEST(Models, AllOfThem_CanBeDrawn) {
         for (const scene::Warning& warning : result->warnings) {
             RecordProperty(entry.path().filename(), warning.code + ": " + warning.message);
         }
+    }
+}
+
+// Of 4x4 texels; ETC1S has four at most.
+size_t colorsOfBlock(const scene::Image& image, uint32_t x, uint32_t y) {
+    std::set<uint32_t> colors;
+    for (uint32_t i = 0; i < 16; ++i) {
+        uint32_t color = 0;
+        std::memcpy(&color, &image.rgba8[4 * (size_t{y + i / 4} * image.width_px + x + i % 4)], 4);
+        colors.insert(color);
+    }
+    return colors.size();
+}
+
+TEST(Models, JetFighter_HasItsTexturesAndTheirLevels) {
+    const std::filesystem::path file =
+        std::filesystem::path(FROXEL_MODELS_PATH) / "fighter-jet" / "jet-fighter.glb";
+    if (!std::filesystem::exists(file)) {
+        GTEST_SKIP() << "no model at " << file;
+    }
+    const Result<scene::Scene> scene = load(file);
+    ASSERT_TRUE(scene.has_value()) << scene.error().message;
+    EXPECT_TRUE(scene->warnings.empty());
+    ASSERT_EQ(scene->images.size(), 3U);
+    for (const scene::Image& image : scene->images) {
+        EXPECT_EQ(image.width_px, 4096U);
+        ASSERT_EQ(image.mips.size(), 12U);
+        for (uint32_t y = 0; y < image.height_px; y += 128) {
+            for (uint32_t x = 0; x < image.width_px; x += 128) {
+                ASSERT_LE(colorsOfBlock(image, x, y), 4U) << x << " " << y;
+            }
+        }
+        // A level is about what halving the one before gives: nothing is shifted or swapped.
+        double sum = 0;
+        for (size_t i = 0; i < image.mips[0].size(); ++i) {
+            const size_t pixel = i / 4;
+            const size_t at = 4 * (pixel / 2048 * 2 * 4096 + pixel % 2048 * 2) + i % 4;
+            int four = 0;
+            for (const size_t next : {size_t{0}, size_t{4}, size_t{4} * 4096, size_t{4} * 4097}) {
+                four += std::to_integer<int>(image.rgba8[at + next]);
+            }
+            sum += std::abs(four / 4.0 - std::to_integer<int>(image.mips[0][i]));
+        }
+        EXPECT_LT(sum / static_cast<double>(image.mips[0].size()), 3);
     }
 }
 

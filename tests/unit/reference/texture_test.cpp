@@ -92,6 +92,18 @@ TEST(ReferenceTexture, MipLevels_OfEvenSizes_AreMeansOfFourDownToTheMeanOfAll) {
                 1e-7);
 }
 
+// Those that are given as they are, the others from the last of them.
+TEST(ReferenceTexture, MipLevels_ThatAnImageGives_AreUsed) {
+    auto given = image(4, 4, [](uint32_t, uint32_t) { return 200; });
+    given.mips.push_back(image(2, 2, [](uint32_t x, uint32_t) { return x * 100; }).rgba8);
+    const MipChain chain(given, false);
+    ASSERT_EQ(chain.levelCount(), 3U);
+    EXPECT_NEAR(chain.texel(1, 0, 1).x * 255, 0, 1e-5);
+    EXPECT_NEAR(chain.texel(1, 1, 1).x * 255, 100, 1e-5);
+    EXPECT_NEAR(chain.texel(2, 0, 0).x * 255, 50, 1e-5);
+    EXPECT_NEAR(MipChain(given, true).texel(1, 1, 0).x, decodeSrgb(100.0 / 255), 1e-7);
+}
+
 // Level k of a constant-by-level picture: a checkerboard has 127.5 from level 1 on.
 TEST(ReferenceTexture, Minified_BetweenLevels_IsTrilinear) {
     const auto checks = image(8, 8, [](uint32_t x, uint32_t y) { return (x + y) % 2 * 200; });
