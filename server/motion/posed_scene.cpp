@@ -39,6 +39,10 @@ void placeCameras(scene::Scene& scene, const scene::Motion& motion, const Pose& 
     }
 }
 
+auto nodeOfCamera(const scene::Motion& motion, uint32_t index) {
+    return std::ranges::find(motion.cameras, index, &scene::MovedThing::index);
+}
+
 } // namespace
 
 void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double time_s) {
@@ -50,15 +54,14 @@ void placeCameras(scene::Scene& scene, std::span<const PlayedClip> clips, double
 }
 
 bool movesCamera(const scene::Motion& motion, uint32_t index) {
-    return std::ranges::find(motion.cameras, index, &scene::MovedThing::index) !=
-           motion.cameras.end();
+    return nodeOfCamera(motion, index) != motion.cameras.end();
 }
 
 settings::Camera cameraAt(const scene::Motion& motion,
                           uint32_t index,
                           const Playing& playing,
                           settings::Camera camera) {
-    const auto moved = std::ranges::find(motion.cameras, index, &scene::MovedThing::index);
+    const auto moved = nodeOfCamera(motion, index);
     if (moved != motion.cameras.end()) {
         Pose then;
         pose(motion, playing.clips, playing.now_s, then);

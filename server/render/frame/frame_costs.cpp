@@ -77,20 +77,18 @@ RegionCost FrameCosts::depthPrepass() const {
 
 RegionCost FrameCosts::forward() const {
     // Behind a prepass each pixel is shaded once.
-    const double each = load_.plan.depth_prepass ? 1.0 : load_.overdraw;
+    return shadedSurfaces(load_.plan.depth_prepass ? 1.0 : load_.overdraw);
+}
+
+RegionCost FrameCosts::layers() const {
+    return shadedSurfaces(1);
+}
+
+RegionCost FrameCosts::shadedSurfaces(double each) const {
     return {Seconds(load_.draws.triangle_count * unit_.triangle),
             [this, each](const auto& region) {
                 return Seconds(each * (areaOf(region) * unit_.surface_pixel +
                                        load_.lit_surfaces * lit(region, unit_.fragment)));
-            },
-            load_.lit_surfaces * loop(unit_.fragment)};
-}
-
-RegionCost FrameCosts::layers() const {
-    return {Seconds(load_.draws.triangle_count * unit_.triangle),
-            [this](const auto& region) {
-                return Seconds(areaOf(region) * unit_.surface_pixel +
-                               load_.lit_surfaces * lit(region, unit_.fragment));
             },
             load_.lit_surfaces * loop(unit_.fragment)};
 }

@@ -116,6 +116,8 @@ class FrameCosts {
   private:
     // A pass that only adds up lights.
     [[nodiscard]] RegionCost shading(const PairCost& unit) const;
+    // By the forward shader, each pixel so many times.
+    [[nodiscard]] RegionCost shadedSurfaces(double each) const;
     // Of the frame's passes, seconds a light.
     [[nodiscard]] double slowestLoop() const;
     void addSurfaces(std::vector<PassEstimate>& passes) const;
