@@ -12,6 +12,8 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <ranges>
+#include <utility>
 
 namespace froxel::cluster {
 namespace {
@@ -87,6 +89,193 @@ void appendLight(const ClusterGrid& grid,
     }
 }
 
+// Makes one frame's lists, a part at a time. Its buffers are reused.
+class ListMaker {
+  public:
+    ListMaker(Crew& crew, uint64_t max_entries)
+        : crew_(crew), max_entries_(max_entries), chunks_(crew.members()) {}
+
+    void begin(const ClusterGrid& grid, const light::FrameLights& lights, LightLists& out);
+    // Goes through about so many more lights and entries: whether all is done.
+    bool advance(uint64_t work);
+
+  private:
+    // What one of the crew does.
+    struct Share {
+        size_t next = 0; // light
+        size_t end = 0;
+        bool sorted = false; // the spans of all of them
+        ListTally tally;
+    };
+    // Finds the spans of the next of the member's lights.
+    void sweepLights(unsigned member, uint64_t work);
+    // Where each line's lists begin.
+    void placeLines();
+    // Makes the lists of the member's share of the lines from `first` to `end`.
+    void fillLines(uint32_t first, uint32_t end, unsigned member);
+    [[nodiscard]] uint32_t lineCount() const {
+        return static_cast<uint32_t>(line_offsets_.size() - 1);
+    }
+    // Entries and clusters before the line.
+    [[nodiscard]] uint64_t workBefore(uint32_t line) const {
+        return uint64_t{line_offsets_[line]} + uint64_t{line} * grid_->size.x;
+    }
+    // The first line with so much before it.
+    [[nodiscard]] uint32_t lineAfter(uint64_t work) const;
+    void finish();
+    void nameAllLights();
+
+    Crew& crew_;
+    const uint64_t max_entries_;
+    const ClusterGrid* grid_ = nullptr;
+    const light::FrameLights* lights_ = nullptr;
+    LightLists* out_ = nullptr;
+    std::vector<Share> shares_;     // of each member that works on it
+    std::vector<SpanChunk> chunks_; // of each member
+    BallSweep sweep_;
+    std::atomic<uint64_t> entries_{0};   // that all members have found
+    std::vector<uint32_t> line_offsets_; // lines + 1; none: not all lights are swept
+    uint32_t next_line_ = 0;
+};
+
+void ListMaker::begin(const ClusterGrid& grid, const light::FrameLights& lights, LightLists& out) {
+    const size_t light_count = lights.lights.size();
+    FROXEL_ASSERT(lights.radii_m.size() == light_count, "a radius for each light");
+    grid_ = &grid;
+    lights_ = &lights;
+    out_ = &out;
+    out.all_lights = false;
+    out.stats = {};
+    out.stats.light_count = static_cast<uint32_t>(light_count);
+    out.stats.cluster_count = grid.clusterCount();
+    out.clusters.resize(grid.clusterCount());
+    sweep_.prepare(grid);
+    entries_ = 0;
+    line_offsets_.clear();
+    next_line_ = 0;
+    const size_t wanted = light_count / kLightsPerMember + 1;
+    const auto members = std::min<size_t>(wanted, crew_.members());
+    shares_.clear();
+    for (size_t member = 0; member < members; ++member) {
+        const size_t first = light_count * member / members;
+        shares_.push_back(
+            {.next = first, .end = light_count * (member + 1) / members, .tally = {}});
+        chunks_[member].begin(first, size_t{grid.size.y} * grid.size.z);
+    }
+}
+
+bool ListMaker::advance(uint64_t work) {
+    const auto members = static_cast<unsigned>(shares_.size());
+    if (line_offsets_.empty()) {
+        const uint64_t part = std::max<uint64_t>(work / members, 1);
+        crew_.run(members, [&](unsigned member) { sweepLights(member, part); });
+        if (entries_ > max_entries_) {
+            nameAllLights();
+            return true;
+        }
+        if (std::ranges::all_of(shares_, &Share::sorted)) {
+            placeLines();
+        }
+        return false;
+    }
+    const uint32_t first = next_line_;
+    const uint64_t left = workBefore(lineCount()) - workBefore(first);
+    next_line_ =
+        work < left ? lineAfter(workBefore(first) + std::max<uint64_t>(work, 1)) : lineCount();
+    crew_.run(members, [&](unsigned member) { fillLines(first, next_line_, member); });
+    if (next_line_ < lineCount()) {
+        return false;
+    }
+    finish();
+    return true;
+}
+
+void ListMaker::sweepLights(unsigned member, uint64_t work) {
+    Share& share = shares_[member];
+    if (share.sorted) {
+        return;
+    }
+    SpanChunk& chunk = chunks_[member];
+    const size_t first = share.next;
+    const uint64_t before = chunk.entryCount();
+    uint64_t told = before;
+    const auto tooMany = [&] { // and so will the others see: it only grows
+        const uint64_t found = chunk.entryCount() - std::exchange(told, chunk.entryCount());
+        return entries_.fetch_add(found, std::memory_order_relaxed) + found > max_entries_;
+    };
+    while (share.next < share.end && share.next - first + chunk.entryCount() - before < work) {
+        appendLight(*grid_, sweep_, *lights_, share.next++, chunk.spans());
+        chunk.endLight();
+        if (chunk.entryCount() - told >= kEntriesAtOnce && tooMany()) {
+            return;
+        }
+    }
+    if (!tooMany() && share.next == share.end) {
+        chunk.sortByLine();
+        share.sorted = true;
+    }
+}
+
+void ListMaker::placeLines() {
+    line_offsets_.resize(size_t{grid_->size.y} * grid_->size.z + 1U);
+    uint32_t offset = 0;
+    for (uint32_t line = 0; line < lineCount(); ++line) {
+        line_offsets_[line] = offset;
+        for (size_t member = 0; member < shares_.size(); ++member) {
+            offset += chunks_[member].entryCount(line);
+        }
+    }
+    line_offsets_.back() = offset;
+    out_->indices.resize(offset + shares_.size()); // with a spare place for each
+}
+
+uint32_t ListMaker::lineAfter(uint64_t work) const {
+    return *std::ranges::lower_bound(std::views::iota(0U, lineCount() + 1U), work, {},
+                                     [this](uint32_t line) { return workBefore(line); });
+}
+
+void ListMaker::fillLines(uint32_t first, uint32_t end, unsigned member) {
+    ListTally tally;
+    // For each about the same number of entries and clusters.
+    const uint64_t work = workBefore(end) - workBefore(first);
+    const auto boundary = [&](uint64_t share) {
+        return lineAfter(workBefore(first) + work * share / shares_.size());
+    };
+    const uint32_t stop = boundary(member + 1U);
+    for (uint32_t line = boundary(member); line < stop; ++line) {
+        fillLine({chunks_.data(), shares_.size()}, line, line_offsets_[line],
+                 {&out_->clusters[size_t{line} * grid_->size.x], grid_->size.x}, out_->indices,
+                 line_offsets_.back() + member, tally);
+    }
+    shares_[member].tally.add(tally);
+}
+
+void ListMaker::finish() {
+    out_->indices.resize(line_offsets_.back());
+    ListTally tally;
+    for (const Share& share : shares_) {
+        tally.add(share.tally);
+    }
+    out_->stats.entry_count = line_offsets_.back();
+    out_->stats.empty_count = tally.empty_count;
+    out_->stats.largest = tally.largest;
+    out_->stats.p95 = tally.lengths.p95(tally.largest);
+    out_->finishStats();
+}
+
+void ListMaker::nameAllLights() {
+    const uint32_t count = out_->stats.light_count;
+    out_->all_lights = true;
+    out_->clusters.assign(grid_->clusterCount(), {0, count});
+    out_->indices.resize(count);
+    std::iota(out_->indices.begin(), out_->indices.end(), 0U);
+    out_->stats.entry_count = uint64_t{count} * grid_->clusterCount();
+    out_->stats.largest = count;
+    out_->stats.p95 = count;
+    out_->stats.overflowed = true;
+    out_->finishStats();
+}
+
 } // namespace
 
 void LightLists::finishStats() {
@@ -96,27 +285,14 @@ void LightLists::finishStats() {
 }
 
 struct LightAssigner::Impl {
-    Impl(unsigned threads, uint64_t max_entries_)
-        : crew(threads), chunks(threads), tallies(threads), max_entries(max_entries_) {}
-
-    // Finds the spans of the member's share of the lights.
-    void sweepLights(const ClusterGrid& grid,
-                     const light::FrameLights& lights,
-                     unsigned member,
-                     unsigned members);
-    // Where each line's lists begin.
-    void placeLines(unsigned members);
-    // Makes the lists of the member's share of the lines.
-    void fillLines(const ClusterGrid& grid, unsigned member, unsigned members, LightLists& out);
-    static void nameAllLights(const ClusterGrid& grid, size_t light_count, LightLists& out);
+    Impl(unsigned threads, uint64_t max_entries)
+        : crew(threads), max_entries(max_entries), at_once(crew, max_entries) {}
 
     Crew crew;
-    std::vector<SpanChunk> chunks; // of each member
-    std::vector<ListTally> tallies;
-    std::vector<uint32_t> line_offsets; // lines + 1
-    uint64_t max_entries;
-    BallSweep sweep;
-    std::atomic<uint64_t> entries{0}; // that all members have found
+    const uint64_t max_entries;
+    ListMaker at_once;
+    std::unique_ptr<ListMaker> in_parts; // null: nothing is under way
+    LightAssignment* under_way = nullptr;
 };
 
 LightAssigner::LightAssigner(unsigned threads, uint64_t max_entries)
@@ -130,119 +306,37 @@ Crew& LightAssigner::crew() {
     return impl_->crew;
 }
 
-void LightAssigner::Impl::sweepLights(const ClusterGrid& grid,
-                                      const light::FrameLights& lights,
-                                      unsigned member,
-                                      unsigned members) {
-    const size_t light_count = lights.lights.size();
-    const size_t first = light_count * member / members;
-    const size_t end = light_count * (member + 1U) / members;
-    SpanChunk& chunk = chunks[member];
-    chunk.begin(first, size_t{grid.size.y} * grid.size.z);
-    uint64_t counted = 0; // in `entries`
-    for (size_t light = first; light < end; ++light) {
-        appendLight(grid, sweep, lights, light, chunk.spans());
-        chunk.endLight();
-        const uint64_t found = chunk.entryCount() - counted;
-        if (found >= kEntriesAtOnce || light + 1 == end) {
-            counted += found;
-            if (entries.fetch_add(found, std::memory_order_relaxed) + found > max_entries) {
-                return; // and so do the others: it only grows
-            }
-        }
-    }
-    chunk.sortByLine();
-}
-
-void LightAssigner::Impl::placeLines(unsigned members) {
-    uint32_t offset = 0;
-    for (uint32_t line = 0; line + 1 < line_offsets.size(); ++line) {
-        line_offsets[line] = offset;
-        for (unsigned member = 0; member < members; ++member) {
-            offset += chunks[member].entryCount(line);
-        }
-    }
-    line_offsets.back() = offset;
-}
-
-void LightAssigner::Impl::fillLines(const ClusterGrid& grid,
-                                    unsigned member,
-                                    unsigned members,
-                                    LightLists& out) {
-    ListTally tally;
-    // For each about the same number of entries and clusters.
-    const auto work = [&](uint32_t line) {
-        return uint64_t{line_offsets[line]} + uint64_t{line} * grid.size.x;
-    };
-    const auto line_count = static_cast<uint32_t>(line_offsets.size() - 1);
-    const auto boundary = [&](unsigned share) {
-        uint32_t line = 0;
-        while (line < line_count && work(line) * members < work(line_count) * share) {
-            ++line;
-        }
-        return line;
-    };
-    const uint32_t end = boundary(member + 1U);
-    for (uint32_t line = boundary(member); line < end; ++line) {
-        fillLine({chunks.data(), members}, line, line_offsets[line],
-                 {&out.clusters[size_t{line} * grid.size.x], grid.size.x}, out.indices,
-                 line_offsets.back() + member, tally);
-    }
-    tallies[member] = tally;
-}
-
-void LightAssigner::Impl::nameAllLights(const ClusterGrid& grid,
-                                        size_t light_count,
-                                        LightLists& out) {
-    const auto count = static_cast<uint32_t>(light_count);
-    out.all_lights = true;
-    out.clusters.assign(grid.clusterCount(), {0, count});
-    out.indices.resize(count);
-    std::iota(out.indices.begin(), out.indices.end(), 0U);
-    out.stats.entry_count = uint64_t{count} * grid.clusterCount();
-    out.stats.largest = count;
-    out.stats.p95 = count;
-    out.stats.overflowed = true;
-}
-
 void LightAssigner::assign(const ClusterGrid& grid,
                            const light::FrameLights& lights,
                            LightLists& out) {
-    Impl& impl = *impl_;
-    const size_t light_count = lights.lights.size();
-    FROXEL_ASSERT(lights.radii_m.size() == light_count, "a radius for each light");
-    out.all_lights = false;
-    out.stats = {};
-    out.stats.light_count = static_cast<uint32_t>(light_count);
-    out.stats.cluster_count = grid.clusterCount();
-    out.clusters.resize(grid.clusterCount());
-
-    impl.sweep.prepare(grid);
-    impl.entries = 0;
-    impl.line_offsets.resize(size_t{grid.size.y} * grid.size.z + 1U);
-    const size_t wanted = light_count / kLightsPerMember + 1;
-    const auto members = static_cast<unsigned>(std::min<size_t>(wanted, impl.crew.members()));
-    impl.crew.run(members,
-                  [&](unsigned member) { impl.sweepLights(grid, lights, member, members); });
-    const uint64_t entry_count = impl.entries;
-    if (entry_count > impl.max_entries) {
-        Impl::nameAllLights(grid, light_count, out);
-    } else {
-        impl.placeLines(members);
-        out.indices.resize(entry_count + members); // with a spare place for each
-        impl.crew.run(members,
-                      [&](unsigned member) { impl.fillLines(grid, member, members, out); });
-        out.indices.resize(entry_count);
-        ListTally tally;
-        for (unsigned member = 0; member < members; ++member) {
-            tally.add(impl.tallies[member]);
-        }
-        out.stats.entry_count = entry_count;
-        out.stats.empty_count = tally.empty_count;
-        out.stats.largest = tally.largest;
-        out.stats.p95 = tally.lengths.p95(tally.largest);
+    impl_->at_once.begin(grid, lights, out);
+    while (!impl_->at_once.advance(UINT64_MAX)) {
     }
-    out.finishStats();
+}
+
+LightAssignment::~LightAssignment() {
+    auto& assigner = *assigner_.impl_;
+    if (assigner.under_way == this) {
+        assigner.under_way = nullptr;
+        assigner.in_parts.reset();
+    }
+}
+
+bool LightAssignment::advance(uint64_t work) {
+    auto& assigner = *assigner_.impl_;
+    if (done_) {
+        return true;
+    }
+    if (assigner.under_way == nullptr) {
+        assigner.under_way = this;
+        assigner.in_parts = std::make_unique<ListMaker>(assigner.crew, assigner.max_entries);
+        assigner.in_parts->begin(grid_, lights_, out_);
+    }
+    if (assigner.in_parts->advance(work)) {
+        std::exchange(assigner.under_way, nullptr)->done_ = true;
+        assigner.in_parts.reset();
+    }
+    return done_;
 }
 
 } // namespace froxel::cluster

@@ -49,8 +49,35 @@ class LightAssigner {
     [[nodiscard]] Crew& crew();
 
   private:
+    friend class LightAssignment;
     struct Impl;
     std::unique_ptr<Impl> impl_;
+};
+
+// LightAssigner::assign(), a part at a time: the same lists. What it is made from must stay as it
+// is. An assigner has one under way, which takes up to 20 bytes an entry until its end; whoever
+// comes meanwhile helps that one along, so that nobody waits for a viewer who does not come back.
+class LightAssignment {
+  public:
+    LightAssignment(LightAssigner& assigner,
+                    const ClusterGrid& grid,
+                    const light::FrameLights& lights,
+                    LightLists& out)
+        : assigner_(assigner), grid_(grid), lights_(lights), out_(out) {}
+    ~LightAssignment(); // gives up what is under way
+    LightAssignment(const LightAssignment&) = delete;
+    LightAssignment& operator=(const LightAssignment&) = delete;
+
+    // Goes through about so many more lights and entries, its own or of the one that is under way:
+    // whether its own lists are whole. Until then they are of no use.
+    [[nodiscard]] bool advance(uint64_t work);
+
+  private:
+    LightAssigner& assigner_;
+    const ClusterGrid& grid_;
+    const light::FrameLights& lights_;
+    LightLists& out_;
+    bool done_ = false;
 };
 
 } // namespace froxel::cluster

@@ -173,6 +173,7 @@ void FrameBuilder::start(const FrameInputs& inputs, uint32_t lights_at_once) {
     inputs_ = inputs;
     lights_at_once_ = lights_at_once;
     cap_.reset();
+    assignment_.reset();
     const auto& settings = inputs_.settings;
     pose_.standAt(inputs_.time_s, inputs_.playing);
     farthest_m_ = farthestDepth(settings.camera, pose_.boundsWorld());
@@ -215,8 +216,7 @@ void FrameBuilder::advance(ViewEffects& effects) {
         stage_ = Stage::kLists;
         break;
     case Stage::kLists:
-        assignLights();
-        stage_ = capsLists() ? Stage::kCap : Stage::kPlan;
+        stage_ = !assignMore() ? Stage::kLists : capsLists() ? Stage::kCap : Stage::kPlan;
         break;
     case Stage::kCap:
         stage_ = capMore() ? Stage::kPlan : Stage::kCap;
@@ -260,21 +260,27 @@ void FrameBuilder::chooseGrid() {
                        reach(), pose_.boundsWorld(), gridCosts(settings));
 }
 
+uint64_t FrameBuilder::entriesOfAStage() const {
+    return lights_.lights.size() > lights_at_once_ ? 2'000'000 : UINT64_MAX; // at most 0.1 s
+}
+
 bool FrameBuilder::capMore() {
-    constexpr uint64_t kEntriesOfAStage = 2'000'000; // 0.1 s
     if (!cap_) {
         cap_.emplace(light_grid_.grid(), reach(), inputs_.settings.list_cap,
                      scene_.light_assigner.crew(), lists_);
     }
-    return cap_->advance(lights_.lights.size() > lights_at_once_ ? kEntriesOfAStage : UINT64_MAX);
+    return cap_->advance(entriesOfAStage());
 }
 
 bool FrameBuilder::capsLists() const {
     return inputs_.settings.list_cap > 0 && !on_device_ && light_grid_.lists();
 }
 
-void FrameBuilder::assignLights() {
+bool FrameBuilder::assignMore() {
     const auto& settings = inputs_.settings;
+    if (assignment_) {
+        return assignment_->advance(entriesOfAStage());
+    }
     on_device_ = assignsOnDevice(inputs_);
     if (on_device_) {
         refused_ = settings;
@@ -283,6 +289,10 @@ void FrameBuilder::assignLights() {
         lists_.stats = {};
         (void)device_lists_.prepare(light_grid_.grid(), lights_);
     } else if (light_grid_.lists()) {
+        if (lights_.lights.size() > lights_at_once_) {
+            assignment_.emplace(scene_.light_assigner, light_grid_.grid(), reach(), lists_);
+            return assignment_->advance(entriesOfAStage());
+        }
         scene_.light_assigner.assign(light_grid_.grid(), reach(), lists_);
     } else {
         lists_.clusters.clear();
@@ -291,6 +301,7 @@ void FrameBuilder::assignLights() {
         lists_.stats.light_count = static_cast<uint32_t>(lights_.lights.size());
         lists_.stats.all_lights = !lights_.lights.empty();
     }
+    return true;
 }
 
 FramePlan FrameBuilder::plan(ViewEffects& effects) {

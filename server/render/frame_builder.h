@@ -108,8 +108,10 @@ class FrameBuilder {
     void startCulling(bool aside);
     void evaluateLights();
     void chooseGrid();
-    // Fills the lists, or empties them.
-    void assignLights();
+    // Of more lights than are taken at once; else all.
+    [[nodiscard]] uint64_t entriesOfAStage() const;
+    // Fills the lists, or empties them: whether they are whole.
+    [[nodiscard]] bool assignMore();
     [[nodiscard]] bool capsLists() const;
     // Whether all are capped.
     [[nodiscard]] bool capMore();
@@ -141,7 +143,8 @@ class FrameBuilder {
     light::FrameLights lights_;
     light::FrameLights grown_; // as lights_, for positions in halves
     LightGrid light_grid_;
-    cluster::LightLists lists_; // made by the host
+    cluster::LightLists lists_;                          // made by the host
+    std::optional<cluster::LightAssignment> assignment_; // of them, under way
     GpuLightLists device_lists_;
     bool on_device_ = false;
     std::optional<SeenLists> seen_lists_;

@@ -18,6 +18,9 @@ draw(ViewSource& view, const settings::ViewSettings& settings, uint32_t frames, 
             if (!work) {
                 return work.error();
             }
+            if (work->half_built) {
+                continue;
+            }
             waiting = work->piece_count;
             ++begun;
         }

@@ -176,5 +176,85 @@ TEST(LightAssigner, BeyondTheLimit_EveryClusterNamesAllLights) {
     }
 }
 
+TEST(LightAssigner, InParts_TheSameLists) {
+    for (const unsigned threads : {1U, 2U, 5U}) {
+        for (const size_t count : {0U, 257U, 3000U}) {
+            const auto lights = scattered(count, 5);
+            const LightLists whole = assigned(usualGrid(), lights);
+            for (const uint64_t work : {uint64_t{1000}, uint64_t{100'000}, UINT64_MAX}) {
+                SCOPED_TRACE(::testing::Message() << threads << " threads, " << count << " lights, "
+                                                  << work << " at once");
+                LightAssigner assigner(threads);
+                const ClusterGrid grid = usualGrid();
+                LightLists lists;
+                LightAssignment parts(assigner, grid, lights, lists);
+                uint64_t calls = 1;
+                while (!parts.advance(work)) {
+                    ++calls;
+                }
+                expectSame(lists, whole);
+                const uint64_t all = count + whole.stats.entry_count +              // swept
+                                     whole.stats.entry_count + grid.clusterCount(); // filled
+                EXPECT_GE(calls, all / (2 * work));
+                EXPECT_LE(calls, 2 + 2 * threads * all / work);
+                EXPECT_TRUE(parts.advance(work));
+            }
+        }
+    }
+}
+
+TEST(LightAssigner, InPartsBeyondTheLimit_EveryClusterNamesAllLights) {
+    const auto lights = scattered(2000, 4);
+    const ClusterGrid grid = usualGrid();
+    LightAssigner full(2, assigned(grid, lights).stats.entry_count - 1);
+    LightLists whole;
+    full.assign(grid, lights, whole);
+    LightLists lists;
+    LightAssignment parts(full, grid, lights, lists);
+    while (!parts.advance(500)) {
+    }
+    expectSame(lists, whole);
+    EXPECT_TRUE(lists.stats.overflowed);
+}
+
+// One is under way. Who comes meanwhile finishes it, whether or not its owner comes back, and
+// what is assigned at once does not wait.
+TEST(LightAssigner, SeveralInParts_HelpEachOther) {
+    LightAssigner assigner(2);
+    const ClusterGrid grid = usualGrid();
+    const auto first_lights = scattered(3000, 5);
+    const auto second_lights = scattered(2000, 6);
+    LightLists first;
+    LightLists second;
+    LightLists between;
+    LightAssignment owner(assigner, grid, first_lights, first);
+    LightAssignment other(assigner, grid, second_lights, second);
+    ASSERT_FALSE(owner.advance(1000));
+    assigner.assign(grid, scattered(700, 7), between);
+    while (!other.advance(1000)) {
+    }
+    EXPECT_TRUE(owner.advance(1000));
+    expectSame(first, assigned(grid, first_lights));
+    expectSame(second, assigned(grid, second_lights));
+    expectSame(between, assigned(grid, scattered(700, 7)));
+}
+
+TEST(LightAssigner, InPartsGivenUp_LeavesNothing) {
+    LightAssigner assigner(2);
+    const ClusterGrid grid = usualGrid();
+    const auto lights = scattered(2000, 6);
+    LightLists lists;
+    {
+        const auto gone_lights = scattered(3000, 5);
+        LightLists gone;
+        LightAssignment gives_up(assigner, grid, gone_lights, gone);
+        ASSERT_FALSE(gives_up.advance(1000));
+    }
+    LightAssignment parts(assigner, grid, lights, lists);
+    while (!parts.advance(1000)) {
+    }
+    expectSame(lists, assigned(grid, lights));
+}
+
 } // namespace
 } // namespace froxel::cluster::testing
