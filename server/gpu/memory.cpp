@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 namespace froxel::gpu {
@@ -41,11 +42,23 @@ vk::DeviceSize alignUp(vk::DeviceSize value, vk::DeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-vk::ImageCreateInfo createInfo(const ImageInfo& info) {
+constexpr vk::DeviceSize kLeastBuffer = 16;
+
+// llvmpipe compiles a shader anew for pictures and texel buffers whose sizes are powers of two,
+// while it runs it: for up to 2 s. So none are.
+template <class Size>
+Size neverPowerOfTwo(const Device& device, Size size, Size step) {
+    return device.traits().is_cpu && std::has_single_bit(size) ? size + step : size;
+}
+
+vk::ImageCreateInfo createInfo(const Device& device, const ImageInfo& info) {
+    const auto side = [&](uint32_t texels) {
+        return info.filtered ? texels : neverPowerOfTwo(device, texels, 1U);
+    };
     return {.flags = info.flags,
             .imageType = vk::ImageType::e2D,
             .format = info.format,
-            .extent = {info.extent.width, info.extent.height, 1},
+            .extent = {side(info.extent.width), side(info.extent.height), 1},
             .mipLevels = info.mip_count,
             .arrayLayers = 1,
             .samples = vk::SampleCountFlagBits::e1,
@@ -77,7 +90,7 @@ std::optional<uint64_t> deviceMemoryBytes(const Device& device) {
 }
 
 vk::DeviceSize imageBytes(const Device& device, const ImageInfo& info) {
-    const auto create_info = createInfo(info);
+    const auto create_info = createInfo(device, info);
     return device.handle()
         .getImageMemoryRequirements({.pCreateInfo = &create_info})
         .memoryRequirements.size;
@@ -137,8 +150,12 @@ Buffer MemoryArena::makeBuffer(vk::DeviceSize size_bytes,
                                MemoryUse use,
                                std::string_view name) {
     Buffer buffer;
-    buffer.size_bytes = std::max<vk::DeviceSize>(size_bytes, 16);
-    buffer.handle = device_.handle().createBuffer({.size = buffer.size_bytes, .usage = usage});
+    buffer.size_bytes = std::max(size_bytes, kLeastBuffer);
+    const bool texels = static_cast<bool>(usage & vk::BufferUsageFlagBits::eUniformTexelBuffer);
+    buffer.handle = device_.handle().createBuffer(
+        {.size =
+             texels ? neverPowerOfTwo(device_, buffer.size_bytes, kLeastBuffer) : buffer.size_bytes,
+         .usage = usage});
     const Place at = place(buffer.handle.getMemoryRequirements(), use, name);
     buffer.handle.bindMemory(at.memory, at.offset);
     buffer.mapped = at.mapped;
@@ -151,7 +168,7 @@ Image MemoryArena::makeImage(const ImageInfo& info, std::string_view name) {
     image.format = info.format;
     image.extent = info.extent;
     image.mip_count = info.mip_count;
-    image.handle = device_.handle().createImage(createInfo(info));
+    image.handle = device_.handle().createImage(createInfo(device_, info));
     const Place at = place(image.handle.getMemoryRequirements(), MemoryUse::kDevice, name);
     image.handle.bindMemory(at.memory, at.offset);
     image.view = device_.handle().createImageView(

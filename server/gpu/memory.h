@@ -41,6 +41,8 @@ struct ImageInfo {
     vk::ImageUsageFlags usage = {};
     vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor;
     vk::ImageCreateFlags flags = {};
+    // Sampled by coordinates from 0 to 1, so exactly of this extent. Others may be made larger.
+    bool filtered = false;
 };
 
 // Of the device's own memory, what this process may take: by VK_EXT_memory_budget, which knows of

@@ -58,7 +58,8 @@ const gpu::Image& TextureStore::image(const scene::Image& source, uint32_t index
         arena_.makeImage({.format = srgb ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm,
                           .extent = {source.width_px, source.height_px},
                           .mip_count = mips,
-                          .usage = Usage::eSampled | Usage::eTransferDst | Usage::eTransferSrc},
+                          .usage = Usage::eSampled | Usage::eTransferDst | Usage::eTransferSrc,
+                          .filtered = true},
                          source.name);
     std::vector<std::span<const std::byte>> levels{source.rgba8};
     levels.insert(levels.end(), source.mips.begin(), source.mips.end());

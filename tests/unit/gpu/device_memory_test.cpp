@@ -64,6 +64,23 @@ TEST_F(DeviceMemory, Ledger_HasWhatEveryArenaAllocated) {
     EXPECT_EQ(ledger.totalBytes(), 0U);
 }
 
+// A software device would compile what reads them anew, as it runs it.
+TEST_F(DeviceMemory, ImagesReadByIndex_HaveNoSideOfAPowerOfTwoOnASoftwareDevice) {
+    const auto bytes = [&](uint32_t width, uint32_t height, bool filtered) {
+        return gpu::imageBytes(device(), {.format = vk::Format::eR32G32B32A32Sfloat,
+                                          .extent = {width, height},
+                                          .usage = vk::ImageUsageFlagBits::eSampled,
+                                          .filtered = filtered});
+    };
+    const bool is_cpu = device().traits().is_cpu;
+    EXPECT_EQ(bytes(64, 128, false), is_cpu ? bytes(65, 129, true) : bytes(64, 128, true));
+    EXPECT_EQ(bytes(64, 100, false), is_cpu ? bytes(65, 100, true) : bytes(64, 100, true));
+    EXPECT_EQ(bytes(65, 100, false), bytes(65, 100, true));
+    if (is_cpu) { // or nothing above could fail
+        EXPECT_GT(bytes(65, 129, true), bytes(64, 128, true));
+    }
+}
+
 TEST_F(PipelineCacheOnDevice, File_IsWrittenAtTheEndAndTakenBack) {
     open(1);
     closeDevice();
