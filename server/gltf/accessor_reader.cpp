@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace froxel::gltf {
 namespace {
@@ -61,9 +63,10 @@ void checkFit(std::span<const std::byte> bytes,
     }
 }
 
-// tinygltf narrows these, and only these, to 32 bits with a sign.
-size_t sparseOffset(int offset, const std::string& name) {
-    if (offset < 0) {
+// tinygltf before 2.9 narrows these, and only these, to 32 bits with a sign.
+template <std::integral Offset>
+size_t sparseOffset(Offset offset, const std::string& name) {
+    if (std::cmp_less(offset, 0)) {
         fail(name + " has a sparse byteOffset of " + std::to_string(static_cast<uint32_t>(offset)) +
              "; right is at most 2147483647");
     }

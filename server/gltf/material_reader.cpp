@@ -102,7 +102,7 @@ std::vector<double> factorsOr(const tinygltf::Value& object,
     }
     std::vector<double> factors;
     for (size_t i = 0; i < fallback.size(); ++i) {
-        factors.push_back(value.Get(static_cast<int>(i)).GetNumberAsDouble());
+        factors.push_back(value.Get<tinygltf::Value::Array>()[i].GetNumberAsDouble());
         if (std::abs(factors.back()) > double{std::numeric_limits<float>::max()}) {
             fail(name + " has the " + key + " " + numberText(factors.back()) +
                  "; right are numbers that single precision holds");
