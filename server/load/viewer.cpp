@@ -48,7 +48,8 @@ Viewer::Viewer(asio::any_io_executor executor,
                LiveCounters& counters,
                std::function<void(Event)> report)
     : options_(options), number_(number), counters_(counters), report_(std::move(report)),
-      resolver_(executor), stream_(executor, options.target.tls ? options.tls.get() : nullptr),
+      resolver_(executor),
+      stream_(CountedTcp(executor), options.target.tls ? options.tls.get() : nullptr),
       deadline_(executor), refresh_(executor), step_timer_(executor) {}
 
 Viewer::~Viewer() = default;

@@ -3,53 +3,28 @@
 // it then; a frame that a newer one overtakes before that is dropped and acknowledged at once.
 #pragma once
 
+#include "load/counted_tcp.h"
 #include "load/picture_check.h"
 #include "load/script.h"
 #include "load/served.h"
 #include "load/target.h"
 #include "load/viewer_meter.h"
 #include "protocol/framing.h"
-#include "transport/peer_stream.h"
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/rate_policy.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
 #include <atomic>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace froxel::load {
-
-// Limits nothing and counts every byte of the connection, pings and framing included.
-class ByteCounter {
-  public:
-    [[nodiscard]] uint64_t receivedBytes() const { return received_; }
-    [[nodiscard]] uint64_t sentBytes() const { return sent_; }
-
-  private:
-    friend class boost::beast::rate_policy_access;
-    static constexpr size_t kAll = std::numeric_limits<size_t>::max();
-    // Names that Beast calls.
-    // NOLINTBEGIN(readability-identifier-naming)
-    [[nodiscard]] size_t available_read_bytes() const { return kAll; }
-    [[nodiscard]] size_t available_write_bytes() const { return kAll; }
-    void transfer_read_bytes(size_t bytes) { received_ += bytes; }
-    void transfer_write_bytes(size_t bytes) { sent_ += bytes; }
-    void on_timer() const {}
-    // NOLINTEND(readability-identifier-naming)
-
-    uint64_t received_ = 0;
-    uint64_t sent_ = 0;
-};
 
 struct ViewerOptions {
     Target target;
@@ -116,8 +91,6 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
         }
     };
     using Code = boost::system::error_code;
-    using CountedTcp =
-        boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor, ByteCounter>;
     using Stream = boost::beast::websocket::stream<transport::PeerStream<CountedTcp>, false>;
 
     // A handler that does nothing once the viewer has ended, and fails it on an error.

@@ -28,8 +28,8 @@ HttpSession::HttpSession(boost::asio::ip::tcp::socket socket,
                          boost::asio::ssl::context* tls,
                          std::shared_ptr<const HttpSite> site,
                          ConnectionTicket ticket)
-    : strand_(socket.get_executor()), stream_(std::move(socket), tls), request_deadline_(strand_),
-      site_(std::move(site)), ticket_(std::move(ticket)) {}
+    : strand_(socket.get_executor()), stream_(PacedTcp(std::move(socket)), tls),
+      request_deadline_(strand_), site_(std::move(site)), ticket_(std::move(ticket)) {}
 
 void HttpSession::start() {
     boost::asio::dispatch(strand_, [self = shared_from_this()] {

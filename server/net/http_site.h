@@ -27,6 +27,12 @@ using PeerStream = transport::PeerStream<PacedTcp>;
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
+} // namespace froxel::net
+
+extern template class froxel::transport::PeerStream<froxel::net::PacedTcp>;
+
+namespace froxel::net {
+
 class HttpSite {
   public:
     virtual ~HttpSite() = default;
