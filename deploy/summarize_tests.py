@@ -1,9 +1,10 @@
 """Adds up the stages of test.sh.
 
-Usage: summarize_tests.py REPORTS [INNER], where REPORTS/stages.tsv has a line "name, exit code, seconds"
-for each stage and REPORTS/NAME.xml, where there is one, is its JUnit report. INNER/NAME.xml is the report
-that the test NAME itself wrote of those that it consists of; they are counted in its place. Exit 1 if
-anything failed.
+Usage: summarize_tests.py REPORTS [INNER], where REPORTS/stages.tsv has a line "name, exit code, seconds, aim"
+for each stage and REPORTS/NAME.xml, where there is one, is its JUnit report. A stage with "-" for its exit code is
+no test. The aim is the seconds that the stage may take; where all took longer than their aims together, a line says
+which stage grew most, and nothing fails. INNER/NAME.xml is the report that the test NAME itself wrote of those that it
+consists of; they are counted in its place. Exit 1 if anything failed.
 """
 
 import sys
@@ -43,18 +44,49 @@ def count_stage(reports, inner, name, exit_code):
     return passed, failed, skipped
 
 
+def times(report, inner=None):
+    """(seconds, name) of each test of a JUnit report, and of those that it consists of in its place."""
+    for case in ElementTree.parse(report).iter("testcase"):
+        own = inner / f"{case.get('name')}.xml" if inner else None
+        if own and own.exists():
+            yield from times(own)
+        else:
+            yield float(case.get("time") or 0), f"{case.get('classname', '')} {case.get('name', '')}".strip()
+
+
+def tell_times(stages, reports, inner):
+    """Prints what took longest, and which stage grew where all took longer than they may."""
+    dearest = sorted((row for name, *_ in stages if (reports / f"{name}.xml").exists()
+                      for row in times(reports / f"{name}.xml", inner)), reverse=True)[:10]
+    print("\nthe ten dearest tests, seconds:")
+    for seconds, name in dearest:
+        print(f"{seconds:>8.1f}  {name}")
+    whole, may = sum(stage[2] for stage in stages), sum(stage[3] for stage in stages)
+    print(f"\nall took {whole} s; on two cores {may} s are meant")
+    if whole > may:
+        name, _, seconds, aim = max(stages, key=lambda stage: stage[2] - stage[3])
+        print(f"SLOW: {name} grew most, to {seconds} s where {aim} s are meant")
+
+
 def main():
     reports = Path(sys.argv[1])
     inner = Path(sys.argv[2]) if len(sys.argv) > 2 else None
     total_passed, all_failed, all_skipped = 0, [], []
-    print(f"\n{'stage':<10}{'passed':>8}{'failed':>8}{'skipped':>8}{'seconds':>9}")
+    stages = []
     for line in (reports / "stages.tsv").read_text().splitlines():
-        name, exit_code, seconds = line.split("\t")
-        passed, failed, skipped = count_stage(reports, inner, name, int(exit_code))
-        print(f"{name:<10}{passed:>8}{len(failed):>8}{len(skipped):>8}{seconds:>9}")
-        total_passed += passed
-        all_failed += failed
-        all_skipped += skipped
+        name, exit_code, seconds, aim = line.split("\t")
+        stages.append((name, exit_code, int(seconds), int(aim)))
+    print(f"\n{'stage':<10}{'passed':>8}{'failed':>8}{'skipped':>8}{'seconds':>9}{'aim':>6}")
+    for name, exit_code, seconds, aim in stages:
+        counts = ("", "", "")
+        if exit_code != "-":
+            passed, failed, skipped = count_stage(reports, inner, name, int(exit_code))
+            counts = passed, len(failed), len(skipped)
+            total_passed += passed
+            all_failed += failed
+            all_skipped += skipped
+        print(f"{name:<10}{counts[0]:>8}{counts[1]:>8}{counts[2]:>8}{seconds:>9}{aim:>6}")
+    tell_times(stages, reports, inner)
     for name in all_skipped:
         print(f"SKIPPED {name}")
     for name in all_failed:

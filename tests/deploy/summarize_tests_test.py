@@ -9,23 +9,23 @@ from pathlib import Path
 SCRIPT = Path(__file__).resolve().parents[2] / "deploy/summarize_tests.py"
 # As ctest writes it: two executables as a whole, and a test that is none.
 CTEST = """<testsuite><testcase name="core_test" status="{core}">{core_failure}</testcase>
-<testcase name="render_test" status="run"/><testcase name="hostile.work" status="run"/></testsuite>"""
+<testcase name="render_test" status="run" time="99"/><testcase name="hostile.work" status="run" time="7.5"/></testsuite>"""
 GTEST = """<testsuites><testsuite name="Text"><testcase name="Long_IsCut" status="run" classname="Text"/>
 <testcase name="Empty_Stays" status="run" classname="Text">{failure}</testcase>
 <testcase name="OnAGpu_Draws" status="run" classname="Text"><skipped message="no GPU"/></testcase>
 <testcase name="DISABLED_Never" status="notrun" classname="Text"/></testsuite></testsuites>"""
-ONE = '<testsuites><testcase name="Draws" status="run" classname="Render"/></testsuites>'
+ONE = '<testsuites><testcase name="Draws" status="run" classname="Render" time="8.25"/></testsuites>'
 FAILURE = '<failure message="no"/>'
 
 
 class Summary(unittest.TestCase):
-    def summary(self, code, core=None, core_failure=""):
+    def summary(self, code, core=None, core_failure="", seconds=12):
         """(exit code, what is said) where ctest ended with `code`; `core` is the report of core_test itself."""
         with tempfile.TemporaryDirectory() as folder:
             reports, executables = Path(folder, "reports"), Path(folder, "gtest")
             reports.mkdir()
             executables.mkdir()
-            (reports / "stages.tsv").write_text(f"ctest\t{code}\t12\nlint\t0\t3\n")
+            (reports / "stages.tsv").write_text(f"build\t-\t90\t100\nctest\t{code}\t{seconds}\t15\nlint\t0\t3\t2\n")
             (reports / "ctest.xml").write_text(
                 CTEST.format(core="fail" if core_failure else "run", core_failure=core_failure))
             if core is not None:
@@ -59,6 +59,19 @@ class Summary(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("5 passed, 1 failed", said)
         self.assertIn("FAILED core_test", said)
+
+    def test_the_dearest_tests_are_those_of_executables(self):
+        _, said = self.summary(0, GTEST.format(failure=""))
+        self.assertIn("     8.2  Render Draws\n     7.5  hostile.work\n", said)
+        self.assertNotIn("render_test", said)
+
+    def test_what_took_longer_than_all_may_names_the_stage_that_grew(self):
+        code, said = self.summary(0, GTEST.format(failure=""), seconds=25)
+        self.assertEqual(code, 0)
+        self.assertIn("all took 118 s; on two cores 117 s are meant", said)
+        self.assertIn("SLOW: ctest grew most, to 25 s where 15 s are meant", said)
+        _, said = self.summary(0, GTEST.format(failure=""), seconds=24)
+        self.assertNotIn("SLOW", said)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 #include "integration/server_process.h"
 #include "integration/test_server.h"
 #include "relay/relay.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -22,7 +23,7 @@ std::string urlOf(uint16_t port) {
 }
 
 ChildProcess startLoad(uint16_t port, std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {FROXEL_BINARY, "load", urlOf(port)});
+    arguments.insert(arguments.begin(), {test::binaryPath(), "load", urlOf(port)});
     return ChildProcess(std::move(arguments));
 }
 
@@ -176,7 +177,9 @@ TEST_F(Load, Script_FromAFile_IsPlayed) {
 // client-web/test/protocol/recorder.test.ts holds the page to this very file.
 TEST_F(Load, Script_RecordedByThePage_IsPlayedWhole) {
     const TestServer server({.still = true});
-    const Json report = measure(server.port(), {"--script", FROXEL_RECORDING, "--seconds", "2"});
+    const Json report =
+        measure(server.port(),
+                {"--script", test::repositoryPath("tests/load/recorded.jsonl"), "--seconds", "2"});
     EXPECT_EQ(report["all"]["commands"], 12);
     EXPECT_EQ(report["all"]["refusals"], 0) << report["all"]["refusal"];
 }

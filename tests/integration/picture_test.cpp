@@ -2,6 +2,7 @@
 // the JPEG's quality allows.
 #include "integration/server_process.h"
 #include "integration/ws_client.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -35,9 +36,9 @@ Rgb decodeJpeg(const Frame& frame) {
 Rgb rendered() {
     const auto file = std::filesystem::path(testing::TempDir()) /
                       ("froxel_picture_" + std::to_string(getpid()) + ".png");
-    std::vector<std::string> command = {FROXEL_BINARY,  "render", "--device",
-                                        "cpu",          "--time", "1",
-                                        "--no-animate", "--out",  file.string()};
+    std::vector<std::string> command = {test::binaryPath(), "render", "--device",     "cpu",
+                                        "--time",           "1",      "--no-animate", "--out",
+                                        file.string()};
     command.insert(command.end(), kSettings.begin(), kSettings.end());
     const auto end = ChildProcess(command).wait();
     EXPECT_EQ(end.exit_code, 0) << end.errors;

@@ -2,6 +2,7 @@
 #include "integration/http_exchange.h"
 #include "integration/server_process.h"
 #include "integration/ws_client.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
@@ -156,7 +157,7 @@ TEST(ServeProcess, Port_InUse_ExitsFiveAndNamesIt) {
 TEST(ServeProcess, AdminPort_InUse_ExitsFiveAndNamesTheOption) {
     ServerProcess first(kSmall);
     const std::string taken = "127.0.0.1:" + std::to_string(first.port().value());
-    ChildProcess second({FROXEL_BINARY, "serve", "--port", "0", "--admin-bind", taken});
+    ChildProcess second({test::binaryPath(), "serve", "--port", "0", "--admin-bind", taken});
     const auto end = second.wait(20s);
     EXPECT_EQ(end.exit_code, 5);
     EXPECT_EQ(end.output, "") << "nothing is served";
@@ -165,7 +166,7 @@ TEST(ServeProcess, AdminPort_InUse_ExitsFiveAndNamesTheOption) {
 
 TEST(ServeProcess, AdminBind_None_PrintsOneAddress) {
     ChildProcess server(
-        {FROXEL_BINARY, "serve", "--device", "cpu", "--port", "0", "--admin-bind", "none"});
+        {test::binaryPath(), "serve", "--device", "cpu", "--port", "0", "--admin-bind", "none"});
     EXPECT_NE(server.readLine(), "");
     server.signal(SIGTERM);
     const auto end = server.wait(15s);

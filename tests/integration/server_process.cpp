@@ -1,14 +1,19 @@
 #include "integration/server_process.h"
 
+#include "support/places.h"
+
 #include <cstdlib>
 
 namespace froxel::test {
 namespace {
 
 std::vector<std::string> command(const std::vector<std::string>& arguments, uint16_t port) {
-    std::vector<std::string> all = {
-        FROXEL_BINARY,  "serve",       "--device",  "cpu", "--port",          std::to_string(port),
-        "--admin-bind", "127.0.0.1:0", "--min-fps", "0",   "--drain-seconds", "1"};
+    std::vector<std::string> all = {test::binaryPath(), "serve",
+                                    "--device",         "cpu",
+                                    "--port",           std::to_string(port),
+                                    "--admin-bind",     "127.0.0.1:0",
+                                    "--min-fps",        "0",
+                                    "--drain-seconds",  "1"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return all;
 }

@@ -42,7 +42,7 @@ struct Closed {
 
 class WsClient {
   public:
-    static constexpr std::chrono::seconds kTimeout{20};
+    static constexpr std::chrono::seconds kTimeout{60};
 
     // Connects to 127.0.0.1; throws boost::system::system_error when the upgrade is refused.
     explicit WsClient(uint16_t port, ClientOptions options = {});

@@ -5,6 +5,7 @@
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/image_compare.h"
+#include "support/places.h"
 
 #include <cstdlib>
 
@@ -29,7 +30,7 @@ render::FrameInputs inputsFor(const scene::Scene& scene) {
 
 void expectAsCommitted(const Picture& picture, const std::string& name) {
     SCOPED_TRACE(name);
-    const auto path = std::filesystem::path(FROXEL_GOLDEN_DIR) / ("hall_" + name + ".png");
+    const auto path = test::repositoryPath("tests/render/golden") / ("hall_" + name + ".png");
     if (std::getenv("FROXEL_UPDATE_GOLDEN") != nullptr) {
         const PixelView pixels{picture.rgba8.data(), picture.width_px, picture.height_px,
                                size_t{4} * picture.width_px};

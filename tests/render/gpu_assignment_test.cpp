@@ -5,6 +5,7 @@
 #include "cluster/assign_reference.h"
 #include "support/device_assigner.h"
 #include "support/gpu_fixture.h"
+#include "support/tier.h"
 #include "unit/cluster/assign_cases.h"
 
 #include <gtest/gtest.h>
@@ -153,7 +154,9 @@ TEST_F(GpuAssignment, Arithmetic_OfThisDevice_RoundsAsTheHosts) {
 
 TEST_F(GpuAssignment, RandomAndAdversarialCases_GiveTheHostsLists) {
     const char* text = std::getenv("FROXEL_TEST_CASES");
-    const uint32_t cases = text != nullptr ? static_cast<uint32_t>(std::atoi(text)) : 150;
+    const uint32_t cases = text != nullptr ? static_cast<uint32_t>(std::atoi(text))
+                           : wholeGrids()  ? 150
+                                           : 60;
     for (uint32_t seed = 0; seed < cases; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const RandomCase random(seed);

@@ -10,6 +10,7 @@
 #include "scene/motion.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
+#include "support/places.h"
 #include "support/shapes.h"
 #include "support/test_scenes.h"
 
@@ -502,10 +503,11 @@ TEST_F(Moving, PosedVertices_AreThoseOfTheHost) {
 }
 
 TEST_F(Moving, Fox_LooksAround) {
-    if (!std::filesystem::exists(FROXEL_FOX_PATH)) {
-        GTEST_SKIP() << "no fox at " << FROXEL_FOX_PATH;
+    const auto path = test::repositoryPath("../shared/scenes/models/fox/Fox.glb");
+    if (!std::filesystem::exists(path)) {
+        GTEST_SKIP() << "no fox at " << path;
     }
-    const auto fox = gltf::load(FROXEL_FOX_PATH);
+    const auto fox = gltf::load(path);
     ASSERT_TRUE(fox) << fox.error().message;
     ASSERT_TRUE(fox->motion);
     const auto inputsAt = [&](Renderer renderer, double time_s) {

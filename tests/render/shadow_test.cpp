@@ -10,6 +10,7 @@
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"
 #include "support/test_scenes.h"
+#include "support/tier.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -66,8 +67,9 @@ float lightAt(const Picture& picture, const settings::ViewSettings& settings, co
 TEST_F(Shadows, APlane_HasNoAcneAtAnyAngle) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(-1, 1);
+    const int angles = wholeGrids() ? 24 : 9;
     size_t lit = 0;
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < angles; ++i) {
         const glm::dmat4 turn = glm::rotate(glm::dmat4(1), 4 * unit(random),
                                             glm::normalize(dvec3(unit(random), unit(random), 1)));
         const auto placed = [&](double x, double y, double z) {
@@ -91,7 +93,7 @@ TEST_F(Shadows, APlane_HasNoAcneAtAnyAngle) {
             lit += litPixels(with);
         }
     }
-    EXPECT_GT(lit, 100'000U);
+    EXPECT_GT(lit, static_cast<size_t>(angles) * 4000);
 }
 
 // Walls without thickness all around the light, drawn from either side: nothing gets out, also at
@@ -200,6 +202,10 @@ TEST_F(Shadows, ListsStagesAndLoops_AreExact) {
     for (const auto& camera : room.cameras) {
         for (const auto shading :
              {settings::ShadingModel::kPbr, settings::ShadingModel::kLambert}) {
+            const bool first = &camera == &room.cameras.front();
+            if (!wholeGrids() && first != (shading == settings::ShadingModel::kPbr)) {
+                continue;
+            }
             auto inputs = inputsFrom({0, 0, 0}, {0, 0, -1}, {20, 96});
             inputs.settings.camera = camera.camera;
             inputs.settings.shading = shading;

@@ -100,6 +100,9 @@ class FakeView final : public stream::ViewSource {
         built_ = settings;
         if (built_count_ < device_->stage_count && areaOf(settings.size) > device_->small_area_px) {
             ++device_->stage_calls;
+            if (device_->on_stage) {
+                device_->on_stage();
+            }
             return stream::FrameWork{Seconds(0), 0, true};
         }
         built_count_ = 0;

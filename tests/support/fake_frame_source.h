@@ -8,6 +8,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -27,6 +28,7 @@ class FakeDevice {
     std::atomic<uint32_t> stage_count = 1;   // calls of begin() for the same that a frame takes,
     std::atomic<uint64_t> small_area_px = 0; // unless it is this small
     std::atomic<uint64_t> stage_calls = 0;   // that did not begin it
+    std::function<void()> on_stage;          // within each; set before any
     std::atomic<bool> lost = false;
     std::atomic<bool> noisy = false; // pictures of noise, whose encoded size goes with all settings
     std::atomic<bool> computes = true; // false: refuses the forward renderers' compute stage

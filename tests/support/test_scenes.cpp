@@ -1,9 +1,9 @@
 #include "support/test_scenes.h"
 
 #include "gltf/gltf_loader.h"
+#include "support/places.h"
 #include "support/quad.h"
 
-#include <cstdlib>
 #include <filesystem>
 
 namespace froxel::test {
@@ -139,9 +139,7 @@ void giveCoats(scene::Scene& room) {
 }
 
 std::optional<scene::Scene> loadSponza() {
-    const char* from_environment = std::getenv("FROXEL_SPONZA");
-    const std::filesystem::path path =
-        from_environment != nullptr ? from_environment : FROXEL_SPONZA_PATH;
+    const auto path = sponzaPath();
     if (!std::filesystem::exists(path)) {
         return std::nullopt;
     }

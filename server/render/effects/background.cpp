@@ -55,8 +55,8 @@ class Background final : public Effect {
     }
 };
 
-std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
-                                 const FrameFacts& /*facts*/) {
+std::optional<EffectPlan> planOfBackground(const settings::ViewSettings& settings,
+                                           const FrameFacts& /*facts*/) {
     return hasEnvironment(settings) && settings.environment.background ? std::optional(EffectPlan{})
                                                                        : std::nullopt;
 }
@@ -65,7 +65,7 @@ std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
 
 const EffectRow kBackgroundEffect{
     .place = EffectPlace::kSolid,
-    .plan = planOf,
+    .plan = planOfBackground,
     .words =
         [](const settings::ViewSettings&, const EffectPlan&) {
             return std::string("background: what is around shows behind the scene, in a pass of "

@@ -52,14 +52,14 @@ class Environment final : public Effect {
     io::Environment uniforms_{};
 };
 
-std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
-                                 const FrameFacts& /*facts*/) {
+std::optional<EffectPlan> planOfEnvironment(const settings::ViewSettings& settings,
+                                            const FrameFacts& /*facts*/) {
     return hasEnvironment(settings)
                ? std::optional(EffectPlan{.light_flags = io::kLightEnvironment})
                : std::nullopt;
 }
 
-std::string wordsOf(const settings::ViewSettings& settings, const EffectPlan& /*plan*/) {
+std::string wordsOfEnvironment(const settings::ViewSettings& settings, const EffectPlan& /*plan*/) {
     const auto light = static_cast<size_t>(settings.environment.light);
     return "environment: light from around by the " +
            std::string(settings::kEnvironmentLightNames[light]) + ", in the ambient light's place";
@@ -89,8 +89,8 @@ io::Environment makeEnvironment(const settings::Environment& settings,
 }
 
 const EffectRow kEnvironmentEffect{.place = EffectPlace::kLights,
-                                   .plan = planOf,
-                                   .words = wordsOf,
+                                   .plan = planOfEnvironment,
+                                   .words = wordsOfEnvironment,
                                    .make = makeEffect<Environment>};
 
 } // namespace froxel::render

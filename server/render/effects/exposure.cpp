@@ -26,14 +26,14 @@ using Type = vk::DescriptorType;
 constexpr size_t kFrameBinding = 0; // of the frame set
 constexpr vk::DeviceSize kCountBytes = io::kMeterBins * sizeof(uint32_t);
 
-vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
+vk::raii::DescriptorSetLayout makeExposureSetLayout(const gpu::Device& device) {
     const auto stage = vk::ShaderStageFlagBits::eCompute;
     const std::array bindings = {vk::DescriptorSetLayoutBinding{0, Type::eStorageBuffer, 1, stage},
                                  vk::DescriptorSetLayoutBinding{1, Type::eStorageBuffer, 1, stage}};
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+vk::raii::DescriptorPool makeExposurePool(const gpu::Device& device) {
     const vk::DescriptorPoolSize size{Type::eStorageBuffer, 2};
     return gpu::makeDescriptorPool(device, std::array{size});
 }
@@ -41,7 +41,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
 // Shared by every view.
 struct ExposurePipelines {
     explicit ExposurePipelines(const SceneResources& scene)
-        : set_layout(makeSetLayout(scene.device)),
+        : set_layout(makeExposureSetLayout(scene.device)),
           layout(gpu::makePipelineLayout(
               scene.device,
               {scene.pipelines.frameLayout(), scene.pipelines.screenLayout(), *set_layout})),
@@ -72,7 +72,7 @@ struct ExposureTargets final : EffectTargets {
 // One a frame slot.
 struct ExposureSet {
     ExposureSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
-        : pool(makePool(device)), set(gpu::makeSet(device, pool, layout)) {}
+        : pool(makeExposurePool(device)), set(gpu::makeSet(device, pool, layout)) {}
 
     // `uniforms`: io::Frame in the slot's upload.
     void write(const gpu::Device& device,
@@ -194,8 +194,8 @@ void Exposure::recordMeter(const FrameContext& frame) {
     frame.slot.cmd.dispatch(1, 1, 1);
 }
 
-std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
-                                 const FrameFacts& /*facts*/) {
+std::optional<EffectPlan> planOfExposure(const settings::ViewSettings& settings,
+                                         const FrameFacts& /*facts*/) {
     return settings.exposure_mode == settings::ExposureMode::kFrame ? std::optional(EffectPlan{})
                                                                     : std::nullopt;
 }
@@ -204,7 +204,7 @@ std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
 
 const EffectRow kExposureEffect{
     .place = EffectPlace::kPicture,
-    .plan = planOf,
+    .plan = planOfExposure,
     .words =
         [](const settings::ViewSettings&, const EffectPlan&) {
             return std::string("exposure of this frame alone: by a histogram of its luminance, in "

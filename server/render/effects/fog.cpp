@@ -32,13 +32,13 @@ constexpr Measured<double> kFroxel{.cpu = 6e-8, .gpu = 1e-10}; // without lights
 
 enum class FogShader : uint8_t { kScatter, kIntegrate, kApply };
 
-vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
+vk::raii::DescriptorSetLayout makeFogSetLayout(const gpu::Device& device) {
     const std::array bindings = {vk::DescriptorSetLayoutBinding{0, Type::eStorageBuffer, 1,
                                                                 vk::ShaderStageFlagBits::eCompute}};
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+vk::raii::DescriptorPool makeFogPool(const gpu::Device& device) {
     const vk::DescriptorPoolSize size{Type::eStorageBuffer, 1};
     return gpu::makeDescriptorPool(device, std::array{size});
 }
@@ -48,7 +48,7 @@ class FogPipelines {
   public:
     explicit FogPipelines(SceneResources& scene)
         : device_(scene.device), screen_layout_(scene.pipelines.screenPipelineLayout()),
-          set_layout_(makeSetLayout(device_)),
+          set_layout_(makeFogSetLayout(device_)),
           volume_layout_(
               gpu::makePipelineLayout(device_, {scene.pipelines.frameLayout(), *set_layout_})),
           made_(scene.timeline, scene.variants, Pipelines::kKeptScreen) {}
@@ -96,7 +96,7 @@ class FogVolume final : public EffectTargets {
                                          vk::BufferUsageFlagBits::eUniformTexelBuffer,
                                      gpu::MemoryUse::kDevice,
                                      "fog volume")),
-          pool_(makePool(device)), set_(gpu::makeSet(device, pool_, layout)) {
+          pool_(makeFogPool(device)), set_(gpu::makeSet(device, pool_, layout)) {
         const vk::DescriptorBufferInfo buffer{*froxels_.handle, 0, VK_WHOLE_SIZE};
         device.handle().updateDescriptorSets(
             vk::WriteDescriptorSet{.dstSet = *set_,
@@ -282,7 +282,8 @@ void Fog::recordApply(const FrameContext& frame, const vk::Rect2D& region) const
     dispatchOver(frame.slot.cmd, region);
 }
 
-std::optional<EffectPlan> planOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
+std::optional<EffectPlan> planOfFog(const settings::ViewSettings& settings,
+                                    const FrameFacts& facts) {
     if (!settings.fog.present()) {
         return {};
     }
@@ -294,7 +295,7 @@ std::optional<EffectPlan> planOf(const settings::ViewSettings& settings, const F
     return plan;
 }
 
-std::string wordsOf(const settings::ViewSettings& /*settings*/, const EffectPlan& plan) {
+std::string wordsOfFog(const settings::ViewSettings& /*settings*/, const EffectPlan& plan) {
     return (plan.way & kFogVolume) != 0
                ? "fog: lights are scattered in a froxel volume by the same lists, in two passes, "
                  "and all is seen through it, in one"
@@ -305,6 +306,6 @@ std::string wordsOf(const settings::ViewSettings& /*settings*/, const EffectPlan
 } // namespace
 
 const EffectRow kFogEffect{
-    .place = EffectPlace::kSolid, .plan = planOf, .words = wordsOf, .make = makeEffect<Fog>};
+    .place = EffectPlace::kSolid, .plan = planOfFog, .words = wordsOfFog, .make = makeEffect<Fog>};
 
 } // namespace froxel::render

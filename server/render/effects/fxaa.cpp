@@ -14,7 +14,7 @@ namespace {
 
 using Type = vk::DescriptorType;
 
-vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
+vk::raii::DescriptorSetLayout makeFxaaSetLayout(const gpu::Device& device) {
     const auto stage = vk::ShaderStageFlagBits::eCompute;
     const std::array bindings = {
         vk::DescriptorSetLayoutBinding{0, Type::eUniformTexelBuffer, 1, stage},
@@ -22,7 +22,7 @@ vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+vk::raii::DescriptorPool makeFxaaPool(const gpu::Device& device) {
     const std::array sizes = {vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1},
                               vk::DescriptorPoolSize{Type::eStorageBuffer, 1}};
     return gpu::makeDescriptorPool(device, sizes);
@@ -31,7 +31,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
 // Shared by every view.
 struct FxaaPipeline {
     explicit FxaaPipeline(const SceneResources& scene)
-        : set_layout(makeSetLayout(scene.device)),
+        : set_layout(makeFxaaSetLayout(scene.device)),
           layout(
               gpu::makePipelineLayout(scene.device, {scene.pipelines.frameLayout(), *set_layout})),
           pipeline(
@@ -45,7 +45,7 @@ struct FxaaPipeline {
 // One a frame slot.
 struct FxaaSet {
     FxaaSet(const gpu::Device& device, vk::DescriptorSetLayout layout)
-        : pool(makePool(device)), set(gpu::makeSet(device, pool, layout)) {}
+        : pool(makeFxaaPool(device)), set(gpu::makeSet(device, pool, layout)) {}
 
     void write(const gpu::Device& device, const gpu::Buffer& display, const gpu::Buffer& pixels) {
         texels = device.handle().createBufferView({.buffer = *display.handle,
@@ -104,8 +104,8 @@ class Fxaa final : public Effect {
     SceneResources& scene_;
 };
 
-std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
-                                 const FrameFacts& /*facts*/) {
+std::optional<EffectPlan> planOfFxaa(const settings::ViewSettings& settings,
+                                     const FrameFacts& /*facts*/) {
     return settings.antialiasing == settings::Antialiasing::kFxaa ? std::optional(EffectPlan{})
                                                                   : std::nullopt;
 }
@@ -114,7 +114,7 @@ std::optional<EffectPlan> planOf(const settings::ViewSettings& settings,
 
 const EffectRow kFxaaEffect{
     .place = EffectPlace::kPixels,
-    .plan = planOf,
+    .plan = planOfFxaa,
     .words =
         [](const settings::ViewSettings&, const EffectPlan&) {
             return std::string(

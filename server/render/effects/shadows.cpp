@@ -73,7 +73,7 @@ struct ShadowTargets final : EffectTargets {
     gpu::Image atlas;
 };
 
-vk::raii::DescriptorPool makePool(const gpu::Device& device) {
+vk::raii::DescriptorPool makeShadowsPool(const gpu::Device& device) {
     std::vector<vk::DescriptorPoolSize> sizes;
     for (const Type type : Pipelines::kFrameBindingTypes) {
         sizes.push_back({type, 1});
@@ -84,7 +84,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
 // One a frame slot: what the map's vertex shader reads, as a frame set of its own.
 struct ShadowSet {
     ShadowSet(const gpu::Device& device, vk::DescriptorSetLayout frame_layout)
-        : pool(makePool(device)), set(gpu::makeSet(device, pool, frame_layout)) {}
+        : pool(makeShadowsPool(device)), set(gpu::makeSet(device, pool, frame_layout)) {}
 
     // io::Frame at an offset of a buffer.
     void write(const gpu::Device& device, vk::Buffer upload, vk::DeviceSize uniforms) const;
@@ -302,7 +302,8 @@ bool looks(const settings::ViewSettings& settings) {
     return settings.shadows.light_count > 0 && !settings::replacesPicture(settings.debug.view);
 }
 
-std::optional<EffectPlan> planOf(const settings::ViewSettings& settings, const FrameFacts& facts) {
+std::optional<EffectPlan> planOfShadows(const settings::ViewSettings& settings,
+                                        const FrameFacts& facts) {
     const bool drawn = facts.shadows && facts.local_lights;
     if (!drawn && settings.shadows.light_count == 0) {
         return {};
@@ -311,7 +312,7 @@ std::optional<EffectPlan> planOf(const settings::ViewSettings& settings, const F
                  : EffectPlan{};
 }
 
-std::string wordsOf(const settings::ViewSettings& settings, const EffectPlan& plan) {
+std::string wordsOfShadows(const settings::ViewSettings& settings, const EffectPlan& plan) {
     if ((plan.way & kShadowsDrawn) == 0) {
         return {};
     }
@@ -321,7 +322,7 @@ std::string wordsOf(const settings::ViewSettings& settings, const EffectPlan& pl
            " pixels a side, drawn each frame";
 }
 
-std::optional<std::string> memoryWordsOf(const settings::ViewSettings& settings) {
+std::optional<std::string> memoryWordsOfShadows(const settings::ViewSettings& settings) {
     if (settings.shadows.light_count == 0) {
         return {};
     }
@@ -343,12 +344,12 @@ Result<void> ableTo(const settings::ViewSettings& settings, const gpu::Device& d
 } // namespace
 
 const EffectRow kShadowsEffect{.place = EffectPlace::kLights,
-                               .plan = planOf,
-                               .words = wordsOf,
+                               .plan = planOfShadows,
+                               .words = wordsOfShadows,
                                .make = makeEffect<Shadows>,
                                .looks = looks,
                                .able = ableTo,
-                               .memory_words = memoryWordsOf};
+                               .memory_words = memoryWordsOfShadows};
 
 ShadowAtlas copyShadows(const ViewEffects& effects) {
     const Effect* shadows = effects.find(kShadowsEffect);

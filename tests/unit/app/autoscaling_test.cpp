@@ -3,6 +3,7 @@
 // HorizontalPodAutoscaler: replicas x metric / target, rounded up, within a tolerance of 0.1.
 #include "net/metrics.h"
 #include "stream/admission.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ using namespace std::chrono_literals;
 
 // Of the metric in the manifest, which is in thousandths there.
 double targetOf(const std::string& metric) {
-    std::ifstream file(FROXEL_AUTOSCALER_MANIFEST);
+    std::ifstream file(test::repositoryPath("deploy/kubernetes/base/autoscaler.yaml"));
     std::ostringstream text;
     text << file.rdbuf();
     const std::regex row("name: " + metric +

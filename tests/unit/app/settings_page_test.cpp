@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "session/session_state.h"
 #include "session/settings.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -64,10 +65,11 @@ std::string page() {
 }
 
 TEST(SettingsPage, IsTheTable) {
+    const auto path = test::repositoryPath("docs/guide/settings.md");
     if (std::getenv("FROXEL_WRITE_DOCS") != nullptr) {
-        std::ofstream(FROXEL_SETTINGS_PAGE) << page();
+        std::ofstream(path) << page();
     }
-    std::ifstream file(FROXEL_SETTINGS_PAGE);
+    std::ifstream file(path);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     EXPECT_EQ(text, page()) << "FROXEL_WRITE_DOCS=1 writes it anew";
 }

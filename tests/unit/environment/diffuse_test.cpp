@@ -8,7 +8,7 @@
 namespace froxel::environment {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double most(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -22,7 +22,7 @@ glm::dvec3 summed(const LinearImage& image, const glm::dvec3& normal) {
             const glm::dvec3 from =
                 directionAt({(x + 0.5) / image.width_px, (y + 0.5) / image.height_px});
             sum += texel(image, x, y) *
-                   (std::max(0.0, glm::dot(from, normal)) * texelSolidAngle(image, y) / kPi);
+                   (std::max(0.0, glm::dot(from, normal)) * texelSolidAngle(image, y) / pi);
         }
     }
     return sum;
@@ -52,7 +52,7 @@ TEST(Diffuse, ConstantEnvironment_IsItself) {
 
 // The cosine's own harmonics up to the second order: 1/4 + c/2 + 5/32 (3c^2 - 1), over pi.
 TEST(Diffuse, OneSmallLight_IsTheCosinesHarmonics) {
-    const Diffuse diffuse = diffuseOf(sunOf(kPi));
+    const Diffuse diffuse = diffuseOf(sunOf(pi));
     for (const glm::dvec3& normal :
          {kToSun, -kToSun, kAxes[0], kAxes[1], kAxes[2], kAxes[3], kAxes[4], kAxes[5]}) {
         const double c = glm::dot(normal, kToSun);
@@ -113,7 +113,7 @@ TEST(Diffuse, Placed_IsTheTurnedPanorama) {
         return glm::dvec3(std::exp(d.x + 2 * d.z), std::exp(d.y - d.x), 1 + d.x * d.z);
     };
     const LinearImage image = panoramaOf(64, radiance);
-    const double angle = 2 * kPi * 5 / 64; // five columns
+    const double angle = 2 * pi * 5 / 64; // five columns
     const LinearImage turned_image =
         panoramaOf(64, [&](const glm::dvec3& d) { return 3.0 * radiance(turned(d, -angle)); });
     const Diffuse is = placed(diffuseOf(image), angle, 3);
@@ -124,7 +124,7 @@ TEST(Diffuse, Placed_IsTheTurnedPanorama) {
 }
 
 TEST(Diffuse, BehindASmallLight_IsNotNegative) {
-    const Diffuse sun = diffuseOf(sunOf(kPi));
+    const Diffuse sun = diffuseOf(sunOf(pi));
     const double aside = -0.53; // the cosine where the harmonics are least: -0.04
     const glm::dvec3 across = glm::normalize(glm::cross(kToSun, glm::dvec3(0, 1, 0)));
     EXPECT_EQ(sun.at(kToSun * aside + across * std::sqrt(1 - aside * aside)).x, 0);

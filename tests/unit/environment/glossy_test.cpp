@@ -8,7 +8,7 @@
 namespace froxel::environment {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // Over directions of light rather than of microfacets, by midpoints of equal solid angles.
 Albedo summed(double n_dot_v, double roughness, int count) {
@@ -18,12 +18,12 @@ Albedo summed(double n_dot_v, double roughness, int count) {
     for (int i = 0; i < count; ++i) {
         for (int k = 0; k < count; ++k) {
             const double z = (i + 0.5) / count;
-            const double around = kPi * (k + 0.5) / count;
+            const double around = pi * (k + 0.5) / count;
             const glm::dvec3 to_light(std::sqrt(1 - z * z) * std::cos(around),
                                       std::sqrt(1 - z * z) * std::sin(around), z);
             const glm::dvec3 half = glm::normalize(to_eye + to_light);
             const double value = lobes::distribution(half.z, alpha2) *
-                                 lobes::visibility(z, n_dot_v, alpha2) * z * 2 * kPi /
+                                 lobes::visibility(z, n_dot_v, alpha2) * z * 2 * pi /
                                  (static_cast<double>(count) * count);
             sum.all += value;
             sum.grazing += value * std::pow(1 - glm::dot(half, to_eye), 5);

@@ -7,7 +7,7 @@
 namespace froxel::environment {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 void expectNear(const glm::dvec3& is, const glm::dvec3& wanted, double error) {
     EXPECT_LT(glm::distance(is, wanted), error) << is.x << ' ' << is.y << ' ' << is.z << " is not "
@@ -60,7 +60,7 @@ TEST(Panorama, SolidAngles_AreTheSphere) {
         for (uint32_t row = 0; row < image.height_px; ++row) {
             sum += texelSolidAngle(image, row) * width;
         }
-        EXPECT_NEAR(sum, 4 * kPi, 1e-13) << width;
+        EXPECT_NEAR(sum, 4 * pi, 1e-13) << width;
     }
 }
 
@@ -72,9 +72,9 @@ TEST(Panorama, MeanRadiance_WeighsRowsBySolidAngle) {
 }
 
 TEST(Panorama, Turned_GoesFromFrontToRight) {
-    expectNear(turned({0, 0, 1}, kPi / 2), {1, 0, 0}, 1e-15);
-    expectNear(turned({1, 0, 0}, kPi / 2), {0, 0, -1}, 1e-15);
-    expectNear(turned({0.6, 0.8, 0}, 2 * kPi), {0.6, 0.8, 0}, 1e-15);
+    expectNear(turned({0, 0, 1}, pi / 2), {1, 0, 0}, 1e-15);
+    expectNear(turned({1, 0, 0}, pi / 2), {0, 0, -1}, 1e-15);
+    expectNear(turned({0.6, 0.8, 0}, 2 * pi), {0.6, 0.8, 0}, 1e-15);
 }
 
 } // namespace froxel::environment

@@ -2,6 +2,7 @@
 // are not there.
 #include "gltf/gltf_loader.h"
 #include "scene/scene_check.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace froxel::gltf {
 namespace {
 
 TEST(Models, AllOfThem_CanBeDrawn) {
-    const std::filesystem::path folder = FROXEL_MODELS_PATH;
+    const auto folder = froxel::test::repositoryPath("../shared/scenes/models");
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "no models at " << folder;
     }
@@ -46,8 +47,8 @@ size_t colorsOfBlock(const scene::Image& image, uint32_t x, uint32_t y) {
 }
 
 TEST(Models, JetFighter_HasItsTexturesAndTheirLevels) {
-    const std::filesystem::path file =
-        std::filesystem::path(FROXEL_MODELS_PATH) / "fighter-jet" / "jet-fighter.glb";
+    const auto file =
+        froxel::test::repositoryPath("../shared/scenes/models/fighter-jet/jet-fighter.glb");
     if (!std::filesystem::exists(file)) {
         GTEST_SKIP() << "no model at " << file;
     }

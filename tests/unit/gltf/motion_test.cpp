@@ -1,6 +1,7 @@
 // Clips, skins and morph targets of files.
 #include "motion/player.h"
 #include "scene/motion.h"
+#include "support/places.h"
 #include "unit/gltf/scene_file.h"
 
 #include <gtest/gtest.h>
@@ -426,7 +427,7 @@ TEST(Motion, GrowingFromNothing_IsKept) {
 }
 
 std::filesystem::path model(const char* name) {
-    return std::filesystem::path(FROXEL_MODELS_PATH) / name;
+    return froxel::test::repositoryPath("../shared/scenes/models") / name;
 }
 
 // Not part of the repository.

@@ -1,22 +1,17 @@
 // Sponza as a whole; not part of the repository, so skipped where it is not there.
 #include "gltf/gltf_loader.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 namespace froxel::gltf {
 namespace {
 
-std::filesystem::path sponzaPath() {
-    const char* given = std::getenv("FROXEL_SPONZA");
-    return given != nullptr ? given : FROXEL_SPONZA_PATH;
-}
-
 TEST(Sponza, Load_HasEverything) {
-    const std::filesystem::path path = sponzaPath();
+    const auto path = froxel::test::sponzaPath();
     if (!std::filesystem::exists(path)) {
         GTEST_SKIP() << "no Sponza at " << path << "; set FROXEL_SPONZA to its .gltf file";
     }

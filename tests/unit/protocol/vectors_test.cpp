@@ -3,6 +3,7 @@
 #include "froxel/v1/client.pb.h"
 #include "froxel/v1/server.pb.h"
 #include "protocol/framing.h"
+#include "support/places.h"
 #include "unit/protocol/hex.h"
 
 #include <google/protobuf/descriptor.h>
@@ -25,7 +26,7 @@ using Json = nlohmann::ordered_json;
 using google::protobuf::Message;
 
 std::string pathOf(const char* name) {
-    return std::string(FROXEL_VECTORS_DIR) + "/" + name;
+    return test::repositoryPath("protocol/vectors") / name;
 }
 
 Json load(const char* name) {

@@ -4,11 +4,13 @@
 #include "froxel/v1/server.pb.h"
 #include "protocol/limits.h"
 #include "settings/ranges.h"
+#include "support/places.h"
 
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iterator>
@@ -19,9 +21,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
+std::filesystem::path readmePath() {
+    return test::repositoryPath("protocol/README.md");
+}
+
 std::string readme() {
-    std::ifstream stream(FROXEL_PROTOCOL_README);
-    EXPECT_TRUE(stream) << FROXEL_PROTOCOL_README;
+    std::ifstream stream(readmePath());
+    EXPECT_TRUE(stream) << readmePath();
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -94,7 +100,7 @@ TEST(ProtocolReadme, NumbersAndNames_AreTheSchemas) {
     ASSERT_NE(at, std::string::npos);
     const size_t begin = at + 1 + mark.size();
     if (std::getenv("FROXEL_WRITE_NUMBERS") != nullptr) {
-        std::ofstream(FROXEL_PROTOCOL_README) << text.substr(0, begin) << numbersAndNames();
+        std::ofstream(readmePath()) << text.substr(0, begin) << numbersAndNames();
     } else {
         EXPECT_EQ(text.substr(begin), numbersAndNames());
     }

@@ -84,17 +84,18 @@ TEST_F(RenderLoopPiecesTest, BuiltInStages_SettingsEverChange_PicturesCome) {
     device_->stage_count = 5;
     const auto sink = makeSink();
     auto state = moving();
-    const auto id = join(sink, state, kPlenty);
-    uint32_t count = 0;
-    while (sink->frames().size() < 3) {
-        state.settings.exposure = 1 + 0.001F * static_cast<float>(++count);
-        ++state.version;
-        loop_->update(id, state, Clock::now());
-        const uint64_t calls = device_->stage_calls;
-        while (device_->stage_calls == calls) {
-            std::this_thread::yield(); // so that no frame has all its stages between two changes
+    std::atomic<session::SessionId> id = 0; // none yet
+    std::atomic<uint32_t> count = 0;
+    device_->on_stage = [&] { // on the loop's thread: no frame has two stages without a change
+        if (id != 0) {
+            state.settings.exposure = 1 + 0.001F * static_cast<float>(++count);
+            ++state.version;
+            loop_->update(id, state, Clock::now());
         }
-    }
+    };
+    id = join(sink, moving(), kPlenty);
+    EXPECT_TRUE(sink->waitForFrames(6));
+    loop_.reset();
     EXPECT_GT(count, 3U);
 }
 
