@@ -61,7 +61,8 @@ uint64_t hashOfFrames(gpu::Device& device) {
 // What another process of this test says, whose software rasteriser has `threads` threads.
 std::string hashOfProcess(const char* threads) {
     std::ostringstream words;
-    words << kOnlyHash << "=1 LP_NUM_THREADS=" << threads << " /proc/" << getpid()
+    words << "env -u GTEST_TOTAL_SHARDS -u GTEST_SHARD_INDEX " << kOnlyHash
+          << "=1 LP_NUM_THREADS=" << threads << " /proc/" << getpid()
           << "/exe --gtest_filter=HardSequences.ManyFrames*";
     const std::string command = words.str();
     FILE* pipe = popen(command.c_str(), "r"); // NOLINT(cert-env33-c): a fixed command
