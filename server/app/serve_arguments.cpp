@@ -1,8 +1,10 @@
 #include "app/serve_arguments.h"
 
 #include "app/bind_option.h"
+#include "core/text.h"
 #include "net/client_address.h"
 #include "net/host_names.h"
+#include "net/origin.h"
 
 namespace froxel::app {
 namespace {
@@ -53,7 +55,12 @@ void addServeAddresses(CommandBuilder& command, ServeOptions& options) {
     command
         .text("--allow-origin", "ORIGIN", options.allowed_origins, "",
               "Another site whose pages may connect, such as https://example.org; repeatable")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->check([](const std::string& origin) {
+            return net::isOrigin(origin)
+                       ? std::string()
+                       : "'" + printable(origin) + "' is no origin, such as https://example.org";
+        });
     command
         .text("--trusted-proxies", "NETWORK", options.trusted_proxies, "",
               "Proxies whose X-Forwarded-For says from where a viewer comes, such as 10.0.0.0/8; "

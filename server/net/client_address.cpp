@@ -2,12 +2,15 @@
 
 #include "core/text.h"
 
+#include <boost/beast/core/string.hpp>
+
 #include <algorithm>
 #include <optional>
 
 namespace froxel::net {
 
 namespace ip = boost::asio::ip;
+using boost::beast::iequals;
 
 namespace {
 
@@ -31,6 +34,33 @@ std::optional<ip::address> parsed(std::string_view text) {
     boost::system::error_code failure;
     const ip::address address = ip::make_address(std::string(text), failure);
     return failure ? std::nullopt : std::optional(plain(address));
+}
+
+// The last of a list, which is without it then.
+std::string_view takeLast(std::string_view& list) {
+    const size_t comma = list.rfind(',');
+    const bool only = comma == std::string_view::npos;
+    const std::string_view last = trimmed(only ? list : list.substr(comma + 1));
+    list = only ? std::string_view() : list.substr(0, comma);
+    return last;
+}
+
+struct Way {
+    ip::address client;
+    size_t trusted_hops = 0;
+};
+
+Way walk(const ip::address& peer, std::string_view forwarded_for, const TrustedProxies& proxies) {
+    Way way{plain(peer)};
+    while (proxies.contains(way.client)) {
+        ++way.trusted_hops;
+        const auto hop = forwarded_for.empty() ? std::nullopt : parsed(takeLast(forwarded_for));
+        if (!hop) {
+            break; // what a trusted proxy wrote is no address: it answers for its viewers itself
+        }
+        way.client = *hop;
+    }
+    return way;
 }
 
 } // namespace
@@ -70,18 +100,21 @@ bool TrustedProxies::contains(const ip::address& address) const {
 
 ip::address
 clientAddress(ip::address peer, std::string_view forwarded_for, const TrustedProxies& proxies) {
-    ip::address client = plain(peer);
-    while (!forwarded_for.empty() && proxies.contains(client)) {
-        const size_t comma = forwarded_for.rfind(',');
-        const auto hop = parsed(trimmed(
-            comma == std::string_view::npos ? forwarded_for : forwarded_for.substr(comma + 1)));
-        if (!hop) {
-            break; // what a trusted proxy wrote is no address: it answers for its viewers itself
-        }
-        client = *hop;
-        forwarded_for = forwarded_for.substr(0, comma == std::string_view::npos ? 0 : comma);
+    return walk(peer, forwarded_for, proxies).client;
+}
+
+bool cameByTls(const ip::address& peer,
+               std::string_view forwarded_for,
+               std::string_view forwarded_proto,
+               const TrustedProxies& proxies) {
+    const size_t trusted = walk(peer, forwarded_for, proxies).trusted_hops;
+    bool encrypted = false;
+    for (size_t hop = 1; !forwarded_proto.empty() && (trusted == 0 || hop <= trusted); ++hop) {
+        const std::string_view proto = takeLast(forwarded_proto);
+        const bool now = !iequals(proto, "http") && !iequals(proto, "ws");
+        encrypted = now || (trusted == 0 && encrypted);
     }
-    return client;
+    return encrypted;
 }
 
 Caller callerAt(const ip::address& address) {

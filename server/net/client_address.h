@@ -35,6 +35,14 @@ class TrustedProxies {
                                                      std::string_view forwarded_for,
                                                      const TrustedProxies& proxies);
 
+// Whether the viewer's own connection is encrypted as far as `forwarded_proto` knows (likewise): by
+// the outermost hop that a trusted proxy wrote, or by any where none is trusted. What is neither
+// http nor ws counts as encrypted, which lets fewer pages in. None was sent: it is not.
+[[nodiscard]] bool cameByTls(const boost::asio::ip::address& peer,
+                             std::string_view forwarded_for,
+                             std::string_view forwarded_proto,
+                             const TrustedProxies& proxies);
+
 // Of IPv6 the first 64 bits: a household or a rented machine has as many addresses as that leaves.
 [[nodiscard]] Caller callerAt(const boost::asio::ip::address& address);
 

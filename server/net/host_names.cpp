@@ -2,12 +2,39 @@
 
 #include <boost/asio/ip/address.hpp>
 #include <boost/beast/core/string.hpp>
-#include <boost/url/authority_view.hpp>
 
 #include <algorithm>
 #include <utility>
 
 namespace froxel::net {
+
+namespace {
+
+std::string plainName(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    if (name.ends_with('.')) {
+        name.pop_back();
+    }
+    return name;
+}
+
+} // namespace
+
+std::string hostIn(const boost::urls::authority_view& authority) {
+    using boost::urls::host_type;
+    switch (authority.host_type()) {
+    case host_type::none:
+        return {};
+    case host_type::ipv4:
+        return authority.host_ipv4_address().to_string();
+    case host_type::ipv6:
+        return authority.host_ipv6_address().to_string();
+    default:
+        return plainName(std::string(authority.encoded_host()));
+    }
+}
 
 bool isLoopback(std::string_view address) {
     boost::system::error_code failure;
@@ -26,6 +53,7 @@ bool isHostName(std::string_view text) {
 HostNames::HostNames(std::vector<std::string> names, std::string_view bound_address) {
     if (!names.empty() || isLoopback(bound_address)) {
         names.emplace_back("localhost");
+        std::transform(names.begin(), names.end(), names.begin(), plainName);
         names_ = std::move(names);
     }
 }
@@ -41,10 +69,7 @@ bool HostNames::contain(std::string_view host) const {
     if (authority->host_type() != boost::urls::host_type::name) {
         return authority->host_type() != boost::urls::host_type::none;
     }
-    const auto asked = authority->encoded_host();
-    return std::any_of(names_->begin(), names_->end(), [&](const std::string& name) {
-        return boost::beast::iequals({asked.data(), asked.size()}, name);
-    });
+    return std::find(names_->begin(), names_->end(), hostIn(*authority)) != names_->end();
 }
 
 } // namespace froxel::net

@@ -3,6 +3,8 @@
 // agree.
 #pragma once
 
+#include <boost/url/authority_view.hpp>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +30,10 @@ class HostNames {
 
 // Whether `text` is a name that HostNames can have: letters, digits, dots and hyphens.
 [[nodiscard]] bool isHostName(std::string_view text);
+
+// The host of an authority in one spelling: a name in lower case and without the root's dot, an
+// address as it is usually written. Empty: there is none.
+[[nodiscard]] std::string hostIn(const boost::urls::authority_view& authority);
 
 // Whether nobody but this host's own programs reach `address`.
 [[nodiscard]] bool isLoopback(std::string_view address);

@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "net/facts.h"
 #include "net/guard.h"
+#include "net/request_form.h"
 
 #include <boost/asio/dispatch.hpp>
 #include <boost/beast/http/read.hpp>
@@ -131,14 +132,17 @@ void HttpSession::onRequest() {
         write(refusal(http::status::payload_too_large, "requests have no body here"));
         return;
     }
-    const bool wants_socket = beast::websocket::is_upgrade(parser_->get());
     Request request = parser_->release();
     parser_.reset();
+    if (const auto settled = settleForm(request); !settled) {
+        write(refusal(http::status::bad_request, settled.error().message));
+        return;
+    }
     if (auto refused = refuseHost(request, *site_)) {
         write(std::move(*refused));
         return;
     }
-    if (wants_socket) {
+    if (beast::websocket::is_upgrade(request)) {
         upgrade(std::move(request));
         return;
     }

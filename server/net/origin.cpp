@@ -1,12 +1,57 @@
 #include "net/origin.h"
 
-#include <boost/beast/core/string.hpp>
+#include "net/host_names.h"
+
+#include <boost/url/parse.hpp>
+#include <boost/url/url_view.hpp>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace froxel::net {
 
-using boost::beast::iequals;
+namespace urls = boost::urls;
+
+namespace {
+
+constexpr uint16_t kHttpPort = 80;
+constexpr uint16_t kHttpsPort = 443;
+
+struct Origin {
+    bool encrypted = false;
+    std::string host;
+    uint16_t port = 0;
+    bool operator==(const Origin&) const = default;
+};
+
+// None: it is a port that there is not, or the authority has more than a host and a port.
+std::optional<Origin> originOf(bool encrypted, const urls::authority_view& authority) {
+    Origin origin{encrypted, hostIn(authority), encrypted ? kHttpsPort : kHttpPort};
+    if (!authority.port().empty()) {
+        origin.port = authority.port_number();
+    }
+    if (origin.host.empty() || origin.port == 0 || authority.has_userinfo()) {
+        return {};
+    }
+    return origin;
+}
+
+// Scheme, host and port alone (RFC 6454 section 6.2).
+std::optional<Origin> parsed(std::string_view text) {
+    const auto uri = urls::parse_uri({text.data(), text.size()});
+    const bool encrypted = uri && uri->scheme_id() == urls::scheme::https;
+    if (!uri || (!encrypted && uri->scheme_id() != urls::scheme::http) || !uri->has_authority() ||
+        !uri->encoded_path().empty() || uri->has_query() || uri->has_fragment()) {
+        return {};
+    }
+    return originOf(encrypted, uri->authority());
+}
+
+} // namespace
+
+bool isOrigin(std::string_view text) {
+    return parsed(text).has_value();
+}
 
 bool originAllowed(std::optional<std::string_view> origin,
                    std::string_view host,
@@ -15,21 +60,17 @@ bool originAllowed(std::optional<std::string_view> origin,
     if (!origin) {
         return true;
     }
+    const auto page = parsed(*origin);
+    if (!page) {
+        return false;
+    }
     if (std::any_of(allowed.begin(), allowed.end(),
-                    [&](const std::string& listed) { return iequals(*origin, listed); })) {
+                    [&](const std::string& listed) { return parsed(listed) == page; })) {
         return true;
     }
-    for (const std::string_view scheme : {"https://", "http://"}) {
-        if (secure && scheme == "http://") {
-            continue;
-        }
-        if (!host.empty() && origin->size() == scheme.size() + host.size() &&
-            iequals(origin->substr(0, scheme.size()), scheme) &&
-            iequals(origin->substr(scheme.size()), host)) {
-            return true;
-        }
-    }
-    return false;
+    const auto authority = urls::parse_authority({host.data(), host.size()});
+    return authority && originOf(page->encrypted, *authority) == page &&
+           (page->encrypted || !secure);
 }
 
 } // namespace froxel::net

@@ -31,7 +31,9 @@ Response health(const ServiceStatus& status) {
 }
 
 Response file(const Request& request, const StaticFile& found, const std::string& policy) {
-    const bool unchanged = request[http::field::if_none_match] == found.etag;
+    // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
+    const bool unchanged =
+        request[http::field::if_none_match].find(found.etag) != beast::string_view::npos;
     Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
                                      found.content_type, unchanged ? std::string() : found.body);
     response.set("Content-Security-Policy", policy);
@@ -62,13 +64,7 @@ Announcement announcementOf(const Request& request) {
 }
 
 Caller callerOf(const Request& request, const asio::ip::address& peer, const Site& site) {
-    std::string forwarded_for; // one list, on however many lines
-    const auto lines = request.equal_range("X-Forwarded-For");
-    for (auto line = lines.first; line != lines.second; ++line) {
-        forwarded_for += forwarded_for.empty() ? "" : ",";
-        forwarded_for.append(line->value().data(), line->value().size());
-    }
-    return callerAt(clientAddress(peer, forwarded_for, site.trusted_proxies));
+    return callerAt(clientAddress(peer, viewOf(request["X-Forwarded-For"]), site.trusted_proxies));
 }
 
 // None where its Hello would get a place, as far as can be told before.
@@ -101,7 +97,9 @@ whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& 
     }
     const auto host = viewOf(request[http::field::host]);
     // A proxy with TLS says so; a page cannot.
-    const bool secure = site.encrypted || beast::iequals(request["X-Forwarded-Proto"], "https");
+    const bool secure =
+        site.encrypted || cameByTls(peer, viewOf(request["X-Forwarded-For"]),
+                                    viewOf(request["X-Forwarded-Proto"]), site.trusted_proxies);
     if (!originAllowed(origin, host, secure, site.allowed_origins)) {
         return refusal(http::status::forbidden,
                        "origin " + printable(*origin) + " may not connect to " + printable(host));

@@ -1,5 +1,6 @@
 // Plain HTTP: the page from memory, health, and everything that is not asked for politely.
 #include "integration/http_exchange.h"
+#include "integration/raw_web_socket.h"
 #include "integration/test_server.h"
 #include "integration/ws_client.h"
 
@@ -47,6 +48,52 @@ TEST_F(HttpTest, Page_RootWithAQuery_IsServedWithItsHeaders) {
          {"Content-Type: text/html; charset=utf-8", "X-Content-Type-Options: nosniff",
           "frame-ancestors 'none'", "Cache-Control: no-cache", "ETag: \"", "<title>page</title>"}) {
         EXPECT_NE(answer.find(expected), std::string::npos) << expected << "\n" << answer;
+    }
+}
+
+TEST_F(HttpTest, Target_InAbsoluteForm_IsServed) {
+    const std::string answer = exchange("GET http://localhost/?x HTTP/1.1\r\nHost: other\r\n"
+                                        "Connection: close\r\n\r\n");
+    EXPECT_EQ(statusOf(answer), 200) << answer;
+    EXPECT_NE(answer.find("<title>page</title>"), std::string::npos);
+    const std::string foreign = "GET http://evil.example/ HTTP/1.1\r\nHost: localhost\r\n\r\n";
+    EXPECT_EQ(statusOf(exchange(foreign)), 421) << "the target's host counts";
+}
+
+TEST_F(HttpTest, Host_Twice_Is400) {
+    const std::string answer =
+        exchange("GET / HTTP/1.1\r\nHost: localhost\r\nHost: evil.example\r\n\r\n");
+    EXPECT_EQ(statusOf(answer), 400);
+    EXPECT_NE(answer.find("the field Host came more than once"), std::string::npos) << answer;
+}
+
+// Lines of a list as clients and proxies may part them, and origins as they may spell them.
+TEST_F(HttpTest, Upgrade_HoweverItIsWritten_IsTaken) {
+    const std::string known = "Host: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                              "Sec-WebSocket-Protocol: froxel.v1\r\n";
+    const std::pair<std::string, int> cases[] = {
+        {known, 101},
+        {"Host: localhost\r\nUpgrade: websocket\r\nConnection: keep-alive\r\nConnection: "
+         "Upgrade\r\nSec-WebSocket-Protocol: chat\r\nSec-WebSocket-Protocol: froxel.v1\r\n",
+         101},
+        {known + "Origin: http://localhost.:80\r\n", 101},
+        {known + "Origin: http://localhost\r\nX-Forwarded-Proto: http\r\n", 101},
+        {known + "Origin: http://localhost\r\nX-Forwarded-Proto: wss\r\n", 403},
+        {known + "Origin: http://localhost\r\nX-Forwarded-Proto: https,http\r\n", 403},
+        {known + "Origin: http://localhost\r\nX-Forwarded-Proto: https, https\r\n", 403},
+        {known + "Origin: http://localhost\r\nX-Forwarded-Proto: http\r\nX-Forwarded-Proto: "
+                 "https\r\n",
+         403},
+        {known + "Origin: https://localhost\r\nX-Forwarded-Proto: wss\r\n", 101},
+        {known + "Origin: http://localhost\r\nOrigin: http://localhost\r\n", 400},
+    };
+    for (const auto& [lines, status] : cases) {
+        RawWebSocket socket(server_.port(), false);
+        socket.send("GET /ws HTTP/1.1\r\n" + lines +
+                    "Sec-WebSocket-Version: 13\r\n"
+                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+        const std::string answer = socket.readHeader();
+        EXPECT_EQ(statusOf(answer), status) << lines << answer;
     }
 }
 
@@ -100,7 +147,7 @@ TEST_F(HttpTest, Paths_ThatTryToEscape_AreNotFound) {
                                       std::string("/assets"),
                                       std::string("/assets/"),
                                       std::string("/INDEX.HTML"),
-                                      std::string("http://test/etc/passwd"),
+                                      std::string("http://localhost/etc/passwd"),
                                       std::string("*"),
                                       "/" + std::string(4000, 'a')}) {
         const std::string answer = get(target);

@@ -51,10 +51,7 @@ class RawWebSocket {
         }
         if (upgrade) {
             send(upgradeRequest());
-            std::string answer;
-            while (answer.find("\r\n\r\n") == std::string::npos) {
-                answer += readExactly(1).value();
-            }
+            const std::string answer = readHeader();
             if (statusOf(answer) != 101) {
                 throw std::runtime_error(answer);
             }
@@ -132,6 +129,15 @@ class RawWebSocket {
         while ((got = ::recv(socket_, &byte, 1, 0)) > 0) {
         }
         return got == 0 || errno == ECONNRESET;
+    }
+
+    // Of an HTTP answer, to the empty line.
+    std::string readHeader() {
+        std::string answer;
+        while (answer.find("\r\n\r\n") == std::string::npos) {
+            answer += readExactly(1).value();
+        }
+        return answer;
     }
 
   private:

@@ -41,6 +41,35 @@ TEST(ClientAddress, TrustedProxySaysNoAddress_IsTheProxy) {
     }
 }
 
+bool encrypted(const std::string& forwarded_proto,
+               const std::string& forwarded_for = "",
+               const std::vector<std::string>& proxies = {}) {
+    return cameByTls(make_address("10.0.0.1"), forwarded_for, forwarded_proto,
+                     TrustedProxies::parse(proxies).value());
+}
+
+TEST(CameByTls, OnlyWhatIsKnownToBePlain_IsPlain) {
+    for (const char* plain : {"", "http", "HTTP", "ws", " http ", "http,http"}) {
+        EXPECT_FALSE(encrypted(plain)) << plain;
+    }
+    for (const char* said : {"https", "HTTPS", "wss", "https, https", "https,http", "http,https",
+                             "h2", "http;", "on"}) {
+        EXPECT_TRUE(encrypted(said)) << said;
+    }
+}
+
+TEST(CameByTls, BehindTrustedProxies_TheOutermostThatTheyWroteCounts) {
+    const std::vector<std::string> proxies{"10.0.0.0/8"};
+    const std::string from_viewer = "198.51.100.1";
+    const std::string over_two = "198.51.100.1, 10.0.0.2";
+    EXPECT_TRUE(encrypted("http, https", from_viewer, proxies)) << "the viewer wrote the first";
+    EXPECT_FALSE(encrypted("https, http", from_viewer, proxies));
+    EXPECT_FALSE(encrypted("http, https", over_two, proxies)) << "TLS between proxies";
+    EXPECT_TRUE(encrypted("https, http", over_two, proxies));
+    EXPECT_TRUE(encrypted("https", over_two, proxies)) << "handed on as it was";
+    EXPECT_TRUE(encrypted("wss", from_viewer, proxies));
+}
+
 TEST(ClientAddress, Account_IsAnIpv4AddressOrAnIpv6NetworkOf64Bits) {
     EXPECT_EQ(accountOf("192.0.2.7"), "192.0.2.7");
     EXPECT_EQ(accountOf("::ffff:192.0.2.7"), "192.0.2.7");

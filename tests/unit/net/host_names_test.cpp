@@ -15,6 +15,13 @@ TEST(HostNames, Loopback_AnswersToLocalhostAndAddresses) {
     }
 }
 
+TEST(HostNames, RootsDot_DoesNotCount) {
+    EXPECT_TRUE(HostNames({}, "127.0.0.1").contain("localhost.:8080"));
+    EXPECT_TRUE(HostNames({"froxel.example."}, "0.0.0.0").contain("Froxel.example"));
+    EXPECT_FALSE(HostNames({}, "127.0.0.1").contain("localhost.."));
+    EXPECT_FALSE(HostNames({}, "127.0.0.1").contain("."));
+}
+
 TEST(HostNames, Loopback_RefusesOtherNames) {
     const HostNames names({}, "127.0.0.1");
     for (const char* host :

@@ -32,6 +32,24 @@ TEST(OriginAllowed, OwnPageWithoutTls_MayNotConnectWithIt) {
     EXPECT_FALSE(originAllowed("http://host", "host", true, {}));
 }
 
+// nginx's $host:$server_port, and names with the root's dot.
+TEST(OriginAllowed, SameHostInAnotherSpelling_IsAllowed) {
+    EXPECT_TRUE(originAllowed("https://example.com", "example.com:443", true, {}));
+    EXPECT_TRUE(originAllowed("https://example.com:443", "example.com", true, {}));
+    EXPECT_TRUE(originAllowed("http://example.com", "example.com:80", false, {}));
+    EXPECT_TRUE(originAllowed("http://example.com.:8080", "EXAMPLE.com:8080", false, {}));
+    EXPECT_TRUE(originAllowed("https://example.com", "example.com.", true, {}));
+    EXPECT_TRUE(originAllowed("http://[0:0::1]:8080", "[::1]:8080", false, {}));
+}
+
+TEST(OriginAllowed, PortOfTheOtherScheme_IsRefused) {
+    EXPECT_FALSE(originAllowed("https://example.com", "example.com:80", false, {}));
+    EXPECT_FALSE(originAllowed("http://example.com", "example.com:443", false, {}));
+    EXPECT_FALSE(originAllowed("http://example.com:0", "example.com:0", false, {}));
+    EXPECT_FALSE(originAllowed("http://example.com:65616", "example.com:80", false, {}));
+    EXPECT_FALSE(originAllowed("http://example.com..", "example.com", false, {}));
+}
+
 TEST(OriginAllowed, EmptyHost_MatchesNothing) {
     EXPECT_FALSE(originAllowed("http://", "", false, {}));
 }
@@ -39,6 +57,7 @@ TEST(OriginAllowed, EmptyHost_MatchesNothing) {
 TEST(OriginAllowed, Listed_IsAllowedExactly) {
     const std::vector<std::string> listed = {"https://gallery.example"};
     EXPECT_TRUE(originAllowed("https://gallery.example", "host", false, listed));
+    EXPECT_TRUE(originAllowed("https://Gallery.example.:443", "host", false, listed));
     EXPECT_FALSE(originAllowed("http://gallery.example", "host", false, listed));
     EXPECT_FALSE(originAllowed("https://gallery.example:444", "host", false, listed));
 }
