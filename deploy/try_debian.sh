@@ -29,13 +29,17 @@ inside() { # COMMAND...
 run_and_stop='
     coproc server { exec ./deploy/run.sh --device cpu --port 0 --admin-bind 127.0.0.1:0; }
     pid=$server_PID
-    read -r page <&"${server[0]}" && read -r metrics <&"${server[0]}"
+    addresses=()
+    while ((${#addresses[@]} < 2)) && read -r line; do
+        if [[ $line == http://* ]]; then addresses+=("$line"); else echo "$line"; fi
+    done <&"${server[0]}"
+    ((${#addresses[@]} == 2))
     for ((i = 0; i < 300; ++i)); do
-        build/release/froxel probe "${metrics/metrics/readyz}" >/dev/null && break
+        build/release/froxel probe "${addresses[1]/metrics/readyz}" >/dev/null && break
         sleep 1
     done
     ((i < 300))
-    echo "$page is ready"
+    echo "${addresses[0]} is ready"
     kill "$pid"
     wait "$pid"'
 
