@@ -285,8 +285,8 @@ void LightLists::finishStats() {
 }
 
 struct LightAssigner::Impl {
-    Impl(unsigned threads, uint64_t max_entries)
-        : crew(threads), max_entries(max_entries), at_once(crew, max_entries) {}
+    Impl(unsigned threads, uint64_t max_entries_)
+        : crew(threads), max_entries(max_entries_), at_once(crew, max_entries_) {}
 
     Crew crew;
     const uint64_t max_entries;

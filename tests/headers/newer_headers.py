@@ -3,8 +3,8 @@
 Usage: newer_headers.py BUILD RELEASE [LAYER...]
 
 A library's newer version may have other integer types, or warn of a name that it no longer wants. RELEASE's headers are
-unpacked into BUILD/headers, and the sources of the LAYERS of server/ (none: of all) are compiled with them as
-BUILD/compile_commands.json has it, but without making anything. The compiler and the C++ library are this system's:
+unpacked into BUILD/headers, and the sources of the LAYERS of server/ and their unit tests (none: of all) are compiled
+with them as BUILD/compile_commands.json has it, but without making anything. The compiler and the C++ library are this system's:
 deploy/try_debian.sh tries all of a release. Exit code 77: the packages are not to be had here, such as without a network.
 """
 
@@ -76,8 +76,8 @@ def with_headers(command, root, wasm_definition):
 def wanted(entry, layers):
     made = shlex.split(entry["command"])
     made = made[made.index("-o") + 1] if "-o" in made else ""
-    folder = made.split("/")
-    return folder[0] == "server" and entry["file"].endswith(".cpp") and (not layers or folder[1] in layers)
+    layer = made.removeprefix("server/") if made.startswith("server/") else made.removeprefix("tests/unit/")
+    return layer != made and entry["file"].endswith(".cpp") and (not layers or layer.split("/")[0] in layers)
 
 
 def main():
