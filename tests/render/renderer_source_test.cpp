@@ -52,7 +52,7 @@ TEST(RendererSource, SceneWithoutCameras_SpeedIsMeasured) {
 TEST(RendererSource, NoMemoryForAView_IsRefusedAndTheNextOneMayFit) {
     auto device = openTestDevice();
     // The driver's functions, of which one now finds no memory.
-    auto& driver = const_cast<vk::raii::DeviceDispatcher&>(*device->handle().getDispatcher());
+    auto& driver = driverOf(*device);
     const auto source = stream::makeRendererSource(std::move(device), makeRoom(), Seconds(10), {});
     const auto create_pool = driver.vkCreateDescriptorPool;
     for (const auto fail : {kNoDeviceMemory, kNoHostMemory}) {

@@ -29,7 +29,7 @@ VKAPI_ATTR VkResult VKAPI_CALL tellZeros(VkDevice device,
 
 // From now on as by a driver that writes no timestamps.
 void writeNoTimestamps(const gpu::Device& device) {
-    auto& driver = const_cast<vk::raii::DeviceDispatcher&>(*device.handle().getDispatcher());
+    auto& driver = driverOf(device);
     told_results = driver.vkGetQueryPoolResults;
     driver.vkGetQueryPoolResults = tellZeros;
 }

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <memory>
 #include <string_view>
+#include <type_traits>
 
 namespace froxel::test {
 
@@ -22,6 +23,14 @@ inline std::unique_ptr<gpu::Device> openTestDevice(gpu::DeviceOptions options = 
     options.choice = onGpu() ? gpu::DeviceChoice::kGpu : gpu::DeviceChoice::kCpu;
     options.validation = !onGpu();
     return std::make_unique<gpu::Device>(options);
+}
+
+// The driver's functions, of which a test may replace some. Their type has another name in later
+// versions of Vulkan's headers.
+inline auto& driverOf(const gpu::Device& device) {
+    const auto* functions = device.handle().getDispatcher();
+    using Functions = std::remove_const_t<std::remove_pointer_t<decltype(functions)>>;
+    return const_cast<Functions&>(*functions);
 }
 
 class GpuTest : public ::testing::Test {
