@@ -1,7 +1,6 @@
 #include "net/host_names.h"
 
 #include <boost/asio/ip/address.hpp>
-#include <boost/beast/core/string.hpp>
 
 #include <algorithm>
 #include <utility>

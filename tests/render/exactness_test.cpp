@@ -30,7 +30,7 @@ struct LightSet {
     float radius_m = 0;
 };
 
-// Of the contract: counts and radii, each at least once.
+// Of the contract each count and each radius, and many large ones; or all pairs.
 std::vector<LightSet> lightSets() {
     if (!wholeGrids()) {
         return {{0, 2}, {1, 12}, {7, 0.5F}, {100, 2}, {1000, 0.5F}, {300, 12}};

@@ -93,7 +93,7 @@ TEST_F(Shadows, APlane_HasNoAcneAtAnyAngle) {
             lit += litPixels(with);
         }
     }
-    EXPECT_GT(lit, static_cast<size_t>(angles) * 4000);
+    EXPECT_GT(lit, static_cast<size_t>(angles) * 100'000 / 24);
 }
 
 // Walls without thickness all around the light, drawn from either side: nothing gets out, also at

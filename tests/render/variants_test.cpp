@@ -9,6 +9,7 @@
 #include "support/tier.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 namespace froxel::test {
@@ -79,17 +80,31 @@ bool anyLightFlag(render::Renderer& renderer, uint32_t flags) {
                        [&](const auto& made) { return (made.key.light_flags & flags) != 0; });
 }
 
-using Part = std::pair<const char*, GenericParts>;
-
-// The same frames by the specialised and by the generic variants.
-void expectNeutral(render::Renderer& renderer,
-                   const scene::Scene& scene,
-                   uint32_t lights,
-                   std::span<const Part> parts) {
+// The same frames by the specialised and by the generic variants; without `each` only by those two
+// that have every part between them.
+void expectPartsNeutral(render::Renderer& renderer,
+                        const scene::Scene& scene,
+                        uint32_t lights,
+                        bool each) {
+    const std::array<std::pair<const char*, GenericParts>, 8> parts = {
+        {{"plain loops", {.plain_loops = true}},
+         {"everything",
+          {.spots = true,
+           .directional = true,
+           .wide_gbuffer = true,
+           .transparent = true,
+           .uneven_radii = true,
+           .uncut_loops = true}},
+         {"spots", {.spots = true}},
+         {"directional", {.directional = true}},
+         {"wide G-buffer", {.wide_gbuffer = true}},
+         {"blending", {.transparent = true}},
+         {"uneven radii", {.uneven_radii = true}},
+         {"uncut loops", {.uncut_loops = true}}}};
     for (const auto kind : kAllRenderers) {
         FrameInputs inputs = inputsFor(scene, kind, lights);
         const Picture special = draw(renderer, inputs);
-        for (const auto& [name, part] : parts) {
+        for (const auto& [name, part] : std::span(parts).first(each ? parts.size() : 2)) {
             SCOPED_TRACE(std::string(settings::kRendererNames[static_cast<size_t>(kind)]) + ", " +
                          name);
             inputs.generic = part;
@@ -98,43 +113,6 @@ void expectNeutral(render::Renderer& renderer,
             EXPECT_EQ(special.rgba8, generic.rgba8);
         }
     }
-}
-
-void expectEveryPartNeutral(render::Renderer& renderer,
-                            const scene::Scene& scene,
-                            uint32_t lights) {
-    const Part parts[] = {{"spots", {.spots = true}},
-                          {"directional", {.directional = true}},
-                          {"wide G-buffer", {.wide_gbuffer = true}},
-                          {"blending", {.transparent = true}},
-                          {"uneven radii", {.uneven_radii = true}},
-                          {"plain loops", {.plain_loops = true}},
-                          {"uncut loops", {.uncut_loops = true}},
-                          {"everything",
-                           {.spots = true,
-                            .directional = true,
-                            .wide_gbuffer = true,
-                            .transparent = true,
-                            .uneven_radii = true,
-                            .uncut_loops = true}}};
-    expectNeutral(renderer, scene, lights, parts);
-}
-
-// The two that have every part between them; rooms tell which part it is.
-void expectAllPartsNeutral(render::Renderer& renderer, const scene::Scene& scene, uint32_t lights) {
-    if (wholeGrids()) {
-        expectEveryPartNeutral(renderer, scene, lights);
-        return;
-    }
-    const Part parts[] = {{"plain loops", {.plain_loops = true}},
-                          {"everything",
-                           {.spots = true,
-                            .directional = true,
-                            .wide_gbuffer = true,
-                            .transparent = true,
-                            .uneven_radii = true,
-                            .uncut_loops = true}}};
-    expectNeutral(renderer, scene, lights, parts);
 }
 
 // Pictures of two scenes that should look alike by all renderers.
@@ -275,19 +253,19 @@ TEST_F(Variants, Memory_DetailsAreTheLedgersAndGoWithTheirOwners) {
 TEST_F(Variants, EveryPart_Room_GivesTheSameBits) {
     auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
-    expectEveryPartNeutral(renderer, scene, 60);
+    expectPartsNeutral(renderer, scene, 60, true);
 }
 
 TEST_F(Variants, EveryPart_BareRoom_GivesTheSameBits) {
     const auto scene = bareRoom();
     render::Renderer renderer(device(), scene);
-    expectEveryPartNeutral(renderer, scene, 60);
+    expectPartsNeutral(renderer, scene, 60, true);
 }
 
 TEST_F(Variants, AllParts_BuiltinScene_GiveTheSameBits) {
     const auto scene = builtin_scene::makeHall();
     render::Renderer renderer(device(), scene);
-    expectAllPartsNeutral(renderer, scene, 200);
+    expectPartsNeutral(renderer, scene, 200, wholeGrids());
 }
 
 TEST_F(Variants, AllParts_Sponza_GiveTheSameBits) {
@@ -296,7 +274,7 @@ TEST_F(Variants, AllParts_Sponza_GiveTheSameBits) {
         GTEST_SKIP() << "Sponza is not here: set FROXEL_SPONZA to its .gltf file";
     }
     render::Renderer renderer(device(), *scene);
-    expectAllPartsNeutral(renderer, *scene, 300);
+    expectPartsNeutral(renderer, *scene, 300, wholeGrids());
 }
 
 TEST_F(Variants, MaskThatKeepsEverything_GivesTheSameBits) {
