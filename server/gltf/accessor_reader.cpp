@@ -9,7 +9,6 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 namespace froxel::gltf {
 namespace {
@@ -63,14 +62,15 @@ void checkFit(std::span<const std::byte> bytes,
     }
 }
 
-// tinygltf before 2.9 narrows these, and only these, to 32 bits with a sign.
+// tinygltf before 2.9 narrows these, and only these, to 32 bits with a sign: no version takes more.
 template <std::integral Offset>
 size_t sparseOffset(Offset offset, const std::string& name) {
-    if (std::cmp_less(offset, 0)) {
-        fail(name + " has a sparse byteOffset of " + std::to_string(static_cast<uint32_t>(offset)) +
+    const auto bytes = static_cast<size_t>(static_cast<std::make_unsigned_t<Offset>>(offset));
+    if (bytes > std::numeric_limits<int32_t>::max()) {
+        fail(name + " has a sparse byteOffset of " + std::to_string(bytes) +
              "; right is at most 2147483647");
     }
-    return static_cast<size_t>(offset);
+    return bytes;
 }
 
 template <class T>

@@ -233,9 +233,7 @@ TEST(Sparse, BadValues_AreRefused) {
     EXPECT_THAT(refusedSparse({{"values", {{"bufferView", 12}}}}), HasSubstr("bufferView 12"));
     EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", -1}}}}), HasSubstr("byteOffset is -1"));
     EXPECT_THAT(refusedSparse({{"values", {{"byteOffset", 3'000'000'000}}}}),
-                ::testing::AnyOf( // as tinygltf holds it in 32 bits, or in more
-                    HasSubstr("sparse byteOffset of 3000000000; right is at most 2147483647"),
-                    HasSubstr("ends at byte 3000000012 of its bufferView, which has 24")));
+                HasSubstr("sparse byteOffset of 3000000000; right is at most 2147483647"));
     EXPECT_THAT(refusedSparse({{"indices", nullptr}}), HasSubstr("indices"));
 }
 
