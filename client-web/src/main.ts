@@ -104,6 +104,7 @@ const connection = new Connection(
   {
     openSocket: (url, subprotocol) => new WebSocket(url, subprotocol),
     nowMs,
+    wallMs: () => Date.now(),
     random: Math.random,
     askRefusal,
     hello: () => ({ room: roomName, resumeToken: resume.token, token: token.value }),
@@ -218,13 +219,14 @@ window.addEventListener('keyup', (event) => input.keyUp(event));
 window.addEventListener('blur', () => input.releaseAll());
 document.addEventListener('visibilitychange', () => tellVisibility(false));
 canvas.addEventListener('pointerdown', () => connection.wake());
+window.addEventListener('online', () => connection.back());
 presenter.setVisible(!document.hidden);
 
 /** A hidden page paints nothing, so the server need not draw. A new connection knows of no pause. */
 function tellVisibility(newConnection: boolean): void {
   const { hidden } = document;
   presenter.setVisible(!hidden);
-  if (!hidden) connection.wake();
+  if (!hidden && !newConnection) connection.back();
   const { link, server } = store.state;
   const understood = link.phase === 'live' && (server?.protocolMinor ?? 0) >= kMinorOfPause;
   if (understood && (hidden || !newConnection)) {

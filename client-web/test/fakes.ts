@@ -74,6 +74,7 @@ export class FakeEnvironment implements Environment {
   refusal: Refusal | null = null;
   readonly asked: string[] = [];
   private timers: { at: number; action: () => void }[] = [];
+  private asleepMs = 0;
 
   get socket(): FakeSocket {
     const last = this.sockets.at(-1);
@@ -89,6 +90,15 @@ export class FakeEnvironment implements Environment {
 
   nowMs(): number {
     return this.now;
+  }
+
+  wallMs(): number {
+    return this.now + this.asleepMs;
+  }
+
+  /** The machine sleeps: no timer runs, and only the wall's clock goes on. */
+  sleep(ms: number): void {
+    this.asleepMs += ms;
   }
 
   random(): number {
@@ -110,6 +120,14 @@ export class FakeEnvironment implements Environment {
     return () => {
       this.timers = this.timers.filter((other) => other !== timer);
     };
+  }
+
+  /** Lets `ms` pass, and then runs what fell due meanwhile, as a browser does for a hidden page. */
+  throttle(ms: number): void {
+    this.now += ms;
+    const due = this.timers.filter(({ at }) => at <= this.now);
+    this.timers = this.timers.filter((timer) => !due.includes(timer));
+    for (const { action } of due) action();
   }
 
   /** Lets `ms` pass and runs what falls due, in order. */

@@ -43,7 +43,8 @@ export type Socket = Pick<
 
 export interface Environment {
   openSocket(url: string, subprotocol: string): Socket;
-  nowMs(): number; // monotonic
+  nowMs(): number; // monotonic; may stand while the machine sleeps
+  wallMs(): number; // goes on then, and may jump
   random(): number; // [0, 1)
   /** What Hello says besides the version: which room, which lost session to take up, who asks. */
   hello(): { readonly room: string; readonly resumeToken: string; readonly token: string };
@@ -58,6 +59,10 @@ const kStableMs = 5_000;
 const kPingEveryMs = 5_000;
 /** Nothing from the server for so long, in spite of pings: the way is broken. */
 const kSilenceMs = 15_000;
+/** A timer that comes so late was held up by sleep, or by a browser that rests hidden pages. */
+const kLateMs = 5_000;
+/** A server that is there answers within this to whoever comes back. */
+const kProbeMs = 800;
 const kOpen = 1;
 const kTokenRefused = 4003;
 const kResting = 4011;
@@ -88,6 +93,7 @@ export class Connection {
   private refuge = ''; // another server's, if that was the last one to answer
   private lostToken = ''; // a session that no server has any more
   private resting = false; // the server took the place back since nobody watched
+  private waiting = false; // for the next try
   private cancelTimer: () => void = () => undefined;
   private cancelLeave: () => void = () => undefined;
 
@@ -100,7 +106,7 @@ export class Connection {
   open(url = this.refuge || this.url): void {
     this.cancelTimer();
     this.cancelLeave();
-    this.resting = false;
+    this.resting = this.waiting = false;
     this.openedAtMs = 0;
     this.at = url;
     this.events.link({ phase: 'connecting' });
@@ -122,6 +128,12 @@ export class Connection {
   /** Somebody is here again: a view whose place was given away comes back. */
   wake(): void {
     if (this.resting) this.open();
+  }
+
+  /** The page is seen again, or the network is back: what was lost meanwhile is not waited for. */
+  back(): void {
+    if (this.resting || this.waiting) this.open();
+    else if (this.socket && this.openedAtMs > 0) this.probe(this.socket);
   }
 
   /**
@@ -178,8 +190,13 @@ export class Connection {
   }
 
   private keepAlive(socket: Socket): void {
+    const dueMs = this.env.wallMs() + kPingEveryMs;
     this.cancelTimer = this.env.after(kPingEveryMs, () => {
       if (socket !== this.socket) return;
+      if (this.env.wallMs() - dueMs > kLateMs) {
+        this.probe(socket);
+        return;
+      }
       if (this.env.nowMs() - this.heardAtMs > kSilenceMs) {
         // close() would wait for an answer that never comes; the browser finishes it later.
         socket.close();
@@ -188,6 +205,22 @@ export class Connection {
       }
       this.send({ case: 'ping', value: {} });
       this.keepAlive(socket);
+    });
+  }
+
+  /** Asks whether anybody is there; if not, opens another connection without waiting for more. */
+  private probe(socket: Socket): void {
+    this.cancelTimer();
+    const askedMs = this.env.nowMs();
+    this.send({ case: 'ping', value: {} });
+    this.cancelTimer = this.env.after(kProbeMs, () => {
+      if (socket !== this.socket) return;
+      if (this.heardAtMs >= askedMs) {
+        this.keepAlive(socket);
+        return;
+      }
+      this.open();
+      socket.close();
     });
   }
 
@@ -214,6 +247,7 @@ export class Connection {
 
   private wait(delayMs: number, reason: string): void {
     this.cancelTimer();
+    this.waiting = true;
     this.events.link({ phase: 'waiting', reason, retryAtMs: this.env.nowMs() + delayMs });
     // This page's own server may be gone for good, or be the only one that comes back: in turns.
     const next = this.attempt % 2 === 1 ? undefined : this.url;

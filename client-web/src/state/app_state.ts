@@ -59,6 +59,7 @@ export interface AppState {
   readonly sizeMode: SizeMode | null; // null: until Welcome tells what the server can do
   readonly notice: Notice | null;
   readonly details: FrameDetails | null; // of the frames from now on
+  readonly keeps: boolean; // whether the server keeps this session while the connection is lost
   readonly room: Room | null; // null: a session of one's own
   readonly chosenLight: number | null; // id of the placed light that is being edited
   readonly pick: Pick | null; // a light asked for, and not answered yet
@@ -91,6 +92,7 @@ export const kInitialState: AppState = {
   sizeMode: null,
   notice: null,
   details: null,
+  keeps: false,
   room: null,
   chosenLight: null,
   pick: null,
@@ -190,7 +192,8 @@ function received(state: AppState, message: ServerMessage): AppState {
     case 'roomState':
       return roomChanged(state, roomOf(body.value));
     case 'draining':
-      return { ...state, notice: { text: 'The server is going down.', tone: 'info' } };
+      // A session does not move.
+      return { ...state, keeps: false, notice: { text: 'The server is going down.', tone: 'info' } };
     default:
       return state;
   }
@@ -230,7 +233,8 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
     link: { phase: 'live' },
     loading: null,
     // News of the last connection, such as that the server goes down, is old now.
-    notice: state.notice?.tone === 'info' ? null : state.notice,
+    notice: givenAway(state, welcome) ?? (state.notice?.tone === 'info' ? null : state.notice),
+    keeps: welcome.resumeToken !== '',
     server,
     settings,
     room,
@@ -239,6 +243,12 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
     confirmed: present,
     wanted: {},
   };
+}
+
+function givenAway({ keeps }: AppState, { resumed }: Welcome): Notice | null {
+  if (!keeps || resumed) return null;
+  const text = 'The server had given this view away meanwhile. This is a new one with your settings.';
+  return { text, tone: 'info' };
 }
 
 /** What to show after Welcome: as before the connection broke, or else as the address says. */

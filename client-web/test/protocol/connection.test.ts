@@ -271,4 +271,69 @@ describe('Connection', () => {
     connection.wake();
     expect(env.sockets.length).toBe(2);
   });
+
+  it('Sleep_WhileTheSocketDied_IsOverWithinASecond', () => {
+    env.socket.accept();
+    env.pass(12_000);
+    env.socket.say({ case: 'pong', value: {} });
+    const first = env.socket;
+    env.sleep(3 * 3_600_000);
+    env.pass(5_000 + 1_000); // the timer that was under way, and the second
+    expect(first.closedByPage).toBe(true);
+    expect(env.sockets.length).toBe(2);
+    expect(phases()).not.toContain('waiting');
+  });
+
+  it('Sleep_WhileTheSocketLived_KeepsIt', () => {
+    env.socket.accept();
+    env.sleep(3_600_000);
+    env.pass(5_100);
+    env.socket.say({ case: 'pong', value: {} });
+    env.pass(60_000 - 50_000);
+    expect(env.sockets.length).toBe(1);
+    expect(env.socket.said).toEqual(['hello', 'ping', 'ping']);
+  });
+
+  it('TimersOfAHiddenPage_OnceAMinute_AreNotSilence', () => {
+    env.socket.accept();
+    for (let minute = 0; minute < 10; minute += 1) {
+      env.throttle(60_000);
+      env.socket.say({ case: 'pong', value: {} });
+    }
+    expect(env.sockets.length).toBe(1);
+    expect(env.socket.closedByPage).toBe(false);
+  });
+
+  it('Back_WhileWaiting_TriesAtOnce', () => {
+    for (let i = 0; i < 6; i += 1) {
+      env.socket.drop(1006);
+      env.pass(20_000);
+    }
+    env.socket.drop(1006);
+    const count = env.sockets.length;
+    connection.back();
+    expect(env.sockets.length).toBe(count + 1);
+    env.pass(100);
+    connection.back(); // it is under way
+    expect(env.sockets.length).toBe(count + 1);
+  });
+
+  it('Back_AfterTheWayWasLost_OpensAnother_AndWhereItIsThere_Stays', () => {
+    env.socket.accept();
+    env.pass(1_000);
+    connection.back();
+    env.socket.say({ case: 'pong', value: {} });
+    env.pass(1_000);
+    expect(env.sockets.length).toBe(1);
+    connection.back();
+    env.pass(1_000);
+    expect(env.sockets.length).toBe(2);
+  });
+
+  it.each([1008, 4009])('Back_AfterClose%i_DoesNotTryAgain', (code) => {
+    env.socket.accept();
+    env.socket.drop(code);
+    connection.back();
+    expect(env.sockets.length).toBe(1);
+  });
 });

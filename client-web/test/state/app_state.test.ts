@@ -135,6 +135,19 @@ describe('welcome', () => {
     expect(run(kInitialState, error, welcomed()).notice?.text).toBe('bad link');
   });
 
+  it('SessionThatWasGivenAway_IsSaidInOneLine_AndOneThatGoesOnIsNot', () => {
+    const greeted = (resumeToken: string, resumed: boolean): Action =>
+      received({ case: 'welcome', value: { ...welcome(), resumeToken, resumed } });
+    const kept = run(kInitialState, greeted('secret', false));
+    expect(kept.notice).toBeNull();
+    expect(run(kept, greeted('other', true)).notice).toBeNull();
+    expect(run(kept, greeted('other', false)).notice?.text).toContain('given this view away');
+    const keepsNone = run(kInitialState, greeted('', false));
+    expect(run(keepsNone, greeted('', false)).notice).toBeNull();
+    const draining = received({ case: 'draining', value: { deadlineMs: 1 } });
+    expect(run(kept, draining, greeted('other', false)).notice).toBeNull();
+  });
+
   it('ServerThatRefines_IsAskedForTheLosslessPictureUnlessTheLinkSaysElse', () => {
     const greeted = (refine: Refine): Action =>
       received({ case: 'welcome', value: { ...welcome(), state: viewState({ refine }) } });
