@@ -95,7 +95,7 @@ TEST_F(RenderLoopPiecesTest, BuiltInStages_SettingsEverChange_PicturesCome) {
     };
     id = join(sink, moving(), kPlenty);
     EXPECT_TRUE(sink->waitForFrames(6));
-    loop_.reset();
+    loop_->stop(); // which stages still use
     EXPECT_GT(count, 3U);
 }
 
