@@ -2,14 +2,16 @@
 
 #include "app/log_limit.h"
 #include "app/log_line.h"
+#include "app/log_queue.h"
 
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <unistd.h>
 #include <utility>
 
 namespace froxel::app {
@@ -44,13 +46,21 @@ std::unique_ptr<spdlog::formatter> makeFormatter(LogFormat format) {
     return formatter;
 }
 
+// Some MB at most: a line has some 4 KB at most, and mostly 100 bytes.
+constexpr size_t kLinesWaiting = 1024;
+
 class LimitedStderr final : public spdlog::sinks::base_sink<std::mutex> {
   public:
     explicit LimitedStderr(LogFormat format)
-        : base_sink(makeFormatter(format)), limit_(kLogBurst, Seconds(kLogPeriod_s)) {}
+        : base_sink(makeFormatter(format)), limit_(kLogBurst, Seconds(kLogPeriod_s)),
+          queue_(STDERR_FILENO, kLinesWaiting, [format](uint64_t lost) {
+              return lineOf(*makeFormatter(format), "event=log_lost lines=" + std::to_string(lost));
+          }) {}
     ~LimitedStderr() override { tellLeftOut(true); }
     LimitedStderr(const LimitedStderr&) = delete;
     LimitedStderr& operator=(const LimitedStderr&) = delete;
+
+    [[nodiscard]] uint64_t lost() const { return queue_.lost(); }
 
   protected:
     void sink_it_(const spdlog::details::log_msg& message) override {
@@ -58,41 +68,55 @@ class LimitedStderr final : public spdlog::sinks::base_sink<std::mutex> {
         const bool said = kind.empty() || limit_.admit(kind, Clock::now());
         tellLeftOut(false);
         if (said) {
-            write(message);
+            queue_.add(lineOf(*formatter_, message));
         }
     }
     // Before the end, which need not destroy this.
     void flush_() override {
         tellLeftOut(true);
-        std::fflush(stderr);
+        queue_.flush();
     }
 
   private:
+    static std::string lineOf(spdlog::formatter& formatter,
+                              const spdlog::details::log_msg& message) {
+        spdlog::memory_buf_t line;
+        formatter.format(message, line);
+        return {line.data(), line.size()};
+    }
+    static std::string lineOf(spdlog::formatter& formatter, const std::string& warning) {
+        return lineOf(formatter, spdlog::details::log_msg("", spdlog::level::warn, warning));
+    }
     void tellLeftOut(bool end) {
         for (const auto& [kind, count] : limit_.takeLeftOut(Clock::now(), end)) {
-            const std::string text =
-                "event=log_limited kind=" + kind + " left_out=" + std::to_string(count);
-            write(spdlog::details::log_msg("", spdlog::level::warn, text));
+            queue_.add(lineOf(*formatter_, "event=log_limited kind=" + kind +
+                                               " left_out=" + std::to_string(count)));
         }
-    }
-    void write(const spdlog::details::log_msg& message) {
-        spdlog::memory_buf_t line;
-        formatter_->format(message, line);
-        std::fwrite(line.data(), 1, line.size(), stderr);
     }
 
     LogLimit limit_;
+    LogQueue queue_;
 };
+
+// The default logger's.
+std::shared_ptr<LimitedStderr>& theSink() {
+    static std::shared_ptr<LimitedStderr> sink;
+    return sink;
+}
 
 } // namespace
 
 void startLog(LogLevel level, LogFormat format) {
     constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
                                     spdlog::level::err};
-    auto logger =
-        std::make_shared<spdlog::logger>("froxel", std::make_shared<LimitedStderr>(format));
+    theSink() = std::make_shared<LimitedStderr>(format);
+    auto logger = std::make_shared<spdlog::logger>("froxel", theSink());
     logger->set_level(kLevels[static_cast<size_t>(level)]);
     spdlog::set_default_logger(std::move(logger));
+}
+
+uint64_t logLinesLost() {
+    return theSink() ? theSink()->lost() : 0;
 }
 
 } // namespace froxel::app

@@ -1,5 +1,5 @@
 // The log of the program: lines on stderr, escaped, cut to a bound, and limited for each kind of
-// event.
+// event. A thread that logs never waits for whoever reads them (app/log_queue.h).
 #pragma once
 
 #include <array>
@@ -23,5 +23,8 @@ inline constexpr double kLogPeriod_s = 10;
 
 // Makes it the default logger; once, before any thread logs.
 void startLog(LogLevel level, LogFormat format);
+
+// Lines that whoever reads the log did not take, since the start. Any thread.
+[[nodiscard]] uint64_t logLinesLost();
 
 } // namespace froxel::app

@@ -1,10 +1,13 @@
 // Parses, runs one subcommand, and turns whatever stopped it into one line and an exit code.
 #include "app/log_setup.h"
 #include "app/options.h"
+#include "app/standard_streams.h"
 #include "core/error.h"
+#include "core/write_soon.h"
 
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <unistd.h>
 #include <variant>
 
@@ -54,20 +57,23 @@ struct Run {
     }
 };
 
-int fail(const char* message, int exit_code) {
-    std::fprintf(stderr, "froxel: %s\n", message);
+int fail(const std::string& message, int exit_code) {
+    writeSoon(STDERR_FILENO, "froxel: " + message + "\n");
     return exit_code;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
+    app::holdStandardStreams();
     try {
         const auto options = app::parseOptions(argc, argv, app::readEnvironment(environ));
         // Standard output is for results only: logs go to stderr.
         app::startLog(options.log_level, options.log_format);
         app::logConfiguration(options.configuration);
-        return std::visit(Run{}, options.command);
+        const int exit_code = std::visit(Run{}, options.command);
+        app::finishResults();
+        return exit_code;
     } catch (const StartupError& error) {
         return fail(error.what(), exitCodeOf(error.code()));
     } catch (const std::exception& error) {

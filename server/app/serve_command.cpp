@@ -11,6 +11,7 @@
 #include "app/value_parsers.h"
 #include "core/latest_slot.h"
 #include "core/text.h"
+#include "core/write_soon.h"
 #include "gpu/device.h"
 #include "light/light_rig.h"
 #include "motion/pose.h"
@@ -23,7 +24,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <malloc.h>
 #include <optional>
@@ -249,11 +249,13 @@ struct Secrets {
 
 void printAddresses(const ServeOptions& options, const ServeRun& run) {
     const std::string scheme = options.tls_key.empty() ? "http" : "https";
-    std::printf("%s\n", urlOf(options.address, run.port(), scheme).c_str());
+    std::string lines = urlOf(options.address, run.port(), scheme) + "\n";
     if (const auto admin_port = run.adminPort()) {
-        std::printf("%smetrics\n", urlOf(options.admin.address, *admin_port).c_str());
+        lines += urlOf(options.admin.address, *admin_port) + "metrics\n";
     }
-    std::fflush(stdout);
+    if (!writeSoon(STDOUT_FILENO, lines)) {
+        spdlog::warn("event=addresses_not_printed");
+    }
 }
 
 } // namespace

@@ -18,8 +18,8 @@ constexpr std::chrono::milliseconds kWatchPeriod{500};
 constexpr std::chrono::seconds kLastFrame{3};
 
 [[noreturn]] void endWithoutDevice(ServeRun& run, const char* event, const std::string& why) {
-    spdlog::error("event={} reason={}", event, logValue(why));
     run.giveUp(why);
+    spdlog::error("event={} reason={}", event, logValue(why));
     spdlog::default_logger()->flush(); // other threads may yet log
     std::quick_exit(kExitDeviceLost);
 }

@@ -1,5 +1,6 @@
 #include "app/serve_run.h"
 
+#include "app/log_setup.h"
 #include "core/keep_for_good.h"
 #include "net/health.h"
 #include "net/metrics.h"
@@ -64,6 +65,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
     if (options_.losses) {
         server_->metrics().setDeviceLosses(options_.losses->count());
     }
+    server_->metrics().watchLog(logLinesLost);
     loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
         OpenedScene opened = options_.open(
@@ -72,6 +74,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
         server_->metrics().watchMemory(std::move(opened.memory));
         if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {
             loop_.setMinRate(rate_hz, frameCost(opened.source, *context));
+            loop_.setNewcomersFrame(session::initialState(*context, Clock::now()).settings);
         }
         server_->metrics().watchLoad([this] { return loop_.load(Clock::now()); });
         service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit});

@@ -118,6 +118,7 @@ struct Metrics::Impl {
     [[nodiscard]] prometheus::MetricFamily sessionFamily() const;
     [[nodiscard]] prometheus::MetricFamily memoryFamily() const;
     [[nodiscard]] prometheus::MetricFamily loadFamily() const;
+    [[nodiscard]] prometheus::MetricFamily logFamily() const;
 
     const std::function<size_t()> session_count;
     Gauge& viewers = gauge("froxel_viewers", "Viewers connected now.");
@@ -171,6 +172,7 @@ struct Metrics::Impl {
     mutable std::mutex watch_mutex;
     std::function<std::vector<MemoryUse>()> memory;
     std::function<double()> load;
+    std::function<uint64_t()> log_lost;
 };
 
 Metrics::Metrics(const std::string& version, std::function<size_t()> session_count)
@@ -325,6 +327,18 @@ prometheus::MetricFamily Metrics::Impl::loadFamily() const {
                         "", {{"", load ? load() : 0.0}});
 }
 
+void Metrics::watchLog(std::function<uint64_t()> lost) {
+    const std::lock_guard lock(impl_->watch_mutex);
+    impl_->log_lost = std::move(lost);
+}
+
+prometheus::MetricFamily Metrics::Impl::logFamily() const {
+    const std::lock_guard lock(watch_mutex);
+    return metricFamily(prometheus::MetricType::Counter, "froxel_log_lines_lost_total",
+                        "Lines of the log that its reader did not take.", "",
+                        {{"", log_lost ? static_cast<double>(log_lost()) : 0.0}});
+}
+
 prometheus::MetricFamily Metrics::Impl::sessionFamily() const {
     return metricFamily(
         prometheus::MetricType::Gauge, "froxel_sessions",
@@ -371,6 +385,7 @@ std::string Metrics::text() const {
     families.push_back(impl_->sessionFamily());
     families.push_back(impl_->memoryFamily());
     families.push_back(impl_->loadFamily());
+    families.push_back(impl_->logFamily());
     return prometheus::TextSerializer().Serialize(families);
 }
 

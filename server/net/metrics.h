@@ -69,6 +69,10 @@ class Metrics {
     // it is set it is 0.
     void watchLoad(std::function<double()> load);
 
+    // Tells how many lines of the log were lost since the start; called by text(), on its thread.
+    // Until it is set it is 0.
+    void watchLog(std::function<uint64_t()> lost);
+
     // docs/guide/metrics.md lists the names.
     [[nodiscard]] std::string text() const;
 

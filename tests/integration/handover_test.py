@@ -8,7 +8,9 @@ import subprocess
 import sys
 import unittest
 
-import websockets.legacy.client  # the client that 10.4 (Debian 12) and 15 (Debian 13) share
+import websockets.legacy.client
+
+from json_viewer import join
 
 FROXEL = sys.argv.pop(1) if len(sys.argv) > 1 else "froxel"
 VIEWERS = 4
@@ -27,17 +29,6 @@ class Server:
         self.process.kill()
         self.process.wait()
         self.process.stdout.close()
-
-
-async def join(url):
-    """A connection that has been welcomed and has had a picture."""
-    socket = await websockets.legacy.client.connect(url, subprotocols=["froxel.v1"], max_size=2**26)
-    await socket.send(json.dumps({"seq": 1, "hello": {"protocolMajor": 1}}))
-    welcomed = False
-    while not isinstance(message := await asyncio.wait_for(socket.recv(), 60), bytes):
-        welcomed = welcomed or "welcome" in json.loads(message)
-    assert welcomed
-    return socket
 
 
 class Handover(unittest.IsolatedAsyncioTestCase):

@@ -78,6 +78,24 @@ class CommandLine(unittest.TestCase):
         run = froxel("render", *SMALL, "--out", self.folder / "absent" / "a.png")
         self.assert_refused(run, 1, "absent")
 
+    def test_closed_standard_streams_lead_nowhere(self):
+        out = self.folder / "closed.png"
+        closed = subprocess.run(["sh", "-c", 'exec "$@" 0<&- 1>&- 2>&-', "sh", FROXEL, "render", *SMALL,
+                                 "--out", out, "--log-level", "debug"],
+                                env={**os.environ, "XDG_CACHE_HOME": CACHE.name}, timeout=120, check=False)
+        self.assertEqual(closed.returncode, 0)
+        self.assertEqual(out.read_bytes(), self.render("open.png"))
+
+    def test_results_that_standard_output_does_not_take_are_1(self):
+        reader, pipe = os.pipe()
+        os.close(reader)
+        with open("/dev/full", "wb") as full, os.fdopen(pipe, "wb") as left:
+            for stdout, reason in ((full, "No space left"), (left, "Broken pipe")):
+                run = subprocess.run([FROXEL, "--help"], stdout=stdout, stderr=subprocess.PIPE, text=True,
+                                     timeout=60, check=False)
+                self.assertEqual(run.returncode, 1)
+                self.assertRegex(run.stderr, f"^froxel: standard output .*: {reason}.*\n$")
+
     def test_help_and_version_are_0(self):
         for arguments in (["--help"], ["--version"], ["render", "--help"], ["--help-all"]):
             run = froxel(*arguments)
