@@ -32,6 +32,7 @@ class Admission {
     explicit Admission(double min_rate_hz = 0) : min_rate_hz_(min_rate_hz) {}
     // And the device time of a newcomer's frame; none: unknown, and nothing is held against it.
     void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
+    void setNewcomersCost(Seconds frame_cost) { newcomer_cost_ = frame_cost; }
 
     void add(uint64_t session, const session::Account& account, TimePoint now);
     void remove(uint64_t session);

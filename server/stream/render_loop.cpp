@@ -6,6 +6,7 @@
 #include "encode/memory.h"
 #include "session/render_scale.h"
 #include "session/settings.h"
+#include "stream/frame_cost.h"
 
 #include <spdlog/spdlog.h>
 
@@ -103,6 +104,10 @@ void RenderLoop::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cos
     admission_.setMinRate(min_rate_hz, frame_cost);
 }
 
+void RenderLoop::setNewcomersFrame(settings::ViewSettings settings) {
+    newcomers_frame_ = std::move(settings);
+}
+
 double RenderLoop::load(TimePoint now) const {
     const std::lock_guard lock(admission_mutex_);
     return admission_.load(now);
@@ -149,7 +154,7 @@ void RenderLoop::run(const std::stop_token& stop) {
 void RenderLoop::serve(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         options_.heartbeat->beat(Clock::now());
-        takeNews();
+        takeNews(stop);
         if (deviceTakesMore() && startNext()) {
             continue;
         }
@@ -203,7 +208,7 @@ void RenderLoop::readNews() {
     }
 }
 
-void RenderLoop::takeNews() {
+void RenderLoop::takeNews(const std::stop_token& stop) {
     readNews();
     const TimePoint now = Clock::now();
     refine_at_.reset();
@@ -227,6 +232,25 @@ void RenderLoop::takeNews() {
         // Shaders are compiled in pieces of all sizes, whose holes the heap keeps: a third of
         // resident memory after a while. It takes some tenths of a second; nobody waits for it now.
         malloc_trim(0);
+        priceAgain(stop);
+    }
+}
+
+// Its pipelines are there now, and the device's clocks and whoever else uses it may be others.
+// Given up for whoever comes.
+void RenderLoop::priceAgain(const std::stop_token& stop) {
+    if (!newcomers_frame_) {
+        return;
+    }
+    const auto cost = measureFrameCost(*source_, *newcomers_frame_, [&] {
+        options_.heartbeat->beat(Clock::now());
+        return !stop.stop_requested() && !mailbox_->hasNews();
+    });
+    if (cost) {
+        const std::lock_guard lock(admission_mutex_);
+        admission_.setNewcomersCost(*cost);
+    } else if (cost.error().code == ErrorCode::kDevice) {
+        throw StartupError(cost.error());
     }
 }
 
@@ -292,6 +316,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     options_.on_begun(host);
     warnOfLongStep("begin", host, {}, id, frame->state);
     frame->cost += host;
+    frame->host += host;
     if (work && work->half_built) {
         return false;
     }
@@ -402,6 +427,7 @@ void RenderLoop::finishOldest() {
     warnOfLongStep("piece", cost, frame.piece_estimate, frame.id, frame.state);
     scheduler_.onFinished(frame.id, cost - piece.charged, accounted_);
     frame.cost += cost;
+    frame.held += accounted_ - std::max(piece.submitted, std::exchange(collected_, accounted_));
     frame.longest_piece = std::max(frame.longest_piece, cost);
     --frame.on_device;
     if (!frame.over) {
@@ -434,26 +460,39 @@ void RenderLoop::finishPiece(Viewer& viewer, BegunFrame& frame, Result<Collected
     }
 }
 
+// What a frame keeps others from. Where the device is not the host, the host's part of one goes on
+// beside the device's part of another; and the device was done before the host saw it, which its
+// timestamps tell.
+Seconds RenderLoop::needOf(const BegunFrame& frame, const FrameStats& stats) const {
+    if (source_->isHost()) {
+        return frame.cost;
+    }
+    const Seconds device =
+        stats.gpu_us ? std::min(frame.held, Seconds(Microseconds(*stats.gpu_us))) : frame.held;
+    return std::max(frame.host, device);
+}
+
 void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn) {
     const TimePoint now = Clock::now();
+    const Seconds need = needOf(frame, drawn.stats);
     typical_cost_.add(frame.cost);
     viewer.frame_cost.add(frame.cost);
     viewer.piece_cost = frame.longest_piece;
     viewer.gave_up = false;
     {
         const std::lock_guard lock(admission_mutex_);
-        admission_.onFrame(frame.id, frame.cost, now);
+        admission_.onFrame(frame.id, need, now);
     }
     viewer.drawn = frame.state;
     ++options_.fates->rendered;
     const session::Delivered& with = frame.record.delivered;
     if (with.refinement == session::Refinement::kInteractive) {
         const double target_hz = viewer.state.delivery.target_fps;
-        demand_.onFrame(frame.id, frame.cost, target_hz, now);
+        demand_.onFrame(frame.id, need, target_hz, now);
         if (target_hz > 0) {
             // As if it had the device to itself, at this much a frame.
             const Seconds shared(demand_.total(now) / target_hz);
-            viewer.render_scale.onFrame(std::max(frame.cost, shared), with.scale, now);
+            viewer.render_scale.onFrame(std::max(need, shared), with.scale, now);
         }
     }
     if (viewer.leaving) {
@@ -467,7 +506,7 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
     record.render_us = Microseconds(now - frame.started).count();
     record.stats = std::move(drawn.stats);
     viewer.pipeline->push({std::move(drawn.pixels), frame.state.key_requests, std::move(record),
-                           std::max(frame.cost, options_.min_frame_interval), now});
+                           std::max(need, options_.min_frame_interval), now});
 }
 
 // Whoever joined meanwhile is told too. The device is asked nothing more and nothing that it may

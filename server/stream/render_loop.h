@@ -63,6 +63,10 @@ class RenderLoop final : public session::StreamPort {
     // a newcomer's frame: see Admission. 0, as it is first: no matter. Any thread.
     void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
 
+    // What that frame is, so that its time is measured again each time that everybody has left.
+    // Within make_source.
+    void setNewcomersFrame(settings::ViewSettings settings);
+
     // Admission::load(). Any thread.
     [[nodiscard]] double load(TimePoint now) const;
 
@@ -90,8 +94,9 @@ class RenderLoop final : public session::StreamPort {
 
     void run(const std::stop_token& stop);
     void serve(const std::stop_token& stop);
-    void takeNews();
+    void takeNews(const std::stop_token& stop);
     void readNews();
+    void priceAgain(const std::stop_token& stop);
     void takeState(Viewer& viewer, const ViewerNews& news);
     void chargeEncoding(session::SessionId id, Viewer& viewer);
     void updateReadiness(session::SessionId id, Viewer& viewer, TimePoint now);
@@ -113,6 +118,7 @@ class RenderLoop final : public session::StreamPort {
     void finishOldest();
     void finishPiece(Viewer& viewer, BegunFrame& frame, Result<Collected> collected);
     void finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn);
+    [[nodiscard]] Seconds needOf(const BegunFrame& frame, const FrameStats& stats) const;
 
     const RenderLoopOptions options_;
     const uint32_t core_count_ = std::max(1U, std::thread::hardware_concurrency());
@@ -129,7 +135,9 @@ class RenderLoop final : public session::StreamPort {
     std::deque<Piece> submitted_;      // oldest first
     session::SteadyCost typical_cost_; // of whole frames, whoever's
     TimePoint accounted_{};            // until then this thread's time is charged
-    std::jthread thread_;              // last: ends before what it uses
+    TimePoint collected_{};            // the last piece
+    std::optional<settings::ViewSettings> newcomers_frame_;
+    std::jthread thread_; // last: ends before what it uses
 };
 
 } // namespace froxel::stream

@@ -28,7 +28,9 @@ struct BegunFrame {
     uint32_t on_device = 0;    // pieces
     Seconds piece_estimate{0}; // what a piece is expected to take of the device
     Seconds longest_piece{0};  // of those collected
-    Seconds cost{0};           // so far, with the host's part
+    Seconds cost{0};           // so far, with the host's part, as the scheduler charges it
+    Seconds host{0};           // of which the host took
+    Seconds held{0};           // how long its pieces were the device's oldest
     bool over = false;         // nothing more of it will be submitted
 };
 

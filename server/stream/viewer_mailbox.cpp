@@ -1,5 +1,6 @@
 #include "stream/viewer_mailbox.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace froxel::stream {
@@ -85,6 +86,12 @@ std::vector<ViewerNews> ViewerMailbox::take() {
         slot = news.left ? slots_.erase(slot) : std::next(slot);
     }
     return all;
+}
+
+bool ViewerMailbox::hasNews() const {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(slots_.begin(), slots_.end(),
+                       [](const auto& slot) { return slot.second.fresh; });
 }
 
 void ViewerMailbox::wait(const std::stop_token& stop, std::optional<TimePoint> deadline) {

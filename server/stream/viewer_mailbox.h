@@ -48,6 +48,7 @@ class ViewerMailbox {
 
     // Render thread.
     [[nodiscard]] std::vector<ViewerNews> take();
+    [[nodiscard]] bool hasNews() const;
     // Until there is news, a wake() since the last wait, a stop, or the deadline.
     void wait(const std::stop_token& stop, std::optional<TimePoint> deadline);
 

@@ -186,7 +186,8 @@ class FakeView final : public stream::ViewSource {
             --*own;
         });
         frame.stats.passes = {{"fake", 1.0}};
-        frame.stats.gpu_us = 1;
+        frame.stats.gpu_us =
+            std::max(1.0, Microseconds(Seconds(device_->frame_time.load())).count());
         fillStats(frame.stats, settings);
         return frame;
     }

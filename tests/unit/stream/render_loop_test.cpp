@@ -194,15 +194,24 @@ TEST_F(RenderLoopTest, Lost_WhileDrawing_TellsEveryoneAndRefusesNewcomers) {
 }
 
 // After a wait that ended in vain the device may still use all of it.
-TEST_F(RenderLoopTest, Lost_WithFramesOnTheDevice_WaitsNoMoreAndFreesNothing) {
+TEST_F(RenderLoopTest, Lost_WithPiecesOnTheDevice_WaitsNoMoreAndFreesNothing) {
     device_->depth = 2;
-    device_->setGate(false);
     start();
     const auto sinks = {makeSink(), makeSink()};
+    session::SessionId last = 0;
     for (const auto& sink : sinks) {
-        join(sink, still(), 1);
+        last = join(sink, still(), 1);
+        ASSERT_TRUE(sink->waitForFrames(1));
     }
-    while (device_->submitted_count < 2) {
+    const uint64_t collected = device_->collect_count;
+    device_->setGate(false);
+    device_->piece_count = 2;
+    const uint64_t submitted = device_->submitted_count;
+    loop_->grant(last, 2);
+    auto other = still();
+    ++other.version;
+    loop_->update(last, other, Clock::now());
+    while (device_->submitted_count < submitted + 2) {
         std::this_thread::yield();
     }
     device_->lost = true;
@@ -212,7 +221,7 @@ TEST_F(RenderLoopTest, Lost_WithFramesOnTheDevice_WaitsNoMoreAndFreesNothing) {
     for (const auto& sink : sinks) {
         EXPECT_TRUE(sink->record().lost);
     }
-    EXPECT_EQ(device_->collect_count, 1U);
+    EXPECT_EQ(device_->collect_count, collected + 1);
     EXPECT_EQ(device_->live_views, 2);
 }
 
@@ -224,6 +233,40 @@ TEST_F(RenderLoopTest, PausedBeforeItsFirstPicture_TakesNoTimeFromOthers) {
     EXPECT_FALSE(loop_->admits({"b"}, Clock::now())) << "0.6 each";
     loop_->grant(id, 0);
     EXPECT_TRUE(loop_->admits({"b"}, Clock::now()));
+}
+
+// Two viewers keep two frames on the device: each waits for the other's, and neither costs that.
+TEST_F(RenderLoopTest, FramesThatWaitForOthers_CostWhatTheyHeldTheDevice) {
+    device_->depth = 2;
+    device_->frame_time = 10ms;
+    start();
+    loop_->setMinRate(10, 10ms);
+    const auto first = makeSink();
+    const auto second = makeSink();
+    join(first, moving(), kPlenty);
+    join(second, moving(), kPlenty);
+    ASSERT_TRUE(first->waitForFrames(20));
+    ASSERT_TRUE(second->waitForFrames(20));
+    // 0.1 each, and 0.1 for one more: 0.2 of 0.9. If a wait were charged, 0.2 each.
+    EXPECT_LT(loop_->load(Clock::now()), 0.4);
+}
+
+// The price that a busy machine had at the start is not kept for ever.
+TEST_F(RenderLoopTest, EverybodyLeft_TheNewcomersFrameIsPricedAgain) {
+    start();
+    loop_->setMinRate(1, 600ms);
+    loop_->setNewcomersFrame(still().settings);
+    const auto sink = makeSink();
+    const auto id = loop_->join(sink, still(), {"a"}, Clock::now()).value();
+    EXPECT_FALSE(loop_->admits({"b"}, Clock::now())) << "0.6 each";
+    loop_->leave(id);
+    while (device_->made_views == 0 || device_->live_views > 0) {
+        std::this_thread::yield(); // until the measurement is over
+    }
+    ASSERT_TRUE(loop_->join(makeSink(), still(), {"a"}, Clock::now()));
+    while (!loop_->admits({"b"}, Clock::now())) {
+        std::this_thread::yield();
+    }
 }
 
 TEST_F(RenderLoopTest, MakeSource_Throws_ReportsIt) {
