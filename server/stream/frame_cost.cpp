@@ -4,25 +4,31 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <deque>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace froxel::stream {
 namespace {
 
-// Long enough for a GPU that was idle to come to its clocks; a slower device ends by the count.
-constexpr Seconds kLongest{0.25};
-constexpr uint32_t kFewest = 2; // intervals between frames
+// A slow device ends by the count, or after the first window.
+constexpr Seconds kWindow{0.1};
+constexpr uint32_t kFewest = 2; // intervals between frames, in each
+constexpr Seconds kLongest{2.0};
+constexpr double kSteady = 0.98;
+// A GPU that was idle for long comes to its clocks late, and not by and by.
+constexpr Seconds kWarmUp{1.0};
 
 Error brokenOff() {
     return {ErrorCode::kCapacity, "what a frame costs was not measured to the end"};
 }
 
-// Frames of one view, one after another, as many under way as keep the device busy.
+// Frames of as many views in turn as keep the device busy, as those of several viewers come.
 class Series {
   public:
-    Series(ViewSource& view, const settings::ViewSettings& settings, uint32_t depth)
-        : view_(view), settings_(settings), depth_(depth) {}
+    Series(std::vector<std::unique_ptr<ViewSource>>& views, const settings::ViewSettings& settings)
+        : views_(views), settings_(settings) {}
 
     // Until a frame is done, and when that was.
     Result<TimePoint> next(const std::function<bool()>& goes_on) {
@@ -35,31 +41,31 @@ class Series {
             } else if (*given) {
                 continue;
             }
-            const auto collected = view_.collect();
-            --on_device_;
-            if (!collected) {
+            const size_t view = on_device_.front();
+            const auto collected = views_[view]->collect();
+            on_device_.pop_front();
+            const bool ended = !collected || collected->outcome == Collected::Outcome::kAgain;
+            if (ended && view == turn_) {
                 waiting_ = 0;
+            }
+            if (!collected) {
                 return collected.error();
             }
             if (collected->outcome == Collected::Outcome::kFrame) {
                 return Clock::now();
             }
-            if (collected->outcome == Collected::Outcome::kAgain) {
-                waiting_ = 0;
-            }
         }
     }
-    // The device has nothing of the view when this returns.
+    // The device has nothing of the views when this returns.
     Result<void> finish() {
         if (std::exchange(waiting_, 0) > 0) {
-            view_.abandon();
+            views_[turn_]->abandon();
         }
-        while (on_device_ > 0) {
-            const auto collected = view_.collect();
+        for (; !on_device_.empty(); on_device_.pop_front()) {
+            const auto collected = views_[on_device_.front()]->collect();
             if (!collected && collected.error().code == ErrorCode::kDevice) {
                 return collected.error();
             }
-            --on_device_;
         }
         return {};
     }
@@ -67,58 +73,77 @@ class Series {
   private:
     // Whether there was something to begin or to hand over.
     Result<bool> give() {
-        if (on_device_ >= depth_) {
+        if (on_device_.size() >= views_.size()) {
             return false;
         }
         if (waiting_ == 0) {
-            if (!view_.canBegin()) {
+            const size_t turn = begun_ % views_.size();
+            if (!views_[turn]->canBegin()) {
                 return false;
             }
-            const auto work = view_.begin(settings_, {}, 0);
+            const auto work = views_[turn]->begin(settings_, {}, 0);
             if (!work) {
                 return work.error();
             }
             if (!work->half_built && work->piece_count == 0) {
                 return brokenOff(); // its shaders are being made
             }
+            turn_ = turn;
             waiting_ = work->half_built ? 0 : work->piece_count;
+            begun_ += work->half_built ? 0U : 1U;
             return true;
         }
-        if (const auto submitted = view_.submitPiece(); !submitted) {
+        if (const auto submitted = views_[turn_]->submitPiece(); !submitted) {
             return submitted.error();
         }
         --waiting_;
-        ++on_device_;
+        on_device_.push_back(turn_);
         return true;
     }
 
-    ViewSource& view_;
+    std::vector<std::unique_ptr<ViewSource>>& views_;
     const settings::ViewSettings& settings_;
-    const uint32_t depth_;
-    uint32_t waiting_ = 0;   // pieces of the frame begun last
-    uint32_t on_device_ = 0; // pieces
+    size_t begun_ = 0;             // frames
+    size_t turn_ = 0;              // the view whose frame was begun last
+    uint32_t waiting_ = 0;         // pieces of that frame
+    std::deque<size_t> on_device_; // the view of each piece, oldest first
 };
 
-// The usual time from one frame to the next in the latter half of the series: it was slower before
-// its pipelines and the device's clocks were there.
-Result<Seconds> measure(Series& series, const std::function<bool()>& goes_on) {
-    const auto first = series.next(goes_on);
-    if (!first) {
-        return first.error();
-    }
-    TimePoint before = *first;
+// The usual time from one frame to the next, of frames that take kWindow.
+Result<Seconds> usualOf(Series& series, TimePoint& before, const std::function<bool()>& goes_on) {
+    const TimePoint begin = before;
     std::vector<Seconds> intervals;
-    while (intervals.size() < kFewest || before - *first < kLongest) {
+    while (intervals.size() < kFewest || before - begin < kWindow) {
         const auto done = series.next(goes_on);
         if (!done) {
             return done.error();
         }
         intervals.push_back(*done - std::exchange(before, *done));
     }
-    const auto half = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-    const auto median = half + (intervals.end() - half) / 2;
-    std::nth_element(half, median, intervals.end());
+    const auto median = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+    std::nth_element(intervals.begin(), median, intervals.end());
     return *median;
+}
+
+// Until it gets no shorter: it was longer before the device's clocks and its pipelines were there.
+Result<Seconds> measure(Series& series, Seconds warm_up, const std::function<bool()>& goes_on) {
+    const auto first = series.next(goes_on);
+    if (!first) {
+        return first.error();
+    }
+    TimePoint before = *first;
+    auto cost = usualOf(series, before, goes_on);
+    while (cost && before - *first < kLongest) {
+        const auto next = usualOf(series, before, goes_on);
+        if (!next) {
+            return next.error();
+        }
+        const bool steady = std::exchange(*cost, std::min(*cost, *next)) * kSteady < *next;
+        if (steady && before - *first >= warm_up) {
+            break;
+        }
+    }
+    return cost;
 }
 
 } // namespace
@@ -126,19 +151,25 @@ Result<Seconds> measure(Series& series, const std::function<bool()>& goes_on) {
 Result<Seconds> measureFrameCost(FrameSource& source,
                                  const settings::ViewSettings& settings,
                                  const std::function<bool()>& goes_on) {
-    auto view = source.makeView();
-    if (!view) {
-        return view.error();
+    std::vector<std::unique_ptr<ViewSource>> views;
+    while (views.size() < source.depth()) {
+        auto view = source.makeView();
+        if (!view) {
+            return view.error();
+        }
+        views.push_back(std::move(*view));
     }
-    Series series(**view, settings, source.depth());
-    auto cost = measure(series, goes_on);
+    Series series(views, settings);
+    auto cost = measure(series, source.isHost() ? Seconds(0) : kWarmUp, goes_on);
     if (cost || cost.error().code != ErrorCode::kDevice) {
         if (const auto finished = series.finish(); !finished) {
             cost = finished.error();
         }
     }
     if (!cost && cost.error().code == ErrorCode::kDevice) {
-        keepForGood(std::move(*view));
+        for (auto& view : views) {
+            keepForGood(std::move(view));
+        }
     }
     return cost;
 }
