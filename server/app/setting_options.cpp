@@ -91,7 +91,7 @@ void addSetting(CommandBuilder& command,
         const bool given = !usuallyOn(usual);
         command.cli().add_flag_callback(
             optionName(setting, usual), [set, given] { set(given); },
-            (given ? "" : "Turns off: ") + std::string(setting.words.help));
+            (given ? "" : "Turns this off: ") + std::string(setting.words.help));
         return;
     }
     addSettingValue(command, setting, textOf(setting, usual), set);

@@ -12,6 +12,7 @@ const std::string& settingWords() {
         for (const SessionSetting& setting : sessionSettings()) {
             const settings::Setting& facts = setting.facts();
             list.push_back({{"name", facts.name},
+                            {"label", facts.words.label},
                             {"help", facts.words.help},
                             {"unit", facts.words.unit},
                             {"cost", facts.words.cost}});

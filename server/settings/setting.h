@@ -27,11 +27,12 @@ using SettingValue = std::variant<bool, uint32_t, double, Choice, glm::dvec3>;
 
 enum class SettingKind : uint8_t { kSwitch, kWhole, kReal, kChoice, kColor };
 
-// For people; any may be empty.
+// For people, in the field's terms. Each is read alone: on the page, in --help, in reports.
 struct SettingWords {
+    std::string_view label;  // "Cross-fade"
     std::string_view help;   // says what it does, without a full stop
-    std::string_view unit{}; // "m", "1/m", "px"
-    std::string_view cost{}; // in time, memory or error, where it is on
+    std::string_view unit{}; // "m", "1/m", "px"; empty: none
+    std::string_view cost{}; // in time, memory or error, where it is on; empty: none
 };
 
 struct Setting {

@@ -12,231 +12,295 @@
 namespace froxel::settings {
 
 inline constexpr std::array kSettingRows = {
-    row<&ViewSettings::renderer>(Names{"renderer", kRendererNames}, "renderer", {"How to draw"}),
+    row<&ViewSettings::renderer>(
+        Names{"renderer", kRendererNames},
+        "renderer",
+        {"Renderer", "Algorithm that draws and lights the scene", "",
+         "naive: every light at every pixel; the others: the lights that reach a pixel"}),
     row<&ViewSettings::lighting>(
         Names{"lighting", kLightingStageNames},
         "lighting",
-        {"Stage that adds lights up; auto: fragment for forward renderers on a CPU, else compute"}),
-    row<&ViewSettings::shading>(
-        Names{"shading", kShadingModelNames},
-        "shading",
-        {"Metallic-roughness, its diffuse part alone, or with Blinn's highlight", "",
-         "lambert: a third of the time a light"}),
+        {"Lighting stage", "Shader stage that adds up lights; auto: fragment for forward renderers "
+                           "on a CPU device, compute elsewhere"}),
+    row<&ViewSettings::shading>(Names{"shading", kShadingModelNames},
+                                "shading",
+                                {"Shading model",
+                                 "Reflection model of surfaces: physically based, its diffuse part "
+                                 "alone, or Blinn-Phong highlights",
+                                 "", "lambert: a third of the time for each light"}),
     row<&ViewSettings::gbuffer, &GbufferLayout::normal>(
         Names{"gbuffer_normal", kNormalEncodingNames},
         "gbuffer.normal",
-        {"How deferred renderers keep normals", "", "fewer bits: less memory to pass, more error"}),
+        {"G-buffer normals", "Encoding of normals in the G-buffer of deferred renderers", "",
+         "fewer bits: less memory traffic, more error"}),
     row<&ViewSettings::gbuffer, &GbufferLayout::position>(
         Names{"gbuffer_position", kPositionSourceNames},
         "gbuffer.position",
-        {"Where deferred lighting takes positions from", "", "a stored one: more memory to pass"}),
+        {"G-buffer positions",
+         "Source of positions for deferred lighting: rebuilt from depth, or stored", "",
+         "a stored one: more memory traffic"}),
     row<&ViewSettings::grid, &Grid::law>(
-        Names{"grid_law", kGridLawNames}, "grid_law", {"How slices divide depth"}),
+        Names{"grid_law", kGridLawNames},
+        "grid_law",
+        {"Depth slices", "Spacing of the cluster grid's slices along depth"}),
     row<&ViewSettings::light_loop>(
         Names{"light_loop", kLightLoopNames},
         "light_loop",
-        {"Lights that a pixel loops over; auto: all where lists cannot pay"}),
+        {"Light lists", "Lights that each pixel loops over: those listed for its cluster, or all; "
+                        "auto: all where lists cannot pay"}),
     row<&ViewSettings::list_cap>(
         Range<uint32_t>{"list_cap", 0, 65'535},
         "list_cap",
-        {"Lights that a list keeps at most, those that can add most. 0: all", "",
+        {"List cap", "Most lights that one list keeps, the strongest first; 0: all of them", "",
          "faster, darker; lists are made on the host"}),
     row<&ViewSettings::transparency>(
         Names{"transparency", kTransparencyNames},
         "transparency",
-        {"How blended surfaces that overlap come together", "",
-         "weighted: as sorted; peeled: two passes over the glass a layer"}),
-    row<&ViewSettings::peel_layers>(
-        kPeelLayersRange,
-        "peel_layers",
-        {"Layers that peeled draws at most", "", "each: what is visible of it"}),
+        {"Transparency", "Order in which overlapping blended surfaces are combined", "",
+         "weighted: as sorted; peeled: two passes over the glass for each layer"}),
+    row<&ViewSettings::peel_layers>(kPeelLayersRange,
+                                    "peel_layers",
+                                    {"Peeled layers", "Most layers that peeled transparency draws",
+                                     "", "each layer: what is visible of it"}),
     row<&ViewSettings::count_pairs>(
         Switch{"count_pairs"},
         "count_pairs",
-        {"Count evaluated and contributing (light, pixel) pairs", "", "a pass over all pairs"}),
-    row<&ViewSettings::debug, &Debug::view>(Names{"debug_view", kDebugViewNames},
-                                            "debug_view",
-                                            {"Shown instead of the lit picture, or over it", "",
-                                             "no lighting, one pass; lines: one pass more"}),
-    row<&ViewSettings::debug, &Debug::scale_max>(Range<double>{"debug_scale_max", 0, 1e6},
-                                                 "debug_scale_max",
-                                                 {"Where its heat map ends; 0: chosen"}),
+        {"Count light pairs",
+         "Counts the (light, pixel) pairs that are evaluated, and those that add light", "",
+         "a pass over all pairs"}),
+    row<&ViewSettings::debug, &Debug::view>(
+        Names{"debug_view", kDebugViewNames},
+        "debug_view",
+        {"Debug view", "Picture of the renderer's data, in place of the lit picture or over it", "",
+         "no lighting, one pass; lines: one pass more"}),
+    row<&ViewSettings::debug, &Debug::scale_max>(
+        Range<double>{"debug_scale_max", 0, 1e6},
+        "debug_scale_max",
+        {"Heat map maximum",
+         "Value at the hot end of the debug view's heat map; 0: chosen for each picture"}),
 
-    row<&ViewSettings::lights, &Lights::count>(
-        kLightCountRange,
-        "lights.count",
-        {"Seeded point lights", "", "each: what its radius reaches"}),
+    row<&ViewSettings::lights, &Lights::count>(kLightCountRange,
+                                               "lights.count",
+                                               {"Number of lights",
+                                                "Moving point lights that are placed from the seed",
+                                                "", "each light: what its radius reaches"}),
     row<&ViewSettings::lights, &Lights::radius_m>(
         kLightRadiusRange,
         "lights.radius_m",
-        {"Where a light reaches exactly 0", "m", "grows with its square and more"}),
+        {"Light radius", "Distance at which a light's brightness reaches exactly 0", "m",
+         "grows with its square and more"}),
     row<&ViewSettings::lights, &Lights::intensity>(
-        kLightIntensityRange, "lights.intensity", {"Scales every seeded light"}),
+        kLightIntensityRange,
+        "lights.intensity",
+        {"Light brightness", "Factor on the brightness of every seeded light"}),
     row<&ViewSettings::lights, &Lights::cutoff>(
         Range<double>{"light_cutoff", 0, 1'000},
         "lights.cutoff",
-        {"A light ends where its irradiance would fall to this. 0: at its radius", "",
-         "faster, darker"}),
+        {"Light cutoff",
+         "Irradiance below which a light ends before its radius; 0: no earlier than its radius", "",
+         "saves time; darker"}),
     row<&ViewSettings::lights, &Lights::cutoff_compensated>(
         Switch{"light_cutoff_compensated"},
         "lights.cutoff_compensated",
-        {"Lights that end early are brighter by what they lost", "", "nothing"}),
+        {"Compensate cutoff", "Brightens lights that the cutoff ends early by what they lose", "",
+         "nothing"}),
     row<&ViewSettings::lights, &Lights::seed>(
         Range<uint32_t>{"seed", 0, std::numeric_limits<uint32_t>::max()},
         "lights.seed",
-        {"Picks the lights"}),
-    row<&ViewSettings::lights, &Lights::animate>(
-        Switch{"animate"}, "lights.animate", {"Motion of the lights"}),
+        {"Seed", "Number from which the lights' places, colours and paths are drawn"}),
+    row<&ViewSettings::lights, &Lights::animate>(Switch{"animate"},
+                                                 "lights.animate",
+                                                 {"Move lights",
+                                                  "Moves the seeded lights along their paths", "",
+                                                  "each frame is drawn anew"}),
     row<&ViewSettings::lights, &Lights::speed>(
-        Range<double>{"light_speed", 0, 100}, "lights.speed", {"Scales the clock that moves them"}),
+        Range<double>{"light_speed", 0, 100},
+        "lights.speed",
+        {"Light speed", "Factor on the speed of the seeded lights"}),
     row<&ViewSettings::lights, &Lights::ambient>(
         Range<double>{"ambient", 0, 1'000},
         "lights.ambient",
-        {"Scales the ambient term, where the environment is off"}),
-    row<&ViewSettings::lights, &Lights::scene_lights>(
-        Switch{"scene_lights"}, "lights.scene_lights", {"The scene's own lights"}),
+        {"Ambient light",
+         "Factor on the even light that surfaces get where the environment is off"}),
+    row<&ViewSettings::lights, &Lights::scene_lights>(Switch{"scene_lights"},
+                                                      "lights.scene_lights",
+                                                      {"Lights of the file",
+                                                       "Uses the lights that the scene's file has",
+                                                       "", "each light: what its radius reaches"}),
 
     row<&ViewSettings::animation, &Animation::playing>(
         Switch{"animation_playing"},
         "animation.playing",
-        {"The scene's animation goes on", "", "what moves is drawn anew"}),
+        {"Play animation", "Plays the scene's animation", "", "what moves is drawn anew"}),
     row<&ViewSettings::animation, &Animation::speed>(
         Range<double>{"animation_speed", -100, 100},
         "animation.speed",
-        {"Scales the clock of the scene's animation; below 0: backwards"}),
+        {"Animation speed", "Factor on the speed of the scene's animation; below 0: backwards"}),
     row<&ViewSettings::animation, &Animation::repeat>(
-        Names{"animation_repeat", kRepeatNames}, "animation.repeat", {"What it does at its ends"}),
+        Names{"animation_repeat", kRepeatNames},
+        "animation.repeat",
+        {"Animation repeat", "Behaviour of the scene's animation when it reaches an end"}),
     row<&ViewSettings::animation, &Animation::fade_s>(
         Range<double>{"animation_fade", 0, 10},
         "animation.fade_s",
-        {"That going over to another animation takes", "s", "meanwhile both are sampled"}),
+        {"Cross-fade", "Time in which one animation blends into the next", "s",
+         "both animations are sampled meanwhile"}),
 
     row<&ViewSettings::environment, &Environment::light>(
         Names{"environment", kEnvironmentLightNames},
         "environment.light",
-        {"Light from all around: a studio, or the panorama of --environment-file", "",
-         "not off: a lookup at every pixel; its first picture waits a second"}),
+        {"Environment light",
+         "Light from all around: none, a studio, or the panorama of --environment-file", "",
+         "not off: a lookup at every pixel; the first picture waits a second"}),
     row<&ViewSettings::environment, &Environment::rotation_deg>(
         Range<double>{"environment_rotation", -180, 180},
         "environment.rotation_deg",
-        {"Turns it about the world's y, from z towards x", "deg"}),
+        {"Environment rotation",
+         "Turn of the environment about the world's y axis, from z towards x", "deg"}),
     row<&ViewSettings::environment, &Environment::strength>(
         Range<double>{"environment_strength", 0, 1'000},
         "environment.strength",
-        {"Scales its radiance"}),
+        {"Environment brightness", "Factor on the light from the environment"}),
     row<&ViewSettings::environment, &Environment::background>(
         Switch{"environment_background"},
         "environment.background",
-        {"It shows behind the scene", "", "a pass over the picture"}),
+        {"Environment as background", "Shows the environment behind the scene", "",
+         "a pass over the picture"}),
     row<&ViewSettings::environment, &Environment::blur>(
         Range<double>{"environment_blur", 0, 1},
         "environment.blur",
-        {"Of what shows there: the roughness of a surface that mirrors it so"}),
+        {"Background blur", "Blur of the environment behind the scene, as the roughness of a "
+                            "surface that would mirror it so"}),
 
     row<&ViewSettings::exposure_mode>(
         Names{"exposure_mode", kExposureModeNames},
         "exposure_mode",
-        {"fixed: exposure alone; frame: times what brings this very picture to middle grey", "",
+        {"Exposure mode",
+         "Exposure by hand (fixed), or brought to middle grey for each frame (frame)", "",
          "frame: two passes over the picture"}),
-    row<&ViewSettings::exposure>(
-        Range<double>{"exposure", 0.0001, 10'000}, "exposure", {"Multiplies linear radiance"}),
-    row<&ViewSettings::tone_map>(
-        Names{"tone_map", kToneMapNames}, "tone_map", {"From scene light to display colours"}),
+    row<&ViewSettings::exposure>(Range<double>{"exposure", 0.0001, 10'000},
+                                 "exposure",
+                                 {"Exposure", "Factor on scene light before tone mapping"}),
+    row<&ViewSettings::tone_map>(Names{"tone_map", kToneMapNames},
+                                 "tone_map",
+                                 {"Tone mapping", "Curve from scene light to display colours"}),
     row<&ViewSettings::toon_outline, &ToonOutline::strength>(
         Range<double>{"outline_strength", 0, 1},
         "toon_outline.strength",
-        {"How dark the toon renderers draw edges", "", "above 0: a pass over the picture"}),
+        {"Outline strength", "Darkness of the outlines that the toon renderers draw at edges", "",
+         "above 0: a pass over the picture"}),
     row<&ViewSettings::toon_outline, &ToonOutline::width>(
         Range<double>{"outline_width", 0.0005, 0.01},
         "toon_outline.width",
-        {"Of these lines, as a share of the smaller side"}),
+        {"Outline width", "Width of toon outlines, as a share of the picture's smaller side"}),
 
     row<&ViewSettings::bloom, &Bloom::kind>(
         Names{"bloom", kBloomKindNames},
         "bloom.kind",
-        {"How bright light is spread", "",
-         "mip_chain: least; separable: more with the radius, single_pass: with its square"}),
-    row<&ViewSettings::bloom, &Bloom::threshold>(Range<double>{"bloom_threshold", 0, 1'000},
-                                                 "bloom.threshold",
-                                                 {"Exposed radiance from which light is spread"}),
+        {"Bloom", "Filter that spreads bright light into a glow", "",
+         "mip_chain: least; separable: more with the radius; single_pass: with its square"}),
+    row<&ViewSettings::bloom, &Bloom::threshold>(
+        Range<double>{"bloom_threshold", 0, 1'000},
+        "bloom.threshold",
+        {"Bloom threshold", "Exposed brightness above which light glows"}),
     row<&ViewSettings::bloom, &Bloom::knee>(
         Range<double>{"bloom_knee", 0, 1},
         "bloom.knee",
-        {"Share of the threshold over which spreading sets in"}),
-    row<&ViewSettings::bloom, &Bloom::strength>(
-        Range<double>{"bloom_strength", 0, 1},
-        "bloom.strength",
-        {"Share of bright light that is spread", "", "0 leaves all of it out"}),
+        {"Bloom knee", "Share of the bloom threshold over which the glow sets in"}),
+    row<&ViewSettings::bloom, &Bloom::strength>(Range<double>{"bloom_strength", 0, 1},
+                                                "bloom.strength",
+                                                {"Bloom strength",
+                                                 "Share of bright light that goes into the glow",
+                                                 "", "0 leaves all of it out"}),
     row<&ViewSettings::bloom, &Bloom::radius>(
         Range<double>{"bloom_radius", 0.001, 0.05},
         "bloom.radius",
-        {"Standard deviation of the spread, as a share of the smaller side", "",
-         "larger: more, but little by mip_chain"}),
+        {"Bloom radius", "Standard deviation of the glow, as a share of the picture's smaller side",
+         "", "larger: more, but little by mip_chain"}),
     row<&ViewSettings::antialiasing>(Names{"antialiasing", kAntialiasingNames},
                                      "antialiasing",
-                                     {"A filter over the picture, or four samples a pixel", "",
-                                      "fxaa: one pass; ssaa4: four times the work"}),
+                                     {"Antialiasing",
+                                      "Smoothing of edges: a filter over the picture (fxaa), or "
+                                      "four samples for each pixel (ssaa4)",
+                                      "", "fxaa: one pass; ssaa4: four times the work"}),
 
     row<&ViewSettings::fog, &Fog::density>(
         Range<double>{"fog_density", 0, 100},
         "fog.density",
-        {"What a medium takes of light in a metre; 0: none", "1/m", "above 0: three passes"}),
+        {"Fog density",
+         "Share of light that fog takes in a metre, as the extinction coefficient; 0: no fog",
+         "1/m", "above 0: three passes"}),
     row<&ViewSettings::fog, &Fog::height_falloff>(
         Range<double>{"fog_height_falloff", 0, 100},
         "fog.height_falloff",
-        {"A metre above the base height its density falls by this power of e", "1/m", "little"}),
-    row<&ViewSettings::fog, &Fog::base_height_m>(Range<double>{"fog_base_height", -1e7, 1e7},
-                                                 "fog.base_height_m",
-                                                 {"World y up to which its density is whole", "m"}),
+        {"Fog height falloff",
+         "Rate at which fog thins out with height above its base, as a power of e for each metre",
+         "1/m", "little"}),
+    row<&ViewSettings::fog, &Fog::base_height_m>(
+        Range<double>{"fog_base_height", -1e7, 1e7},
+        "fog.base_height_m",
+        {"Fog base height", "Height (world y) below which fog has its full density", "m"}),
     row<&ViewSettings::fog, &Fog::anisotropy>(
         Range<double>{"fog_anisotropy", -0.95, 0.95},
         "fog.anisotropy",
-        {"Whether it scatters light onwards (above 0) or back"}),
+        {"Fog anisotropy", "Direction in which fog scatters light: onwards above 0, back below 0"}),
     row<&ViewSettings::fog, &Fog::albedo>(
         ColorRange{"fog_albedo", 0, 1},
         "fog.albedo",
-        {"Share of that light that it scatters", "", "0,0,0 leaves its volume out"}),
+        {"Fog colour", "Share of the light taken by fog that it scatters instead of absorbing", "",
+         "0,0,0 leaves its volume out"}),
     row<&ViewSettings::fog, &Fog::tile_px>(
         Range<uint32_t>{"fog_tile", 4, 64},
         "fog.tile_px",
-        {"Pixels from node to node of the volume that lights are scattered in", "px",
+        {"Fog tile", "Distance in pixels between neighbouring nodes of the fog volume", "px",
          "half of it: four times as much"}),
-    row<&ViewSettings::fog, &Fog::slice_count>(
-        Range<uint32_t>{"fog_slices", 8, 256},
-        "fog.slices",
-        {"Slices of that volume", "", "twice as many: twice as much"}),
+    row<&ViewSettings::fog, &Fog::slice_count>(Range<uint32_t>{"fog_slices", 8, 256},
+                                               "fog.slices",
+                                               {"Fog slices",
+                                                "Number of depth slices of the fog volume", "",
+                                                "twice as many: twice as much"}),
     row<&ViewSettings::fog, &Fog::half_rate>(
         Switch{"fog_half_rate"},
         "fog.half_rate",
-        {"Half its resolution on each axis", "", "an eighth of its time; coarser glows"}),
+        {"Fog at half rate", "Halves the fog volume's resolution along each axis", "",
+         "saves seven eighths of its time; coarser glows"}),
     row<&ViewSettings::fog, &Fog::noise>(
         Switch{"fog_noise"},
         "fog.noise",
-        {"Sample it at places jittered by time, instead of slices' middles"}),
+        {"Fog jitter",
+         "Samples the fog volume at jittered places in place of the middle of each slice"}),
 
     row<&ViewSettings::shadows, &Shadows::light_count>(
         Range<uint32_t>{"shadow_lights", 0, 32},
         "shadows.lights",
-        {"Lights with shadow maps, the most important ones; the others shine through walls", "",
-         "each: the scene around it six times; 32 of 512 px: 201 MB a viewer"}),
+        {"Lights with shadows",
+         "Number of lights that cast shadows, the most important ones; the others shine through "
+         "walls",
+         "", "each light: the scene around it six times; 32 lights of 512 px: 201 MB a viewer"}),
     row<&ViewSettings::shadows, &Shadows::size_px>(
         Range<uint32_t>{"shadow_size", 64, 512},
         "shadows.size_px",
-        {"Pixels of a map's side; a point light has six", "px", "memory grows with its square"}),
+        {"Shadow map size", "Side of a shadow map in pixels; a point light has six maps", "px",
+         "memory grows with its square"}),
 };
 
 inline constexpr std::array kEncodingRows = {
-    row<&Encoding::quality>(kQualityRange, "quality", {"JPEG quality", "", "higher: more bytes"}),
-    row<&Encoding::chroma>(Names{"chroma", kChromaNames},
-                           "chroma",
-                           {"Colour resolution of pictures", "", "444: more bytes"}),
-    row<&Encoding::codec>(
-        Names{"codec", kChosenCodecNames},
-        "codec",
-        {"How pictures are encoded for the stream", "", "vp9: a few times fewer bytes, more work"}),
-    row<&Encoding::video_kbps>(kVideoKbpsRange,
-                               "video_kbps",
-                               {"Bits that a video codec aims at", "kbit/s", "higher: more bytes"}),
+    row<&Encoding::quality>(
+        kQualityRange,
+        "quality",
+        {"JPEG quality", "Quality of JPEG pictures in the stream", "", "higher: more bytes"}),
+    row<&Encoding::chroma>(
+        Names{"chroma", kChromaNames},
+        "chroma",
+        {"Chroma subsampling", "Colour resolution of streamed pictures", "", "444: more bytes"}),
+    row<&Encoding::codec>(Names{"codec", kChosenCodecNames},
+                          "codec",
+                          {"Codec", "Encoding of pictures in the stream", "",
+                           "vp9: a few times fewer bytes, more work"}),
+    row<&Encoding::video_kbps>(
+        kVideoKbpsRange,
+        "video_kbps",
+        {"Video bit rate", "Bit rate that a video codec aims at", "kbit/s", "higher: more bytes"}),
 };
 
 } // namespace froxel::settings

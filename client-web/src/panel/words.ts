@@ -2,6 +2,7 @@
 // the page's own for what stands beside it.
 
 export interface Words {
+  readonly label: string;
   readonly help: string;
   readonly unit: string;
   readonly cost: string;
@@ -16,29 +17,35 @@ interface OwnWords {
 }
 
 const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
-  ['fov_deg', { label: 'Field of view °', help: 'Full vertical angle' }],
+  ['fov_deg', { label: 'Field of view, deg', help: 'Vertical angle that the picture covers' }],
   [
     'lens_shift.x',
     {
-      label: 'Lens shift →',
+      label: 'Lens shift sideways',
       help: 'Moves the picture’s middle right of the view axis, in half widths',
     },
   ],
   [
     'lens_shift.y',
     {
-      label: 'Lens shift ↑',
+      label: 'Lens shift upwards',
       help: 'Moves the picture’s middle above the view axis, in half heights: straight verticals',
     },
   ],
   [
     'grid.auto',
-    { label: 'Automatic', help: 'The server chooses the grid; off: the size below' },
+    {
+      label: 'Automatic grid',
+      help: 'Lets the server choose the cluster grid; off: tiles and slices as set here',
+    },
   ],
-  ['animation', { label: 'Number', help: 'Of the scene’s animations, from 1; 0: none' }],
-  ['grid.x', { label: 'Tiles across', help: 'Clusters along the width' }],
-  ['grid.y', { label: 'Tiles down', help: 'Clusters along the height' }],
-  ['grid.z', { label: 'Depth slices', help: 'Clusters along the depth' }],
+  [
+    'animation',
+    { label: 'Animation number', help: 'Number of the scene’s animation, from 1; 0: none' },
+  ],
+  ['grid.x', { label: 'Tiles across', help: 'Number of clusters along the picture’s width' }],
+  ['grid.y', { label: 'Tiles down', help: 'Number of clusters along the picture’s height' }],
+  ['grid.z', { label: 'Slices in depth', help: 'Number of clusters along the view’s depth' }],
   [
     'debug_frozen',
     {
@@ -48,13 +55,15 @@ const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
   ],
 ]);
 
-/** "Fog base height m" of fog_base_height. */
+/** "Fog base height, m" of fog_base_height; the name in words of a server that tells no label. */
 export function labelOf(name: string, book: WordBook): string {
   const own = kOwnWords.get(name);
   if (own) return own.label;
-  const text = name.replaceAll('_', ' ');
-  const unit = book.get(name)?.unit ?? '';
-  return `${text.charAt(0).toUpperCase()}${text.slice(1)} ${unit}`.trimEnd();
+  const words = book.get(name);
+  const told = words?.label ?? '';
+  const text = told === '' ? name.replaceAll('_', ' ') : told;
+  const label = `${text.charAt(0).toUpperCase()}${text.slice(1)}`;
+  return words?.unit ? `${label}, ${words.unit}` : label;
 }
 
 /** What a field does, what that costs, and its limits, as far as they are known. */
@@ -78,7 +87,12 @@ export function wordsOf(json: unknown): WordBook {
         const value = parts.get(key);
         return typeof value === 'string' ? value : '';
       };
-      const words = { help: text('help'), unit: text('unit'), cost: text('cost') };
+      const words = {
+        label: text('label'),
+        help: text('help'),
+        unit: text('unit'),
+        cost: text('cost'),
+      };
       return text('name') === '' ? [] : [[text('name'), words] as const];
     }),
   );

@@ -2,6 +2,7 @@
 
 import { element, make } from '../core/dom';
 import { bits, bytes, count, gridText, ms, timeText } from '../core/format';
+import { keep, kept } from '../core/kept';
 import { CodecSchema } from '../gen/froxel/v1/common_pb';
 import type { FrameDetails, FrameHeader } from '../gen/froxel/v1/server_pb';
 import { choicesOf } from '../protocol/schema_names';
@@ -12,6 +13,7 @@ import { PassStack } from './pass_stack';
 import { kStages, type Figures, type Stats } from './stats';
 
 const kRefreshMs = 250;
+const kKept = 'figures';
 const kGraphWidth = 236;
 const kGraphHeight = 84;
 
@@ -27,6 +29,7 @@ interface Bar {
 
 export class StatsCard {
   private readonly card = element('stats', HTMLElement);
+  private readonly head = element('stats-head', HTMLButtonElement);
   private readonly list = element('stats-list', HTMLElement);
   private readonly fps = element('stat-fps', HTMLElement);
   private readonly latency = element('stat-latency', HTMLElement);
@@ -39,16 +42,22 @@ export class StatsCard {
   constructor(
     private readonly stats: Stats,
     private readonly droppedHere: () => number,
-    open: boolean,
   ) {
-    element('stats-head', HTMLButtonElement).addEventListener('click', () => this.toggle());
-    this.card.classList.toggle('closed', !open);
+    this.head.addEventListener('click', () => this.toggle());
+    this.show(kept(kKept) === 'open');
     setInterval(() => this.refresh(), kRefreshMs);
   }
 
   toggle(): void {
-    this.card.classList.toggle('closed');
+    const open = this.card.classList.contains('closed');
+    this.show(open);
+    keep(kKept, open ? 'open' : 'closed');
     this.refresh();
+  }
+
+  private show(open: boolean): void {
+    this.card.classList.toggle('closed', !open);
+    this.head.setAttribute('aria-expanded', String(open));
   }
 
   showDetails(details: FrameDetails): void {
@@ -73,26 +82,26 @@ export class StatsCard {
   private showList({ last, ...figures }: Figures): void {
     this.value('Frame interval', 'interval', ms(this.stats.history.intervalMs.at(-1) ?? null));
     const latency = `${ms(figures.latencyP50Ms)} · ${ms(figures.latencyP95Ms)}`;
-    this.value('Latency p50 · p95', 'latency', latency);
-    this.value('Stream', '', `${bytes(figures.bytesPerSecond)}/s`);
+    this.value('Latency, median · p95', 'latency', latency);
+    this.value('Data rate', '', `${bytes(figures.bytesPerSecond)}/s`);
     if (!last) return;
     this.value('Codec', '', `${codecName(last)} · ${bits(figures.bytesPerSecond * 8)}/s`);
     this.value('Picture', '', `${last.width} × ${last.height}`);
     for (const { name, value } of deliveryRows(last)) this.value(name, '', value);
     const gpu = timeText(last.gpuUs === undefined ? null : last.gpuUs / 1000);
-    this.value('GPU · encode', '', `${gpu} · ${ms(last.encodeUs / 1000)}`);
+    this.value('Drawing · encoding', '', `${gpu} · ${ms(last.encodeUs / 1000)}`);
     this.value('Triangles', '', count(last.triangles));
     this.value('Lights', '', count(last.lightCount));
     const lists = !last.allLights && !last.listsOverflowed;
     const usual = `${last.listMean.toFixed(1)} · ${count(last.listP95)}`;
-    this.value('List mean · p95', '', lists ? usual : 'all lights');
-    this.value('Largest list', '', lists ? count(last.listLargest) : '–');
-    this.value('Grid', '', last.grid ? gridText(last.grid) : '–');
-    this.value('Peeled layers · more', '', peelText(last));
-    this.value('Shadowed · maps', '', shadowText(last));
+    this.value('Lights per list, mean · p95', '', lists ? usual : 'all lights');
+    this.value('Longest light list', '', lists ? count(last.listLargest) : '–');
+    this.value('Cluster grid', '', last.grid ? gridText(last.grid) : '–');
+    this.value('Peeled layers · pixels with more', '', peelText(last));
+    this.value('Lights with shadows · maps', '', shadowText(last));
     this.value('Metered exposure', '', exposureText(last));
     const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
-    this.value('Dropped server · here', '', dropped);
+    this.value('Frames dropped, server · page', '', dropped);
   }
 
   private value(name: string, key: string, text: string): void {

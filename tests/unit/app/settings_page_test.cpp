@@ -7,10 +7,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
+#include <string_view>
 
 namespace froxel::app {
 namespace {
@@ -21,8 +26,8 @@ For people who look for one number, switch or name among all. This page is made 
 says is what the options, the page, the protocol and the reports take. The option of a setting has its
 name with dashes: `--fog-density`. A switch that is usually on has an option that turns it off: `--no-animate`.
 
-| setting | of | usual | what it does | costs |
-|---|---|---|---|---|
+| setting | on the page | of | usual | what it does | costs |
+|---|---|---|---|---|---|
 )";
 
 std::string valuesOf(const settings::Setting& setting) {
@@ -58,8 +63,9 @@ std::string page() {
         const std::string shown = on == nullptr ? "`" + textOf(facts, value) + "`"
                                   : *on         ? "on"
                                                 : "off";
-        text += "| `" + std::string(facts.name) + "` | " + valuesOf(facts) + " | " + shown + " | " +
-                std::string(facts.words.help) + " | " + std::string(facts.words.cost) + " |\n";
+        text += "| `" + std::string(facts.name) + "` | " + std::string(facts.words.label) + " | " +
+                valuesOf(facts) + " | " + shown + " | " + std::string(facts.words.help) + " | " +
+                std::string(facts.words.cost) + " |\n";
     }
     return text;
 }
@@ -72,6 +78,36 @@ TEST(SettingsPage, IsTheTable) {
     std::ifstream file(path);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     EXPECT_EQ(text, page()) << "FROXEL_WRITE_DOCS=1 writes it anew";
+}
+
+// Beginnings of what only says something beside its neighbours in the table.
+constexpr std::array kLeaning = {
+    std::string_view("That"),  std::string_view("This"),    std::string_view("These"),
+    std::string_view("Those"), std::string_view("It"),      std::string_view("Its"),
+    std::string_view("They"),  std::string_view("Their"),   std::string_view("Of"),
+    std::string_view("How"),   std::string_view("Whether"), std::string_view("Where"),
+    std::string_view("What"),  std::string_view("When"),    std::string_view("Which"),
+    std::string_view("Such"),  std::string_view("Also"),    std::string_view("Likewise")};
+
+TEST(SettingWords, LabelsAndHelps_StandAlone) {
+    std::set<std::string_view> labels;
+    for (const session::SessionSetting& setting : session::sessionSettings()) {
+        const settings::Setting& facts = setting.facts();
+        const auto& [label, help, unit, cost] = facts.words;
+        EXPECT_TRUE(labels.insert(label).second) << facts.name << ": another has its label";
+        EXPECT_GE(label.size(), 4U) << facts.name;
+        EXPECT_LE(label.size(), 26U) << facts.name << ": does not fit beside its control";
+        EXPECT_EQ(label.find('_'), std::string_view::npos) << facts.name;
+        for (const std::string_view text : {label, help}) {
+            ASSERT_FALSE(text.empty()) << facts.name;
+            EXPECT_TRUE(std::isupper(static_cast<unsigned char>(text.front()))) << text;
+            EXPECT_FALSE(text.ends_with(".")) << text;
+            const std::string_view first = text.substr(0, text.find_first_of(" ,:;'"));
+            EXPECT_EQ(std::find(kLeaning.begin(), kLeaning.end(), first), kLeaning.end()) << text;
+        }
+        EXPECT_GE(std::count(help.begin(), help.end(), ' '), 2) << help;
+        EXPECT_NE(label, help) << facts.name;
+    }
 }
 
 } // namespace
