@@ -17,6 +17,7 @@ it('Latency_OfADraggedCamera', async () => {
     const viewer = await Viewer.open(browser, server.url);
     await until('frames', () => viewer.frameCount > 10);
     const { mouse } = viewer.page;
+    await viewer.openFigures();
     await mouse.move(600, 360);
     await mouse.down();
     const begin = Date.now();

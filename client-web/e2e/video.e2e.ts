@@ -95,6 +95,7 @@ it('Video_Moving_GoesOnOverSizesAndBackToJpeg', async () => {
     const part = viewer.lastFrame?.parts[0];
     return part?.codec === Codec.VP9 && !part.keyFrame;
   });
+  await viewer.openFigures();
   await until('the codec among the figures', async () => {
     const figures = await viewer.page.locator('#stats-list').textContent();
     return /Codec.*vp9 · .*bit\/s/.test(figures ?? '');

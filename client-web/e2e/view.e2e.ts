@@ -4,6 +4,7 @@ import { execFile } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { promisify } from 'node:util';
 
+import type { Page } from 'playwright-core';
 import { expect, it } from 'vitest';
 
 import { parseAddress } from '../src/state/address';
@@ -19,6 +20,7 @@ const open = (hash = kStill, options = {}): Promise<Viewer> => pages.open(hash, 
 it('Page_AsItOpens_ConnectsAndPaintsAndCounts', async () => {
   const viewer = await open('');
   expect(await viewer.page.title()).toBe('Froxel');
+  await viewer.openFigures();
   await until('figures', async () => {
     const rate = await viewer.page.locator('#stat-fps').textContent();
     return viewer.frameCount > 10 && Number(rate) > 0 && (await viewer.page.locator('#passes-table tr').count()) > 0;
@@ -151,15 +153,17 @@ it('ScreenshotButton_SavesThePictureAsPng', async () => {
   expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([320, 180]);
 });
 
-it('RecordButton_SavesAScriptThatTheLoadToolPlays', async () => {
+it('Recording_SavesAScriptThatTheLoadToolPlays', async () => {
   const viewer = await open();
   const record = viewer.page.locator('#tool-record');
-  await record.click();
-  expect(await record.getAttribute('aria-pressed')).toBe('true');
+  expect(await record.isVisible()).toBe(false);
+  await viewer.page.keyboard.press('x');
+  expect(await record.isVisible()).toBe(true);
+  await viewer.openPanel();
   await viewer.type('exposure', 4);
   await viewer.stateWith('exposure 4', ({ exposure }) => exposure === 4);
   const [download] = await Promise.all([viewer.page.waitForEvent('download'), record.click()]);
-  expect(await record.getAttribute('aria-pressed')).toBe('false');
+  expect(await record.isVisible()).toBe(false);
   expect(download.suggestedFilename()).toMatch(/^froxel-.*\.jsonl$/);
   const path = await download.path();
   const script = readFileSync(path, 'utf8');
@@ -196,6 +200,7 @@ it('Details_InTheFold_SayListsGridMemoryAndPlan', async () => {
   const viewer = await open('#size=640x360&animate=0&lights=1000&count_pairs=1&light_loop=lists');
   const { page } = viewer;
   expect(await page.locator('#detail-lists').isVisible()).toBe(false);
+  await viewer.openFigures();
   await page.locator('#stats-details summary').click();
   const shows = (id: string, text: string): Promise<true> =>
     until(`${text} in #${id}`, async () =>
@@ -226,7 +231,7 @@ it('Lights_AMillion_AreWithinTheSlidersReach', async () => {
 
 it('Help_OpensAndClosesByKey', async () => {
   const viewer = await open();
-  await viewer.page.keyboard.press('h');
+  await viewer.page.keyboard.press('?');
   expect(await viewer.page.locator('#help').isVisible()).toBe(true);
   expect(await viewer.page.locator('#about').textContent()).toContain('froxel');
   await viewer.screenshot('help');
@@ -247,7 +252,6 @@ it('Phone_At360Px_ShowsThePictureAndFoldsTheRest', async () => {
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   expect(width).toBe(360);
   expect(await viewer.control('lights').isVisible()).toBe(false);
-  await page.locator('#panel .lil-root > .lil-title').tap();
   await viewer.openPanel();
   const control = viewer.control('lights');
   await control.scrollIntoViewIfNeeded();
@@ -258,4 +262,79 @@ it('Phone_At360Px_ShowsThePictureAndFoldsTheRest', async () => {
   await viewer.screenshot('phone-clusters');
   await viewer.type('lights', 7);
   await viewer.stateWith('7 lights', ({ lightCount }) => lightCount === 7);
+});
+
+/** Share of the window that lies under what is not the picture. */
+function covered(page: Page): Promise<number> {
+  return page.evaluate(() => {
+    const boxes = [...document.querySelectorAll('body > :not(canvas, dialog, script, #handles)')]
+      .map((part) => part.getBoundingClientRect())
+      .filter(({ width, height }) => width * height > 0);
+    const area = boxes.reduce((sum, { width, height }) => sum + width * height, 0);
+    return area / (innerWidth * innerHeight);
+  });
+}
+
+it.each([
+  [1280, 720, 0.08],
+  [390, 844, 0.12],
+  [320, 640, 0.15],
+])('FirstLook_%ix%i_IsThePicture', async (width, height, most) => {
+  const viewer = await open(kStill, { viewport: { width, height } });
+  const { page } = viewer;
+  await until('the scene and figures', async () => Number(await page.locator('#stat-fps').textContent()) >= 0);
+  expect(await covered(page)).toBeLessThan(most);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
+  const tools = await page.locator('#tools').boundingBox();
+  expect(tools && tools.x >= 0 && tools.x + tools.width <= width).toBe(true);
+  await viewer.screenshot(`first-look-${width}`);
+});
+
+it('PanelAndFigures_AreAsTheyWereLeft', async () => {
+  const viewer = await open();
+  const { page } = viewer;
+  expect(await page.locator('#panel').isVisible()).toBe(false);
+  expect(await page.locator('#stats-body').isVisible()).toBe(false);
+  await page.locator('#tool-panel').click();
+  await page.keyboard.press('f'); // the picture kept the focus
+  await viewer.screenshot('open');
+  await page.reload();
+  await viewer.picture();
+  expect(await page.locator('#panel').isVisible()).toBe(true);
+  expect(await page.locator('#stats-body').isVisible()).toBe(true);
+  await page.keyboard.press('c');
+  expect(await page.locator('#panel').isVisible()).toBe(false);
+});
+
+it('Search_LeadsToASettingAndRunsAnAction', async () => {
+  const viewer = await open();
+  const { page } = viewer;
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type('cluster grid law');
+  await page.keyboard.press('Escape');
+  expect(await page.locator('#search').isVisible()).toBe(false);
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type('exposure');
+  await viewer.screenshot('search');
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('ArrowUp');
+  await page.locator('#search-list li', { hasText: /^Exposure[^ ]/ }).first().click();
+  expect(await viewer.control('exposure').isVisible()).toBe(true);
+  expect(await page.evaluate(() => document.activeElement?.closest('[data-field]')?.getAttribute('data-field'))).toBe('exposure');
+  await page.keyboard.press('c'); // not the picture's: nothing closes
+  expect(await page.locator('#panel').isVisible()).toBe(true);
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type('next renderer');
+  const before = viewer.state?.renderer;
+  await page.keyboard.press('Enter');
+  await viewer.stateWith('another renderer', ({ renderer }) => renderer !== before);
+});
+
+it('PageThatOpensTiny_AsksForNothingUntilItIsSeen', async () => {
+  const viewer = await open('#animate=0', { viewport: { width: 8, height: 8 } });
+  const asked = (): number => viewer.sent.filter(({ body }) => body.case === 'setSize').length;
+  expect(asked()).toBe(0);
+  await viewer.page.setViewportSize({ width: 1280, height: 720 });
+  // As many pixels as the server proposes, not all that the window has.
+  await viewer.stateWith('the proposed size', ({ width }) => width >= 600 && width <= 640);
 });

@@ -189,13 +189,18 @@ export class Viewer {
     return this.page.locator(`#panel [data-field="${field}"]`);
   }
 
-  /** Opens every folder of the panel, so that each control can be reached. */
+  /** Opens the panel and every folder of it, so that each control can be reached. */
   async openPanel(): Promise<void> {
+    if (!(await this.page.locator('#panel').isVisible())) await this.page.locator('#tool-panel').click();
     const closed = this.page.locator('#panel .lil-closed > .lil-title:visible');
     while ((await closed.count()) > 0) {
       await closed.first().click();
       await this.page.waitForTimeout(50); // the folder's transition swaps its classes
     }
+  }
+
+  async openFigures(): Promise<void> {
+    if (!(await this.page.locator('#stats-body').isVisible())) await this.page.locator('#stats-head').click();
   }
 
   async type(field: string, value: number): Promise<void> {

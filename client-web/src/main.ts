@@ -1,12 +1,15 @@
 // The composition root: puts the parts together and ties them to the page.
 
+import { actionsOf, camerasOf, type Doings } from './actions';
 import { AnimationCard } from './cards/animation_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
 import { RoomCard } from './cards/room_card';
+import { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
 import { Commands } from './commands';
-import { element } from './core/dom';
+import { element, make } from './core/dom';
+import { entryOf, keyText, type Entry } from './core/entries';
 import { Codec } from './gen/froxel/v1/common_pb';
 import { Panel } from './panel/panel';
 import { fetchWords } from './panel/words';
@@ -31,13 +34,10 @@ import { Stats } from './stats/stats';
 import { StatsCard } from './stats/stats_card';
 import { CanvasInput } from './steering/input';
 import { LightHandles } from './steering/light_handles';
-import { isForControl, runShortcut } from './steering/shortcuts';
 
-const kNarrowPx = 640;
 const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
 
 const canvas = element('view', HTMLCanvasElement);
-const narrow = window.innerWidth <= kNarrowPx;
 const nowMs = (): number => performance.now();
 const nextFrame = (action: (nowMs: number) => void): void => void requestAnimationFrame(action);
 
@@ -118,8 +118,13 @@ const connection = new Connection(
 
 const commands = new Commands(store, connection, picture, recorder);
 const handles = new LightHandles(element('handles', HTMLElement), canvas, commands);
-const statsCard = new StatsCard(stats, () => presenter.droppedCount, !narrow);
-const panel = new Panel(element('panel', HTMLElement), commands, narrow, codecs);
+const statsCard = new StatsCard(stats, () => presenter.droppedCount);
+const panel = new Panel(
+  element('panel', HTMLElement),
+  commands,
+  (open) => element('tool-panel', HTMLButtonElement).setAttribute('aria-pressed', String(open)),
+  codecs,
+);
 const banner = new Banner({
   retry: () => connection.open(),
   dismiss: () => store.dispatch({ type: 'dismiss' }),
@@ -153,6 +158,7 @@ store.listen(({ details }, before) => {
 store.listen(({ server }, before) => {
   if (!server || server === before.server) return;
   const scene = server.scene?.name ?? 'no scene';
+  element('scene-name', HTMLElement).textContent = scene;
   const about = `${scene} on ${server.device} · froxel ${server.version}`;
   element('about', HTMLElement).textContent = about;
   sceneWarnings.show(server.scene);
@@ -174,31 +180,53 @@ function lostSync({ message, broken }: LostSync): void {
   }
 }
 
-const shortcuts = {
+const doings: Doings = {
+  search: () => search.toggle(),
+  panel: () => panel.toggle(),
+  figures: () => statsCard.toggle(),
   screenshot: () => void commands.screenshot(),
   copyLink: () => void address.copy(),
+  fullscreen: () => void toggleFullscreen(),
+  help: () => (help.open ? help.close() : help.showModal()),
   record: () => {
-    const recording = commands.toggleRecording();
-    element('tool-record', HTMLButtonElement).setAttribute('aria-pressed', String(recording));
+    element('tool-record', HTMLButtonElement).hidden = !commands.toggleRecording();
   },
-  toggleStats: () => statsCard.toggle(),
-  togglePanel: () => panel.toggle(),
-  toggleHelp: () => (help.open ? help.close() : help.showModal()),
-  toggleLights: () => commands.toggleLights(),
-  togglePlaying: () => animationCard.toggle(),
+  lights: () => commands.toggleLights(),
+  playing: () => animationCard.toggle(),
   nextRenderer: () => commands.nextRenderer(),
-  sceneCamera: (index: number) => commands.selectCameraAt(index),
+  addLight: () => commands.addLight(),
+  reset: () => commands.resetAll(),
+  sceneCamera: (index) => commands.selectCameraAt(index),
 };
+const actions = actionsOf(doings);
+/** The scene's cameras with them. */
+const keyed = (): Entry[] => [
+  ...actions,
+  ...camerasOf(store.state.server?.scene?.cameras ?? [], doings),
+];
+const search = new SearchCard(() => [...keyed(), ...panel.entries()]);
 
 const tools: readonly (readonly [string, () => void])[] = [
-  ['tool-screenshot', shortcuts.screenshot],
-  ['tool-link', shortcuts.copyLink],
-  ['tool-record', shortcuts.record],
-  ['tool-help', shortcuts.toggleHelp],
-  ['tool-fullscreen', () => void toggleFullscreen()],
+  ['tool-search', doings.search],
+  ['tool-panel', doings.panel],
+  ['tool-screenshot', doings.screenshot],
+  ['tool-link', doings.copyLink],
+  ['tool-fullscreen', doings.fullscreen],
+  ['tool-help', doings.help],
+  ['tool-record', doings.record],
 ];
-for (const [id, action] of tools) {
-  element(id, HTMLButtonElement).addEventListener('click', action);
+for (const [id, run] of tools) {
+  const button = element(id, HTMLButtonElement);
+  button.addEventListener('click', run);
+  // The picture keeps the focus, and with it its keys.
+  button.addEventListener('mousedown', (event) => event.preventDefault());
+}
+for (const entry of actions.filter(({ key }) => key !== '')) {
+  const row = make('tr');
+  const key = make('td');
+  key.append(make('kbd', keyText(entry)));
+  row.append(make('th', entry.title), key);
+  element('help-keys', HTMLElement).append(row);
 }
 
 element('tool-fullscreen', HTMLButtonElement).hidden = !document.fullscreenEnabled;
@@ -211,9 +239,22 @@ async function toggleFullscreen(): Promise<void> {
 const input = new CanvasInput(canvas, commands, nextFrame);
 window.addEventListener('keydown', (event) => {
   connection.wake();
-  if (isForControl(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
-  if (!event.repeat && runShortcut(event.key, shortcuts)) event.preventDefault();
-  else input.keyDown(event);
+  if (event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey)) {
+    event.preventDefault();
+    doings.search();
+    return;
+  }
+  // Single keys are the picture's, so that nobody who types or speaks sets one off (WCAG 2.1.4).
+  if (event.target !== canvas) return;
+  if (input.keyDown(event)) {
+    event.preventDefault();
+    return;
+  }
+  if (event.repeat || event.ctrlKey || event.metaKey || event.altKey) return;
+  const entry = entryOf(event.key, keyed());
+  if (!entry) return;
+  event.preventDefault();
+  entry.run();
 });
 window.addEventListener('keyup', (event) => input.keyUp(event));
 window.addEventListener('blur', () => input.releaseAll());
@@ -234,6 +275,7 @@ function tellVisibility(newConnection: boolean): void {
   }
 }
 
+canvas.focus({ preventScroll: true });
 void fetchWords().then((words) => panel.tell(words));
 address.read();
 if ('problem' in wantedRoom) {

@@ -2,7 +2,9 @@
 
 import GUI, { type Controller } from 'lil-gui';
 
+import type { Entry } from '../core/entries';
 import { gridText, tidy } from '../core/format';
+import { keep, kept } from '../core/kept';
 import { displayColor, linearColor } from '../core/srgb';
 import type { Codec } from '../gen/froxel/v1/common_pb';
 import type { FrameGrid } from '../gen/froxel/v1/server_pb';
@@ -30,15 +32,18 @@ type Say = (words: WordBook) => void;
 
 const kTitles: Readonly<Record<Section, string>> = {
   camera: 'Camera',
-  rendering: 'Rendering',
-  effects: 'Effects',
   lights: 'Lights',
-  animation: 'Animation',
+  exposure: 'Exposure and colour',
   environment: 'Environment',
-  clusters: 'Clusters',
+  animation: 'Animation',
+  effects: 'Effects',
+  rendering: 'Rendering',
+  clusters: 'Clusters and light lists',
   debug: 'Debug view',
-  stream: 'Picture',
+  stream: 'Stream',
 };
+
+const kKept = 'settings';
 
 export class Panel {
   private readonly gui: GUI;
@@ -50,18 +55,38 @@ export class Panel {
   private sizeEditor: SizeEditor | null = null;
   private lightEditor: LightEditor | null = null;
   private gridInUse: Controller | null = null;
+  private readonly controls = new Map<string, { title: string; help: string; at: Controller }>();
 
+  /** `onToggle` hears whether it is open. */
   constructor(
     private readonly parent: HTMLElement,
     private readonly actions: PanelActions,
-    private readonly narrow: boolean,
+    private readonly onToggle: (open: boolean) => void,
     private readonly codecs: readonly Codec[], // that this browser decodes
   ) {
     this.gui = this.makeGui();
   }
 
   toggle(): void {
-    this.gui.openAnimated(this.gui._closed);
+    this.gui.open(this.gui._closed);
+  }
+
+  /** Every control, by its label; running one opens the panel there. */
+  entries(): Entry[] {
+    return [...this.controls].map(([name, { title, help, at }]) => ({
+      title,
+      help,
+      key: '',
+      words: name.replaceAll('_', ' '),
+      run: () => this.reveal(at),
+    }));
+  }
+
+  private reveal(control: Controller): void {
+    this.gui.open();
+    for (let folder = control.parent; folder !== this.gui; folder = folder.parent) folder.open();
+    control.domElement.scrollIntoView({ block: 'center' });
+    control.domElement.querySelector<HTMLElement>('input, select, button')?.focus();
   }
 
   show({ server, settings, sizeMode, chosenLight }: AppState): void {
@@ -90,7 +115,18 @@ export class Panel {
 
   private makeGui(): GUI {
     const gui = new GUI({ container: this.parent, title: 'Settings', injectStyles: false });
-    if (this.narrow) gui.close();
+    const tell = (open: boolean): void => {
+      this.parent.hidden = !open;
+      this.onToggle(open);
+    };
+    gui.onOpenClose((changed) => {
+      if (changed !== gui) return; // a folder
+      tell(!gui._closed);
+      keep(kKept, gui._closed ? 'closed' : 'open');
+    });
+    const open = kept(kKept) === 'open';
+    gui.open(open);
+    tell(open);
     return gui;
   }
 
@@ -99,30 +135,35 @@ export class Panel {
     this.shows = [];
     this.says = [];
     this.shown = null;
-    const camera = this.section('camera', server);
-    this.addSceneCameras(camera, server);
-    this.section('rendering', server);
-    this.section('effects', server).close();
+    this.controls.clear();
     const lights = this.section('lights', server);
     this.addBox(lights, server);
     this.lightEditor = new LightEditor(lights, this.actions);
-    if (hasAnimations(server)) this.section('animation', server);
+    this.addSceneCameras(this.section('camera', server), server);
+    this.section('exposure', server);
     this.section('environment', server);
-    const clusters = this.section('clusters', server);
-    this.addGridInUse(clusters);
-    clusters.close();
-    this.section('debug', server).close();
-    this.addToon();
-    const stream = this.section('stream', server);
-    this.sizeEditor = new SizeEditor(stream, server, this.actions);
-    if (this.narrow) for (const folder of this.gui.folders.slice(1)) folder.close();
+    if (hasAnimations(server)) this.section('animation', server);
+    this.section('effects', server);
+    for (const folder of this.gui.folders.slice(1)) folder.close();
+    this.addExpert(server);
     this.gui
       .add({ reset: () => this.actions.resetAll() }, 'reset')
       .name('Back to the server’s defaults');
   }
 
-  private section(section: Section, server: ServerInfo): GUI {
-    const folder = this.gui.addFolder(kTitles[section]);
+  private addExpert(server: ServerInfo): void {
+    const expert = this.gui.addFolder('Expert settings');
+    this.section('rendering', server, expert);
+    this.addGridInUse(this.section('clusters', server, expert));
+    this.section('debug', server, expert);
+    this.addToon(expert);
+    const stream = this.section('stream', server, expert);
+    this.sizeEditor = new SizeEditor(stream, server, this.actions);
+    for (const folder of [expert, ...expert.folders]) folder.close();
+  }
+
+  private section(section: Section, server: ServerInfo, parent = this.gui): GUI {
+    const folder = parent.addFolder(kTitles[section]);
     for (const field of fieldsOf(section)) this.addField(folder, field, server);
     return folder;
   }
@@ -185,8 +226,12 @@ export class Panel {
   }
 
   private finish(controller: Controller, field: Field, limits: string, show: Show): void {
-    const say: Say = (words) =>
-      mark(controller, field.name, labelOf(field.name, words), tipOf(field.name, words, limits));
+    const say: Say = (words) => {
+      const title = labelOf(field.name, words);
+      const help = tipOf(field.name, words, limits);
+      mark(controller, field.name, title, help);
+      this.controls.set(field.name, { title, help, at: controller });
+    };
     say(this.words);
     this.says.push(say);
     this.shows.push((settings) => {
@@ -222,8 +267,8 @@ export class Panel {
     this.shows.push((settings) => editor.show(settings.lightBox));
   }
 
-  private addToon(): void {
-    const folder = this.gui.addFolder('Toon ramps');
+  private addToon(parent: GUI): void {
+    const folder = parent.addFolder('Toon ramps');
     const editors = [
       ['toonFragment', 'toon fragment: each light’s n·l'],
       ['toonCompute', 'toon compute: brightness of the sum'],
@@ -234,7 +279,6 @@ export class Panel {
       );
       this.shows.push((settings) => editor.show(settings[key]));
     }
-    folder.close();
   }
 }
 

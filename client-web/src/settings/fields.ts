@@ -11,6 +11,7 @@ import { isDeferred, isToon, type Settings, type Value } from './settings';
 export type Section =
   | 'camera'
   | 'rendering'
+  | 'exposure'
   | 'effects'
   | 'lights'
   | 'animation'
@@ -22,7 +23,7 @@ export type Section =
 /** Where the panel has the settings of a command; effects are what is not named. */
 const kSections: Readonly<Partial<Record<CommandName, Section>>> = {
   setRenderer: 'rendering',
-  setExposure: 'rendering',
+  setExposure: 'exposure',
   setLights: 'lights',
   setAnimation: 'animation',
   setEnvironment: 'environment',

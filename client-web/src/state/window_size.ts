@@ -7,6 +7,8 @@ import type { Store } from './store';
 
 /** While a window is dragged to a new size only a few of the sizes on the way are asked for. */
 const kSettleMs = 120;
+/** A window that is smaller is not being looked at: a background tab's, or one that is about to open. */
+const kLeastPx = 16;
 
 export class WindowSize {
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -18,15 +20,27 @@ export class WindowSize {
     store.listen((state, before) => {
       if (state.server !== before.server || state.sizeMode !== before.sizeMode) this.apply(state);
     });
-    new ResizeObserver(() => {
+    const settle = (): void => {
       clearTimeout(this.timer);
       this.timer = setTimeout(() => this.apply(this.store.state), kSettleMs);
-    }).observe(canvas);
+    };
+    new ResizeObserver(settle).observe(canvas);
+    this.watchRatio(settle);
+  }
+
+  /** Another monitor or a zoomed page has other pixels at the same size, which no observer of it tells. */
+  private watchRatio(settle: () => void): void {
+    const query = window.matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`);
+    const changed = (): void => {
+      settle();
+      this.watchRatio(settle);
+    };
+    query.addEventListener('change', changed, { once: true });
   }
 
   private apply({ server, settings, sizeMode }: AppState): void {
-    if (!server || !settings) return;
     const canvas = this.canvasSize();
+    if (!server || !settings || !canvas) return;
     if (sizeMode === null) {
       this.store.dispatch({ type: 'size_mode', mode: sizeModeFor(canvas, server.initial) });
       return;
@@ -40,12 +54,11 @@ export class WindowSize {
     }
   }
 
-  /** In device pixels. */
-  private canvasSize(): Size {
+  /** In device pixels; null while the page is hidden away, when its size means nothing yet. */
+  private canvasSize(): Size | null {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (Math.min(clientWidth, clientHeight) < kLeastPx) return null;
     const ratio = window.devicePixelRatio;
-    return {
-      width: Math.max(1, Math.round(this.canvas.clientWidth * ratio)),
-      height: Math.max(1, Math.round(this.canvas.clientHeight * ratio)),
-    };
+    return { width: Math.round(clientWidth * ratio), height: Math.round(clientHeight * ratio) };
   }
 }

@@ -1,6 +1,7 @@
 // Mouse, wheel, keys and touch on the canvas, as camera moves.
 //
 //   left drag orbits, with alt looks around · right, middle or shift drag pans · wheel zooms · WASD and QE fly
+//   arrows orbit, with shift pan · + and - zoom
 //   one finger orbits · two fingers pan and pinch
 
 import { fly, look, orbit, pan, zoom, type Pose } from './camera_controller';
@@ -36,6 +37,20 @@ const kFlyKeys: ReadonlyMap<string, readonly [number, number, number]> = new Map
   ['KeyQ', [0, -1, 0]],
 ]);
 
+/** Shares of the canvas's height that an arrow key drags by. */
+const kArrowStep = 0.04;
+const kArrows: ReadonlyMap<string, readonly [number, number]> = new Map([
+  ['ArrowLeft', [-kArrowStep, 0]],
+  ['ArrowRight', [kArrowStep, 0]],
+  ['ArrowUp', [0, -kArrowStep]],
+  ['ArrowDown', [0, kArrowStep]],
+]);
+const kZoomKeys: ReadonlyMap<string, number> = new Map([
+  ['+', 1 / 1.1],
+  ['=', 1 / 1.1],
+  ['-', 1.1],
+]);
+
 interface Pointer {
   readonly x: number;
   readonly y: number;
@@ -61,17 +76,44 @@ export class CanvasInput {
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 
-  /** Keys come from the window, so that flying needs no click on the canvas first. */
-  keyDown(event: KeyboardEvent): void {
-    if (!kFlyKeys.has(event.code) || event.ctrlKey || event.metaKey || event.altKey) return;
-    this.fast = event.shiftKey;
-    this.keys.add(event.code);
-    this.scheduleStep();
+  /** Whether it steered. */
+  keyDown(event: KeyboardEvent): boolean {
+    this.noteModifiers(event);
+    if (event.ctrlKey || event.metaKey || event.altKey) return false;
+    if (kFlyKeys.has(event.code)) {
+      this.keys.add(event.code);
+      this.scheduleStep();
+      return true;
+    }
+    return this.turnOrZoom(event);
   }
 
   keyUp(event: KeyboardEvent): void {
-    this.fast = event.shiftKey;
+    this.noteModifiers(event);
     this.keys.delete(event.code);
+  }
+
+  /** Whether a fly key is down: its place then counts more than its letter. */
+  get flying(): boolean {
+    return this.keys.size > 0;
+  }
+
+  /** macOS tells of no key that goes up while Command is down, so whatever was down is let go. */
+  private noteModifiers(event: KeyboardEvent): void {
+    this.fast = event.shiftKey;
+    if (event.metaKey || event.ctrlKey || event.altKey) this.keys.clear();
+  }
+
+  private turnOrZoom({ key, shiftKey }: KeyboardEvent): boolean {
+    const view = this.target.view();
+    const [arrow, factor] = [kArrows.get(key), kZoomKeys.get(key)];
+    if (!view || (!arrow && !factor)) return false;
+    if (factor) this.zoomBy(view, factor);
+    else if (arrow && shiftKey) this.pan(view, -arrow[0], -arrow[1]);
+    else if (arrow) {
+      this.target.setPose(orbit(view, -arrow[0] * kRadPerHeight, -arrow[1] * kRadPerHeight));
+    }
+    return true;
   }
 
   /** The window lost the focus: no key-up will come. */

@@ -16,6 +16,7 @@ describe('fields', () => {
     const sections = [
       'camera',
       'rendering',
+      'exposure',
       'effects',
       'lights',
       'animation',

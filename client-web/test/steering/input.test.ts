@@ -2,7 +2,6 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 import type { Pose } from '../../src/steering/camera_controller';
 import { CanvasInput, type View } from '../../src/steering/input';
-import { runShortcut, type ShortcutActions } from '../../src/steering/shortcuts';
 
 class FakeCanvas extends EventTarget {
   clientHeight = 100;
@@ -29,8 +28,8 @@ function send(type: string, fields: object): Event {
 const pointer = (type: string, pointerId: number, x: number, y: number, more: object = {}): void =>
   void send(type, { pointerId, clientX: x, clientY: y, buttons: 1, shiftKey: false, altKey: false, ...more });
 
-const key = (code: string, shiftKey = false, ctrlKey = false): KeyboardEvent =>
-  ({ code, shiftKey, ctrlKey, metaKey: false, altKey: false }) as KeyboardEvent;
+const key = (code: string, shiftKey = false, ctrlKey = false, more: object = {}): KeyboardEvent =>
+  ({ code, shiftKey, ctrlKey, metaKey: false, altKey: false, ...more }) as KeyboardEvent;
 
 function current(): View {
   if (!view) throw new Error('no view');
@@ -149,6 +148,29 @@ describe('flight', () => {
     expect(current().eye.z).toBe(10);
   });
 
+  it('ShiftThatComesLater_IsFaster_AndThenNot', () => {
+    vi.spyOn(performance, 'now').mockReturnValue(0);
+    input.keyDown(key('KeyD'));
+    input.keyDown(key('ShiftLeft', true));
+    frame(50);
+    expect(current().eye.x).toBeCloseTo(4 * 2 * 0.05, 9);
+    input.keyUp(key('ShiftLeft'));
+    frame(100);
+    expect(current().eye.x).toBeCloseTo(5 * 2 * 0.05, 9);
+  });
+
+  it('CommandDownWhileFlying_EndsTheFlight', () => {
+    input.keyDown(key('KeyW'));
+    input.keyDown(key('MetaLeft', false, false, { metaKey: true }));
+    frame(1e9); // macOS never tells that the fly key went up
+    expect(current().eye.z).toBe(10);
+  });
+
+  it('PlacesOfFlyKeys_SteerWhateverTheirLetters', () => {
+    expect(input.keyDown(key('KeyS', false, false, { key: 'r' }))).toBe(true);
+    expect(input.keyDown(key('KeyR', false, false, { key: 'p' }))).toBe(false);
+  });
+
   it('OtherKeys_AreNotOurs', () => {
     input.keyDown(key('KeyX'));
     input.keyDown(key('KeyS', false, true));
@@ -156,34 +178,28 @@ describe('flight', () => {
   });
 });
 
-describe('shortcuts', () => {
-  const actions = {
-    screenshot: vi.fn(),
-    copyLink: vi.fn(),
-    record: vi.fn(),
-    toggleStats: vi.fn(),
-    togglePanel: vi.fn(),
-    toggleHelp: vi.fn(),
-    toggleLights: vi.fn(),
-    togglePlaying: vi.fn(),
-    nextRenderer: vi.fn(),
-    sceneCamera: vi.fn(),
-  } satisfies ShortcutActions;
+describe('keys', () => {
+  const press = (name: string, shiftKey = false): boolean => input.keyDown(key('', shiftKey, false, { key: name }));
 
-  it('Keys_RunTheirActions', () => {
-    for (const letter of ['p', 'L', 'x', 'f', 'c', 'h', 'r', 'k', ' ']) {
-      expect(runShortcut(letter, actions)).toBe(true);
-    }
-    for (const action of Object.values(actions)) {
-      if (action !== actions.sceneCamera) expect(action).toHaveBeenCalledTimes(1);
-    }
-    expect(runShortcut('3', actions)).toBe(true);
-    expect(actions.sceneCamera).toHaveBeenCalledWith(2);
+  it('Arrows_Turn_WithShiftPan', () => {
+    expect(press('ArrowRight')).toBe(true);
+    expect(current().eye.x).toBeGreaterThan(0);
+    expect(current().target).toEqual({ x: 0, y: 0, z: 0 });
+    press('ArrowLeft');
+    expect(current().eye.x).toBeCloseTo(0, 9);
+    press('ArrowRight', true);
+    expect(current().target.x).toBeGreaterThan(0);
   });
 
-  it('OtherKeys_AreNotTaken', () => {
-    for (const other of ['0', 'w', 'Enter', 'constructor']) {
-      expect(runShortcut(other, actions)).toBe(false);
-    }
+  it('PlusAndMinus_Zoom', () => {
+    press('+');
+    expect(current().eye.z).toBeCloseTo(10 / 1.1, 9);
+    press('-');
+    expect(current().eye.z).toBeCloseTo(10, 9);
+  });
+
+  it('NothingToSteer_TakesNoKey', () => {
+    view = null;
+    expect(press('ArrowRight')).toBe(false);
   });
 });

@@ -1,0 +1,52 @@
+// What can be done on the page, each once: tools, keys, the help and the search are made from it.
+
+import type { Entry } from './core/entries';
+
+export interface Doings {
+  readonly search: () => void;
+  readonly panel: () => void;
+  readonly figures: () => void;
+  readonly screenshot: () => void;
+  readonly copyLink: () => void;
+  readonly fullscreen: () => void;
+  readonly help: () => void;
+  readonly record: () => void;
+  readonly lights: () => void;
+  readonly playing: () => void;
+  readonly nextRenderer: () => void;
+  readonly addLight: () => void;
+  readonly reset: () => void;
+  readonly sceneCamera: (index: number) => void;
+}
+
+const action = (title: string, key: string, run: () => void, help: string, words = ''): Entry => ({
+  title,
+  help,
+  key,
+  words,
+  run,
+});
+
+export function actionsOf(does: Doings): readonly Entry[] {
+  return [
+    action('Search', '/', does.search, 'Finds any action and any setting (Ctrl K too)', 'find command palette'),
+    action('Settings', 'c', does.panel, 'Opens or closes the settings', 'panel options controls'),
+    action('Figures', 'f', does.figures, 'Shows where the time of a frame goes', 'statistics passes latency fps'),
+    action('Save picture', 'p', does.screenshot, 'Saves the picture as a PNG file', 'screenshot image download'),
+    action('Copy link', 'l', does.copyLink, 'Copies a link to this very view', 'share url address'),
+    action('Full screen', '', does.fullscreen, 'Fills the screen, or leaves it'),
+    action('Help', '?', does.help, 'Says how mouse, touch and keys move the view', 'keys shortcuts about'),
+    action('Move or stop lights', ' ', does.lights, 'Moves the lights, or stops them', 'pause animate'),
+    action('Play or pause animation', 'k', does.playing, 'Plays the scene’s animation, or pauses it'),
+    action('Next renderer', 'r', does.nextRenderer, 'Draws with the next of the five renderers', 'toon deferred forward naive'),
+    action('Add a light', '', does.addLight, 'Puts a light before the camera', 'new place'),
+    action('Record commands', 'x', does.record, 'Records what this page sends as a script for froxel load; again to end', 'script load test'),
+    action('Back to defaults', '', does.reset, 'Sets everything as the server had it at first', 'reset'),
+  ];
+}
+
+/** The scene's cameras, of which the first nine have keys. */
+export const camerasOf = (names: readonly string[], does: Doings): Entry[] =>
+  names.map((name, index) =>
+    action(`Camera ${name}`, index < 9 ? String(index + 1) : '', () => does.sceneCamera(index), 'Goes to a camera of the scene', 'view go to'),
+  );
