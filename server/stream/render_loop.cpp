@@ -29,9 +29,6 @@ constexpr Seconds kUnknownPiece{0.1};
 // that it is never idle; whoever comes then does not wait for a second long piece.
 constexpr Seconds kAhead{0.02};
 
-// Who waits for the device for less than this may have come after it was done.
-constexpr Seconds kWaited{20e-6};
-
 // How often a view whose shaders are being made is asked whether it can begin.
 constexpr std::chrono::milliseconds kVariantsPoll{20};
 
@@ -421,7 +418,6 @@ void RenderLoop::finishOldest() {
     submitted_.pop_front();
     BegunFrame& frame = *piece.frame;
     Viewer& viewer = *viewers_.at(frame.id);
-    const TimePoint asked = Clock::now();
     auto collected = viewer.source->collect();
     if (!collected && collected.error().code != ErrorCode::kCapacity) {
         throw StartupError(collected.error());
@@ -431,7 +427,6 @@ void RenderLoop::finishOldest() {
     warnOfLongStep("piece", cost, frame.piece_estimate, frame.id, frame.state);
     scheduler_.onFinished(frame.id, cost - piece.charged, accounted_);
     frame.cost += cost;
-    frame.seen_late = frame.seen_late || accounted_ - asked < kWaited;
     frame.held += accounted_ - std::max(piece.submitted, std::exchange(collected_, accounted_));
     frame.longest_piece = std::max(frame.longest_piece, cost);
     --frame.on_device;
@@ -466,15 +461,14 @@ void RenderLoop::finishPiece(Viewer& viewer, BegunFrame& frame, Result<Collected
 }
 
 // What a frame keeps others from. Where the device is not the host, the host's part of one goes on
-// beside the device's part of another. Where the host came late to see the device done, timestamps
-// tell how long that took.
+// beside the device's part of another. And the host sees late that the device is done: timestamps
+// tell when.
 Seconds RenderLoop::needOf(const BegunFrame& frame, const FrameStats& stats) const {
     if (source_->isHost()) {
         return frame.cost;
     }
-    const bool timed = frame.seen_late && stats.gpu_us;
     const Seconds device =
-        timed ? std::min(frame.held, Seconds(Microseconds(*stats.gpu_us))) : frame.held;
+        stats.gpu_us ? std::min(frame.held, Seconds(Microseconds(*stats.gpu_us))) : frame.held;
     return std::max(frame.host, device);
 }
 

@@ -31,7 +31,6 @@ struct BegunFrame {
     Seconds cost{0};           // so far, with the host's part, as the scheduler charges it
     Seconds host{0};           // of which the host took
     Seconds held{0};           // how long its pieces were the device's oldest, as the host saw it
-    bool seen_late = false;    // the device was done with one before the host looked
     bool over = false;         // nothing more of it will be submitted
 };
 
