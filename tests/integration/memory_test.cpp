@@ -32,7 +32,7 @@ v1::ClientMessage sizeOf(uint32_t width, uint32_t height) {
 class SessionMemory : public testing::Test {
   protected:
     SessionMemory()
-        : server_({"--size", "160x90", "--lights", "20", "--frame-limit", "10", "--session-memory",
+        : server_({"--size", "160x90", "--lights", "20", "--frame-limit", "60", "--session-memory",
                    std::to_string(kSession_mib)}),
           port_(server_.port().value()), admin_(server_.adminPort().value()), one_(port_) {
         one_.join();
