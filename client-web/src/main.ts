@@ -237,7 +237,9 @@ async function toggleFullscreen(): Promise<void> {
 }
 
 const input = new CanvasInput(canvas, commands, nextFrame);
-window.addEventListener('keydown', (event) => {
+// Captured, since the panel keeps the keys of its controls to itself, one that goes up there too.
+const captured = { capture: true };
+function keyDown(event: KeyboardEvent): void {
   connection.wake();
   if (event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey)) {
     event.preventDefault();
@@ -255,8 +257,9 @@ window.addEventListener('keydown', (event) => {
   if (!entry) return;
   event.preventDefault();
   entry.run();
-});
-window.addEventListener('keyup', (event) => input.keyUp(event));
+}
+window.addEventListener('keydown', keyDown, captured);
+window.addEventListener('keyup', (event) => input.keyUp(event), captured);
 window.addEventListener('blur', () => input.releaseAll());
 document.addEventListener('visibilitychange', () => tellVisibility(false));
 canvas.addEventListener('pointerdown', () => connection.wake());
