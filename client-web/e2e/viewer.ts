@@ -147,7 +147,7 @@ export class Viewer {
   async settled(): Promise<number[]> {
     await this.commandsSent();
     await until('a picture of the newest settings', () => {
-      const asked = this.sent.filter(({ body }) => /^(set|select)/.test(body.case ?? '')).at(-1);
+      const asked = this.sent.filter(({ body }) => /^(set|select|pick)/.test(body.case ?? '')).at(-1);
       const shown = this.sent.filter(({ body }) => body.case === 'ack').at(-1)?.body;
       const { lastFrame } = this;
       return (
