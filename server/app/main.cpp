@@ -5,6 +5,8 @@
 #include "core/error.h"
 #include "core/write_soon.h"
 
+#include <spdlog/spdlog.h>
+
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -57,7 +59,9 @@ struct Run {
     }
 };
 
+// Behind what was logged before it.
 int fail(const std::string& message, int exit_code) {
+    spdlog::default_logger()->flush();
     writeSoon(STDERR_FILENO, "froxel: " + message + "\n");
     return exit_code;
 }
