@@ -1,18 +1,19 @@
-// Small choices that this browser keeps for the next visit; where it forbids that, they are forgotten.
+// Whether parts of the page are open, as this browser keeps it for the next visit; where it forbids
+// that, they are closed then.
 
-const kPrefix = 'froxel.';
+const key = (part: string): string => `froxel.${part}`;
 
-export function kept(name: string): string | null {
+export function wasOpen(part: string): boolean {
   try {
-    return localStorage.getItem(kPrefix + name);
+    return localStorage.getItem(key(part)) === 'open';
   } catch {
-    return null;
+    return false;
   }
 }
 
-export function keep(name: string, value: string): void {
+export function keepOpen(part: string, open: boolean): void {
   try {
-    localStorage.setItem(kPrefix + name, value);
+    localStorage.setItem(key(part), open ? 'open' : 'closed');
   } catch {
     // forbidden or full
   }

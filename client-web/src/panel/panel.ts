@@ -4,7 +4,7 @@ import GUI, { type Controller } from 'lil-gui';
 
 import type { Entry } from '../core/entries';
 import { gridText, tidy } from '../core/format';
-import { keep, kept } from '../core/kept';
+import { keepOpen, wasOpen } from '../core/kept';
 import { displayColor, linearColor } from '../core/srgb';
 import type { Codec } from '../gen/froxel/v1/common_pb';
 import type { FrameGrid } from '../gen/froxel/v1/server_pb';
@@ -119,14 +119,13 @@ export class Panel {
       this.parent.hidden = !open;
       this.onToggle(open);
     };
+    gui.open(wasOpen(kKept));
+    tell(!gui._closed);
     gui.onOpenClose((changed) => {
       if (changed !== gui) return; // a folder
       tell(!gui._closed);
-      keep(kKept, gui._closed ? 'closed' : 'open');
+      keepOpen(kKept, !gui._closed);
     });
-    const open = kept(kKept) === 'open';
-    gui.open(open);
-    tell(open);
     return gui;
   }
 

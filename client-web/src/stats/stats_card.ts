@@ -2,7 +2,7 @@
 
 import { element, make } from '../core/dom';
 import { bits, bytes, count, gridText, ms, timeText } from '../core/format';
-import { keep, kept } from '../core/kept';
+import { keepOpen, wasOpen } from '../core/kept';
 import { CodecSchema } from '../gen/froxel/v1/common_pb';
 import type { FrameDetails, FrameHeader } from '../gen/froxel/v1/server_pb';
 import { choicesOf } from '../protocol/schema_names';
@@ -44,14 +44,14 @@ export class StatsCard {
     private readonly droppedHere: () => number,
   ) {
     this.head.addEventListener('click', () => this.toggle());
-    this.show(kept(kKept) === 'open');
+    this.show(wasOpen(kKept));
     setInterval(() => this.refresh(), kRefreshMs);
   }
 
   toggle(): void {
     const open = this.card.classList.contains('closed');
     this.show(open);
-    keep(kKept, open ? 'open' : 'closed');
+    keepOpen(kKept, open);
     this.refresh();
   }
 

@@ -93,15 +93,10 @@ export class CanvasInput {
     this.keys.delete(event.code);
   }
 
-  /** Whether a fly key is down: its place then counts more than its letter. */
-  get flying(): boolean {
-    return this.keys.size > 0;
-  }
-
   /** macOS tells of no key that goes up while Command is down, so whatever was down is let go. */
   private noteModifiers(event: KeyboardEvent): void {
     this.fast = event.shiftKey;
-    if (event.metaKey || event.ctrlKey || event.altKey) this.keys.clear();
+    if (event.metaKey) this.keys.clear();
   }
 
   private turnOrZoom({ key, shiftKey }: KeyboardEvent): boolean {
