@@ -32,7 +32,7 @@ async function open(hash: string): Promise<void> {
 const banner = (text: RegExp | string): Promise<true> =>
   until(`a banner with ${String(text)}`, async () => {
     const shown = await viewer.page.locator('#banner').isVisible();
-    const words = (await viewer.page.locator('#banner-text').textContent()) ?? '';
+    const words = (await viewer.page.locator('#banner').textContent()) ?? '';
     return shown && (typeof text === 'string' ? words.includes(text) : text.test(words)) ? true : null;
   });
 
@@ -45,7 +45,7 @@ it('ValueOutOfRange_ShowsTheServersWordsAndKeepsTheLastGoodState', async () => {
   await viewer.screenshot('error');
   const input = viewer.control('lights').locator('input:not([type=range])');
   await until('the last good number', async () => (await input.inputValue()) === '50');
-  await viewer.page.locator('#banner-close').click();
+  await viewer.page.locator('#banner-remedy').click();
   expect(await viewer.page.locator('#banner').isVisible()).toBe(false);
   await viewer.type('lights', 60);
   await viewer.stateWith('60 lights', ({ lightCount }) => lightCount === 60);
@@ -132,7 +132,7 @@ it('TryNow_ConnectsAtOnce', async () => {
   await banner(/Next try in/);
   server = await startServer(server.port);
   expect(viewer.connectionCount).toBe(1);
-  await viewer.page.locator('#banner-retry').click();
+  await viewer.page.locator('#banner-remedy').click();
   await until('no banner', async () => !(await viewer.page.locator('#banner').isVisible()));
   await until('the connection', () => viewer.connectionCount > 1);
   expect(viewer.connectionCount).toBe(2);

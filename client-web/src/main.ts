@@ -19,14 +19,15 @@ import { Picture } from './picture/picture';
 import { Presenter } from './picture/presenter';
 import { VideoFallback } from './picture/video_fallback';
 import type { LostSync } from './picture/video_track';
-import { Connection } from './protocol/connection';
+import { Connection, type Link } from './protocol/connection';
 import { Recorder } from './protocol/recorder';
 import { askRefusal } from './protocol/refusal';
 import { Resume, tabShelf } from './protocol/resume';
-import { toVec } from './settings/settings';
+import { toVec, type Settings } from './settings/settings';
 import { AddressKeeper } from './state/address_keeper';
 import { mayControl, roomFromAddress } from './state/room';
 import { SettingsSync } from './state/settings_sync';
+import { pictureLabel } from './state/standing';
 import { Store } from './state/store';
 import { WindowSize } from './state/window_size';
 import { SceneWarnings } from './stats/scene_warnings';
@@ -87,6 +88,7 @@ const connection = new Connection(
     message: (message) => {
       const { body } = message;
       if (body.case === 'welcome') resume.keep(body.value.resumeToken);
+      if (body.case === 'error' && body.value.refSeq > 0n) stats.refused();
       if (body.case === 'draining') {
         resume.keep(''); // a session does not move
         connection.leave(body.value.deadlineMs, body.value.reconnectUrl);
@@ -126,8 +128,12 @@ const panel = new Panel(
   codecs,
 );
 const banner = new Banner({
-  retry: () => connection.open(),
-  dismiss: () => store.dispatch({ type: 'dismiss' }),
+  remedies: {
+    connect: () => connection.open(),
+    reload: () => location.reload(),
+    dismiss: () => store.dispatch({ type: 'dismiss' }),
+  },
+  lagMs: () => (document.hidden ? 0 : stats.lagMs(nowMs())),
   nowMs,
 });
 const roomCard = new RoomCard(commands);
@@ -135,10 +141,14 @@ const animationCard = new AnimationCard(commands);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
+const tokenDialog = element('token', HTMLDialogElement);
 
 new WindowSize(store, canvas);
 new SettingsSync(store, connection, nextFrame);
-const address = new AddressKeeper(store);
+// Who asked their system for less motion begins with what stands still.
+const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
+const wishes: Partial<Settings> = still ? { animate: false, animationPlaying: false } : {};
+const address = new AddressKeeper(store, codecs, wishes);
 store.listen((state) => {
   panel.show(state);
   banner.show(state);
@@ -146,9 +156,13 @@ store.listen((state) => {
   animationCard.show(state);
   handles.show(state);
   element('panel', HTMLElement).inert = !mayControl(state.room);
+  canvas.setAttribute('aria-label', pictureLabel(state));
 });
 store.listen(({ link }, before) => {
   if (link.phase === 'live' && before.link.phase !== 'live') tellVisibility(true);
+});
+store.listen(({ sentSeq }, before) => {
+  if (sentSeq !== before.sentSeq) stats.asked(sentSeq, nowMs());
 });
 store.listen(({ details }, before) => {
   if (!details || details === before.details) return;
@@ -243,7 +257,8 @@ function keyDown(event: KeyboardEvent): void {
   connection.wake();
   if (event.key.toLowerCase() === 'k' && (event.ctrlKey || event.metaKey)) {
     event.preventDefault();
-    doings.search();
+    help.close();
+    if (!tokenDialog.open) doings.search(); // nothing can be done before
     return;
   }
   // Single keys are the picture's, so that nobody who types or speaks sets one off (WCAG 2.1.4).
@@ -270,6 +285,7 @@ presenter.setVisible(!document.hidden);
 function tellVisibility(newConnection: boolean): void {
   const { hidden } = document;
   presenter.setVisible(!hidden);
+  if (hidden) input.releaseAll();
   if (!hidden && !newConnection) connection.back();
   const { link, server } = store.state;
   const understood = link.phase === 'live' && (server?.protocolMinor ?? 0) >= kMinorOfPause;
@@ -282,7 +298,8 @@ canvas.focus({ preventScroll: true });
 void fetchWords().then((words) => panel.tell(words));
 address.read();
 if ('problem' in wantedRoom) {
-  store.dispatch({ type: 'link', link: { phase: 'refused', reason: wantedRoom.problem } });
+  const link: Link = { phase: 'refused', reason: wantedRoom.problem, remedy: null };
+  store.dispatch({ type: 'link', link });
 } else {
   connection.open();
 }

@@ -1,76 +1,82 @@
-// Says what is wrong, and how far loading is. Words from the server are set as text, never as HTML.
+// Says how it stands, and how far the first picture is. Words from the server are set as text, never as HTML.
 
 import { element } from '../core/dom';
-import type { AppState } from '../state/app_state';
+import type { Remedy } from '../protocol/connection';
+import { kInitialState, type AppState } from '../state/app_state';
+import { standingOf, type Standing } from '../state/standing';
 
 export interface BannerActions {
-  retry(): void;
-  dismiss(): void;
+  readonly remedies: Readonly<Record<Remedy['act'], () => void>>;
+  /** For how long the picture has shown nothing of what was asked for. */
+  lagMs(): number;
   nowMs(): number;
 }
 
-const kCountdownMs = 250;
+const kTickMs = 250;
 const kInfoMs = 4_000;
 
 export class Banner {
+  private readonly canvas = element('view', HTMLCanvasElement);
   private readonly box = element('banner', HTMLElement);
   private readonly text = element('banner-text', HTMLElement);
-  private readonly retry = element('banner-retry', HTMLButtonElement);
-  private readonly close = element('banner-close', HTMLButtonElement);
+  private readonly aside = element('banner-aside', HTMLElement);
+  private readonly button = element('banner-remedy', HTMLButtonElement);
   private readonly progress = element('progress', HTMLElement);
   private readonly progressText = element('progress-text', HTMLElement);
   private readonly progressBar = element('progress-bar', HTMLProgressElement);
-  private state: AppState | null = null;
+  private state: AppState = kInitialState;
+  private remedy: Remedy | null = null;
   private hasPicture = false;
   private expiry: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly actions: BannerActions) {
-    this.retry.addEventListener('click', () => this.actions.retry());
-    this.close.addEventListener('click', () => this.actions.dismiss());
-    setInterval(() => this.countDown(), kCountdownMs);
+    this.button.addEventListener('click', () => {
+      if (this.remedy) this.actions.remedies[this.remedy.act]();
+    });
+    setInterval(() => this.draw(), kTickMs);
   }
 
   /** The first picture is there: from now on trouble shows over it. */
   pictureShown(): void {
+    if (this.hasPicture) return;
     this.hasPicture = true;
-    this.progress.hidden = true;
+    this.draw();
   }
 
   show(state: AppState): void {
+    if (state.notice !== this.state.notice) this.expire(state);
     this.state = state;
-    const { link, notice } = state;
-    const down = link.phase === 'waiting' || link.phase === 'refused';
-    const message = down ? link.reason : (notice?.text ?? '');
-    this.box.hidden = message === '' && !(this.hasPicture && link.phase !== 'live');
-    this.box.classList.toggle('error', down || notice?.tone === 'error');
-    this.text.textContent = message === '' ? 'Connecting…' : message;
-    this.retry.hidden = !down;
-    this.close.hidden = down || notice === null;
-    this.showProgress(state);
-    this.countDown();
+    this.draw();
+  }
+
+  private expire({ notice }: AppState): void {
     clearTimeout(this.expiry);
-    if (notice?.tone === 'info') {
-      this.expiry = setTimeout(() => this.actions.dismiss(), kInfoMs);
+    if (notice?.tone === 'info' && !notice.stays) {
+      this.expiry = setTimeout(this.actions.remedies.dismiss, kInfoMs);
     }
   }
 
-  private showProgress({ link, loading }: AppState): void {
-    this.progress.hidden = this.hasPicture || link.phase === 'waiting' || link.phase === 'refused';
-    if (loading) {
-      this.progressText.textContent = loading.stage;
-      this.progressBar.value = loading.fraction;
-    } else {
-      const live = link.phase === 'live';
-      this.progressText.textContent = live ? 'Waiting for the first picture…' : 'Connecting…';
-      this.progressBar.removeAttribute('value');
-    }
+  private draw(): void {
+    const { hasPicture, actions } = this;
+    const moment = { nowMs: actions.nowMs(), hasPicture, lagMs: actions.lagMs() };
+    const standing = standingOf(this.state, moment);
+    this.canvas.classList.toggle('stale', standing.dims);
+    this.remedy = standing.remedy;
+    this.box.hidden = standing.text === '';
+    this.box.classList.toggle('error', standing.tone === 'error');
+    // Only what changes: a screen reader says each change.
+    if (this.text.textContent !== standing.text) this.text.textContent = standing.text;
+    this.aside.textContent = standing.aside;
+    this.button.hidden = standing.remedy === null;
+    this.button.textContent = standing.remedy?.label ?? '';
+    this.showProgress(standing.progress);
   }
 
-  private countDown(): void {
-    const link = this.state?.link;
-    if (link?.phase !== 'waiting') return;
-    const seconds = Math.max(0, Math.ceil((link.retryAtMs - this.actions.nowMs()) / 1000));
-    const next = `Next try in ${seconds} s.`;
-    this.text.textContent = `${link.reason} ${next}`;
+  private showProgress(progress: Standing['progress']): void {
+    this.progress.hidden = progress === null;
+    if (!progress) return;
+    if (this.progressText.textContent !== progress.text) this.progressText.textContent = progress.text;
+    if (progress.fraction === null) this.progressBar.removeAttribute('value');
+    else this.progressBar.value = progress.fraction;
   }
 }

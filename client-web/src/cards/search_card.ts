@@ -59,6 +59,7 @@ export class SearchCard {
   }
 
   private key(event: KeyboardEvent): void {
+    if (event.isComposing) return; // Enter takes a word of an input method
     const count = Math.max(1, this.found.length);
     if (event.key === 'ArrowDown') this.chosen = (this.chosen + 1) % count;
     else if (event.key === 'ArrowUp') this.chosen = (this.chosen + count - 1) % count;

@@ -177,17 +177,17 @@ export class Panel {
       return;
     }
     const model = { value: valueOf(server.initial, field) };
+    const choices = field.kind === 'choice' ? choicesFor(field) : [];
+    const decoded = choices.filter(({ value }) => field.name !== 'codec' || this.codecs.includes(value));
     const options =
       field.kind === 'choice'
-        ? Object.fromEntries(
-            choicesFor(field)
-              .filter(({ value }) => field.name !== 'codec' || this.codecs.includes(value))
-              .map(({ name, value }) => [name.replaceAll('_', ' '), value]),
-          )
+        ? Object.fromEntries(decoded.map(({ name, value }) => [name.replaceAll('_', ' '), value]))
         : undefined;
+    const limits =
+      decoded.length < choices.length ? 'This browser decodes no video here: it needs WebCodecs, and those https' : '';
     const controller = options ? folder.add(model, 'value', options) : folder.add(model, 'value');
     controller.onChange((value: number | boolean) => this.actions.set(field, value));
-    this.finish(controller, field, '', (settings) => {
+    this.finish(controller, field, limits, (settings) => {
       model.value = valueOf(settings, field);
       controller.updateDisplay();
     });

@@ -21,7 +21,14 @@ export type Link =
   | { readonly phase: 'greeting' } // open, Welcome not yet there
   | { readonly phase: 'live' }
   | { readonly phase: 'waiting'; readonly reason: string; readonly retryAtMs: number }
-  | { readonly phase: 'refused'; readonly reason: string }; // trying again is pointless
+  // Trying again by itself is pointless; the remedy, if any, is what a viewer may do.
+  | { readonly phase: 'refused'; readonly reason: string; readonly remedy: Remedy | null };
+
+/** What helps, as a button. */
+export interface Remedy {
+  readonly label: string;
+  readonly act: 'connect' | 'reload' | 'dismiss';
+}
 
 export interface ConnectionEvents {
   link(link: Link): void;
@@ -67,20 +74,41 @@ const kOpen = 1;
 const kTokenRefused = 4003;
 const kResting = 4011;
 
-const kNoRetryReasons: Readonly<Record<number, string>> = {
-  1008: 'The server closed the connection: too many messages, too many refused ones, or no greeting in time.',
-  1009: 'The server closed the connection: a message was too big.',
-  4003: 'The server asks for a token.',
-  4009: 'This view is open in another tab or window now.',
-  4011: 'Nobody watched this view for a while, and the place was given away. Move it to have one again.',
-  4001: 'This page speaks another protocol version than the server. Reload it.',
+const connect = (label: string): Remedy => ({ label, act: 'connect' });
+
+interface End {
+  readonly reason: string;
+  readonly remedy: Remedy;
+}
+
+/** Closes after which only a viewer can go on. */
+const kEnds: Readonly<Record<number, End>> = {
+  1008: {
+    reason: 'The server ended this connection: too many messages, too many refused ones, or no greeting in time.',
+    remedy: connect('Connect again'),
+  },
+  1009: {
+    reason: 'The server ended this connection: a message was too big.',
+    remedy: connect('Connect again'),
+  },
+  4001: {
+    reason: 'This page is of another version than the server.',
+    remedy: { label: 'Reload', act: 'reload' },
+  },
+  4003: { reason: 'This server asks for a token.', remedy: connect('Enter a token') },
+  4009: { reason: 'This view went to another tab or window.', remedy: connect('Show it here') },
+  4011: {
+    reason: 'Nobody watched this view for a while, so its place was given away.',
+    remedy: connect('Go on'),
+  },
 };
 
-const kRetryReasons: Readonly<Record<number, string>> = {
-  4008: 'This connection was too slow for the server.',
+/** Closes after which the page tries again by itself. */
+const kPauses: Readonly<Record<number, string>> = {
+  4008: 'Your connection is too slow for this view. A smaller window takes less.',
   4010: 'The server is going down.',
-  4029: 'The server has no session left.',
-  4050: 'The server lost its rendering device.',
+  4029: 'Every place on this server is taken.',
+  4050: 'The server lost its graphics device.',
 };
 
 export class Connection {
@@ -119,7 +147,7 @@ export class Connection {
     socket.onmessage = (event: MessageEvent) => this.received(event.data);
     socket.onclose = (event) => {
       const declined = socket === this.socket && this.openedAtMs === 0;
-      this.closed(socket, event.code, event.reason);
+      this.closed(socket, event.code);
       if (declined) void this.explain(target, resumable);
     };
     this.socket = socket;
@@ -200,7 +228,7 @@ export class Connection {
       if (this.env.nowMs() - this.heardAtMs > kSilenceMs) {
         // close() would wait for an answer that never comes; the browser finishes it later.
         socket.close();
-        this.closed(socket, 1006, '');
+        this.closed(socket, 1006);
         return;
       }
       this.send({ case: 'ping', value: {} });
@@ -224,15 +252,15 @@ export class Connection {
     });
   }
 
-  private closed(socket: Socket, code: number, reason: string): void {
+  private closed(socket: Socket, code: number): void {
     if (socket !== this.socket) return; // an older one that the browser closes late
     this.cancelTimer();
     this.cancelLeave();
     this.socket = null;
     const now = this.env.nowMs();
-    const final = kNoRetryReasons[code];
-    if (final !== undefined) {
-      this.events.link({ phase: 'refused', reason: reason ? `${final} (${reason})` : final });
+    const end = kEnds[code];
+    if (end) {
+      this.events.link({ phase: 'refused', ...end });
       if (code === kTokenRefused) this.events.tokenWanted();
       this.resting = code === kResting;
       this.openedAtMs = 0;
@@ -242,7 +270,7 @@ export class Connection {
     this.openedAtMs = 0;
     const delay = backoffMs(this.attempt, () => this.env.random());
     this.attempt += 1;
-    this.wait(delay, kRetryReasons[code] ?? 'No connection to the server.');
+    this.wait(delay, kPauses[code] ?? 'No connection to the server.');
   }
 
   private wait(delayMs: number, reason: string): void {
@@ -265,6 +293,6 @@ export class Connection {
       return;
     }
     const delay = refusal.retryAfterMs * (1 + this.env.random());
-    this.wait(delay, `The server has no place: ${refusal.reason}.`);
+    this.wait(delay, `The server has no place for you now: ${refusal.reason}.`);
   }
 }

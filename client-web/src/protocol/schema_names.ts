@@ -19,3 +19,7 @@ export function choicesOf(schema: DescEnum): Choice[] {
       value: value.number,
     }));
 }
+
+/** The name of a value in words; "none" of one that the schema does not have. */
+export const nameIn = (schema: DescEnum, wanted: number): string =>
+  choicesOf(schema).find(({ value }) => value === wanted)?.name.replaceAll('_', ' ') ?? 'none';

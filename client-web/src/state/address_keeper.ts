@@ -1,7 +1,9 @@
 // Keeps the address and the settings alike: reads it when the page opens or it is edited, writes it
 // a moment after a change.
 
+import { Codec } from '../gen/froxel/v1/common_pb';
 import { cameraCommand, settingCommands } from '../settings/setting_commands';
+import type { Settings } from '../settings/settings';
 import { formatAddress, parseAddress } from './address';
 import type { AppState } from './app_state';
 import type { Store } from './store';
@@ -11,14 +13,27 @@ const kWriteDelayMs = 400; // browsers limit how often an address may change
 export class AddressKeeper {
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(private readonly store: Store) {
+  /** `codecs` are those that this browser decodes. `wishes` are what is set unless the address says otherwise. */
+  constructor(
+    private readonly store: Store,
+    private readonly codecs: readonly Codec[],
+    private readonly wishes: Partial<Settings>,
+  ) {
     store.listen((state, before) => this.changed(state, before));
     window.addEventListener('hashchange', () => this.read());
   }
 
   read(): void {
-    const { settings, size, problems } = parseAddress(location.hash);
-    this.store.dispatch({ type: 'restored', wanted: settings, size });
+    const { settings, size, problems: unread } = parseAddress(location.hash);
+    const problems = [...unread];
+    const { codec, ...others } = settings;
+    const decodes = codec === undefined || this.codecs.includes(codec);
+    if (!decodes) {
+      problems.push(`link: codec=${Codec[codec].toLowerCase()} is not decoded by this browser here; video needs WebCodecs, and those https`);
+    }
+    const first = this.store.state.settings === null ? this.wishes : {};
+    const wanted = { ...first, ...(decodes ? settings : others) };
+    this.store.dispatch({ type: 'restored', wanted, size });
     if (problems.length > 0) {
       this.store.dispatch({ type: 'notice', tone: 'error', text: problems.join('; ') });
     }

@@ -38,6 +38,7 @@ export interface Loading {
 export interface Notice {
   readonly text: string;
   readonly tone: 'error' | 'info';
+  readonly stays?: boolean; // until it is dismissed, or another connection is there
 }
 
 /** Of a PickLight: its seq, and the id that the light is to have. */
@@ -193,7 +194,7 @@ function received(state: AppState, message: ServerMessage): AppState {
       return roomChanged(state, roomOf(body.value));
     case 'draining':
       // A session does not move.
-      return { ...state, keeps: false, notice: { text: 'The server is going down.', tone: 'info' } };
+      return { ...state, keeps: false, notice: kGoingDown };
     default:
       return state;
   }
@@ -209,7 +210,8 @@ type Welcome = Extract<ServerMessage['body'], { case: 'welcome' }>['value'];
 
 function welcomed(state: AppState, welcome: Welcome): AppState {
   if (!welcome.state) {
-    return { ...state, link: { phase: 'refused', reason: 'Welcome without a state' } };
+    const reason = 'The server sent a Welcome without a state.';
+    return { ...state, link: { phase: 'refused', reason, remedy: null } };
   }
   const scene = welcome.scene ?? null;
   const bounds = boundsOf(scene);
@@ -244,6 +246,12 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
     wanted: {},
   };
 }
+
+const kGoingDown: Notice = {
+  text: 'The server is going down. The view goes on at the next one.',
+  tone: 'info',
+  stays: true,
+};
 
 function givenAway({ keeps }: AppState, { resumed }: Welcome): Notice | null {
   if (!keeps || resumed) return null;

@@ -61,18 +61,39 @@ export class RateMeter {
 export class InputLatency {
   readonly window = new SampleWindow(128);
   private shownSeq = 0n;
+  private askedSeq = 0n;
+  private waitingSinceMs: number | null = null; // for a frame that shows a command
+
+  /** A command was sent that a frame is to show. */
+  asked(seq: bigint, nowMs: number): void {
+    if (seq <= this.shownSeq) return;
+    this.askedSeq = seq;
+    this.waitingSinceMs ??= nowMs;
+  }
+
+  /** The server refused it: no frame will show it. */
+  refused(): void {
+    this.waitingSinceMs = null;
+  }
 
   /** Returns the new sample in ms, or null where the frame shows no new command. */
   painted(appliedSeq: bigint, appliedClientTimeUs: bigint, nowMs: number): number | null {
     if (appliedSeq <= this.shownSeq) return null;
     this.shownSeq = appliedSeq;
+    this.waitingSinceMs = appliedSeq < this.askedSeq ? nowMs : null;
     const sample = nowMs - Number(appliedClientTimeUs) / 1000;
     this.window.push(sample);
     return sample;
   }
 
+  /** For how long no frame has shown any command, though one is to come; 0: none is. */
+  lagMs(nowMs: number): number {
+    return this.waitingSinceMs === null ? 0 : nowMs - this.waitingSinceMs;
+  }
+
   /** A new connection counts its commands from 1 again. */
   restart(): void {
-    this.shownSeq = 0n;
+    this.shownSeq = this.askedSeq = 0n;
+    this.waitingSinceMs = null;
   }
 }

@@ -9,6 +9,8 @@ const kStageSamples = 64;
 const kHistory = 150;
 /** A longer pause is a still picture, not a slow one: the server sends only what changed. */
 const kIdleMs = 2_000;
+/** After so long without a command, the latency of the last ones tells nothing of now. */
+const kOldMs = 10_000;
 
 /** The way from a command to its picture. "network" is what the other stages leave of the whole. */
 export const kStages = [
@@ -48,9 +50,25 @@ export class Stats {
   );
   private last: FrameHeader | null = null;
   private lastPaintMs: number | null = null;
+  private lastSampleMs = -Infinity;
 
   received(bytes: number, nowMs: number): void {
     this.bytes.add(nowMs, bytes);
+  }
+
+  /** A command was sent that a picture is to show. */
+  asked(seq: bigint, nowMs: number): void {
+    this.latency.asked(seq, nowMs);
+  }
+
+  /** A command was refused: no picture will show it. */
+  refused(): void {
+    this.latency.refused();
+  }
+
+  /** For how long no picture has shown any of what was asked for. */
+  lagMs(nowMs: number): number {
+    return this.latency.lagMs(nowMs);
   }
 
   painted(header: FrameHeader, decodeMs: number, nowMs: number): void {
@@ -58,7 +76,10 @@ export class Stats {
     this.last = header;
     this.passes.add(header);
     const total = this.latency.painted(header.appliedSeq, header.appliedClientTimeUs, nowMs);
-    if (total !== null) this.addStages(header, decodeMs, total);
+    if (total !== null) {
+      this.addStages(header, decodeMs, total);
+      this.lastSampleMs = nowMs;
+    }
     const pause = this.lastPaintMs === null ? Infinity : nowMs - this.lastPaintMs;
     const interval = pause < kIdleMs ? pause : null;
     this.lastPaintMs = nowMs;
@@ -80,11 +101,12 @@ export class Stats {
       stage,
       window.percentile(0.5),
     ];
+    const told = nowMs - this.lastSampleMs < kOldMs ? this.latency.window : null;
     return {
       framesPerSecond: this.frames.perSecond(nowMs),
       bytesPerSecond: this.bytes.perSecond(nowMs),
-      latencyP50Ms: this.latency.window.percentile(0.5),
-      latencyP95Ms: this.latency.window.percentile(0.95),
+      latencyP50Ms: told?.percentile(0.5) ?? null,
+      latencyP95Ms: told?.percentile(0.95) ?? null,
       stagesMs: Object.fromEntries([...this.stages].map(median)) as Figures['stagesMs'],
       last: this.last,
     };

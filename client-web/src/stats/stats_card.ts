@@ -5,7 +5,7 @@ import { bits, bytes, count, gridText, ms, timeText } from '../core/format';
 import { keepOpen, wasOpen } from '../core/kept';
 import { CodecSchema } from '../gen/froxel/v1/common_pb';
 import type { FrameDetails, FrameHeader } from '../gen/froxel/v1/server_pb';
-import { choicesOf } from '../protocol/schema_names';
+import { nameIn } from '../protocol/schema_names';
 import { deliveryRows } from './delivery';
 import { Details, exposureText, peelText, shadowText } from './details';
 import { Graph } from './graph';
@@ -17,10 +17,7 @@ const kKept = 'figures';
 const kGraphWidth = 236;
 const kGraphHeight = 84;
 
-function codecName({ parts }: FrameHeader): string {
-  const codec: number = parts[0]?.codec ?? 0;
-  return choicesOf(CodecSchema).find(({ value }) => value === codec)?.name ?? 'none';
-}
+const codecName = ({ parts }: FrameHeader): string => nameIn(CodecSchema, parts[0]?.codec ?? 0);
 
 interface Bar {
   readonly name: string;

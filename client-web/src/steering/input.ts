@@ -69,7 +69,7 @@ export class CanvasInput {
   ) {
     canvas.addEventListener('pointerdown', (event) => this.pointerDown(event));
     canvas.addEventListener('pointermove', (event) => this.pointerMove(event));
-    for (const type of ['pointerup', 'pointercancel'] as const) {
+    for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
       canvas.addEventListener(type, (event) => void this.pointers.delete(event.pointerId));
     }
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
@@ -127,6 +127,10 @@ export class CanvasInput {
     const from = this.pointers.get(event.pointerId);
     const view = this.target.view();
     if (!from || !view) return;
+    if (event.buttons === 0) {
+      this.pointers.delete(event.pointerId); // it went up where no event told of it
+      return;
+    }
     const to = { x: event.clientX, y: event.clientY };
     const height = Math.max(1, this.canvas.clientHeight);
     const dx = (to.x - from.x) / height;

@@ -1,7 +1,8 @@
 // Handles of the placed lights over the picture: to choose one, drag it, delete it. A double click
 // on the picture places the light that is there.
 //
-//   drag moves in the view's plane · shift drag nearer and farther · arrows move · Delete removes
+//   drag moves in the view's plane, with shift nearer and farther · arrows do the same · Delete or
+//   Backspace removes · Escape goes back to the picture
 
 import { make } from '../core/dom';
 import type { Size } from '../core/size';
@@ -113,11 +114,11 @@ export class LightHandles {
   private makeHandle(id: number): HTMLButtonElement {
     const handle = make('button', '', 'handle');
     handle.type = 'button';
-    handle.title = `Light ${id}: drag to move, with shift nearer and farther; Delete removes it`;
+    handle.title = `Light ${id}: drag or arrows move it, with Shift nearer and farther; Delete removes it`;
     handle.addEventListener('focus', () => this.actions.chooseLight(id));
     handle.addEventListener('pointerdown', (event) => this.grab(id, handle, event));
     handle.addEventListener('pointermove', (event) => this.drag(id, event));
-    for (const type of ['pointerup', 'pointercancel'] as const) {
+    for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
       handle.addEventListener(type, () => void this.grabbed.delete(id));
     }
     handle.addEventListener('keydown', (event) => this.key(id, event));
@@ -139,6 +140,10 @@ export class LightHandles {
     const grabbed = this.grabbed.get(id);
     const at = this.pictureAt(id);
     if (!grabbed || !at) return;
+    if (event.buttons === 0) {
+      this.grabbed.delete(id); // it went up where no event told of it
+      return;
+    }
     const pointer = this.pointerAt(event);
     const to = { x: pointer.x + grabbed.dx, y: pointer.y + grabbed.dy };
     if (event.shiftKey) {
@@ -151,10 +156,16 @@ export class LightHandles {
   }
 
   private key(id: number, event: KeyboardEvent): void {
+    const { key, shiftKey, ctrlKey, metaKey, altKey } = event;
+    if (ctrlKey || metaKey || altKey) return; // the browser's: Alt and an arrow go back a page
     const at = this.pictureAt(id);
-    const arrow = kArrows.get(event.key);
-    if (event.key === 'Delete') this.actions.removeLight(id);
-    else if (at && arrow) this.move(id, { ...at, x: at.x + arrow[0], y: at.y + arrow[1] });
+    const [right, up] = kArrows.get(key) ?? [0, 0];
+    if (key === 'Delete' || key === 'Backspace') {
+      this.actions.removeLight(id);
+      this.canvas.focus({ preventScroll: true });
+    } else if (key === 'Escape') this.canvas.focus({ preventScroll: true });
+    else if (at && shiftKey && up !== 0) this.move(id, { ...at, depth: at.depth * Math.exp(up) });
+    else if (at && kArrows.has(key)) this.move(id, { ...at, x: at.x + right, y: at.y + up });
     else return;
     event.preventDefault();
     event.stopPropagation();

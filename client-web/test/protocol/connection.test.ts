@@ -220,7 +220,7 @@ describe('Connection', () => {
     await Promise.resolve();
     expect(links.at(-1)).toEqual({
       phase: 'waiting',
-      reason: 'The server has no place: all 4 sessions of this server are taken.',
+      reason: 'The server has no place for you now: all 4 sessions of this server are taken.',
       retryAtMs: env.now + 7_500,
     });
     env.pass(7_499);

@@ -47,6 +47,32 @@ describe('InputLatency', () => {
     expect(new InputLatency().painted(0n, 0n, 99)).toBeNull();
   });
 
+  it('Lag_GrowsUntilAFrameShowsWhatWasAsked', () => {
+    const latency = new InputLatency();
+    expect(latency.lagMs(1_000)).toBe(0);
+    latency.asked(2n, 1_000);
+    latency.asked(3n, 1_500);
+    expect(latency.lagMs(2_000)).toBe(1_000);
+    latency.painted(2n, 0n, 2_100); // of two things the first: it goes on
+    expect(latency.lagMs(2_200)).toBe(100);
+    latency.painted(2n, 0n, 2_300);
+    expect(latency.lagMs(2_400)).toBe(300);
+    latency.painted(3n, 0n, 2_500);
+    expect(latency.lagMs(9_000)).toBe(0);
+    latency.asked(3n, 9_000); // shown already
+    expect(latency.lagMs(9_500)).toBe(0);
+  });
+
+  it('Lag_OfWhatTheServerRefusedOrAConnectionLost_IsNone', () => {
+    const latency = new InputLatency();
+    latency.asked(2n, 1_000);
+    latency.refused();
+    expect(latency.lagMs(2_000)).toBe(0);
+    latency.asked(3n, 2_000);
+    latency.restart();
+    expect(latency.lagMs(3_000)).toBe(0);
+  });
+
   it('Restart_LetsSequencesBeginAgain', () => {
     const latency = new InputLatency();
     latency.painted(40n, 0n, 1);

@@ -72,6 +72,28 @@ describe('pointers', () => {
   });
 
   it.each([
+    ['pointerup', {}],
+    ['pointercancel', {}],
+    ['lostpointercapture', {}],
+    ['pointermove', { buttons: 0 }], // it went up over a menu of the browser's
+  ])('DragAfter_%s_DoesNothing', (type, how) => {
+    pointer('pointerdown', 1, 0, 0);
+    pointer(type, 1, 0, 0, how);
+    pointer('pointermove', 1, 50, 0);
+    expect(current().eye.z).toBe(10);
+  });
+
+  it('OneOfTwoFingersLifts_TheOtherGoesOnFromWhereItIs', () => {
+    pointer('pointerdown', 1, 0, 0);
+    pointer('pointerdown', 2, 50, 0);
+    pointer('pointerup', 2, 50, 0);
+    pointer('pointermove', 1, 0, 0);
+    expect(current().eye).toEqual({ x: 0, y: 0, z: 10 });
+    pointer('pointermove', 1, 50, 0);
+    expect(current().eye.x).toBeCloseTo(-10, 9);
+  });
+
+  it.each([
     ['right button', { buttons: 2 }],
     ['shift', { shiftKey: true }],
   ])('DragWith_%s_Pans', (_, how) => {
