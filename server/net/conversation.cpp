@@ -417,10 +417,11 @@ void Conversation::onFlood(ReadBudget::Standing standing) {
     if (closing_ || standing == ReadBudget::Standing::kWithin) {
         return;
     }
-    const std::string most = numberText(ReadBudget::kBytesPerSecond) + " bytes a second";
+    const std::string most = numberText(ReadBudget::kMessages) + " a second or " +
+                             numberText(ReadBudget::kBytesPerSecond) + " bytes a second";
     tellError({RejectCode::kRateLimit, 0, "",
                "messages are more than " + most +
-                   ", and what takes long counts as more; they are read more slowly"});
+                   ", and what takes long counts as more bytes; they are read more slowly"});
     if (standing == ReadBudget::Standing::kSpent) {
         close(CloseCode::kPolicy, "more messages than are read of one viewer");
     }

@@ -100,8 +100,7 @@ TEST(Flood, ThousandsOfPings_AreToldAndTheViewerGoesOn) {
     say(hello, 1);
     hear(v1::ServerMessage::kWelcome);
     std::string pings;
-    for (double bytes = 0; bytes < net::ReadBudget::kBytesAtOnce * 1.1;
-         bytes += net::ReadBudget::kMessageBytes + 6) {
+    for (double count = 0; count < 2 * net::ReadBudget::kMessages; ++count) {
         pings += Raw::frame(Raw::kPing, "");
     }
     socket.send(pings);

@@ -65,11 +65,35 @@ TEST_F(ReadBudgetTest, OnWork_ASecond_CostsTwelveSecondsOfReading) {
                 ReadBudget::kBytesAtOnce - 0.6 * ReadBudget::kBytesPerSecond, 1);
 }
 
-TEST_F(ReadBudgetTest, OnControlFrame_Thousands_AreThrottled) {
-    for (int i = 0; i < 11'000; ++i) {
+TEST_F(ReadBudgetTest, OnControlFrame_MoreThanAtOnce_IsThrottled) {
+    for (double i = 0; i < ReadBudget::kMessages; ++i) {
+        EXPECT_EQ(budget_.standing(), Standing::kWithin);
         budget_.onControlFrame(now_);
     }
     EXPECT_EQ(budget_.standing(), Standing::kThrottled);
+}
+
+TEST_F(ReadBudgetTest, Readable_ShortMessagesWithoutEnd_AreAsManyAsASecondTakes) {
+    double messages = 0;
+    for (int i = 0; i < 10'000; ++i) { // ten seconds
+        now_ += 1ms;
+        for (int at_once = 0; at_once < 10 && budget_.readable(now_) > 0; ++at_once) {
+            budget_.onBytes(10, now_);
+            budget_.onMessage(now_);
+            ++messages;
+        }
+    }
+    EXPECT_NEAR(messages, 11 * ReadBudget::kMessages, 1);
+    EXPECT_EQ(budget_.standing(), Standing::kThrottled);
+}
+
+TEST_F(ReadBudgetTest, Standing_AckAndCameraOf240PicturesASecond_StaysWithin) {
+    for (int i = 0; i < 480 * 60; ++i) {
+        now_ += 2083us;
+        budget_.onBytes(60, now_);
+        budget_.onMessage(now_);
+    }
+    EXPECT_EQ(budget_.standing(), Standing::kWithin);
 }
 
 TEST_F(ReadBudgetTest, Standing_BytesWithoutEndOfAMessage_IsSpent) {
