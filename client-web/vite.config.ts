@@ -1,8 +1,32 @@
+import { createReadStream, createWriteStream } from 'node:fs';
+import { join } from 'node:path';
+import { pipeline } from 'node:stream/promises';
+import { constants, createBrotliCompress, createGzip } from 'node:zlib';
+
+import type { Plugin } from 'vite';
 import { defineConfig } from 'vitest/config';
+
+/** Beside each file of the page its Brotli and its gzip: the server sends what a browser understands. */
+const compressed: Plugin = {
+  name: 'compressed',
+  apply: 'build',
+  async writeBundle({ dir = '' }, bundle) {
+    const text = { params: { [constants.BROTLI_PARAM_MODE]: constants.BROTLI_MODE_TEXT } };
+    await Promise.all(
+      Object.keys(bundle).flatMap((name) => {
+        const path = join(dir, name);
+        const to = (end: string, how: NodeJS.ReadWriteStream): Promise<void> =>
+          pipeline(createReadStream(path), how, createWriteStream(path + end));
+        return [to('.br', createBrotliCompress(text)), to('.gz', createGzip({ level: 9 }))];
+      }),
+    );
+  },
+};
 
 export default defineConfig({
   // Relative, so that the page also works behind a proxy's path prefix.
   base: './',
+  plugins: [compressed],
   build: {
     target: 'es2022',
     // The server's Content-Security-Policy has no data: URLs for our assets.

@@ -134,6 +134,13 @@ it('Connecting', async () => {
   await open();
   await until('the words', () => viewer.page.locator('#progress').isVisible());
   expect(await viewer.page.locator('#progress-text').textContent()).toBe('Connecting…');
+  // All that a first picture needs is there.
+  await until('the worker', () =>
+    viewer.page.evaluate(() =>
+      performance.getEntriesByType('resource').some(({ name }) => name.includes('decode_worker')),
+    ),
+  );
+  expect(await viewer.fetchedBytes()).toBeLessThan(60_000);
   await looksAsItShould('connecting');
 });
 
@@ -182,6 +189,8 @@ it('Settings', async () => {
 it('Figures', async () => {
   await openWithPicture();
   await viewer.openFigures();
+  await viewer.page.locator('#panel [data-field]').first().waitFor({ state: 'attached' }); // fetched ahead
+  expect(await viewer.fetchedBytes()).toBeLessThan(120_000);
   await until('passes', async () => (await viewer.page.locator('#passes-table tr').count()) > 0);
   await looksAsItShould('figures');
 });

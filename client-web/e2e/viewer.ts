@@ -192,11 +192,21 @@ export class Viewer {
   /** Opens the panel and every folder of it, so that each control can be reached. */
   async openPanel(): Promise<void> {
     if (!(await this.page.locator('#panel').isVisible())) await this.page.locator('#tool-panel').click();
+    await this.page.locator('#panel [data-field]').first().waitFor({ state: 'attached' });
     const closed = this.page.locator('#panel .lil-closed > .lil-title:visible');
     while ((await closed.count()) > 0) {
       await closed.first().click();
       await this.page.waitForTimeout(50); // the folder's transition swaps its classes
     }
+  }
+
+  /** Bytes of all that the page has fetched, as they came over the wire. */
+  fetchedBytes(): Promise<number> {
+    return this.page.evaluate(() =>
+      [...performance.getEntriesByType('navigation'), ...performance.getEntriesByType('resource')]
+        .map((entry) => (entry as PerformanceResourceTiming).encodedBodySize)
+        .reduce((sum, bytes) => sum + bytes, 0),
+    );
   }
 
   async openFigures(): Promise<void> {

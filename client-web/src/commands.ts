@@ -7,7 +7,7 @@ import { RendererSchema } from './gen/froxel/v1/common_pb';
 import type { PanelActions } from './panel/panel';
 import { download, type Picture } from './picture/picture';
 import type { Connection } from './protocol/connection';
-import type { Recorder } from './protocol/recorder';
+import type { Recorded, Recorder } from './protocol/recorder';
 import { choicesOf } from './protocol/schema_names';
 import { isUint32, type Field } from './settings/field';
 import { patchFor } from './settings/fields';
@@ -15,8 +15,6 @@ import {
   findLight,
   freeId,
   kNewLight,
-  lightSetOf,
-  lightSetText,
   withLight,
   withoutLight,
   type PlacedLight,
@@ -97,15 +95,17 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
 
   async loadLights(file: Blob & { readonly name: string }): Promise<void> {
     try {
+      const { lightSetOf } = await import('./settings/light_set_file');
       this.edit({ placedLights: lightSetOf(await file.text()) });
     } catch (error) {
       this.refuse(`${file.name} is no light set: ${error instanceof Error ? error.message : ''}`);
     }
   }
 
-  saveLights(): void {
+  async saveLights(): Promise<void> {
     const { settings } = this.store.state;
     if (!settings) return;
+    const { lightSetText } = await import('./settings/light_set_file');
     const json = new Blob([lightSetText(settings.placedLights)], { type: 'application/json' });
     download(json, fileName('lights.json'));
   }
@@ -165,9 +165,8 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
   /** Starts a recording, or ends it and hands over its file. Whether one is under way now. */
   toggleRecording(): boolean {
     if (this.recorder.recording) {
-      if (this.recorder.full) this.refuse(`The recording ended after ${this.recorder.maxLines} commands.`);
-      const script = new Blob([this.recorder.stop()], { type: 'application/jsonl' });
-      download(script, fileName('jsonl'));
+      if (this.recorder.full) this.refuse(`The recording ended after ${this.recorder.most} commands.`);
+      void this.saveScript(this.recorder.stop());
       return false;
     }
     const { server, settings } = this.store.state;
@@ -178,6 +177,11 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     const camera = cameraCommand(server.initial, settings);
     this.recorder.start([...settingCommands(server.initial, settings), ...(camera ? [camera] : [])]);
     return true;
+  }
+
+  private async saveScript(commands: readonly Recorded[]): Promise<void> {
+    const { scriptText } = await import('./protocol/script_file');
+    download(new Blob([scriptText(commands)], { type: 'application/jsonl' }), fileName('jsonl'));
   }
 
   requestControl(): void {

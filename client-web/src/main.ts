@@ -10,9 +10,10 @@ import { TokenPrompt } from './cards/token_prompt';
 import { Commands } from './commands';
 import { element, make } from './core/dom';
 import { entryOf, keyText, type Entry } from './core/entries';
+import { wasOpen } from './core/kept';
+import { Later } from './core/later';
 import { Codec } from './gen/froxel/v1/common_pb';
-import { Panel } from './panel/panel';
-import { fetchWords } from './panel/words';
+import type { Panel } from './panel/panel';
 import { decodableCodecs, kPlainCodec } from './picture/codecs';
 import { workerDecoder } from './picture/decoder';
 import { Picture } from './picture/picture';
@@ -36,6 +37,7 @@ import { StatsCard } from './stats/stats_card';
 import { CanvasInput } from './steering/input';
 import { LightHandles } from './steering/light_handles';
 
+const kPrefetchMs = 1_000; // after the first picture
 const kMinorOfPause = 2; // protocol_minor since which a server knows Pause
 
 const canvas = element('view', HTMLCanvasElement);
@@ -62,14 +64,14 @@ const presenter = new Presenter({
   acknowledge: (ack) => void connection.send({ case: 'ack', value: ack }),
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
-    panel.showGrid(header.grid);
+    panel.here?.showGrid(header.grid);
     animationCard.showTime(header.animationTimeS);
     if (header.camera) {
       const { eye, target, up } = header.camera;
       const pose = { eye: toVec(eye), target: toVec(target), up: toVec(up) };
       store.dispatch({ type: 'camera_moved', appliedSeq: header.appliedSeq, pose });
     }
-    banner.pictureShown();
+    if (banner.pictureShown()) setTimeout(prefetch, kPrefetchMs);
   },
   problem: (text) => store.dispatch({ type: 'notice', tone: 'error', text }),
   lostSync,
@@ -120,13 +122,8 @@ const connection = new Connection(
 
 const commands = new Commands(store, connection, picture, recorder);
 const handles = new LightHandles(element('handles', HTMLElement), canvas, commands);
-const statsCard = new StatsCard(stats, () => presenter.droppedCount);
-const panel = new Panel(
-  element('panel', HTMLElement),
-  commands,
-  (open) => element('tool-panel', HTMLButtonElement).setAttribute('aria-pressed', String(open)),
-  codecs,
-);
+const statsCard = new StatsCard(stats, { droppedHere: () => presenter.droppedCount, partMissing });
+const panel = new Later(makePanel, partMissing);
 const banner = new Banner({
   remedies: {
     connect: () => connection.open(),
@@ -150,7 +147,7 @@ const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const wishes: Partial<Settings> = still ? { animate: false, animationPlaying: false } : {};
 const address = new AddressKeeper(store, codecs, wishes);
 store.listen((state) => {
-  panel.show(state);
+  panel.here?.show(state);
   banner.show(state);
   roomCard.show(state.room);
   animationCard.show(state);
@@ -178,6 +175,31 @@ store.listen(({ server }, before) => {
   sceneWarnings.show(server.scene);
 });
 
+async function makePanel(): Promise<Panel> {
+  const [{ Panel }, { fetchWords }] = await Promise.all([
+    import('./panel/panel'),
+    import('./panel/words'),
+    import('./style/panel.css'),
+  ]);
+  const tell = (open: boolean): void =>
+    element('tool-panel', HTMLButtonElement).setAttribute('aria-pressed', String(open));
+  const made = new Panel(element('panel', HTMLElement), commands, tell, codecs);
+  made.show(store.state);
+  void fetchWords().then((words) => made.tell(words));
+  return made;
+}
+
+/** Nobody waits for these when they are wanted, and they open when the server is gone, too. */
+function prefetch(): void {
+  void panel.want();
+  statsCard.prefetch();
+}
+
+function partMissing(): void {
+  const text = 'A part of this page could not be fetched. Reload it when the server is there.';
+  store.dispatch({ type: 'notice', tone: 'error', text });
+}
+
 /** The plain codec stays until the viewer chooses video again: by itself it would swing to and fro. */
 function lostSync({ message, broken }: LostSync): void {
   switch (videoFallback.lost(broken, nowMs())) {
@@ -195,8 +217,11 @@ function lostSync({ message, broken }: LostSync): void {
 }
 
 const doings: Doings = {
-  search: () => search.toggle(),
-  panel: () => panel.toggle(),
+  search: () => {
+    search.toggle();
+    void panel.want().then(() => search.refresh());
+  },
+  panel: () => void panel.want().then((made) => made?.toggle()),
   figures: () => statsCard.toggle(),
   screenshot: () => void commands.screenshot(),
   copyLink: () => void address.copy(),
@@ -218,7 +243,7 @@ const keyed = (): Entry[] => [
   ...actions,
   ...camerasOf(store.state.server?.scene?.cameras ?? [], doings),
 ];
-const search = new SearchCard(() => [...keyed(), ...panel.entries()]);
+const search = new SearchCard(() => [...keyed(), ...(panel.here?.entries() ?? [])]);
 
 const tools: readonly (readonly [string, () => void])[] = [
   ['tool-search', doings.search],
@@ -295,7 +320,7 @@ function tellVisibility(newConnection: boolean): void {
 }
 
 canvas.focus({ preventScroll: true });
-void fetchWords().then((words) => panel.tell(words));
+if (wasOpen('settings')) void panel.want();
 address.read();
 if ('problem' in wantedRoom) {
   const link: Link = { phase: 'refused', reason: wantedRoom.problem, remedy: null };

@@ -30,21 +30,29 @@ Response health(const ServiceStatus& status) {
                         status.serving ? R"({"status":"serving"})" : R"({"status":"loading"})");
 }
 
-Response file(const Request& request, const StaticFile& found, const std::string& policy) {
-    // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
-    const bool unchanged =
-        request[http::field::if_none_match].find(found.etag) != beast::string_view::npos;
-    Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
-                                     found.content_type, unchanged ? std::string() : found.body);
-    response.set("Content-Security-Policy", policy);
-    response.set(http::field::etag, found.etag);
-    response.set(http::field::cache_control,
-                 found.immutable ? "public, max-age=31536000, immutable" : "no-cache");
-    return response;
-}
-
 std::string_view viewOf(beast::string_view text) {
     return {text.data(), text.size()};
+}
+
+Response file(const Request& request, const StaticFile& found, const std::string& policy) {
+    const Representation& sent = found.bestFor(viewOf(request[http::field::accept_encoding]));
+    // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
+    const bool unchanged =
+        request[http::field::if_none_match].find(sent.etag) != beast::string_view::npos;
+    Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
+                                     found.content_type, unchanged ? std::string() : sent.body);
+    response.set("Content-Security-Policy", policy);
+    response.set(http::field::etag, sent.etag);
+    response.set(http::field::cache_control,
+                 found.immutable ? "public, max-age=31536000, immutable" : "no-cache");
+    if (!found.coded.empty()) {
+        response.set(http::field::vary, "Accept-Encoding");
+    }
+    if (!sent.coding.empty()) {
+        response.set(http::field::content_encoding,
+                     beast::string_view(sent.coding.data(), sent.coding.size()));
+    }
+    return response;
 }
 
 // What the socket's URL says: ?room=NAME, ?resume=NAME.

@@ -16,9 +16,9 @@ namespace http = beast::http;
 namespace {
 
 // Those that somebody reads here.
-constexpr std::array<beast::string_view, 6> kLists = {
-    "Connection",      "Upgrade",           "Sec-WebSocket-Protocol",
-    "X-Forwarded-For", "X-Forwarded-Proto", "If-None-Match"};
+constexpr std::array<beast::string_view, 7> kLists = {
+    "Connection",        "Upgrade",       "Sec-WebSocket-Protocol", "X-Forwarded-For",
+    "X-Forwarded-Proto", "If-None-Match", "Accept-Encoding"};
 // Those that must not come twice, or others would read another one than we.
 constexpr std::array<beast::string_view, 2> kSingle = {"Host", "Origin"};
 

@@ -2,6 +2,9 @@
 
 #include "core/text.h"
 
+#include <boost/beast/http/rfc7230.hpp>
+
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <functional>
@@ -35,6 +38,12 @@ constexpr std::array kContentTypes = {
     ContentType{".txt", "text/plain; charset=utf-8"},
 };
 
+struct Coding {
+    std::string_view extension;
+    std::string_view name;
+};
+constexpr std::array kCodings = {Coding{".br", "br"}, Coding{".gz", "gzip"}}; // best first
+
 std::string_view contentType(const fs::path& path) {
     const std::string extension = path.extension().string();
     for (const ContentType& known : kContentTypes) {
@@ -43,6 +52,31 @@ std::string_view contentType(const fs::path& path) {
         }
     }
     return "application/octet-stream";
+}
+
+Representation representation(std::string body, std::string_view coding) {
+    std::string etag =
+        '"' + numberText(std::hash<std::string>()(body)) + '-' + numberText(body.size()) + '"';
+    return {std::move(body), std::move(etag), coding};
+}
+
+// Whether a list such as "br;q=0.9, gzip, *;q=0" allows a coding.
+bool allows(std::string_view accept_encoding, std::string_view coding) {
+    std::optional<bool> named;
+    std::optional<bool> others;
+    for (const auto& [name, parameters] : boost::beast::http::ext_list(
+             boost::beast::string_view(accept_encoding.data(), accept_encoding.size()))) {
+        const bool yes = std::none_of(parameters.begin(), parameters.end(), [](const auto& one) {
+            return boost::beast::iequals(one.first, "q") &&
+                   one.second.find_first_not_of("0.") == boost::beast::string_view::npos;
+        });
+        if (boost::beast::iequals(name, boost::beast::string_view(coding.data(), coding.size()))) {
+            named = yes;
+        } else if (name == "*") {
+            others = yes;
+        }
+    }
+    return named.value_or(others.value_or(false));
 }
 
 Error ioError(const fs::path& path, const std::string& what) {
@@ -78,12 +112,10 @@ Result<StaticFiles> StaticFiles::load(const fs::path& root) {
             return ioError(root, "more than " + numberText(kMaxBytes) + " bytes");
         }
         const std::string name = "/" + entries->path().lexically_relative(root).generic_string();
-        std::string etag = '"' + numberText(std::hash<std::string>()(*body)) + '-' +
-                           numberText(body->size()) + '"';
         // Vite puts what it names by hash, and nothing else, into assets/.
         const bool immutable = name.starts_with("/assets/");
-        files.files_[name] = {std::move(*body), contentType(entries->path()), std::move(etag),
-                              immutable};
+        files.files_[name] = {
+            representation(std::move(*body), {}), {}, contentType(entries->path()), immutable};
     }
     if (failure) {
         return ioError(root, failure.message());
@@ -91,7 +123,28 @@ Result<StaticFiles> StaticFiles::load(const fs::path& root) {
     if (files.find("/") == nullptr) {
         return ioError(root, "no index.html in it");
     }
+    files.gatherCoded();
     return files;
+}
+
+void StaticFiles::gatherCoded() {
+    for (const Coding& coding : kCodings) {
+        for (auto& [name, file] : files_) {
+            const auto found = files_.find(name + std::string(coding.extension));
+            if (found != files_.end()) {
+                file.coded.push_back(
+                    representation(std::move(found->second.plain.body), coding.name));
+                files_.erase(found); // comes after `name`
+            }
+        }
+    }
+}
+
+const Representation& StaticFile::bestFor(std::string_view accept_encoding) const {
+    const auto best = std::find_if(coded.begin(), coded.end(), [&](const Representation& one) {
+        return allows(accept_encoding, one.coding);
+    });
+    return best == coded.end() ? plain : *best;
 }
 
 const StaticFile* StaticFiles::find(std::string_view path) const {

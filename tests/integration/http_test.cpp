@@ -23,6 +23,7 @@ class HttpTest : public testing::Test {
         std::filesystem::create_directories(root / "assets");
         std::ofstream(root / "index.html") << "<!doctype html><title>page</title>";
         std::ofstream(root / "assets" / "main-1a2b.js") << "export {};";
+        std::ofstream(root / "assets" / "main-1a2b.js.gz") << "as gzip has it";
         std::ofstream(root.parent_path() / "secret.txt") << "secret";
         std::error_code ignored;
         std::filesystem::create_symlink("../secret.txt", root / "link.txt", ignored);
@@ -49,6 +50,28 @@ TEST_F(HttpTest, Page_RootWithAQuery_IsServedWithItsHeaders) {
           "frame-ancestors 'none'", "Cache-Control: no-cache", "ETag: \"", "<title>page</title>"}) {
         EXPECT_NE(answer.find(expected), std::string::npos) << expected << "\n" << answer;
     }
+}
+
+TEST_F(HttpTest, Asset_IsSentAsTheClientUnderstandsIt) {
+    const std::string coded = get("/assets/main-1a2b.js", "Accept-Encoding: gzip, deflate, br\r\n");
+    for (const char* expected : {"Content-Encoding: gzip", "Vary: Accept-Encoding",
+                                 "text/javascript", "immutable", "as gzip has it"}) {
+        EXPECT_NE(coded.find(expected), std::string::npos) << expected << "\n" << coded;
+    }
+    const std::string plain = get("/assets/main-1a2b.js");
+    EXPECT_NE(plain.find("export {};"), std::string::npos);
+    EXPECT_NE(plain.find("Vary: Accept-Encoding"), std::string::npos);
+    EXPECT_EQ(plain.find("Content-Encoding"), std::string::npos);
+    // In two lines, and with the tag of this very coding.
+    const size_t tag = coded.find("ETag: ") + 6;
+    const std::string etag = coded.substr(tag, coded.find('\r', tag) - tag);
+    EXPECT_EQ(
+        statusOf(get("/assets/main-1a2b.js", "Accept-Encoding: br\r\nAccept-Encoding: gzip\r\n"
+                                             "If-None-Match: " +
+                                                 etag + "\r\n")),
+        304);
+    EXPECT_EQ(statusOf(get("/assets/main-1a2b.js", "If-None-Match: " + etag + "\r\n")), 200);
+    EXPECT_EQ(statusOf(get("/assets/main-1a2b.js.gz")), 404);
 }
 
 TEST_F(HttpTest, Target_InAbsoluteForm_IsServed) {

@@ -36,11 +36,12 @@ export class Banner {
     setInterval(() => this.draw(), kTickMs);
   }
 
-  /** The first picture is there: from now on trouble shows over it. */
-  pictureShown(): void {
-    if (this.hasPicture) return;
+  /** A picture is there: from now on trouble shows over it. Whether it is the first. */
+  pictureShown(): boolean {
+    if (this.hasPicture) return false;
     this.hasPicture = true;
     this.draw();
+    return true;
   }
 
   show(state: AppState): void {

@@ -31,6 +31,11 @@ export class SearchCard {
     this.dialog.showModal();
   }
 
+  /** There may be more entries than when it opened. */
+  refresh(): void {
+    if (this.dialog.open) this.search();
+  }
+
   private search(): void {
     this.found = searched(this.entries(), this.input.value).slice(0, kShown);
     this.chosen = 0;

@@ -1,9 +1,11 @@
 // Whether parts of the page are open, as this browser keeps it for the next visit; where it forbids
 // that, they are closed then.
 
-const key = (part: string): string => `froxel.${part}`;
+export type Part = 'settings' | 'figures';
 
-export function wasOpen(part: string): boolean {
+const key = (part: Part): string => `froxel.${part}`;
+
+export function wasOpen(part: Part): boolean {
   try {
     return localStorage.getItem(key(part)) === 'open';
   } catch {
@@ -11,7 +13,7 @@ export function wasOpen(part: string): boolean {
   }
 }
 
-export function keepOpen(part: string, open: boolean): void {
+export function keepOpen(part: Part, open: boolean): void {
   try {
     localStorage.setItem(key(part), open ? 'open' : 'closed');
   } catch {

@@ -12,7 +12,7 @@ import type { HandleActions } from '../steering/light_handles';
 export interface LightActions extends HandleActions {
   addLight(): void;
   loadLights(file: File): Promise<void>;
-  saveLights(): void;
+  saveLights(): Promise<void>;
   showHandles(visible: boolean): void;
 }
 
@@ -98,7 +98,7 @@ export class LightEditor {
       this.load(),
     );
     this.button('save', 'Save the light set', 'As a JSON file, for Load and for --light-set', () =>
-      actions.saveLights(),
+      void actions.saveLights(),
     );
     this.fill(null);
     folder.close();

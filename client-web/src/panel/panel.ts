@@ -1,4 +1,5 @@
-// The settings panel: every command of the protocol, with ranges as the server tells them.
+// The settings panel: every command of the protocol, with ranges as the server tells them. Fetched
+// when it is first opened or searched.
 
 import GUI, { type Controller } from 'lil-gui';
 
@@ -43,7 +44,6 @@ const kTitles: Readonly<Record<Section, string>> = {
   stream: 'Stream',
 };
 
-const kKept = 'settings';
 
 export class Panel {
   private readonly gui: GUI;
@@ -119,12 +119,12 @@ export class Panel {
       this.parent.hidden = !open;
       this.onToggle(open);
     };
-    gui.open(wasOpen(kKept));
+    gui.open(wasOpen('settings'));
     tell(!gui._closed);
     gui.onOpenClose((changed) => {
       if (changed !== gui) return; // a folder
       tell(!gui._closed);
-      keepOpen(kKept, !gui._closed);
+      keepOpen('settings', !gui._closed);
     });
     return gui;
   }

@@ -1,9 +1,5 @@
-// The commands that this page sends, as a script for `froxel load --script`: JSON lines of the
-// protocol's own messages with `at_ms`. Pure.
+// The commands that this page sends, with their times, for a script (script_file.ts). Pure.
 
-import { create, toJson } from '@bufbuild/protobuf';
-
-import { ClientMessageSchema } from '../gen/froxel/v1/client_pb';
 import type { ClientBody } from './framing';
 
 /** What a viewer that replays says by itself, or what belongs to one connection or room. */
@@ -19,28 +15,33 @@ const kNotRecorded: ReadonlySet<ClientBody['case']> = new Set([
 ] as const satisfies ClientBody['case'][]);
 
 /** An hour of moving the camera at 60 commands a second, and some 40 MB. */
-const kMaxLines = 216_000;
+const kMost = 216_000;
+
+export interface Recorded {
+  readonly atMs: number; // since the recording began
+  readonly body: ClientBody;
+}
 
 export class Recorder {
-  private lines: string[] | null = null;
+  private commands: Recorded[] | null = null;
   private startedAtMs = 0;
 
   constructor(
     private readonly nowMs: () => number,
-    readonly maxLines = kMaxLines,
+    readonly most = kMost,
   ) {}
 
   get recording(): boolean {
-    return this.lines !== null;
+    return this.commands !== null;
   }
 
   get full(): boolean {
-    return this.lines !== null && this.lines.length >= this.maxLines;
+    return this.commands !== null && this.commands.length >= this.most;
   }
 
   /** `initial` brings a fresh session to where the recording starts. */
   start(initial: readonly ClientBody[]): void {
-    this.lines = [];
+    this.commands = [];
     this.startedAtMs = this.nowMs();
     for (const body of initial) this.add(body, 0);
   }
@@ -49,16 +50,15 @@ export class Recorder {
     this.add(body, Math.round(this.nowMs() - this.startedAtMs));
   }
 
-  /** The script, a line's end after each line. */
-  stop(): string {
-    const lines = this.lines ?? [];
-    this.lines = null;
-    return lines.map((line) => `${line}\n`).join('');
+  /** Gives what was recorded. */
+  stop(): readonly Recorded[] {
+    const commands = this.commands ?? [];
+    this.commands = null;
+    return commands;
   }
 
   private add(body: ClientBody, atMs: number): void {
-    if (!this.lines || this.full || kNotRecorded.has(body.case)) return;
-    const message = toJson(ClientMessageSchema, create(ClientMessageSchema, { body }));
-    this.lines.push(JSON.stringify({ at_ms: atMs, ...(message as object) }));
+    if (!this.commands || this.full || kNotRecorded.has(body.case)) return;
+    this.commands.push({ atMs, body });
   }
 }

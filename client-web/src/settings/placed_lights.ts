@@ -1,12 +1,9 @@
 // Lights that viewers place: their values, and their way from and to the protocol and files.
 
-import { create, fromJsonString, toJsonString } from '@bufbuild/protobuf';
-
 import { equal, vec, type Vec } from '../core/vec3';
 import {
   LightKind,
   LightKindSchema,
-  PlacedLightsSchema,
   type PlacedLight as PlacedLightMessage,
   type PlacedLights as PlacedLightsMessage,
 } from '../gen/froxel/v1/common_pb';
@@ -130,7 +127,8 @@ function lightOf(told: PlacedLightMessage, before: PlacedLight | undefined): Pla
   };
 }
 
-const messageOf = ({ radius: radiusM, replacesSeeded, replacesScene, ...light }: PlacedLight) => ({
+/** As the protocol has it. */
+export const messageOf = ({ radius: radiusM, replacesSeeded, replacesScene, ...light }: PlacedLight) => ({
   ...light,
   radiusM,
   ...(replacesSeeded !== undefined && { replacesSeeded }),
@@ -172,23 +170,4 @@ export function placedChanges(from: PlacedLights, to: PlacedLights): PlacedLight
   if (remove.length === 0) return changes;
   const [first = {}, ...rest] = changes;
   return [{ ...(clear ? { clear } : { remove }), ...first }, ...rest];
-}
-
-/** A light set's file. */
-export function lightSetText(lights: PlacedLights): string {
-  const message = create(PlacedLightsSchema, { lights: lights.map(messageOf) });
-  return toJsonString(PlacedLightsSchema, message, { prettySpaces: 2 });
-}
-
-/** Reads a light set's file; the server judges its values. Throws where it is none. */
-export function lightSetOf(text: string): PlacedLights {
-  const set = fromJsonString(PlacedLightsSchema, text);
-  if (set.clear || set.remove.length > 0) throw new Error('a light set has lights alone');
-  const ids = new Set<number>();
-  for (const { id, position } of set.lights) {
-    if (id === 0 || ids.has(id)) throw new Error(`light id ${id} is 0 or there twice`);
-    if (!position) throw new Error(`light ${id} has no position`);
-    ids.add(id);
-  }
-  return placedAfter([], set);
 }

@@ -1,64 +1,65 @@
-// The statistics card.
+// The statistics card: two numbers, and what they unfold to.
 
-import { element, make } from '../core/dom';
-import { bits, bytes, count, gridText, ms, timeText } from '../core/format';
+import { element } from '../core/dom';
+import { ms } from '../core/format';
 import { keepOpen, wasOpen } from '../core/kept';
-import { CodecSchema } from '../gen/froxel/v1/common_pb';
-import type { FrameDetails, FrameHeader } from '../gen/froxel/v1/server_pb';
-import { nameIn } from '../protocol/schema_names';
-import { deliveryRows } from './delivery';
-import { Details, exposureText, peelText, shadowText } from './details';
-import { Graph } from './graph';
-import { PassStack } from './pass_stack';
-import { kStages, type Figures, type Stats } from './stats';
+import { Later } from '../core/later';
+import type { FrameDetails } from '../gen/froxel/v1/server_pb';
+import type { FiguresBody } from './figures_body';
+import type { Stats } from './stats';
 
 const kRefreshMs = 250;
-const kKept = 'figures';
-const kGraphWidth = 236;
-const kGraphHeight = 84;
 
-const codecName = ({ parts }: FrameHeader): string => nameIn(CodecSchema, parts[0]?.codec ?? 0);
-
-interface Bar {
-  readonly name: string;
-  readonly ms: number;
+export interface StatsCardActions {
+  /** Frames that arrived and were not shown. */
+  droppedHere(): number;
+  /** A part of the page could not be fetched. */
+  partMissing(): void;
 }
 
 export class StatsCard {
   private readonly card = element('stats', HTMLElement);
   private readonly head = element('stats-head', HTMLButtonElement);
-  private readonly list = element('stats-list', HTMLElement);
   private readonly fps = element('stat-fps', HTMLElement);
   private readonly latency = element('stat-latency', HTMLElement);
-  private readonly values = new Map<string, HTMLElement>();
-  private readonly details = new Details();
-  private readonly passes = new PassStack();
-  private readonly graph = new Graph(element('graph', HTMLElement), kGraphWidth, kGraphHeight);
+  private readonly body: Later<FiguresBody>;
+  private details: FrameDetails | null = null;
 
-  /** `droppedHere` counts frames that arrived and were not shown. */
   constructor(
     private readonly stats: Stats,
-    private readonly droppedHere: () => number,
+    actions: StatsCardActions,
   ) {
+    this.body = new Later(async () => {
+      const { FiguresBody } = await import('./figures_body');
+      const body = new FiguresBody(stats, () => actions.droppedHere());
+      if (this.details) body.showDetails(this.details);
+      return body;
+    }, () => actions.partMissing());
     this.head.addEventListener('click', () => this.toggle());
-    this.show(wasOpen(kKept));
+    this.show(wasOpen('figures'));
     setInterval(() => this.refresh(), kRefreshMs);
+  }
+
+  /** What it unfolds to is there when it is asked for. */
+  prefetch(): void {
+    void this.body.want();
   }
 
   toggle(): void {
     const open = this.card.classList.contains('closed');
     this.show(open);
-    keepOpen(kKept, open);
-    this.refresh();
+    keepOpen('figures', open);
+  }
+
+  showDetails(details: FrameDetails): void {
+    this.details = details;
+    this.body.here?.showDetails(details);
   }
 
   private show(open: boolean): void {
     this.card.classList.toggle('closed', !open);
     this.head.setAttribute('aria-expanded', String(open));
-  }
-
-  showDetails(details: FrameDetails): void {
-    this.details.showDetails(details);
+    if (open) void this.body.want().then(() => this.refresh());
   }
 
   private refresh(): void {
@@ -66,67 +67,6 @@ export class StatsCard {
     this.fps.textContent = figures.framesPerSecond.toFixed(figures.framesPerSecond < 10 ? 1 : 0);
     this.latency.textContent = ms(figures.latencyP50Ms);
     if (document.hidden || this.card.classList.contains('closed')) return;
-    this.showList(figures);
-    this.passes.show(this.stats.passes.shares());
-    this.showBars(
-      'stats-stages',
-      kStages.map((stage) => ({ name: stage, ms: figures.stagesMs[stage] ?? 0 })),
-    );
-    if (figures.last) this.details.showFrame(figures.last);
-    this.graph.show(this.stats.history);
-  }
-
-  private showList({ last, ...figures }: Figures): void {
-    this.value('Frame interval', 'interval', ms(this.stats.history.intervalMs.at(-1) ?? null));
-    const latency = `${ms(figures.latencyP50Ms)} · ${ms(figures.latencyP95Ms)}`;
-    this.value('Latency, median · p95', 'latency', latency);
-    this.value('Data rate', '', `${bytes(figures.bytesPerSecond)}/s`);
-    if (!last) return;
-    this.value('Codec', '', `${codecName(last)} · ${bits(figures.bytesPerSecond * 8)}/s`);
-    this.value('Picture', '', `${last.width} × ${last.height}`);
-    for (const { name, value } of deliveryRows(last)) this.value(name, '', value);
-    const gpu = timeText(last.gpuUs === undefined ? null : last.gpuUs / 1000);
-    this.value('Drawing · encoding', '', `${gpu} · ${ms(last.encodeUs / 1000)}`);
-    this.value('Triangles', '', count(last.triangles));
-    this.value('Lights', '', count(last.lightCount));
-    const lists = !last.allLights && !last.listsOverflowed;
-    const usual = `${last.listMean.toFixed(1)} · ${count(last.listP95)}`;
-    this.value('Lights per list, mean · p95', '', lists ? usual : 'all lights');
-    this.value('Longest light list', '', lists ? count(last.listLargest) : '–');
-    this.value('Cluster grid', '', last.grid ? gridText(last.grid) : '–');
-    this.value('Peeled layers · pixels with more', '', peelText(last));
-    this.value('Lights with shadows · maps', '', shadowText(last));
-    this.value('Metered exposure', '', exposureText(last));
-    const dropped = `${count(last.droppedFrames)} · ${count(this.droppedHere())}`;
-    this.value('Frames dropped, server · page', '', dropped);
-  }
-
-  private value(name: string, key: string, text: string): void {
-    let value = this.values.get(name);
-    if (!value) {
-      value = make('dd');
-      this.values.set(name, value);
-      this.list.append(make('dt', name, key), value);
-    }
-    value.textContent = text;
-  }
-
-  private showBars(id: string, bars: readonly Bar[]): void {
-    const list = element(id, HTMLElement);
-    const longest = Math.max(...bars.map((bar) => bar.ms), 1e-9);
-    while (list.children.length > bars.length) list.lastElementChild?.remove();
-    bars.forEach((bar, index) => {
-      let item = list.children[index];
-      if (!item) {
-        item = make('li');
-        item.append(make('span'), make('span'));
-        list.append(item);
-      }
-      const [name, value] = item.children;
-      if (name) name.textContent = bar.name.replaceAll('_', ' ');
-      if (value) value.textContent = ms(bar.ms);
-      const fill = Math.max(0, (bar.ms / longest) * 100);
-      (item as HTMLElement).style.setProperty('--fill', `${fill.toFixed(1)}%`);
-    });
+    this.body.here?.show(figures);
   }
 }

@@ -4,6 +4,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 
 import type { ClientBody } from '../../src/protocol/framing';
 import { Recorder } from '../../src/protocol/recorder';
+import { scriptText } from '../../src/protocol/script_file';
 
 let now: number;
 let recorder: Recorder;
@@ -18,7 +19,7 @@ describe('Recorder', () => {
   it('Idle_RecordsNothing', () => {
     recorder.sent(size(320));
     expect(recorder.recording).toBe(false);
-    expect(recorder.stop()).toBe('');
+    expect(scriptText(recorder.stop())).toBe('');
   });
 
   it('Commands_BecomeJsonLinesWithTheirTimes', () => {
@@ -26,7 +27,7 @@ describe('Recorder', () => {
     now += 250.4;
     recorder.sent({ case: 'setLights', value: { count: 500, animate: false } });
     expect(recorder.recording).toBe(true);
-    expect(recorder.stop()).toBe(
+    expect(scriptText(recorder.stop())).toBe(
       '{"at_ms":0,"setSize":{"width":320,"height":180}}\n' +
         '{"at_ms":250,"setLights":{"count":500,"animate":false}}\n',
     );
@@ -38,7 +39,7 @@ describe('Recorder', () => {
     recorder.sent({ case: 'hello', value: { protocolMajor: 1 } });
     recorder.sent({ case: 'ack', value: { frameId: 1n } });
     recorder.sent({ case: 'ping', value: {} });
-    expect(recorder.stop()).toBe('');
+    expect(scriptText(recorder.stop())).toBe('');
   });
 
   it('SecondStart_BeginsAfresh', () => {
@@ -48,7 +49,7 @@ describe('Recorder', () => {
     now = 5000;
     recorder.start([]);
     recorder.sent(size(640));
-    expect(recorder.stop()).toBe('{"at_ms":0,"setSize":{"width":640,"height":180}}\n');
+    expect(scriptText(recorder.stop())).toBe('{"at_ms":0,"setSize":{"width":640,"height":180}}\n');
   });
 
   it('Full_TakesNoMore', () => {
@@ -57,7 +58,7 @@ describe('Recorder', () => {
     for (let i = 0; i < 3; ++i) recorder.sent(size(320));
     expect(recorder.full).toBe(true);
     recorder.sent(size(640));
-    expect(recorder.stop().includes('640')).toBe(false);
+    expect(scriptText(recorder.stop()).includes('640')).toBe(false);
   });
 
   // The C++ tests play this very file with `froxel load --script`.
@@ -75,6 +76,6 @@ describe('Recorder', () => {
     now += 50;
     recorder.sent({ case: 'setExposure', value: { exposure: 1.5 } });
     const file = new URL('../../../tests/load/recorded.jsonl', import.meta.url);
-    expect(recorder.stop()).toBe(readFileSync(file, 'utf8'));
+    expect(scriptText(recorder.stop())).toBe(readFileSync(file, 'utf8'));
   });
 });

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <initializer_list>
+#include <utility>
 
 namespace froxel::net {
 namespace {
@@ -31,7 +33,7 @@ TEST_F(StaticFilesTest, Load_Folder_HasEveryFileUnderItsPath) {
     write("assets/worker-12.js", "work");
     const auto files = StaticFiles::load(root_).value();
     EXPECT_EQ(files.count(), 3U);
-    EXPECT_EQ(files.find("/")->body, "page");
+    EXPECT_EQ(files.find("/")->plain.body, "page");
     EXPECT_EQ(files.find("/index.html")->content_type, "text/html; charset=utf-8");
     EXPECT_FALSE(files.find("/index.html")->immutable);
     EXPECT_EQ(files.find("/favicon.svg")->content_type, "image/svg+xml");
@@ -41,10 +43,39 @@ TEST_F(StaticFilesTest, Load_Folder_HasEveryFileUnderItsPath) {
 
 TEST_F(StaticFilesTest, Load_ChangedContent_ChangesTheETag) {
     write("index.html", "one");
-    const std::string before = StaticFiles::load(root_).value().find("/")->etag;
-    EXPECT_EQ(StaticFiles::load(root_).value().find("/")->etag, before);
+    const std::string before = StaticFiles::load(root_).value().find("/")->plain.etag;
+    EXPECT_EQ(StaticFiles::load(root_).value().find("/")->plain.etag, before);
     write("index.html", "two");
-    EXPECT_NE(StaticFiles::load(root_).value().find("/")->etag, before);
+    EXPECT_NE(StaticFiles::load(root_).value().find("/")->plain.etag, before);
+}
+
+TEST_F(StaticFilesTest, Load_CodedFiles_AreRepresentationsAndNoFiles) {
+    write("index.html", "page");
+    write("index.html.gz", "zipped");
+    write("index.html.br", "brotli");
+    write("archive.gz", "a file of its own");
+    const auto files = StaticFiles::load(root_).value();
+    EXPECT_EQ(files.count(), 2U);
+    EXPECT_EQ(files.find("/index.html.gz"), nullptr);
+    EXPECT_EQ(files.find("/archive.gz")->plain.body, "a file of its own");
+    const StaticFile& page = *files.find("/");
+    for (const auto& [accepted, sent] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"", "page"},
+             {"gzip", "zipped"},
+             {"gzip, deflate, br", "brotli"},
+             {"GZIP;q=1.0", "zipped"},
+             {"gzip;q=0.2, br;q=0", "zipped"},
+             {"gzip;q=0, br;q=0.000", "page"},
+             {"*", "brotli"},
+             {"br;q=0, *;q=0.5", "zipped"},
+             {"identity, *;q=0", "page"},
+             {"zstd, brotli, x-gzip", "page"},
+             {"gzip;q=;,,;\x01", "zipped"}, // as far as it can be read
+         }) {
+        EXPECT_EQ(page.bestFor(accepted).body, sent) << accepted;
+    }
+    EXPECT_NE(page.bestFor("gzip").etag, page.bestFor("br").etag);
+    EXPECT_NE(page.bestFor("gzip").etag, page.plain.etag);
 }
 
 TEST_F(StaticFilesTest, Load_Links_AreLeftOut) {
