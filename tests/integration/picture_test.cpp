@@ -71,6 +71,8 @@ double psnr(const Rgb& a, const Rgb& b) {
 }
 
 TEST(StreamedPicture, AnyQuality_IsTheRenderedOne) {
+    const Rgb wanted = rendered(); // before anybody waits for an answer of the client's
+    ASSERT_EQ(wanted.size(), size_t{kWidth} * kHeight * 3);
     ServerProcess server(kSettings);
     WsClient client(server.port().value());
     client.join();
@@ -78,8 +80,6 @@ TEST(StreamedPicture, AnyQuality_IsTheRenderedOne) {
     still.mutable_set_lights()->set_animate(false);
     still.mutable_set_lights()->set_time_s(1);
     client.send(still);
-    const Rgb wanted = rendered();
-    ASSERT_EQ(wanted.size(), size_t{kWidth} * kHeight * 3);
     struct Step {
         uint32_t quality;
         v1::Chroma chroma;

@@ -13,11 +13,23 @@ namespace froxel::test {
 
 namespace {
 
-// One driver version is pinned, but its code follows the processor's vector units.
+// The driver whose pictures these are. Others cover other edge pixels, and Mesa 25 draws lines
+// through the eye's plane as faces; what is right is decided by the tests against the reference.
+constexpr const char* kDriver = "Mesa 22.3.";
+// Its code follows the processor's vector units.
 constexpr double kMaxRmse = 0.6;
 constexpr double kMaxShareAbove8 = 0.002;
 
-class Golden : public GpuTest {};
+class Golden : public GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        const std::string& driver = device().traits().driver;
+        if (driver.find(kDriver) == std::string::npos) {
+            GTEST_SKIP() << "the goldens are of " << kDriver << "x, this is " << driver;
+        }
+    }
+};
 
 render::FrameInputs inputsFor(const scene::Scene& scene) {
     render::FrameInputs inputs;
