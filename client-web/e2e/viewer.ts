@@ -12,7 +12,7 @@ import type { FrameHeader, ServerMessage } from '../src/gen/froxel/v1/server_pb'
 import { decodeBinary } from '../src/protocol/framing';
 
 const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
-const kPatienceMs = 60_000;
+const kPatienceMs = 120_000;
 const kPollMs = 50;
 
 interface SentCounter {

@@ -5,8 +5,10 @@ import type { Controller } from 'lil-gui';
 
 import { tidy } from '../core/format';
 import { sameBounds, type Bounds } from '../settings/settings';
+import type { Mark } from './mark';
 
 const kSides = ['min', 'max'] as const;
+const kEnds = { min: 'Lower', max: 'Upper' } as const;
 const kAxes = ['x', 'y', 'z'] as const;
 
 export class BoxEditor {
@@ -19,19 +21,20 @@ export class BoxEditor {
     parent: GUI,
     private readonly sceneBounds: Bounds | null,
     onEdit: (box: Bounds | null) => void,
+    mark: Mark,
   ) {
     const folder = parent.addFolder('Light box').close();
     for (const side of kSides) {
       for (const axis of kAxes) {
-        const number = folder.add(this.model[side], axis).name(`${side} ${axis} m`);
-        number.domElement.title = 'The moving lights stay inside; metres in the world';
-        number.domElement.dataset.field = `light_box.${side}.${axis}`;
+        const number = folder.add(this.model[side], axis);
+        const title = `${kEnds[side]} ${axis}, m`;
+        mark(number, `light_box.${side}.${axis}`, title, `${kEnds[side]} end along ${axis} of the box that moving lights stay in`);
         number.onFinishChange(() => onEdit({ min: { ...this.model.min }, max: { ...this.model.max } }));
         this.numbers.push(number);
       }
     }
-    this.whole = folder.add({ clear: () => onEdit(null) }, 'clear').name('Whole scene');
-    this.whole.domElement.dataset.field = 'light_box.clear';
+    this.whole = folder.add({ clear: () => onEdit(null) }, 'clear');
+    mark(this.whole, 'light_box.clear', 'Light box: whole scene', 'Lets the moving lights go wherever the scene reaches');
     this.fill(null);
   }
 

@@ -8,6 +8,7 @@ import { displayColor, linearColor } from '../core/srgb';
 import { LightKind } from '../gen/froxel/v1/common_pb';
 import { findLight, kLightKinds, sameLight, type PlacedLight, type PlacedLights } from '../settings/placed_lights';
 import type { HandleActions } from '../steering/light_handles';
+import type { Mark } from './mark';
 
 export interface LightActions extends HandleActions {
   addLight(): void;
@@ -80,24 +81,25 @@ export class LightEditor {
   constructor(
     parent: GUI,
     private readonly actions: LightActions,
+    private readonly mark: Mark,
   ) {
     this.folder = parent.addFolder('Placed lights');
     const folder = this.folder;
-    this.button('add', 'Add a light', 'A new light before the camera; each costs as a moving one does. A double click in the picture picks the light there', () =>
+    this.button('add', 'Add a light', 'Puts a new light before the camera; it costs as a moving one does. A double click in the picture picks the light there', () =>
       actions.addLight(),
     );
     this.chooser = this.addChooser([]);
     this.addValues();
-    this.remove = this.button('remove', 'Delete this light', 'Also the Delete key at its handle; a picked one goes back to what it was', () => {
+    this.remove = this.button('remove', 'Delete this light', 'Takes the chosen light away, as the Delete key at its ring does; a picked one goes back to what it was', () => {
       if (this.shown) actions.removeLight(this.shown.id);
     });
-    const handles = folder.add(this.model, 'handles').name('Handles');
+    const handles = folder.add(this.model, 'handles');
     handles.onChange((visible: boolean) => actions.showHandles(visible));
-    this.describe(handles, 'handles', 'Rings over the picture to choose and drag lights by');
-    this.button('load', 'Load a light set…', 'A JSON file in place of the lights that are there', () =>
+    this.describe(handles, 'handles', 'Rings over lights', 'Shows rings over the picture to choose and drag placed lights by');
+    this.button('load', 'Load a light set…', 'Reads placed lights from a JSON file, in place of those that are there', () =>
       this.load(),
     );
-    this.button('save', 'Save the light set', 'As a JSON file, for Load and for --light-set', () =>
+    this.button('save', 'Save the light set', 'Saves the placed lights as a JSON file, for this page and for --light-set', () =>
       void actions.saveLights(),
     );
     this.fill(null);
@@ -110,32 +112,32 @@ export class LightEditor {
       'kind',
       Object.fromEntries(kLightKinds.map(({ name, value }) => [name, value])),
     );
-    this.value(kind, 'kind', 'Kind', 'A spot’s cone costs a little in each pixel, an area light’s rectangle as much as ten points', () => ({
+    this.value(kind, 'kind', 'Light kind', 'Kind of the chosen light. A spot’s cone costs a little in each pixel, a rectangle as much as ten points', () => ({
       kind: this.model.kind,
     }));
     const color = this.folder.addColor(this.model, 'color');
-    this.value(color, 'color', 'Colour', 'As the screen shows it at full light', () => ({
+    this.value(color, 'color', 'Light colour', 'Colour of the chosen light as the screen shows it', () => ({
       color: linearColor(this.model.color),
     }));
-    this.number('intensity', 'Intensity', 'Scales its colour', () => ({
+    this.number('intensity', 'Light intensity', 'Factor on the colour of the chosen light', () => ({
       intensity: this.model.intensity,
     }));
-    this.number('radius', 'Radius m', 'Where it ends: what it costs grows with the pixels within', () => ({
+    this.number('radius', 'Light reach, m', 'Distance at which the chosen light ends; its cost grows with the pixels within', () => ({
       radius: this.model.radius,
     }));
     for (const axis of ['x', 'y', 'z'] as const) {
-      this.number(axis, `Position ${axis}`, 'Metres in the world', () => ({
+      this.number(axis, `Light at ${axis}, m`, `Place of the chosen light along ${axis} of the world`, () => ({
         position: { x: this.model.x, y: this.model.y, z: this.model.z },
       }));
     }
-    this.number('innerConeDeg', 'Inner cone', 'Half angle in degrees of full light', () => ({
+    this.number('innerConeDeg', 'Inner cone, deg', 'Half angle of the cone in which the chosen spot light is full', () => ({
       innerConeDeg: this.model.innerConeDeg,
     }));
-    this.number('outerConeDeg', 'Outer cone', 'Half angle in degrees where it ends', () => ({
+    this.number('outerConeDeg', 'Outer cone, deg', 'Half angle of the cone at which the chosen spot light ends', () => ({
       outerConeDeg: this.model.outerConeDeg,
     }));
     for (const key of ['directionX', 'directionY', 'directionZ'] as const) {
-      this.number(key, `Direction ${key.slice(-1).toLowerCase()}`, 'The way its light travels', () => ({
+      this.number(key, `Light towards ${key.slice(-1).toLowerCase()}`, 'Direction in which the chosen light shines', () => ({
         direction: {
           x: this.model.directionX,
           y: this.model.directionY,
@@ -144,9 +146,9 @@ export class LightEditor {
       }));
     }
     for (const [key, label, tip] of [
-      ['widthM', 'Width m', 'Of the rectangle; larger is softer, not brighter'],
-      ['heightM', 'Height m', 'Of the rectangle; larger is softer, not brighter'],
-      ['rollDeg', 'Roll', 'Degrees about its direction'],
+      ['widthM', 'Light width, m', 'Width of the chosen rectangle; a larger one is softer, not brighter'],
+      ['heightM', 'Light height, m', 'Height of the chosen rectangle; a larger one is softer, not brighter'],
+      ['rollDeg', 'Light roll, deg', 'Turn of the chosen rectangle about its direction'],
     ] as const) {
       this.number(key, label, tip, () => ({ [key]: this.model[key] }));
     }
@@ -202,9 +204,8 @@ export class LightEditor {
     const options = [kNone, ...lights.map(({ id }) => String(id))];
     const before = this.chooser as Controller | undefined;
     const chooser = before ? before.options(options) : this.folder.add(this.model, 'chosen', options);
-    chooser.name('Chosen');
     chooser.onChange((id: string) => this.actions.chooseLight(id === kNone ? null : Number(id)));
-    this.describe(chooser, 'chosen', 'The light whose values follow; or choose by its handle');
+    this.describe(chooser, 'chosen', 'Chosen light', 'Placed light whose values stand below; its ring chooses it, too');
     return chooser;
   }
 
@@ -227,8 +228,7 @@ export class LightEditor {
     tip: string,
     patch: () => Partial<PlacedLight>,
   ): void {
-    controller.name(label);
-    this.describe(controller, key, tip);
+    this.describe(controller, key, label, tip);
     const edit = (): void => {
       if (this.shown) this.actions.editLight(this.shown.id, patch());
     };
@@ -238,14 +238,13 @@ export class LightEditor {
   }
 
   private button(key: string, label: string, tip: string, action: () => void): Controller {
-    const controller = this.folder.add({ action }, 'action').name(label);
-    this.describe(controller, key, tip);
+    const controller = this.folder.add({ action }, 'action');
+    this.describe(controller, key, label, tip);
     return controller;
   }
 
-  private describe(controller: Controller, key: string, tip: string): void {
-    controller.domElement.title = tip;
-    controller.domElement.dataset.field = `placed_light.${key}`;
+  private describe(controller: Controller, key: string, label: string, tip: string): void {
+    this.mark(controller, `placed_light.${key}`, label, tip);
   }
 
   private load(): void {

@@ -16,6 +16,7 @@ import type { AppState, ServerInfo } from '../state/app_state';
 import { BoxEditor } from './box_editor';
 import { LightEditor, type LightActions } from './light_editor';
 import { scaleFor } from './range_scale';
+import type { Mark } from './mark';
 import { SizeEditor, type SizeActions } from './size_editor';
 import { attachSlider } from './slider';
 import { ToonEditor } from './toon_editor';
@@ -71,9 +72,10 @@ export class Panel {
     this.gui.open(this.gui._closed);
   }
 
-  /** Every control, by its label; running one opens the panel there. */
+  /** Every control that is of use, by its label; running one opens the panel there. */
   entries(): Entry[] {
-    return [...this.controls].map(([name, { title, help, at }]) => ({
+    const shown = [...this.controls].filter(([, { at }]) => !at._hidden);
+    return shown.map(([name, { title, help, at }]) => ({
       title,
       help,
       key: '',
@@ -137,7 +139,7 @@ export class Panel {
     this.controls.clear();
     const lights = this.section('lights', server);
     this.addBox(lights, server);
-    this.lightEditor = new LightEditor(lights, this.actions);
+    this.lightEditor = new LightEditor(lights, this.actions, this.mark);
     this.addSceneCameras(this.section('camera', server), server);
     this.section('exposure', server);
     this.section('environment', server);
@@ -157,7 +159,7 @@ export class Panel {
     this.section('debug', server, expert);
     this.addToon(expert);
     const stream = this.section('stream', server, expert);
-    this.sizeEditor = new SizeEditor(stream, server, this.actions);
+    this.sizeEditor = new SizeEditor(stream, server, this.actions, this.mark);
     for (const folder of [expert, ...expert.folders]) folder.close();
   }
 
@@ -228,8 +230,7 @@ export class Panel {
     const say: Say = (words) => {
       const title = labelOf(field.name, words);
       const help = tipOf(field.name, words, limits);
-      mark(controller, field.name, title, help);
-      this.controls.set(field.name, { title, help, at: controller });
+      this.mark(controller, field.name, title, help);
     };
     say(this.words);
     this.says.push(say);
@@ -238,6 +239,13 @@ export class Panel {
       show(settings);
     });
   }
+
+  private readonly mark: Mark = (control, field, title, help) => {
+    control.name(title);
+    control.domElement.title = help;
+    control.domElement.dataset.field = field;
+    this.controls.set(field, { title, help, at: control });
+  };
 
   private addSceneCameras(folder: GUI, server: ServerInfo): void {
     const names = server.scene?.cameras ?? [];
@@ -251,18 +259,17 @@ export class Panel {
       controller.updateDisplay();
       if (name !== '') this.actions.selectCamera(name);
     });
-    mark(controller, 'scene_camera', 'Go to', "One of the scene's own cameras (keys 1 to 9)");
+    this.mark(controller, 'scene_camera', 'Go to', "One of the scene's own cameras (keys 1 to 9)");
   }
 
   private addGridInUse(folder: GUI): void {
     this.gridInUse = folder.add({ text: '–' }, 'text').disable();
-    mark(this.gridInUse, 'grid.in_use', 'In use', '');
+    this.mark(this.gridInUse, 'grid.in_use', 'In use', 'The cluster grid of the picture that is shown');
   }
 
   private addBox(folder: GUI, server: ServerInfo): void {
-    const editor = new BoxEditor(folder, server.bounds, (lightBox) =>
-      this.actions.edit({ lightBox }),
-    );
+    const onEdit = (lightBox: Settings['lightBox']): void => this.actions.edit({ lightBox });
+    const editor = new BoxEditor(folder, server.bounds, onEdit, this.mark);
     this.shows.push((settings) => editor.show(settings.lightBox));
   }
 
@@ -279,12 +286,6 @@ export class Panel {
       this.shows.push((settings) => editor.show(settings[key]));
     }
   }
-}
-
-function mark(controller: Controller, name: string, label: string, tip: string): void {
-  controller.name(label);
-  controller.domElement.title = tip;
-  controller.domElement.dataset.field = name;
 }
 
 const hasAnimations = ({ scene }: ServerInfo): boolean => (scene?.animations.length ?? 0) > 0;

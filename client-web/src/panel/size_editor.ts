@@ -6,6 +6,7 @@ import type { Controller } from 'lil-gui';
 import type { Settings } from '../settings/settings';
 import type { ServerInfo } from '../state/app_state';
 import type { SizeMode } from '../state/size_policy';
+import type { Mark } from './mark';
 import { linearScale } from './range_scale';
 import { attachSlider } from './slider';
 
@@ -26,34 +27,31 @@ export class SizeEditor {
   private readonly slide: (value: number) => void;
   private shown = { width: 0, height: 0 };
 
-  constructor(parent: GUI, server: ServerInfo, actions: SizeActions) {
+  constructor(parent: GUI, server: ServerInfo, actions: SizeActions, mark: Mark) {
     const mode = parent
       .add(this.model, 'mode', [kAuto, ...kPresets, kCustom])
-      .name('Size')
       .onChange((name: string) => {
         if (name === kAuto) actions.setSizeMode({ kind: 'auto', scale: this.model.scale });
         else actions.setSizeMode({ kind: 'fixed' });
         const [width, height] = name.split('×').map(Number);
         if (width && height) actions.setSize(width, height);
       });
-    mode.domElement.title = 'In pixels: follows the window, a preset, or any';
-    mode.domElement.dataset.field = 'size';
+    mark(mode, 'size', 'Picture size', 'Size of the picture in pixels: as the window, a preset, or any');
 
     const setScale = (scale: number): void => actions.setSizeMode({ kind: 'auto', scale });
-    const scale = parent.add(this.model, 'scale').name('Scale');
+    const scale = parent.add(this.model, 'scale');
     scale.onFinishChange((value: number) => {
       if (value > 0) setScale(value);
     });
-    scale.domElement.title = 'Pixels of the picture for each pixel of the screen, along one side';
-    scale.domElement.dataset.field = 'size.scale';
+    mark(scale, 'size.scale', 'Picture scale', 'Pixels of the picture for each pixel of the screen, along one side');
     this.slide = attachSlider(scale, linearScale(kScaleRange, false), setScale);
 
     const sides = (['width', 'height'] as const).map((side) => {
-      const controller = parent.add(this.model, side).name(side === 'width' ? 'Width' : 'Height');
+      const controller = parent.add(this.model, side);
       controller.onFinishChange(() => actions.setSize(this.model.width, this.model.height));
       const range = server.ranges.get(side);
-      controller.domElement.title = range ? `Pixels, ${range.min} to ${range.max}` : 'Pixels';
-      controller.domElement.dataset.field = side;
+      const limits = range ? ` · ${range.min} to ${range.max}` : '';
+      mark(controller, side, `Picture ${side}`, `Picture’s ${side} in pixels${limits}`);
       return controller;
     });
     this.controllers = { mode, scale, sides };
