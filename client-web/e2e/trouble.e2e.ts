@@ -78,6 +78,18 @@ it('SettingThatTheDeviceCannotDo_ShowsWhyAndKeepsTheLastGoodState', async () => 
   expect(viewer.connectionCount).toBe(1);
 });
 
+it('PartOfThePageThatCannotBeFetched_IsSaidWhenItIsWanted', async () => {
+  viewer = await Viewer.open(browser, 'about:blank');
+  await viewer.page.route(/panel-.*\.js/, (route) => route.abort());
+  const tried = viewer.page.waitForEvent('requestfailed'); // fetched ahead, in vain
+  await viewer.page.goto(server.url + kStill);
+  await viewer.picture();
+  await tried;
+  expect(await viewer.page.locator('#banner').isVisible()).toBe(false);
+  await viewer.page.locator('#tool-panel').click();
+  await banner('could not be fetched');
+});
+
 it('NumberThatIsNoWholeOne_IsRefusedHere', async () => {
   await open(kStill);
   await viewer.openPanel();

@@ -2,12 +2,13 @@
 
 import type { AnimationActions } from './cards/animation_card';
 import type { RoomActions } from './cards/room_card';
+import { kMissing, Later } from './core/later';
 import { add, length, normalize, scale, sub } from './core/vec3';
 import { RendererSchema } from './gen/froxel/v1/common_pb';
 import type { PanelActions } from './panel/panel';
 import { download, type Picture } from './picture/picture';
 import type { Connection } from './protocol/connection';
-import type { Recorded, Recorder } from './protocol/recorder';
+import type { Recorder } from './protocol/recorder';
 import { choicesOf } from './protocol/schema_names';
 import { isUint32, type Field } from './settings/field';
 import { patchFor } from './settings/fields';
@@ -33,12 +34,27 @@ const kFlightSeconds = 12;
 const kAheadM = 4;
 
 export class Commands implements PanelActions, InputTarget, RoomActions, AnimationActions {
+  private readonly lightSetFile = new Later(
+    () => import('./settings/light_set_file'),
+    () => this.refuse(kMissing),
+  );
+  private readonly scriptFile = new Later(
+    () => import('./protocol/script_file'),
+    () => this.refuse(kMissing),
+  );
+
   constructor(
     private readonly store: Store,
     private readonly connection: Connection,
     private readonly picture: Picture,
     private readonly recorder: Recorder,
   ) {}
+
+  /** What files are written by is there when it is asked for. */
+  prefetch(): void {
+    this.lightSetFile.ahead();
+    this.scriptFile.ahead();
+  }
 
   edit(patch: Partial<Settings>): void {
     if (!this.allowed()) return;
@@ -94,19 +110,20 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
   }
 
   async loadLights(file: Blob & { readonly name: string }): Promise<void> {
+    const reader = await this.lightSetFile.want();
+    if (!reader) return;
     try {
-      const { lightSetOf } = await import('./settings/light_set_file');
-      this.edit({ placedLights: lightSetOf(await file.text()) });
+      this.edit({ placedLights: reader.lightSetOf(await file.text()) });
     } catch (error) {
       this.refuse(`${file.name} is no light set: ${error instanceof Error ? error.message : ''}`);
     }
   }
 
   async saveLights(): Promise<void> {
+    const writer = await this.lightSetFile.want();
     const { settings } = this.store.state;
-    if (!settings) return;
-    const { lightSetText } = await import('./settings/light_set_file');
-    const json = new Blob([lightSetText(settings.placedLights)], { type: 'application/json' });
+    if (!settings || !writer) return;
+    const json = new Blob([writer.lightSetText(settings.placedLights)], { type: 'application/json' });
     download(json, fileName('lights.json'));
   }
 
@@ -163,10 +180,13 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
   }
 
   /** Starts a recording, or ends it and hands over its file. Whether one is under way now. */
-  toggleRecording(): boolean {
+  async toggleRecording(): Promise<boolean> {
     if (this.recorder.recording) {
+      const writer = await this.scriptFile.want();
+      if (!writer) return true; // nothing is lost
       if (this.recorder.full) this.refuse(`The recording ended after ${this.recorder.most} commands.`);
-      void this.saveScript(this.recorder.stop());
+      const script = writer.scriptText(this.recorder.stop());
+      download(new Blob([script], { type: 'application/jsonl' }), fileName('jsonl'));
       return false;
     }
     const { server, settings } = this.store.state;
@@ -177,11 +197,6 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     const camera = cameraCommand(server.initial, settings);
     this.recorder.start([...settingCommands(server.initial, settings), ...(camera ? [camera] : [])]);
     return true;
-  }
-
-  private async saveScript(commands: readonly Recorded[]): Promise<void> {
-    const { scriptText } = await import('./protocol/script_file');
-    download(new Blob([scriptText(commands)], { type: 'application/jsonl' }), fileName('jsonl'));
   }
 
   requestControl(): void {

@@ -11,7 +11,7 @@ import { Commands } from './commands';
 import { element, make } from './core/dom';
 import { entryOf, keyText, type Entry } from './core/entries';
 import { wasOpen } from './core/kept';
-import { Later } from './core/later';
+import { kMissing, Later } from './core/later';
 import { Codec } from './gen/froxel/v1/common_pb';
 import type { Panel } from './panel/panel';
 import { decodableCodecs, kPlainCodec } from './picture/codecs';
@@ -191,13 +191,13 @@ async function makePanel(): Promise<Panel> {
 
 /** Nobody waits for these when they are wanted, and they open when the server is gone, too. */
 function prefetch(): void {
-  void panel.want();
+  panel.ahead();
   statsCard.prefetch();
+  commands.prefetch();
 }
 
 function partMissing(): void {
-  const text = 'A part of this page could not be fetched. Reload it when the server is there.';
-  store.dispatch({ type: 'notice', tone: 'error', text });
+  store.dispatch({ type: 'notice', tone: 'error', text: kMissing });
 }
 
 /** The plain codec stays until the viewer chooses video again: by itself it would swing to and fro. */
@@ -228,7 +228,9 @@ const doings: Doings = {
   fullscreen: () => void toggleFullscreen(),
   help: () => (help.open ? help.close() : help.showModal()),
   record: () => {
-    element('tool-record', HTMLButtonElement).hidden = !commands.toggleRecording();
+    void commands.toggleRecording().then((recording) => {
+      element('tool-record', HTMLButtonElement).hidden = !recording;
+    });
   },
   lights: () => commands.toggleLights(),
   playing: () => animationCard.toggle(),

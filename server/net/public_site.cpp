@@ -48,7 +48,7 @@ Response file(const Request& request, const StaticFile& found, const std::string
     if (!found.coded.empty()) {
         response.set(http::field::vary, "Accept-Encoding");
     }
-    if (!sent.coding.empty()) {
+    if (!sent.coding.empty() && !unchanged) {
         response.set(http::field::content_encoding,
                      beast::string_view(sent.coding.data(), sent.coding.size()));
     }

@@ -15,6 +15,11 @@ export interface BannerActions {
 const kTickMs = 250;
 const kInfoMs = 4_000;
 
+/** Only what changes: a screen reader says each change. */
+function say(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 export class Banner {
   private readonly canvas = element('view', HTMLCanvasElement);
   private readonly box = element('banner', HTMLElement);
@@ -65,18 +70,17 @@ export class Banner {
     this.remedy = standing.remedy;
     this.box.hidden = standing.text === '';
     this.box.classList.toggle('error', standing.tone === 'error');
-    // Only what changes: a screen reader says each change.
-    if (this.text.textContent !== standing.text) this.text.textContent = standing.text;
-    this.aside.textContent = standing.aside;
+    say(this.text, standing.text);
+    say(this.aside, standing.aside);
     this.button.hidden = standing.remedy === null;
-    this.button.textContent = standing.remedy?.label ?? '';
+    say(this.button, standing.remedy?.label ?? '');
     this.showProgress(standing.progress);
   }
 
   private showProgress(progress: Standing['progress']): void {
     this.progress.hidden = progress === null;
     if (!progress) return;
-    if (this.progressText.textContent !== progress.text) this.progressText.textContent = progress.text;
+    say(this.progressText, progress.text);
     if (progress.fraction === null) this.progressBar.removeAttribute('value');
     else this.progressBar.value = progress.fraction;
   }

@@ -1,10 +1,12 @@
 // Parts of the page that are fetched when they are first wanted, so that the picture comes first.
 
+export const kMissing = 'A part of this page could not be fetched. Reload it when the server is there.';
+
 export class Later<T> {
   private part: T | null = null;
   private coming: Promise<T | null> | null = null;
 
-  /** `failed` hears that it could not be fetched, each time that it was wanted in vain. */
+  /** `failed` hears of each time that it was wanted in vain. */
   constructor(
     private readonly get: () => Promise<T>,
     private readonly failed: () => void,
@@ -15,15 +17,22 @@ export class Later<T> {
     return this.part;
   }
 
-  /** Null: it could not be fetched. */
-  want(): Promise<T | null> {
+  /** Null: it could not be fetched, and whoever is to be told was. */
+  async want(): Promise<T | null> {
+    const part = await this.fetched();
+    if (part === null) this.failed();
+    return part;
+  }
+
+  /** So that it is there when it is wanted; in vain, it is tried again then. */
+  ahead(): void {
+    void this.fetched();
+  }
+
+  private fetched(): Promise<T | null> {
     this.coming ??= this.get().then(
       (part) => (this.part = part),
-      () => {
-        this.coming = null; // the next who wants it tries again
-        this.failed();
-        return null;
-      },
+      () => (this.coming = null),
     );
     return this.coming;
   }

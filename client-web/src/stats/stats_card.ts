@@ -42,7 +42,7 @@ export class StatsCard {
 
   /** What it unfolds to is there when it is asked for. */
   prefetch(): void {
-    void this.body.want();
+    this.body.ahead();
   }
 
   toggle(): void {

@@ -21,6 +21,10 @@ describe('Later', () => {
       () => (reachable ? Promise.resolve('part') : Promise.reject(new Error('404'))),
       () => (failures += 1),
     );
+    later.ahead();
+    await Promise.resolve();
+    await Promise.resolve();
+    expect(failures).toBe(0); // nobody has asked for it
     expect(await later.want()).toBeNull();
     expect(later.here).toBeNull();
     expect(failures).toBe(1);
