@@ -5,8 +5,9 @@ import { fileURLToPath } from 'node:url';
 
 import type { Page } from 'playwright-core';
 
+import type { Viewer } from './viewer';
+
 const kGolden = fileURLToPath(new URL('./golden', import.meta.url));
-const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
 /** Both are compared at this part of their size: how text's edges are smoothed does not count. */
 const kPart = 1 / 8;
 /** Steps of 8 bits that any of the small pixels may be off. A word more or less is 40 and more. */
@@ -32,11 +33,9 @@ async function worst({ a, b, part }: { a: string; b: string; part: number }): Pr
 }
 
 /** Takes the page's picture and gives its difference to the golden one; with UPDATE_GOLDEN=1 it becomes that. */
-export async function offGolden(page: Page, blank: Page, name: string): Promise<number> {
-  const taken = await page.screenshot();
+export async function offGolden(viewer: Viewer, blank: Page, name: string): Promise<number> {
+  const taken = await viewer.screenshot(name);
   const golden = `${kGolden}/${name}.png`;
-  mkdirSync(kResults, { recursive: true });
-  writeFileSync(`${kResults}/${name}.png`, taken);
   if (process.env.UPDATE_GOLDEN === '1') {
     mkdirSync(kGolden, { recursive: true });
     writeFileSync(golden, taken);

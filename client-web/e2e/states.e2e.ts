@@ -4,11 +4,10 @@ import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 
 import type { AxeResults } from 'axe-core';
-import { toBinary, create, type MessageInitShape } from '@bufbuild/protobuf';
 import type { Browser, Page, WebSocketRoute } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
 
-import { ServerMessageSchema } from '../src/gen/froxel/v1/server_pb';
+import { serverMessage, serverMessageBytes } from '../test/fakes';
 import { launch } from './chromium';
 import { kTolerance, offGolden } from './golden';
 import { startServer, type Server } from './server';
@@ -86,16 +85,8 @@ const stay = (): Promise<void> =>
       delayMs < 300 ? shortly(action, delayMs) : 0) as typeof setTimeout;
   });
 
-const say = (body: NonNullable<MessageInitShape<typeof ServerMessageSchema>['body']>): void => {
-  const message = toBinary(ServerMessageSchema, create(ServerMessageSchema, { body }));
-  route?.send(Buffer.from([0xf7, 2, 0, 0, ...message]));
-};
-
-const told = (words: string): Promise<true> =>
-  until(`a line with "${words}"`, async () => {
-    const line = viewer.page.locator('#banner-text');
-    return (await line.isVisible()) && ((await line.textContent()) ?? '').includes(words);
-  });
+const say = (body: Parameters<typeof serverMessage>[0]): void =>
+  route?.send(Buffer.from(serverMessageBytes(serverMessage(body))));
 
 const dimmed = (): Promise<boolean> =>
   viewer.page.evaluate(() => document.querySelector('#view')?.classList.contains('stale') ?? false);
@@ -122,7 +113,7 @@ async function looksAsItShould(name: string): Promise<void> {
   for (const { width, height } of kSizes) {
     await viewer.page.setViewportSize({ width, height });
     await viewer.page.evaluate(() => new Promise((done) => setTimeout(done, 0)));
-    const off = await offGolden(viewer.page, blank, `${name}_${width}`);
+    const off = await offGolden(viewer, blank, `${name}_${width}`);
     expect.soft(off, `${name} at ${width} × ${height}`).toBeLessThanOrEqual(kTolerance);
     expect.soft(await findings('#000'), `${name} at ${width} × ${height}`).toEqual([]);
     expect.soft(await findings('#fff', ['color-contrast']), `${name} over white`).toEqual([]);
@@ -160,7 +151,7 @@ it('Full_BeforeTheFirstPicture', async () => {
     page.onMessage(() => void stay().then(() => page.close({ code: 4029 })));
   };
   await open();
-  await told('Every place on this server is taken.');
+  await viewer.told('Every place on this server is taken.');
   await looksAsItShould('full');
 });
 
@@ -212,7 +203,7 @@ it('Lost_DimsTheLastPicture', async () => {
   await openWithPicture();
   await stay();
   await route?.close({ code: 1001 });
-  await told('No connection to the server.');
+  await viewer.told('No connection to the server.');
   expect(await dimmed()).toBe(true);
   await looksAsItShould('lost');
 });
@@ -221,7 +212,7 @@ it('DeviceLost', async () => {
   await openWithPicture();
   await stay();
   await route?.close({ code: 4050 });
-  await told('The server lost its graphics device.');
+  await viewer.told('The server lost its graphics device.');
   expect(await dimmed()).toBe(true);
   await looksAsItShould('device_lost');
 });
@@ -230,7 +221,7 @@ it('Draining', async () => {
   await openWithPicture();
   await stay();
   say({ case: 'draining', value: { deadlineMs: 60_000 } });
-  await told('The server is going down.');
+  await viewer.told('The server is going down.');
   expect(await dimmed()).toBe(false);
   await looksAsItShould('draining');
 });
@@ -238,14 +229,14 @@ it('Draining', async () => {
 it('AnotherVersion_AsksForAReload', async () => {
   await openWithPicture();
   await route?.close({ code: 4001 });
-  await told('another version');
+  await viewer.told('another version');
   await looksAsItShould('another_version');
 });
 
 it('Refused_Setting', async () => {
   await openWithPicture();
   say({ case: 'error', value: { refSeq: 1n, field: 'exposure', message: 'exposure is -1; right is 0.001 to 1000' } });
-  await told('exposure is -1');
+  await viewer.told('exposure is -1');
   expect(await dimmed()).toBe(false);
   await looksAsItShould('refused');
 });
@@ -254,6 +245,6 @@ it('Slow', async () => {
   await openWithPicture();
   silent = true;
   await viewer.page.locator('#view').press('ArrowLeft');
-  await told('This view is slow to draw.');
+  await viewer.told('This view is slow to draw.');
   await looksAsItShould('slow');
 });

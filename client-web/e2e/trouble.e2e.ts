@@ -29,19 +29,12 @@ async function open(hash: string): Promise<void> {
   await viewer.picture();
 }
 
-const banner = (text: RegExp | string): Promise<true> =>
-  until(`a banner with ${String(text)}`, async () => {
-    const shown = await viewer.page.locator('#banner').isVisible();
-    const words = (await viewer.page.locator('#banner').textContent()) ?? '';
-    return shown && (typeof text === 'string' ? words.includes(text) : text.test(words)) ? true : null;
-  });
-
 it('ValueOutOfRange_ShowsTheServersWordsAndKeepsTheLastGoodState', async () => {
   await open(kStill);
   await viewer.openPanel();
   await viewer.stateWith('50 lights', ({ lightCount }) => lightCount === 50);
   await viewer.type('lights', 1e9);
-  await banner('lights');
+  await viewer.told('lights');
   await viewer.screenshot('error');
   const input = viewer.control('lights').locator('input:not([type=range])');
   await until('the last good number', async () => (await input.inputValue()) === '50');
@@ -67,7 +60,7 @@ it('SettingThatTheDeviceCannotDo_ShowsWhyAndKeepsTheLastGoodState', async () => 
   }
   expect(told[0].code).toBe(ErrorCode.UNSUPPORTED);
   expect(told[0].message).not.toBe('');
-  await banner(told[0].message);
+  await viewer.told(told[0].message);
   await viewer.stateWith('what it was', ({ lighting }) => lighting !== LightingStage.COMPUTE);
   const shown = viewer.control('lighting').locator('select');
   await until('the last good choice', async () => {
@@ -87,26 +80,26 @@ it('PartOfThePageThatCannotBeFetched_IsSaidWhenItIsWanted', async () => {
   await tried;
   expect(await viewer.page.locator('#banner').isVisible()).toBe(false);
   await viewer.page.locator('#tool-panel').click();
-  await banner('could not be fetched');
+  await viewer.told('could not be fetched');
 });
 
 it('NumberThatIsNoWholeOne_IsRefusedHere', async () => {
   await open(kStill);
   await viewer.openPanel();
   await viewer.type('seed', 1.5);
-  await banner('whole number');
+  await viewer.told('whole number');
   expect(viewer.sent.some(({ body }) => body.case === 'setLights' && body.value.seed === 1)).toBe(false);
 });
 
 it('LinkWithNonsense_IsNamedAndTheRestCounts', async () => {
   await open(`${kStill}&renderer=fastest`);
-  await banner('renderer=fastest');
+  await viewer.told('renderer=fastest');
   await viewer.stateWith('50 lights', ({ lightCount }) => lightCount === 50);
 });
 
 it('LinkOutOfRange_ShowsTheServersWords', async () => {
   await open('#size=320x180&animate=0&exposure=-1');
-  await banner('exposure');
+  await viewer.told('exposure');
   await viewer.stateWith('320 × 180', ({ width }) => width === 320);
 });
 
@@ -121,7 +114,7 @@ it('ServerRestart_TheViewGoesOn', async () => {
   const before = viewer.received.length;
   const code = await server.stop();
   expect(code).toBe(0);
-  await banner(/Next try in/);
+  await viewer.told(/Next try in/);
   await viewer.screenshot('reconnect');
   server = await startServer(server.port);
   const welcome = await until('Welcome', () =>
@@ -141,7 +134,7 @@ it('TryNow_ConnectsAtOnce', async () => {
   await viewer.page.clock.install();
   await viewer.page.clock.pauseAt(Date.now() + 60_000);
   await server.stop();
-  await banner(/Next try in/);
+  await viewer.told(/Next try in/);
   server = await startServer(server.port);
   expect(viewer.connectionCount).toBe(1);
   await viewer.page.locator('#banner-remedy').click();

@@ -223,9 +223,19 @@ export class Viewer {
     return this.control(field).locator('select').selectOption({ label });
   }
 
-  async screenshot(name: string): Promise<void> {
+  /** Waits for a banner that says so. */
+  told(text: RegExp | string): Promise<true> {
+    return until(`a banner with ${String(text)}`, async () => {
+      const shown = await this.page.locator('#banner').isVisible();
+      const words = (await this.page.locator('#banner').textContent()) ?? '';
+      return shown && (typeof text === 'string' ? words.includes(text) : text.test(words)) ? true : null;
+    });
+  }
+
+  /** A PNG, which is kept among the results, too. */
+  screenshot(name: string): Promise<Buffer> {
     mkdirSync(kResults, { recursive: true });
-    await this.page.screenshot({ path: `${kResults}/${name}.png` });
+    return this.page.screenshot({ path: `${kResults}/${name}.png` });
   }
 
   private heard(payload: string | Buffer): void {

@@ -153,10 +153,14 @@ store.listen((state) => {
   animationCard.show(state);
   handles.show(state);
   element('panel', HTMLElement).inert = !mayControl(state.room);
-  canvas.setAttribute('aria-label', pictureLabel(state));
 });
 store.listen(({ link }, before) => {
   if (link.phase === 'live' && before.link.phase !== 'live') tellVisibility(true);
+});
+store.listen((state, before) => {
+  const [now, then] = [state.settings, before.settings];
+  if (state.server === before.server && now?.renderer === then?.renderer && now?.lights === then?.lights) return;
+  canvas.setAttribute('aria-label', pictureLabel(state));
 });
 store.listen(({ sentSeq }, before) => {
   if (sentSeq !== before.sentSeq) stats.asked(sentSeq, nowMs());

@@ -104,13 +104,6 @@ describe('pointers', () => {
     expect(current().eye.x).toBeCloseTo(-2, 9);
   });
 
-  it('AfterPointerUp_MovesDoNothing', () => {
-    pointer('pointerdown', 1, 0, 0);
-    pointer('pointerup', 1, 0, 0);
-    pointer('pointermove', 1, 50, 0);
-    expect(current().eye.z).toBe(10);
-  });
-
   it('PinchApart_ComesCloser', () => {
     pointer('pointerdown', 1, 40, 50);
     pointer('pointerdown', 2, 60, 50);
