@@ -330,6 +330,20 @@ describe('others', () => {
     await viewer.stateWith('a quarter', ({ width, height }) => width === 320 && height === 180);
   });
 
+  it('Scale_StaysAsTyped_WhileStatesArrive', async () => {
+    await viewer.choose('size', 'window');
+    const scale = viewer.control('size.scale').locator('input:not([type=range])');
+    await scale.fill('0.5');
+    const animated = told()?.animate ?? false;
+    const elsewhere = viewer.control('animate').locator('input');
+    for (const animate of [!animated, animated]) {
+      await elsewhere.evaluate((input: HTMLInputElement) => input.click()); // the focus stays
+      await viewer.stateWith('another one', ({ lightAnimate }) => lightAnimate === animate);
+    }
+    await scale.press('Enter');
+    await viewer.stateWith('a half', ({ width, height }) => width === 640 && height === 360);
+  });
+
   it('Reset_GoesBackToTheServersState', async () => {
     await viewer.type('exposure', 7);
     await viewer.stateWith('exposure 7', ({ exposure }) => exposure === 7);

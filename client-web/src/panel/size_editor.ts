@@ -25,7 +25,7 @@ export class SizeEditor {
   private readonly model = { mode: kAuto, scale: 1, width: 0, height: 0 };
   private readonly controllers: { mode: Controller; scale: Controller; sides: Controller[] };
   private readonly slide: (value: number) => void;
-  private shown = { width: 0, height: 0 };
+  private shown = { width: 0, height: 0, scale: 0 };
 
   constructor(parent: GUI, server: ServerInfo, actions: SizeActions, mark: Mark) {
     const mode = parent
@@ -41,7 +41,12 @@ export class SizeEditor {
     const setScale = (scale: number): void => actions.setSizeMode({ kind: 'auto', scale });
     const scale = parent.add(this.model, 'scale');
     scale.onFinishChange((value: number) => {
-      if (value > 0) setScale(value);
+      if (value > 0) {
+        setScale(value);
+      } else {
+        this.model.scale = this.shown.scale;
+        scale.updateDisplay();
+      }
     });
     mark(scale, 'size.scale', 'Picture scale', 'Pixels of the picture for each pixel of the screen, along one side');
     this.slide = attachSlider(scale, linearScale(kScaleRange, false), setScale);
@@ -61,11 +66,12 @@ export class SizeEditor {
     const auto = mode?.kind === 'auto';
     const preset = kPresets.find((name) => name === `${width}×${height}`);
     this.model.mode = auto ? kAuto : (preset ?? kCustom);
-    if (auto) this.model.scale = mode.scale;
+    const scale = auto ? mode.scale : this.shown.scale;
     // Left alone while equal: the viewer may be typing another one.
+    if (this.shown.scale !== scale) this.model.scale = scale;
     if (this.shown.width !== width) this.model.width = width;
     if (this.shown.height !== height) this.model.height = height;
-    this.shown = { width, height };
+    this.shown = { width, height, scale };
     this.controllers.mode.updateDisplay();
     this.controllers.scale.enable(auto).updateDisplay();
     this.slide(this.model.scale);
