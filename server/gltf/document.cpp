@@ -4,6 +4,7 @@
 #include "gltf/glb_container.h"
 #include "gltf/json_check.h"
 
+#include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -26,7 +27,8 @@ Json takeArray(Json& root, const char* key) {
 
 void takeBuffers(Json& root, Document& document) {
     for (const Json& buffer : takeArray(root, "buffers")) {
-        document.buffers.push_back({buffer.value("uri", ""), buffer.at("byteLength")});
+        document.buffers.push_back(
+            {buffer.value("uri", ""), buffer.value("byteLength", uint64_t{0})});
     }
 }
 
@@ -101,7 +103,7 @@ void takeSkins(Json& root, Document& document) {
     }
 }
 
-void takeClips(Json& root, Document& document) {
+void takeClips(Json& root, Document& document, Warnings& warnings) {
     const Json none = Json::array();
     for (const Json& animation : takeArray(root, "animations")) {
         ClipSource& clip = document.clips.emplace_back();
@@ -111,15 +113,68 @@ void takeClips(Json& root, Document& document) {
                                      sampler.value("interpolation", "LINEAR")});
         }
         for (const Json& channel : animation.value("channels", none)) {
-            const Json target = channel.value("target", Json::object());
-            if (!target.is_object()) {
-                fail(thing("animation", document.clips.size() - 1) + " " +
-                     thing("channel", clip.channels.size()) +
-                     " has a number as target; right is an object");
+            Json target = channel.value("target", Json::object());
+            if (!target.is_object()) { // a number is right, but of a buffer view
+                const std::string pointer = pointerTo("animations", document.clips.size() - 1) +
+                                            pointerTo("channels", clip.channels.size()) + "/target";
+                warnings.add(warning::kType, pointer,
+                             pointer + " is a number and moves nothing; right is an object");
+                target = Json::object();
             }
             clip.channels.push_back(
                 {channel.value("sampler", -1), target.value("node", -1), target.value("path", "")});
         }
+    }
+}
+
+void takeCameras(Json& root, Document& document) {
+    for (const Json& camera : takeArray(root, "cameras")) {
+        const std::string type = camera.value("type", "");
+        const bool is_flat = type == "orthographic";
+        const Json lens = camera.value(is_flat ? "orthographic" : "perspective", Json::object());
+        document.cameras.push_back({camera.value("name", ""), type,
+                                    lens.value(is_flat ? "ymag" : "yfov", 0.0),
+                                    lens.value("znear", 0.0)});
+    }
+}
+
+void takeLights(Json& root, Document& document) {
+    const Json::json_pointer place("/extensions/KHR_lights_punctual");
+    if (!root.contains(place) || !root.at(place).is_object()) {
+        return;
+    }
+    for (const Json& light : takeArray(root.at(place), "lights")) {
+        const Json spot = light.value("spot", Json::object());
+        document.lights.push_back({light.value("name", ""), light.value("type", ""),
+                                   light.value("color", std::vector<double>()),
+                                   light.value("intensity", 1.0), light.value("range", 0.0),
+                                   spot.value("innerConeAngle", 0.0),
+                                   spot.value("outerConeAngle", glm::quarter_pi<double>())});
+    }
+}
+
+// tinygltf refuses the whole file for one of these.
+void dropTexturesWithoutIndex(Json& value, const std::string& pointer, Warnings& warnings) {
+    for (auto it = value.begin(); it != value.end();) {
+        const bool is_slot = it->is_object() && it.key().ends_with("Texture");
+        const std::string place = pointer + "/" + it.key();
+        if (is_slot && !it->contains("index")) {
+            warnings.add(warning::kNoIndex, place,
+                         place + " has no index of a texture, which is required; it is left out");
+            it = value.erase(it);
+            continue;
+        }
+        if (it->is_object()) {
+            dropTexturesWithoutIndex(*it, place, warnings);
+        }
+        ++it;
+    }
+}
+
+void mendMaterials(Json& root, Warnings& warnings) {
+    const auto materials = root.find("materials");
+    for (size_t i = 0; materials != root.end() && i < materials->size(); ++i) {
+        dropTexturesWithoutIndex((*materials)[i], pointerTo("materials", i), warnings);
     }
 }
 
@@ -156,7 +211,10 @@ Document readDocument(SceneFolder& folder, Warnings& warnings) {
     takeStrides(root, document, warnings);
     takeIndices(root, document);
     takeSkins(root, document);
-    takeClips(root, document);
+    takeClips(root, document, warnings);
+    takeCameras(root, document);
+    takeLights(root, document);
+    mendMaterials(root, warnings);
 
     const std::string clean = root.dump();
     tinygltf::TinyGLTF parser;

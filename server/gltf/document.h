@@ -43,6 +43,23 @@ struct ChannelSource {
     std::string path;
 };
 
+struct CameraSource {
+    std::string name;
+    std::string type;
+    double size = 0; // yfov or ymag; 0: none
+    double near_m = 0;
+};
+
+struct LightSource {
+    std::string name;
+    std::string type;
+    std::vector<double> color;
+    double intensity = 1;
+    double range_m = 0; // none
+    double inner_cone_rad = 0;
+    double outer_cone_rad = 0;
+};
+
 struct ClipSource {
     std::string name;
     std::vector<SamplerSource> samplers;
@@ -51,9 +68,10 @@ struct ClipSource {
 
 // Buffers, images, strides and index accessors are kept aside: tinygltf would read files by its own
 // rules, touch unchecked offsets, refuse strides that are no multiple of 4 and the accessors
-// without data that compressed meshes have.
+// without data that compressed meshes have. It would also refuse the whole file for a camera or a
+// light that lacks something.
 struct Document {
-    // Without buffers, images, skins, animations, primitive indices and byte strides.
+    // Without buffers, images, skins, animations, cameras, lights, primitive indices, byte strides.
     tinygltf::Model model;
     std::vector<BufferSource> buffers;
     std::vector<size_t> strides; // [bufferView]: bytes between elements; 0: tightly packed
@@ -61,6 +79,8 @@ struct Document {
     std::vector<std::vector<int>> indices; // [mesh][primitive]: an accessor, or -1
     std::vector<SkinSource> skins;
     std::vector<ClipSource> clips;
+    std::vector<CameraSource> cameras;
+    std::vector<LightSource> lights; // KHR_lights_punctual
     Bytes file;
     std::span<const std::byte> binary_chunk; // in `file`
 };

@@ -30,6 +30,11 @@ class Unusable : public Failure {
     throw Failure(message);
 }
 
+// Of a file of glTF 1.x, whichever way it tells so.
+[[noreturn]] inline void failOldVersion(const std::string& how) {
+    fail("it is a glTF 1.0 file (" + how + "); right is glTF 2.0, which gltf-pipeline makes of it");
+}
+
 // "mesh 3 primitive 0": how messages name a thing of the file.
 [[nodiscard]] inline std::string thing(const char* kind, size_t index) {
     return std::string(kind) + " " + std::to_string(index);

@@ -64,6 +64,9 @@ GlbChunks splitGlb(std::span<const std::byte> file, Warnings& warnings) {
         fail("the GLB header is cut off: " + std::to_string(file.size()) + " bytes, 12 are needed");
     }
     const uint32_t version = word(file, 4);
+    if (version == 1) {
+        failOldVersion("its GLB version is 1");
+    }
     if (version != 2) {
         fail("the GLB version is " + std::to_string(version) + "; 2 is supported");
     }

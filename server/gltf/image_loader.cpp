@@ -31,6 +31,15 @@ struct Job {
     std::exception_ptr failure;
 };
 
+// What is wrong with its bytes costs the image, not the scene.
+std::span<const std::byte> viewBytes(int view, BufferViews& views, const std::string& user) {
+    try {
+        return views.bytes(view, user);
+    } catch (const Failure& failure) {
+        throw Unusable(warning::kBrokenImage, user + " cannot be read: " + failure.what());
+    }
+}
+
 void find(
     Job& job, const ImageSource& source, SceneFolder& folder, BufferViews& views, Budget& pixels) {
     if (source.uri.empty() && source.buffer_view < 0) {
@@ -41,7 +50,7 @@ void find(
         job.file = job.owned;
         job.user += source.uri.starts_with("data:") ? "" : " '" + printable(source.uri) + "'";
     } else {
-        job.file = views.bytes(source.buffer_view, job.user);
+        job.file = viewBytes(source.buffer_view, views, job.user);
     }
     pixels.take(imageSize(job.file, job.user).decodedBytes(), job.user);
 }

@@ -1,6 +1,5 @@
-// The JSON of a scene file before tinygltf sees it. tinygltf ignores a property of the wrong type,
-// narrows 64-bit integers to 32 and recurses without bound, so types, integer ranges and depth are
-// checked here, for every property that this loader uses.
+// The JSON of a scene file before tinygltf sees it, which recurses without bound and takes what it
+// does not know.
 #pragma once
 
 #include "gltf/failure.h"
@@ -19,12 +18,11 @@ namespace froxel::gltf {
 // to any depth; neither reading nor destroying it recurses.
 [[nodiscard]] nlohmann::json parseJson(std::span<const std::byte> text);
 
-// Afterwards every property of the table in json_check.cpp has the type that it should, integers
-// are in 0..2^31-1 (lengths and offsets in bytes in 0..2^32-1), nothing nests deeper than
-// kMaxJsonDepth, the required ones are there, and `extras` and unknown extensions are gone, with a
-// warning for each such extension. Throws Failure with the property's JSON pointer, its value and
-// what would be right; also where a required extension is not supported and stands where geometry
-// is: at a buffer, a bufferView, an accessor or a primitive.
+// Afterwards types are as mendTypes() leaves them, nothing nests deeper than kMaxJsonDepth, the
+// required properties are there, and `extras` and unknown extensions are gone, with a warning for
+// each such extension. Throws Failure with the JSON pointer, the value and what would be right
+// where it is no glTF 2.0 or there is no geometry without what is wrong; also where a required
+// extension is not supported and stands at a buffer, a bufferView, an accessor or a primitive.
 void checkJson(nlohmann::json& root, Warnings& warnings);
 
 } // namespace froxel::gltf

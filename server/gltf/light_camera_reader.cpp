@@ -2,128 +2,185 @@
 
 #include "core/text.h"
 #include "gltf/failure.h"
-#include "motion/affine.h"
 
-#include <tiny_gltf.h>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 
 namespace froxel::gltf {
 namespace {
 
-[[noreturn]] void
-failValue(const std::string& user, const char* property, double value, const char* right) {
-    fail(user + " has " + property + " " + numberText(value) + "; right is " + right);
+// Of a perspective camera that tells none: a hand before the eye is still seen.
+constexpr double kNear_m = 0.01;
+
+// A camera or a light of the file, and what is said of its values.
+class Subject {
+  public:
+    Subject(std::string pointer, std::string name, const WarningKind& kind, Warnings& warnings)
+        : pointer_(std::move(pointer)), name_(std::move(name)), kind_(kind), warnings_(warnings) {}
+
+    void tell(const std::string& what) const { warnings_.add(kind_, pointer_, name_ + " " + what); }
+    void tell(const WarningKind& kind, const std::string& what) const {
+        warnings_.add(kind, pointer_, name_ + " " + what);
+    }
+    // `value`, or `instead` where it is not `right`.
+    [[nodiscard]] double number(const char* property,
+                                double value,
+                                bool is_right,
+                                const char* right,
+                                double instead) const {
+        if (is_right) {
+            return value;
+        }
+        tell(std::string("has ") + property + " " + numberText(value) + "; " + numberText(instead) +
+             " is used, since right is " + right);
+        return instead;
+    }
+
+  private:
+    std::string pointer_;
+    std::string name_;
+    const WarningKind& kind_;
+    Warnings& warnings_;
+};
+
+bool readLens(const CameraSource& source, settings::Camera& camera, const Subject& subject) {
+    if (source.type == "perspective") {
+        if (!(source.size > 0 && source.size < glm::pi<double>())) {
+            subject.tell("has yfov " + numberText(source.size) +
+                         " and is left out; right is above 0 and below pi radians");
+            return false;
+        }
+        camera.projection = settings::Projection::kPerspective;
+        camera.yfov_rad = source.size;
+        camera.near_m =
+            subject.number("znear", source.near_m, source.near_m > 0, "above 0", kNear_m);
+        return true;
+    }
+    if (source.type == "orthographic") {
+        if (source.size == 0) {
+            subject.tell("has ymag 0 and is left out; right is above 0");
+            return false;
+        }
+        camera.projection = settings::Projection::kOrthographic;
+        camera.half_height_m =
+            subject.number("ymag", source.size, source.size > 0, "above 0", std::abs(source.size));
+        camera.near_m = subject.number("znear", source.near_m, source.near_m >= 0, "0 or more", 0);
+        return true;
+    }
+    subject.tell("has the type '" + printable(source.type, 40) +
+                 "' and is left out; right is perspective or orthographic");
+    return false;
 }
 
-glm::dmat3 rotationOf(const glm::dmat4& world_from_node, const std::string& user) {
-    const auto axes = motion::axesOf(world_from_node);
-    if (!axes) {
-        fail(user + " is on a node whose scale is 0; right is a scale that leaves a direction");
+std::optional<scene::LightType> lightTypeFrom(const std::string& text, const Subject& subject) {
+    constexpr std::pair<const char*, scene::LightType> kTypes[] = {
+        {"point", scene::LightType::kPoint},
+        {"spot", scene::LightType::kSpot},
+        {"directional", scene::LightType::kDirectional}};
+    for (const auto& [name, type] : kTypes) {
+        if (text == name) {
+            return type;
+        }
     }
-    return *axes;
+    subject.tell("has the type '" + printable(text, 40) +
+                 "' and is left out; right is point, spot or directional");
+    return std::nullopt;
 }
 
-void readPerspective(const tinygltf::PerspectiveCamera& source,
-                     settings::Camera& camera,
-                     const std::string& user) {
-    if (!(source.yfov > 0 && source.yfov < glm::pi<double>())) {
-        failValue(user, "yfov", source.yfov, "above 0 and below pi radians");
+void readCones(const LightSource& source, scene::PunctualLight& light, const Subject& subject) {
+    const auto tell = [&](const char* which, double value, double used, const char* right) {
+        subject.tell(warning::kConeAngles, std::string("has ") + which + " " + numberText(value) +
+                                               "; " + numberText(used) +
+                                               " is used, since right is " + right);
+    };
+    constexpr double kWidest = glm::half_pi<double>();
+    light.outer_cone_rad = std::clamp(source.outer_cone_rad, 0.0, kWidest);
+    // Of pi/2 exporters write more digits or fewer.
+    if (!(source.outer_cone_rad > 0 && source.outer_cone_rad <= kWidest + 1e-6)) {
+        tell("outerConeAngle", source.outer_cone_rad, light.outer_cone_rad,
+             "above 0 and at most pi/2 radians");
     }
-    if (!(source.znear > 0)) {
-        failValue(user, "znear", source.znear, "above 0");
+    light.inner_cone_rad = std::clamp(source.inner_cone_rad, 0.0, light.outer_cone_rad);
+    if (!(source.inner_cone_rad >= 0 && source.inner_cone_rad < source.outer_cone_rad)) {
+        tell("innerConeAngle", source.inner_cone_rad, light.inner_cone_rad,
+             "0 or more and below outerConeAngle");
     }
-    camera.projection = settings::Projection::kPerspective;
-    camera.yfov_rad = source.yfov;
-    camera.near_m = source.znear;
 }
 
-void readOrthographic(const tinygltf::OrthographicCamera& source,
-                      settings::Camera& camera,
-                      const std::string& user) {
-    if (!(source.ymag > 0)) {
-        failValue(user, "ymag", source.ymag, "above 0");
+// Beyond 1 is brighter than the intensity says, and kept.
+glm::vec3 colorFrom(const LightSource& source, const Subject& subject) {
+    glm::vec3 color(1);
+    for (size_t i = 0; i < source.color.size(); ++i) {
+        const double value = source.color[i];
+        color[static_cast<int>(i)] = static_cast<float>(
+            subject.number("the color component", value, value >= 0, "0 to 1", 0));
+        if (value > 1) {
+            subject.tell("has the color component " + numberText(value) +
+                         ", which is kept; right is 0 to 1");
+        }
     }
-    if (!(source.znear >= 0)) {
-        failValue(user, "znear", source.znear, "0 or more");
-    }
-    camera.projection = settings::Projection::kOrthographic;
-    camera.half_height_m = source.ymag;
-    camera.near_m = source.znear;
+    return color;
 }
 
-scene::LightType lightTypeFrom(const std::string& text, const std::string& user) {
-    if (text == "point") {
-        return scene::LightType::kPoint;
-    }
-    if (text == "spot") {
-        return scene::LightType::kSpot;
-    }
-    if (text == "directional") {
-        return scene::LightType::kDirectional;
-    }
-    fail(user + " has the type '" + printable(text) + "'; right is point, spot or directional");
+void tellNoDirection(const Subject& subject) {
+    subject.tell(warning::kNoDirection,
+                 "is on a node whose scale is 0, which leaves no direction; it is left out");
 }
 
 } // namespace
 
-scene::NamedCamera readCamera(const tinygltf::Camera& camera,
-                              const glm::dmat4& world_from_node,
-                              const std::string& user) {
-    scene::NamedCamera result;
-    result.name = camera.name;
-    result.camera.eye_world = glm::dvec3(world_from_node[3]);
-    result.camera.world_from_view = rotationOf(world_from_node, user);
-    if (camera.type == "perspective") {
-        readPerspective(camera.perspective, result.camera, user);
-    } else {
-        readOrthographic(camera.orthographic, result.camera, user);
+std::optional<scene::NamedCamera> readCamera(const CameraSource& source,
+                                             size_t index,
+                                             const glm::dvec3& eye_world,
+                                             const NodeAxes& world_from_view,
+                                             Warnings& warnings) {
+    const Subject subject(pointerTo("cameras", index), thing("camera", index),
+                          warning::kCameraValue, warnings);
+    if (!world_from_view) {
+        tellNoDirection(subject);
+        return std::nullopt;
     }
-    return result;
+    scene::NamedCamera result;
+    result.name = source.name;
+    result.camera.eye_world = eye_world;
+    result.camera.world_from_view = *world_from_view;
+    return readLens(source, result.camera, subject) ? std::optional(result) : std::nullopt;
 }
 
-scene::PunctualLight readLight(const tinygltf::Light& light,
-                               const glm::dmat4& world_from_node,
-                               const std::string& user) {
+std::optional<scene::PunctualLight> readLight(const LightSource& source,
+                                              size_t index,
+                                              const glm::dvec3& position_world,
+                                              const NodeAxes& axes_world,
+                                              Warnings& warnings) {
+    const Subject subject("/extensions/KHR_lights_punctual" + pointerTo("lights", index),
+                          thing("light", index), warning::kLightValue, warnings);
+    const auto type = lightTypeFrom(source.type, subject);
+    if (!type) {
+        return std::nullopt;
+    }
     scene::PunctualLight result;
-    result.name = light.name;
-    result.type = lightTypeFrom(light.type, user);
-    result.position_world = glm::dvec3(world_from_node[3]);
+    result.name = source.name;
+    result.type = *type;
+    result.position_world = position_world;
     if (result.type != scene::LightType::kPoint) {
-        const glm::dvec3 back(world_from_node[2]);
-        const double length = glm::length(back);
-        if (!(length > 0)) {
-            fail(user + " is on a node whose scale is 0; right is a scale that leaves a direction");
+        if (!axes_world) {
+            tellNoDirection(subject);
+            return std::nullopt;
         }
-        result.direction_world = -back / length;
+        result.direction_world = -(*axes_world)[2];
     }
-    if (!light.color.empty() && light.color.size() != 3) {
-        failValue(user, "a color of length", static_cast<double>(light.color.size()), "3");
+    result.color = colorFrom(source, subject);
+    result.intensity = static_cast<float>(
+        subject.number("intensity", source.intensity, source.intensity >= 0, "0 or more", 0));
+    if (source.range_m < 0) {
+        subject.tell("has range " + numberText(source.range_m) +
+                     "; it reaches everywhere, since right is above 0");
     }
-    for (size_t i = 0; i < light.color.size(); ++i) {
-        if (!(light.color[i] >= 0 && light.color[i] <= 1)) {
-            failValue(user, "the color component", light.color[i], "0 to 1");
-        }
-        result.color[static_cast<int>(i)] = static_cast<float>(light.color[i]);
-    }
-    if (!(light.intensity >= 0)) {
-        failValue(user, "intensity", light.intensity, "0 or more");
-    }
-    if (!(light.range >= 0)) {
-        failValue(user, "range", light.range, "above 0");
-    }
-    result.intensity = static_cast<float>(light.intensity);
-    result.range_m = static_cast<float>(light.range);
+    result.range_m = static_cast<float>(std::max(source.range_m, 0.0));
     if (result.type == scene::LightType::kSpot) {
-        const double inner = light.spot.innerConeAngle;
-        const double outer = light.spot.outerConeAngle;
-        // tinygltf's default is pi/4 to ten digits, above which an exact pi/4 would be refused.
-        if (!(outer > 0 && outer <= glm::half_pi<double>() + 1e-6)) {
-            failValue(user, "outerConeAngle", outer, "above 0 and at most pi/2 radians");
-        }
-        if (!(inner >= 0 && inner < outer)) {
-            failValue(user, "innerConeAngle", inner, "0 or more and below outerConeAngle");
-        }
-        result.inner_cone_rad = inner;
-        result.outer_cone_rad = glm::min(outer, glm::half_pi<double>());
+        readCones(source, result, subject);
     }
     return result;
 }

@@ -1,27 +1,33 @@
 // Cameras and KHR_lights_punctual lights, placed by a node.
 #pragma once
 
+#include "gltf/document.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
 
-#include <string>
-
-namespace tinygltf {
-struct Camera;
-struct Light;
-} // namespace tinygltf
+#include <cstddef>
+#include <optional>
 
 namespace froxel::gltf {
 
-// Position and orientation by the node, whose scale does not count. The far plane is dropped: there
-// is none. The name is empty where the file has none. Throws Failure for values out of range.
-[[nodiscard]] scene::NamedCamera readCamera(const tinygltf::Camera& camera,
-                                            const glm::dmat4& world_from_node,
-                                            const std::string& user);
+// Unit columns right, up, back of the node; none: a scale of 0 leaves no direction.
+using NodeAxes = std::optional<glm::dmat3>;
 
-// Throws Failure for an unknown type and values out of range.
-[[nodiscard]] scene::PunctualLight
-readLight(const tinygltf::Light& light, const glm::dmat4& world_from_node, const std::string& user);
+// Number `index` of the file's, placed at `eye_world`. The far plane is dropped: there is none. The
+// name is empty where the file has none. Values out of range are brought to the nearest that makes
+// sense, with a warning; where there is none, or no direction, so is the camera.
+[[nodiscard]] std::optional<scene::NamedCamera> readCamera(const CameraSource& source,
+                                                           size_t index,
+                                                           const glm::dvec3& eye_world,
+                                                           const NodeAxes& world_from_view,
+                                                           Warnings& warnings);
+
+// Likewise; none for a type that is not known.
+[[nodiscard]] std::optional<scene::PunctualLight> readLight(const LightSource& source,
+                                                            size_t index,
+                                                            const glm::dvec3& position_world,
+                                                            const NodeAxes& axes_world,
+                                                            Warnings& warnings);
 
 } // namespace froxel::gltf

@@ -4,13 +4,12 @@
 #include "gltf/extension_value.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
 namespace froxel::gltf {
 namespace {
 
-scene::Wrap wrapFrom(int value, const std::string& name) {
+std::optional<scene::Wrap> wrapFrom(int value) {
     switch (value) {
     case TINYGLTF_TEXTURE_WRAP_REPEAT:
         return scene::Wrap::kRepeat;
@@ -19,17 +18,17 @@ scene::Wrap wrapFrom(int value, const std::string& name) {
     case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
         return scene::Wrap::kClampToEdge;
     default:
-        fail(name + " has the wrap mode " + std::to_string(value) +
-             "; right is 10497, 33648 or 33071");
+        return std::nullopt;
     }
 }
 
-void setMinFilter(scene::Sampler& sampler, int value, const std::string& name) {
+// False for what glTF does not know.
+bool setMinFilter(scene::Sampler& sampler, int value) {
     using scene::Filter;
     switch (value) {
     case -1:
     case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
-        return;
+        return true;
     case TINYGLTF_TEXTURE_FILTER_NEAREST:
     case TINYGLTF_TEXTURE_FILTER_LINEAR:
         sampler.mipmapped = false;
@@ -42,73 +41,22 @@ void setMinFilter(scene::Sampler& sampler, int value, const std::string& name) {
     case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
         break;
     default:
-        fail(name + " has minFilter " + std::to_string(value) +
-             "; right is 9728, 9729 or 9984 to 9987");
+        return false;
     }
     const bool nearest = value == TINYGLTF_TEXTURE_FILTER_NEAREST ||
                          value == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
                          value == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
     sampler.min = nearest ? Filter::kNearest : Filter::kLinear;
-}
-
-scene::AlphaMode alphaModeFrom(const std::string& text, const std::string& name) {
-    if (text == "OPAQUE") {
-        return scene::AlphaMode::kOpaque;
-    }
-    if (text == "MASK") {
-        return scene::AlphaMode::kMask;
-    }
-    if (text == "BLEND") {
-        return scene::AlphaMode::kBlend;
-    }
-    fail(name + " has alphaMode '" + printable(text) + "'; right is OPAQUE, MASK or BLEND");
+    return true;
 }
 
 // A pair of KHR_texture_transform.
-glm::vec2 pairOr(const tinygltf::Value& object,
-                 const char* key,
-                 const glm::vec2& fallback,
-                 const std::string& user) {
-    if (!object.Has(key)) {
+glm::vec2 pairOr(const tinygltf::Value& object, const char* key, const glm::vec2& fallback) {
+    if (!object.Has(key) || !object.Get(key).IsArray()) {
         return fallback;
     }
     const tinygltf::Value& value = object.Get(key);
-    if (!value.IsArray() || value.ArrayLen() != 2) {
-        fail(user + " has a KHR_texture_transform with a wrong " + key +
-             "; right is an array of two numbers");
-    }
-    const glm::dvec2 pair(value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble());
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    if (std::abs(pair.x) > kLargest || std::abs(pair.y) > kLargest) {
-        fail(user + " has a KHR_texture_transform with the " + key + " " + numberText(pair.x) +
-             ", " + numberText(pair.y) + "; right are numbers that single precision holds");
-    }
-    return pair;
-}
-
-// An extension's `count` factors; of a number outside a float's range the loader knows already, but
-// not of one in an array.
-std::vector<double> factorsOr(const tinygltf::Value& object,
-                              const char* key,
-                              const std::vector<double>& fallback,
-                              const std::string& name) {
-    if (!object.Has(key)) {
-        return fallback;
-    }
-    const tinygltf::Value& value = object.Get(key);
-    if (!value.IsArray() || value.ArrayLen() != fallback.size()) {
-        fail(name + " has a wrong " + key + "; right is an array of " +
-             std::to_string(fallback.size()) + " numbers");
-    }
-    std::vector<double> factors;
-    for (size_t i = 0; i < fallback.size(); ++i) {
-        factors.push_back(value.Get<tinygltf::Value::Array>()[i].GetNumberAsDouble());
-        if (std::abs(factors.back()) > double{std::numeric_limits<float>::max()}) {
-            fail(name + " has the " + key + " " + numberText(factors.back()) +
-                 "; right are numbers that single precision holds");
-        }
-    }
-    return factors;
+    return {glm::dvec2(value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble())};
 }
 
 } // namespace
@@ -123,9 +71,71 @@ float MaterialReader::unit(double value, const char* factor, const std::string& 
     return static_cast<float>(clamped);
 }
 
-uint32_t MaterialReader::material(int index, const std::string& user) {
+double MaterialReader::numberIn(const tinygltf::Value& object,
+                                const char* key,
+                                double fallback,
+                                const std::string& name) {
+    if (object.Has(key) && !object.Get(key).IsNumber()) {
+        warnings_.add(warning::kType, pointer_,
+                      name + " has a " + key + " that is not used; right is a number");
+        return fallback;
+    }
+    return numberOr(object, key, fallback);
+}
+
+std::vector<double> MaterialReader::factorsIn(const tinygltf::Value& object,
+                                              const char* key,
+                                              const std::vector<double>& fallback,
+                                              const std::string& name) {
+    if (!object.Has(key)) {
+        return fallback;
+    }
+    const tinygltf::Value& value = object.Get(key);
+    if (!value.IsArray()) {
+        warnings_.add(warning::kType, pointer_,
+                      name + " has a " + key + " that is not used; right is an array of " +
+                          std::to_string(fallback.size()) + " numbers");
+        return fallback;
+    }
+    std::vector<double> factors;
+    for (const tinygltf::Value& factor : value.Get<tinygltf::Value::Array>()) {
+        factors.push_back(factor.GetNumberAsDouble());
+    }
+    return factors;
+}
+
+std::optional<size_t>
+MaterialReader::existing(int index, size_t size, const char* kind, const std::string& user) {
+    if (index >= 0 && static_cast<size_t>(index) < size) {
+        return static_cast<size_t>(index);
+    }
+    warnings_.add(warning::kUnresolved, pointer_,
+                  user + " uses " + kind + " " + std::to_string(index) +
+                      ", which it goes without; " + "the file has " + std::to_string(size) +
+                      ", counted from 0");
+    return std::nullopt;
+}
+
+scene::AlphaMode MaterialReader::alphaModeFrom(const std::string& text, const std::string& name) {
+    constexpr std::pair<const char*, scene::AlphaMode> kModes[] = {
+        {"OPAQUE", scene::AlphaMode::kOpaque},
+        {"MASK", scene::AlphaMode::kMask},
+        {"BLEND", scene::AlphaMode::kBlend}};
+    for (const auto& [mode_name, mode] : kModes) {
+        if (text == mode_name) {
+            return mode;
+        }
+    }
+    warnings_.add(warning::kUnknownName, pointer_,
+                  name + " has alphaMode '" + printable(text, 40) +
+                      "'; OPAQUE is used, since right is OPAQUE, MASK or BLEND");
+    return scene::AlphaMode::kOpaque;
+}
+
+uint32_t MaterialReader::material(int index, const std::string& pointer, const std::string& user) {
     if (index >= 0) {
-        (void)checkedIndex(index, document_.model.materials.size(), "material", user);
+        pointer_ = pointer;
+        index = existing(index, document_.model.materials.size(), "material", user) ? index : -1;
     }
     const auto known = known_materials_.find(index);
     if (known != known_materials_.end()) {
@@ -195,7 +205,10 @@ scene::Material MaterialReader::read(const tinygltf::Material& source, const std
     if (const auto* ext = findExtension(source.extensions, "KHR_materials_emissive_strength")) {
         strength = numberOr(*ext, "emissiveStrength", 1);
         if (strength < 0) {
-            fail(name + " has emissiveStrength " + numberText(strength) + "; right is 0 or more");
+            warnings_.add(warning::kFactorRange, pointer_,
+                          name + " has emissiveStrength " + numberText(strength) +
+                              "; 0 is used, since right is 0 or more");
+            strength = 0;
         }
     }
     for (size_t i = 0; i < source.emissiveFactor.size() && i < 3; ++i) {
@@ -246,11 +259,8 @@ void MaterialReader::readSpecular(const tinygltf::ExtensionMap& extensions,
         }
     }
     if (const auto* ext = findExtension(extensions, "KHR_materials_specular")) {
-        if (ext->Has("specularFactor") && !ext->Get("specularFactor").IsNumber()) {
-            fail(name + " has a wrong specularFactor; right is a number");
-        }
-        material.specular = unit(numberOr(*ext, "specularFactor", 1), "specularFactor", name);
-        const auto color = factorsOr(*ext, "specularColorFactor", {1, 1, 1}, name);
+        material.specular = unit(numberIn(*ext, "specularFactor", 1, name), "specularFactor", name);
+        const auto color = factorsIn(*ext, "specularColorFactor", {1, 1, 1}, name);
         for (size_t i = 0; i < color.size(); ++i) {
             if (color[i] < 0) {
                 warnings_.add(warning::kFactorRange, pointer_,
@@ -270,8 +280,8 @@ void MaterialReader::readSpecular(const tinygltf::ExtensionMap& extensions,
 void MaterialReader::readGlossiness(const tinygltf::Value& extension,
                                     const std::string& name,
                                     scene::Material& material) {
-    const auto diffuse = factorsOr(extension, "diffuseFactor", {1, 1, 1, 1}, name);
-    const auto specular = factorsOr(extension, "specularFactor", {1, 1, 1}, name);
+    const auto diffuse = factorsIn(extension, "diffuseFactor", {1, 1, 1, 1}, name);
+    const auto specular = factorsIn(extension, "specularFactor", {1, 1, 1}, name);
     for (size_t i = 0; i < diffuse.size(); ++i) {
         material.base_color[static_cast<int>(i)] = unit(diffuse[i], "diffuseFactor", name);
     }
@@ -302,11 +312,8 @@ void MaterialReader::readCoat(const tinygltf::ExtensionMap& extensions,
     material.coat_roughness_texture = slotIn(*ext, "clearcoatRoughnessTexture", name);
     material.coat_normal_texture = slotIn(*ext, "clearcoatNormalTexture", name);
     if (ext->Has("clearcoatNormalTexture") && ext->Get("clearcoatNormalTexture").Has("scale")) {
-        const tinygltf::Value& scale = ext->Get("clearcoatNormalTexture").Get("scale");
-        if (!scale.IsNumber()) {
-            fail(name + " has a clearcoatNormalTexture with a wrong scale; right is a number");
-        }
-        material.coat_normal_scale = static_cast<float>(scale.GetNumberAsDouble());
+        material.coat_normal_scale =
+            static_cast<float>(numberIn(ext->Get("clearcoatNormalTexture"), "scale", 1, name));
     }
 }
 
@@ -318,9 +325,6 @@ MaterialReader::slotIn(const tinygltf::Value& extension, const char* key, const 
     const tinygltf::Value& value = extension.Get(key);
     tinygltf::TextureInfo info;
     info.index = intOr(value, "index", -1);
-    if (info.index < 0) {
-        fail(name + " has a " + key + " without an index, which is required");
-    }
     info.texCoord = intOr(value, "texCoord", 0);
     if (value.Has("extensions")) {
         const tinygltf::Value& extensions = value.Get("extensions");
@@ -337,12 +341,15 @@ scene::TextureSlot MaterialReader::slot(const Info& info, const std::string& use
     if (info.index < 0) {
         return slot;
     }
-    const size_t index = checkedIndex(info.index, document_.model.textures.size(), "texture", user);
+    const auto index = existing(info.index, document_.model.textures.size(), "texture", user);
+    if (!index) {
+        return slot;
+    }
     int texcoord = info.texCoord;
     if (const auto* transform = findExtension(info.extensions, "KHR_texture_transform")) {
-        slot.offset = pairOr(*transform, "offset", slot.offset, user);
-        slot.scale = pairOr(*transform, "scale", slot.scale, user);
-        slot.rotation_rad = static_cast<float>(numberOr(*transform, "rotation", 0));
+        slot.offset = pairOr(*transform, "offset", slot.offset);
+        slot.scale = pairOr(*transform, "scale", slot.scale);
+        slot.rotation_rad = static_cast<float>(numberIn(*transform, "rotation", 0, user));
         texcoord = intOr(*transform, "texCoord", texcoord);
     }
     if (texcoord > 1) {
@@ -352,7 +359,7 @@ scene::TextureSlot MaterialReader::slot(const Info& info, const std::string& use
         return {};
     }
     slot.texcoord = static_cast<uint32_t>(texcoord);
-    slot.texture = texture(index, user);
+    slot.texture = texture(*index, user);
     return slot;
 }
 
@@ -366,7 +373,9 @@ uint32_t MaterialReader::texture(size_t index, const std::string& user) {
     std::vector<size_t> sources; // the best first
     const auto add = [&](int image) {
         if (image >= 0) {
-            sources.push_back(checkedIndex(image, document_.images.size(), "image", name));
+            if (const auto number = existing(image, document_.images.size(), "image", name)) {
+                sources.push_back(*number);
+            }
         }
     };
     for (const char* better : {"KHR_texture_basisu", "EXT_texture_webp"}) {
@@ -392,23 +401,39 @@ uint32_t MaterialReader::texture(size_t index, const std::string& user) {
 
 uint32_t MaterialReader::sampler(int index, const std::string& user) {
     const auto& all = document_.model.samplers;
-    const size_t number = checkedIndex(index, all.size(), "sampler", user);
-    const auto known = known_samplers_.find(index);
-    if (known != known_samplers_.end()) {
-        return known->second;
+    const auto number = existing(index, all.size(), "sampler", user);
+    if (!number) {
+        return scene::kNone;
     }
-    const tinygltf::Sampler& source = all[number];
-    const std::string name = thing("sampler", number);
+    const auto found = known_samplers_.find(index);
+    if (found != known_samplers_.end()) {
+        return found->second;
+    }
+    const tinygltf::Sampler& source = all[*number];
+    const std::string name = thing("sampler", *number);
+    const auto tell = [&](const char* property, int value, const char* consequence) {
+        warnings_.add(warning::kSamplerValue, pointerTo("samplers", *number) + "/" + property,
+                      name + " has " + property + " " + std::to_string(value) + "; " + consequence);
+    };
+    const auto wrap = [&](const char* property, int value) {
+        const auto known_wrap = wrapFrom(value);
+        if (!known_wrap) {
+            tell(property, value, "it repeats, since right is 10497, 33648 or 33071");
+        }
+        return known_wrap.value_or(scene::Wrap::kRepeat);
+    };
     scene::Sampler sampler;
-    sampler.wrap_u = wrapFrom(source.wrapS, name);
-    sampler.wrap_v = wrapFrom(source.wrapT, name);
+    sampler.wrap_u = wrap("wrapS", source.wrapS);
+    sampler.wrap_v = wrap("wrapT", source.wrapT);
     if (source.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
         sampler.mag = scene::Filter::kNearest;
     } else if (source.magFilter != -1 && source.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR) {
-        fail(name + " has magFilter " + std::to_string(source.magFilter) +
-             "; right is 9728 or 9729");
+        tell("magFilter", source.magFilter, "it is linear, since right is 9728 or 9729");
     }
-    setMinFilter(sampler, source.minFilter, name);
+    if (!setMinFilter(sampler, source.minFilter)) {
+        tell("minFilter", source.minFilter,
+             "it is linear with mipmaps, since right is 9728, 9729 or 9984 to 9987");
+    }
     const auto position = static_cast<uint32_t>(scene_.samplers.size());
     scene_.samplers.push_back(sampler);
     known_samplers_.emplace(index, position);

@@ -10,19 +10,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace froxel::gltf {
 
-// Not thread-safe. Appends to `scene`. Throws Failure for an index out of range.
+// Not thread-safe. Appends to `scene`. What is out of range is brought to the nearest that makes
+// sense, and what is not there is left out, with a warning.
 class MaterialReader {
   public:
     MaterialReader(const Document& document, scene::Scene& scene, Warnings& warnings)
         : document_(document), scene_(scene), warnings_(warnings) {}
 
-    // The scene's index of a material of the file; -1 means glTF's default material.
-    [[nodiscard]] uint32_t material(int index, const std::string& user);
+    // The scene's index of the material of the file that the primitive which `pointer` and `user`
+    // name uses; -1 means glTF's default material.
+    [[nodiscard]] uint32_t material(int index, const std::string& pointer, const std::string& user);
 
     // The material without the textures that need a set of coordinates which the primitive that
     // `pointer` and `user` name does not have; itself where there are none.
@@ -58,6 +61,19 @@ class MaterialReader {
     [[nodiscard]] uint32_t texture(size_t index, const std::string& user);
     [[nodiscard]] uint32_t sampler(int index, const std::string& user);
     [[nodiscard]] uint32_t image(const std::vector<size_t>& sources);
+    // `index` where the file has such a thing.
+    [[nodiscard]] std::optional<size_t>
+    existing(int index, size_t size, const char* kind, const std::string& user);
+    [[nodiscard]] scene::AlphaMode alphaModeFrom(const std::string& text, const std::string& name);
+    // Of an extension's object, where the name may stand for things of two types.
+    [[nodiscard]] double numberIn(const tinygltf::Value& object,
+                                  const char* key,
+                                  double fallback,
+                                  const std::string& name);
+    [[nodiscard]] std::vector<double> factorsIn(const tinygltf::Value& object,
+                                                const char* key,
+                                                const std::vector<double>& fallback,
+                                                const std::string& name);
     [[nodiscard]] float unit(double value, const char* factor, const std::string& name);
 
     const Document& document_;
@@ -65,7 +81,7 @@ class MaterialReader {
     Warnings& warnings_;
     std::map<int, uint32_t> known_materials_;
     std::map<std::array<uint32_t, 3>, uint32_t> without_texcoords_; // by what withTexcoords() takes
-    std::string pointer_; // of the material that is being read
+    std::string pointer_; // of the material that is being read, or of who uses it
     std::map<size_t, uint32_t> known_textures_;
     std::map<int, uint32_t> known_samplers_;
     std::map<std::vector<size_t>, uint32_t> known_images_; // by their sources

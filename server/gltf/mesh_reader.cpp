@@ -17,14 +17,9 @@ namespace {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-// nullopt for points and lines.
-std::optional<Topology> topologyOf(int mode, const std::string& user) {
+// nullopt for points, lines and what glTF does not know.
+std::optional<Topology> topologyOf(int mode) {
     switch (mode) {
-    case TINYGLTF_MODE_POINTS:
-    case TINYGLTF_MODE_LINE:
-    case TINYGLTF_MODE_LINE_LOOP:
-    case TINYGLTF_MODE_LINE_STRIP:
-        return std::nullopt;
     case TINYGLTF_MODE_TRIANGLES:
         return Topology::kTriangles;
     case TINYGLTF_MODE_TRIANGLE_STRIP:
@@ -32,7 +27,7 @@ std::optional<Topology> topologyOf(int mode, const std::string& user) {
     case TINYGLTF_MODE_TRIANGLE_FAN:
         return Topology::kFan;
     default:
-        fail(user + " has mode " + std::to_string(mode) + "; right is 0 to 6");
+        return std::nullopt;
     }
 }
 
@@ -155,8 +150,14 @@ std::optional<scene::Primitive>
 MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     const tinygltf::Primitive& source = document_.model.meshes[mesh].primitives[number];
     const std::string user = thing("mesh", mesh) + " " + thing("primitive", number);
-    const std::optional<Topology> topology = topologyOf(source.mode, user);
+    const std::optional<Topology> topology = topologyOf(source.mode);
     const std::string pointer = pointerTo("meshes", mesh) + pointerTo("primitives", number);
+    if (source.mode < TINYGLTF_MODE_POINTS || source.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        warnings_.add(warning::kUnknownMode, pointer + "/mode",
+                      user + " has mode " + std::to_string(source.mode) +
+                          " and is not drawn; right is 0 to 6");
+        return std::nullopt;
+    }
     if (!topology) {
         undrawn_.emplace(mesh, number);
         return std::nullopt;
@@ -199,8 +200,8 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     finishNormals(!flat, primitive, pointer, user);
     finishTangents(primitive, pointer, user);
     primitive.material =
-        materials_.withTexcoords(materials_.material(source.material, user), !primitive.uv0.empty(),
-                                 !primitive.uv1.empty(), pointer, user);
+        materials_.withTexcoords(materials_.material(source.material, pointer, user),
+                                 !primitive.uv0.empty(), !primitive.uv1.empty(), pointer, user);
     for (const glm::vec3& position : primitive.positions) {
         primitive.bounds.add(position);
     }

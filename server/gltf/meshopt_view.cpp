@@ -11,6 +11,12 @@
 namespace froxel::gltf {
 namespace {
 
+// Data of KHR_meshopt_compression may need a newer one than the library is.
+std::string libraryVersion() {
+    return std::to_string(MESHOPTIMIZER_VERSION / 1000) + "." +
+           std::to_string(MESHOPTIMIZER_VERSION % 1000 / 10);
+}
+
 MeshoptMode modeFrom(const std::string& text, const std::string& name) {
     if (text == "ATTRIBUTES") {
         return MeshoptMode::kAttributes;
@@ -21,7 +27,7 @@ MeshoptMode modeFrom(const std::string& text, const std::string& name) {
     if (text == "INDICES") {
         return MeshoptMode::kIndices;
     }
-    fail(name + " has the EXT_meshopt_compression mode '" + printable(text) +
+    fail(name + " has the meshopt mode '" + printable(text) +
          "'; right is ATTRIBUTES, TRIANGLES or INDICES");
 }
 
@@ -38,7 +44,7 @@ MeshoptFilter filterFrom(const std::string& text, const std::string& name) {
     if (text == "EXPONENTIAL") {
         return MeshoptFilter::kExponential;
     }
-    fail(name + " has the EXT_meshopt_compression filter '" + printable(text) +
+    fail(name + " has the meshopt filter '" + printable(text) +
          "'; right is NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
 }
 
@@ -77,6 +83,9 @@ void applyFilter(const MeshoptView& view, Bytes& bytes) {
 
 std::optional<MeshoptView> meshoptView(const tinygltf::BufferView& view, const std::string& name) {
     const tinygltf::Value* extension = findExtension(view.extensions, "EXT_meshopt_compression");
+    if (extension == nullptr) { // its successor has the same members
+        extension = findExtension(view.extensions, "KHR_meshopt_compression");
+    }
     if (extension == nullptr) {
         return std::nullopt;
     }
@@ -89,17 +98,16 @@ std::optional<MeshoptView> meshoptView(const tinygltf::BufferView& view, const s
     result.mode = modeFrom(textOr(*extension, "mode", ""), name);
     result.filter = filterFrom(textOr(*extension, "filter", "NONE"), name);
     if (!strideFits(result)) {
-        fail(name + " has the EXT_meshopt_compression byteStride " +
-             std::to_string(result.stride_bytes) +
+        fail(name + " has the meshopt byteStride " + std::to_string(result.stride_bytes) +
              "; right is 2 or 4 for indices, a multiple of 4 up to 256 for attributes, 4 or 8 for "
              "OCTAHEDRAL and 8 for QUATERNION");
     }
     if (result.mode == MeshoptMode::kTriangles && result.count % 3 != 0) {
-        fail(name + " has the EXT_meshopt_compression count " + std::to_string(result.count) +
+        fail(name + " has the meshopt count " + std::to_string(result.count) +
              "; right is a multiple of 3 for TRIANGLES");
     }
     if (result.mode != MeshoptMode::kAttributes && result.filter != MeshoptFilter::kNone) {
-        fail(name + " has an EXT_meshopt_compression filter on indices; right is NONE");
+        fail(name + " has a meshopt filter on indices; right is NONE");
     }
     return result;
 }
@@ -126,9 +134,9 @@ Bytes decodeMeshopt(const MeshoptView& view,
     }
     if (status != 0) {
         fail(name + " has " + std::to_string(encoded.size()) +
-             " bytes of EXT_meshopt_compression data that do not decode to " +
-             std::to_string(view.count) + " elements of " + std::to_string(view.stride_bytes) +
-             " bytes");
+             " bytes of meshopt data that do not decode to " + std::to_string(view.count) +
+             " elements of " + std::to_string(view.stride_bytes) + " bytes, as meshoptimizer " +
+             libraryVersion() + " reads it");
     }
     applyFilter(view, bytes);
     return bytes;

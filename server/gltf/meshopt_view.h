@@ -1,4 +1,5 @@
-// EXT_meshopt_compression: buffer views whose bytes are compressed by meshoptimizer.
+// EXT_meshopt_compression and KHR_meshopt_compression: buffer views whose bytes are compressed by
+// meshoptimizer.
 #pragma once
 
 #include "gltf/scene_folder.h"

@@ -331,12 +331,11 @@ void MotionReader::addCamera(const scene::MovedThing& camera) {
 scene::Node MotionReader::nodeAt(size_t place) const {
     const size_t number = placed_[place].node;
     const tinygltf::Node& source = document_.model.nodes[number];
-    const std::string name = thing("node", number);
     scene::Node node;
     if (source.matrix.empty()) {
-        node.rest = nodeParts(source, name);
+        node.rest = nodeParts(source);
     } else {
-        node.matrix = nodeMatrix(source, name);
+        node.matrix = nodeMatrix(source);
     }
     return node;
 }

@@ -12,16 +12,6 @@
 namespace froxel::gltf {
 namespace {
 
-void checkLength(const std::vector<double>& values,
-                 size_t length,
-                 const char* property,
-                 const std::string& name) {
-    if (!values.empty() && values.size() != length) {
-        fail(name + " has a " + property + " of " + std::to_string(values.size()) +
-             " numbers; right is " + std::to_string(length));
-    }
-}
-
 // What a rotation in bytes may be off; what is more was not made unit.
 constexpr double kUnitTolerance = 0.01;
 // Of the cosine between two axes, as matrices in single precision have it.
@@ -42,6 +32,20 @@ bool shears(const glm::dmat3& matrix) {
     return false;
 }
 
+void checkLastRow(const tinygltf::Node& node,
+                  const std::string& pointer,
+                  const std::string& name,
+                  Warnings& warnings) {
+    const glm::dvec4 last_row = glm::transpose(glm::make_mat4(node.matrix.data()))[3];
+    const glm::dvec4 off = glm::abs(last_row - glm::dvec4(0, 0, 0, 1));
+    if (!(std::max({off.x, off.y, off.z, off.w}) <= kAffineTolerance)) {
+        warnings.add(warning::kLastRow, pointer,
+                     name + " has a matrix with the last row (" + numberText(last_row.x) + ", " +
+                         numberText(last_row.y) + ", " + numberText(last_row.z) + ", " +
+                         numberText(last_row.w) + "), which is ignored; right is (0, 0, 0, 1)");
+    }
+}
+
 } // namespace
 
 void checkRotation(const glm::dquat& rotation,
@@ -60,10 +64,7 @@ void checkRotation(const glm::dquat& rotation,
     }
 }
 
-scene::Transform nodeParts(const tinygltf::Node& node, const std::string& name) {
-    checkLength(node.translation, 3, "translation", name);
-    checkLength(node.rotation, 4, "rotation", name);
-    checkLength(node.scale, 3, "scale", name);
+scene::Transform nodeParts(const tinygltf::Node& node) {
     const auto& t = node.translation;
     const auto& r = node.rotation;
     const auto& s = node.scale;
@@ -72,16 +73,8 @@ scene::Transform nodeParts(const tinygltf::Node& node, const std::string& name) 
             .scale = s.empty() ? glm::dvec3(1) : glm::dvec3(s[0], s[1], s[2])};
 }
 
-glm::dmat4 nodeMatrix(const tinygltf::Node& node, const std::string& name) {
-    checkLength(node.matrix, 16, "matrix", name);
+glm::dmat4 nodeMatrix(const tinygltf::Node& node) {
     glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
-    const glm::dvec4 last_row = glm::transpose(matrix)[3];
-    const glm::dvec4 off = glm::abs(last_row - glm::dvec4(0, 0, 0, 1));
-    if (!(std::max({off.x, off.y, off.z, off.w}) <= kAffineTolerance)) {
-        fail(name + " has a matrix with the last row (" + numberText(last_row.x) + ", " +
-             numberText(last_row.y) + ", " + numberText(last_row.z) + ", " +
-             numberText(last_row.w) + "); right is (0, 0, 0, 1)");
-    }
     for (int column = 0; column < 4; ++column) {
         matrix[column].w = column == 3 ? 1 : 0;
     }
@@ -91,12 +84,13 @@ glm::dmat4 nodeMatrix(const tinygltf::Node& node, const std::string& name) {
 glm::dmat4 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& warnings) {
     const std::string name = thing("node", index);
     const std::string pointer = pointerTo("nodes", index);
-    const scene::Transform parts = nodeParts(node, name);
     if (node.matrix.empty()) {
+        const scene::Transform parts = nodeParts(node);
         checkRotation(parts.rotation, pointer + "/rotation", name, warnings);
         return scene::matrixOf(parts);
     }
-    const glm::dmat4 matrix = nodeMatrix(node, name);
+    checkLastRow(node, pointer + "/matrix", name, warnings);
+    const glm::dmat4 matrix = nodeMatrix(node);
     if (shears(glm::dmat3(matrix))) {
         warnings.add(warning::kShear, pointer + "/matrix",
                      name + " has a matrix that shears; right is a product of translation, "
@@ -105,16 +99,18 @@ glm::dmat4 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& war
     return matrix;
 }
 
-void checkUsable(const glm::dmat4& world_from_node, const std::string& name) {
+bool isUsable(const glm::dmat4& world_from_node, size_t index, Warnings& warnings) {
     if (scene::isUsable(world_from_node)) {
-        return;
+        return true;
     }
     const double* values = glm::value_ptr(world_from_node);
     const double* bad = std::find_if(values, values + 16, [](double value) {
         return !(std::abs(value) <= scene::kLargestElement);
     });
-    fail(name + " has a world matrix with " + numberText(*bad) +
-         "; right are transforms whose product stays within 1e15");
+    warnings.add(warning::kFarAway, pointerTo("nodes", index),
+                 thing("node", index) + " has a world matrix with " + numberText(*bad) +
+                     " and is left out; right are transforms whose product stays within 1e15");
+    return false;
 }
 
 } // namespace froxel::gltf

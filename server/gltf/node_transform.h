@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <string>
 
 namespace tinygltf {
@@ -15,17 +16,15 @@ class Node;
 namespace froxel::gltf {
 
 // parent_from_node by the matrix or translation, rotation and scale of the node, which is `index`
-// of the file. Warns of a matrix that shears and of rotations as below. Throws Failure for arrays
-// of a wrong length and a matrix that is not affine.
+// of the file. Warns of a matrix that shears or is not affine, and of rotations as below.
 [[nodiscard]] glm::dmat4
 nodeTransform(const tinygltf::Node& node, size_t index, Warnings& warnings);
 
-// The node's translation, rotation and scale, which one with a matrix does not have. Throws Failure
-// for arrays of a wrong length.
-[[nodiscard]] scene::Transform nodeParts(const tinygltf::Node& node, const std::string& name);
+// The node's translation, rotation and scale, which one with a matrix does not have.
+[[nodiscard]] scene::Transform nodeParts(const tinygltf::Node& node);
 
-// The matrix of a node that has one. Throws Failure as nodeTransform().
-[[nodiscard]] glm::dmat4 nodeMatrix(const tinygltf::Node& node, const std::string& name);
+// The matrix of a node that has one, made affine.
+[[nodiscard]] glm::dmat4 nodeMatrix(const tinygltf::Node& node);
 
 // Warns of a rotation whose length is not 1.
 void checkRotation(const glm::dquat& rotation,
@@ -33,7 +32,8 @@ void checkRotation(const glm::dquat& rotation,
                    const std::string& name,
                    Warnings& warnings);
 
-// Throws Failure where a chain of transforms has left scene::kLargestElement.
-void checkUsable(const glm::dmat4& world_from_node, const std::string& name);
+// Whether a chain of transforms down to node `index` has stayed within scene::kLargestElement;
+// warns where it has not.
+[[nodiscard]] bool isUsable(const glm::dmat4& world_from_node, size_t index, Warnings& warnings);
 
 } // namespace froxel::gltf

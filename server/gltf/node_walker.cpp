@@ -146,10 +146,16 @@ listedRoots(const tinygltf::Model& model, size_t scene, const Tree& tree, Warnin
 }
 
 std::vector<size_t> findRoots(const tinygltf::Model& model, const Tree& tree, Warnings& warnings) {
-    if (!model.scenes.empty() || model.defaultScene >= 0) {
-        const int number = model.defaultScene < 0 ? 0 : model.defaultScene;
-        return listedRoots(model, checkedIndex(number, model.scenes.size(), "scene", "the file"),
-                           tree, warnings);
+    if (!model.scenes.empty()) {
+        size_t number = model.defaultScene < 0 ? 0 : static_cast<size_t>(model.defaultScene);
+        if (number >= model.scenes.size()) {
+            warnings.add(warning::kUnresolved, "/scene",
+                         "the file shows scene " + std::to_string(number) + "; it has " +
+                             std::to_string(model.scenes.size()) +
+                             ", counted from 0, of which the first is shown");
+            number = 0;
+        }
+        return listedRoots(model, number, tree, warnings);
     }
     std::vector<size_t> roots;
     for (size_t i = 0; i < tree.parents.size(); ++i) {
@@ -179,8 +185,9 @@ std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Warnings& warni
     const auto push = [&](size_t node, std::optional<size_t> place, const PlacedNode& parent) {
         const glm::dmat4 world =
             parent.world_from_node * nodeTransform(model.nodes[node], node, warnings);
-        checkUsable(world, thing("node", node));
-        stack.push_back({node, place, world, parent.visible && isVisible(model.nodes[node])});
+        if (isUsable(world, node, warnings)) {
+            stack.push_back({node, place, world, parent.visible && isVisible(model.nodes[node])});
+        }
     };
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
         push(*root, std::nullopt, PlacedNode());

@@ -25,8 +25,9 @@ struct PlacedNode {
 // Every node of the default scene (else scene 0, else all trees) once, parents before children,
 // siblings in the file's order. Any depth. Warns of a node with two parents (it is under the first)
 // and of a scene that lists a child: it is placed without those above it, or stays where another
-// node of the scene has it. Throws Failure for a cycle anywhere in the file and for an index out of
-// range.
+// node of the scene has it. Left out with all below, and a warning, is a node whose transform
+// leaves the range of numbers. Throws Failure for a cycle anywhere in the file and for an index out
+// of range.
 [[nodiscard]] std::vector<PlacedNode> placeNodes(const tinygltf::Model& model, Warnings& warnings);
 
 } // namespace froxel::gltf

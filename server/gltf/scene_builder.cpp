@@ -91,6 +91,9 @@ class Builder {
     [[nodiscard]] const tinygltf::Node& nodeAt(size_t place) const {
         return document_.model.nodes[placed_[place].node];
     }
+    [[nodiscard]] glm::dvec3 originOf(size_t place) const {
+        return glm::dvec3(placed_[place].world_from_node[3]);
+    }
     [[nodiscard]] std::string nameOf(size_t place) const {
         return thing("node", placed_[place].node);
     }
@@ -164,11 +167,12 @@ class Builder {
 
     void addInstances(uint32_t place, uint32_t mesh, bool moves) {
         const tinygltf::Node& node = nodeAt(place);
-        const std::string name = nameOf(place);
         for (const glm::dmat4& node_from_object :
              nodeInstances(node, placed_[place].node, accessors_, instances_, warnings_)) {
             const glm::dmat4 world = placed_[place].world_from_node * node_from_object;
-            checkUsable(world, name);
+            if (!isUsable(world, placed_[place].node, warnings_)) {
+                continue;
+            }
             if (!moves && glm::dmat3(world) == glm::dmat3(0)) {
                 continue; // a point: nothing to see
             }
@@ -180,43 +184,76 @@ class Builder {
         }
     }
 
+    // `index`, or none with a warning where the file has no such thing.
+    std::optional<size_t>
+    known(int index, size_t size, const char* kind, size_t place, const std::string& member) {
+        if (index >= 0 && static_cast<size_t>(index) < size) {
+            return static_cast<size_t>(index);
+        }
+        warnings_.add(warning::kUnresolved, pointerTo("nodes", placed_[place].node) + member,
+                      nameOf(place) + " uses " + kind + " " + std::to_string(index) +
+                          "; the file has " + std::to_string(size) +
+                          ", counted from 0; it is left out");
+        return std::nullopt;
+    }
+
+    // Of what moves, which may have a scale of 0 for a while, as if that were 1.
+    [[nodiscard]] NodeAxes axesAt(uint32_t place) const {
+        const NodeAxes axes = motion::axesOf(placed_[place].world_from_node);
+        if (axes || !motion_.moves(place)) {
+            return axes;
+        }
+        glm::dmat4 world_from_node(1);
+        for (std::optional<size_t> at = place; at; at = placed_[*at].parent) {
+            scene::Transform parts = nodeParts(nodeAt(*at));
+            parts.scale = glm::dvec3(1);
+            world_from_node = scene::matrixOf(parts) * world_from_node;
+        }
+        return motion::axesOf(world_from_node);
+    }
+
     void addCamera(uint32_t place) {
-        const PlacedNode& placed = placed_[place];
         const tinygltf::Node& node = nodeAt(place);
         if (node.camera < 0) {
             return;
         }
-        const auto& cameras = document_.model.cameras;
-        const size_t index =
-            checkedIndex(node.camera, cameras.size(), "camera", thing("node", placed.node));
-        scene::NamedCamera camera =
-            readCamera(cameras[index], placed.world_from_node, thing("camera", index));
-        nameCamera(camera, node.name, scene_.cameras);
+        const auto& cameras = document_.cameras;
+        const auto index = known(node.camera, cameras.size(), "camera", place, "/camera");
+        auto camera =
+            !index ? std::nullopt
+                   : readCamera(cameras[*index], *index, originOf(place), axesAt(place), warnings_);
+        if (!camera) {
+            return;
+        }
+        nameCamera(*camera, node.name, scene_.cameras);
         if (motion_.moves(place)) {
             motion_.addCamera({static_cast<uint32_t>(scene_.cameras.size()), place});
         }
-        scene_.cameras.push_back(std::move(camera));
+        scene_.cameras.push_back(std::move(*camera));
     }
 
     void addLight(uint32_t place) {
-        const PlacedNode& placed = placed_[place];
         const tinygltf::Node& node = nodeAt(place);
         const tinygltf::Value* extension = findExtension(node.extensions, "KHR_lights_punctual");
         if (extension == nullptr) {
             return;
         }
-        const auto& lights = document_.model.lights;
-        const size_t index = checkedIndex(intOr(*extension, "light", -1), lights.size(), "light",
-                                          thing("node", placed.node));
-        scene::PunctualLight light =
-            readLight(lights[index], placed.world_from_node, thing("light", index));
-        if (light.name.empty()) {
-            light.name = node.name;
+        const auto& lights = document_.lights;
+        const auto index = known(intOr(*extension, "light", -1), lights.size(), "light", place,
+                                 "/extensions/KHR_lights_punctual/light");
+        auto light =
+            !index ? std::nullopt
+                   : readLight(lights[*index], *index, originOf(place), axesAt(place), warnings_);
+        if (!light) {
+            return;
+        }
+        if (light->name.empty()) {
+            light->name = node.name;
         }
         if (motion_.moves(place)) {
             motion_.addLight({static_cast<uint32_t>(scene_.lights.size()), place});
         }
-        scene_.lights.push_back(std::move(light));
+        scene_.lights.push_back(std::move(*light));
     }
 
     const Document& document_;

@@ -69,22 +69,20 @@ Bytes readFile(const fs::path& path, const std::string& user, Budget& budget) {
     return bytes;
 }
 
-std::string percentDecoded(const std::string& uri, const std::string& refusal) {
+// What begins no escape stands for itself, as in "wood 50%.png".
+std::string percentDecoded(const std::string& uri) {
     std::string text;
     for (size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] != '%') {
-            text += uri[i];
-            continue;
-        }
         unsigned value = 0;
         const char* first = uri.data() + i + 1;
         const char* last = uri.data() + std::min(i + 3, uri.size());
-        const auto parsed = std::from_chars(first, last, value, 16);
-        if (last - first != 2 || parsed.ptr != last) {
-            fail(refusal + " has a broken escape; right is % and two hexadecimal digits");
+        if (uri[i] == '%' && last - first == 2 &&
+            std::from_chars(first, last, value, 16).ptr == last) {
+            text += static_cast<char>(value);
+            i += 2;
+        } else {
+            text += uri[i];
         }
-        text += static_cast<char>(value);
-        i += 2;
     }
     return text;
 }
@@ -126,26 +124,29 @@ Bytes dataFromUri(const std::string& uri, const std::string& user) {
 } // namespace
 
 fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
-    const std::string refusal = user + " has the URI '" + printable(uri) + "', which";
-    constexpr const char* kRight = "; right is a path inside the scene's folder";
+    const auto refuse = [&](const char* why, const char* more = "") {
+        throw Unusable(warning::kUri, user + " has the URI '" + printable(uri) + "', which " + why +
+                                          "; right is a path inside the scene's folder" + more);
+    };
     if (hasScheme(uri)) {
-        fail(refusal + " has a scheme" + kRight + ", or data:");
+        refuse("has a scheme", ", or data:");
     }
-    const std::string text = percentDecoded(uri, refusal);
-    if (text.empty() || text.find('\0') != std::string::npos) {
-        fail(refusal + (text.empty() ? " is empty" : " contains a NUL") + kRight);
+    // Neither a query nor a fragment is part of a file's name (RFC 3986, 3.4 and 3.5).
+    std::string text = percentDecoded(uri.substr(0, uri.find_first_of("?#")));
+    // Some tools that write such files have it separate folders.
+    std::replace(text.begin(), text.end(), '\\', '/');
+    if (text.empty()) {
+        refuse("is empty");
     }
-    const fs::path path(text);
-    if (path.is_absolute() || text.front() == '\\' || hasScheme(text)) {
-        fail(refusal + " is absolute" + kRight);
+    if (text.find('\0') != std::string::npos) {
+        refuse("contains a NUL");
     }
-    // Backslashes are path separators to some tools that write such files.
-    std::string slashed = text;
-    std::replace(slashed.begin(), slashed.end(), '\\', '/');
-    for (const fs::path& part : fs::path(slashed)) {
-        if (part == "..") {
-            fail(refusal + " leaves the scene's folder by '..'" + kRight);
-        }
+    fs::path path(text);
+    if (path.is_absolute() || hasScheme(text)) {
+        refuse("is absolute");
+    }
+    if (std::find(path.begin(), path.end(), "..") != path.end()) {
+        refuse("leaves the scene's folder by '..'");
     }
     return path;
 }
@@ -179,8 +180,9 @@ Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
                                                   "' in the scene's folder: " + error.message());
     }
     if (!isInside(target, folder_)) {
-        fail(user + " has the URI '" + printable(uri) +
-             "', a link that leaves the scene's folder; right is a file inside it");
+        throw Unusable(warning::kUri, user + " has the URI '" + printable(uri) +
+                                          "', a link that leaves the scene's folder; right is a "
+                                          "file inside it");
     }
     return readFile(target, user, bytes_);
 }

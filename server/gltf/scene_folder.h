@@ -12,9 +12,9 @@ namespace froxel::gltf {
 
 using Bytes = std::vector<std::byte>;
 
-// The path that a relative URI of a glTF file names, percent-decoded. Throws Failure for a URI
-// with a scheme, an absolute one, one with a `..` part (also when percent-encoded), a NUL or a
-// broken escape; `user` is named in the message.
+// The path that a relative URI of a glTF file names: percent-decoded, with slashes for backslashes,
+// without a query and a fragment. Throws Unusable for a URI with a scheme, and where that path is
+// absolute, has a `..` part or a NUL; `user` is named in the message.
 [[nodiscard]] std::filesystem::path relativePathFromUri(const std::string& uri,
                                                         const std::string& user);
 
@@ -26,8 +26,8 @@ class SceneFolder {
     [[nodiscard]] Bytes readSceneFile();
 
     // The bytes behind a base64 `data:` URI of any type or a file of the folder; a symlink may lead
-    // only to a place inside the folder. Throws Failure, naming `user`: Unusable where there is no
-    // such file or the base64 text is broken.
+    // only to a place inside the folder. Throws Failure, naming `user`: Unusable where the URI is
+    // wrong, there is no such file or the base64 text is broken.
     [[nodiscard]] Bytes read(const std::string& uri, const std::string& user);
 
   private:

@@ -29,6 +29,7 @@ inline constexpr auto kInformation = scene::Severity::kInformation;
 // The file as a whole.
 inline constexpr WarningKind kUnsupportedExtension{"UNSUPPORTED_EXTENSION", kWarning, 100};
 inline constexpr WarningKind kUnsupportedMetadata{"UNSUPPORTED_EXTENSION", kInformation};
+inline constexpr WarningKind kType{"TYPE_MISMATCH", kWarning};
 inline constexpr WarningKind kByteOrderMark{"BYTE_ORDER_MARK", kInformation};
 inline constexpr WarningKind kGlbLength{"GLB_LENGTH_MISMATCH", kInformation};
 // Nodes and scenes.
@@ -39,6 +40,8 @@ inline constexpr WarningKind kListedTwice{"DUPLICATE_ELEMENTS", kInformation};
 inline constexpr WarningKind kTwoParents{"NODE_PARENT_OVERRIDE", kWarning};
 inline constexpr WarningKind kRotationLength{"NODE_ROTATION_NON_UNIT", kInformation};
 inline constexpr WarningKind kRotationZero{"NODE_ROTATION_NON_UNIT", kWarning};
+inline constexpr WarningKind kLastRow{"NODE_MATRIX_NON_TRS", kWarning};
+inline constexpr WarningKind kFarAway{"NODE_TRANSFORM_RANGE", kWarning};
 inline constexpr WarningKind kShear{"NODE_MATRIX_NON_TRS", kInformation};
 // Accessors and primitives.
 inline constexpr WarningKind kByteStride{"VALUE_NOT_IN_RANGE", kInformation};
@@ -47,6 +50,7 @@ inline constexpr WarningKind kNotFinite{"ACCESSOR_INVALID_FLOAT", kWarning};
 inline constexpr WarningKind kLengthZero{"ACCESSOR_NON_UNIT", kWarning};
 inline constexpr WarningKind kNoPosition{"MESH_PRIMITIVE_NO_POSITION", kWarning};
 inline constexpr WarningKind kNoTriangles{"MODE_NOT_DRAWN", kWarning};
+inline constexpr WarningKind kUnknownMode{"VALUE_NOT_IN_LIST", kWarning};
 inline constexpr WarningKind kCountOff{"MESH_PRIMITIVE_INCOMPATIBLE_MODE", kWarning};
 inline constexpr WarningKind kNoTexcoord{"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", kWarning};
 // Skins and animations.
@@ -67,7 +71,15 @@ inline constexpr WarningKind kNoKeys{"ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_E
 inline constexpr WarningKind kKeyOrder{"ACCESSOR_ANIMATION_INPUT_NON_INCREASING", kWarning};
 inline constexpr WarningKind kKeyValues{"ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT",
                                         kWarning};
+// Cameras and lights.
+inline constexpr WarningKind kCameraValue{"VALUE_NOT_IN_RANGE", kWarning};
+inline constexpr WarningKind kLightValue{"VALUE_NOT_IN_RANGE", kWarning};
+inline constexpr WarningKind kConeAngles{"KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", kWarning};
+inline constexpr WarningKind kNoDirection{"NODE_SCALE_ZERO", kWarning};
 // Materials, textures and images.
+inline constexpr WarningKind kNoIndex{"UNDEFINED_PROPERTY", kWarning};
+inline constexpr WarningKind kSamplerValue{"VALUE_NOT_IN_LIST", kWarning};
+inline constexpr WarningKind kUri{"INVALID_URI", kWarning};
 inline constexpr WarningKind kFactorRange{"VALUE_NOT_IN_RANGE", kWarning};
 inline constexpr WarningKind kThirdTexcoord{"TEXCOORD_NOT_READ", kWarning};
 inline constexpr WarningKind kNoSource{"TEXTURE_WITHOUT_IMAGE", kWarning};

@@ -1,4 +1,5 @@
 // Files that mean harm or are broken: each one line that names the thing.
+#include "gltf/scene_folder.h"
 #include "unit/gltf/scene_file.h"
 
 #include <gtest/gtest.h>
@@ -47,11 +48,21 @@ TEST(Uri, Scheme_IsRefused) {
     EXPECT_THAT(refusedUri("file%3a///etc/passwd"), HasSubstr("is absolute"));
 }
 
-TEST(Uri, BrokenEscape_IsRefused) {
-    for (const char* uri : {"scene%2", "scene%", "scene%zz.bin", "scene%+1.bin"}) {
-        EXPECT_THAT(refusedUri(uri), HasSubstr("broken escape")) << uri;
-    }
+TEST(Uri, Nul_IsRefused) {
     EXPECT_THAT(refusedUri("scene.bin%00.png"), HasSubstr("NUL"));
+}
+
+TEST(Uri, OddOnes_NameTheFileThatIsMeant) {
+    for (const auto& [uri, file] :
+         {std::pair("mesh 50%.bin", "mesh 50%.bin"), std::pair("%zz%+1%", "%zz%+1%"),
+          std::pair("mesh%2", "mesh%2"), std::pair("a%20b.bin", "a b.bin"),
+          std::pair("mesh.bin?v=3", "mesh.bin"), std::pair("mesh.bin#0", "mesh.bin"),
+          std::pair("a%23b.bin", "a#b.bin")}) {
+        EXPECT_EQ(relativePathFromUri(uri, "buffer 0"), file) << uri;
+    }
+    EXPECT_EQ(relativePathFromUri("data\\mesh.bin", "buffer 0"), "data/mesh.bin");
+    EXPECT_EQ(relativePathFromUri("data%5Cmesh.bin", "buffer 0"), "data/mesh.bin");
+    EXPECT_THAT(refusedUri("?a"), HasSubstr("is empty"));
 }
 
 TEST(Uri, LinkOutOfTheFolder_IsRefused) {
@@ -248,14 +259,67 @@ TEST(Document, WrongTypes_AreRefusedByTheirPlace) {
     EXPECT_THAT(refused("/nodes/0/mesh", "0"), HasSubstr("/nodes/0/mesh is \"0\""));
     EXPECT_THAT(refused("/nodes/0/mesh", 4294967296), HasSubstr("/nodes/0/mesh is 4294967296"));
     EXPECT_THAT(refused("/nodes/0/children", {-1}), HasSubstr("/nodes/0/children is -1 at '0'"));
-    EXPECT_THAT(refused("/nodes/0/translation", {1, nullptr, 2}),
-                HasSubstr("/nodes/0/translation is null at '1'"));
     EXPECT_THAT(refused("/meshes/0/primitives/0/attributes/POSITION", 1.5),
                 HasSubstr("attributes is 1.5 at 'POSITION'"));
     EXPECT_THAT(refused("/accessors/0/normalized", 1), HasSubstr("/accessors/0/normalized is 1"));
     EXPECT_THAT(refused("/scenes/0/nodes", "all"), HasSubstr("/scenes/0/nodes is \"all\""));
     EXPECT_THAT(refused("/nodes/0/mesh", 3), HasSubstr("node 0 uses mesh 3; the file has 1"));
-    EXPECT_THAT(refused("/meshes/0/primitives/0/mode", 9), HasSubstr("mode 9"));
+}
+
+TEST(Document, WrongTypesOutsideGeometry_AreLeftOutWithTheirPlace) {
+    const auto taken = [](const char* pointer, const Json& value) {
+        SceneFile file;
+        file.json["materials"] = Json::array({Json::object()});
+        file.json["animations"] = Json::array({{{"samplers", Json::array()}}});
+        file.json[Json::json_pointer(pointer)] = value;
+        return test::told(file.load());
+    };
+    for (const auto& [pointer, value, words] :
+         {std::tuple<const char*, Json, const char*>(
+              "/nodes/0/translation", {1, nullptr, 2},
+              "TYPE_MISMATCH at /nodes/0/translation: /nodes/0/translation is null at '1'; right "
+              "is an array of 3 numbers"),
+          {"/nodes/0/rotation", {0, 0, 1}, "/nodes/0/rotation is an array of 3; right is"},
+          {"/nodes/0/name", 5, "/nodes/0/name is 5; right is a string; it is left out"},
+          {"/nodes/0/camera", -1, "/nodes/0/camera is -1"},
+          {"/materials", "none", "/materials is \"none\""},
+          {"/materials/0", 5,
+           "/materials is 5 at '0'; right is an array of objects; that is taken"},
+          {"/materials/0/doubleSided", 1, "/materials/0/doubleSided is 1"},
+          {"/materials/0/emissiveFactor", {1, 1e39, 0}, "emissiveFactor is 1e+39 at '1'"},
+          {"/materials/0/pbrMetallicRoughness", Json::array(),
+           "is an array of 0; right is an object"},
+          {"/samplers", Json::object(), "/samplers is an object"},
+          {"/textures", 3, "/textures is 3"},
+          {"/images", 3, "/images is 3"},
+          {"/cameras", 3, "/cameras is 3"},
+          {"/skins", 3, "/skins is 3"},
+          {"/animations/0/channels", 3, "/animations/0/channels is 3"},
+          {"/scene", "first", "/scene is \"first\""},
+          {"/scene", 3, "the file shows scene 3; it has 1"},
+          {"/meshes/0/primitives/0/material", "red", "primitives/0/material is \"red\""},
+          {"/meshes/0/primitives/0/mode", 9, "mesh 0 primitive 0 has mode 9 and is not drawn"}}) {
+        EXPECT_THAT(taken(pointer, value), HasSubstr(words)) << pointer;
+    }
+}
+
+TEST(Document, WholeNumbersWrittenAsReals_AreIntegers) {
+    SceneFile file;
+    file.json["accessors"][0]["count"] = 3.0;
+    file.json["bufferViews"][0]["byteLength"] = 36.0;
+    file.json["nodes"][0]["mesh"] = 0.0;
+    file.json["scenes"][0]["nodes"] = {0.0};
+    file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 0.0;
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_EQ(scene.instances.size(), 1U);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(Document, BufferThatNothingUses_IsNothing) {
+    SceneFile file;
+    file.add("buffers", Json::object());
+    file.add("buffers", {{"byteLength", 100}});
+    EXPECT_EQ(test::told(file.load()), "");
 }
 
 TEST(Document, NotGltf_IsRefused) {
@@ -263,8 +327,14 @@ TEST(Document, NotGltf_IsRefused) {
     EXPECT_THAT(failure(loadText("hello")), HasSubstr("no glTF 2.0 file"));
     EXPECT_THAT(failure(loadText("[1]")), HasSubstr("not an object"));
     EXPECT_THAT(failure(loadText("{}")), HasSubstr("/asset/version"));
-    EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"1.0\"}}")),
-                HasSubstr("/asset/version is '1.0'; 2.0 is supported"));
+    for (const char* old :
+         {R"({"asset": {"version": "1.0"}})", R"({"asset": {"version": 1}, "nodes": {"a": {}}})",
+          R"({"meshes": {"a": {"primitives": []}}})"}) {
+        EXPECT_THAT(failure(loadText(old)),
+                    HasSubstr("it is a glTF 1.0 file (/asset/version is '"));
+    }
+    EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"3.0\"}}")),
+                HasSubstr("/asset/version is '3.0'; 2.0 is supported"));
     EXPECT_THAT(failure(loadText("{\"asset\": {\"version\": \"2.0\", \"minVersion\": \"2.1\"}}")),
                 HasSubstr("minVersion is '2.1'"));
     EXPECT_THAT(failure(loadText("{\"a\": \"\xff\xfe\"}")), HasSubstr("no glTF 2.0 file"));

@@ -82,9 +82,15 @@ TEST(Materials, BlendMode_IsRead) {
               scene::AlphaMode::kBlend);
 }
 
-TEST(Materials, UnknownAlphaMode_IsRefused) {
-    EXPECT_THAT(failure(withMaterial(R"({"alphaMode": "GLASS"})").load()),
-                HasSubstr("material 0 has alphaMode 'GLASS'"));
+TEST(Materials, UnknownAlphaMode_IsOpaque) {
+    for (const auto& [material, words] :
+         {std::pair(R"({"alphaMode": "GLASS"})",
+                    "material 0 has alphaMode 'GLASS'; OPAQUE is used"),
+          std::pair(R"({"alphaMode": 2})", "material 0 has alphaMode '2'")}) {
+        const scene::Scene scene = loaded(withMaterial(material).load());
+        EXPECT_EQ(scene.materials.at(0).alpha_mode, scene::AlphaMode::kOpaque);
+        EXPECT_THAT(test::warningLines(scene), ElementsAre(HasSubstr(words)));
+    }
 }
 
 TEST(Materials, FactorOutOfRange_IsClampedWithAWarning) {
@@ -149,7 +155,7 @@ TEST(Materials, IorOfZero_IsTaken) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(Materials, WrongIorOrSpecular_IsToldOrRefused) {
+TEST(Materials, WrongIorOrSpecular_IsTold) {
     const scene::Scene scene = loaded(withMaterial(R"({"extensions": {
         "KHR_materials_ior": {"ior": 0.5},
         "KHR_materials_specular": {"specularFactor": 2, "specularColorFactor": [-1, 0, 0]}}})")
@@ -162,14 +168,13 @@ TEST(Materials, WrongIorOrSpecular_IsToldOrRefused) {
                             HasSubstr("material 0 has the specularFactor 2"),
                             HasSubstr("material 0 has the specularColorFactor -1")));
     for (const auto& [wrong, told] :
-         {std::pair(R"({"specularFactor": [1, 1, 1]})", "wrong specularFactor"),
-          std::pair(R"({"specularColorFactor": [1, 1]})", "wrong specularColorFactor"),
+         {std::pair(R"({"specularFactor": [1, 1, 1]})", "a specularFactor that is not used"),
+          std::pair(R"({"specularColorFactor": [1, 1]})", "specularColorFactor is an array of 2"),
           std::pair(R"({"specularColorFactor": [1, 1, 1e99]})", "single precision"),
-          std::pair(R"({"specularTexture": {"texCoord": 1}})",
-                    "specularTexture without an index")}) {
+          std::pair(R"({"specularTexture": {"texCoord": 1}})", "specularTexture has no index")}) {
         const std::string material =
             R"({"extensions": {"KHR_materials_specular": )" + std::string(wrong) + "}}";
-        EXPECT_THAT(failure(withMaterial(material.c_str()).load()), HasSubstr(told));
+        EXPECT_THAT(test::told(withMaterial(material.c_str()).load()), HasSubstr(told));
     }
 }
 
@@ -202,7 +207,7 @@ TEST(Materials, WithoutClearcoat_HaveNone) {
     }
 }
 
-TEST(Materials, WrongClearcoat_IsToldOrRefused) {
+TEST(Materials, WrongClearcoat_IsTold) {
     const scene::Scene scene = loaded(withMaterial(R"({"extensions": {
         "KHR_materials_clearcoat": {"clearcoatFactor": 3, "clearcoatRoughnessFactor": -1}}})")
                                           .load());
@@ -211,14 +216,14 @@ TEST(Materials, WrongClearcoat_IsToldOrRefused) {
     EXPECT_THAT(test::warningLines(scene),
                 ElementsAre(HasSubstr("material 0 has the clearcoatFactor 3"),
                             HasSubstr("material 0 has the clearcoatRoughnessFactor -1")));
-    EXPECT_THAT(failure(withMaterial(R"({"extensions": {"KHR_materials_clearcoat": {
+    EXPECT_THAT(test::told(withMaterial(R"({"extensions": {"KHR_materials_clearcoat": {
                             "clearcoatTexture": {"texCoord": 0}}}})")
-                            .load()),
-                HasSubstr("clearcoatTexture without an index"));
-    EXPECT_THAT(failure(textured(R"({"extensions": {"KHR_materials_clearcoat": {
+                               .load()),
+                HasSubstr("clearcoatTexture has no index"));
+    EXPECT_THAT(test::told(textured(R"({"extensions": {"KHR_materials_clearcoat": {
                             "clearcoatNormalTexture": {"index": 0, "scale": [1, 1]}}}})")
-                            .load()),
-                HasSubstr("clearcoatNormalTexture with a wrong scale"));
+                               .load()),
+                HasSubstr("a scale that is not used"));
 }
 
 // A dielectric of infinite index, so that it reflects its specular colour; and what would have been
@@ -363,26 +368,38 @@ INSTANTIATE_TEST_SUITE_P(All,
                                          MinFilter{9986, kNearest, kLinear, true},
                                          MinFilter{9987, kLinear, kLinear, true}));
 
-TEST(Materials, BadSampler_IsRefused) {
+TEST(Materials, BadSampler_RepeatsAndIsLinear) {
     SceneFile file = textured(R"({"emissiveTexture": {"index": 0}})");
     file.json["textures"][0]["sampler"] = 0;
     file.json["samplers"] = Json::array({{{"minFilter", 1}}});
-    EXPECT_THAT(failure(file.load()), HasSubstr("sampler 0 has minFilter 1"));
-    file.json["samplers"] = Json::array({{{"wrapS", 1}}});
-    EXPECT_THAT(failure(file.load()), HasSubstr("sampler 0 has the wrap mode 1"));
+    EXPECT_THAT(test::told(file.load()), HasSubstr("sampler 0 has minFilter 1; it is linear with"));
+    file.json["samplers"] = Json::array({{{"magFilter", 9987}}});
+    EXPECT_THAT(test::told(file.load()), HasSubstr("sampler 0 has magFilter 9987; it is linear"));
+    file.json["samplers"] = Json::array({{{"wrapS", 0}, {"wrapT", 33071}}});
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("/samplers/0/wrapS: sampler 0 has wrapS 0; it repeats")));
+    EXPECT_EQ(scene.samplers.at(0).wrap_u, scene::Wrap::kRepeat);
+    EXPECT_EQ(scene.samplers.at(0).wrap_v, scene::Wrap::kClampToEdge);
 }
 
-TEST(Materials, IndicesOutOfRange_AreRefused) {
+TEST(Materials, WhatDoesNotExist_IsGoneWithout) {
     SceneFile file = textured(R"({"emissiveTexture": {"index": 2}})");
-    EXPECT_THAT(failure(file.load()),
-                HasSubstr("material 0 emissiveTexture uses texture 2; the file has 2"));
+    EXPECT_THAT(test::told(file.load()),
+                HasSubstr("material 0 emissiveTexture uses texture 2, which it goes without; the "
+                          "file has 2"));
     file.json["materials"][0]["emissiveTexture"]["index"] = 0;
     file.json["textures"][0]["source"] = 5;
-    EXPECT_THAT(failure(file.load()), HasSubstr("texture 0 uses image 5"));
+    EXPECT_THAT(test::told(file.load()), HasSubstr("texture 0 uses image 5"));
     file.json["textures"][0] = {{"source", 0}, {"sampler", 0}};
-    EXPECT_THAT(failure(file.load()), HasSubstr("texture 0 uses sampler 0; the file has 0"));
+    EXPECT_THAT(test::told(file.load()),
+                HasSubstr("texture 0 uses sampler 0, which it goes without; the file has 0"));
     file.primitive()["material"] = 1;
-    EXPECT_THAT(failure(file.load()), HasSubstr("mesh 0 primitive 0 uses material 1"));
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_THAT(
+        test::warningLines(scene),
+        ElementsAre(HasSubstr("/meshes/0/primitives/0: mesh 0 primitive 0 uses material 1")));
+    EXPECT_EQ(scene.materials.at(0).name, "default");
 }
 
 TEST(Extensions, UnsupportedOptional_IsIgnoredWithAWarning) {

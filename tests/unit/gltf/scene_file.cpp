@@ -152,6 +152,14 @@ std::vector<std::string> warningLines(const scene::Scene& scene) {
     return lines;
 }
 
+std::string told(const Result<scene::Scene>& result) {
+    std::string lines;
+    for (const std::string& line : warningLines(loaded(result))) {
+        lines += line + "\n";
+    }
+    return lines;
+}
+
 std::string failure(const Result<scene::Scene>& result) {
     if (result.has_value()) {
         ADD_FAILURE() << "the file is accepted";

@@ -103,6 +103,9 @@ class SceneFile {
 // "CODE at /pointer: message" of every warning.
 [[nodiscard]] std::vector<std::string> warningLines(const scene::Scene& scene);
 
+// The lines of a file that is loaded, each with its end.
+[[nodiscard]] std::string told(const Result<scene::Scene>& result);
+
 // The line of an ErrorCode::kScene; a test failure where there is no error, more than one line or
 // no file name in front.
 [[nodiscard]] std::string failure(const Result<scene::Scene>& result);
