@@ -54,13 +54,19 @@ Instance::Instance(bool validation)
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
-    instance_ = vk::raii::Instance(
-        context_,
-        vk::InstanceCreateInfo{.pApplicationInfo = &application,
-                               .enabledLayerCount = static_cast<uint32_t>(layers.size()),
-                               .ppEnabledLayerNames = layers.data(),
-                               .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
-                               .ppEnabledExtensionNames = extensions.data()});
+    const vk::InstanceCreateInfo info{.pApplicationInfo = &application,
+                                      .enabledLayerCount = static_cast<uint32_t>(layers.size()),
+                                      .ppEnabledLayerNames = layers.data(),
+                                      .enabledExtensionCount =
+                                          static_cast<uint32_t>(extensions.size()),
+                                      .ppEnabledExtensionNames = extensions.data()};
+    try {
+        instance_ = vk::raii::Instance(context_, info);
+    } catch (const vk::IncompatibleDriverError&) { // the loader's word for none at all
+        throw StartupError({ErrorCode::kDevice,
+                            "no Vulkan driver is found; right is a GPU's own, or lavapipe, which "
+                            "draws on the processor (Debian: mesa-vulkan-drivers)"});
+    }
     if (validation) {
         using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
         using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;

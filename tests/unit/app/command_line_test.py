@@ -61,9 +61,10 @@ class CommandLine(unittest.TestCase):
         self.assert_refused(run, 3, "absent.glb")
 
     def test_no_device_is_4(self):
-        run = froxel("info", VK_ICD_FILENAMES="/nonexistent.json",
-                     VK_DRIVER_FILES="/nonexistent.json")
-        self.assert_refused(run, 4)
+        for command in (["info"], ["render", "--out", self.folder / "a.png"]):
+            run = froxel(*command, VK_ICD_FILENAMES="/nonexistent.json",
+                         VK_DRIVER_FILES="/nonexistent.json")
+            self.assert_refused(run, 4, "no Vulkan driver", "mesa-vulkan-drivers")
 
     def test_taken_address_is_5(self):
         with socket.socket() as taken:
