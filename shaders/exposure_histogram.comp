@@ -1,6 +1,6 @@
-// Counts pixels by luminance: those of solid surfaces that are lit, with what is blended over them.
-// Not the empty and the unlit ones, nor what is black (darker than any bin) or no number; what is
-// brighter than any bin is of the last.
+// Counts pixels by luminance: those of solid surfaces that are lit, without what is blended over
+// them. Not the empty and the unlit ones, nor what is black (darker than any bin) or no number;
+// what is brighter than any bin is of the last.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -23,7 +23,7 @@ void countPixel(ivec2 pixel) {
     float depth = texelFetch(depth_image, pixel, 0).x;
     uint bits = floatBitsToUint(dot(radiance.rgb, vec3(0.2126, 0.7152, 0.0722))); // BT.709
     bool bright = bits >= kMeterFirst << kMeterBinShift && bits <= kInfinity;
-    if (bright && depth > 0.0 && radiance.a > 0.0) {
+    if (bright && depth > 0.0 && radiance.a == 1.0) {
         uint bin = min((bits >> kMeterBinShift) - kMeterFirst, kMeterBins - 1u);
         atomicAdd(group_counts[bin], 1u);
     }

@@ -16,7 +16,10 @@ void main() {
         float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
         float distance = depth > 0.0 ? distanceFromDepth(depth) : kFogFarthest_m;
         vec4 radiance = imageLoad(radiance_image, ivec2(pixel));
-        vec3 seen = throughFog(radiance.rgb, pixel, distance);
-        imageStore(radiance_image, ivec2(pixel), vec4(seen, radiance.a));
+        vec4 fog = fogBefore(pixel, distance);
+        // Of the background and of what is unlit as much is seen as passes.
+        float alpha = fma(radiance.a - 1.0, fog.a, 1.0);
+        imageStore(radiance_image, ivec2(pixel),
+                   vec4(fma(radiance.rgb, vec3(fog.a), fog.rgb), alpha));
     }
 }

@@ -17,6 +17,7 @@
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/light_loop.glsl"
+#include "lib/tonemap.glsl"
 #include "lib/material.glsl"
 #include "lib/fragment_inputs.glsl"
 #include "lib/fog.glsl"
@@ -50,7 +51,11 @@ void store(vec3 color, float alpha, float distance) { radiance = vec4(color * al
 
 // A blended surface brings as much of the fog before it as it covers.
 vec3 seen(vec3 lit, uvec2 pixel, float distance) {
-    return hasOutput(kOutputFog) ? throughFog(lit, pixel, distance) : lit;
+    if (hasOutput(kOutputFog)) {
+        vec4 fog = fogBefore(pixel, distance);
+        lit = fma(lit, vec3(fog.a), fog.rgb);
+    }
+    return lit;
 }
 
 void main() {
@@ -70,9 +75,11 @@ void main() {
 #endif
     float alpha = hasMaterial(kMaterialBlend) ? clamp(base.a, 0.0, 1.0) : 1.0;
     if (g.unlit) {
-        store(seen(g.base_color, pixel, distance), alpha, distance);
+        bool blended = hasMaterial(kMaterialBlend);
+        store(seen(blended ? shownAs(g.base_color) : g.base_color, pixel, distance), alpha,
+              distance);
 #ifndef FROXEL_WEIGHTED
-        if (!hasMaterial(kMaterialBlend)) {
+        if (!blended) {
             radiance.a = radianceAlpha(g);
         }
 #endif

@@ -31,7 +31,7 @@ void main() {
             imageStore(radiance_image, ivec2(pixel), radiance);
         }
         if (hasOutput(kOutputPixels)) {
-            storePixel(pixel, radiance.rgb);
+            storePixel(pixel, radiance);
         }
     }
 }

@@ -18,12 +18,13 @@ void main() {
             return;
         }
         vec3 sum = vec3(0.0);
+        vec3 background = backgroundAt(pixel.y, size.y);
         for (uint i = 0; i < 4; ++i) {
             uvec2 at = 2u * pixel + uvec2(i & 1u, i >> 1);
-            sum += displayColor(imageLoad(radiance_image, ivec2(at)).rgb);
+            sum += displayColor(imageLoad(radiance_image, ivec2(at)), background);
         }
         pixels[pixel.y * size.x + pixel.x] = packDisplay(0.25 * sum);
     } else if (insideScreen(pixel)) {
-        storePixel(pixel, imageLoad(radiance_image, ivec2(pixel)).rgb);
+        storePixel(pixel, imageLoad(radiance_image, ivec2(pixel)));
     }
 }

@@ -25,6 +25,6 @@ void main() {
         imageStore(radiance_image, ivec2(pixel), vec4(color, before.a));
     }
     if (hasOutput(kOutputPixels)) {
-        storePixel(pixel, color);
+        storePixel(pixel, vec4(color, before.a));
     }
 }

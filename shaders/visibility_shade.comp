@@ -74,15 +74,13 @@ void main() {
     if (g.unlit) {
         lit = g.base_color;
     }
-    if (!covered) {
-        lit = frame.background;
-    }
+    vec4 radiance = covered ? vec4(lit, radianceAlpha(g)) : vec4(0.0);
     if (inside && (covered || (depth == 0.0 && last != 0u))) {
         if (hasOutput(kOutputRadiance)) {
-            imageStore(radiance_image, ivec2(pixel), vec4(lit, radianceAlpha(g)));
+            imageStore(radiance_image, ivec2(pixel), radiance);
         }
         if (hasOutput(kOutputPixels)) {
-            storePixel(pixel, lit);
+            storePixel(pixel, radiance);
         }
     }
 }

@@ -34,7 +34,7 @@ export interface Task {
   readonly light: Lighting;
 }
 
-const kBackground = new Color(0.01, 0.013, 0.02); // linear: settings::kBackground
+const kBackground = new Color(0.01, 0.013, 0.02); // linear, before the tone map
 
 const vector = ({ x, y, z }: Vec): Vector3 => new Vector3(x, y, z);
 

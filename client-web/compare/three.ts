@@ -13,6 +13,7 @@ import { kMostFlip, table, unexplained, withTable, type Row } from './table';
 import { cameraText, farthest, kNear, lightAround, overview, type Light, type Size, type View } from './view';
 
 const kPage = join(kRoot, 'docs/figures/three.md');
+const kBackground = [0.0006, 0.0037, 0.0103]; // what the tone map makes of drawing.ts's
 const kSize: Size = { width: 640, height: 480 };
 
 async function byFroxel(scene: string, out: string, view: View, { lamps, exposure }: Light): Promise<void> {
@@ -20,7 +21,8 @@ async function byFroxel(scene: string, out: string, view: View, { lamps, exposur
   writeFileSync(set, JSON.stringify({ lights: lamps }));
   await render(scene, out, [
     ...['--camera', cameraText(view), '--size', `${kSize.width}x${kSize.height}`, '--exposure', String(exposure)],
-    ...['--lights', '0', '--ambient', '0'],
+    ...['--lights', '0', '--ambient', '0', '--environment', 'off', '--exposure-mode', 'fixed'],
+    ...['--background-color', kBackground.join(','), '--background-gradient', '0'],
     ...(lamps.length > 0 ? ['--light-set', set, '--no-scene-lights'] : []),
   ]);
 }

@@ -2,7 +2,7 @@
 
 #include "core/text.h"
 #include "motion/posed_scene.h"
-#include "scene/first_camera.h"
+#include "scene/enclosing_sphere.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -17,7 +17,7 @@ struct Finder {
     const settings::Size& size;
 
     Result<settings::Camera> operator()(const DefaultCamera&) const {
-        return scene::firstCamera(scene.cameras, framing(scene), size);
+        return firstViewOf(scene).cameraFor(size);
     }
     Result<settings::Camera> operator()(const settings::Camera& camera) const { return camera; }
     Result<settings::Camera> operator()(const std::string& name) const {
@@ -37,15 +37,20 @@ struct Finder {
 
 } // namespace
 
-settings::Sphere framing(const scene::Scene& scene) {
-    constexpr uint32_t kSamples = 8;
+scene::FirstView firstViewOf(const scene::Scene& scene) {
     if (!scene.motion || !scene.cameras.empty()) {
-        return scene::enclosingSphere(scene);
+        return scene::firstViewOf(scene, scene::enclosingSphere(scene));
     }
-    const BoundsD3 bounds =
-        motion::sampledBounds(scene, motion::usualClips(*scene.motion), kSamples);
-    return bounds.empty() ? settings::Sphere{}
-                          : settings::Sphere{bounds.center(), glm::length(bounds.size()) / 2};
+    const auto clips = motion::usualClips(*scene.motion);
+    scene::Scene posed = motion::posedScene(scene, clips, 0);
+    posed.bounds_world = motion::sampledBounds(scene, clips, 1);
+    const settings::Sphere pose = scene::enclosingSphere(posed);
+    // What unfolds later begins as a point.
+    constexpr uint32_t kSamples = 8;
+    constexpr double kLeast = 0.25;
+    const BoundsD3 later = motion::sampledBounds(scene, clips, kSamples);
+    const settings::Sphere whole{later.center(), 0.5 * glm::length(later.size())};
+    return scene::firstViewOf(posed, pose.radius_m < kLeast * whole.radius_m ? whole : pose);
 }
 
 Result<settings::Camera>

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "app/value_parsers.h"
+#include "scene/first_view.h"
 #include "scene/scene.h"
 
 namespace froxel::app {
 
-// What a camera that nobody has chosen frames: scene::enclosingSphere(), or about what moves while
-// it does.
-[[nodiscard]] settings::Sphere framing(const scene::Scene& scene);
+// scene::firstViewOf() of the pose that plays at first.
+[[nodiscard]] scene::FirstView firstViewOf(const scene::Scene& scene);
 
 // size: of the pictures. Errors: kInvalidArgument, naming the camera asked for and those that the
 // scene has.

@@ -104,13 +104,17 @@ OpenedScene openScene(const ServeOptions& options,
     report({"loading the scene", 0.1});
     scene::Scene scene = loadScene(options.scene, options.animation).value();
     surround(scene, options.environment_file);
+    const scene::FirstView first_view = firstViewOf(scene);
+    if (first_view.remark) {
+        scene.warnings.push_back(*first_view.remark);
+    }
     logWarnings(scene);
     session::SessionContext context{session::summarize(scene),
                                     defaultsOf(options, scene, traits.is_cpu),
                                     FROXEL_VERSION,
                                     traits.name,
                                     lightPicker(scene),
-                                    framing(scene)};
+                                    first_view};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());
@@ -120,8 +124,9 @@ OpenedScene openScene(const ServeOptions& options,
     report({"moving the scene to the device", 0.6});
     const render::MemoryLimits limits = memoryLimits(options.memory, *device);
     tellMemory(limits, options.sessions_max);
-    auto source = stream::makeRendererSource(std::move(device), scene,
-                                             Seconds(options.frame_limit_s), limits);
+    auto source =
+        stream::makeRendererSource(std::move(device), scene, first_view.cameraFor(settings::Size{}),
+                                   Seconds(options.frame_limit_s), limits);
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
     return {std::move(source), std::move(context), std::move(memory), Seconds(limit_s)};

@@ -39,7 +39,7 @@ double studioRadiance(const glm::dvec3& direction) {
     for (const SoftBox& box : kSoftBoxes) {
         sum += radianceOf(box, direction);
     }
-    return kStudioScale * sum;
+    return sum;
 }
 
 LinearImage studioPanorama(uint32_t width_px) {

@@ -120,7 +120,7 @@ class Shader {
         return lights_.around && environment.background
                    ? radianceFrom(*lights_.around, ray.direction,
                                   static_cast<double>(environment.blur))
-                   : glm::dvec3(settings::kBackground);
+                   : glm::dvec3(0); // its own colour is no radiance
     }
     [[nodiscard]] PlanePoint meet(const VisibleTriangle& visible, uint32_t x, uint32_t y) const {
         const auto& primitive = primitiveOf(scene_, visible.instance, visible.primitive);

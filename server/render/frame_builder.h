@@ -86,7 +86,6 @@ class FrameBuilder {
     [[nodiscard]] const DebugFrame& debugFrame() const { return debug_; }
     [[nodiscard]] const LightListStats& listStats() const { return lists_.stats; }
     [[nodiscard]] GridStats gridStats() const { return light_grid_.stats(); }
-    [[nodiscard]] glm::vec3 background() const { return uniforms_.background; }
 
   private:
     enum class Stage : uint8_t { kLights, kGrid, kLists, kCap, kPlan, kBuilt }; // what comes next

@@ -11,6 +11,10 @@ namespace {
 constexpr size_t kRayCount = 64;
 // An open court or a hall without its roof has walls and a floor.
 constexpr size_t kRoomHits = kRayCount * 2 / 3;
+// Of half the diagonal: what is lined or folded has fronts much nearer to its middle.
+constexpr double kLeastMedian = 0.2;
+// A stool and a chest are hollow, too.
+constexpr double kLeastDiagonal_m = 6;
 
 struct Ray {
     glm::dvec3 from;
@@ -94,7 +98,8 @@ std::vector<std::optional<RayHit>> castRays(const Scene& scene,
 }
 
 bool isRoom(const Scene& scene) {
-    if (scene.bounds_world.empty()) {
+    const double diagonal_m = glm::length(scene.bounds_world.size());
+    if (scene.bounds_world.empty() || !(diagonal_m >= kLeastDiagonal_m)) {
         return false;
     }
     // Points of a spiral with the golden angle from row to row.
@@ -107,9 +112,18 @@ bool isRoom(const Scene& scene) {
         directions.emplace_back(ring * std::cos(angle_rad), y, ring * std::sin(angle_rad));
     }
     const auto hits = castRays(scene, scene.bounds_world.center(), directions);
-    const auto fronts =
-        std::count_if(hits.begin(), hits.end(), [](const auto& hit) { return hit && hit->front; });
-    return static_cast<size_t>(fronts) >= kRoomHits;
+    std::vector<double> fronts_m;
+    for (const auto& hit : hits) {
+        if (hit && hit->front) {
+            fronts_m.push_back(hit->distance_m);
+        }
+    }
+    if (fronts_m.size() < kRoomHits) {
+        return false;
+    }
+    const auto median = fronts_m.begin() + static_cast<std::ptrdiff_t>(fronts_m.size() / 2);
+    std::nth_element(fronts_m.begin(), median, fronts_m.end());
+    return *median >= kLeastMedian * 0.5 * diagonal_m;
 }
 
 } // namespace froxel::scene

@@ -29,6 +29,45 @@ double within(const settings::Range<double>& range, double value) {
     return std::clamp(value, range.min, range.max);
 }
 
+// Crytek's, which all of the field knows lit by a thousand lights.
+bool isShowcase(const Scene& scene) {
+    return scene.name == "Sponza";
+}
+
+// Of the studio beside other lights. In a room, which it would light through the walls, less.
+constexpr float kFill = 0.3F;
+constexpr float kFillOfRooms = 0.25F;
+
+// Dark and white things stand out from it, coloured ones keep their colours.
+constexpr settings::Background kStudioBackground{glm::vec3(0.05F), 0.6F};
+
+// White, under the ceiling, as far from each other as it is high.
+settings::PlacedLights lampsOf(const BoundsD3& room) {
+    const glm::dvec3 size = room.size();
+    constexpr double kUp = 0.8;
+    const double above_floor_m = kUp * size.y;
+    const auto count = [&](double side_m) {
+        return static_cast<int>(std::clamp(std::round(side_m / size.y), 1.0, 3.0));
+    };
+    const glm::ivec2 counts(count(size.x), count(size.z));
+    std::vector<settings::PlacedLight> lamps;
+    for (int i = 0; i < counts.x * counts.y; ++i) {
+        const glm::dvec2 share =
+            (glm::dvec2(i % counts.x, i / counts.x) + 0.5) / glm::dvec2(counts);
+        settings::PlacedLight lamp;
+        lamp.id = static_cast<uint32_t>(i + 1);
+        lamp.position_world = room.min + size * glm::dvec3(share.x, kUp, share.y);
+        // A white floor below one sends 0.4 of white; the others add to it.
+        lamp.intensity =
+            static_cast<float>(within(settings::kLightIntensityRange,
+                                      0.4 * glm::pi<double>() * above_floor_m * above_floor_m));
+        lamp.radius_m =
+            static_cast<float>(within(settings::kLightRadiusRange, roundNumber(glm::length(size))));
+        lamps.push_back(lamp);
+    }
+    return settings::PlacedLights(std::move(lamps));
+}
+
 } // namespace
 
 void lookFor(const Scene& scene, settings::ViewSettings& settings) {
@@ -41,13 +80,23 @@ void lookFor(const Scene& scene, settings::ViewSettings& settings) {
         lights.intensity = static_cast<float>(
             within(settings::kLightIntensityRange, std::pow(radius_m / usual_m, 2)));
     }
+    if (scene.lights.empty() && isShowcase(scene)) {
+        return;
+    }
+    lights.count = 0;
+    settings.environment.light =
+        allUnlit(scene) ? settings::EnvironmentLight::kOff : settings::EnvironmentLight::kStudio;
+    if (!settings.environment.present()) {
+        return;
+    }
+    settings.background = kStudioBackground;
     if (!scene.lights.empty()) {
-        lights.count = 0;
         settings.exposure_mode = settings::ExposureMode::kFrame;
-    } else if (!isRoom(scene)) {
-        lights.count = 0;
-        settings.environment.light = allUnlit(scene) ? settings::EnvironmentLight::kOff
-                                                     : settings::EnvironmentLight::kStudio;
+        settings.environment.strength = kFill;
+    } else if (isRoom(scene)) {
+        settings.environment.strength = kFillOfRooms;
+        lights.placed =
+            lights.placed.lights().empty() ? lampsOf(scene.bounds_world) : lights.placed;
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "motion/playback.h"
+#include "scene/first_view.h"
 #include "scene/scene.h"
 #include "session/delivery.h"
 #include "settings/settings.h"
@@ -70,7 +71,7 @@ struct SessionContext {
     std::string server_version;
     std::string device_name;
     LightPicker pick_light = pickNone;
-    settings::Sphere framed_world; // by the first camera of a scene that has none
+    scene::FirstView first_view;
 };
 
 } // namespace froxel::session

@@ -3,7 +3,6 @@
 #include "core/assert.h"
 #include "core/text.h"
 #include "motion/posed_scene.h"
-#include "scene/first_camera.h"
 #include "scene/motion.h"
 #include "session/placed_lights.h"
 
@@ -21,7 +20,7 @@ void assignIfGiven(Target& target, const std::optional<Value>& value) {
 }
 
 settings::Camera openingCamera(const SessionContext& context, const settings::Size& size) {
-    settings::Camera camera = scene::firstCamera(context.scene.cameras, context.framed_world, size);
+    settings::Camera camera = context.first_view.cameraFor(size);
     camera.lens_shift = context.defaults.lens_shift.value_or(camera.lens_shift);
     return camera;
 }
@@ -249,8 +248,8 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
     settings.animation.number = motion ? motion::usualAnimation(*motion) : 0;
     SessionState state{settings, defaults.encoding, defaults.delivery, clock, {}};
     state.playback = {motion, settings.animation, SessionState::secondsOf(now)};
-    if (!context.scene.cameras.empty()) {
-        state.followed = followedOf(context, 0);
+    if (const auto camera = context.first_view.scene_camera) {
+        state.followed = followedOf(context, *camera);
     }
     return state;
 }

@@ -26,15 +26,14 @@ Camera lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3&
     return camera;
 }
 
-Camera overview(const Sphere& sphere_world, double aspect) {
+Camera overview(const Sphere& sphere_world, double aspect, const glm::dvec3& toward_eye) {
     const Camera usual;
     const double narrower = std::min(1.0, aspect); // of the picture's halves, over its half height
     const double half_angle = std::atan(narrower * std::tan(0.5 * usual.yfov_rad));
     const double radius_m = std::max(sphere_world.radius_m, 1e-6); // a point has a distance, too
     const double distance_m = 1.05 * radius_m / std::sin(half_angle);
-    const glm::dvec3 toward_eye = glm::normalize(glm::dvec3(0.5, 0.35, 1));
     const glm::dvec3& center = sphere_world.center;
-    Camera camera = lookAt(center + toward_eye * distance_m, center, {0, 1, 0});
+    Camera camera = lookAt(center + glm::normalize(toward_eye) * distance_m, center, {0, 1, 0});
     camera.near_m = std::min(camera.near_m, 1e-3 * distance_m);
     return camera;
 }

@@ -35,8 +35,13 @@ struct Sphere {
     double radius_m = 1;
 };
 
+// Above the front right.
+inline constexpr glm::dvec3 kUsualTowardEye{0.5, 0.35, 1};
+
 // A camera that has all of a sphere in pictures of an aspect, width over height, with a twentieth
-// of the distance to spare, from above the front right; for scenes without one.
-[[nodiscard]] Camera overview(const Sphere& sphere_world, double aspect);
+// of the distance to spare, from the side that `toward_eye` (of any length) tells; for scenes
+// without one.
+[[nodiscard]] Camera
+overview(const Sphere& sphere_world, double aspect, const glm::dvec3& toward_eye = kUsualTowardEye);
 
 } // namespace froxel::settings

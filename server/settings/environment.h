@@ -9,6 +9,5 @@ namespace froxel::settings {
 // surface sees (1 + up . normal) / 2 of the first and the rest of the second.
 inline constexpr glm::vec3 kAmbientSky{0.050F, 0.058F, 0.075F};
 inline constexpr glm::vec3 kAmbientGround{0.030F, 0.026F, 0.022F};
-inline constexpr glm::vec3 kBackground{0.010F, 0.013F, 0.020F}; // of empty pixels
 
 } // namespace froxel::settings

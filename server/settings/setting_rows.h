@@ -172,6 +172,17 @@ inline constexpr std::array kSettingRows = {
         {"Background blur", "Blur of the environment behind the scene, as the roughness of a "
                             "surface that would mirror it so"}),
 
+    row<&ViewSettings::background, &Background::color>(
+        ColorRange{"background_color", 0, 1},
+        "background.color",
+        {"Background colour", "Colour where nothing is drawn, whatever the exposure; linear"}),
+    row<&ViewSettings::background, &Background::gradient>(
+        Range<double>{"background_gradient", 0, 1},
+        "background.gradient",
+        {"Background gradient",
+         "Share by which the background is lighter at its top than halfway up, and darker at its "
+         "bottom"}),
+
     row<&ViewSettings::exposure_mode>(
         Names{"exposure_mode", kExposureModeNames},
         "exposure_mode",

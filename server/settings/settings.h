@@ -227,6 +227,13 @@ struct Environment {
     [[nodiscard]] bool present() const { return light != EnvironmentLight::kOff; }
 };
 
+// Where nothing is drawn: a colour of the display (linear), whatever the exposure.
+struct Background {
+    glm::vec3 color{0.0006F, 0.0037F, 0.0103F}; // halfway up the picture
+    float gradient = 0; // 1: black at the bottom, twice the colour at the top
+    bool operator==(const Background&) const = default;
+};
+
 // How the scene's own animations play, by a clock of their own.
 struct Animation {
     uint32_t number = 0; // of the scene's, from 1; 0: none, the rest pose
@@ -271,6 +278,7 @@ struct ViewSettings {
     Lights lights;
     Shadows shadows;
     Environment environment;
+    Background background;
     Animation animation;
     ExposureMode exposure_mode = ExposureMode::kFixed;
     float exposure = 1.0F; // multiplies linear radiance before the tone map

@@ -3,7 +3,6 @@
 #include "core/keep_for_good.h"
 #include "render/device_speed.h"
 #include "render/renderer.h"
-#include "scene/first_camera.h"
 #include "stream/piece_share.h"
 
 #include <spdlog/spdlog.h>
@@ -126,10 +125,10 @@ class RendererSource final : public FrameSource {
 
 std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
                                                 const scene::Scene& scene,
+                                                const settings::Camera& camera,
                                                 Seconds frame_limit,
                                                 const render::MemoryLimits& memory) {
     auto source = std::make_unique<RendererSource>(std::move(device), scene, frame_limit, memory);
-    const auto camera = scene::firstCamera(scene, settings::Size{});
     const auto speed = source->measureSpeed(camera);
     if (!speed) {
         if (speed.error().code == ErrorCode::kDevice) {

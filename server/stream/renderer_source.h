@@ -27,11 +27,12 @@ inline constexpr Seconds kGpuLoop{0.05};
 // beside a software device's threads.
 inline constexpr uint32_t kLightsAtOnce = 50'000;
 
-// Moves the scene to the device and measures how fast that is; frames that would take longer than
-// `frame_limit` are refused. The scene is not needed afterwards. On the render thread, which
-// must also end what comes back. Throws StartupError, vk::SystemError.
+// Moves the scene to the device and measures how fast that is where `camera` looks; frames that
+// would take longer than `frame_limit` are refused. The scene is not needed afterwards. On the
+// render thread, which must also end what comes back. Throws StartupError, vk::SystemError.
 [[nodiscard]] std::unique_ptr<FrameSource> makeRendererSource(std::unique_ptr<gpu::Device> device,
                                                               const scene::Scene& scene,
+                                                              const settings::Camera& camera,
                                                               Seconds frame_limit,
                                                               const render::MemoryLimits& memory);
 

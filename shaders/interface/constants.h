@@ -62,6 +62,10 @@ FROXEL_CONST uint kLightEdges = 1U << 16;
 FROXEL_CONST uint kLightShadows = 1U << 17;     // some local lights have shadow maps
 FROXEL_CONST uint kLightEnvironment = 1U << 18; // light from around, in the ambient light's place
 
+// Alpha of radiance: how much of the background is covered; this where a solid surface is unlit,
+// and between 1 and this where something thin is before one.
+FROXEL_CONST float kUnlitAlpha = 2.0F;
+
 // Output flags: targets and what the last pass does.
 FROXEL_CONST uint kOutputPixels = 1U << 0;      // lighting also exposes, tone maps and packs
 FROXEL_CONST uint kOutputRadiance = 1U << 1;    // lighting writes linear fp32 radiance

@@ -51,15 +51,16 @@ struct Frame {
     float orthographic; // 1: all view rays are parallel
     vec3 ambient_ground;
     float slice_unit;
-    vec3 background;         // linear radiance of empty pixels
+    vec3 background;         // linear, of the display: halfway up the picture
     float light_inv_radius2; // of every local light, where they are equal
     uint first_area;         // the first light that may be a rectangle
     float outline_strength;
     float outline_reach_px;    // how far from an edge pixels are darkened
     float light_most_inverse2; // of a small scene: 1 / light::nearestDistance()^2
+    float background_gradient; // how much more of it is at the top, and less at the bottom
     ToonSegment toon[kMaxToonSegments];
 };
-FROXEL_SIZE_ASSERT(Frame, 380);
+FROXEL_SIZE_ASSERT(Frame, 384);
 
 // One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
 struct UvTransform {

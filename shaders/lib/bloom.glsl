@@ -41,9 +41,12 @@ ivec2 mirrored(ivec2 at) {
     return clamp(min(at, 2 * size - 1 - at), ivec2(0), size - 1);
 }
 
+// What is unlit has a colour of the display.
+vec3 radianceOf(vec4 texel) { return texel.a > 1.0 ? texel.rgb / frame.exposure : texel.rgb; }
+
 vec3 sourceAt(ivec2 at) {
-    vec3 color = texelFetch(source_image, mirrored(at), 0).rgb;
-    return (BLOOM_FLAGS & kBloomBright) != 0 ? brightPart(color) : color;
+    vec4 texel = texelFetch(source_image, mirrored(at), 0);
+    return (BLOOM_FLAGS & kBloomBright) != 0 ? brightPart(radianceOf(texel)) : texel.rgb;
 }
 
 bool insideTarget() {
@@ -58,8 +61,15 @@ void put(ivec2 at, vec3 spread, float share) {
         imageStore(target_image, at, vec4(spread, 1.0));
         return;
     }
-    vec3 before = imageLoad(target_image, at).rgb;
-    vec3 own = adds ? brightPart(before) : before;
-    vec3 mixed = mix(own, spread, share);
-    imageStore(target_image, at, vec4(adds ? before + bloom.strength * (mixed - own) : mixed, 1.0));
+    vec4 before = imageLoad(target_image, at);
+    if (!adds) {
+        imageStore(target_image, at, vec4(mix(before.rgb, spread, share), 1.0));
+        return;
+    }
+    vec3 own = brightPart(radianceOf(before));
+    vec3 added = bloom.strength * (mix(own, spread, share) - own);
+    if (before.a > 1.0) {
+        added *= frame.exposure;
+    }
+    imageStore(target_image, at, vec4(before.rgb + added, before.a));
 }

@@ -23,5 +23,5 @@ vec4 lightPixel(uvec2 pixel, bool inside) {
     if (g.unlit) {
         lit = g.base_color;
     }
-    return vec4(covered ? lit : frame.background, radianceAlpha(g));
+    return covered ? vec4(lit, radianceAlpha(g)) : vec4(0.0);
 }

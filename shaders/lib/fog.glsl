@@ -93,9 +93,10 @@ vec3 scatteredLights(uvec2 pixel, float distance) {
     return mix(planes[0], planes[1], in_slice);
 }
 
-// Radiance at a distance as the eye sees it. What comes from all around and from suns is the same
-// along a ray, so its integral is exact: source * (1 - transmittance).
-vec3 throughFog(vec3 radiance, uvec2 pixel, float distance) {
+// What the medium before a distance adds, and, as alpha, the share of light that it lets pass. What
+// comes from all around and from suns is the same along a ray, so its integral is exact: source *
+// (1 - transmittance).
+vec4 fogBefore(uvec2 pixel, float distance) {
     vec3 eye = positionFromDistance(pixel, 0.0);
     vec3 point = positionFromDistance(pixel, distance);
     float depth = opticalDepth(eye, point);
@@ -110,5 +111,5 @@ vec3 throughFog(vec3 radiance, uvec2 pixel, float distance) {
     if (hasOutput(kOutputFogVolume)) {
         scattered += scatteredLights(pixel, distance);
     }
-    return fma(radiance, vec3(exp(-depth)), scattered);
+    return vec4(scattered, exp(-depth));
 }

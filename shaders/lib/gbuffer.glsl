@@ -30,8 +30,8 @@ struct GbufferSample {
 #endif
 };
 
-// Of radiance where that solid surface is: exposure is not metered where it is 0.
-float radianceAlpha(GbufferSample g) { return g.unlit ? 0.0 : 1.0; }
+// Of radiance where that solid surface is; what it means is displayColor()'s.
+float radianceAlpha(GbufferSample g) { return g.unlit ? kUnlitAlpha : 1.0; }
 
 // RGB9E5 as in the Vulkan specification, "Shared Exponent to RGB"; values up to
 // kMostStoredEmission.

@@ -10,6 +10,7 @@ bool insideScreen(uvec2 pixel) {
     return all(lessThan(pixel, uvec2(frame.width_px, frame.height_px)));
 }
 
-void storePixel(uvec2 pixel, vec3 radiance) {
-    pixels[pixel.y * frame.width_px + pixel.x] = packDisplay(displayColor(radiance));
+void storePixel(uvec2 pixel, vec4 radiance) {
+    pixels[pixel.y * frame.width_px + pixel.x] =
+        packDisplay(displayColor(radiance, backgroundAt(pixel.y, frame.height_px)));
 }

@@ -252,7 +252,7 @@ TEST_F(HardBadInput, FileThatIsNotFinite_IsRefusedOrGoesWithoutThat) {
     light.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"intensity", 1e39}}};
     light.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
-    EXPECT_THAT(gltf::test::failure(light.load()), HasSubstr("intensity"));
+    EXPECT_THAT(gltf::test::told(light.load()), HasSubstr("intensity is 1e+39"));
 }
 
 } // namespace froxel::test

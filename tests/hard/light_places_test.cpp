@@ -141,7 +141,7 @@ TEST_F(HardLightPlaces, WorldFarFromTheOrigin_LooksTheSame) {
         SceneMaker maker;
         glm::dmat4 world(1);
         world[3] = glm::dvec4(away, 1);
-        maker.add(quad({-40, -1.5, 2}, {80, 0, 0}, {0, 30, -20}, 8, 0), world);
+        maker.add(quad({-40, -1.5, 2}, {80, 0, 0}, {0, 3, -20}, 8, 0), world);
         for (int i = 0; i < 12; ++i) {
             maker.point(away + dvec3(i - 6, 0.25 * (i % 3), -0.5 - 0.1 * (i % 4)), 3);
         }
@@ -151,7 +151,7 @@ TEST_F(HardLightPlaces, WorldFarFromTheOrigin_LooksTheSame) {
     render::Renderer near_renderer(device(), near_scene);
     const auto inputs = hardInputs();
     const auto near_picture = expectExact(near_renderer, inputs, Toon::kNo).naive;
-    EXPECT_GT(litPixels(near_picture), 1000U);
+    EXPECT_GT(litPixels(near_picture), 700U);
     for (const double distance : {1e3, 1e4, 1e6, 1e7}) {
         SCOPED_TRACE(distance);
         const dvec3 away(distance, -distance / 3, distance / 7);

@@ -233,10 +233,13 @@ TEST_F(Bloom, EveryRenderer_IsOfItsOwnPicture) {
 }
 
 TEST_F(Bloom, ConstantPicture_WithoutAThreshold_StaysAsItIs) {
-    const scene::Scene nothing;
-    render::Renderer renderer(device(), nothing);
+    SceneMaker wall = wallAhead(3);
+    wall.scene.materials[0].emissive = glm::vec3(0.1F, 0.2F, 0.4F);
+    render::Renderer renderer(device(), wall.scene);
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor({}, {97, 55});
+    inputs.settings.lights.count = 0;
+    inputs.settings.lights.ambient = 0;
     const Picture before = draw(view, inputs);
     for (const auto kind : kKinds) {
         SCOPED_TRACE(nameOf(kind));

@@ -117,6 +117,7 @@ TEST_F(Effects, FourSamples_AreToneMappedOneByOne) {
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor(scene.cameras[0].camera, Renderer::kClusteredDeferred);
     inputs.settings.tone_map = settings::ToneMap::kClamp;
+    inputs.settings.background.color = glm::vec3(0); // it is no part of radiance
     inputs.settings.antialiasing = Antialiasing::kSsaa4;
     const Picture resolved = draw(view, inputs);
     ASSERT_EQ(resolved.width_px, kSize.width_px);

@@ -48,6 +48,16 @@ render::FrameInputs inputsFor(const settings::Camera& camera, const settings::Si
     return inputs;
 }
 
+// Without what is blended, which does not count.
+scene::Scene solidPartOf(scene::Scene scene) {
+    for (scene::Mesh& mesh : scene.meshes) {
+        std::erase_if(mesh.primitives, [&](const scene::Primitive& primitive) {
+            return scene.materials[primitive.material].alpha_mode == scene::AlphaMode::kBlend;
+        });
+    }
+    return scene;
+}
+
 // The same picture with the exposure that a frame has metered.
 render::FrameInputs fixedAs(render::FrameInputs inputs, const Picture& metered) {
     inputs.settings.exposure_mode = ExposureMode::kFixed;
@@ -127,6 +137,9 @@ TEST_F(Exposure, EveryRendererAndStage_AgainstDouble_IsWithinRounding) {
     const auto scene = roomWithASign();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
+    const auto solid_scene = solidPartOf(scene);
+    render::Renderer solid_renderer(device(), solid_scene);
+    render::ViewRenderer solid_view(solid_renderer);
     const std::array<settings::Size, 3> sizes = {{{96, 64}, {97, 55}, {31, 130}}};
     for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
         for (const auto stage : {LightingStage::kCompute, LightingStage::kFragment}) {
@@ -142,9 +155,10 @@ TEST_F(Exposure, EveryRendererAndStage_AgainstDouble_IsWithinRounding) {
             ASSERT_TRUE(seen) << seen.error().message;
             ASSERT_TRUE(metered.stats.metered_ev);
             const double ev = *metered.stats.metered_ev;
+            const Picture solid = draw(solid_view, inputs);
             // a pixel at the edge of a bin may be rounded into the next
-            EXPECT_NEAR(ev, expected_ev(scene, metered, *seen), 1e-3);
-            EXPECT_NEAR(ev, std::log2(reference::meteredFactor(scene, linearOf(metered), *seen)),
+            EXPECT_NEAR(ev, expected_ev(scene, solid, *seen), 1e-3);
+            EXPECT_NEAR(ev, std::log2(reference::meteredFactor(scene, linearOf(solid), *seen)),
                         kBin_ev / 2);
             EXPECT_GT(std::abs(ev), 0.2); // it does something
             expectAsFixed(view, inputs, metered);
@@ -221,6 +235,71 @@ TEST_F(Exposure, UnlitAndEmptyPixels_DoNotCount) {
         EXPECT_NEAR(*draw(renderer, away).stats.metered_ev, 2, kBin_ev / 2);
         away.settings.fog.density = 1e-6F; // keeps the marks of unlit surfaces
         EXPECT_NEAR(*draw(renderer, away).stats.metered_ev, 2, kBin_ev / 2);
+    }
+}
+
+// An unlit quad of 0.2 is 124 in sRGB and the background has its colour, with and without a metered
+// exposure; one that is blended passes through the tone map and back.
+TEST_F(Exposure, UnlitSurfacesAndTheBackground_HaveTheirOwnColours) {
+    SceneMaker maker;
+    scene::Material sign;
+    sign.unlit = true;
+    sign.base_color = {0.2F, 0.2F, 0.2F, 1};
+    const uint32_t solid = maker.add(sign);
+    sign.alpha_mode = scene::AlphaMode::kBlend;
+    const uint32_t blended = maker.add(sign);
+    scene::Material grey;
+    grey.base_color = {0.5F, 0.5F, 0.5F, 1};
+    const uint32_t lit = maker.add(grey);
+    maker.add(quad({-3, -1, -4}, {1.5F, 0, 0}, {0, 2, 0}, 1, solid));
+    maker.add(quad({-1, -1, -4}, {1.5F, 0, 0}, {0, 2, 0}, 1, blended));
+    maker.add(quad({1, -1, -4}, {1.5F, 0, 0}, {0, 2, 0}, 1, lit));
+    render::Renderer renderer(device(), maker.scene);
+    render::ViewRenderer view(renderer);
+    constexpr uint32_t kWidth = 64;
+    const auto at = [](const Picture& picture, uint32_t x, uint32_t y) {
+        return std::to_integer<int>(picture.rgba8[4 * (size_t{y} * kWidth + x)]);
+    };
+    for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
+        if (static_cast<Renderer>(kind) == Renderer::kToonCompute) {
+            continue; // which bends what is unlit, too
+        }
+        SCOPED_TRACE(settings::kRendererNames[kind]);
+        int lit_before = -1;
+        for (const float exposure : {0.1F, 1.0F, 10.0F, 0.0F}) {
+            SCOPED_TRACE(exposure);
+            auto inputs = inputsFor({}, {kWidth, 36});
+            inputs.settings.renderer = static_cast<Renderer>(kind);
+            inputs.settings.lights.count = 0;
+            inputs.settings.background.color = glm::vec3(0.05F);
+            if (exposure > 0) {
+                inputs.settings.exposure_mode = ExposureMode::kFixed;
+                inputs.settings.exposure = exposure;
+            }
+            const Picture picture = draw(view, inputs);
+            EXPECT_EQ(at(picture, 9, 18), 124);
+            EXPECT_NEAR(at(picture, 27, 18), 124, 1);
+            EXPECT_EQ(at(picture, 1, 1), 63);
+            EXPECT_NE(at(picture, 48, 18), lit_before) << "what is lit is exposed";
+            lit_before = at(picture, 48, 18);
+        }
+    }
+}
+
+TEST_F(Exposure, BackgroundsGradient_IsDarkAtTheBottom) {
+    const scene::Scene nothing;
+    render::Renderer renderer(device(), nothing);
+    for (const auto filter : {settings::Antialiasing::kNone, settings::Antialiasing::kSsaa4}) {
+        auto inputs = inputsFor({}, {8, 100});
+        inputs.settings.antialiasing = filter;
+        inputs.settings.background = {glm::vec3(0.05F, 0.1F, 0.2F), 1};
+        const Picture picture = draw(renderer, inputs);
+        const auto green = [&](size_t row) {
+            return std::to_integer<int>(picture.rgba8[4 * 8 * row + 1]);
+        };
+        EXPECT_NEAR(green(0), 124, 1); // 0.2
+        EXPECT_NEAR(green(50), 89, 1); // 0.1
+        EXPECT_LT(green(99), 4);
     }
 }
 

@@ -6,7 +6,8 @@
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/host_copies.h"
 #include "render/scene/scene_resources.h"
-#include "scene/first_camera.h"
+#include "scene/enclosing_sphere.h"
+#include "scene/first_view.h"
 #include "scene/motion.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
@@ -148,7 +149,8 @@ scene::Scene posedAt(const scene::Scene& scene, double time_s) {
 
 render::FrameInputs inputsFor(const scene::Scene& scene, Renderer renderer, double time_s) {
     render::FrameInputs inputs;
-    inputs.settings.camera = scene::firstCamera(scene, {160, 90});
+    inputs.settings.camera =
+        scene::firstViewOf(scene, scene::enclosingSphere(scene)).cameraFor({160, 90});
     inputs.settings.size = {160, 90};
     inputs.settings.renderer = renderer;
     inputs.settings.light_loop = settings::LightLoop::kLists;

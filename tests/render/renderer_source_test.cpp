@@ -1,3 +1,4 @@
+#include "scene/enclosing_sphere.h"
 #include "stream/renderer_source.h"
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
@@ -29,6 +30,10 @@ class LogText {
     std::ostringstream text_;
 };
 
+settings::Camera wholeOf(const scene::Scene& scene) {
+    return settings::overview(scene::enclosingSphere(scene), 1);
+}
+
 template <VkResult result>
 VKAPI_ATTR VkResult VKAPI_CALL failToCreate(VkDevice /*device*/,
                                             const VkDescriptorPoolCreateInfo* /*info*/,
@@ -44,16 +49,19 @@ TEST(RendererSource, SceneWithoutCameras_SpeedIsMeasured) {
     scene::Scene scene = makeRoom();
     scene.cameras.clear();
     const LogText log;
-    const auto source = stream::makeRendererSource(openTestDevice(), scene, Seconds(10), {});
+    const auto source =
+        stream::makeRendererSource(openTestDevice(), scene, wholeOf(scene), Seconds(10), {});
     EXPECT_THAT(log.text(), HasSubstr("event=device_speed lights="));
     EXPECT_EQ(log.text().find("lights=1.00 surfaces=1.00"), std::string::npos) << log.text();
 }
 
 TEST(RendererSource, NoMemoryForAView_IsRefusedAndTheNextOneMayFit) {
     auto device = openTestDevice();
+    const scene::Scene room = makeRoom();
     // The driver's functions, of which one now finds no memory.
     auto& driver = driverOf(*device);
-    const auto source = stream::makeRendererSource(std::move(device), makeRoom(), Seconds(10), {});
+    const auto source =
+        stream::makeRendererSource(std::move(device), room, wholeOf(room), Seconds(10), {});
     const auto create_pool = driver.vkCreateDescriptorPool;
     for (const auto fail : {kNoDeviceMemory, kNoHostMemory}) {
         driver.vkCreateDescriptorPool = fail;

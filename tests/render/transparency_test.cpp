@@ -27,6 +27,8 @@ render::FrameInputs inputsFor(Transparency transparency, uint32_t layers = 16) {
     inputs.settings.size = kSize;
     inputs.settings.renderer = Renderer::kForwardPlus;
     inputs.settings.transparency = transparency;
+    inputs.settings.tone_map =
+        settings::ToneMap::kClamp; // unlit panes send their colours as they are
     inputs.settings.peel_layers = layers;
     inputs.settings.lights.count = 40;
     inputs.time_s = 1.5;

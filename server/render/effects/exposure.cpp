@@ -203,7 +203,7 @@ std::optional<EffectPlan> planOfExposure(const settings::ViewSettings& settings,
 } // namespace
 
 const EffectRow kExposureEffect{
-    .place = EffectPlace::kPicture,
+    .place = EffectPlace::kSolid,
     .plan = planOfExposure,
     .words =
         [](const settings::ViewSettings&, const EffectPlan&) {

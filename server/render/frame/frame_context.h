@@ -34,7 +34,6 @@ struct FrameContext {
     const FramePlan& plan;
     const DrawList& draws;
     UploadOffsets offsets;
-    glm::vec3 background{0};
     VisibilityScene* visibility = nullptr; // where the plan has it
     const DebugFrame* debug = nullptr;     // likewise
     std::span<const ActiveEffect> effects = {};

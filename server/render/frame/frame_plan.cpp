@@ -202,8 +202,8 @@ FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& fa
                               ? io::kOutputWideGbuffer | facts.emission_exponent
                                                              << io::kOutputEmissionShift
                               : 0U;
-    const uint32_t tone = settings.tone_map == settings::ToneMap::kClamp ? io::kOutputClamp : 0U;
-    const uint32_t pixels = io::kOutputPixels | tone;
+    plan.tone_output_flags = settings.tone_map == settings::ToneMap::kClamp ? io::kOutputClamp : 0U;
+    const uint32_t pixels = io::kOutputPixels | plan.tone_output_flags;
     const settings::GbufferLayout layout = // a forward renderer's, for a debug view: the default
         isForward(settings.renderer) ? settings::GbufferLayout{} : settings.gbuffer;
     const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
@@ -223,7 +223,7 @@ FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& fa
         plan.toon_output_flags |= compute_ends ? pixels : 0U;
         plan.toon_output_flags |= plan.tonemap || facts.keep_radiance ? io::kOutputRadiance : 0U;
     }
-    plan.tonemap_output_flags = tone | (plan.samples ? io::kOutputSamples : 0U);
+    plan.tonemap_output_flags = plan.tone_output_flags | (plan.samples ? io::kOutputSamples : 0U);
     return plan;
 }
 

@@ -86,6 +86,7 @@ struct FramePlan {
     uint32_t forward_light_flags = 0;
     uint32_t lighting_light_flags = 0;
     uint32_t blended_output_flags = 0; // what effects ask of blended surfaces
+    uint32_t tone_output_flags = 0;    // how radiance becomes a colour of the display
     uint32_t gbuffer_output_flags = 0;
     // What the shading model, or the G-buffer, has no use for.
     uint32_t forward_unused_material_flags = 0;

@@ -102,7 +102,8 @@ io::Frame makeFrameUniforms(const settings::ViewSettings& settings,
     frame.exposure = settings.exposure;
     frame.ambient_sky = settings::kAmbientSky * settings.lights.ambient;
     frame.ambient_ground = settings::kAmbientGround * settings.lights.ambient;
-    frame.background = settings::kBackground;
+    frame.background = settings.background.color;
+    frame.background_gradient = settings.background.gradient;
     const auto& outline = settings.toon_outline;
     const auto side_px =
         static_cast<float>(std::min(settings.size.width_px, settings.size.height_px));

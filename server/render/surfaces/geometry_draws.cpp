@@ -25,6 +25,11 @@ void bindGeometry(const FrameContext& frame,
 
 namespace {
 
+// What is blended and unlit looks at the tone map.
+uint32_t toneOf(const FramePlan& plan, uint32_t material_flags) {
+    return (material_flags & io::kMaterialUnlit) != 0 ? plan.tone_output_flags : 0U;
+}
+
 // The variant of a pass for a group: only the flags that the pass's shader looks at.
 VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup& group) {
     const auto& plan = frame.plan;
@@ -45,7 +50,8 @@ VariantKey variant(const FrameContext& frame, GeometryPass pass, const DrawGroup
     case GeometryPass::kWeighted:
     case GeometryPass::kPeelShade:
         return {group.material_flags & ~plan.forward_unused_material_flags,
-                plan.forward_light_flags, plan.blended_output_flags};
+                plan.forward_light_flags,
+                plan.blended_output_flags | toneOf(plan, group.material_flags)};
     default:
         return {group.material_flags & ~plan.forward_unused_material_flags,
                 plan.forward_light_flags, 0};

@@ -39,9 +39,9 @@ class SampleScope {
     const vk::raii::CommandBuffer& cmd_;
 };
 
-vk::ClearValue background(const FrameContext& frame) {
-    const auto& color = frame.background;
-    return vk::ClearColorValue(std::array{color.x, color.y, color.z, 1.0F});
+// Nothing, which covers nothing of the background.
+vk::ClearValue nothing() {
+    return vk::ClearColorValue(std::array{0.0F, 0.0F, 0.0F, 0.0F});
 }
 
 void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipeline pipeline) {
@@ -101,8 +101,7 @@ void recordForwardPass(const FrameContext& frame, const vk::Rect2D& region) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "forward");
         const SampleScope samples(frame, !after_depth);
         const std::array colors = {attachment(frame.slot.targets->radiance,
-                                              first ? LoadOp::eClear : LoadOp::eLoad,
-                                              background(frame))};
+                                              first ? LoadOp::eClear : LoadOp::eLoad, nothing())};
         const auto depth =
             attachment(frame.slot.targets->depth,
                        first && !after_depth ? LoadOp::eClear : LoadOp::eLoad, farDepth());

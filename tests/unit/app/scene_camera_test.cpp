@@ -10,8 +10,20 @@ namespace {
 
 constexpr settings::Size kSize{100, 200};
 
+// Seen from +X and from the usual side.
+scene::Primitive triangle() {
+    scene::Primitive primitive;
+    primitive.positions = {{0, -1, 1}, {0, -1, -1}, {0, 1, 0}};
+    primitive.bounds = {{0, -1, -1}, {0, 1, 1}};
+    primitive.indices = {0, 1, 2};
+    return primitive;
+}
+
 scene::Scene twoCameras() {
     scene::Scene scene;
+    scene.materials.resize(1);
+    scene.meshes = {{"", {triangle()}}};
+    scene.instances = {{}};
     scene.cameras = {{"nave", settings::lookAt({1, 0, 0}, {0, 0, 0}, {0, 1, 0})},
                      {"apse", settings::lookAt({2, 0, 0}, {0, 0, 0}, {0, 1, 0})}};
     scene.bounds_world.add(glm::dvec3(-1));
@@ -27,11 +39,6 @@ TEST(FindCamera, Default_IsTheFirst) {
 TEST(FindCamera, DefaultWithoutCameras_IsTheOverview) {
     auto scene = twoCameras();
     scene.cameras.clear();
-    scene::Primitive primitive;
-    primitive.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    primitive.bounds = {{-1, 0, 0}, {1, 1, 0}};
-    scene.meshes = {{"", {primitive}}};
-    scene.instances = {{}};
     EXPECT_EQ(findCamera(DefaultCamera{}, scene, kSize).value(),
               settings::overview(scene::enclosingSphere(scene), 0.5));
 }

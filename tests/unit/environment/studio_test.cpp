@@ -3,14 +3,27 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace froxel::environment {
 
-TEST(Studio, MeanRadiance_IsOne) {
-    constexpr int kDirections = 1'000'000;
+// What a white matt surface sends that faces along `normal`.
+double whiteFacing(const glm::dvec3& normal, int directions = 200'000) {
     double sum = 0;
-    eachDirection(kDirections, [&](const glm::dvec3& d) { sum += studioRadiance(d); });
-    EXPECT_NEAR(sum / kDirections, 1, 1e-4);
-    EXPECT_NEAR(meanRadiance(studioPanorama(512)).x, 1, 1e-3);
+    eachDirection(directions, [&](const glm::dvec3& d) {
+        sum += studioRadiance(d) * std::max(0.0, glm::dot(d, normal));
+    });
+    return 4 * sum / directions;
+}
+
+TEST(Studio, White_StaysWithinTheToneMapOnEverySide) {
+    EXPECT_NEAR(whiteFacing({0, 1, 0}), 1.00, 0.01);
+    EXPECT_NEAR(whiteFacing({0, 0, 1}), 0.80, 0.01);
+    EXPECT_NEAR(whiteFacing({1, 0, 0}), 0.55, 0.01);
+    EXPECT_NEAR(whiteFacing({0, -1, 0}), 0.40, 0.01);
+    double most = 0;
+    eachDirection(200, [&](const glm::dvec3& d) { most = std::max(most, whiteFacing(d, 20'000)); });
+    EXPECT_LT(most, 1.25);
 }
 
 TEST(Studio, IsNeutral) {

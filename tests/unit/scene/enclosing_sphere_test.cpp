@@ -1,5 +1,5 @@
 #include "scene/enclosing_sphere.h"
-#include "scene/first_camera.h"
+#include "scene/first_view.h"
 
 #include <gtest/gtest.h>
 
@@ -23,6 +23,7 @@ Scene makeCrowd(uint32_t instance_count) {
         }
     }
     Scene scene;
+    scene.materials.resize(1);
     scene.meshes = {{"ball", {ball}}};
     for (uint32_t i = 0; i < instance_count; ++i) {
         glm::dmat4 place(1);
@@ -71,11 +72,11 @@ TEST(EnclosingSphere, OfNothing_IsTheUsualOne) {
 }
 
 // Portrait and landscape.
-TEST(FirstCamera, OfASceneWithoutCameras_HasEveryVertexInThePicture) {
+TEST(FirstView, OfASceneWithoutCameras_HasEveryVertexInThePicture) {
     const Scene scene = makeCrowd(12);
     for (const settings::Size size :
          {settings::Size{360, 640}, {1000, 1000}, {1280, 720}, {64, 1024}}) {
-        const settings::Camera camera = firstCamera(scene, size);
+        const settings::Camera camera = firstViewOf(scene, enclosingSphere(scene)).cameraFor(size);
         const double half = std::tan(camera.yfov_rad / 2);
         const double aspect = static_cast<double>(size.width_px) / size.height_px;
         eachVertex(scene, [&](const glm::dvec3& world) {

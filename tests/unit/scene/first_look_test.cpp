@@ -1,5 +1,6 @@
 #include "scene/enclosure.h"
 #include "scene/first_look.h"
+#include "unit/scene/boxes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,50 +8,6 @@
 
 namespace froxel::scene {
 namespace {
-
-// A box from -half to half about `middle`, whose sides face outwards; `sides` of them, the ceiling
-// last.
-Scene makeBox(const glm::dvec3& middle, double half, uint32_t sides = 6) {
-    Primitive box;
-    // x, x, y (the floor), z, z, y (the ceiling)
-    const std::array<std::pair<int, int>, 6> order = {
-        {{0, -1}, {0, 1}, {1, -1}, {2, -1}, {2, 1}, {1, 1}}};
-    for (uint32_t side = 0; side < sides; ++side) {
-        const auto [axis, sign] = order[side];
-        glm::vec3 out(0);
-        glm::vec3 right(0);
-        out[axis] = static_cast<float>(sign);
-        right[(axis + 1) % 3] = 1;
-        const glm::vec3 up = glm::cross(out, right);
-        const auto first = static_cast<uint32_t>(box.positions.size());
-        for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-            box.positions.push_back(out + corner.x * right + corner.y * up);
-            box.bounds.add(box.positions.back());
-        }
-        for (const uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
-            box.indices.push_back(first + corner);
-        }
-    }
-    Scene scene;
-    scene.materials.resize(1);
-    scene.meshes = {{"box", {box}}};
-    glm::dmat4 place(half);
-    place[3] = glm::dvec4(middle, 1);
-    scene.instances.push_back({0, place, ""});
-    scene.bounds_world.add(middle - half);
-    scene.bounds_world.add(middle + half);
-    return scene;
-}
-
-// The same box, seen from inside.
-Scene makeRoom(const glm::dvec3& middle, double half, uint32_t sides = 6) {
-    Scene scene = makeBox(middle, half, sides);
-    auto& indices = scene.meshes[0].primitives[0].indices;
-    for (size_t i = 0; i < indices.size(); i += 3) {
-        std::swap(indices[i], indices[i + 1]);
-    }
-    return scene;
-}
 
 TEST(CastRays, MeetTheNearestSide_AtItsDistance) {
     const Scene scene = makeRoom({10, 0, 0}, 2);
@@ -76,6 +33,18 @@ TEST(IsRoom, WallsThatFaceInwards_AndNoSolidThing) {
     EXPECT_TRUE(isRoom(makeRoom({0, 0, 0}, 3, 5))) << "a court without a roof";
     EXPECT_FALSE(isRoom(makeRoom({0, 0, 0}, 3, 2))) << "two walls";
     EXPECT_FALSE(isRoom(Scene()));
+}
+
+// A chest is hollow, and an engine has fronts all around its middle.
+TEST(IsRoom, WhatIsSmallOrLined_IsNone) {
+    EXPECT_TRUE(isRoom(makeRoom({0, 0, 0}, 1.75)));
+    EXPECT_FALSE(isRoom(makeRoom({0, 0, 0}, 1.7))) << "a diagonal of 5.9 m";
+    for (const auto& [lining, room] : {std::pair(0.25, false), std::pair(0.35, true)}) {
+        Scene scene = makeRoom({0, 0, 0}, 3);
+        const Scene inner = makeRoom({0, 0, 0}, 3 * lining);
+        scene.instances.push_back(inner.instances[0]);
+        EXPECT_EQ(isRoom(scene), room) << lining;
+    }
 }
 
 TEST(IsRoom, AMirroredBox_IsTurnedInsideOut) {
@@ -108,17 +77,55 @@ TEST(LookFor, AThingWithoutLights_StandsInTheStudio) {
     EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kOff);
 }
 
-TEST(LookFor, ARoom_KeepsItsSeededLights_UnlessItHasItsOwn) {
-    const settings::ViewSettings usual;
+// And the studio, in case it is none.
+TEST(LookFor, ARoom_HasAFewWhiteLampsUnderItsCeiling) {
     settings::ViewSettings settings;
-    Scene room = makeRoom({0, 0, 0}, 10); // half diagonal 17.3 m
+    const Scene room = makeRoom({1, 2, 3}, 10);
     lookFor(room, settings);
-    EXPECT_EQ(settings, usual);
+    EXPECT_EQ(settings.lights.count, 0U);
+    EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
+    ASSERT_EQ(settings.lights.placed.lights().size(), 1U);
+    const settings::PlacedLight lamp = settings.lights.placed.lights()[0];
+    EXPECT_EQ(lamp.position_world, glm::dvec3(1, 8, 3));
+    EXPECT_EQ(lamp.color, glm::vec3(1));
+    EXPECT_GT(lamp.radius_m, 17);
+    settings.lights.placed = settings::PlacedLights({lamp, {.id = 7}});
+    lookFor(room, settings);
+    EXPECT_EQ(settings.lights.placed.lights().size(), 2U) << "somebody placed others";
+}
+
+TEST(LookFor, AHall_HasLampsAlongIt) {
+    settings::ViewSettings settings;
+    Scene hall = makeRoom({0, 0, 0}, 3);
+    hall.instances[0].world_from_object[0] *= 5.0;
+    hall.bounds_world = {};
+    hall.bounds_world.add(glm::dvec3(-15, -3, -3));
+    hall.bounds_world.add(glm::dvec3(15, 3, 3));
+    lookFor(hall, settings);
+    const auto lamps = settings.lights.placed.lights();
+    ASSERT_EQ(lamps.size(), 3U);
+    EXPECT_LT(glm::distance(lamps[0].position_world, glm::dvec3(-10, 1.8, 0)), 1e-9);
+    EXPECT_LT(glm::distance(lamps[2].position_world, glm::dvec3(10, 1.8, 0)), 1e-9);
+}
+
+TEST(LookFor, AScenesOwnLights_AreMeteredBesideADimmerStudio) {
+    settings::ViewSettings settings;
+    Scene room = makeRoom({0, 0, 0}, 10);
     room.lights.resize(1);
     lookFor(room, settings);
     EXPECT_EQ(settings.lights.count, 0U);
-    EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kOff);
+    EXPECT_TRUE(settings.lights.placed.lights().empty());
+    EXPECT_EQ(settings.environment.light, settings::EnvironmentLight::kStudio);
+    EXPECT_LT(settings.environment.strength, 0.5F);
     EXPECT_EQ(settings.exposure_mode, settings::ExposureMode::kFrame);
+}
+
+TEST(LookFor, Sponza_KeepsItsThousandLights) {
+    settings::ViewSettings settings;
+    Scene sponza = makeRoom({0, 0, 0}, 10); // half diagonal 17.3 m
+    sponza.name = "Sponza";
+    lookFor(sponza, settings);
+    EXPECT_EQ(settings, settings::ViewSettings());
 }
 
 // The irradiance at a share of the reach is the same whatever the scene's size.

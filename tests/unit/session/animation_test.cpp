@@ -139,7 +139,7 @@ TEST_F(Animation, FirstCameraThatMoves_IsFollowedFromTheBeginning) {
     motion.cameras = {{0, 0}};
     context.scene.motion = std::make_shared<const scene::Motion>(motion);
     EXPECT_EQ(initialState(context, kStart).followed, 0U);
-    context.scene.cameras.clear();
+    context.first_view.scene_camera.reset();
     EXPECT_FALSE(initialState(context, kStart).followed);
 }
 

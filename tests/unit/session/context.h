@@ -20,6 +20,8 @@ inline SessionContext makeContext() {
     context.scene.name = "hall";
     context.scene.triangle_count = 120;
     context.scene.cameras = {nave, plan};
+    context.first_view.scene_camera = 0;
+    context.first_view.camera = nave.camera;
     context.scene.bounds_world.add(glm::dvec3(-20, 0, -8));
     context.scene.bounds_world.add(glm::dvec3(20, 12, 8));
     context.defaults = defaultsFor(DeviceKind::kCpu);

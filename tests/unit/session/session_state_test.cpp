@@ -33,7 +33,8 @@ TEST_F(State, Initial_HasTheDefaultsAndTheFirstCamera) {
 TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
     context.scene.cameras.clear();
     const BoundsD3& bounds = context.scene.bounds_world;
-    context.framed_world = {bounds.center(), glm::length(bounds.size()) / 2};
+    context.first_view = {};
+    context.first_view.sphere_world = {bounds.center(), glm::length(bounds.size()) / 2};
     const settings::Camera camera = initialState(context, kStart).settings.camera;
     const double half_angle = camera.yfov_rad / 2;
     for (int corner = 0; corner < 8; ++corner) {
@@ -45,7 +46,7 @@ TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
         EXPECT_LT(position_view.z, -camera.near_m);
         EXPECT_LT(std::abs(position_view.y), -position_view.z * std::tan(half_angle));
     }
-    context.framed_world = {};
+    context.first_view = {};
     const settings::Camera empty = initialState(context, kStart).settings.camera;
     EXPECT_GT(empty.focus_m, 0);
 }
@@ -53,7 +54,8 @@ TEST_F(State, Initial_WithoutCameras_SeesTheWholeScene) {
 // A window held upright: the opening view steps back, until somebody has moved it.
 TEST_F(State, SetSize_OfTheOpeningView_FramesTheSceneAnew) {
     context.scene.cameras.clear();
-    context.framed_world = {{1, 2, 3}, 4};
+    context.first_view = {};
+    context.first_view.sphere_world = {{1, 2, 3}, 4};
     const SessionState before = initialState(context, kStart);
     const auto upright = [&](const SessionState& state) {
         return applied(state, SetSize{{360, 640}}).settings.camera;
@@ -66,7 +68,8 @@ TEST_F(State, SetSize_OfTheOpeningView_FramesTheSceneAnew) {
 
 TEST_F(State, Initial_TinyScene_IsBeyondTheNearPlane) {
     context.scene.cameras.clear();
-    context.framed_world = {{0, 0, 0}, 0.0017};
+    context.first_view = {};
+    context.first_view.sphere_world = {{0, 0, 0}, 0.0017};
     const settings::Camera camera = initialState(context, kStart).settings.camera;
     EXPECT_LT(camera.near_m, 0.5 * camera.focus_m);
 }
