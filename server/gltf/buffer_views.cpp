@@ -30,7 +30,7 @@ std::span<const std::byte> BufferViews::bufferBytes(size_t buffer) {
     return bytes.first(source.size_bytes);
 }
 
-// Offsets and lengths are below 2^32 each (json_check), so their sum cannot wrap.
+// Offsets and lengths are below 2^32 each (json_types), so their sum cannot wrap.
 std::span<const std::byte>
 BufferViews::range(int buffer, uint64_t offset, uint64_t length, const std::string& user) {
     const size_t index = checkedIndex(buffer, document_.buffers.size(), "buffer", user);

@@ -1,4 +1,4 @@
-// Reading an extension's object, already type-checked by json_check.
+// Reading an extension's object, already type-checked by json_types.
 #pragma once
 
 #include <tiny_gltf.h>

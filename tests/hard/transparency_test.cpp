@@ -48,9 +48,16 @@ glm::dvec3 composed(int panes, int layers) {
     return color;
 }
 
-render::FrameInputs peeled(uint32_t layers) {
+render::FrameInputs inputsFor(Transparency transparency) {
     auto inputs = hardInputs();
-    inputs.settings.transparency = Transparency::kPeeled;
+    inputs.settings.transparency = transparency;
+    inputs.settings.tone_map =
+        settings::ToneMap::kClamp; // unlit panes send their colours as they are
+    return inputs;
+}
+
+render::FrameInputs peeled(uint32_t layers) {
+    auto inputs = inputsFor(Transparency::kPeeled);
     inputs.settings.peel_layers = layers;
     return inputs;
 }
@@ -127,8 +134,7 @@ TEST_F(HardTransparency, LayersBeyondTheLast_AreCountedPixelByPixel) {
 TEST_F(HardTransparency, PanesInOnePlane_Weighted_AreAveraged) {
     const auto scene = panesInOnePlane(kPanes);
     render::Renderer renderer(device(), scene);
-    auto inputs = hardInputs();
-    inputs.settings.transparency = Transparency::kWeighted;
+    const auto inputs = inputsFor(Transparency::kWeighted);
     const auto picture = expectExact(renderer, inputs).naive;
     glm::dvec3 mean(0);
     for (int pane = 0; pane < kPanes; ++pane) {
