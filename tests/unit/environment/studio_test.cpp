@@ -1,6 +1,7 @@
 #include "environment/studio.h"
 #include "unit/environment/axes.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
