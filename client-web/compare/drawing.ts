@@ -86,7 +86,8 @@ export async function draw(task: Task): Promise<string> {
   if (!task.ownLights) putOutLights(gltf);
   pose(gltf);
   const scene = new Scene();
-  scene.background = kBackground;
+  // Which three.js exposes.
+  scene.background = kBackground.clone().multiplyScalar(1 / task.light.exposure);
   scene.add(gltf.scene, ...task.light.lamps.map(lampOf));
   // Straight to the canvas three.js would blend what the tone map and sRGB have made of surfaces.
   const composer = new EffectComposer(renderer);

@@ -12,7 +12,6 @@ const kScattering = 'rough metal: three.js gives back what it would lose by scat
 const kRounding = 'three.js takes curved surfaces for rougher than the file has them';
 
 const kNotes: Readonly<Record<string, Note>> = {
-  'chess-board': { why: 'Froxel has no KHR_materials_clearcoat' },
   'glass-table': { why: 'Froxel has no KHR_materials_transmission' },
   alien: { why: kScattering },
   cakeBirthday: { why: kScattering },
@@ -20,6 +19,7 @@ const kNotes: Readonly<Record<string, Note>> = {
   love: { why: 'Froxel has no KHR_materials_transmission' },
   metallic_roughness: { why: kScattering },
   punctual: { ownLights: true, why: "three.js lets a spot's edge fall off by another curve" },
+  unlit: { why: 'three.js tone-maps unlit surfaces' },
   specular: { why: 'under coloured reflections three.js takes each channel by itself from diffuse light' },
 };
 
