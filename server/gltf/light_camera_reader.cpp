@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "gltf/failure.h"
+#include "gltf/word_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,14 +80,12 @@ std::optional<scene::LightType> lightTypeFrom(const std::string& text, const Sub
         {"point", scene::LightType::kPoint},
         {"spot", scene::LightType::kSpot},
         {"directional", scene::LightType::kDirectional}};
-    for (const auto& [name, type] : kTypes) {
-        if (text == name) {
-            return type;
-        }
+    const auto type = named(kTypes, text);
+    if (!type) {
+        subject.tell("has the type '" + printable(text, 40) +
+                     "' and is left out; right is point, spot or directional");
     }
-    subject.tell("has the type '" + printable(text, 40) +
-                 "' and is left out; right is point, spot or directional");
-    return std::nullopt;
+    return type;
 }
 
 void readCones(const LightSource& source, scene::PunctualLight& light, const Subject& subject) {

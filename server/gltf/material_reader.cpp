@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "gltf/extension_value.h"
+#include "gltf/word_table.h"
 
 #include <algorithm>
 #include <utility>
@@ -121,15 +122,13 @@ scene::AlphaMode MaterialReader::alphaModeFrom(const std::string& text, const st
         {"OPAQUE", scene::AlphaMode::kOpaque},
         {"MASK", scene::AlphaMode::kMask},
         {"BLEND", scene::AlphaMode::kBlend}};
-    for (const auto& [mode_name, mode] : kModes) {
-        if (text == mode_name) {
-            return mode;
-        }
+    const auto mode = named(kModes, text);
+    if (!mode) {
+        warnings_.add(warning::kUnknownName, pointer_,
+                      name + " has alphaMode '" + printable(text, 40) +
+                          "'; OPAQUE is used, since right is OPAQUE, MASK or BLEND");
     }
-    warnings_.add(warning::kUnknownName, pointer_,
-                  name + " has alphaMode '" + printable(text, 40) +
-                      "'; OPAQUE is used, since right is OPAQUE, MASK or BLEND");
-    return scene::AlphaMode::kOpaque;
+    return mode.value_or(scene::AlphaMode::kOpaque);
 }
 
 uint32_t MaterialReader::material(int index, const std::string& pointer, const std::string& user) {

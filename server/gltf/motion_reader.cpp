@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gltf/failure.h"
 #include "gltf/node_transform.h"
+#include "gltf/word_table.h"
 
 #include <tiny_gltf.h>
 
@@ -30,13 +31,6 @@ constexpr std::pair<const char*, Interpolation> kInterpolations[] = {
     {"STEP", Interpolation::kStep},
     {"LINEAR", Interpolation::kLinear},
     {"CUBICSPLINE", Interpolation::kCubicSpline}};
-
-template <class Table>
-auto named(const Table& table, const std::string& name) {
-    const auto found = std::find_if(std::begin(table), std::end(table),
-                                    [&](const auto& row) { return row.first == name; });
-    return found == std::end(table) ? std::nullopt : std::optional(found->second);
-}
 
 bool allFinite(const std::vector<float>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](float n) { return std::isfinite(n); });
