@@ -35,6 +35,19 @@ struct Finder {
     }
 };
 
+// All that a pose and a view look at. Pixels take most of a scene's memory.
+scene::Scene withoutImages(const scene::Scene& scene) {
+    scene::Scene bare;
+    bare.materials = scene.materials;
+    bare.meshes = scene.meshes;
+    bare.instances = scene.instances;
+    bare.cameras = scene.cameras;
+    bare.lights = scene.lights;
+    bare.bounds_world = scene.bounds_world;
+    bare.motion = scene.motion;
+    return bare;
+}
+
 } // namespace
 
 scene::FirstView firstViewOf(const scene::Scene& scene) {
@@ -42,7 +55,7 @@ scene::FirstView firstViewOf(const scene::Scene& scene) {
         return scene::firstViewOf(scene, scene::enclosingSphere(scene));
     }
     const auto clips = motion::usualClips(*scene.motion);
-    scene::Scene posed = motion::posedScene(scene, clips, 0);
+    scene::Scene posed = motion::posedScene(withoutImages(scene), clips, 0);
     posed.bounds_world = motion::sampledBounds(scene, clips, 1);
     const settings::Sphere pose = scene::enclosingSphere(posed);
     // What unfolds later begins as a point.
