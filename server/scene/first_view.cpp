@@ -52,8 +52,8 @@ glm::dvec3 doubleArea(const std::array<glm::dvec3, 3>& corners) {
     return glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
-// The corner that most surfaces face, where hardly any faces the usual one.
-glm::dvec3 sideThatShows(const Scene& scene) {
+// The corner that most surfaces face, where hardly any faces the usual one; else none.
+std::optional<glm::dvec3> betterSide(const Scene& scene) {
     constexpr size_t kSides = 8;
     std::array<glm::dvec3, kSides> sides;
     for (unsigned i = 0; i < kSides; ++i) { // 0 is the usual one
@@ -72,7 +72,7 @@ glm::dvec3 sideThatShows(const Scene& scene) {
     });
     const auto best =
         static_cast<size_t>(std::max_element(shown.begin(), shown.end()) - shown.begin());
-    return sides[shown[0] < kEnough * shown[best] ? best : 0];
+    return shown[0] < kEnough * shown[best] ? std::optional(sides[best]) : std::nullopt;
 }
 
 double freeWay(const std::optional<RayHit>& hit, double otherwise) {
@@ -164,8 +164,8 @@ FirstView firstViewOf(const Scene& scene, const settings::Sphere& sphere_world) 
         view.camera = viewFromWithin(scene);
         return view;
     }
-    view.toward_eye = sideThatShows(scene);
-    if (view.toward_eye != glm::normalize(settings::kUsualTowardEye)) {
+    if (const auto side = betterSide(scene)) {
+        view.toward_eye = *side;
         view.remark = remarkOf("FACES_LOOK_AWAY",
                                "hardly any surface faces the usual view, from above the front "
                                "right; the first view is from where most is seen");
