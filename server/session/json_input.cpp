@@ -4,13 +4,14 @@
 #include "protocol/limits.h"
 
 #include <google/protobuf/descriptor.h>
-#include <google/protobuf/util/json_util.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 namespace froxel::session {
@@ -18,6 +19,8 @@ namespace {
 
 using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
 using Json = nlohmann::json;
 
 Rejection reject(RejectCode code, std::string field, std::string message) {
@@ -72,72 +75,219 @@ const FieldDescriptor* findField(const Descriptor& type, const std::string& key)
     return field != nullptr ? field : type.FindFieldByName(key);
 }
 
-std::optional<Rejection> checkInteger(const FieldDescriptor& field, const Json& value) {
-    const double max = field.cpp_type() == FieldDescriptor::CPPTYPE_UINT32
-                           ? double{std::numeric_limits<uint32_t>::max()}
-                           : static_cast<double>(std::numeric_limits<uint64_t>::max());
+std::optional<Rejection>
+wrongType(const FieldDescriptor& field, const Json& value, std::string_view wanted) {
+    const std::string given = value.is_string()
+                                  ? '"' + printable(value.get_ref<const std::string&>()) + '"'
+                                  : value.type_name();
+    return reject(RejectCode::kMalformed, field.name(),
+                  field.name() + " is " + given + "; it must be " + std::string(wanted));
+}
+
+// A number may be written as a string, as canonical JSON writes 64-bit integers.
+template <class T>
+std::optional<T> numberIn(const std::string& text) {
+    T number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    return whole ? std::optional(number) : std::nullopt;
+}
+
+template <class T>
+std::optional<Rejection> readInteger(const FieldDescriptor& field, const Json& value, T& integer) {
+    constexpr T kMax = std::numeric_limits<T>::max();
+    if (value.is_string()) {
+        if (const auto number = numberIn<T>(value.get_ref<const std::string&>())) {
+            integer = *number;
+            return std::nullopt;
+        }
+        return wrongType(field, value, "a whole number from 0 to " + numberText(kMax));
+    }
+    if (!value.is_number()) {
+        return wrongType(field, value, "a number");
+    }
+    if (value.is_number_unsigned() && value.get<uint64_t>() <= kMax) {
+        integer = static_cast<T>(value.get<uint64_t>());
+        return std::nullopt;
+    }
+    // Below 2^32 and 2^64: the largest of 64 bits is no double.
     const double number = value.get<double>();
-    if (number >= 0 && number <= max && number == std::floor(number)) {
+    if (number >= 0 && number < std::ldexp(1.0, std::numeric_limits<T>::digits) &&
+        number == std::floor(number)) {
+        integer = static_cast<T>(number);
         return std::nullopt;
     }
     return reject(RejectCode::kOutOfRange, field.name(),
                   field.name() + " is " + numberText(number) +
-                      "; it must be a whole number from 0 to " + numberText(max));
+                      "; it must be a whole number from 0 to " + numberText(kMax));
 }
 
-std::optional<Rejection> checkScalar(const FieldDescriptor& field, const Json& value) {
-    if (value.is_structured()) {
-        return reject(RejectCode::kMalformed, field.name(),
-                      field.name() + " is " + value.type_name() + "; it must be a single value");
+std::optional<Rejection> readReal(const FieldDescriptor& field, const Json& value, double& real) {
+    if (value.is_number()) {
+        real = value.get<double>();
+        return std::nullopt;
     }
-    if (const auto* values = field.enum_type(); values != nullptr && value.is_string()) {
+    if (value.is_string()) {
+        const auto& text = value.get_ref<const std::string&>();
+        if (text == "NaN") {
+            real = std::numeric_limits<double>::quiet_NaN();
+            return std::nullopt;
+        }
+        if (text == "Infinity" || text == "-Infinity") {
+            real = std::copysign(std::numeric_limits<double>::infinity(),
+                                 text.front() == '-' ? -1.0 : 1.0);
+            return std::nullopt;
+        }
+        if (const auto number = numberIn<double>(text); number && std::isfinite(*number)) {
+            real = *number;
+            return std::nullopt;
+        }
+    }
+    return wrongType(field, value, "a number");
+}
+
+// A number without a name is kept, as protobuf keeps it.
+std::optional<Rejection> readEnum(const FieldDescriptor& field, const Json& value, int& number) {
+    if (value.is_string()) {
         const auto& name = value.get_ref<const std::string&>();
-        if (values->FindValueByName(name) == nullptr) {
+        const auto* known = field.enum_type()->FindValueByName(name);
+        if (known == nullptr) {
             return reject(RejectCode::kUnsupported, field.name(),
                           field.name() + " has no value \"" + printable(name) + "\"");
         }
+        number = known->number();
+        return std::nullopt;
     }
-    const bool is_integer = field.cpp_type() == FieldDescriptor::CPPTYPE_UINT32 ||
-                            field.cpp_type() == FieldDescriptor::CPPTYPE_UINT64;
-    return is_integer && value.is_number() ? checkInteger(field, value) : std::nullopt;
+    if (value.is_number()) {
+        const double wanted = value.get<double>();
+        number = static_cast<int>(std::clamp(wanted, -1.0, 1.0e9));
+        if (number == wanted) {
+            return std::nullopt;
+        }
+    }
+    return wrongType(field, value, "the name or the number of a value");
 }
 
-// Removes members that the schema does not know and checks the others' shape. What is left is no
-// deeper than the schema, so that protobuf's parser only ever meets bounded input.
+// Where values of one field go.
+struct Place {
+    Message& message;
+    const FieldDescriptor& field;
+
+    // By Reflection's function for a field of one value, or of several.
+    template <class Set, class Add, class Value>
+    void put(Set set, Add add, Value value) const {
+        const Reflection& reflection = *message.GetReflection();
+        if (field.is_repeated()) {
+            (reflection.*add)(&message, &field, std::move(value));
+        } else {
+            (reflection.*set)(&message, &field, std::move(value));
+        }
+    }
+};
+
 // NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
-std::optional<Rejection> fitToSchema(const Descriptor& type, Json& object) {
+std::optional<Rejection> readObject(const Json& object, Message& message);
+
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+std::optional<Rejection> readValue(const Json& value, const Place& place) {
+    const FieldDescriptor& field = place.field;
+    if (field.message_type() != nullptr) {
+        const Reflection& reflection = *place.message.GetReflection();
+        return readObject(value, field.is_repeated()
+                                     ? *reflection.AddMessage(&place.message, &field)
+                                     : *reflection.MutableMessage(&place.message, &field));
+    }
+    if (value.is_structured()) {
+        return wrongType(field, value, "a single value");
+    }
+    std::optional<Rejection> fault;
+    switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_UINT32: {
+        uint32_t integer = 0;
+        fault = readInteger(field, value, integer);
+        place.put(&Reflection::SetUInt32, &Reflection::AddUInt32, integer);
+        return fault;
+    }
+    case FieldDescriptor::CPPTYPE_UINT64: {
+        uint64_t integer = 0;
+        fault = readInteger(field, value, integer);
+        place.put(&Reflection::SetUInt64, &Reflection::AddUInt64, integer);
+        return fault;
+    }
+    case FieldDescriptor::CPPTYPE_DOUBLE: {
+        double real = 0;
+        fault = readReal(field, value, real);
+        place.put(&Reflection::SetDouble, &Reflection::AddDouble, real);
+        return fault;
+    }
+    case FieldDescriptor::CPPTYPE_ENUM: {
+        int number = 0;
+        fault = readEnum(field, value, number);
+        place.put(&Reflection::SetEnumValue, &Reflection::AddEnumValue, number);
+        return fault;
+    }
+    case FieldDescriptor::CPPTYPE_BOOL:
+        if (!value.is_boolean()) {
+            return wrongType(field, value, "true or false");
+        }
+        place.put(&Reflection::SetBool, &Reflection::AddBool, value.get<bool>());
+        return std::nullopt;
+    case FieldDescriptor::CPPTYPE_STRING:
+        if (!value.is_string()) {
+            return wrongType(field, value, "a string");
+        }
+        place.put(&Reflection::SetString, &Reflection::AddString, value.get<std::string>());
+        return std::nullopt;
+    default:
+        throw std::logic_error("bug: field " + field.full_name() +
+                               " is of a type that no text has");
+    }
+}
+
+// One value of a field, and one field of a choice: two spellings of a name are two keys.
+std::optional<Rejection> alreadyThere(const Message& message, const FieldDescriptor& field) {
+    const Reflection& reflection = *message.GetReflection();
+    if (!field.is_repeated() && reflection.HasField(message, &field)) {
+        return reject(RejectCode::kMalformed, field.name(), field.name() + " is there twice");
+    }
+    const auto* choice = field.real_containing_oneof();
+    const FieldDescriptor* other =
+        choice != nullptr ? reflection.GetOneofFieldDescriptor(message, choice) : nullptr;
+    if (other != nullptr) {
+        return reject(RejectCode::kMalformed, field.name(),
+                      other->name() + " and " + field.name() + " are both there");
+    }
+    return std::nullopt;
+}
+
+// Each member of an object, where the schema has it.
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the schema
+std::optional<Rejection> readObject(const Json& object, Message& message) {
+    const Descriptor& type = *message.GetDescriptor();
     if (!object.is_object()) {
         return reject(RejectCode::kMalformed, "",
                       type.name() + " is " + object.type_name() + "; it must be an object");
     }
-    for (auto member = object.begin(); member != object.end();) {
-        const FieldDescriptor* field = findField(type, member.key());
-        if (field == nullptr) {
-            member = object.erase(member);
-            continue;
-        }
-        Json& value = member.value();
-        ++member;
-        if (value.is_null()) {
-            continue; // absent, in protobuf's JSON
+    for (const auto& [key, value] : object.items()) {
+        const FieldDescriptor* field = findField(type, key);
+        if (field == nullptr || value.is_null()) {
+            continue; // null is absent, in protobuf's JSON
         }
         if (field->is_repeated() != value.is_array()) {
-            return reject(RejectCode::kMalformed, field->name(),
-                          field->name() + " is " + value.type_name() + "; it must be " +
-                              (field->is_repeated() ? "an array" : "a single value"));
+            return wrongType(*field, value, field->is_repeated() ? "an array" : "a single value");
         }
-        const auto check = [&](Json& item) {
-            const Descriptor* nested = field->message_type();
-            return nested != nullptr ? fitToSchema(*nested, item) : checkScalar(*field, item);
-        };
+        if (auto fault = alreadyThere(message, *field)) {
+            return fault;
+        }
+        const Place place{message, *field};
         if (!field->is_repeated()) {
-            if (auto fault = check(value)) {
+            if (auto fault = readValue(value, place)) {
                 return fault;
             }
             continue;
         }
-        for (Json& item : value) {
-            if (auto fault = check(item)) {
+        for (const Json& item : value) {
+            if (auto fault = readValue(item, place)) {
                 return fault;
             }
         }
@@ -172,17 +322,9 @@ CommandResult<void> parseJson(protocol::ByteSpan text, google::protobuf::Message
         return parsed.error();
     }
     const uint64_t seq = seqOf(document);
-    if (auto fault = fitToSchema(*message.GetDescriptor(), document)) {
+    if (auto fault = readObject(document, message)) {
         fault->ref_seq = seq;
         return *fault;
-    }
-    const auto status = google::protobuf::util::JsonStringToMessage(document.dump(), &message);
-    if (!status.ok()) {
-        auto fault = reject(RejectCode::kMalformed, "",
-                            "not a " + message.GetDescriptor()->name() + ": " +
-                                printable(status.ToString(), 100));
-        fault.ref_seq = seq;
-        return fault;
     }
     return {};
 }

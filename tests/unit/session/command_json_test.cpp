@@ -8,7 +8,7 @@ namespace froxel::session {
 namespace {
 
 using test::givenBy;
-using ::testing::AnyOf;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(CommandJson, BothSpellingsOfAName_AreTaken) {
@@ -27,6 +27,29 @@ TEST(CommandJson, SixtyFourBitIntegers_AsStringOrNumber) {
     const auto number = decodeText(R"({"seq":18446744073709551615,"ping":{}})");
     ASSERT_TRUE(number) << number.error().message;
     EXPECT_EQ(number->stamp.seq, 18446744073709551615ULL);
+}
+
+TEST(CommandJson, NumbersAsStrings_AreNumbersOrNamed) {
+    EXPECT_EQ(givenBy<double>(accepted<SetLights>(decodeBody(R"("setLights":{"radiusM":"2.5"})")),
+                              "light_radius"),
+              2.5);
+    EXPECT_EQ(
+        accepted<SetSize>(decodeBody(R"("setSize":{"width":"64","height":6.4e1})")).size.height_px,
+        64U);
+    for (const char* width :
+         {R"("4294967296")", R"("-1")", R"("0x40")", R"(" 64")", R"("64.0")", R"("")"}) {
+        EXPECT_THAT(
+            refused(decodeBody(R"("setSize":{"height":64,"width":)" + std::string(width) + "}"))
+                .message,
+            AllOf(HasSubstr(width), HasSubstr("a whole number from 0 to 4294967295")));
+    }
+    for (const char* radius : {"inf", "nan", "1e400", "+1", "1m"}) {
+        EXPECT_EQ(refused(decodeBody(R"("setLights":{"radiusM":")" + std::string(radius) + "\"}"))
+                      .message,
+                  "radius_m is \"" + std::string(radius) + "\"; it must be a number");
+    }
+    EXPECT_EQ(refused(decodeText(R"({"seq":18446744073709551616,"ping":{}})")).code,
+              RejectCode::kOutOfRange);
 }
 
 TEST(CommandJson, EnumsByNameOrNumber) {
@@ -67,6 +90,12 @@ TEST(CommandJson, TwoCommands_AreMalformed) {
     const Rejection rejection = refused(decodeBody(R"("ping":{},"ack":{"frameId":1})"));
     EXPECT_EQ(rejection.code, RejectCode::kMalformed);
     EXPECT_EQ(rejection.ref_seq, 1U);
+    EXPECT_EQ(rejection.message, "ack and ping are both there");
+    EXPECT_EQ(
+        refused(decodeBody(R"("setSize":{"width":64,"height":64},"set_size":{"width":1})")).message,
+        "set_size is there twice");
+    EXPECT_EQ(refused(decodeBody(R"("setLights":{"radiusM":1,"radius_m":2})")).message,
+              "radius_m is there twice");
 }
 
 TEST(CommandJson, NanAndInfinityStrings_AreOutOfRange) {
