@@ -112,6 +112,9 @@ void Conversation::sayWelcome() {
 
 void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
     if (const auto* pause = std::get_if<session::Pause>(&message.body)) {
+        if (pause->paused != paused_ && !pauses_.take(now)) {
+            return rejectRate(message.stamp, kPausesPerSecond, "pauses begun or ended", now);
+        }
         setPaused(pause->paused, now);
     } else if (std::holds_alternative<session::RequestKeyFrame>(message.body)) {
         requestKeyFrame(now);
@@ -122,11 +125,18 @@ void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
     }
 }
 
+void Conversation::rejectRate(const session::CommandStamp& stamp,
+                              double per_second,
+                              const std::string& what,
+                              TimePoint now) {
+    reject({RejectCode::kRateLimit, stamp.seq, "",
+            "more than " + numberText(per_second) + " " + what + " a second"},
+           now);
+}
+
 void Conversation::applyCommand(const CommandMessage& message, TimePoint now) {
     if (std::holds_alternative<session::PickLight>(message.body) && !picks_.take(now)) {
-        return reject({RejectCode::kRateLimit, message.stamp.seq, "",
-                       "more than " + numberText(kPicksPerSecond) + " lights picked a second"},
-                      now);
+        return rejectRate(message.stamp, kPicksPerSecond, "lights picked", now);
     }
     if (auto applied = seat_->session->apply(seat_->place, message, now); !applied) {
         reject(applied.error(), now);

@@ -32,6 +32,9 @@ class Conversation {
     // A pick looks at up to 20,000 lights.
     static constexpr double kPicksAtOnce = 10;
     static constexpr double kPicksPerSecond = 5;
+    // A pause that begins or ends: each end has a picture drawn, and video go on with a key frame.
+    static constexpr double kPausesAtOnce = 16;
+    static constexpr double kPausesPerSecond = 5;
     // Messages to a client of more bytes are made away from the network's threads.
     static constexpr size_t kLongBytes = size_t{8} * 1024;
 
@@ -99,6 +102,10 @@ class Conversation {
     void sayLoading();
     void drain(const Draining& draining);
     void reject(const session::Rejection& rejection, TimePoint now);
+    void rejectRate(const session::CommandStamp& stamp,
+                    double per_second,
+                    const std::string& what,
+                    TimePoint now);
     void tellError(const session::Rejection& rejection);
     void answer(v1::ServerMessage message);
     void close(protocol::CloseCode code, std::string reason);
@@ -124,6 +131,7 @@ class Conversation {
     Allowance states_{kStatesAtOnce, kStatesPerSecond};
     Allowance room_states_{kStatesAtOnce, kStatesPerSecond};
     Allowance picks_{kPicksAtOnce, kPicksPerSecond};
+    Allowance pauses_{kPausesAtOnce, kPausesPerSecond};
     ServiceStatus service_;
     std::vector<session::CommandMessage> early_;
     session::Hello hello_;                // its secrets are forgotten when they have served

@@ -31,6 +31,30 @@ TEST_F(ConversationTest, Pause_HoldsPicturesBack_AndTheNewestComesAtItsEnd) {
     EXPECT_FALSE(talk_.closing());
 }
 
+TEST_F(ConversationTest, Pause_BegunAndEndedAgainAndAgain_IsRefused_AndThePauseStaysAsItWas) {
+    join();
+    const auto pause = [this](bool paused) {
+        v1::ClientMessage message;
+        message.mutable_pause()->set_paused(paused);
+        say(message);
+    };
+    for (int i = 0; i < 100; ++i) {
+        pause(true); // said again, it changes nothing
+    }
+    for (int i = 1; i < Conversation::kPausesAtOnce; ++i) {
+        pause(i % 2 == 0);
+    }
+    EXPECT_FALSE(nextAnswer());
+    pause(true);
+    EXPECT_EQ(nextAnswer().value().error().message(), "more than 5 pauses begun or ended a second");
+    frame(1);
+    EXPECT_EQ(nextFrame().frame_id(), 1U) << "it goes on";
+    now_ += 200ms;
+    pause(true);
+    frame(2);
+    EXPECT_FALSE(talk_.nextMessage(now_)) << "paused";
+}
+
 TEST_F(ConversationTest, Frame_EchoesOwnCommandsOnly) {
     join();
     const uint64_t seq = setExposure(2);
