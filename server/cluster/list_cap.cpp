@@ -111,7 +111,7 @@ bool ListCap::advance(uint64_t entry_count) {
     const uint32_t first = next_;
     for (uint64_t count = 0; next_ < all && count < entry_count; ++next_) {
         const uint32_t listed = lists_.clusters[next_].count;
-        count += listed > cap_ ? listed : 0;
+        count += listed > cap_ ? listed : 1;
     }
     capRange(first, next_);
     if (next_ < all) {

@@ -29,8 +29,8 @@ class ListCap {
             Crew& crew,
             LightLists& lists)
         : grid_(grid), lights_(lights), cap_(cap), crew_(crew), lists_(lists) {}
-    // Goes through about so many more entries: whether all is done. Until then the lists are of no
-    // use.
+    // Goes through about so many more entries, or short lists: whether all is done. Until then the
+    // lists are of no use.
     [[nodiscard]] bool advance(uint64_t entry_count = UINT64_MAX);
 
     struct Dropped {

@@ -168,10 +168,10 @@ const cluster::GridCosts& FrameBuilder::gridCosts(const settings::ViewSettings& 
     return in_fragments ? cluster::kGpuFragmentCosts : cluster::kGpuCosts;
 }
 
-void FrameBuilder::start(const FrameInputs& inputs, uint32_t lights_at_once) {
+void FrameBuilder::start(const FrameInputs& inputs, bool in_parts) {
     culling_ = {}; // reads the inputs
     inputs_ = inputs;
-    lights_at_once_ = lights_at_once;
+    in_parts_ = in_parts;
     cap_.reset();
     assignment_.reset();
     const auto& settings = inputs_.settings;
@@ -180,28 +180,27 @@ void FrameBuilder::start(const FrameInputs& inputs, uint32_t lights_at_once) {
     projection_ = makeProjection(settings.camera, settings.size, farthest_m_);
     visibility_ = choosesVisibility(inputs_);
     compute_raster_ = visibility_ && choosesComputeRaster(inputs_);
-    startCulling(settings.lights.count <= lights_at_once);
+    startCulling();
     stage_ = Stage::kLights;
 }
 
 // On a CPU device culling and light assignment, which do not need each other, go side by side:
 // 7 becomes 5 ms on two cores (Sponza). Elsewhere the host has too little to do for a thread.
-void FrameBuilder::startCulling(bool aside) {
+void FrameBuilder::startCulling() {
     const bool is_cpu = scene_.device.traits().is_cpu;
-    culling_ =
-        std::async(is_cpu && aside ? std::launch::async : std::launch::deferred, [this, is_cpu] {
-            const auto& settings = inputs_.settings;
-            buildDrawList(scene_, pose_, settings.camera, settings.size, projection_, is_cpu,
-                          !visibility_,
-                          settings.transparency == settings::Transparency::kSorted
-                              ? TransparentOrder::kByDistance
-                              : TransparentOrder::kOfTheScene,
-                          draws_);
-            if (visibility_) {
-                placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
-                orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
-            }
-        });
+    culling_ = std::async(is_cpu ? std::launch::async : std::launch::deferred, [this, is_cpu] {
+        const auto& settings = inputs_.settings;
+        buildDrawList(scene_, pose_, settings.camera, settings.size, projection_, is_cpu,
+                      !visibility_,
+                      settings.transparency == settings::Transparency::kSorted
+                          ? TransparentOrder::kByDistance
+                          : TransparentOrder::kOfTheScene,
+                      draws_);
+        if (visibility_) {
+            placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
+            orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
+        }
+    });
 }
 
 void FrameBuilder::advance(ViewEffects& effects) {
@@ -228,6 +227,13 @@ void FrameBuilder::advance(ViewEffects& effects) {
         break;
     case Stage::kBuilt:
         break;
+    }
+}
+
+void FrameBuilder::settle() const {
+    if (culling_.valid() &&
+        culling_.wait_for(std::chrono::seconds(0)) != std::future_status::deferred) {
+        culling_.wait();
     }
 }
 
@@ -261,7 +267,7 @@ void FrameBuilder::chooseGrid() {
 }
 
 uint64_t FrameBuilder::entriesOfAStage() const {
-    return lights_.lights.size() > lights_at_once_ ? 2'000'000 : UINT64_MAX; // at most 0.1 s
+    return in_parts_ ? 2'000'000 : UINT64_MAX;
 }
 
 bool FrameBuilder::capMore() {
@@ -289,7 +295,7 @@ bool FrameBuilder::assignMore() {
         lists_.stats = {};
         (void)device_lists_.prepare(light_grid_.grid(), lights_);
     } else if (light_grid_.lists()) {
-        if (lights_.lights.size() > lights_at_once_) {
+        if (in_parts_) {
             assignment_.emplace(scene_.light_assigner, light_grid_.grid(), reach(), lists_);
             return assignment_->advance(entriesOfAStage());
         }

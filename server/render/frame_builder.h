@@ -33,9 +33,8 @@ class FrameBuilder {
 
     // Culls, evaluates lights, assigns them to clusters, lets effects look, plans: a stage at a
     // time, so that whoever shares the thread waits for one of them at most. Starting anew forgets
-    // what was not taken. With more seeded lights than `lights_at_once` nothing runs between
-    // stages, either.
-    void start(const FrameInputs& inputs, uint32_t lights_at_once);
+    // what was not taken. in_parts: stages that go through lists end after a tenth of a second.
+    void start(const FrameInputs& inputs, bool in_parts);
     // Whether it was started for these and not taken.
     [[nodiscard]] bool builds(const FrameInputs& inputs) const {
         return stage_ && inputs_ == inputs;
@@ -43,6 +42,8 @@ class FrameBuilder {
     // built() is false.
     void advance(ViewEffects& effects);
     [[nodiscard]] bool built() const { return stage_ == Stage::kBuilt; }
+    // Waits for what runs beside the stages.
+    void settle() const;
     // built() is true; the next frame is to be started.
     [[nodiscard]] FramePlan take();
     // What the frame that was built takes. Where its lists are made on the device and could make it
@@ -104,10 +105,9 @@ class FrameBuilder {
     void limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load);
     [[nodiscard]] uint64_t wireLines(const FramePlan& plan) const;
     [[nodiscard]] const cluster::GridCosts& gridCosts(const settings::ViewSettings& settings) const;
-    void startCulling(bool aside);
+    void startCulling();
     void evaluateLights();
     void chooseGrid();
-    // Of more lights than are taken at once; else all.
     [[nodiscard]] uint64_t entriesOfAStage() const;
     // Fills the lists, or empties them: whether they are whole.
     [[nodiscard]] bool assignMore();
@@ -133,7 +133,7 @@ class FrameBuilder {
     SceneResources& scene_;
     ScenePose pose_;
     FrameInputs inputs_; // of what is built
-    uint32_t lights_at_once_ = 0;
+    bool in_parts_ = false;
     std::optional<Stage> stage_;          // none: nothing is
     std::optional<cluster::ListCap> cap_; // under way
     FramePlan plan_;

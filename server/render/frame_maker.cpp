@@ -181,12 +181,17 @@ Result<bool> FrameMaker::build(const FrameInputs& inputs) {
         }
         started_ = Clock::now();
         built_us_ = 0;
-        builder_.start(inputs, work_.lights_at_once);
+        builder_.start(inputs, work_.host.has_value());
     }
-    do {
+    const auto begun = Clock::now();
+    while (!builder_.built()) {
         builder_.advance(effects_);
-    } while (!builder_.built() && builder_.localLightCount() <= work_.lights_at_once);
-    return builder_.built();
+        if (work_.host && Clock::now() - begun >= *work_.host) {
+            builder_.settle();
+            return false; // what follows a last stage takes its time, too
+        }
+    }
+    return true;
 }
 
 Result<bool> FrameMaker::recordNow(FrameSlot& slot, const FrameInputs& asked, const Slots& slots) {

@@ -28,7 +28,7 @@ class FrameMaker {
 
     enum class Made : uint8_t {
         kFrame,  // in flight from now on
-        kHalf,   // goes on with the next call for the same inputs: see WorkLimits::lights_at_once
+        kHalf,   // goes on with the next call for the same inputs: see WorkLimits::host
         kNothing // variants that it needs are still being made
     };
     // Builds a frame and records its pieces into a free slot, one of `slots`, which are all of the

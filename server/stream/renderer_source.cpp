@@ -108,9 +108,8 @@ class RendererSource final : public FrameSource {
 
   private:
     [[nodiscard]] static render::WorkLimits limitsOf(const gpu::Device& device, Seconds frame) {
-        return device.traits().is_cpu
-                   ? render::WorkLimits{frame, kCpuPiece, kCpuLoop, kLightsAtOnce}
-                   : render::WorkLimits{frame, kGpuPiece, kGpuLoop, kLightsAtOnce};
+        return device.traits().is_cpu ? render::WorkLimits{frame, kCpuPiece, kCpuLoop, kHostPart}
+                                      : render::WorkLimits{frame, kGpuPiece, kGpuLoop, kHostPart};
     }
     [[nodiscard]] static Error noMemory(const std::string& whose) {
         return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};

@@ -23,9 +23,9 @@ inline constexpr Seconds kGpuPiece{0.025};
 // Likewise one pixel's loop over its lights, which nothing cuts.
 inline constexpr Seconds kCpuLoop{0.125};
 inline constexpr Seconds kGpuLoop{0.05};
-// More lights take the host so long that it builds their frames in stages: a million up to 0.5 s
-// beside a software device's threads.
-inline constexpr uint32_t kLightsAtOnce = 50'000;
+// Likewise the host's part, between whose stages others get the thread. The longest of them, such
+// as the placing of a million lights, take a tenth of a second.
+inline constexpr Seconds kHostPart{0.03};
 
 // Moves the scene to the device and measures how fast that is where `camera` looks; frames that
 // would take longer than `frame_limit` are refused. The scene is not needed afterwards. On the

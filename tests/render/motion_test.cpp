@@ -306,7 +306,7 @@ TEST_F(Moving, ViewsAtDifferentTimes_DoNotDisturbEachOther) {
         ASSERT_NE(expected[0], expected[1]);
 
         const render::WorkLimits limits{.piece = Seconds(onGpu() ? 4e-6 : 1e-3),
-                                        .lights_at_once = 299};
+                                        .host = Seconds(0)};
         render::ViewRenderer views[2] = {render::ViewRenderer(renderer, {}, limits),
                                          render::ViewRenderer(renderer, {}, limits)};
         const render::FrameInputs* const asked[2] = {&early, &late};

@@ -43,9 +43,8 @@ struct WorkLimits {
     Seconds frame{100}; // beyond: refused, before anything is allocated
     Seconds piece{10};
     Seconds loop{10}; // one pixel's over its lights, which nothing cuts; beyond: refused
-    // Of point and spot lights. The host's part of a frame with more is done in stages, between
-    // which others get the thread.
-    uint32_t lights_at_once = UINT32_MAX;
+    // After so much of the host's part others get the thread, at the end of its stage.
+    std::optional<Seconds> host = {};
 };
 
 } // namespace froxel::render
