@@ -118,6 +118,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .culled_batches =
                 traits.subgroup_size > 1 && traits.subgroup_size <= 32 &&
                 !(traits.is_cpu && inputs.settings.shading == settings::ShadingModel::kLambert),
+            .whole_groups = traits.is_cpu, // llvmpipe's branches skip nothing
             .visibility = visibility_,
             .compute_raster = compute_raster_,
             .cull_meshlets = inputs.cull_meshlets,

@@ -149,16 +149,18 @@ void recordGeometry(const FrameContext& frame) {
     if (frame.plan.visibility) {
         recordVisible(frame);
         inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityGbuffer);
-        // G-buffer, and depth where compute rastered -> lighting's loads
-        barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders,
-                Access::eShaderSampledRead);
+        // G-buffer, and depth, which compute has waited for -> lighting's loads and depth test
+        barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
+                kShaders | kDepthStages,
+                Access::eShaderSampledRead | Access::eDepthStencilAttachmentRead);
     } else {
         recordPrepass(frame);
         inParts(frame, drawn(frame), frame.costs.gbuffer(), recordGbuffer);
-        // G-buffer and depth -> lighting's loads
+        // G-buffer and depth -> lighting's loads and depth test
         barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput,
-                Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite, kShaders,
-                Access::eShaderSampledRead);
+                Access::eDepthStencilAttachmentWrite | Access::eColorAttachmentWrite,
+                kShaders | kDepthStages,
+                Access::eShaderSampledRead | Access::eDepthStencilAttachmentRead);
     }
 }
 

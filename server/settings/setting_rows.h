@@ -20,8 +20,8 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::lighting>(
         Names{"lighting", kLightingStageNames},
         "lighting",
-        {"Lighting stage", "Shader stage that adds up lights; auto: fragment for forward renderers "
-                           "on a CPU device, compute elsewhere"}),
+        {"Lighting stage", "Shader stage that adds up lights; auto: on a CPU device fragment for "
+                           "forward renderers and for light from around alone, else compute"}),
     row<&ViewSettings::shading>(Names{"shading", kShadingModelNames},
                                 "shading",
                                 {"Shading model",

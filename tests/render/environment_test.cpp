@@ -236,6 +236,30 @@ TEST_F(Environment, Renderers_WithLists_EqualAllLightsBitForBit) {
     }
 }
 
+// Most of the picture is empty.
+TEST_F(Environment, StagesOfLighting_AndEmptyPixels_AreTheSameBits) {
+    const auto scene = makeSpheres({0.9F, 0.7F, 0.5F, 1});
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (const auto kind :
+         {Renderer::kClusteredDeferred, Renderer::kToonFragment, Renderer::kToonCompute}) {
+        for (const auto mode : {settings::ExposureMode::kFixed, settings::ExposureMode::kFrame}) {
+            auto inputs = inputsFor(kind, EnvironmentLight::kStudio);
+            inputs.settings.exposure_mode = mode;
+            inputs.settings.background.color = {0.25F, 0.5F, 1};
+            inputs.settings.lighting = settings::LightingStage::kCompute;
+            const Picture compute = draw(renderer, inputs);
+            const Picture compute_pixels = drawPixels(view, inputs);
+            for (const auto stage :
+                 {settings::LightingStage::kAuto, settings::LightingStage::kFragment}) {
+                inputs.settings.lighting = stage;
+                EXPECT_EQ(differingFloats(compute, draw(renderer, inputs)), 0U);
+                EXPECT_EQ(compute_pixels.rgba8, drawPixels(view, inputs).rgba8);
+            }
+        }
+    }
+}
+
 // Behind spheres, and behind nothing: what a mirror of its roughness would show. Every renderer
 // shows the same.
 TEST_F(Environment, Background_IsThatOfEveryRenderer) {

@@ -130,6 +130,17 @@ settings::Size drawnSize(const settings::ViewSettings& settings) {
 
 namespace {
 
+// Where a G-buffer is lit. Lights are added up fastest in compute; but light from around alone
+// takes as long in either stage, and the fragment stage has none of it where nothing is drawn.
+bool lightsInCompute(const settings::ViewSettings& settings, const FrameFacts& facts) {
+    using settings::LightingStage;
+    if (settings.lighting != LightingStage::kAuto) {
+        return settings.lighting == LightingStage::kCompute;
+    }
+    return !facts.whole_groups || facts.local_lights ||
+           settings.environment.light == settings::EnvironmentLight::kOff;
+}
+
 // Which passes there are.
 FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& facts) {
     using settings::Renderer;
@@ -145,7 +156,7 @@ FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& f
     const bool rastered = plan.forward || (plan.gbuffer && !plan.visibility);
     plan.depth_prepass = rastered && renderer != Renderer::kNaive && facts.prepass_pays;
     plan.count_samples = rastered && facts.overdraw_unknown;
-    plan.lighting_compute = plan.gbuffer && settings.lighting != settings::LightingStage::kFragment;
+    plan.lighting_compute = plan.gbuffer && lightsInCompute(settings, facts);
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.layers = drawsLayers(settings, facts.layers_visible);
     plan.toon_pass = renderer == Renderer::kToonCompute;

@@ -31,6 +31,7 @@ struct FrameFacts {
     bool compute_batches = false;  // subgroups fetch lights together in compute
     bool fragment_batches = false; // and in the fragment stage
     bool culled_batches = false;   // and skip what adds nothing to any of their pixels
+    bool whole_groups = false;     // a workgroup takes as long where nothing covers its pixels
     bool visibility = false;       // solid surfaces come from the visibility passes
     bool compute_raster = false;   // and these raster in compute
     bool cull_meshlets = true;

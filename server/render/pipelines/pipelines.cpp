@@ -296,8 +296,8 @@ vk::Pipeline Pipelines::screen(ScreenPass pass, const VariantKey& key) {
     });
 }
 
-vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
-    return *fragment_lighting_.findOrMake(key, [=, this] {
+vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key, bool covered_alone) {
+    return *fragment_lighting_.findOrMake(std::tuple(covered_alone, key), [=, this] {
         gpu::GraphicsPipelineInfo info;
         info.vertex = shaders::fullscreen_vert();
         info.fragment = (key.light_flags & io::kLightBatched) != 0
@@ -306,6 +306,11 @@ vk::Pipeline Pipelines::fragmentLighting(const VariantKey& key) {
         info.constants = constants(key);
         info.layout = *screen_layout_;
         info.color_formats = {kRadianceFormat};
+        if (covered_alone) { // it is drawn at the far end
+            info.depth_format = kDepthFormat;
+            info.depth_compare = vk::CompareOp::eLess;
+            info.depth_write = false;
+        }
         return gpu::makeGraphicsPipeline(device_, info, kFragmentLightingName);
     });
 }
@@ -332,8 +337,8 @@ std::vector<Pipelines::Made> Pipelines::made() const {
     screen_.forEachKey([&](const auto& id) {
         all.push_back({kScreenNames[static_cast<size_t>(std::get<0>(id))], std::get<1>(id)});
     });
-    fragment_lighting_.forEachKey([&](const auto& key) {
-        all.push_back({kFragmentLightingName, key});
+    fragment_lighting_.forEachKey([&](const auto& id) {
+        all.push_back({kFragmentLightingName, std::get<1>(id)});
     });
     blend_resolve_.forEachKey([&](const auto& /*key*/) { all.push_back({kBlendResolveName, {}}); });
     return all;

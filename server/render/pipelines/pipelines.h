@@ -112,8 +112,9 @@ class Pipelines {
     // What weighted or peeled surfaces came to, over the picture.
     [[nodiscard]] vk::Pipeline blendResolve(settings::Transparency transparency);
     [[nodiscard]] vk::Pipeline screen(ScreenPass pass, const VariantKey& key);
-    // The lighting pass in the fragment stage.
-    [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key);
+    // The lighting pass in the fragment stage; covered_alone: with the depth buffer attached, at
+    // whose empty pixels it does not run.
+    [[nodiscard]] vk::Pipeline fragmentLighting(const VariantKey& key, bool covered_alone);
 
     // The variants kept, of every kind.
     struct Made {
@@ -154,7 +155,7 @@ class Pipelines {
     VariantCache<settings::Transparency> blend_resolve_;
     VariantCache<std::tuple<GeometryPass, VariantKey>> geometry_;
     VariantCache<std::tuple<ScreenPass, VariantKey>> screen_;
-    VariantCache<VariantKey> fragment_lighting_;
+    VariantCache<std::tuple<bool, VariantKey>> fragment_lighting_;
 };
 
 } // namespace froxel::render

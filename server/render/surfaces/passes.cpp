@@ -141,11 +141,18 @@ void recordLightingCompute(const FrameContext& frame, const vk::Rect2D& region) 
 
 void recordLightingFragment(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "lighting");
-    const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eDontCare)};
-    const Rendering rendering(frame, region, colors, nullptr);
-    bindScreen(frame, vk::PipelineBindPoint::eGraphics,
-               frame.scene.pipelines.fragmentLighting(
-                   {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags}));
+    // Where compute rasters, the depth buffer is another image.
+    const bool covered_alone = !frame.plan.compute_raster;
+    const std::array colors = {attachment(frame.slot.targets->radiance,
+                                          covered_alone ? LoadOp::eClear : LoadOp::eDontCare,
+                                          nothing())};
+    auto depth = attachment(frame.slot.targets->depth, LoadOp::eLoad);
+    depth.storeOp = vk::AttachmentStoreOp::eNone; // the shader loads it, too
+    const Rendering rendering(frame, region, colors, covered_alone ? &depth : nullptr);
+    bindScreen(
+        frame, vk::PipelineBindPoint::eGraphics,
+        frame.scene.pipelines.fragmentLighting(
+            {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags}, covered_alone));
     frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
     frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
     frame.slot.cmd.draw(3, 1, 0, 0);

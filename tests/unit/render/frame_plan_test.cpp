@@ -162,8 +162,11 @@ std::string_view brokenPassRule(const settings::ViewSettings& settings,
         {p.forward + p.gbuffer + p.visibility_shade == 1, "solid surfaces are shaded in one way"},
         {p.gbuffer == (p.lighting_compute || p.lighting_fragment), "a G-buffer is lit"},
         {!(p.lighting_compute && p.lighting_fragment), "in one stage"},
-        {!p.lighting_fragment || settings.lighting == LightingStage::kFragment,
-         "the fragment stage lights a G-buffer only where asked to"},
+        {!p.lighting_fragment || settings.lighting == LightingStage::kFragment ||
+             (settings.lighting == LightingStage::kAuto && facts.whole_groups &&
+              !facts.local_lights &&
+              settings.environment.light != settings::EnvironmentLight::kOff),
+         "the fragment stage lights a G-buffer where asked to, or from around alone"},
         {!p.depth_prepass || (facts.prepass_pays && (p.forward || (p.gbuffer && !p.visibility))),
          "depth is rastered first only where that pays and the rasteriser shades"},
         {!p.depth_prepass || settings.renderer != Renderer::kNaive, "naive has no prepass"},
@@ -381,13 +384,16 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
         settings.bloom.kind =
             setting / 45 % 2 != 0 ? settings::BloomKind::kMipChain : settings::BloomKind::kNone;
         settings.toon_outline.strength = setting / 90 % 2 != 0 ? 0.5F : 0.0F;
-        for (uint32_t bits = 0; bits < 32; ++bits) {
+        for (uint32_t bits = 0; bits < 128; ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
             const FrameFacts facts{.transparent_visible = has(0),
                                    .local_lights = has(1),
                                    .shadows = has(4),
                                    .keep_radiance = has(2),
+                                   .whole_groups = has(6),
                                    .visibility = has(3)};
+            settings.environment.light =
+                has(5) ? settings::EnvironmentLight::kStudio : settings::EnvironmentLight::kOff;
             ASSERT_EQ(brokenRule(settings, facts, planFrame(settings, facts)), "")
                 << "settings " << setting << ", facts " << bits;
         }
@@ -433,6 +439,24 @@ TEST(FramePlan, Environment_IsAFlagOfWhatLightsSurfacesAndNoPass) {
     settings.renderer = Renderer::kClusteredDeferred;
     settings.debug.view = settings::DebugView::kBaseColor;
     EXPECT_EQ(effectOf(planFrame(settings, kLit), kEnvironmentEffect), nullptr);
+}
+
+// Empty pixels cost a software device nothing there.
+TEST(FramePlan, LightFromAroundAlone_OnASoftwareDevice_IsInTheFragmentStage) {
+    settings::ViewSettings settings;
+    settings.environment.light = settings::EnvironmentLight::kStudio;
+    FrameFacts facts{.compute_batches = true, .whole_groups = true};
+    EXPECT_TRUE(planFrame(settings, facts).lighting_fragment);
+    facts.local_lights = true;
+    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
+    facts = {.compute_batches = true};
+    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
+    facts.whole_groups = true;
+    settings.lighting = LightingStage::kCompute;
+    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
+    settings.lighting = LightingStage::kAuto;
+    settings.environment.light = settings::EnvironmentLight::kOff;
+    EXPECT_TRUE(planFrame(settings, facts).lighting_compute);
 }
 
 TEST(FramePlan, Background_IsThereWithAnEnvironment) {
