@@ -171,7 +171,6 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     const uint64_t index_count =
         index_accessor < 0 ? vertex_count : accessors_.count(index_accessor, user);
     const uint64_t list_length = listLength(*topology, index_count);
-    const bool flat = !source.attributes.contains("NORMAL");
     if (list_length == 0) {
         warnings_.add(warning::kCountOff, pointer,
                       user + " has no whole triangle and is not drawn");
@@ -182,7 +181,7 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
                       user + " has " + std::to_string(index_count) +
                           " indices, no multiple of 3; the last are ignored");
     }
-    vertices_.take(flat ? std::max(vertex_count, list_length) : vertex_count, user);
+    vertices_.take(vertex_count, user);
     indices_.take(std::max(list_length, index_count), user);
 
     const auto draco = openDraco(source, vertex_count, index_count, views_, user);
@@ -191,13 +190,13 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     primitive.positions = stream.vectors<3>("POSITION", vertex_count);
     primitive.indices = triangleList(
         *topology, readIndices(source, index_accessor, draco.get(), vertex_count, user));
-    readStreams(stream, primitive, user);
+    readStreams(stream, primitive, pointer, user);
     repairStreams(primitive, pointer, user, warnings_);
     if (primitive.indices.empty()) {
         return std::nullopt;
     }
     readMotion(source, stream, use, primitive, pointer, user);
-    finishNormals(!flat, primitive, pointer, user);
+    finishNormals(stream.has("NORMAL"), primitive, pointer, user);
     finishTangents(primitive, pointer, user);
     primitive.material =
         materials_.withTexcoords(materials_.material(source.material, pointer, user),
@@ -237,24 +236,36 @@ std::vector<uint32_t> MeshReader::readIndices(const tinygltf::Primitive& source,
 
 void MeshReader::readStreams(VertexSource& source,
                              scene::Primitive& primitive,
+                             const std::string& pointer,
                              const std::string& user) {
     const size_t count = primitive.positions.size();
-    if (source.has("NORMAL")) {
-        primitive.normals = source.vectors<3>("NORMAL", count);
-        if (source.has("TANGENT")) {
-            primitive.tangents = source.vectors<4>("TANGENT", count);
+    const auto read = [&](const char* semantic, auto& stream, const auto& vectors) {
+        if (!source.has(semantic)) {
+            return;
         }
+        try {
+            stream = vectors(semantic);
+        } catch (const Failure& failure) {
+            source.leaveOut(semantic);
+            warnings_.add(warning::kNoStream, pointer + "/attributes/" + semantic,
+                          failure.what() + std::string("; it is left out"));
+        }
+    };
+    const auto twos = [&](const char* semantic) { return source.vectors<2>(semantic, count); };
+    read("NORMAL", primitive.normals,
+         [&](const char* semantic) { return source.vectors<3>(semantic, count); });
+    if (!source.has("NORMAL") && primitive.indices.size() > count) {
+        vertices_.take(primitive.indices.size() - count, user); // each triangle has its own
+    } else if (source.has("NORMAL")) {
+        read("TANGENT", primitive.tangents,
+             [&](const char* semantic) { return source.vectors<4>(semantic, count); });
     }
-    if (source.has("TEXCOORD_0")) {
-        primitive.uv0 = source.vectors<2>("TEXCOORD_0", count);
-    }
-    if (source.has("TEXCOORD_1")) {
-        primitive.uv1 = source.vectors<2>("TEXCOORD_1", count);
-    }
-    if (source.has("COLOR_0")) {
-        const int components = accessors_.components(source.accessor("COLOR_0"), user);
-        primitive.colors = readColors(source, components, count);
-    }
+    read("TEXCOORD_0", primitive.uv0, twos);
+    read("TEXCOORD_1", primitive.uv1, twos);
+    read("COLOR_0", primitive.colors, [&](const char* semantic) {
+        const int components = accessors_.components(source.accessor(semantic), user);
+        return readColors(source, components, count);
+    });
 }
 
 void MeshReader::readMotion(const tinygltf::Primitive& source,

@@ -77,7 +77,11 @@ class MeshReader {
                                                     const DracoMesh* draco,
                                                     size_t vertex_count,
                                                     const std::string& user);
-    void readStreams(VertexSource& source, scene::Primitive& primitive, const std::string& user);
+    // All that a primitive can do without: what cannot be read is left out, with a warning.
+    void readStreams(VertexSource& source,
+                     scene::Primitive& primitive,
+                     const std::string& pointer,
+                     const std::string& user);
     void finishNormals(bool has_normals,
                        scene::Primitive& primitive,
                        const std::string& pointer,

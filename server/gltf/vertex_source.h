@@ -5,7 +5,7 @@
 #include "gltf/document.h"
 #include "gltf/draco_mesh.h"
 
-#include <optional>
+#include <set>
 #include <string>
 
 namespace froxel::gltf {
@@ -20,8 +20,10 @@ class VertexSource {
         : primitive_(primitive), accessors_(accessors), draco_(draco), user_(std::move(user)) {}
 
     [[nodiscard]] bool has(const char* semantic) const {
-        return primitive_.attributes.contains(semantic);
+        return primitive_.attributes.contains(semantic) && !left_out_.contains(semantic);
     }
+    // From now on it is not there.
+    void leaveOut(const char* semantic) { left_out_.insert(semantic); }
     [[nodiscard]] int accessor(const char* semantic) const {
         return primitive_.attributes.at(semantic);
     }
@@ -47,6 +49,7 @@ class VertexSource {
     AccessorReader& accessors_;
     const DracoMesh* draco_;
     std::string user_;
+    std::set<std::string> left_out_;
 };
 
 } // namespace froxel::gltf

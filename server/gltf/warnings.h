@@ -49,6 +49,7 @@ inline constexpr WarningKind kAlignment{"ACCESSOR_TOTAL_OFFSET_ALIGNMENT", kInfo
 inline constexpr WarningKind kNotFinite{"ACCESSOR_INVALID_FLOAT", kWarning};
 inline constexpr WarningKind kLengthZero{"ACCESSOR_NON_UNIT", kWarning};
 inline constexpr WarningKind kNoPosition{"MESH_PRIMITIVE_NO_POSITION", kWarning};
+inline constexpr WarningKind kNoStream{"VERTEX_STREAM_NOT_READ", kWarning};
 inline constexpr WarningKind kNoTriangles{"MODE_NOT_DRAWN", kWarning};
 inline constexpr WarningKind kUnknownMode{"VALUE_NOT_IN_LIST", kWarning};
 inline constexpr WarningKind kCountOff{"MESH_PRIMITIVE_INCOMPATIBLE_MODE", kWarning};

@@ -284,11 +284,39 @@ TEST(Geometry, MorphTargets_ApplyTheMeshsDefaultWeights) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(Geometry, UnequalCounts_AreRefused) {
+// Each may be missing, and what is broken is as good as missing.
+TEST(Geometry, StreamsThatCannotBeRead_AreLeftOutWithAWarning) {
+    for (const char* semantic : {"NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
+        SCOPED_TRACE(semantic);
+        SceneFile file;
+        addNormals(file); // tangents need them
+        file.attributes()[semantic] = file.addAccessor<float>({0, 1}, 2);
+        const scene::Scene short_one = loaded(file.load());
+        file.attributes()[semantic] = 99;
+        const scene::Scene unknown = loaded(file.load());
+        for (const auto* scene : {&short_one, &unknown}) {
+            const scene::Primitive& primitive = scene->meshes.at(0).primitives.at(0);
+            EXPECT_EQ(primitive.positions.size(), 3U);
+            EXPECT_EQ(primitive.normals.size(), 3U) << "the triangle's, where there are none";
+            EXPECT_TRUE(primitive.tangents.empty() && primitive.uv0.empty() &&
+                        primitive.uv1.empty() && primitive.colors.empty());
+        }
+        ASSERT_FALSE(unknown.warnings.empty());
+        EXPECT_EQ(unknown.warnings[0].code, "VERTEX_STREAM_NOT_READ");
+        EXPECT_EQ(unknown.warnings[0].pointer,
+                  "/meshes/0/primitives/0/attributes/" + std::string(semantic));
+        EXPECT_THAT(unknown.warnings[0].message, HasSubstr("accessor 99"));
+    }
+}
+
+TEST(Geometry, UnequalCounts_AreNamed) {
     SceneFile file;
     addNormals(file, 2);
-    EXPECT_THAT(failure(file.load()),
-                HasSubstr("mesh 0 primitive 0 NORMAL has 2 elements; right is 3"));
+    const scene::Scene scene = loaded(file.load());
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_EQ(scene.warnings[0].message,
+              "mesh 0 primitive 0 NORMAL has 2 elements; right is 3, as POSITION has; it is left "
+              "out");
 }
 
 TEST(Geometry, WrongType_IsRefused) {
