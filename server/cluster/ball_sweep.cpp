@@ -262,14 +262,15 @@ void BallSweep::emitRows(size_t slice,
 }
 
 FROXEL_WIDE_CLONES
-void BallSweep::sweepPerspective(const Ball& ball, std::vector<Span>& out) const {
+size_t BallSweep::sweepPerspective(const Ball& ball, std::vector<Span>& out) const {
     if (io::outsidePicture(ball, columns_, rows_)) {
-        return;
+        return 0;
     }
     PerspectiveSweep sweep(*this, ball);
     sweep.findSlices();
+    const size_t slices = sweep.last_slice - sweep.first_slice + 1;
     if (!sweep.findRows()) {
-        return;
+        return slices;
     }
     sweep.touchRowEdges();
     sweep.x_touches = io::touchCircle(ball.x, ball.z, ball.radius);
@@ -279,16 +280,19 @@ void BallSweep::sweepPerspective(const Ball& ball, std::vector<Span>& out) const
         sweep.cutPlane(slice + 1, cuts[(slice + 1) % 2]);
         sweep.emitSlice(slice, cuts[slice % 2], cuts[(slice + 1) % 2], out);
     }
+    return slices * (sweep.last_row - sweep.first_row + 2);
 }
 
-void BallSweep::sweepOrthographic(const Ball& ball, std::vector<Span>& out) const {
+size_t BallSweep::sweepOrthographic(const Ball& ball, std::vector<Span>& out) const {
     RowIntervals x;
+    size_t looked_at = plane_depths_.size();
     for (size_t slice = 0; slice + 1 < plane_depths_.size(); ++slice) {
         const double near_depth = plane_depths_[slice];
         const double far_depth = plane_depths_[slice + 1];
         if (std::abs(io::boxOffset(ball.z, near_depth, far_depth)) > ball.radius) {
             continue;
         }
+        looked_at += used_rows_;
         for (size_t j = 0; j < used_rows_; ++j) {
             const double half =
                 io::boxChord(ball, near_depth, far_depth, row_edges_[j], row_edges_[j + 1]);
@@ -297,17 +301,14 @@ void BallSweep::sweepOrthographic(const Ball& ball, std::vector<Span>& out) cons
         }
         emitRows(slice, 0, used_rows_ - 1, x.low.data(), x.high.data(), out);
     }
+    return looked_at;
 }
 
-void BallSweep::sweep(const Ball& ball, std::vector<Span>& out) const {
+size_t BallSweep::sweep(const Ball& ball, std::vector<Span>& out) const {
     if (!(ball.z + ball.radius >= 0 && ball.z - ball.radius <= plane_depths_.back())) {
-        return;
+        return 0;
     }
-    if (perspective_) {
-        sweepPerspective(ball, out);
-    } else {
-        sweepOrthographic(ball, out);
-    }
+    return perspective_ ? sweepPerspective(ball, out) : sweepOrthographic(ball, out);
 }
 
 } // namespace froxel::cluster

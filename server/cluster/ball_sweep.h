@@ -26,7 +26,8 @@ class BallSweep {
   public:
     void prepare(const ClusterGrid& grid);
     // Appends one Span for each row of each slice that the ball meets; slices and rows ascend.
-    void sweep(const Ball& ball, std::vector<Span>& out) const;
+    // Returns how many rows of slices it looked at.
+    size_t sweep(const Ball& ball, std::vector<Span>& out) const;
 
     // What it prepared, for the device's assignment.
     [[nodiscard]] const io::PictureAxis& columns() const { return columns_; }
@@ -41,8 +42,8 @@ class BallSweep {
   private:
     struct PerspectiveSweep;
 
-    void sweepPerspective(const Ball& ball, std::vector<Span>& out) const;
-    void sweepOrthographic(const Ball& ball, std::vector<Span>& out) const;
+    size_t sweepPerspective(const Ball& ball, std::vector<Span>& out) const;
+    size_t sweepOrthographic(const Ball& ball, std::vector<Span>& out) const;
     // Turns the x intervals of rows [first, last] into spans.
     void emitRows(size_t slice,
                   size_t first,

@@ -203,6 +203,27 @@ TEST(LightAssigner, InParts_TheSameLists) {
     }
 }
 
+// 200 lights beside the picture, each in the depth of 30 slices and more of 128 rows: 800,000 lines
+// to look at, and no entry.
+TEST(LightAssigner, InParts_LinesThatLightsMissAreWork) {
+    light::FrameLights lights;
+    for (int i = 0; i < 200; ++i) {
+        addPoint(lights, {1000, 0, -15}, 2);
+    }
+    const ClusterGrid grid = makeClusterGrid({{1, 128, 256}, settings::GridLaw::kLinear},
+                                             {16, 1024}, orthographic(5), 0.5, 30);
+    LightAssigner assigner(1);
+    LightLists lists;
+    LightAssignment parts(assigner, grid, lights, lists);
+    int calls = 1;
+    while (!parts.advance(10'000)) {
+        ++calls;
+    }
+    EXPECT_EQ(lists.stats.entry_count, 0U);
+    const int for_clusters = 1 + 128 * 256 / 10'000;
+    EXPECT_GT(calls, for_clusters + 15);
+}
+
 TEST(LightAssigner, InPartsBeyondTheLimit_EveryClusterNamesAllLights) {
     const auto lights = scattered(2000, 4);
     const ClusterGrid grid = usualGrid();
