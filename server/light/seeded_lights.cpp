@@ -15,7 +15,7 @@ namespace {
 // so that the compiler can use vector instructions.
 constexpr size_t kBatch = 128;
 
-constexpr size_t kHues = 256;
+constexpr size_t kColors = 256; // of a palette
 
 // Starting a thread costs about as much as a few thousand lights.
 constexpr size_t kLightsPerThread = 32'768;
@@ -44,27 +44,75 @@ struct Fractions {
     std::array<double, 3> values;
 };
 
-// Linear RGB of a hue in [0, 1), saturation 0.85. Luminance is evened out halfway (by the square
-// root): blue of red's full luminance would look like a flare, unevened it would be lost.
+// Luminance evened out halfway (by the square root): blue of red's full luminance would look like a
+// flare, unevened it would be lost.
+glm::vec3 evened(const glm::dvec3& color) {
+    const double luminance = glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
+    return glm::vec3(color * std::sqrt(0.5 / luminance));
+}
+
+// Linear RGB of a hue in [0, 1), saturation 0.85.
 glm::vec3 hueColor(double hue) {
     const auto channel = [hue](double shift) {
         const double turn = hue + shift - std::floor(hue + shift);
         return 0.15 + 0.85 * std::clamp(std::abs(turn * 6.0 - 3.0) - 1.0, 0.0, 1.0);
     };
     const glm::dvec3 color(channel(0), channel(2.0 / 3.0), channel(1.0 / 3.0));
-    const double luminance = glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
-    return glm::vec3(color * std::sqrt(0.5 / luminance));
+    return evened(color);
 }
 
-const std::array<glm::vec3, kHues>& hueTable() {
-    static const auto table = [] {
-        std::array<glm::vec3, kHues> colors{};
-        for (size_t i = 0; i < kHues; ++i) {
-            colors[i] = hueColor(static_cast<double>(i) / kHues);
+// Linear RGB of a black body from 1667 to 25,000 K, its strongest channel 1. Chromaticity: Kim et
+// al. 2002, "Design of Advanced Color Temperature Control System for HDTV Applications".
+glm::dvec3 blackBody(double kelvin) {
+    const double t = 1e3 / kelvin;
+    const double x = kelvin < 4000 ? ((-0.2661239 * t - 0.2343589) * t + 0.8776956) * t + 0.179910
+                                   : ((-3.0258469 * t + 2.1070379) * t + 0.2226347) * t + 0.240390;
+    double y = ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;
+    if (kelvin < 2222) {
+        y = ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683;
+    } else if (kelvin < 4000) {
+        y = ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867;
+    }
+    const glm::dvec3 xyz(x / y, 1, (1 - x - y) / y);
+    const glm::dmat3 rgb_from_xyz(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108,
+                                  -0.2040259, -0.4985314, 0.0415560, 1.0572252); // columns; D65
+    const glm::dvec3 color = glm::max(rgb_from_xyz * xyz, glm::dvec3(0));
+    return color / std::max({color.x, color.y, color.z});
+}
+
+// Evenly spaced by the reciprocal of the temperature, as eyes tell temperatures apart.
+glm::vec3 bodyColor(double warmest_k, double coolest_k, double share) {
+    return evened(blackBody(1 / glm::mix(1 / warmest_k, 1 / coolest_k, share)));
+}
+
+glm::vec3 paletteColor(settings::LightPalette palette, double share) {
+    switch (palette) {
+    case settings::LightPalette::kRainbow:
+        return hueColor(share);
+    case settings::LightPalette::kWarm:
+        return bodyColor(1'800, 3'000, share);
+    case settings::LightPalette::kWhite:
+        return bodyColor(4'500, 7'500, share);
+    case settings::LightPalette::kCool:
+        break;
+    }
+    return bodyColor(10'000, 25'000, share);
+}
+
+using Palette = std::array<glm::vec3, kColors>;
+
+const Palette& colorsOf(settings::LightPalette palette) {
+    static const auto tables = [] {
+        std::array<Palette, settings::kLightPaletteNames.size()> all{};
+        for (size_t p = 0; p < all.size(); ++p) {
+            for (size_t i = 0; i < kColors; ++i) {
+                all[p][i] = paletteColor(static_cast<settings::LightPalette>(p),
+                                         static_cast<double>(i) / kColors);
+            }
         }
-        return colors;
+        return all;
     }();
-    return table;
+    return tables[static_cast<size_t>(palette)];
 }
 
 // Distance of x to the nearest whole number, times two: a triangle wave in [0, 1]. Adding and
@@ -82,6 +130,7 @@ struct SeededFrame {
     glm::dvec3 cycles; // per-axis waves at unit speed
     float intensity;
     uint64_t key;
+    const Palette& colors;
 };
 
 SeededFrame seededFrame(const settings::Lights& settings,
@@ -103,7 +152,8 @@ SeededFrame seededFrame(const settings::Lights& settings,
             .view_from_box = view_from_box,
             .cycles = cycles,
             .intensity = settings.intensity,
-            .key = mix(uint64_t{settings.seed} + 0x632be59bd9b4e019U)};
+            .key = mix(uint64_t{settings.seed} + 0x632be59bd9b4e019U),
+            .colors = colorsOf(settings.palette)};
 }
 
 // Writes lights as the shaders read them.
@@ -145,7 +195,6 @@ struct OneWorldLight {
 // Lights [begin, end) of all.
 template <class Lights>
 void fillRange(const SeededFrame& frame, size_t begin, size_t end, const Lights& out) {
-    const auto& hues = hueTable();
     std::array<std::array<double, kBatch>, 3> wave;
     for (size_t first = begin; first < end; first += kBatch) {
         const size_t count = std::min(kBatch, end - first);
@@ -159,9 +208,9 @@ void fillRange(const SeededFrame& frame, size_t begin, size_t end, const Lights&
                     (0.2 + 1.3 * speed.values[axis]) * frame.cycles[static_cast<int>(axis)];
                 wave[axis][i] = phase.values[axis] + rate;
             }
-            const auto hue = static_cast<size_t>(look.values[0] * kHues);
+            const auto color = static_cast<size_t>(look.values[0] * kColors);
             const auto gain = static_cast<float>(0.5 + look.values[1]) * frame.intensity;
-            out.look(first + i, hues[hue] * gain);
+            out.look(first + i, frame.colors[color] * gain);
         }
         for (auto& axis : wave) {
             for (double& x : axis) {

@@ -108,6 +108,12 @@ inline constexpr std::array kSettingRows = {
         Range<uint32_t>{"seed", 0, std::numeric_limits<uint32_t>::max()},
         "lights.seed",
         {"Seed", "Number from which the lights' places, colours and paths are drawn"}),
+    row<&ViewSettings::lights, &Lights::palette>(Names{"light_palette", kLightPaletteNames},
+                                                 "lights.palette",
+                                                 {"Light colours",
+                                                  "Colours of the seeded lights: every hue, or "
+                                                  "those of flames and bulbs, of daylight, or of "
+                                                  "a blue sky"}),
     row<&ViewSettings::lights, &Lights::animate>(Switch{"animate"},
                                                  "lights.animate",
                                                  {"Move lights",

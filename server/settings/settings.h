@@ -48,6 +48,12 @@ inline constexpr std::array kGridLawNames = {
 
 // Which lights a pixel loops over. auto: all of them where lists cannot pay. Never changes the
 // picture.
+// Colours that seeded lights have.
+enum class LightPalette : uint8_t { kRainbow, kWarm, kWhite, kCool };
+inline constexpr std::array kLightPaletteNames = {
+    std::string_view("rainbow"), std::string_view("warm"), std::string_view("white"),
+    std::string_view("cool")};
+
 enum class LightLoop : uint8_t { kAuto, kLists, kAllLights };
 inline constexpr std::array kLightLoopNames = {std::string_view("auto"), std::string_view("lists"),
                                                std::string_view("all_lights")};
@@ -155,6 +161,7 @@ struct Lights {
                             // it, would fall to this before its window; 0: at its radius
     bool cutoff_compensated = false; // lights that end early are brighter by what they lost
     uint32_t seed = 1;
+    LightPalette palette = LightPalette::kRainbow;
     bool animate = true;         // off: time stands still
     float speed = 1.0F;          // scales the animation's clock
     std::optional<BoundsD3> box; // none: the scene's bounds

@@ -139,6 +139,41 @@ TEST(SeededLights, Colors_AreSaturatedAndScaled) {
     }
 }
 
+// Where they are and how bright stays; at 6,500 K a black body is about white.
+TEST(SeededLights, Palettes_AreThoseOfTheirTemperatures) {
+    settings::Lights settings = settingsOf(3000);
+    const auto rainbow = lightsAt(settings, 7);
+    using settings::LightPalette;
+    for (const auto palette : {LightPalette::kWarm, LightPalette::kWhite, LightPalette::kCool}) {
+        settings.palette = palette;
+        const auto lights = lightsAt(settings, 7);
+        for (size_t i = 0; i < lights.size(); ++i) {
+            ASSERT_EQ(lights[i].position_view, rainbow[i].position_view);
+            const glm::vec3& color = lights[i].color;
+            const float luminance = glm::dot(color, glm::vec3(0.2126F, 0.7152F, 0.0722F));
+            ASSERT_GT(luminance, 0.5F * 0.4F);
+            ASSERT_LT(luminance, 1.5F * 0.71F);
+            const glm::vec3 of_most = color / std::max({color.x, color.y, color.z});
+            switch (palette) {
+            case LightPalette::kWarm: // a bulb's green is 0.48 of its red, a flame's 0.2
+                ASSERT_EQ(of_most.x, 1);
+                ASSERT_GT(of_most.y, 0.15F);
+                ASSERT_LT(of_most.y, 0.55F);
+                ASSERT_LT(of_most.z, 0.2F);
+                break;
+            case LightPalette::kWhite:
+                ASSERT_GT(std::min({of_most.x, of_most.y, of_most.z}), 0.5F);
+                break;
+            default:
+                ASSERT_EQ(of_most.z, 1);
+                ASSERT_GT(of_most.y, of_most.x);
+                ASSERT_LT(of_most.x, 0.7F);
+                ASSERT_GT(of_most.x, 0.3F);
+            }
+        }
+    }
+}
+
 TEST(SeededLights, FlatAndEmptyBoxes_GiveFinitePositions) {
     const BoundsD3 boxes[] = {{{1, 2, 3}, {1, 2, 3}}, {{0, 0, 0}, {5, 0, 1e-9}}};
     for (const BoundsD3& box : boxes) {

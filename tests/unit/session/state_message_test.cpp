@@ -78,7 +78,19 @@ SessionState unusualState(const SessionContext& context) {
     state.settings.camera.lens_shift = {0.25, -0.5};
     state.settings.renderer = settings::Renderer::kToonCompute;
     state.settings.lighting = settings::LightingStage::kFragment;
-    state.settings.lights = {3, 1.5F, 2.5F, 0.125F, true, 9, false, 0.5F, {}, 0.25F, false, {}};
+    state.settings.lights = {.count = 3,
+                             .radius_m = 1.5F,
+                             .intensity = 2.5F,
+                             .cutoff = 0.125F,
+                             .cutoff_compensated = true,
+                             .seed = 9,
+                             .palette = settings::LightPalette::kWarm,
+                             .animate = false,
+                             .speed = 0.5F,
+                             .box = {},
+                             .ambient = 0.25F,
+                             .scene_lights = false,
+                             .placed = {}};
     state.settings.shading = settings::ShadingModel::kLambert;
     state.settings.gbuffer = {settings::NormalEncoding::kXy16, settings::PositionSource::kFp16};
     state.settings.light_loop = settings::LightLoop::kLists;
@@ -134,6 +146,7 @@ TEST(StateChanged, CarriesEverySettingOfViewAndLights) {
     EXPECT_EQ(view.gbuffer().normal(), v1::NORMAL_ENCODING_XY16);
     EXPECT_EQ(view.gbuffer().position(), v1::POSITION_SOURCE_FP16);
     EXPECT_EQ(view.light_loop(), v1::LIGHT_LOOP_LISTS);
+    EXPECT_EQ(view.light_palette(), v1::LIGHT_PALETTE_WARM);
     EXPECT_TRUE(view.count_pairs());
     EXPECT_EQ(view.light_time_s(), 6.5);
     EXPECT_EQ(view.debug_view(), v1::DEBUG_VIEW_OVERDRAW);
