@@ -200,32 +200,22 @@ std::optional<Rejection> readValue(const Json& value, const Place& place) {
     if (value.is_structured()) {
         return wrongType(field, value, "a single value");
     }
-    std::optional<Rejection> fault;
+    const auto read = [&](auto number, const auto& reader, auto set, auto add) {
+        auto fault = reader(field, value, number);
+        place.put(set, add, number);
+        return fault;
+    };
     switch (field.cpp_type()) {
-    case FieldDescriptor::CPPTYPE_UINT32: {
-        uint32_t integer = 0;
-        fault = readInteger(field, value, integer);
-        place.put(&Reflection::SetUInt32, &Reflection::AddUInt32, integer);
-        return fault;
-    }
-    case FieldDescriptor::CPPTYPE_UINT64: {
-        uint64_t integer = 0;
-        fault = readInteger(field, value, integer);
-        place.put(&Reflection::SetUInt64, &Reflection::AddUInt64, integer);
-        return fault;
-    }
-    case FieldDescriptor::CPPTYPE_DOUBLE: {
-        double real = 0;
-        fault = readReal(field, value, real);
-        place.put(&Reflection::SetDouble, &Reflection::AddDouble, real);
-        return fault;
-    }
-    case FieldDescriptor::CPPTYPE_ENUM: {
-        int number = 0;
-        fault = readEnum(field, value, number);
-        place.put(&Reflection::SetEnumValue, &Reflection::AddEnumValue, number);
-        return fault;
-    }
+    case FieldDescriptor::CPPTYPE_UINT32:
+        return read(uint32_t{}, readInteger<uint32_t>, &Reflection::SetUInt32,
+                    &Reflection::AddUInt32);
+    case FieldDescriptor::CPPTYPE_UINT64:
+        return read(uint64_t{}, readInteger<uint64_t>, &Reflection::SetUInt64,
+                    &Reflection::AddUInt64);
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+        return read(double{}, readReal, &Reflection::SetDouble, &Reflection::AddDouble);
+    case FieldDescriptor::CPPTYPE_ENUM:
+        return read(int{}, readEnum, &Reflection::SetEnumValue, &Reflection::AddEnumValue);
     case FieldDescriptor::CPPTYPE_BOOL:
         if (!value.is_boolean()) {
             return wrongType(field, value, "true or false");

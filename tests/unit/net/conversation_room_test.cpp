@@ -8,24 +8,25 @@ namespace {
 
 using protocol::CloseCode;
 
+v1::ClientMessage pausing(bool paused) {
+    v1::ClientMessage message;
+    message.mutable_pause()->set_paused(paused);
+    return message;
+}
+
 TEST_F(ConversationTest, Pause_HoldsPicturesBack_AndTheNewestComesAtItsEnd) {
     join();
-    const auto pause = [this](bool paused) {
-        v1::ClientMessage message;
-        message.mutable_pause()->set_paused(paused);
-        say(message);
-    };
     frame(1);
     EXPECT_EQ(nextFrame().frame_id(), 1U);
     ack(1);
-    pause(true);
+    say(pausing(true));
     EXPECT_EQ(port_.session().granted, 1U) << "nothing is drawn";
     frame(2); // were on their way, or another viewer of the room wanted them
     frame(3);
     EXPECT_FALSE(talk_.nextMessage(now_));
     EXPECT_EQ(port_.session().granted, 3U);
-    pause(true);
-    pause(false);
+    say(pausing(true));
+    say(pausing(false));
     EXPECT_EQ(nextFrame().frame_id(), 3U);
     EXPECT_GT(port_.session().granted, 3U);
     EXPECT_FALSE(talk_.closing());
@@ -33,24 +34,19 @@ TEST_F(ConversationTest, Pause_HoldsPicturesBack_AndTheNewestComesAtItsEnd) {
 
 TEST_F(ConversationTest, Pause_BegunAndEndedAgainAndAgain_IsRefused_AndThePauseStaysAsItWas) {
     join();
-    const auto pause = [this](bool paused) {
-        v1::ClientMessage message;
-        message.mutable_pause()->set_paused(paused);
-        say(message);
-    };
     for (int i = 0; i < 100; ++i) {
-        pause(true); // said again, it changes nothing
+        say(pausing(true)); // said again, it changes nothing
     }
     for (int i = 1; i < Conversation::kPausesAtOnce; ++i) {
-        pause(i % 2 == 0);
+        say(pausing(i % 2 == 0));
     }
     EXPECT_FALSE(nextAnswer());
-    pause(true);
+    say(pausing(true));
     EXPECT_EQ(nextAnswer().value().error().message(), "more than 5 pauses begun or ended a second");
     frame(1);
     EXPECT_EQ(nextFrame().frame_id(), 1U) << "it goes on";
     now_ += 200ms;
-    pause(true);
+    say(pausing(true));
     frame(2);
     EXPECT_FALSE(talk_.nextMessage(now_)) << "paused";
 }
