@@ -24,6 +24,9 @@ constexpr size_t kLightsPerMember = 256;
 // Looking at a line, which the light may miss, takes about a quarter of what an entry does.
 constexpr uint64_t kLinesPerEntry = 4;
 
+// Buffers of lists up to these are kept for the next ones: 5 MB.
+constexpr uint64_t kEntriesKept = uint64_t{1} << 18U;
+
 // That a member finds before it tells the others.
 constexpr uint64_t kEntriesAtOnce = 4096;
 
@@ -105,6 +108,8 @@ class ListMaker {
     void begin(const ClusterGrid& grid, const light::FrameLights& lights, LightLists& out);
     // Goes through about so many more lights and entries: whether all is done.
     bool advance(uint64_t work);
+    // That were found so far; what it holds grows with it.
+    [[nodiscard]] uint64_t entryCount() const { return entries_; }
 
   private:
     // What one of the crew does.
@@ -300,7 +305,7 @@ struct LightAssigner::Impl {
     Crew crew;
     const uint64_t max_entries;
     ListMaker at_once;
-    std::unique_ptr<ListMaker> in_parts; // null: nothing is under way
+    std::unique_ptr<ListMaker> in_parts; // null: nothing is under way, or was since long lists
     LightAssignment* under_way = nullptr;
 };
 
@@ -338,12 +343,16 @@ bool LightAssignment::advance(uint64_t work) {
     }
     if (assigner.under_way == nullptr) {
         assigner.under_way = this;
-        assigner.in_parts = std::make_unique<ListMaker>(assigner.crew, assigner.max_entries);
+        if (!assigner.in_parts) {
+            assigner.in_parts = std::make_unique<ListMaker>(assigner.crew, assigner.max_entries);
+        }
         assigner.in_parts->begin(grid_, lights_, out_);
     }
     if (assigner.in_parts->advance(work)) {
         std::exchange(assigner.under_way, nullptr)->done_ = true;
-        assigner.in_parts.reset();
+        if (assigner.in_parts->entryCount() > kEntriesKept) {
+            assigner.in_parts.reset();
+        }
     }
     return done_;
 }
