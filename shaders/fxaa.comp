@@ -37,7 +37,10 @@ struct End {
 
 End walk(ivec2 at, ivec2 across, ivec2 along, float edge, float enough) {
     End end = End(float(kMostSteps), 0.0);
-    for (int k = 1; k <= kMostSteps; ++k) {
+    // Past the picture's side nothing changes. No constant: a software device would unroll the loop,
+    // compile it for longer and walk all of it for every pixel.
+    int most = min(kMostSteps, max(size().x, size().y));
+    for (int k = 1; k <= most; ++k) {
         ivec2 here = at + k * along;
         end.above = 0.5 * (lumaAt(here) + lumaAt(here + across)) - edge;
         if (abs(end.above) >= enough) {

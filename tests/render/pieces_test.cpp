@@ -224,6 +224,31 @@ TEST_F(Pieces, Effects_DrawTheSameBits) {
     }
 }
 
+// A software device compiles a pipeline as it draws with it for the first time, whole: what follows
+// does not go into the same piece.
+TEST_F(Pieces, FirstUseOfAnEffectsPipeline_EndsItsPiece_OnASoftwareDevice) {
+    if (onGpu()) {
+        GTEST_SKIP() << "a GPU's pipelines are compiled before they are recorded";
+    }
+    render::Renderer fresh(device(), hall());
+    render::ViewRenderer view(fresh, {}, {Seconds(100), Seconds(100)});
+    (void)drawPixels(view, inputs());
+    auto metered = inputs();
+    metered.settings.exposure_mode = settings::ExposureMode::kFrame;
+    std::vector<uint32_t> pieces;
+    for (int frame = 0; frame < 2; ++frame) {
+        const auto work = view.begin(metered);
+        ASSERT_TRUE(work) << work.error().message;
+        pieces.push_back(work->piece_count);
+        for (uint32_t i = 0; i < work->piece_count; ++i) {
+            ASSERT_TRUE(view.submitPiece());
+        }
+        ASSERT_TRUE(view.collect());
+    }
+    EXPECT_GT(pieces[0], 1U);
+    EXPECT_EQ(pieces[1], 1U);
+}
+
 TEST_F(Pieces, BlendedSurfaces_DrawTheSameBits) {
     const auto& cameras = hall().cameras;
     size_t glass = 0;

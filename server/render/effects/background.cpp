@@ -6,6 +6,7 @@
 #include "render/frame/effect.h"
 #include "render/frame/frame_context.h"
 #include "render/pipelines/screen_groups.h"
+#include "render/pipelines/shared_pipeline.h"
 
 #include <array>
 
@@ -22,7 +23,7 @@ struct BackgroundPipeline {
                                             scene.pipelines.screenPipelineLayout(),
                                             "background")) {}
 
-    vk::raii::Pipeline pipeline;
+    SharedPipeline pipeline;
 };
 
 class Background final : public Effect {
@@ -46,8 +47,7 @@ class Background final : public Effect {
     static void recordPart(const FrameContext& frame, const vk::Rect2D& region) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "background");
         const auto& cmd = frame.slot.cmd;
-        cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
-                         *frame.scene.shared<BackgroundPipeline>().pipeline);
+        frame.scene.shared<BackgroundPipeline>().pipeline.bind(cmd, frame.scene.variants);
         const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
                                frame.scene.pipelines.screenPipelineLayout(), 0, sets, {});

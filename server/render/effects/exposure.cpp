@@ -9,6 +9,7 @@
 #include "render/frame/need_list.h"
 #include "render/pipelines/barrier.h"
 #include "render/pipelines/screen_groups.h"
+#include "render/pipelines/shared_pipeline.h"
 
 #include <array>
 #include <cmath>
@@ -52,8 +53,8 @@ struct ExposurePipelines {
 
     vk::raii::DescriptorSetLayout set_layout;
     vk::raii::PipelineLayout layout;
-    vk::raii::Pipeline histogram;
-    vk::raii::Pipeline meter;
+    SharedPipeline histogram;
+    SharedPipeline meter;
 };
 
 // One view's histogram.
@@ -128,7 +129,7 @@ class Exposure final : public Effect {
         return {Seconds(0),
                 [each](const vk::Rect2D& region) { return Seconds(areaOf(region) * each); }};
     }
-    static void bind(const FrameContext& frame, const vk::raii::Pipeline& pipeline);
+    static void bind(const FrameContext& frame, SharedPipeline& pipeline);
     static void recordHistogram(const FrameContext& frame, const vk::Rect2D& invocations);
     static void recordMeter(const FrameContext& frame);
 
@@ -171,9 +172,9 @@ void Exposure::addResults(const FrameSlot& slot, FrameStats& stats) const {
                                  static_cast<double>(slot.inputs.settings.exposure));
 }
 
-void Exposure::bind(const FrameContext& frame, const vk::raii::Pipeline& pipeline) {
+void Exposure::bind(const FrameContext& frame, SharedPipeline& pipeline) {
     const auto& cmd = frame.slot.cmd;
-    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
+    pipeline.bind(cmd, frame.scene.variants);
     const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
                              *frame.slot.kept.get<ExposureSet>().set};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,

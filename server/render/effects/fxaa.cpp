@@ -5,6 +5,7 @@
 #include "render/frame/effect.h"
 #include "render/frame/frame_context.h"
 #include "render/pipelines/screen_groups.h"
+#include "render/pipelines/shared_pipeline.h"
 
 #include <array>
 
@@ -39,7 +40,7 @@ struct FxaaPipeline {
 
     vk::raii::DescriptorSetLayout set_layout;
     vk::raii::PipelineLayout layout;
-    vk::raii::Pipeline pipeline;
+    SharedPipeline pipeline;
 };
 
 // One a frame slot.
@@ -94,8 +95,8 @@ class Fxaa final : public Effect {
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
         const auto& cmd = frame.slot.cmd;
         const gpu::PassScope scope(frame.slot.timestamps, cmd, "fxaa");
-        const auto& shared = frame.scene.shared<FxaaPipeline>();
-        cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *shared.pipeline);
+        auto& shared = frame.scene.shared<FxaaPipeline>();
+        shared.pipeline.bind(cmd, frame.scene.variants);
         const std::array sets = {*frame.slot.frame_set, *frame.slot.kept.get<FxaaSet>().set};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *shared.layout, 0, sets, {});
         dispatchOver(cmd, part);

@@ -33,10 +33,7 @@ class VariantCache {
             throw VariantsMissing();
         }
         Entry& entry = entries_.find(key)->second;
-        if (!entry.used &&
-            std::exchange(entry.noted_in, maker_.recording()) != maker_.recording()) {
-            maker_.noteFirstUse(entry.used);
-        }
+        entry.first_use.note(maker_);
         entry.last_use = timeline_.next();
         return entry.pipeline;
     }
@@ -73,11 +70,10 @@ class VariantCache {
         return true;
     }
 
-    // It is there, neither this recording nor a frame that has run has used it.
+    // It is there, and nothing has used it: see FirstUse.
     [[nodiscard]] bool isNew(const Key& key) const {
         const auto found = entries_.find(key);
-        return found != entries_.end() && !found->second.used &&
-               found->second.noted_in != maker_.recording();
+        return found != entries_.end() && found->second.first_use.isNew(maker_);
     }
 
     template <class Visit>
@@ -90,9 +86,8 @@ class VariantCache {
   private:
     struct Entry {
         Pipeline pipeline;
-        uint64_t last_use;     // the timeline's value once its frame is finished
-        bool used = false;     // by a frame that has run
-        uint64_t noted_in = 0; // the last recording that used it before any had
+        uint64_t last_use; // the timeline's value once its frame is finished
+        FirstUse first_use;
     };
     // What another thread makes.
     struct Making {
@@ -125,7 +120,7 @@ class VariantCache {
 
     // As if it were used by the next submission, for which it is meant.
     void keep(const Key& key, Pipeline pipeline) {
-        entries_.emplace(key, Entry{std::move(pipeline), timeline_.next()});
+        entries_.emplace(key, Entry{std::move(pipeline), timeline_.next(), {}});
     }
 
     void makeRoom() {

@@ -72,8 +72,7 @@ class VariantMaker {
     // The asker is gone: what was not begun for it is dropped.
     void forget(const void* asker);
 
-    // A variant is recorded that no frame has drawn with: a software device compiles it when it
-    // draws. `used` becomes true once this frame has run.
+    // See FirstUse::note(). `used` becomes true once this frame has run.
     void noteFirstUse(bool& used) { first_uses_.push_back(&used); }
     // In the recording that beginRecording() was called for.
     [[nodiscard]] size_t firstUses() const { return first_uses_.size(); }
@@ -101,6 +100,26 @@ class VariantMaker {
     const void* last_ = nullptr;                                      // whose turn it was
     const void* under_way_ = nullptr;                                 // whose work is being done
     std::jthread thread_;
+};
+
+// Whether frames have drawn with a pipeline: a software device compiles it when the first one does.
+// Keep it with the pipeline, as long as frames that use it.
+class FirstUse {
+  public:
+    // It is recorded. Of a pipeline that no frame has drawn with, told once in a recording.
+    void note(VariantMaker& maker) {
+        if (!used_ && std::exchange(noted_in_, maker.recording()) != maker.recording()) {
+            maker.noteFirstUse(used_);
+        }
+    }
+    // Neither this recording nor a frame that has run has used it.
+    [[nodiscard]] bool isNew(const VariantMaker& maker) const {
+        return !used_ && noted_in_ != maker.recording();
+    }
+
+  private:
+    bool used_ = false;     // by a frame that has run
+    uint64_t noted_in_ = 0; // the last recording that used it before any had
 };
 
 } // namespace froxel::render
