@@ -37,8 +37,8 @@ struct End {
 
 End walk(ivec2 at, ivec2 across, ivec2 along, float edge, float enough) {
     End end = End(float(kMostSteps), 0.0);
-    // Past the picture's side nothing changes. No constant: a software device would unroll the loop,
-    // compile it for longer and walk all of it for every pixel.
+    // Past the picture's side nothing changes. No constant: a software device would unroll the
+    // loop, compile it for longer and walk all of it for every pixel.
     int most = min(kMostSteps, max(size().x, size().y));
     for (int k = 1; k <= most; ++k) {
         ivec2 here = at + k * along;
