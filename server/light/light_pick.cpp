@@ -122,7 +122,7 @@ LightRig::pick(const settings::ViewSettings& settings, double time_s, const glm:
             found = std::move(placed);
         }
     };
-    const auto seeded = seededLights(lights, seededBox(lights), time_s);
+    const auto seeded = seededLights(lights, seededSpace(lights), time_s);
     for (uint32_t i = 0; i < seeded.size(); ++i) {
         scene::PunctualLight light;
         light.position_world = seeded[i].position_world;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -142,7 +143,9 @@ bool standsForSeeded(const settings::Lights& settings, const settings::PlacedLig
            placed.replaces->index < settings.count;
 }
 
-LightRig::LightRig(const scene::Scene& scene) : scene_bounds_world_(scene.bounds_world) {
+LightRig::LightRig(const scene::Scene& scene)
+    : scene_bounds_world_(scene.bounds_world),
+      places_(std::make_shared<const std::vector<LightPlace>>(lightPlaces(scene))) {
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
         if (usable(scene.lights[i])) {
             scene_lights_.push_back(scene.lights[i]);
@@ -181,9 +184,10 @@ LightRig::sceneStandIns(const settings::Lights& settings) const {
     return stand_ins;
 }
 
-BoundsD3 LightRig::seededBox(const settings::Lights& settings) const {
+SeededSpace LightRig::seededSpace(const settings::Lights& settings) const {
+    const bool at_surfaces = settings.places == settings::LightPlaces::kSurfaces;
     if (settings.box) {
-        return *settings.box;
+        return {*settings.box, at_surfaces ? placesIn(*settings.box) : nullptr};
     }
     BoundsD3 box = scene_bounds_world_;
     if (box.empty()) {
@@ -192,7 +196,18 @@ BoundsD3 LightRig::seededBox(const settings::Lights& settings) const {
     const glm::dvec3 margin = box.size() * kShrink;
     box.min += margin;
     box.max -= margin;
-    return box;
+    return {box, at_surfaces ? places_ : nullptr};
+}
+
+LightRig::Places LightRig::placesIn(const BoundsD3& box_world) const {
+    auto within = std::make_shared<std::vector<LightPlace>>();
+    std::copy_if(places_->begin(), places_->end(), std::back_inserter(*within),
+                 [&](const LightPlace& place) {
+                     const glm::dvec3& at = place.position_world;
+                     return glm::all(glm::greaterThanEqual(at, box_world.min)) &&
+                            glm::all(glm::lessThanEqual(at, box_world.max));
+                 });
+    return within;
 }
 
 LightRig::Place
@@ -213,7 +228,7 @@ LightRig::placeOf(const settings::Lights& settings, double time_s, uint32_t inde
         });
         return found.value_or(
             Place{.position_world =
-                      seededLight(settings, seededBox(settings), time_s, index).position_world});
+                      seededLight(settings, seededSpace(settings), time_s, index).position_world});
     }
     uint32_t at = settings.count;
     eachFixed(settings, [&](const scene::PunctualLight& light) {
@@ -236,7 +251,7 @@ void LightRig::evaluate(const settings::Lights& settings,
     out.areas.clear();
     out.directionals.clear();
     out.nearest_m = nearestDistance(scene_bounds_world_);
-    fillSeededLights(settings, camera, seededBox(settings), time_s, out.lights);
+    fillSeededLights(settings, camera, seededSpace(settings), time_s, out.lights);
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     eachSeededStandIn(settings, [&](uint32_t index, const scene::PunctualLight& light) {
         putLocal(light, camera, view_from_world, index, out);

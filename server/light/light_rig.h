@@ -4,12 +4,14 @@
 #include "core/error.h"
 #include "core/math.h"
 #include "light/frame_lights.h"
+#include "light/seeded_lights.h"
 #include "scene/scene.h"
 #include "settings/camera.h"
 #include "settings/settings.h"
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -59,8 +61,9 @@ class LightRig {
     static constexpr uint32_t kMostPickable = 20'000;
 
     // The box that seeded lights move in, metres in world space: the settings' own, or the scene's
-    // bounds less kShrink of their size on every side.
-    [[nodiscard]] BoundsD3 seededBox(const settings::Lights& settings) const;
+    // bounds less kShrink of their size on every side. Where they hover at surfaces, those in the
+    // settings' own box if there is one; where none is, they move in the box.
+    [[nodiscard]] SeededSpace seededSpace(const settings::Lights& settings) const;
 
     // Calls visit(const scene::PunctualLight&) for the lights of a frame that are not seeded, in
     // their order: the scene's, as its file has them, or who stands for them, then the others that
@@ -98,6 +101,8 @@ class LightRig {
     static constexpr double kShrink = 0.04;
 
   private:
+    using Places = std::shared_ptr<const std::vector<LightPlace>>;
+    [[nodiscard]] Places placesIn(const BoundsD3& box_world) const;
     // The same of a scene light.
     [[nodiscard]] bool standsForScene(const settings::Lights& settings,
                                       const settings::PlacedLight& placed) const;
@@ -108,6 +113,7 @@ class LightRig {
     std::vector<scene::PunctualLight> scene_lights_;
     std::vector<uint32_t> scene_indices_; // of these in Scene::lights, rising
     BoundsD3 scene_bounds_world_;
+    Places places_; // of the whole scene; its copies share them
 };
 
 } // namespace froxel::light

@@ -1,6 +1,7 @@
 #include "light/seeded_lights.h"
 
 #include "core/parallel.h"
+#include "light/hash.h"
 
 #include <algorithm>
 #include <array>
@@ -17,32 +18,13 @@ constexpr size_t kBatch = 128;
 
 constexpr size_t kColors = 256; // of a palette
 
+// Of a light that hovers at a surface, in its radii: the side of the box that it moves in, and how
+// far the middle of that is from the surface.
+constexpr double kHoverBox = 0.3;
+constexpr double kHoverAbove = 0.25;
+
 // Starting a thread costs about as much as a few thousand lights.
 constexpr size_t kLightsPerThread = 32'768;
-
-// A bijective 64-bit mixer (xor-shift and multiply, three rounds): every input bit reaches every
-// output bit. Integer arithmetic only, so that a seed means the same lights everywhere.
-uint64_t mix(uint64_t value) {
-    value ^= value >> 32U;
-    value *= 0x9fb21c651e98df25U;
-    value ^= value >> 29U;
-    value *= 0xd6e8feb86659fd93U;
-    value ^= value >> 32U;
-    return value;
-}
-
-// Three independent fractions in [0, 1) of 21 bits each out of one hash.
-struct Fractions {
-    explicit Fractions(uint64_t hash) {
-        constexpr uint64_t kMask = (1U << 21U) - 1U;
-        constexpr double kScale = 1.0 / (1U << 21U);
-        for (auto& value : values) {
-            value = static_cast<double>(static_cast<int32_t>(hash & kMask)) * kScale;
-            hash >>= 21U;
-        }
-    }
-    std::array<double, 3> values;
-};
 
 // Luminance evened out halfway (by the square root): blue of red's full luminance would look like a
 // flare, unevened it would be lost.
@@ -127,6 +109,10 @@ double triangleWave(double x) {
 struct SeededFrame {
     glm::dvec3 origin; // of the box, in view space
     glm::dmat3 view_from_box;
+    std::span<const LightPlace> places; // that have a box each; empty: one for all
+    glm::dmat3 view_from_world;
+    glm::dvec3 eye_world;
+    double above_m;    // a place's surface, the box's origin
     glm::dvec3 cycles; // per-axis waves at unit speed
     float intensity;
     uint64_t key;
@@ -135,11 +121,14 @@ struct SeededFrame {
 
 SeededFrame seededFrame(const settings::Lights& settings,
                         const settings::Camera& camera,
-                        const BoundsD3& box_world,
+                        const SeededSpace& space,
                         double time_s) {
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
-    const glm::dvec3 extent = box_world.size();
-    const glm::dvec3 origin = view_from_world * (box_world.min - camera.eye_world);
+    const auto radius = static_cast<double>(settings.radius_m);
+    const bool placed = space.places != nullptr && !space.places->empty();
+    const glm::dvec3 extent = placed ? glm::dvec3(kHoverBox * radius) : space.box_world.size();
+    const glm::dvec3 origin =
+        view_from_world * (placed ? -0.5 * extent : space.box_world.min - camera.eye_world);
     const glm::dmat3 view_from_box(view_from_world[0] * extent.x, view_from_world[1] * extent.y,
                                    view_from_world[2] * extent.z);
     // Per-axis speeds are 1/sqrt(3) of the overall ones. A period is twice the box; a flat box
@@ -150,6 +139,10 @@ SeededFrame seededFrame(const settings::Lights& settings,
     }
     return {.origin = origin,
             .view_from_box = view_from_box,
+            .places = placed ? std::span(*space.places) : std::span<const LightPlace>(),
+            .view_from_world = view_from_world,
+            .eye_world = camera.eye_world,
+            .above_m = kHoverAbove * radius,
             .cycles = cycles,
             .intensity = settings.intensity,
             .key = mix(uint64_t{settings.seed} + 0x632be59bd9b4e019U),
@@ -192,10 +185,20 @@ struct OneWorldLight {
     }
 };
 
+// Where the box of a light is whose place is this share of all.
+glm::dvec3 originOf(const SeededFrame& frame, double share) {
+    const auto count = static_cast<double>(frame.places.size());
+    const LightPlace& place = frame.places[static_cast<size_t>(share * count)];
+    return frame.origin +
+           frame.view_from_world *
+               (place.position_world + frame.above_m * place.normal_world - frame.eye_world);
+}
+
 // Lights [begin, end) of all.
 template <class Lights>
 void fillRange(const SeededFrame& frame, size_t begin, size_t end, const Lights& out) {
     std::array<std::array<double, kBatch>, 3> wave;
+    std::array<double, kBatch> place{}; // as a share of all
     for (size_t first = begin; first < end; first += kBatch) {
         const size_t count = std::min(kBatch, end - first);
         for (size_t i = 0; i < count; ++i) {
@@ -211,6 +214,7 @@ void fillRange(const SeededFrame& frame, size_t begin, size_t end, const Lights&
             const auto color = static_cast<size_t>(look.values[0] * kColors);
             const auto gain = static_cast<float>(0.5 + look.values[1]) * frame.intensity;
             out.look(first + i, frame.colors[color] * gain);
+            place[i] = look.values[2];
         }
         for (auto& axis : wave) {
             for (double& x : axis) {
@@ -218,9 +222,10 @@ void fillRange(const SeededFrame& frame, size_t begin, size_t end, const Lights&
             }
         }
         for (size_t i = 0; i < count; ++i) {
-            const glm::dvec3 position =
-                frame.origin + frame.view_from_box * glm::dvec3(wave[0][i], wave[1][i], wave[2][i]);
-            out.place(first + i, position);
+            const glm::dvec3 origin =
+                frame.places.empty() ? frame.origin : originOf(frame, place[i]);
+            out.place(first + i, origin + frame.view_from_box *
+                                              glm::dvec3(wave[0][i], wave[1][i], wave[2][i]));
         }
     }
 }
@@ -235,10 +240,10 @@ float inverseRadius2(double radius_m) {
 
 void fillSeededLights(const settings::Lights& settings,
                       const settings::Camera& camera,
-                      const BoundsD3& box_world,
+                      const SeededSpace& space,
                       double time_s,
                       std::span<io::Light> out) {
-    const SeededFrame frame = seededFrame(settings, camera, box_world, time_s);
+    const SeededFrame frame = seededFrame(settings, camera, space, time_s);
     const ShaderLights lights{out, inverseRadius2(static_cast<double>(settings.radius_m))};
     onThreads(
         out.size(), threadCount(out.size(), kLightsPerThread),
@@ -246,19 +251,19 @@ void fillSeededLights(const settings::Lights& settings,
 }
 
 std::vector<SeededLight>
-seededLights(const settings::Lights& settings, const BoundsD3& box_world, double time_s) {
+seededLights(const settings::Lights& settings, const SeededSpace& space, double time_s) {
     std::vector<SeededLight> lights(settings.count);
-    const SeededFrame frame = seededFrame(settings, {}, box_world, time_s); // the world's own axes
+    const SeededFrame frame = seededFrame(settings, {}, space, time_s); // the world's own axes
     fillRange(frame, 0, lights.size(), WorldLights{lights});
     return lights;
 }
 
 SeededLight seededLight(const settings::Lights& settings,
-                        const BoundsD3& box_world,
+                        const SeededSpace& space,
                         double time_s,
                         uint32_t index) {
     SeededLight light;
-    const SeededFrame frame = seededFrame(settings, {}, box_world, time_s);
+    const SeededFrame frame = seededFrame(settings, {}, space, time_s);
     fillRange(frame, index, size_t{index} + 1, OneWorldLight{light});
     return light;
 }

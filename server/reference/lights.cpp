@@ -64,7 +64,7 @@ unshadowed(const light::LightRig& rig, const settings::ViewSettings& settings, d
     Lights lights;
     const double seeded_radius = static_cast<double>(settings.lights.radius_m);
     for (const auto& seeded :
-         light::seededLights(settings.lights, rig.seededBox(settings.lights), time_s)) {
+         light::seededLights(settings.lights, rig.seededSpace(settings.lights), time_s)) {
         lights.points.push_back({.position = seeded.position_world - eye,
                                  .radius2 = squared(seeded_radius),
                                  .color = glm::dvec3(seeded.color)});

@@ -108,6 +108,11 @@ inline constexpr std::array kSettingRows = {
         Range<uint32_t>{"seed", 0, std::numeric_limits<uint32_t>::max()},
         "lights.seed",
         {"Seed", "Number from which the lights' places, colours and paths are drawn"}),
+    row<&ViewSettings::lights, &Lights::places>(Names{"light_places", kLightPlacesNames},
+                                                "lights.places",
+                                                {"Light places",
+                                                 "Space in which the seeded lights move: all of "
+                                                 "their box, or close to the scene's surfaces"}),
     row<&ViewSettings::lights, &Lights::palette>(Names{"light_palette", kLightPaletteNames},
                                                  "lights.palette",
                                                  {"Light colours",

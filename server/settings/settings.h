@@ -46,14 +46,19 @@ enum class GridLaw : uint8_t { kLogarithmic, kLinear, kHyperbolic };
 inline constexpr std::array kGridLawNames = {
     std::string_view("logarithmic"), std::string_view("linear"), std::string_view("hyperbolic")};
 
-// Which lights a pixel loops over. auto: all of them where lists cannot pay. Never changes the
-// picture.
+// Where seeded lights are: all over the box that they move in, or hovering at surfaces.
+enum class LightPlaces : uint8_t { kVolume, kSurfaces };
+inline constexpr std::array kLightPlacesNames = {std::string_view("volume"),
+                                                 std::string_view("surfaces")};
+
 // Colours that seeded lights have.
 enum class LightPalette : uint8_t { kRainbow, kWarm, kWhite, kCool };
 inline constexpr std::array kLightPaletteNames = {
     std::string_view("rainbow"), std::string_view("warm"), std::string_view("white"),
     std::string_view("cool")};
 
+// Which lights a pixel loops over. auto: all of them where lists cannot pay. Never changes the
+// picture.
 enum class LightLoop : uint8_t { kAuto, kLists, kAllLights };
 inline constexpr std::array kLightLoopNames = {std::string_view("auto"), std::string_view("lists"),
                                                std::string_view("all_lights")};
@@ -161,6 +166,7 @@ struct Lights {
                             // it, would fall to this before its window; 0: at its radius
     bool cutoff_compensated = false; // lights that end early are brighter by what they lost
     uint32_t seed = 1;
+    LightPlaces places = LightPlaces::kVolume;
     LightPalette palette = LightPalette::kRainbow;
     bool animate = true;         // off: time stands still
     float speed = 1.0F;          // scales the animation's clock

@@ -254,11 +254,12 @@ TEST(LightRig, SeededBox_IsTheSettingsOrTheShrunkScene) {
     scene.bounds_world = {{0, 0, 0}, {100, 10, 50}};
     settings::Lights settings;
     const LightRig rig(scene);
-    EXPECT_LT(glm::distance(rig.seededBox(settings).min, glm::dvec3(4, 0.4, 2)), 1e-9);
-    EXPECT_LT(glm::distance(rig.seededBox(settings).max, glm::dvec3(96, 9.6, 48)), 1e-9);
+    EXPECT_LT(glm::distance(rig.seededSpace(settings).box_world.min, glm::dvec3(4, 0.4, 2)), 1e-9);
+    EXPECT_LT(glm::distance(rig.seededSpace(settings).box_world.max, glm::dvec3(96, 9.6, 48)),
+              1e-9);
     settings.box = BoundsD3{{-1, -2, -3}, {4, 5, 6}};
-    EXPECT_EQ(rig.seededBox(settings).min, glm::dvec3(-1, -2, -3));
-    EXPECT_EQ(rig.seededBox(settings).max, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(rig.seededSpace(settings).box_world.min, glm::dvec3(-1, -2, -3));
+    EXPECT_EQ(rig.seededSpace(settings).box_world.max, glm::dvec3(4, 5, 6));
 }
 
 TEST(LightRig, EmptyScene_HasFiniteLights) {

@@ -1,0 +1,99 @@
+#include "light/light_places.h"
+
+#include "core/finite.h"
+#include "light/hash.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace froxel::light {
+namespace {
+
+constexpr double kFacesDown = -0.25; // the normal's y, below
+
+struct Triangle {
+    glm::dvec3 corner;
+    glm::dvec3 side_a;
+    glm::dvec3 side_b;
+    glm::dvec3 normal;
+    double area;
+};
+
+// Calls visit(const Triangle&) for those that may carry a light, of each `stride`-th.
+template <class Visit>
+void eachTriangle(const scene::Scene& scene, uint64_t stride, const Visit& visit) {
+    uint64_t at = 0;
+    for (const scene::Instance& instance : scene.instances) {
+        const glm::dmat4& placed = instance.world_from_object;
+        const double side = glm::determinant(glm::dmat3(placed)) < 0 ? -1 : 1;
+        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            const auto corner = [&](size_t i) {
+                const glm::dvec3 object(primitive.positions[primitive.indices[i]]);
+                return glm::dvec3(placed * glm::dvec4(object, 1));
+            };
+            for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+                if (at++ % stride != 0) {
+                    continue;
+                }
+                const glm::dvec3 first = corner(i);
+                const glm::dvec3 a = corner(i + 1) - first;
+                const glm::dvec3 b = corner(i + 2) - first;
+                const glm::dvec3 cross = side * glm::cross(a, b);
+                const double twice = glm::length(cross);
+                if (twice > 0 && std::isfinite(twice) && cross.y >= kFacesDown * twice) {
+                    visit(Triangle{first, a, b, cross / twice, twice / 2});
+                }
+            }
+        }
+    }
+}
+
+uint64_t triangleCount(const scene::Scene& scene) {
+    uint64_t count = 0;
+    for (const scene::Instance& instance : scene.instances) {
+        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+            count += primitive.indices.size() / 3;
+        }
+    }
+    return count;
+}
+
+// Evenly over it: a parallelogram, folded along its diagonal.
+glm::dvec3 pointOf(const Triangle& triangle, double u, double v) {
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    return triangle.corner + u * triangle.side_a + v * triangle.side_b;
+}
+
+} // namespace
+
+std::vector<LightPlace> lightPlaces(const scene::Scene& scene) {
+    const uint64_t stride = 1 + triangleCount(scene) / kMostTriangles;
+    double total = 0;
+    eachTriangle(scene, stride, [&](const Triangle& triangle) { total += triangle.area; });
+    std::vector<LightPlace> places;
+    if (!(total > 0) || !std::isfinite(total)) {
+        return places;
+    }
+    places.reserve(kLightPlaces);
+    // One place in each of equal parts of the area, anywhere within it.
+    const double part = total / kLightPlaces;
+    const auto numbersOf = [](size_t place) { return Fractions(mix(place + 1)).values; };
+    double passed = 0;
+    eachTriangle(scene, stride, [&](const Triangle& triangle) {
+        passed += triangle.area;
+        while (places.size() < kLightPlaces) {
+            const auto numbers = numbersOf(places.size());
+            if ((static_cast<double>(places.size()) + numbers[0]) * part >= passed) {
+                return;
+            }
+            places.push_back({pointOf(triangle, numbers[1], numbers[2]), triangle.normal});
+        }
+    });
+    return places;
+}
+
+} // namespace froxel::light

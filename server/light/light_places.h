@@ -1,0 +1,26 @@
+// Places just off a scene's surfaces, for lights that hover there.
+#pragma once
+
+#include "core/math.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace froxel::light {
+
+struct LightPlace {
+    glm::dvec3 position_world{0}; // m, on a surface
+    glm::dvec3 normal_world{0};   // unit, out of it
+};
+
+inline constexpr uint32_t kLightPlaces = 8192;
+
+// kLightPlaces of them, evenly by area, where the scene rests; none where it has no surface that
+// could carry a light. Surfaces that face down have no lights, as ceilings over lamps have none. Of
+// more than kMostTriangles triangles each second, third, ... is looked at. Pure; takes some ms.
+[[nodiscard]] std::vector<LightPlace> lightPlaces(const scene::Scene& scene);
+
+inline constexpr uint64_t kMostTriangles = uint64_t{1} << 20U;
+
+} // namespace froxel::light
