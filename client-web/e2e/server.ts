@@ -19,7 +19,7 @@ export async function startServer(port = 0, more: readonly string[] = []): Promi
   if (!binary) throw new Error('FROXEL_BINARY is not set: the path of a froxel binary');
   // However slow the machine, several pages are let in and their pictures drawn.
   const options = ['--port', String(port), '--admin-bind', 'none', '--min-fps', '0', '--frame-limit', '60'];
-  options.push('--drain-seconds', '1', ...more);
+  options.push('--drain-seconds', '1', '--look', 'rainbow', ...more); // nothing that a test did not turn on
   const child = spawn(binary, ['serve', ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });

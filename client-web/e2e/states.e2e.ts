@@ -195,6 +195,18 @@ it('Search', async () => {
   await looksAsItShould('search');
 });
 
+it('Looks', async () => {
+  await openWithPicture();
+  await viewer.page.locator('#tool-looks').click();
+  await until('the pictures', () =>
+    viewer.page.evaluate(() => {
+      const pictures = [...document.querySelectorAll<HTMLImageElement>('#looks-list img')];
+      return pictures.length > 0 && pictures.every(({ naturalWidth }) => naturalWidth > 0);
+    }),
+  );
+  await looksAsItShould('looks');
+});
+
 it('Help', async () => {
   await openWithPicture();
   await viewer.page.locator('#tool-help').click();

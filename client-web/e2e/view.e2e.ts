@@ -7,6 +7,7 @@ import { promisify } from 'node:util';
 import type { Page } from 'playwright-core';
 import { expect, it } from 'vitest';
 
+import { LightPalette, LightPlaces } from '../src/gen/froxel/v1/common_pb';
 import { parseAddress } from '../src/state/address';
 import { usePages } from './pages';
 import { difference, until, type Viewer } from './viewer';
@@ -38,6 +39,33 @@ it('Picture_FollowsTheWindow_ToldOnce_WithinTheServersBudget', async () => {
   expect(told).toEqual([...new Set(told)]);
   await viewer.page.setViewportSize({ width: 800, height: 800 });
   await viewer.stateWith('200 × 200', (state) => state.width === 200 && state.height === 200);
+});
+
+it('Looks_AreChosen_LeaveNothingOfOthers_AndOwnOnesAreKept', async () => {
+  const viewer = await open('#size=320x180&animate=0');
+  const { page } = viewer;
+  const choose = async (label: string): Promise<void> => {
+    await page.locator('#view').focus();
+    await page.keyboard.press('v');
+    await page.locator('#looks-list').getByRole('button', { name: label, exact: true }).click();
+  };
+  await choose('Mist');
+  await viewer.stateWith('mist', ({ fog, lightPalette }) =>
+    (fog?.density ?? 0) > 0 && lightPalette === LightPalette.COOL);
+  await page.locator('#tool-looks').click();
+  await page.locator('#looks-name').fill('<b>Mine</b>');
+  await page.keyboard.press('Enter');
+  await page.locator('#looks-close').click();
+  await choose('Evening');
+  await viewer.stateWith('evening', ({ fog, lightPalette, lightPlaces, lightAnimate }) =>
+    fog?.density === 0 && lightPalette === LightPalette.WARM && lightPlaces === LightPlaces.SURFACES && !lightAnimate);
+  await page.reload();
+  await viewer.picture();
+  await choose('<b>Mine</b>');
+  await viewer.stateWith('one of its own', ({ fog }) => (fog?.density ?? 0) > 0);
+  await page.locator('#tool-looks').click();
+  await page.getByRole('button', { name: 'Remove the look <b>Mine</b>' }).click();
+  expect(await page.locator('#looks-list').textContent()).not.toContain('Mine');
 });
 
 it('Pointer_Wheel_AndKeys_MoveTheCamera', async () => {

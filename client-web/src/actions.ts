@@ -1,10 +1,12 @@
 // What can be done on the page, each once: tools, keys, the help and the search are made from it.
 
 import type { Entry } from './core/entries';
+import type { Look } from './state/looks';
 
 export interface Doings {
   readonly search: () => void;
   readonly panel: () => void;
+  readonly looks: () => void;
   readonly figures: () => void;
   readonly screenshot: () => void;
   readonly copyLink: () => void;
@@ -17,6 +19,7 @@ export interface Doings {
   readonly addLight: () => void;
   readonly reset: () => void;
   readonly sceneCamera: (index: number) => void;
+  readonly look: (look: Look) => void;
 }
 
 const action = (title: string, key: string, run: () => void, help: string, words = ''): Entry => ({
@@ -31,6 +34,7 @@ export function actionsOf(does: Doings): readonly Entry[] {
   return [
     action('Search', '/', does.search, 'Finds any action and any setting (Ctrl K too)', 'find command palette'),
     action('Settings', 'c', does.panel, 'Opens or closes the settings', 'panel options controls'),
+    action('Looks', 'v', does.looks, 'Shows looks to choose from, and keeps this one', 'preset style mood theme'),
     action('Figures', 'f', does.figures, 'Shows where the time of a frame goes', 'statistics passes latency fps'),
     action('Save picture', 'p', does.screenshot, 'Saves the picture as a PNG file', 'screenshot image download'),
     action('Copy link', 'l', does.copyLink, 'Copies a link to this very view', 'share url address'),
@@ -50,3 +54,7 @@ export const camerasOf = (names: readonly string[], does: Doings): Entry[] =>
   names.map((name, index) =>
     action(`Camera ${name}`, index < 9 ? String(index + 1) : '', () => does.sceneCamera(index), 'Goes to a camera of the scene', 'view go to'),
   );
+
+/** The server's looks, and those that were kept in this browser. */
+export const looksOf = (looks: readonly Look[], does: Doings): Entry[] =>
+  looks.map((look) => action(`Look ${look.label}`, '', () => does.look(look), look.help, 'preset style mood'));

@@ -1,6 +1,7 @@
 // What the panel, the keys and the pointer can do, as actions on the store and the connection.
 
 import type { AnimationActions } from './cards/animation_card';
+import type { LookActions } from './cards/looks_card';
 import type { RoomActions } from './cards/room_card';
 import { kMissing, Later } from './core/later';
 import { add, length, normalize, scale, sub } from './core/vec3';
@@ -22,6 +23,8 @@ import {
 } from './settings/placed_lights';
 import { cameraCommand, settingCommands } from './settings/setting_commands';
 import type { Settings, Value } from './settings/settings';
+import { parseAddress } from './state/address';
+import { dropLook, keepLook, lookAddress, offeredLooks, ownLooks, type Look } from './state/looks';
 import { mayControl, roomText } from './state/room';
 import type { SizeMode } from './state/size_policy';
 import type { Store } from './state/store';
@@ -33,7 +36,7 @@ const kFlightSeconds = 12;
 /** How far before the eye a new light is put, at most. */
 const kAheadM = 4;
 
-export class Commands implements PanelActions, InputTarget, RoomActions, AnimationActions {
+export class Commands implements PanelActions, InputTarget, RoomActions, AnimationActions, LookActions {
   private readonly lightSetFile = new Later(
     () => import('./settings/light_set_file'),
     () => this.refuse(kMissing),
@@ -141,6 +144,27 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     if (!server) return;
     const { width, height } = this.store.state.settings ?? server.initial;
     this.edit({ ...server.initial, width, height });
+  }
+
+  /** The server's first. */
+  looks(): Look[] {
+    return [...offeredLooks(this.store.state.server), ...ownLooks()];
+  }
+
+  applyLook(look: Look): void {
+    const { settings, problems } = parseAddress(look.address);
+    this.edit(settings);
+    if (problems.length > 0) this.refuse(problems.join('; ')); // kept by another version
+  }
+
+  keepLook(label: string): string | null {
+    const { server, settings } = this.store.state;
+    if (!server || !settings) return 'there is no view yet to keep the look of';
+    return keepLook(label, lookAddress(server, settings));
+  }
+
+  dropLook(label: string): string | null {
+    return dropLook(label);
   }
 
   /** The answer's camera is adopted: the page does not know where the scene's cameras stand. */

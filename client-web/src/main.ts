@@ -1,9 +1,10 @@
 // The composition root: puts the parts together and ties them to the page.
 
-import { actionsOf, camerasOf, type Doings } from './actions';
+import { actionsOf, camerasOf, looksOf, type Doings } from './actions';
 import { AnimationCard } from './cards/animation_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
+import { LooksCard } from './cards/looks_card';
 import { RoomCard } from './cards/room_card';
 import { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
@@ -135,6 +136,7 @@ const banner = new Banner({
 });
 const roomCard = new RoomCard(commands);
 const animationCard = new AnimationCard(commands);
+const looksCard = new LooksCard(commands);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
@@ -226,6 +228,7 @@ const doings: Doings = {
     void panel.want().then(() => search.refresh());
   },
   panel: () => void panel.want().then((made) => made?.toggle()),
+  looks: () => looksCard.toggle(),
   figures: () => statsCard.toggle(),
   screenshot: () => void commands.screenshot(),
   copyLink: () => void address.copy(),
@@ -242,18 +245,21 @@ const doings: Doings = {
   addLight: () => commands.addLight(),
   reset: () => commands.resetAll(),
   sceneCamera: (index) => commands.selectCameraAt(index),
+  look: (look) => commands.applyLook(look),
 };
 const actions = actionsOf(doings);
-/** The scene's cameras with them. */
+/** The scene's cameras and the looks with them. */
 const keyed = (): Entry[] => [
   ...actions,
   ...camerasOf(store.state.server?.scene?.cameras ?? [], doings),
+  ...looksOf(commands.looks(), doings),
 ];
 const search = new SearchCard(() => [...keyed(), ...(panel.here?.entries() ?? [])]);
 
 const tools: readonly (readonly [string, () => void])[] = [
   ['tool-search', doings.search],
   ['tool-panel', doings.panel],
+  ['tool-looks', doings.looks],
   ['tool-screenshot', doings.screenshot],
   ['tool-link', doings.copyLink],
   ['tool-fullscreen', doings.fullscreen],

@@ -164,6 +164,7 @@ void addFirstView(CommandBuilder& command, ServeOptions& options) {
         byDevice([](const Defaults& d) { return fmt::format("{}", d.encoding.quality); }),
         [&options](const auto& value) { options.quality = std::get<uint32_t>(value); });
     addDelivery(command, options.delivery);
+    addLook(command, options.look, "evening in the built-in hall, else the scene's own");
     addViewSettings(command, options.first_view, options.given, options.light_set);
     addLensShift(command, options.lens_shift);
 }
@@ -206,6 +207,7 @@ void addRender(CLI::App& app, Targets& targets) {
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);
+    addLook(command, options.look, "the scene's own");
     addViewSettings(command, settings, options.given, options.light_set);
     command.number("--time", options.time_s, settings::kTimeRange, "The lights' clock in seconds");
     command.value("--size", "WxH", settings.size, parseSize, textOf(settings.size),

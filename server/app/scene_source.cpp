@@ -76,17 +76,26 @@ Result<scene::Scene> loadScene(const std::string& source, const std::string& ani
 settings::ViewSettings firstLook(const std::string& source,
                                  const scene::Scene& scene,
                                  const settings::ViewSettings& settings,
-                                 const GivenSettings& given) {
-    settings::ViewSettings look = settings;
-    if (source != kBuiltin) {
-        scene::lookFor(scene, look);
-        for (const auto& row : settings::kSettingRows) {
-            if (given.count(row.name) > 0) {
-                row.set(look, row.get(settings));
-            }
+                                 const GivenSettings& given,
+                                 const scene::Look* look,
+                                 bool software) {
+    settings::ViewSettings first = settings;
+    if (!isBuiltin(source)) {
+        scene::lookFor(scene, first);
+    }
+    if (look != nullptr) {
+        look->apply(first, software);
+    }
+    for (const auto& row : settings::kSettingRows) {
+        if (given.count(row.name) > 0) {
+            row.set(first, row.get(settings));
         }
     }
-    return look;
+    return first;
+}
+
+bool isBuiltin(const std::string& source) {
+    return source == kBuiltin;
 }
 
 void logWarnings(const scene::Scene& scene) {

@@ -17,11 +17,17 @@ namespace froxel::app {
                                              const std::string& animation = {});
 
 // The settings of a view of it where nobody has asked for others: those given stay, the rest goes
-// by the scene (scene::lookFor()). The built-in scene has the defaults for its look.
+// by the scene (scene::lookFor()) and `look`, if there is one. The built-in scene begins with the
+// defaults. `software`: see scene::Look.
 [[nodiscard]] settings::ViewSettings firstLook(const std::string& source,
                                                const scene::Scene& scene,
                                                const settings::ViewSettings& settings,
-                                               const GivenSettings& given);
+                                               const GivenSettings& given,
+                                               const scene::Look* look,
+                                               bool software);
+
+// Whether it is the built-in hall.
+[[nodiscard]] bool isBuiltin(const std::string& source);
 
 // A line of the log for each of the scene's warnings, which are few.
 void logWarnings(const scene::Scene& scene);

@@ -47,7 +47,11 @@ defaultsOf(const ServeOptions& options, const scene::Scene& scene, bool device_i
     auto defaults =
         session::defaultsFor(device_is_cpu ? session::DeviceKind::kCpu : session::DeviceKind::kGpu);
     const settings::Size size = options.size.value_or(defaults.settings.size);
-    defaults.settings = firstLook(options.scene, scene, options.first_view, options.given);
+    const scene::Look* look = options.look != nullptr    ? options.look
+                              : isBuiltin(options.scene) ? scene::findLook("evening")
+                                                         : nullptr;
+    defaults.settings =
+        firstLook(options.scene, scene, options.first_view, options.given, look, device_is_cpu);
     defaults.settings.size = size;
     defaults.encoding.quality = options.quality.value_or(defaults.encoding.quality);
     defaults.min_rate_hz = options.min_rate_hz.value_or(defaults.min_rate_hz);
@@ -66,6 +70,14 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
                      "--device-memory: a session may find none left\"",
                      limits.device_bytes / kMib, limits.session_bytes / kMib, sessions_max);
     }
+}
+
+// Over what the scene begins with.
+std::vector<session::OfferedLook>
+looksOf(const ServeOptions& options, const scene::Scene& scene, bool device_is_cpu) {
+    const settings::ViewSettings usual =
+        firstLook(options.scene, scene, {}, {}, nullptr, device_is_cpu);
+    return session::offerLooks(usual, device_is_cpu);
 }
 
 // A third of the weight of the render thread.
@@ -114,7 +126,8 @@ OpenedScene openScene(const ServeOptions& options,
                                     FROXEL_VERSION,
                                     traits.name,
                                     lightPicker(scene),
-                                    first_view};
+                                    first_view,
+                                    looksOf(options, scene, traits.is_cpu)};
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(context.scene.name), context.scene.triangle_count,
                  context.scene.draw_count, context.scene.cameras.size());

@@ -108,6 +108,14 @@ void addSettingValue(CommandBuilder& command,
     command.parsed("--" + dashed(setting), type, parse, set, shown_default, helpOf(setting));
 }
 
+void addLook(CommandBuilder& command, const scene::Look*& look, const std::string& shown_default) {
+    const auto parse = [](const std::string& text) { return parseName(text, scene::lookNames()); };
+    command.parsed(
+        "--look", "NAME", parse, [&look](size_t index) { look = &scene::looks()[index]; },
+        shown_default,
+        "Preset of lights, environment and renderer: " + describe(scene::lookNames()));
+}
+
 void addViewSettings(CommandBuilder& command,
                      settings::ViewSettings& settings,
                      GivenSettings& given,

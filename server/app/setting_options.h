@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/command_builder.h"
+#include "scene/looks.h"
 #include "settings/setting.h"
 #include "settings/settings.h"
 
@@ -39,6 +40,9 @@ void addSetting(CommandBuilder& command, const settings::SettingOf<Whole>& row, 
 
 // The rows whose option was there, by name.
 using GivenSettings = std::set<std::string_view>;
+
+// A named preset; each setting that is given goes before it. Null: none was given.
+void addLook(CommandBuilder& command, const scene::Look*& look, const std::string& shown_default);
 
 // All settings of the view's table, its grid and its lights; `light_set` becomes the file that
 // placed ones were read from.

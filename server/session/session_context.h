@@ -7,6 +7,7 @@
 #include "scene/first_view.h"
 #include "scene/scene.h"
 #include "session/delivery.h"
+#include "session/offered_looks.h"
 #include "settings/settings.h"
 
 #include <cstdint>
@@ -72,6 +73,7 @@ struct SessionContext {
     std::string device_name;
     LightPicker pick_light = pickNone;
     scene::FirstView first_view;
+    std::vector<OfferedLook> looks = {};
 };
 
 } // namespace froxel::session

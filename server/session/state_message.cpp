@@ -222,6 +222,13 @@ makeWelcome(uint64_t session_id, const SessionContext& context, const SessionSta
     fillViewState(*welcome.mutable_state(), context, state);
     *welcome.mutable_placed_lights() = changeOf({}, state.settings.lights.placed);
     addRanges(welcome);
+    for (const OfferedLook& look : context.looks) {
+        v1::Look& offered = *welcome.add_looks();
+        offered.set_name(look.name);
+        offered.set_label(look.label);
+        offered.set_help(look.help);
+        offered.set_address(look.address);
+    }
     return message;
 }
 

@@ -20,7 +20,8 @@ class Server:
     """Runs until stop(), or the end of a `with`."""
 
     def __init__(self, froxel, *options):
-        command = [froxel, "serve", "--port", "0", "--admin-bind", "127.0.0.1:0"]
+        # What figures of earlier versions were taken with.
+        command = [froxel, "serve", "--port", "0", "--admin-bind", "127.0.0.1:0", "--look", "rainbow"]
         command += ["--log-level", "error", *options]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         self.url = self.process.stdout.readline().strip()

@@ -2,6 +2,7 @@
 // FROXEL_UPDATE_GOLDEN=1 writes them anew: look at each before committing it, and say why.
 #include "builtin_scene/hall.h"
 #include "encode/image_file.h"
+#include "scene/looks.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/image_compare.h"
@@ -67,6 +68,18 @@ TEST_F(Golden, EveryRenderer_BuiltinScene_LooksAsCommitted) {
         auto inputs = inputsFor(scene);
         inputs.settings.renderer = static_cast<settings::Renderer>(kind);
         expectAsCommitted(draw(renderer, inputs), std::string(settings::kRendererNames[kind]));
+    }
+}
+
+// As a GPU shows them.
+TEST_F(Golden, Looks_BuiltinScene_LookAsCommitted) {
+    const auto scene = builtin_scene::makeHall();
+    render::Renderer renderer(device(), scene);
+    render::ViewRenderer view(renderer);
+    for (const scene::Look& look : scene::looks()) {
+        auto inputs = inputsFor(scene);
+        look.apply(inputs.settings, false);
+        expectAsCommitted(drawPixels(view, inputs), "look_" + std::string(look.name));
     }
 }
 

@@ -11,6 +11,7 @@ import {
   ErrorCode,
   type FieldRange,
   type FrameDetails,
+  type Look,
   type SceneInfo,
   type ServerMessage,
 } from '../gen/froxel/v1/server_pb';
@@ -28,6 +29,7 @@ export interface ServerInfo {
   readonly bounds: Bounds | null;
   readonly ranges: ReadonlyMap<string, FieldRange>;
   readonly initial: Settings;
+  readonly looks: readonly Look[];
 }
 
 export interface Loading {
@@ -228,6 +230,7 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
     bounds,
     ranges: new Map(welcome.ranges.map((range) => [range.field, range])),
     initial,
+    looks: welcome.looks,
   };
   const settings = mayControl(room) ? desired(state, server, present) : present;
   return {

@@ -64,11 +64,28 @@ TEST_F(SceneSource, UnknownAnimation_IsRefusedByName) {
 TEST(FirstLook, WhatWasGiven_Stays_AndTheHallKeepsTheDefaults) {
     const scene::Scene scene;
     settings::ViewSettings asked;
-    EXPECT_EQ(firstLook("builtin", scene, asked, {}), asked);
-    EXPECT_EQ(firstLook("a.glb", scene, asked, {}).lights.count, 0U);
-    EXPECT_EQ(firstLook("a.glb", scene, asked, {"lights"}), asked);
+    const auto first = [&](const char* source, const GivenSettings& given) {
+        return firstLook(source, scene, asked, given, nullptr, true);
+    };
+    EXPECT_EQ(first("builtin", {}), asked);
+    EXPECT_EQ(first("a.glb", {}).lights.count, 0U);
+    EXPECT_EQ(first("a.glb", {"lights"}), asked);
     asked.lights.count = 7;
-    EXPECT_EQ(firstLook("a.glb", scene, asked, {"lights"}).lights.count, 7U);
+    EXPECT_EQ(first("a.glb", {"lights"}).lights.count, 7U);
+}
+
+TEST(FirstLook, NamedLook_GoesBeforeTheScene_AndAfterWhatWasGiven) {
+    const scene::Scene scene;
+    settings::ViewSettings asked;
+    asked.lights.count = 7;
+    const scene::Look* look = scene::findLook("evening");
+    ASSERT_NE(look, nullptr);
+    for (const char* source : {"builtin", "a.glb"}) {
+        EXPECT_EQ(firstLook(source, scene, asked, {}, look, true).lights.count, 1000U);
+        const auto given = firstLook(source, scene, asked, {"lights"}, look, true);
+        EXPECT_EQ(given.lights.count, 7U);
+        EXPECT_EQ(given.lights.palette, settings::LightPalette::kWarm);
+    }
 }
 
 } // namespace

@@ -1,0 +1,76 @@
+// The looks as pictures to choose from, and those that this browser keeps.
+
+import { element, make } from '../core/dom';
+import type { Look } from '../state/looks';
+
+export interface LookActions {
+  looks(): readonly Look[];
+  applyLook(look: Look): void;
+  /** Why not, in words; null: it is kept. */
+  keepLook(label: string): string | null;
+  dropLook(label: string): string | null;
+}
+
+export class LooksCard {
+  private readonly dialog = element('looks', HTMLDialogElement);
+  private readonly list = element('looks-list', HTMLElement);
+  private readonly name = element('looks-name', HTMLInputElement);
+  private readonly said = element('looks-said', HTMLElement);
+
+  constructor(private readonly actions: LookActions) {
+    this.dialog.addEventListener('click', (event) => {
+      if (event.target === this.dialog) this.dialog.close(); // beside the box
+    });
+    element('looks-form', HTMLFormElement).addEventListener('submit', (event) => {
+      event.preventDefault();
+      this.tell(this.actions.keepLook(this.name.value));
+    });
+    element('looks-close', HTMLButtonElement).addEventListener('click', () => this.dialog.close());
+  }
+
+  toggle(): void {
+    if (this.dialog.open) {
+      this.dialog.close();
+      return;
+    }
+    this.tell(null);
+    this.dialog.showModal();
+  }
+
+  private tell(problem: string | null): void {
+    this.said.textContent = problem ?? '';
+    if (problem === null) {
+      this.name.value = '';
+      this.list.replaceChildren(...this.actions.looks().map((look) => this.itemOf(look)));
+    }
+  }
+
+  private itemOf(look: Look): HTMLElement {
+    const item = make('li');
+    const choose = make('button');
+    choose.type = 'button';
+    choose.title = look.help;
+    if (!look.own) {
+      const picture = make('img');
+      picture.src = `looks/${look.name}.jpg`;
+      picture.alt = '';
+      picture.addEventListener('error', () => picture.remove()); // another server's look
+      choose.append(picture);
+    }
+    choose.append(make('span', look.label));
+    choose.addEventListener('click', () => {
+      this.dialog.close();
+      this.actions.applyLook(look);
+    });
+    item.append(choose);
+    if (look.own) {
+      const drop = make('button', '×');
+      drop.type = 'button';
+      drop.className = 'plain';
+      drop.setAttribute('aria-label', `Remove the look ${look.label}`);
+      drop.addEventListener('click', () => this.tell(this.actions.dropLook(look.label)));
+      item.append(drop);
+    }
+    return item;
+  }
+}

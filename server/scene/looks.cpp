@@ -1,0 +1,120 @@
+#include "scene/looks.h"
+
+#include <algorithm>
+#include <array>
+
+namespace froxel::scene {
+
+namespace {
+
+using settings::ViewSettings;
+
+constexpr uint32_t kManyLights = 1000;
+
+void glow(ViewSettings& to, float strength, bool software) {
+    to.bloom.kind = software ? settings::BloomKind::kNone : settings::BloomKind::kMipChain;
+    to.bloom.strength = strength;
+}
+
+void sharpen(ViewSettings& to, bool software) {
+    to.antialiasing = software ? settings::Antialiasing::kNone : settings::Antialiasing::kFxaa;
+}
+
+void studio(ViewSettings& to, float strength) {
+    to.environment.light = settings::EnvironmentLight::kStudio;
+    to.environment.strength = strength;
+}
+
+void lampsAtSurfaces(ViewSettings& to, settings::LightPalette palette) {
+    to.lights.count = kManyLights;
+    to.lights.places = settings::LightPlaces::kSurfaces;
+    to.lights.palette = palette;
+}
+
+void evening(ViewSettings& to, bool software) {
+    lampsAtSurfaces(to, settings::LightPalette::kWarm);
+    to.lights.radius_m *= 1.3F;
+    to.lights.intensity *= 0.8F;
+    studio(to, 0.2F);
+    to.exposure = 1.2F;
+    glow(to, 0.12F, software);
+    sharpen(to, software);
+}
+
+void noon(ViewSettings& to, bool software) {
+    lampsAtSurfaces(to, settings::LightPalette::kWhite);
+    to.lights.intensity *= 0.3F;
+    studio(to, 1);
+    to.exposure = 0.8F;
+    sharpen(to, software);
+}
+
+void mist(ViewSettings& to, bool software) {
+    to.lights.count = kManyLights;
+    to.lights.places = settings::LightPlaces::kVolume;
+    to.lights.palette = settings::LightPalette::kCool;
+    to.lights.radius_m *= 1.5F;
+    studio(to, 0.05F);
+    to.fog.density = 0.1F / to.lights.radius_m;
+    to.exposure = 1.5F;
+    sharpen(to, software);
+}
+
+void toon(ViewSettings& to, bool software) {
+    lampsAtSurfaces(to, settings::LightPalette::kWarm);
+    to.renderer = settings::Renderer::kToonFragment;
+    to.shading = settings::ShadingModel::kLambert;
+    to.lights.radius_m *= 1.3F;
+    studio(to, 0.3F);
+    to.toon_outline.strength = 0.8F;
+    sharpen(to, software);
+}
+
+// Every hue, all over the room, and nothing else: what the lists and the loops are measured with.
+void rainbow(ViewSettings& to, bool /*software*/) {
+    to.lights.count = kManyLights;
+    to.lights.places = settings::LightPlaces::kVolume;
+    to.lights.palette = settings::LightPalette::kRainbow;
+    to.environment.light = settings::EnvironmentLight::kOff;
+    to.exposure_mode = settings::ExposureMode::kFixed;
+}
+
+void clusters(ViewSettings& to, bool software) {
+    rainbow(to, software);
+    to.debug.view = settings::DebugView::kListedLights;
+}
+
+constexpr std::array kLooks = {
+    Look{"evening", "Evening", "Warm lamps close to the walls and floors, dusk in the windows",
+         evening},
+    Look{"noon", "Noon", "Bright light from all around, and lamps that hardly show", noon},
+    Look{"mist", "Mist", "Cool lights adrift in thin fog", mist},
+    Look{"toon", "Toon", "Steps of light and dark outlines", toon},
+    Look{"rainbow", "Rainbow", "A thousand lights of every hue all over the scene", rainbow},
+    Look{"clusters", "Clusters", "How many lights the list of each pixel's cluster holds",
+         clusters},
+};
+
+constexpr auto kNames = [] {
+    std::array<std::string_view, kLooks.size()> names;
+    std::transform(kLooks.begin(), kLooks.end(), names.begin(),
+                   [](const Look& look) { return look.name; });
+    return names;
+}();
+
+} // namespace
+
+std::span<const Look> looks() {
+    return kLooks;
+}
+
+std::span<const std::string_view> lookNames() {
+    return kNames;
+}
+
+const Look* findLook(std::string_view name) {
+    const auto found = std::find(kNames.begin(), kNames.end(), name);
+    return found == kNames.end() ? nullptr : &kLooks[static_cast<size_t>(found - kNames.begin())];
+}
+
+} // namespace froxel::scene
