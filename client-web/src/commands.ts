@@ -24,7 +24,7 @@ import {
 import { cameraCommand, settingCommands } from './settings/setting_commands';
 import type { Settings, Value } from './settings/settings';
 import { parseAddress } from './state/address';
-import { dropLook, keepLook, lookAddress, offeredLooks, ownLooks, type Look } from './state/looks';
+import { dropLook, isLook, keepLook, lookAddress, offeredLooks, ownLooks, type Look } from './state/looks';
 import { mayControl, roomText } from './state/room';
 import type { SizeMode } from './state/size_policy';
 import type { Store } from './state/store';
@@ -155,6 +155,15 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     const { settings, problems } = parseAddress(look.address);
     this.edit(settings);
     if (problems.length > 0) this.refuse(problems.join('; ')); // kept by another version
+  }
+
+  newestSeq(): bigint {
+    return this.store.state.sentSeq;
+  }
+
+  isLookNow(look: Look): boolean {
+    const { settings } = this.store.state;
+    return settings !== null && isLook(look, settings);
   }
 
   keepLook(label: string): string | null {

@@ -32,6 +32,7 @@ import { SettingsSync } from './state/settings_sync';
 import { pictureLabel } from './state/standing';
 import { Store } from './state/store';
 import { WindowSize } from './state/window_size';
+import { LookCosts } from './stats/look_costs';
 import { SceneWarnings } from './stats/scene_warnings';
 import { Stats } from './stats/stats';
 import { StatsCard } from './stats/stats_card';
@@ -51,6 +52,7 @@ const resume = new Resume(tabShelf(), roomName);
 const token = new TokenPrompt(tabShelf(), () => connection.open());
 const store = new Store();
 const stats = new Stats();
+const lookCosts = new LookCosts();
 const picture = new Picture(canvas);
 const codecs = await decodableCodecs();
 const videoFallback = new VideoFallback();
@@ -65,6 +67,7 @@ const presenter = new Presenter({
   acknowledge: (ack) => void connection.send({ case: 'ack', value: ack }),
   painted: (header, decodeMs) => {
     stats.painted(header, decodeMs, nowMs());
+    lookCosts.painted(header);
     panel.here?.showGrid(header.grid);
     animationCard.showTime(header.animationTimeS);
     if (header.camera) {
@@ -136,7 +139,7 @@ const banner = new Banner({
 });
 const roomCard = new RoomCard(commands);
 const animationCard = new AnimationCard(commands);
-const looksCard = new LooksCard(commands);
+const looksCard = new LooksCard(commands, lookCosts);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);

@@ -53,6 +53,10 @@ defaultsOf(const ServeOptions& options, const scene::Scene& scene, bool device_i
     defaults.settings =
         firstLook(options.scene, scene, options.first_view, options.given, look, device_is_cpu);
     defaults.settings.size = size;
+    // 27 us of 0.7 ms on an H100.
+    if (!device_is_cpu && look == nullptr && options.given.count("antialiasing") == 0) {
+        defaults.settings.antialiasing = settings::Antialiasing::kFxaa;
+    }
     defaults.encoding.quality = options.quality.value_or(defaults.encoding.quality);
     defaults.min_rate_hz = options.min_rate_hz.value_or(defaults.min_rate_hz);
     defaults.delivery = options.delivery;

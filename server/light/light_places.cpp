@@ -1,10 +1,10 @@
 #include "light/light_places.h"
 
-#include "core/finite.h"
 #include "light/hash.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace froxel::light {
@@ -20,42 +20,53 @@ struct Triangle {
     double area;
 };
 
-// Calls visit(const Triangle&) for those that may carry a light, of each `stride`-th.
+// Calls visit(const scene::Instance&, const scene::Primitive&).
 template <class Visit>
-void eachTriangle(const scene::Scene& scene, uint64_t stride, const Visit& visit) {
-    uint64_t at = 0;
+void eachPrimitive(const scene::Scene& scene, const Visit& visit) {
     for (const scene::Instance& instance : scene.instances) {
-        const glm::dmat4& placed = instance.world_from_object;
-        const double side = glm::determinant(glm::dmat3(placed)) < 0 ? -1 : 1;
-        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
-            const auto corner = [&](size_t i) {
-                const glm::dvec3 object(primitive.positions[primitive.indices[i]]);
-                return glm::dvec3(placed * glm::dvec4(object, 1));
-            };
-            for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-                if (at++ % stride != 0) {
-                    continue;
-                }
-                const glm::dvec3 first = corner(i);
-                const glm::dvec3 a = corner(i + 1) - first;
-                const glm::dvec3 b = corner(i + 2) - first;
-                const glm::dvec3 cross = side * glm::cross(a, b);
-                const double twice = glm::length(cross);
-                if (twice > 0 && std::isfinite(twice) && cross.y >= kFacesDown * twice) {
-                    visit(Triangle{first, a, b, cross / twice, twice / 2});
-                }
+        if (instance.mesh < scene.meshes.size()) {
+            for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
+                visit(instance, primitive);
             }
         }
     }
 }
 
+// Calls visit(const Triangle&) for those that may carry a light, of each `stride`-th.
+template <class Visit>
+void eachTriangle(const scene::Scene& scene, uint64_t stride, const Visit& visit) {
+    uint64_t at = 0;
+    eachPrimitive(scene, [&](const auto& instance, const scene::Primitive& primitive) {
+        const glm::dmat4& placed = instance.world_from_object;
+        const double side = glm::determinant(glm::dmat3(placed)) < 0 ? -1 : 1;
+        const auto corner = [&](size_t i) { // not finite where the index leads nowhere
+            const uint32_t index = primitive.indices[i];
+            const glm::dvec3 object = index < primitive.positions.size()
+                                          ? glm::dvec3(primitive.positions[index])
+                                          : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+            return glm::dvec3(placed * glm::dvec4(object, 1));
+        };
+        for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            if (at++ % stride != 0) {
+                continue;
+            }
+            const glm::dvec3 first = corner(i);
+            const glm::dvec3 a = corner(i + 1) - first;
+            const glm::dvec3 b = corner(i + 2) - first;
+            const glm::dvec3 cross = side * glm::cross(a, b);
+            const double twice = glm::length(cross);
+            if (twice > 0 && std::isfinite(twice) && cross.y >= kFacesDown * twice) {
+                visit(Triangle{first, a, b, cross / twice, twice / 2});
+            }
+        }
+    });
+}
+
 uint64_t triangleCount(const scene::Scene& scene) {
     uint64_t count = 0;
-    for (const scene::Instance& instance : scene.instances) {
-        for (const scene::Primitive& primitive : scene.meshes[instance.mesh].primitives) {
-            count += primitive.indices.size() / 3;
-        }
-    }
+    eachPrimitive(scene, [&](const auto& /*instance*/, const scene::Primitive& primitive) {
+        count += primitive.indices.size() / 3;
+    });
     return count;
 }
 

@@ -18,7 +18,8 @@ inline constexpr uint32_t kLightPlaces = 8192;
 
 // kLightPlaces of them, evenly by area, where the scene rests; none where it has no surface that
 // could carry a light. Surfaces that face down have no lights, as ceilings over lamps have none. Of
-// more than kMostTriangles triangles each second, third, ... is looked at. Pure; takes some ms.
+// more than kMostTriangles triangles each second, third, ... is looked at. The scene may have
+// faults (scene::findFault()), which are passed over. Pure; takes some ms.
 [[nodiscard]] std::vector<LightPlace> lightPlaces(const scene::Scene& scene);
 
 inline constexpr uint64_t kMostTriangles = uint64_t{1} << 20U;

@@ -19,7 +19,8 @@ namespace {
 constexpr uint32_t kWidth = 320;
 constexpr uint32_t kHeight = 180;
 const std::vector<std::string> kSettings = {
-    "--size", "320x180", "--lights", "100", "--light-radius", "3", "--renderer", "forward_plus"};
+    "--look", "rainbow",        "--size", "320x180",    "--lights",
+    "100",    "--light-radius", "3",      "--renderer", "forward_plus"};
 
 using Rgb = std::vector<unsigned char>; // [height][width][3]
 

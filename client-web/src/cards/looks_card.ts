@@ -6,9 +6,21 @@ import type { Look } from '../state/looks';
 export interface LookActions {
   looks(): readonly Look[];
   applyLook(look: Look): void;
+  /** Whether the view is at it. */
+  isLookNow(look: Look): boolean;
+  /** Of the commands that set the view. */
+  newestSeq(): bigint;
   /** Why not, in words; null: it is kept. */
   keepLook(label: string): string | null;
   dropLook(label: string): string | null;
+}
+
+/** What a frame of each look takes on the device. */
+export interface KnownCosts {
+  /** The view is at these since the command `newestSeq`. */
+  note(names: readonly string[], newestSeq: bigint): void;
+  /** Undefined: not known. */
+  ofMs(name: string): number | undefined;
 }
 
 export class LooksCard {
@@ -17,7 +29,10 @@ export class LooksCard {
   private readonly name = element('looks-name', HTMLInputElement);
   private readonly said = element('looks-said', HTMLElement);
 
-  constructor(private readonly actions: LookActions) {
+  constructor(
+    private readonly actions: LookActions,
+    private readonly costs: KnownCosts,
+  ) {
     this.dialog.addEventListener('click', (event) => {
       if (event.target === this.dialog) this.dialog.close(); // beside the box
     });
@@ -33,8 +48,15 @@ export class LooksCard {
       this.dialog.close();
       return;
     }
+    this.noteCost();
     this.tell(null);
     this.dialog.showModal();
+  }
+
+  private noteCost(): void {
+    const { actions } = this;
+    const now = actions.looks().filter((look) => actions.isLookNow(look));
+    this.costs.note(now.map(({ name }) => name), actions.newestSeq());
   }
 
   private tell(problem: string | null): void {
@@ -58,7 +80,15 @@ export class LooksCard {
       choose.append(picture);
     }
     choose.append(make('span', look.label));
+    const cost = this.costs.ofMs(look.name);
+    if (cost !== undefined) {
+      const text = make('small', `${cost < 10 ? cost.toFixed(1) : Math.round(cost)} ms`);
+      text.title = 'What a frame of it took on the device when it was last seen here';
+      choose.append(' ', text);
+    }
+    if (this.actions.isLookNow(look)) choose.setAttribute('aria-current', 'true');
     choose.addEventListener('click', () => {
+      this.noteCost();
       this.dialog.close();
       this.actions.applyLook(look);
     });

@@ -1,7 +1,7 @@
 // Looks: named presets of lights, environment and renderer, as fragments of the address. The server
 // offers some, and a browser keeps those of its viewers.
 
-import { formatAddress } from './address';
+import { formatAddress, parseAddress } from './address';
 import type { ServerInfo } from './app_state';
 import type { Settings } from '../settings/settings';
 
@@ -27,6 +27,19 @@ export function lookAddress(server: ServerInfo, settings: Settings): string {
     .split('&')
     .filter((part) => names.has(part.slice(0, part.indexOf('='))))
     .join('&');
+}
+
+/** Whether these settings are all that the look sets. */
+export const isLook = (look: Look, settings: Settings): boolean =>
+  Object.entries(parseAddress(look.address).settings).every(([key, value]) =>
+    sameShown(value, settings[key as keyof Settings]),
+  );
+
+/** The server's numbers are 32-bit floats, of which an address has the shortest text. */
+function sameShown(a: unknown, b: unknown): boolean {
+  if (typeof a === 'number' && typeof b === 'number') return Math.fround(a) === Math.fround(b);
+  if (typeof a !== 'object' || typeof b !== 'object' || a === null || b === null) return a === b;
+  return Object.entries(a).every(([key, part]) => sameShown(part, (b as Record<string, unknown>)[key]));
 }
 
 /** Those kept in this browser, oldest first; what it holds that is none is passed over. */

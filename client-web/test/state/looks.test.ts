@@ -4,7 +4,7 @@ import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { LookSchema } from '../../src/gen/froxel/v1/server_pb';
 import { parseAddress } from '../../src/state/address';
 import type { ServerInfo } from '../../src/state/app_state';
-import { dropLook, keepLook, lookAddress, offeredLooks, ownLooks } from '../../src/state/looks';
+import { dropLook, isLook, keepLook, lookAddress, offeredLooks, ownLooks } from '../../src/state/looks';
 import { sampleSettings } from '../sample';
 
 let held = new Map<string, string>();
@@ -35,6 +35,14 @@ test('LookAddress_HasWhatLooksSet_AsItIsNow', () => {
   expect(address.split('&').sort()).toEqual(['bloom=none', 'lights=7']);
   expect(parseAddress(address).settings.lights).toBe(7);
   expect(lookAddress({ ...server(''), looks: [] }, sampleSettings())).toBe('');
+});
+
+test('IsLook_WhereAllThatItSetsIsSo_AsFloats', () => {
+  const [look] = offeredLooks(server('exposure=0.1&fog_albedo=1,0.1,0'));
+  const at = { exposure: Math.fround(0.1), fogAlbedo: { x: 1, y: Math.fround(0.1), z: 0 } };
+  expect(look && isLook(look, sampleSettings({ ...at, lights: 7 }))).toBe(true);
+  expect(look && isLook(look, sampleSettings({ ...at, exposure: 0.2 }))).toBe(false);
+  expect(look && isLook(look, sampleSettings({ ...at, fogAlbedo: { x: 1, y: 0, z: 0 } }))).toBe(false);
 });
 
 test('OwnLooks_AreKept_ReplacedByName_AndDropped', () => {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace froxel::light {
@@ -82,6 +84,17 @@ TEST(LightPlaces, NothingToStandOn_HasNone) {
     addTriangle(scene, {glm::vec3(1), glm::vec3(1), glm::vec3(2)});
     addTriangle(scene, floorOf(std::numeric_limits<float>::infinity()));
     EXPECT_TRUE(lightPlaces(scene).empty());
+}
+
+// It is looked for only later.
+TEST(LightPlaces, FaultsOfAScene_ArePassedOver) {
+    scene::Scene scene = twoFloors();
+    addTriangle(scene, floorOf(1));
+    scene.meshes.back().primitives[0].indices[1] = 3;
+    addTriangle(scene, {glm::vec3(0), glm::vec3(std::nanf("")), glm::vec3(1)});
+    addTriangle(scene, floorOf(1));
+    scene.instances.back().mesh = 99;
+    EXPECT_EQ(lightPlaces(scene).size(), kLightPlaces);
 }
 
 settings::Lights atSurfaces(uint32_t count) {
