@@ -4,7 +4,7 @@ import { actionsOf, camerasOf, looksOf, type Doings } from './actions';
 import { AnimationCard } from './cards/animation_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
-import { LooksCard } from './cards/looks_card';
+import type { LooksCard } from './cards/looks_card';
 import { RoomCard } from './cards/room_card';
 import { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
@@ -139,7 +139,7 @@ const banner = new Banner({
 });
 const roomCard = new RoomCard(commands);
 const animationCard = new AnimationCard(commands);
-const looksCard = new LooksCard(commands, lookCosts);
+const looksCard = new Later(makeLooks, partMissing);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
@@ -198,9 +198,18 @@ async function makePanel(): Promise<Panel> {
   return made;
 }
 
+async function makeLooks(): Promise<LooksCard> {
+  const [{ LooksCard }] = await Promise.all([
+    import('./cards/looks_card'),
+    import('./style/looks.css'),
+  ]);
+  return new LooksCard(commands, lookCosts);
+}
+
 /** Nobody waits for these when they are wanted, and they open when the server is gone, too. */
 function prefetch(): void {
   panel.ahead();
+  looksCard.ahead();
   statsCard.prefetch();
   commands.prefetch();
 }
@@ -231,7 +240,7 @@ const doings: Doings = {
     void panel.want().then(() => search.refresh());
   },
   panel: () => void panel.want().then((made) => made?.toggle()),
-  looks: () => looksCard.toggle(),
+  looks: () => void looksCard.want().then((card) => card?.toggle()),
   figures: () => statsCard.toggle(),
   screenshot: () => void commands.screenshot(),
   copyLink: () => void address.copy(),

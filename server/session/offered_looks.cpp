@@ -17,6 +17,46 @@ std::string addressText(const settings::Setting& setting, const settings::Settin
     return on != nullptr ? *on ? "1" : "0" : textOf(setting, value);
 }
 
+// Another one that the setting may be at.
+settings::SettingValue otherThan(const settings::Setting& setting,
+                                 const settings::SettingValue& value) {
+    switch (setting.kind) {
+    case settings::SettingKind::kSwitch:
+        return !std::get<bool>(value);
+    case settings::SettingKind::kWhole:
+        return static_cast<uint32_t>(std::get<uint32_t>(value) == setting.min ? setting.max
+                                                                              : setting.min);
+    case settings::SettingKind::kReal:
+        return std::get<double>(value) == setting.min ? setting.max : setting.min;
+    case settings::SettingKind::kChoice:
+        return settings::Choice{(std::get<settings::Choice>(value).index + 1) %
+                                setting.names.size()};
+    case settings::SettingKind::kColor:
+        break;
+    }
+    const glm::dvec3 least(setting.min);
+    return std::get<glm::dvec3>(value) == least ? glm::dvec3(setting.max) : least;
+}
+
+bool anyChanges(const settings::SettingOf<ViewSettings>& row,
+                const ViewSettings& before,
+                bool software) {
+    return std::any_of(scene::looks().begin(), scene::looks().end(), [&](const scene::Look& look) {
+        ViewSettings after = before;
+        look.apply(after, software);
+        return row.get(after) != row.get(before);
+    });
+}
+
+// Whether a look sets it, though it may be at that already.
+bool anySets(const settings::SettingOf<ViewSettings>& row,
+             const ViewSettings& usual,
+             bool software) {
+    ViewSettings other = usual;
+    row.set(other, otherThan(row, row.get(usual)));
+    return anyChanges(row, usual, software) || anyChanges(row, other, software);
+}
+
 } // namespace
 
 std::vector<OfferedLook> offerLooks(const ViewSettings& usual, bool software) {
@@ -35,10 +75,7 @@ std::vector<OfferedLook> offerLooks(const ViewSettings& usual, bool software) {
                                           {}};
                    });
     for (const auto& row : settings::kSettingRows) {
-        const auto changes = [&](const ViewSettings& settings) {
-            return row.get(settings) != row.get(usual);
-        };
-        if (std::none_of(all.begin(), all.end(), changes)) {
+        if (!anySets(row, usual, software)) {
             continue;
         }
         for (size_t i = 0; i < all.size(); ++i) {

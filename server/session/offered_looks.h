@@ -12,7 +12,7 @@ struct OfferedLook {
     std::string name; // of scene::looks()
     std::string label;
     std::string help;
-    std::string address; // "lights=1000&bloom=none": each setting that any look changes
+    std::string address; // "lights=1000&bloom=none": each setting that any look sets
 };
 
 // All of them, over what a scene begins with. `software`: see scene::Look. Pure.

@@ -50,6 +50,7 @@ TEST(OfferedLooks, AreTheTables_WithTheirValues) {
     ASSERT_EQ(looks.size(), scene::looks().size());
     const auto evening = partsOf(looks.at("evening").address);
     EXPECT_EQ(evening.at("light_places"), "surfaces");
+    EXPECT_EQ(evening.at("lights"), "1000") << "which the usual settings have, too";
     EXPECT_EQ(evening.at("light_radius"), "2.6");
     EXPECT_EQ(evening.at("renderer"), "clustered_deferred");
     EXPECT_EQ(partsOf(looks.at("toon").address).at("renderer"), "toon_fragment");
