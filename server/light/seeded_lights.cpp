@@ -22,6 +22,8 @@ constexpr size_t kColors = 256; // of a palette
 // far the middle of that is from the surface.
 constexpr double kHoverBox = 0.3;
 constexpr double kHoverAbove = 0.25;
+// Of the speed that it has elsewhere: turning back every second would look hectic.
+constexpr double kHoverPace = 0.25;
 
 // Starting a thread costs about as much as a few thousand lights.
 constexpr size_t kLightsPerThread = 32'768;
@@ -112,7 +114,7 @@ struct SeededFrame {
     std::span<const LightPlace> places; // that have a box each; empty: one for all
     glm::dmat3 view_from_world;
     glm::dvec3 eye_world;
-    double above_m;    // a place's surface, the box's origin
+    double above_m;    // from a place's surface to the middle of its box
     glm::dvec3 cycles; // per-axis waves at unit speed
     float intensity;
     uint64_t key;
@@ -133,9 +135,10 @@ SeededFrame seededFrame(const settings::Lights& settings,
                                    view_from_world[2] * extent.z);
     // Per-axis speeds are 1/sqrt(3) of the overall ones. A period is twice the box; a flat box
     // stands still on that axis.
+    const double travel_s = placed ? kHoverPace * time_s : time_s;
     glm::dvec3 cycles{0};
     for (int axis = 0; axis < 3; ++axis) {
-        cycles[axis] = extent[axis] > 0 ? time_s / (2.0 * std::sqrt(3.0) * extent[axis]) : 0.0;
+        cycles[axis] = extent[axis] > 0 ? travel_s / (2.0 * std::sqrt(3.0) * extent[axis]) : 0.0;
     }
     return {.origin = origin,
             .view_from_box = view_from_box,
