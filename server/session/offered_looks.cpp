@@ -4,7 +4,7 @@
 #include "settings/setting_rows.h"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 namespace froxel::session {
 
@@ -38,13 +38,16 @@ settings::SettingValue otherThan(const settings::Setting& setting,
     return std::get<glm::dvec3>(value) == least ? glm::dvec3(setting.max) : least;
 }
 
+ViewSettings with(const scene::Look& look, ViewSettings settings, bool software) {
+    look.apply(settings, software);
+    return settings;
+}
+
 bool anyChanges(const settings::SettingOf<ViewSettings>& row,
                 const ViewSettings& before,
                 bool software) {
     return std::any_of(scene::looks().begin(), scene::looks().end(), [&](const scene::Look& look) {
-        ViewSettings after = before;
-        look.apply(after, software);
-        return row.get(after) != row.get(before);
+        return row.get(with(look, before, software)) != row.get(before);
     });
 }
 
@@ -60,29 +63,22 @@ bool anySets(const settings::SettingOf<ViewSettings>& row,
 } // namespace
 
 std::vector<OfferedLook> offerLooks(const ViewSettings& usual, bool software) {
-    std::vector<ViewSettings> all(scene::looks().size(), usual);
-    std::transform(scene::looks().begin(), scene::looks().end(), all.begin(), all.begin(),
-                   [&](const scene::Look& look, ViewSettings settings) {
-                       look.apply(settings, software);
-                       return settings;
-                   });
-    std::vector<OfferedLook> offered;
-    std::transform(scene::looks().begin(), scene::looks().end(), std::back_inserter(offered),
-                   [](const scene::Look& look) {
-                       return OfferedLook{std::string(look.name),
-                                          std::string(look.label),
-                                          std::string(look.help),
-                                          {}};
-                   });
+    std::vector<const settings::SettingOf<ViewSettings>*> set;
     for (const auto& row : settings::kSettingRows) {
-        if (!anySets(row, usual, software)) {
-            continue;
+        if (anySets(row, usual, software)) {
+            set.push_back(&row);
         }
-        for (size_t i = 0; i < all.size(); ++i) {
-            std::string& address = offered[i].address;
+    }
+    std::vector<OfferedLook> offered;
+    for (const scene::Look& look : scene::looks()) {
+        const ViewSettings settings = with(look, usual, software);
+        std::string address;
+        for (const auto* row : set) {
             address += address.empty() ? "" : "&";
-            address += std::string(row.name) + "=" + addressText(row, row.get(all[i]));
+            address += std::string(row->name) + "=" + addressText(*row, row->get(settings));
         }
+        offered.push_back({std::string(look.name), std::string(look.label), std::string(look.help),
+                           std::move(address)});
     }
     return offered;
 }

@@ -1,6 +1,7 @@
 // The looks as pictures to choose from, and those that this browser keeps.
 
 import { element, make } from '../core/dom';
+import { ms } from '../core/format';
 import type { Look } from '../state/looks';
 
 export interface LookActions {
@@ -82,7 +83,7 @@ export class LooksCard {
     choose.append(make('span', look.label));
     const cost = this.costs.ofMs(look.name);
     if (cost !== undefined) {
-      const text = make('small', `${cost < 10 ? cost.toFixed(1) : Math.round(cost)} ms`);
+      const text = make('small', `${ms(cost)} ms`);
       text.title = 'What a frame of it took on the device when it was last seen here';
       choose.append(' ', text);
     }
@@ -94,9 +95,8 @@ export class LooksCard {
     });
     item.append(choose);
     if (look.own) {
-      const drop = make('button', '×');
+      const drop = make('button', '×', 'plain');
       drop.type = 'button';
-      drop.className = 'plain';
       drop.setAttribute('aria-label', `Remove the look ${look.label}`);
       drop.addEventListener('click', () => this.tell(this.actions.dropLook(look.label)));
       item.append(drop);
