@@ -1,4 +1,5 @@
-// toon_compute: the norm of the accumulated colour through a Hermite ramp; black stays black.
+// toon_compute: the norm of the accumulated colour through a Hermite ramp, and in bands; black
+// stays black.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -19,7 +20,11 @@ void main() {
     if (texelFetch(depth_image, ivec2(pixel), 0).x > 0.0) {
         color = min(color, vec3(1e18)); // whose squares are finite
         float norm = length(color);
-        color = norm > 0.0 ? color * (toonRamp(norm) / norm) : vec3(0.0);
+        float shade = toonRamp(norm);
+        if (hasLight(kLightBands)) {
+            shade = toonBand(shade, 0.0);
+        }
+        color = norm > 0.0 ? color * (shade / norm) : vec3(0.0);
     }
     if (hasOutput(kOutputRadiance)) {
         imageStore(radiance_image, ivec2(pixel), vec4(color, before.a));

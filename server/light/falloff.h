@@ -19,6 +19,15 @@ inline constexpr double kNearest_m = 0.01;
                : std::clamp(glm::length(scene_bounds_world.size()) / 400, kLeast_m, kNearest_m);
 }
 
+// What toon bands take a light's radius as at most, so that one that reaches far beyond a scene has
+// more than one band in it: half of the scene's diagonal.
+[[nodiscard]] inline double mostBandedRadius(const BoundsD3& scene_bounds_world) {
+    constexpr double kLeast_m = 1e-15;
+    return scene_bounds_world.empty()
+               ? 1
+               : std::max(glm::length(scene_bounds_world.size()) / 2, kLeast_m);
+}
+
 [[nodiscard]] inline double strongestChannel(const glm::vec3& color) {
     return static_cast<double>(std::max({color.x, color.y, color.z}));
 }

@@ -30,6 +30,7 @@ struct FrameLights {
     uint32_t first_area = 0;          // of lights; where there are areas
     std::vector<io::DirectionalLight> directionals;
     double nearest_m = kNearest_m; // nearestDistance() of the scene
+    double banded_radius_m = 1;    // mostBandedRadius() of the scene
 };
 
 // From a light's centre to its farthest corner, metres; 0 where it is a point.

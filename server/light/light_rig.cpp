@@ -251,6 +251,7 @@ void LightRig::evaluate(const settings::Lights& settings,
     out.areas.clear();
     out.directionals.clear();
     out.nearest_m = nearestDistance(scene_bounds_world_);
+    out.banded_radius_m = mostBandedRadius(scene_bounds_world_);
     fillSeededLights(settings, camera, seededSpace(settings), time_s, out.lights);
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     eachSeededStandIn(settings, [&](uint32_t index, const scene::PunctualLight& light) {

@@ -29,6 +29,10 @@ glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     return incoming * glm::mix(dielectric, s.base_color, s.metallic) * s.occlusion;
 }
 
+double alphaOf(double roughness) {
+    return std::pow(std::max(roughness, kLeastRoughness), 2);
+}
+
 // D V of a surface's highlight.
 double lobeOf(const Model& model,
               const glm::dvec3& normal,
@@ -36,13 +40,17 @@ double lobeOf(const Model& model,
               const glm::dvec3& to_eye,
               const glm::dvec3& half,
               double facing) {
-    const double alpha = std::pow(std::max(roughness, kLeastRoughness), 2);
-    const double alpha2 = alpha * alpha;
+    const double alpha2 = std::pow(alphaOf(roughness), 2);
     const double n_dot_h = glm::dot(normal, half);
     return model.shading == settings::ShadingModel::kBlinnPhong
                ? lobes::blinnPhong(n_dot_h, alpha2)
                : lobes::distribution(n_dot_h, alpha2) *
                      lobes::visibility(facing, std::abs(glm::dot(normal, to_eye)), alpha2);
+}
+
+// What a surface scatters, as a multiple of what one that is no rim does.
+double rimShare(const Surface& s, const Model& model) {
+    return std::abs(glm::dot(s.normal, s.to_eye)) < model.rim_width ? 1 + model.rim : 1;
 }
 
 // What a coat reflects of the ambient light, of a share of 1.
@@ -61,9 +69,81 @@ double coatShare(const Surface& s, const Model& model) {
     return s.coat * (0.04 + 0.96 * lobes::fifth(std::max(0.0, 1 - n_dot_v)));
 }
 
+namespace {
+
+double ramped(const Model& model, double facing) {
+    return model.ramp != nullptr ? toonRamp(*model.ramp, facing) : facing;
+}
+
+// What one light, in parts, sends to a surface, before it is brought to its bands.
+class Banded {
+  public:
+    Banded(const Surface& surface, const Model& model) : s_(surface), model_(model) {}
+
+    // Of unit direction; irradiance on a plane that faces it.
+    void add(const glm::dvec3& to_light, double irradiance) {
+        const glm::dvec3 sum = to_light + s_.to_eye;
+        const double length = glm::length(sum);
+        const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
+        whole_ += irradiance;
+        addTo(base_, s_.normal, s_.roughness, to_light, half, irradiance);
+        addTo(coat_, s_.coat_normal, s_.coat_roughness, to_light, half, irradiance);
+    }
+
+    // Towards the eye, of bands about `middle`.
+    [[nodiscard]] glm::dvec3 reflected(double middle) const {
+        const double light = toonBand(model_.bands, base_.scattered, middle) / std::numbers::pi;
+        const glm::dvec3 scattered = s_.base_color * (rimShare(s_, model_) * light);
+        if (model_.shading == settings::ShadingModel::kLambert) {
+            return scattered;
+        }
+        const glm::dvec3 f0 = glm::mix(s_.dielectric_f0, s_.base_color, s_.metallic);
+        const glm::dvec3 below =
+            scattered * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) +
+            f0 * (gloss(base_, s_.roughness) * light);
+        const double share = coatShare(s_, model_);
+        return share > 0
+                   ? below * (1 - share) + share * gloss(coat_, s_.coat_roughness) *
+                                               toonBand(model_.bands, coat_.scattered, middle) /
+                                               std::numbers::pi
+                   : below;
+    }
+
+  private:
+    struct Layer {
+        double scattered = 0; // through the ramp
+        double lobe = 0;      // times pi
+    };
+    void addTo(Layer& layer,
+               const glm::dvec3& normal,
+               double roughness,
+               const glm::dvec3& to_light,
+               const glm::dvec3& half,
+               double irradiance) const {
+        const double facing = std::max(0.0, glm::dot(normal, to_light));
+        layer.scattered += irradiance * ramped(model_, facing);
+        if (facing > 0 && model_.shading != settings::ShadingModel::kLambert) {
+            layer.lobe += irradiance * facing * std::numbers::pi *
+                          lobeOf(model_, normal, roughness, s_.to_eye, half, facing);
+        }
+    }
+    [[nodiscard]] double gloss(const Layer& layer, double roughness) const {
+        const double gloss = toonGloss(alphaOf(roughness));
+        return layer.lobe >= gloss * whole_ ? gloss : 0;
+    }
+
+    const Surface& s_;
+    const Model& model_;
+    double whole_ = 0;
+    Layer base_;
+    Layer coat_;
+};
+
+} // namespace
+
 glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_light) {
     const double facing = std::max(0.0, glm::dot(s.normal, to_light));
-    const double scattered = model.ramp != nullptr ? toonRamp(*model.ramp, facing) : facing;
+    const double scattered = rimShare(s, model) * ramped(model, facing);
     if (model.shading == settings::ShadingModel::kLambert) {
         return s.base_color * (scattered * kInvPi);
     }
@@ -111,17 +191,34 @@ glm::dvec3 fromRectangle(const Surface& s, const Model& model, const PointLight&
     const glm::dvec3 to_centre = light.position - s.position;
     const double window = attenuation(light, to_centre) * glm::dot(to_centre, to_centre);
     glm::dvec3 sum(0);
+    Banded banded(s, model);
     if (window > 0) {
         light.eachPart(s.position, [&](const glm::dvec3& part, double share) {
             const glm::dvec3 to_part = part - s.position;
             const double d = glm::length(to_part);
             const double facing = -glm::dot(light.direction, to_part) / d;
-            if (facing > 0) {
+            if (facing > 0 && model.bands > 0) {
+                banded.add(to_part / d, facing * share * window / (d * d));
+            } else if (facing > 0) {
                 sum += reflected(s, model, to_part / d) * (facing * share / (d * d));
             }
         });
     }
-    return light.color * sum * window;
+    return light.color * (model.bands > 0 ? banded.reflected(light.bands_middle) : sum * window);
+}
+
+// As much irradiance on a plane that faces it, from a unit direction.
+glm::dvec3 fromDirection(const Surface& s,
+                         const Model& model,
+                         const glm::dvec3& to_light,
+                         double irradiance,
+                         double middle) {
+    if (model.bands == 0) {
+        return reflected(s, model, to_light) * irradiance;
+    }
+    Banded banded(s, model);
+    banded.add(to_light, irradiance);
+    return banded.reflected(middle);
 }
 
 glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, const Open& open) {
@@ -137,12 +234,13 @@ glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, 
         } else if (d2 < light.radius2) { // most lights are too far away
             const double share = attenuation(light, to_light);
             if (share > 0 && (!light.shadowed || open(s.position, light.position))) {
-                sum += light.color * reflected(s, model, to_light / std::sqrt(d2)) * share;
+                sum += light.color *
+                       fromDirection(s, model, to_light / std::sqrt(d2), share, light.bands_middle);
             }
         }
     }
     for (const DirectionalLight& light : lights.directionals) {
-        sum += light.color * reflected(s, model, -light.direction);
+        sum += light.color * fromDirection(s, model, -light.direction, 1, 0);
     }
     const glm::dvec3 all_around =
         lights.around ? fromAround(s, model, *lights.around) : ambient(s, model, lights);

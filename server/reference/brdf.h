@@ -38,13 +38,16 @@ using Open = std::function<bool(const glm::dvec3& from, const glm::dvec3& to)>;
 struct Model {
     settings::ShadingModel shading = settings::ShadingModel::kPbr;
     const settings::ToonRamp* ramp = nullptr; // over n.l of what is scattered; null: n.l itself
+    uint32_t bands = 0;                       // of each light; with a ramp
+    double rim = 0; // how much more is scattered where n.v is below the rim's width
+    double rim_width = 0;
 };
 
 // The share of what the eye sees of a surface that is its coat's own; 0 where the model knows none.
 [[nodiscard]] double coatShare(const Surface& surface, const Model& model);
 
 // Radiance towards the eye for light of unit irradiance from direction `to_light` (unit), per
-// channel: BRDF times cosine, under its coat and with it.
+// channel: BRDF times cosine, under its coat and with it; without bands.
 [[nodiscard]] glm::dvec3
 reflected(const Surface& surface, const Model& model, const glm::dvec3& to_light);
 

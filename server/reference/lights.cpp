@@ -101,8 +101,10 @@ void addAround(const environment::Surroundings& seen,
 Lights lightsAt(const scene::Scene& scene, const settings::ViewSettings& settings, double time_s) {
     const light::LightRig rig(scene);
     Lights lights = unshadowed(rig, settings, time_s);
+    const double banded_m = light::mostBandedRadius(scene.bounds_world);
     for (PointLight& point : lights.points) {
         point.nearest_m = light::nearestDistance(scene.bounds_world);
+        point.bands_middle = 9 / std::min(point.radius2, squared(banded_m));
     }
     if (const auto* seen = surroundingsFor(scene, settings.environment)) {
         addAround(*seen, settings.environment, lights);

@@ -22,6 +22,7 @@ struct PointLight {
     double cone_scale = 0;
     double cone_offset = 1;
     double nearest_m = light::kNearest_m; // a smaller distance counts as this
+    double bands_middle = 0;              // of its toon bands, irradiance per candela
     // A rectangle's halves, perpendicular to the direction, which it shines to as a whole.
     struct Rectangle {
         glm::dvec3 half_right{0};

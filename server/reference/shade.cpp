@@ -56,8 +56,17 @@ visibleMaterials(const scene::Scene& scene, const Visibility& visibility, bool s
 }
 
 Model modelOf(const settings::ViewSettings& settings) {
-    const bool toon = settings.renderer == settings::Renderer::kToonFragment;
-    return {settings.shading, toon ? &settings.toon_fragment : nullptr};
+    Model model{.shading = settings.shading};
+    const bool each = settings.renderer == settings::Renderer::kToonFragment;
+    if (each) {
+        model.ramp = &settings.toon_fragment;
+        model.bands = settings.toon.bands;
+    }
+    if (each || settings.renderer == settings::Renderer::kToonCompute) {
+        model.rim = static_cast<double>(settings.toon.rim);
+        model.rim_width = static_cast<double>(settings.toon.rim_width);
+    }
+    return model;
 }
 
 class Shader {
@@ -97,7 +106,9 @@ class Shader {
             color = shadeHit(hit, visible);
             if (settings_.renderer == settings::Renderer::kToonCompute) {
                 const double norm = glm::length(color);
-                color *= norm > 0 ? toonRamp(settings_.toon_compute, norm) / norm : 0.0;
+                const double shade =
+                    toonBand(settings_.toon.bands, toonRamp(settings_.toon_compute, norm), 0);
+                color *= norm > 0 ? shade / norm : 0.0;
             }
         }
         color = medium_.seenThrough(color, ray, distance);

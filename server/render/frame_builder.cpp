@@ -326,6 +326,8 @@ FramePlan FrameBuilder::plan(ViewEffects& effects) {
     uniforms_.light_inv_radius2 =
         lights_.lights.empty() ? 0.0F : lights_.lights.front().inv_radius2;
     uniforms_.light_most_inverse2 = static_cast<float>(1 / (lights_.nearest_m * lights_.nearest_m));
+    uniforms_.toon_least_middle =
+        static_cast<float>(io::kToonMiddle / (lights_.banded_radius_m * lights_.banded_radius_m));
     uniforms_.first_area = lights_.first_area;
     debug_.wires.clear();
     if (plan.debug != settings::DebugView::kNone) {

@@ -61,11 +61,14 @@ void mist(ViewSettings& to, bool software) {
 }
 
 void toon(ViewSettings& to, bool software) {
-    lampsAtSurfaces(to, settings::LightPalette::kWarm);
+    to.lights.count = kManyLights;
+    to.lights.places = settings::LightPlaces::kVolume;
+    to.lights.palette = settings::LightPalette::kRainbow;
+    to.lights.intensity *= 2;
     to.renderer = settings::Renderer::kToonFragment;
     to.shading = settings::ShadingModel::kLambert;
     to.lights.radius_m *= 1.3F;
-    studio(to, 0.3F);
+    studio(to, 0.15F);
     to.toon_outline.strength = 0.8F;
     sharpen(to, software);
 }
@@ -79,6 +82,40 @@ void rainbow(ViewSettings& to, bool /*software*/) {
     to.exposure_mode = settings::ExposureMode::kFixed;
 }
 
+// The ramp over n.l alone.
+void ramp(ViewSettings& to, bool software) {
+    rainbow(to, software);
+    to.renderer = settings::Renderer::kToonFragment;
+    to.shading = settings::ShadingModel::kLambert;
+    to.toon = {.bands = 0, .rim = 0};
+}
+
+// A kernel of eleven pixels each way in a picture of 720 rows.
+void spreading(ViewSettings& to, bool software) {
+    rainbow(to, software);
+    to.shading = settings::ShadingModel::kLambert;
+    to.bloom.kind = settings::BloomKind::kSinglePass;
+    to.bloom.strength = 0.3F;
+    to.bloom.radius = 0.0025F;
+}
+
+void matt(ViewSettings& to, bool software) {
+    rainbow(to, software);
+    to.shading = settings::ShadingModel::kLambert;
+}
+
+void gloss(ViewSettings& to, bool software) {
+    rainbow(to, software);
+    to.shading = settings::ShadingModel::kBlinnPhong;
+    to.gbuffer.normal = settings::NormalEncoding::kSpheremap16;
+}
+
+void blinn(ViewSettings& to, bool software) {
+    rainbow(to, software);
+    to.shading = settings::ShadingModel::kBlinnPhong;
+    to.gbuffer.normal = settings::NormalEncoding::kXy16;
+}
+
 void clusters(ViewSettings& to, bool software) {
     rainbow(to, software);
     to.debug.view = settings::DebugView::kListedLights;
@@ -89,8 +126,13 @@ constexpr std::array kLooks = {
          evening},
     Look{"noon", "Noon", "Bright light from all around, and lamps that hardly show", noon},
     Look{"mist", "Mist", "Cool lights adrift in thin fog", mist},
-    Look{"toon", "Toon", "Steps of light and dark outlines", toon},
+    Look{"toon", "Toon", "Pools of light in steps, dark outlines", toon},
     Look{"rainbow", "Rainbow", "A thousand lights of every hue all over the scene", rainbow},
+    Look{"ramp", "Ramp", "Toon by a ramp over the angle of each light alone", ramp},
+    Look{"glow", "Glow", "Matt surfaces whose bright light spreads by a small kernel", spreading},
+    Look{"matt", "Matt", "Nothing but light that surfaces scatter", matt},
+    Look{"gloss", "Gloss", "Blinn-Phong highlights; normals are stored as a sphere map", gloss},
+    Look{"blinn", "Blinn", "Blinn-Phong highlights; normals are stored by two components", blinn},
     Look{"clusters", "Clusters", "How many lights the list of each pixel's cluster holds",
          clusters},
 };

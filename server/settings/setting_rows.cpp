@@ -7,7 +7,7 @@ namespace froxel::settings {
 namespace {
 
 // The camera, the size, two ramps, and the structs below.
-static_assert(covers<ViewSettings>(kSettingRows, 4 + 11));
+static_assert(covers<ViewSettings>(kSettingRows, 4 + 12));
 static_assert(covers<GbufferLayout>(kSettingRows, 0));
 static_assert(covers<Grid>(kSettingRows, 2));   // whether it is automatic, and its size
 static_assert(covers<Debug>(kSettingRows, 1));  // whose grid
@@ -16,6 +16,7 @@ static_assert(covers<Shadows>(kSettingRows, 0));
 static_assert(covers<Environment>(kSettingRows, 0));
 static_assert(covers<Background>(kSettingRows, 0));
 static_assert(covers<Animation>(kSettingRows, 1)); // which
+static_assert(covers<Toon>(kSettingRows, 0));
 static_assert(covers<ToonOutline>(kSettingRows, 0));
 static_assert(covers<Bloom>(kSettingRows, 0));
 static_assert(covers<Fog>(kSettingRows, 0));

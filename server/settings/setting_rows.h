@@ -206,6 +206,19 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::tone_map>(Names{"tone_map", kToneMapNames},
                                  "tone_map",
                                  {"Tone mapping", "Curve from scene light to display colours"}),
+    row<&ViewSettings::toon, &Toon::bands>(
+        Range<uint32_t>{"toon_bands", 0, 8},
+        "toon.bands",
+        {"Toon bands",
+         "Steps of brightness that the toon renderers bring light to; 0 keeps it smooth"}),
+    row<&ViewSettings::toon, &Toon::rim>(
+        Range<double>{"toon_rim", 0, 4},
+        "toon.rim",
+        {"Toon rim", "Share of light that toon surfaces scatter besides where they turn away"}),
+    row<&ViewSettings::toon, &Toon::rim_width>(
+        Range<double>{"toon_rim_width", 0, 1},
+        "toon.rim_width",
+        {"Toon rim width", "Cosine between surface and view below which a toon surface is a rim"}),
     row<&ViewSettings::toon_outline, &ToonOutline::strength>(
         Range<double>{"outline_strength", 0, 1},
         "toon_outline.strength",

@@ -209,6 +209,14 @@ struct Fog {
     }
 };
 
+// Of the toon renderers: light in steps, and more of it on surfaces that turn away from the eye.
+struct Toon {
+    uint32_t bands = 3; // that a light's irradiance, or the lit colour, is brought to; 0: smooth
+    float rim = 0.5F;   // how much more of the lights' light a rim scatters; 0: none
+    float rim_width = 0.2F; // n.v below which a surface is a rim
+    bool operator==(const Toon&) const = default;
+};
+
 // Of the toon renderers: edges of depth and normals are darkened.
 struct ToonOutline {
     float strength = 0.0F; // 0: none; 1: black
@@ -307,6 +315,7 @@ struct ViewSettings {
                                      {0.38F, 0.55F, 0},
                                      {0.65F, 0.60F, 0},
                                      {0.80F, 1.00F, 0}}};
+    Toon toon;
     ToonOutline toon_outline;
     Bloom bloom;
     Fog fog;

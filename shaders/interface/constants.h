@@ -61,6 +61,8 @@ FROXEL_CONST uint kLightSmallScene = 1U << 15; // Frame::light_most_inverse2, el
 FROXEL_CONST uint kLightEdges = 1U << 16;
 FROXEL_CONST uint kLightShadows = 1U << 17;     // some local lights have shadow maps
 FROXEL_CONST uint kLightEnvironment = 1U << 18; // light from around, in the ambient light's place
+FROXEL_CONST uint kLightBands = 1U << 19;       // with kLightToon: each light in Frame::toon_bands
+FROXEL_CONST uint kLightRim = 1U << 20;         // toon: more light where a surface turns away
 
 // Alpha of radiance: how much of the background is covered; this where a solid surface is unlit,
 // and between 1 and this where something thin is before one.
@@ -77,7 +79,12 @@ FROXEL_CONST uint kOutputSamples = 1U << 5;     // the tone map's pixel is the m
 FROXEL_CONST float kDielectricF0 = 0.04F; // reflectance head-on at an index of refraction of 1.5
 
 FROXEL_CONST uint kMaxToonSegments = 9U; // 8 points: 7 cubics and two constant ends
-FROXEL_CONST uint kScreenGroup = 8U;     // screen passes: workgroups of 8 x 8 pixels
+// What is in the middle of a light's toon bands (toonBand() of shaders/lib/frame.glsl): what
+// arrives a third of its radius away from one candela, times that radius squared.
+FROXEL_CONST float kToonMiddle = 9.0F;
+FROXEL_CONST float kToonLeastGloss = 1.0F; // a toon highlight over what a white surface scatters
+FROXEL_CONST float kToonMostGloss = 25.0F;
+FROXEL_CONST uint kScreenGroup = 8U; // screen passes: workgroups of 8 x 8 pixels
 
 FROXEL_IO_NAMESPACE_END
 

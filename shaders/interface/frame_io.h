@@ -59,8 +59,14 @@ struct Frame {
     float light_most_inverse2; // of a small scene: 1 / light::nearestDistance()^2
     float background_gradient; // how much more of it is at the top, and less at the bottom
     ToonSegment toon[kMaxToonSegments];
+    float toon_bands;
+    float toon_band;         // 1 / toon_bands
+    float toon_brightest;    // 1 / (toon_bands - 0.5)^2
+    float toon_least_middle; // of a light's bands, irradiance per candela: however far it reaches
+    float toon_rim;          // what a rim scatters, as a multiple of what others do
+    float toon_rim_width;    // n.v below which a surface is a rim
 };
-FROXEL_SIZE_ASSERT(Frame, 384);
+FROXEL_SIZE_ASSERT(Frame, 408);
 
 // One textured slot's uv_texture = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
 struct UvTransform {

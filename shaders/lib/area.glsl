@@ -157,6 +157,9 @@ void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, ve
         precise float facing = max(flux.whole.z, 0.0) / max(size, 1e-30);
         scattered = 0.5 * scale * size * toonRamp(facing);
     }
+    if (hasLight(kLightBands)) {
+        scattered = toonBand(scattered, bandsMiddle(inv_radius2));
+    }
     if (hasLight(kLightLambert)) {
         precise vec3 lambert = fma(color, vec3(scattered), sum.diffuse);
         sum.diffuse = lambert;
@@ -166,6 +169,11 @@ void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, ve
     precise float p = schlick(max(fma(2.0, v_dot_l, 2.0), 1e-6));
     Ltc ltc = ltcOf(s);
     Flux lobe = fluxOf(transformed(ltc, corner), transformed(ltc, right), transformed(ltc, up));
+    if (hasLight(kLightBands)) {
+        bool shines = e > 0.0 && lobe.above * ltc.albedo.x >= toonGloss(s.alpha2) * size;
+        addBanded(scattered, shines, s.alpha2, color, sum);
+        return;
+    }
     // The transform may lift what is below the surface.
     precise float g = e > 0.0 ? scale * lobe.above : 0.0;
     precise float grazing = g * ltc.albedo.y;

@@ -69,7 +69,7 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     s.position_view = position_view;
     s.normal_view = normal_view;
     s.shadows = uvec4(0u); // found where lights are looped over
-    if (hasLight(kLightLambert)) {
+    if (hasLight(kLightLambert) && !hasLight(kLightRim)) {
         s.to_eye_view = vec3(0.0);
         s.n_dot_v = s.n_dot_eye = s.alpha2 = s.visibility_v = 0.0;
         s.shininess = s.lobe = 0.0;
@@ -150,6 +150,24 @@ float rangeWindow(float x) {
     return window;
 }
 
+// The middle of a light's toon bands, irradiance per candela.
+float bandsMiddle(float inv_radius2) {
+    return max(kToonMiddle * inv_radius2, frame.toon_least_middle);
+}
+
+// A toon surface's highlight, as a multiple of what a white surface scatters: half of its lobe's
+// height, within what still can be seen as a spot. It is there where its lobe is at least as high.
+float toonGloss(float alpha2) { return clamp(0.125 / alpha2, kToonLeastGloss, kToonMostGloss); }
+
+// With kLightBands, of a light whose bands are at `banded`: no Fresnel's term, which has no steps.
+void addBanded(float banded, bool shines, float alpha2, vec3 color, inout LightSum sum) {
+    precise vec3 diffuse = fma(color, vec3(banded), sum.diffuse);
+    precise float gloss = shines ? 2.0 * toonGloss(alpha2) * banded : 0.0;
+    precise vec3 specular = fma(color, vec3(gloss), sum.specular);
+    sum.diffuse = diffuse;
+    sum.specular = specular;
+}
+
 // What is scattered of `scattered` where p of it meets an edge.
 void addScattered(float scattered, float p, vec3 color, inout LightSum sum) {
     precise float diffuse = fma(-scattered, p, scattered);
@@ -161,13 +179,17 @@ void addScattered(float scattered, float p, vec3 color, inout LightSum sum) {
     }
 }
 
-// Adds light of irradiance colour * attenuation from direction l; both dot products signed.
-void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, vec3 color,
-                   inout LightSum sum) {
+// Adds light of irradiance colour * attenuation from direction l; both dot products signed. middle:
+// of its toon bands.
+void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, float middle,
+                   vec3 color, inout LightSum sum) {
     precise float facing = max(n_dot_l, 0.0);
     precise float e = attenuation * facing;
     // toon_fragment: the ramp is for what a surface scatters; a highlight stays where it is.
     precise float scattered = hasLight(kLightToon) ? attenuation * toonRamp(facing) : e;
+    if (hasLight(kLightBands)) {
+        scattered = toonBand(scattered, middle);
+    }
     if (hasLight(kLightLambert)) {
         precise vec3 lambert = fma(color, vec3(scattered), sum.diffuse);
         sum.diffuse = lambert;
@@ -186,6 +208,11 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, v
         precise float visibility_l = sqrt(fma(facing * facing, 1.0 - s.alpha2, s.alpha2));
         precise float v = fma(facing, s.visibility_v, s.n_dot_v * visibility_l);
         lobe = s.alpha2 * (h2 * h2) / (t * t * v);
+    }
+    if (hasLight(kLightBands)) {
+        bool shines = n_dot_sum > 0.0 && 0.5 * lobe * facing >= toonGloss(s.alpha2);
+        addBanded(scattered, shines, s.alpha2, color, sum);
+        return;
     }
     // No facet faces between light and eye where their half vector is behind the surface.
     precise float g = n_dot_sum > 0.0 ? e * lobe : 0.0;
@@ -212,7 +239,7 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
     precise float v_dot_l = fma(s.to_eye_view.z, to_light.z,
                                 fma(s.to_eye_view.y, to_light.y, s.to_eye_view.x * to_light.x)) *
                             inv_d;
-    addIrradiance(s, n_dot_l, v_dot_l, attenuation, color, sum);
+    addIrradiance(s, n_dot_l, v_dot_l, attenuation, bandsMiddle(inv_radius2), color, sum);
 }
 
 // Outgoing radiance of all that was added. Sums of lights as bright as floats go may be infinite,

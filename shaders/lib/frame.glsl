@@ -83,3 +83,16 @@ float toonRamp(float x) {
     precise float y = fma(fma(fma(s.a, u, s.b), u, s.c), u, s.d);
     return y;
 }
+
+// The middle of the band that `light` lies in; nothing stays nothing. Bands are of equal width in
+// the square root of light / (light + middle), or of the light itself where middle is 0: then it is
+// a share, of which 1 stays 1.
+float toonBand(float light, float middle) {
+    precise float share = middle > 0.0 ? light / (light + middle) : light;
+    precise float band = min(floor(sqrt(share) * frame.toon_bands), frame.toon_bands - 1.0) + 0.5;
+    precise float center = band * frame.toon_band;
+    precise float squared = center * center;
+    precise float level =
+        middle > 0.0 ? middle * squared / (1.0 - squared) : band * band * frame.toon_brightest;
+    return light > 0.0 ? level : 0.0;
+}

@@ -168,16 +168,21 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
     if (hasLight(kLightDirectional)) {
         for (uint i = 0; i < frame.directional_count; ++i) {
             vec3 l = -suns[i].direction_view;
-            addIrradiance(s, dot(s.normal_view, l), dot(s.to_eye_view, l), 1.0, suns[i].color, sum);
+            addIrradiance(s, dot(s.normal_view, l), dot(s.to_eye_view, l), 1.0, 0.0, suns[i].color,
+                          sum);
 #ifdef FROXEL_LAYERED
             if (hasMaterial(kMaterialCoat)) {
                 LightSum of_coat = noLight();
                 addIrradiance(coatOf(s), dot(s.coat.normal_view, l), dot(s.to_eye_view, l), 1.0,
-                              suns[i].color, of_coat);
+                              0.0, suns[i].color, of_coat);
                 addCoatLight(of_coat, sum);
             }
 #endif
         }
+    }
+    if (hasLight(kLightRim) && s.n_dot_v < frame.toon_rim_width) {
+        sum.diffuse *= frame.toon_rim;
+        sum.edge *= frame.toon_rim;
     }
     return sum;
 }

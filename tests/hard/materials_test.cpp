@@ -28,6 +28,19 @@ double snapError_rad(double radius_px) {
     return 4 / radius_px * std::numbers::sqrt2 / 512;
 }
 
+// How many levels of light a grey picture has, besides black; a level is what fp32 makes of it.
+uint32_t levelsOf(const Picture& picture) {
+    std::vector<float> all = picture.radiance;
+    std::sort(all.begin(), all.end());
+    uint32_t count = 0;
+    float last = 0;
+    for (const float value : all) {
+        count += value > last * 1.001F ? 1 : 0;
+        last = value;
+    }
+    return count;
+}
+
 // A wall 2 m ahead whose texels are a pixel of the 64 x 36 picture each.
 SceneMaker wallOfTexels(const scene::Material& material, const std::vector<std::byte>& rgba8) {
     SceneMaker maker(material);
@@ -183,6 +196,7 @@ TEST_F(HardMaterials, ToonStep_FlipsOnlyAtItsThreshold) {
     inputs.settings.toon_fragment = {
         .count = 4, .points = {{{0, 0, 0}, {0.5F, 0, 0}, {0.5F + 1e-6F, 1, 0}, {1, 1, 0}}}};
     inputs.settings.renderer = Renderer::kToonFragment;
+    inputs.settings.toon = {.bands = 0, .rim = 0};
     const Picture picture = draw(renderer, inputs);
     const double half_y = std::tan(glm::radians(30.0)) * 2;
     size_t flipped = 0;
@@ -201,6 +215,27 @@ TEST_F(HardMaterials, ToonStep_FlipsOnlyAtItsThreshold) {
     }
     EXPECT_GT(litPixels(picture), 1000U);
     EXPECT_LE(flipped, 320U * 180U / 10'000U);
+}
+
+// A floor under one lamp, from above: near it, far from it, and beyond it where nothing arrives.
+TEST_F(HardMaterials, ToonBands_OfAFloorUnderOneLamp_AreAsManyAsAsked) {
+    auto maker = wallAhead(2);
+    maker.point({-1.5, 0, -1.7}, 3, 8);
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = hardInputs();
+    inputs.settings.size = {320, 180};
+    for (const auto kind : {Renderer::kToonFragment, Renderer::kToonCompute}) {
+        inputs.settings.renderer = kind;
+        for (const auto model : {settings::ShadingModel::kLambert, settings::ShadingModel::kPbr}) {
+            inputs.settings.shading = model;
+            for (const uint32_t bands : {1U, 2U, 3U, 5U, 8U}) {
+                inputs.settings.toon.bands = bands;
+                const Picture picture = draw(renderer, inputs);
+                EXPECT_EQ(levelsOf(picture), bands)
+                    << static_cast<int>(kind) << ' ' << static_cast<int>(model);
+            }
+        }
+    }
 }
 
 // Case 40. The norm of black is 0.

@@ -77,6 +77,7 @@ export const isGridSide = ({ name }: Field): boolean => /^grid\.[xyz]$/.test(nam
 const kUses: readonly (readonly [string, (settings: Settings) => boolean])[] = [
   ['gbuffer_', isDeferred],
   ['outline_', isToon],
+  ['toon_', isToon],
   ['fog_density', () => true],
   ['fog_', ({ fogDensity }) => fogDensity > 0],
   [

@@ -34,6 +34,19 @@ uint32_t shadingFlag(settings::ShadingModel model) {
     return 0;
 }
 
+// Of a frame with lights.
+uint32_t toonFlags(const settings::ViewSettings& settings) {
+    if (!isToon(settings.renderer)) {
+        return 0;
+    }
+    const settings::Toon& toon = settings.toon;
+    uint32_t flags = toon.rim > 0 && toon.rim_width > 0 ? io::kLightRim : 0U;
+    if (settings.renderer == settings::Renderer::kToonFragment) {
+        flags |= io::kLightToon | (toon.bands > 0 ? io::kLightBands : 0U);
+    }
+    return flags;
+}
+
 uint32_t lightFlags(const settings::ViewSettings& settings,
                     const FrameFacts& facts,
                     bool lists,
@@ -57,9 +70,7 @@ uint32_t lightFlags(const settings::ViewSettings& settings,
         flags |= culled && (flags & io::kLightBatched) != 0 ? io::kLightCulled : 0U;
     }
     flags |= facts.directional ? io::kLightDirectional : 0U;
-    if (flags != 0 && settings.renderer == settings::Renderer::kToonFragment) {
-        flags |= io::kLightToon;
-    }
+    flags |= flags != 0 ? toonFlags(settings) : 0U;
     flags |= shadingFlag(settings.shading);
     flags |=
         facts.edges && settings.shading != settings::ShadingModel::kLambert ? io::kLightEdges : 0U;
@@ -93,6 +104,11 @@ void replacePicture(FramePlan& plan,
 
 bool isForward(settings::Renderer renderer) {
     return renderer == settings::Renderer::kNaive || renderer == settings::Renderer::kForwardPlus;
+}
+
+bool isToon(settings::Renderer renderer) {
+    return renderer == settings::Renderer::kToonFragment ||
+           renderer == settings::Renderer::kToonCompute;
 }
 
 bool storesSpecular(const settings::ViewSettings& settings, bool scene_specular) {
@@ -160,8 +176,8 @@ FramePlan planPasses(const settings::ViewSettings& settings, const FrameFacts& f
     plan.lighting_fragment = plan.gbuffer && !plan.lighting_compute;
     plan.layers = drawsLayers(settings, facts.layers_visible);
     plan.toon_pass = renderer == Renderer::kToonCompute;
-    plan.outline = (renderer == Renderer::kToonFragment || renderer == Renderer::kToonCompute) &&
-                   settings.toon_outline.strength > 0;
+    plan.toon_bands = plan.toon_pass && settings.toon.bands > 0;
+    plan.outline = isToon(renderer) && settings.toon_outline.strength > 0;
     plan.samples = settings::samplesAcross(settings.antialiasing) > 1;
     for (const EffectRow* row : effectRows()) {
         if (const auto effect = row->plan(settings, facts)) {

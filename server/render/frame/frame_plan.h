@@ -69,7 +69,8 @@ struct FramePlan {
     bool lighting_fragment = false;
     bool layers = false; // surfaces with layers by the forward shader, over what lighting left
     bool toon_pass = false;
-    bool outline = false; // edges darkened, before anything is blended
+    bool toon_bands = false; // of that pass; light flags say it of what lights
+    bool outline = false;    // edges darkened, before anything is blended
     bool transparent = false;
     settings::Transparency transparency = settings::Transparency::kSorted; // where transparent
     uint32_t peel_layers = 0; // at most; 0: nothing is peeled
@@ -103,6 +104,7 @@ struct FramePlan {
 
 // Whether surfaces are shaded as they are drawn, without a G-buffer.
 [[nodiscard]] bool isForward(settings::Renderer renderer);
+[[nodiscard]] bool isToon(settings::Renderer renderer);
 
 // Whether the G-buffer has a word of what dielectrics reflect.
 [[nodiscard]] bool storesSpecular(const settings::ViewSettings& settings, bool scene_specular);

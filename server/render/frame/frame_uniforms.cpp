@@ -13,7 +13,7 @@ namespace {
 constexpr float kNever = 1e30F;
 
 // Hermite points to cubics in u = x - x0, constant before the first and after the last point.
-void fillToon(const settings::ToonRamp& ramp, io::Frame& frame) {
+void fillRamp(const settings::ToonRamp& ramp, io::Frame& frame) {
     for (auto& segment : frame.toon) {
         segment = {kNever, 0, 0, 0, 0};
     }
@@ -30,6 +30,18 @@ void fillToon(const settings::ToonRamp& ramp, io::Frame& frame) {
     }
     const auto& last = ramp.points[ramp.count - 1];
     frame.toon[ramp.count] = {last.x, 0, 0, 0, last.y};
+}
+
+void fillToon(const settings::ViewSettings& settings, io::Frame& frame) {
+    const auto bands = static_cast<float>(settings.toon.bands);
+    frame.toon_bands = bands;
+    frame.toon_band = 1 / std::max(bands, 1.0F);
+    frame.toon_brightest = 1 / ((bands - 0.5F) * (bands - 0.5F));
+    frame.toon_rim = 1 + settings.toon.rim;
+    frame.toon_rim_width = settings.toon.rim_width;
+    fillRamp(settings.renderer == settings::Renderer::kToonCompute ? settings.toon_compute
+                                                                   : settings.toon_fragment,
+             frame);
 }
 
 void fillGrid(const cluster::ClusterGrid& grid, io::Frame& frame) {
@@ -109,9 +121,7 @@ io::Frame makeFrameUniforms(const settings::ViewSettings& settings,
         static_cast<float>(std::min(settings.size.width_px, settings.size.height_px));
     frame.outline_strength = outline.strength;
     frame.outline_reach_px = std::max(1.0F, outline.width * side_px);
-    fillToon(settings.renderer == settings::Renderer::kToonCompute ? settings.toon_compute
-                                                                   : settings.toon_fragment,
-             frame);
+    fillToon(settings, frame);
     return frame;
 }
 

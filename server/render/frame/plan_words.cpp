@@ -98,6 +98,13 @@ void addLightWords(Lines& lines,
     if (!facts.directional) {
         lines.emplace_back("no directional light: no loop over them");
     }
+    if ((flags & io::kLightBands) != 0 || plan.toon_bands) {
+        lines.push_back(std::to_string(settings.toon.bands) + " toon bands " +
+                        (plan.toon_bands ? "of the lit colour" : "of each light"));
+    }
+    if ((flags & io::kLightRim) != 0) {
+        lines.emplace_back("toon rim: what turns away from the eye scatters more");
+    }
     if (settings.shading == settings::ShadingModel::kLambert) {
         lines.emplace_back("lambert: no specular part, no roughness textures");
     } else if (settings.shading == settings::ShadingModel::kBlinnPhong) {

@@ -176,7 +176,9 @@ void recordLayers(const FrameContext& frame, const vk::Rect2D& region) {
 
 void recordToon(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "toon");
-    dispatch(frame, ScreenPass::kToon, {0, 0, frame.plan.toon_output_flags}, region);
+    dispatch(frame, ScreenPass::kToon,
+             {0, frame.plan.toon_bands ? io::kLightBands : 0U, frame.plan.toon_output_flags},
+             region);
 }
 
 void recordOutline(const FrameContext& frame, const vk::Rect2D& region) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace froxel::reference {
 namespace {
@@ -346,6 +347,43 @@ TEST(ReferenceBrdf, ToonRamp_AtItsPointsAndBetween_IsHermite) {
     const double h = 1e-6;
     EXPECT_NEAR((toonRamp(ramp, 0.25 + h) - 0.5) / h, 1, 1e-5);
     EXPECT_NEAR((1 - toonRamp(ramp, 0.75 - h)) / h, -1, 1e-5);
+}
+
+TEST(ReferenceBrdf, ToonBand_OfAnyLight_IsTheMiddleOfItsBand) {
+    for (const uint32_t bands : {1U, 2U, 3U, 8U}) {
+        std::set<double> levels;
+        for (double light = 1e-6; light < 1e6; light *= 1.01) {
+            const double band = toonBand(bands, light, 0.5);
+            // The same width on either side, in sqrt(light / (light + middle)).
+            const double off = std::sqrt(light / (light + 0.5)) - std::sqrt(band / (band + 0.5));
+            EXPECT_LE(std::abs(off), 0.5 / bands + 1e-12) << light;
+            levels.insert(band);
+        }
+        EXPECT_EQ(levels.size(), bands);
+        EXPECT_EQ(toonBand(bands, 0, 0.5), 0);
+        // Of a share: the same bands, and 1 stays 1.
+        levels.clear();
+        for (double share = 0.001; share <= 1; share += 0.001) {
+            levels.insert(toonBand(bands, share, 0));
+        }
+        EXPECT_EQ(levels.size(), bands);
+        EXPECT_EQ(*levels.rbegin(), 1);
+        EXPECT_EQ(toonBand(bands, 0, 0), 0);
+    }
+    EXPECT_EQ(toonBand(0, 0.3, 0.5), 0.3);
+}
+
+TEST(ReferenceBrdf, ToonRim_WhereASurfaceTurnsAway_ScattersMore) {
+    const settings::ToonRamp ramp;
+    const Model plain{.shading = settings::ShadingModel::kLambert, .ramp = &ramp};
+    Model rimmed = plain;
+    rimmed.rim = 0.5;
+    rimmed.rim_width = 0.25;
+    for (const double cosine : {0.24, 0.26}) {
+        const Surface s = seenFrom(direction(std::acos(cosine), 0));
+        const double ratio = reflected(s, rimmed, s.normal).x / reflected(s, plain, s.normal).x;
+        EXPECT_NEAR(ratio, cosine < 0.25 ? 1.5 : 1, 1e-12);
+    }
 }
 
 } // namespace

@@ -213,8 +213,7 @@ std::string_view brokenPassRule(const settings::ViewSettings& settings,
 std::string_view brokenEffectRule(const settings::ViewSettings& settings,
                                   const FrameFacts& facts,
                                   const FramePlan& p) {
-    const bool is_toon =
-        settings.renderer == Renderer::kToonFragment || settings.renderer == Renderer::kToonCompute;
+    const bool is_toon = isToon(settings.renderer);
     const EffectPlan* shadows = effectOf(p, kShadowsEffect);
     const EffectPlan* fog = effectOf(p, kFogEffect);
     const uint32_t fog_way = fog != nullptr ? fog->way : 0;
@@ -224,6 +223,7 @@ std::string_view brokenEffectRule(const settings::ViewSettings& settings,
          "the tone map asked for"},
         {p.outline == (is_toon && settings.toon_outline.strength > 0),
          "outlines where a toon renderer is asked for them"},
+        {p.toon_bands == (p.toon_pass && settings.toon.bands > 0), "the colour's bands"},
         {bloomOf(p) == settings.bloom.kind, "the bloom asked for"},
         {(effectOf(p, kExposureEffect) != nullptr) ==
              (settings.exposure_mode == settings::ExposureMode::kFrame),
@@ -290,6 +290,10 @@ std::string_view brokenLightRule(const settings::ViewSettings& settings,
          "batches if a subgroup can"},
         {has(flags, io::kLightToon) == (any && settings.renderer == Renderer::kToonFragment),
          "the ramp if there is light to bend"},
+        {has(flags, io::kLightBands) == (has(flags, io::kLightToon) && settings.toon.bands > 0),
+         "each light's bands with its ramp"},
+        {has(flags, io::kLightRim) == (any && isToon(settings.renderer) && settings.toon.rim > 0),
+         "a rim if there is light to add"},
         {has(flags, io::kLightLambert) == (settings.shading == settings::ShadingModel::kLambert),
          "lambert where it is asked for"},
         {has(flags, io::kLightBlinnPhong) ==
@@ -384,6 +388,8 @@ TEST(FramePlan, WorkOnTheLitPicture_KeepsTheRules) {
         settings.bloom.kind =
             setting / 45 % 2 != 0 ? settings::BloomKind::kMipChain : settings::BloomKind::kNone;
         settings.toon_outline.strength = setting / 90 % 2 != 0 ? 0.5F : 0.0F;
+        settings.toon.bands = setting / 45 % 2 != 0 ? 4 : 0;
+        settings.toon.rim = setting / 15 % 2 != 0 ? 0.5F : 0.0F;
         for (uint32_t bits = 0; bits < 128; ++bits) {
             const auto has = [bits](uint32_t i) { return (bits >> i & 1U) != 0; };
             const FrameFacts facts{.transparent_visible = has(0),

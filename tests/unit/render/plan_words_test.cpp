@@ -93,6 +93,20 @@ TEST(PlanWords, WorkOnTheLitPicture_IsNamedWhereItIs) {
     EXPECT_THAT(wordsOf(settings, {}), Contains(HasSubstr("fxaa")));
 }
 
+TEST(PlanWords, Toon_SaysWhatHasBandsAndWhetherThereIsARim) {
+    settings::ViewSettings settings;
+    const FrameFacts facts{.local_lights = true};
+    EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("toon"))));
+    settings.renderer = settings::Renderer::kToonFragment;
+    EXPECT_THAT(wordsOf(settings, facts), Contains("3 toon bands of each light"));
+    settings.renderer = settings::Renderer::kToonCompute;
+    EXPECT_THAT(wordsOf(settings, facts), Contains("3 toon bands of the lit colour"));
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("toon rim")));
+    settings.toon = {.bands = 0, .rim = 0};
+    EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("toon bands"))));
+    EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("toon rim"))));
+}
+
 TEST(PlanWords, Transparency_IsNamedWhereSomethingIsBlended) {
     settings::ViewSettings settings;
     settings.transparency = settings::Transparency::kPeeled;
