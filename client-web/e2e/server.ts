@@ -3,7 +3,7 @@
 import { spawn, type ChildProcess } from 'node:child_process';
 import { createInterface } from 'node:readline';
 
-const kStartMs = 90_000;
+const kStartMs = 240_000;
 const kStopMs = 30_000;
 
 export interface Server {

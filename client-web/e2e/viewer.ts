@@ -7,12 +7,12 @@ import { fromBinary } from '@bufbuild/protobuf';
 import type { Browser, BrowserContextOptions, Locator, Page } from 'playwright-core';
 
 import { ClientMessageSchema, type ClientMessage } from '../src/gen/froxel/v1/client_pb';
-import { Refine, Refinement, type ViewState } from '../src/gen/froxel/v1/common_pb';
+import { DebugView, Refine, Refinement, type ViewState } from '../src/gen/froxel/v1/common_pb';
 import type { FrameHeader, ServerMessage } from '../src/gen/froxel/v1/server_pb';
 import { decodeBinary } from '../src/protocol/framing';
 
 const kResults = fileURLToPath(new URL('../test-results', import.meta.url));
-const kPatienceMs = 120_000;
+const kPatienceMs = 240_000;
 const kPollMs = 50;
 
 interface SentCounter {
@@ -139,7 +139,8 @@ export class Viewer {
       const asIs = scale === 1 && chroma === state.chroma && (quality === 0 || quality === state.quality);
       return asIs || refinement >= Refinement.SETTLED;
     }
-    const last = state.refine === Refine.HIGH ? Refinement.HIGH : Refinement.LOSSLESS;
+    const smooth = state.debugView === DebugView.NONE ? Refinement.SMOOTH : Refinement.HIGH;
+    const last = state.refine === Refine.HIGH ? smooth : Refinement.LOSSLESS;
     return lastFrame.refinement === last;
   }
 

@@ -8,13 +8,17 @@
 #include "encode/image_file.h"
 #include "motion/posed_scene.h"
 #include "render/renderer.h"
+#include "render/sample_mean.h"
 #include "report/frame_step.h"
+#include "settings/samples.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -28,19 +32,69 @@ bool wantsRadiance(const RenderOptions& options) {
            encode::imageFormatOf(options.out).value() == encode::ImageFormat::kPfm;
 }
 
+// A picture to be written.
+struct Still {
+    render::RenderedFrame frame;  // the last one
+    std::vector<std::byte> rgba8; // the mean of several; empty: there was one
+    LinearImage linear;           // where radiance is kept
+
+    [[nodiscard]] PixelView pixels() const {
+        PixelView view = frame.pixels.view();
+        if (!rgba8.empty()) {
+            view.data = rgba8.data();
+            view.stride_bytes = size_t{4} * view.width_px;
+        }
+        return view;
+    }
+};
+
 render::RenderedFrame draw(render::ViewRenderer& viewer, const render::FrameInputs& inputs) {
     viewer.submit(inputs).value();
     return std::move(viewer.collect()).value();
 }
 
-void writePicture(const RenderOptions& options,
-                  render::ViewRenderer& viewer,
-                  const PixelView& pixels) {
+// Adds a share of a picture to others.
+void addTo(LinearImage& sum, const LinearImage& picture, float share) {
+    sum.width_px = picture.width_px;
+    sum.height_px = picture.height_px;
+    sum.rgb.resize(picture.rgb.size());
+    std::transform(sum.rgb.begin(), sum.rgb.end(), picture.rgb.begin(), sum.rgb.begin(),
+                   [share](float a, float b) { return std::fma(b, share, a); });
+}
+
+// In as many frames as it takes, each of which is timed.
+Still drawStill(render::ViewRenderer& viewer,
+                render::FrameInputs inputs,
+                std::vector<FrameStats>& timed) {
+    const settings::Camera camera = inputs.settings.camera;
+    const uint32_t count = settings::framesOf(inputs.settings);
+    Still still;
+    render::SampleMean mean;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (count > 1) {
+            inputs.settings.camera = settings::sampled(camera, inputs.settings.size, i);
+        }
+        still.frame = draw(viewer, inputs);
+        timed.push_back(still.frame.stats);
+        if (count > 1) {
+            mean.add(still.frame.pixels.view());
+        }
+        if (inputs.keep_radiance) {
+            addTo(still.linear, viewer.readLinear().value(), 1.0F / static_cast<float>(count));
+        }
+    }
+    if (count > 1) {
+        still.rgba8 = mean.take();
+    }
+    return still;
+}
+
+void writePicture(const RenderOptions& options, const Still& still) {
     if (wantsRadiance(options)) {
-        const auto linear = viewer.readLinear().value();
+        const auto& linear = still.linear;
         encode::writePfm(options.out, linear.width_px, linear.height_px, linear.rgb).value();
     } else {
-        encode::writeImage(options.out, pixels, options.encoding).value();
+        encode::writeImage(options.out, still.pixels(), options.encoding).value();
     }
 }
 
@@ -57,23 +111,22 @@ TimedRun describeRun(const RenderOptions& options,
             .frames = {}};
 }
 
-// Draws every frame and fills run.frames; returns the last frame.
-render::RenderedFrame drawAll(const RenderOptions& options,
-                              const motion::Playback& playback,
-                              render::ViewRenderer& viewer,
-                              TimedRun& run) {
+// Draws every picture and fills run.frames; returns the last one.
+Still drawAll(const RenderOptions& options,
+              const motion::Playback& playback,
+              render::ViewRenderer& viewer,
+              TimedRun& run) {
     render::FrameInputs inputs{
         .settings = run.settings, .time_s = run.time_s, .playing = playback.at(run.time_s)};
     for (uint32_t i = 0; i < options.warmup_count; ++i) {
         draw(viewer, inputs);
     }
-    render::RenderedFrame last;
+    Still last;
     for (uint32_t i = 0; i < options.frame_count; ++i) {
         inputs.time_s = run.time_s + i * run.step_s;
         inputs.playing = playback.at(run.time_s + i * report::kFrameStepS);
         inputs.keep_radiance = wantsRadiance(options) && i + 1 == options.frame_count;
-        last = draw(viewer, inputs);
-        run.frames.push_back(last.stats);
+        last = drawStill(viewer, inputs, run.frames);
     }
     return last;
 }
@@ -123,7 +176,7 @@ void runRender(const RenderOptions& options) try {
     render::ViewRenderer viewer(renderer);
     const auto last = drawAll(options, playback, viewer, run);
     if (!options.out.empty()) {
-        writePicture(options, viewer, last.pixels.view());
+        writePicture(options, last);
     }
     const auto timings = timingsReport(run);
     if (!options.timings.empty()) {
@@ -135,8 +188,8 @@ void runRender(const RenderOptions& options) try {
                run.settings.size.width_px, run.settings.size.height_px,
                medianText(frame["frame_us"]), medianText(frame["gpu_us"]),
                medianText(frame["host_us"]));
-    if (last.stats.details->legend) {
-        fmt::print("{}\n", legendLine(*last.stats.details->legend));
+    if (last.frame.stats.details->legend) {
+        fmt::print("{}\n", legendLine(*last.frame.stats.details->legend));
     }
 } catch (const vk::SystemError& error) {
     throw StartupError({ErrorCode::kDevice, fmt::format("Vulkan: {}", error.what())});

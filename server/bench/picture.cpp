@@ -9,6 +9,7 @@
 #include "render/renderer.h"
 #include "render/visibility_readback.h"
 #include "report/settings_report.h"
+#include "settings/samples.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -60,7 +61,8 @@ Result<Pictures::Shared> Pictures::once(const std::string& key, const Make& make
     return made;
 }
 
-Result<Pictures::Shared> Pictures::draw(const settings::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::drawFrame(const settings::ViewSettings& settings,
+                                             double time_s) {
     render::ViewRenderer viewer(renderer_);
     render::FrameInputs inputs{.settings = settings, .time_s = time_s};
     inputs.keep_radiance = true;
@@ -81,6 +83,18 @@ Result<Pictures::Shared> Pictures::draw(const settings::ViewSettings& settings, 
     }
     return std::make_shared<const Picture>(
         Picture{std::move(*linear), withoutPadding(frame->pixels.view()), frame->stats.grid});
+}
+
+Result<Pictures::Shared> Pictures::draw(const settings::ViewSettings& settings, double time_s) {
+    const uint32_t count = settings::framesOf(settings);
+    if (count == 1) {
+        return drawFrame(settings, time_s);
+    }
+    std::vector<settings::Camera> samples;
+    for (uint32_t i = 0; i < count; ++i) {
+        samples.push_back(settings::sampled(settings.camera, settings.size, i));
+    }
+    return mean(settings, time_s, samples);
 }
 
 Result<Pictures::Shared> Pictures::drawOnce(const settings::ViewSettings& settings, double time_s) {
@@ -110,17 +124,16 @@ Result<Pictures::Shared> Pictures::shade(const settings::ViewSettings& settings,
     return std::make_shared<const Picture>(Picture{std::move(*linear), std::move(rgba8), {}});
 }
 
-Result<Pictures::Shared> Pictures::sample(const settings::ViewSettings& settings, double time_s) {
+Result<Pictures::Shared> Pictures::mean(const settings::ViewSettings& settings,
+                                        double time_s,
+                                        const std::vector<settings::Camera>& samples) {
     const size_t value_count = size_t{settings.size.width_px} * settings.size.height_px * 3;
     std::vector<double> linear(value_count);
     std::vector<double> emitted(value_count);
-    for (uint32_t i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
-        const glm::dvec2 in_pixel(i % kSamplesAcross, i / kSamplesAcross);
-        const glm::dvec2 shift_px = (in_pixel + 0.5) / double{kSamplesAcross} - 0.5;
-        auto shifted = settings;
-        shifted.camera.lens_shift +=
-            2.0 * shift_px / glm::dvec2(settings.size.width_px, settings.size.height_px);
-        const auto picture = draw(shifted, time_s);
+    auto sampled = settings;
+    for (const auto& camera : samples) {
+        sampled.camera = camera;
+        const auto picture = drawFrame(sampled, time_s);
         if (!picture) {
             return picture;
         }
@@ -131,20 +144,30 @@ Result<Pictures::Shared> Pictures::sample(const settings::ViewSettings& settings
                 image_metrics::flip::linearFromSrgb(static_cast<float>(byte) / 255));
         }
     }
-    const auto mean = [&](const std::vector<double>& sums) {
+    const auto over_all = [&](const std::vector<double>& sums) {
         LinearImage image{settings.size.width_px, settings.size.height_px, {}};
         for (const double sum : sums) {
-            image.rgb.push_back(static_cast<float>(sum / (kSamplesAcross * kSamplesAcross)));
+            image.rgb.push_back(static_cast<float>(sum / static_cast<double>(samples.size())));
         }
         return image;
     };
-    return std::make_shared<const Picture>(
-        Picture{mean(linear), shownPicture(mean(emitted), 1, settings::ToneMap::kClamp), {}});
+    return std::make_shared<const Picture>(Picture{
+        over_all(linear), shownPicture(over_all(emitted), 1, settings::ToneMap::kClamp), {}});
 }
 
 Result<Pictures::Shared> Pictures::sampleOnce(const settings::ViewSettings& settings,
                                               double time_s) {
-    return once(keyOf("sampled", settings, time_s), [&] { return sample(settings, time_s); });
+    return once(keyOf("sampled", settings, time_s), [&] {
+        std::vector<settings::Camera> samples;
+        for (uint32_t i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
+            const glm::dvec2 in_pixel(i % kSamplesAcross, i / kSamplesAcross);
+            const glm::dvec2 shift_px = (in_pixel + 0.5) / double{kSamplesAcross} - 0.5;
+            samples.push_back(settings.camera);
+            samples.back().lens_shift +=
+                2.0 * shift_px / glm::dvec2(settings.size.width_px, settings.size.height_px);
+        }
+        return mean(settings, time_s, samples);
+    });
 }
 
 Result<Pictures::Shared> Pictures::shadeOnce(const settings::ViewSettings& settings,

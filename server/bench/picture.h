@@ -37,7 +37,7 @@ class Pictures {
         : renderer_(renderer), scene_(scene) {}
 
     using Shared = std::shared_ptr<const Picture>;
-    // By the device, anew. Errors: those of ViewRenderer.
+    // By the device, anew; of mean16 as many frames' mean. Errors: those of ViewRenderer.
     [[nodiscard]] Result<Shared> draw(const settings::ViewSettings& settings, double time_s);
     // The same, but one of the last kKept of it and shade() may serve again.
     [[nodiscard]] Result<Shared> drawOnce(const settings::ViewSettings& settings, double time_s);
@@ -59,7 +59,11 @@ class Pictures {
     template <class Make>
     Result<Shared> once(const std::string& key, const Make& make);
     Result<Shared> shade(const settings::ViewSettings& settings, double time_s);
-    Result<Shared> sample(const settings::ViewSettings& settings, double time_s);
+    Result<Shared> drawFrame(const settings::ViewSettings& settings, double time_s);
+    // The mean of frames by the device. Errors: those of ViewRenderer.
+    Result<Shared> mean(const settings::ViewSettings& settings,
+                        double time_s,
+                        const std::vector<settings::Camera>& samples);
 
     render::Renderer& renderer_;
     const scene::Scene& scene_;

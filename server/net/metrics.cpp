@@ -33,9 +33,8 @@ const Histogram::BucketBoundaries kSteps = {0.001, 0.01, 0.025, 0.05, 0.1, 0.25,
 const Histogram::BucketBoundaries kQualities = {30, 45, 55, 65, 75, 85, 92, 100};
 const Histogram::BucketBoundaries kScales = {0.4, 0.5, 0.6, 0.7, 0.75, 0.85, 1.0};
 
-// In the order of session::RateStep, without kNone, and of session::Refinement.
+// In the order of session::RateStep, without kNone.
 constexpr std::array kRateReasons = {"congested", "recovered", "undone"};
-constexpr std::array kRefinements = {"interactive", "settled", "high", "lossless"};
 
 // The other pictures have waited for nothing that somebody asked for.
 bool showsNewCommand(const FrameRecord& record) {
@@ -145,7 +144,7 @@ struct Metrics::Impl {
                                        "What pictures waited on the link, as each was sent.",
                                        kSeconds);
     std::array<Counter*, kRateReasons.size()> rate_steps{};
-    std::array<Counter*, kRefinements.size()> refinements{};
+    std::array<Counter*, session::kRefinementNames.size()> refinements{};
     std::array<Histogram*, kStages.size()> stages{};
     std::array<Gauge*, kListGauges.size()> lists{};
     prometheus::Family<Histogram>& steps =
@@ -215,8 +214,9 @@ Metrics::Metrics(const std::string& version, std::function<size_t()> session_cou
                             .Name("froxel_refinement_frames_total")
                             .Help("Pictures sent, by how far they were refined.")
                             .Register(impl_->registry);
-    for (size_t i = 0; i < kRefinements.size(); ++i) {
-        impl_->refinements[i] = &refinements.Add({{"refinement", kRefinements[i]}});
+    for (size_t i = 0; i < session::kRefinementNames.size(); ++i) {
+        impl_->refinements[i] =
+            &refinements.Add({{"refinement", std::string(session::kRefinementNames[i])}});
     }
     for (size_t i = 0; i < kListGauges.size(); ++i) {
         impl_->lists[i] = &impl_->gauge(kListGauges[i].name, kListGauges[i].help);
@@ -365,6 +365,9 @@ std::vector<prometheus::MetricFamily> Metrics::Impl::frameFamilies() const {
                          "Pictures that left the device.", "", {{"", count(fates->rendered)}}),
             metricFamily(MetricType::Counter, "froxel_frames_encoded_total",
                          "Pictures that left an encoder.", "", {{"", count(fates->encoded)}}),
+            metricFamily(MetricType::Counter, "froxel_frames_sampled_total",
+                         "Frames that were added up to a later picture, of views that rest.", "",
+                         {{"", count(fates->samples)}}),
             metricFamily(MetricType::Counter, "froxel_frames_dropped_total",
                          "Pictures begun and not sent.", "reason",
                          {{"replaced", count(replaced)},

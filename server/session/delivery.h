@@ -28,11 +28,12 @@ enum class Refinement : uint8_t {
     kInteractive, // within the limits of Delivery
     kSettled,     // the view rests: as asked for
     kHigh,        // kRefinedEncoding, or as asked for where that is better
-    kLossless,
+    kSmooth,      // so, of the mean of several samples a pixel
+    kLossless,    // of that mean, too
 };
 inline constexpr std::array kRefinementNames = {
     std::string_view("interactive"), std::string_view("settled"), std::string_view("high"),
-    std::string_view("lossless")};
+    std::string_view("smooth"), std::string_view("lossless")};
 
 // The limits on frames of a moving view, from link and rate.
 struct Delivery {
@@ -103,6 +104,7 @@ delivered(const settings::Encoding& asked, const Delivery& delivery, Refinement 
     case Refinement::kSettled:
         return {1, asked, stage, 0};
     case Refinement::kHigh:
+    case Refinement::kSmooth:
     case Refinement::kLossless:
         break;
     }

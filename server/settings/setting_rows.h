@@ -255,9 +255,12 @@ inline constexpr std::array kSettingRows = {
     row<&ViewSettings::antialiasing>(Names{"antialiasing", kAntialiasingNames},
                                      "antialiasing",
                                      {"Antialiasing",
-                                      "Smoothing of edges: a filter over the picture (fxaa), or "
-                                      "four samples for each pixel (ssaa4)",
-                                      "", "fxaa: one pass; ssaa4: four times the work"}),
+                                      "Smoothing of edges: a filter over the picture (fxaa), "
+                                      "four samples for each pixel (ssaa4), or 16 that only "
+                                      "stills have (mean16)",
+                                      "",
+                                      "fxaa: one pass; ssaa4: four times the work; mean16: "
+                                      "sixteen times"}),
 
     row<&ViewSettings::fog, &Fog::density>(
         Range<double>{"fog_density", 0, 100},

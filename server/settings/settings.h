@@ -97,9 +97,12 @@ inline constexpr std::array kBloomKindNames = {
     std::string_view("a_trous"), std::string_view("mip_chain")};
 
 // fxaa: a filter over the finished picture. ssaa4: four samples a pixel, tone mapped one by one.
-enum class Antialiasing : uint8_t { kNone, kFxaa, kSsaa4 };
+// mean16: the mean of 16 frames of a sample each (samples.h), for whoever draws stills; one frame
+// by itself, such as those of a view that moves, is as without.
+enum class Antialiasing : uint8_t { kNone, kFxaa, kSsaa4, kMean16 };
 inline constexpr std::array kAntialiasingNames = {
-    std::string_view("none"), std::string_view("fxaa"), std::string_view("ssaa4")};
+    std::string_view("none"), std::string_view("fxaa"), std::string_view("ssaa4"),
+    std::string_view("mean16")};
 // Samples across a pixel, and down it.
 [[nodiscard]] constexpr uint32_t samplesAcross(Antialiasing antialiasing) {
     return antialiasing == Antialiasing::kSsaa4 ? 2 : 1;

@@ -6,6 +6,7 @@
 #include "encode/memory.h"
 #include "session/render_scale.h"
 #include "session/settings.h"
+#include "settings/samples.h"
 #include "stream/frame_cost.h"
 
 #include <spdlog/spdlog.h>
@@ -28,6 +29,9 @@ constexpr Seconds kUnknownPiece{0.1};
 // A further piece is handed over while those on the device are expected to take less than this, so
 // that it is never idle; whoever comes then does not wait for a second long piece.
 constexpr Seconds kAhead{0.02};
+
+// Of host memory, of views that rest at the same time; the others wait until these are done.
+constexpr uint64_t kMostOfMeans_bytes = uint64_t{256} << 20U;
 
 // How often a view whose shaders are being made is asked whether it can begin.
 constexpr std::chrono::milliseconds kVariantsPoll{20};
@@ -183,6 +187,7 @@ void RenderLoop::takeState(Viewer& viewer, const ViewerNews& news) {
     viewer.render_scale.setTarget(viewer.state.delivery.target_fps);
     if (differs) {
         viewer.refinement.onChange(news.arrived);
+        viewer.mean = {};
     }
 }
 
@@ -270,13 +275,27 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
         scheduler_.setReady(id, Ready::kPiece, viewer.waiting->piece_estimate, now);
         return;
     }
-    const auto due = viewer.hasRoom() ? viewer.wantsFrameAt() : std::nullopt;
+    if (viewer.mean.count() > 0 && viewer.pauses()) { // its memory is others'
+        viewer.mean = {};
+        viewer.refinement.onSamplesLost();
+    }
+    const bool has_room = viewer.hasRoom() && (!viewer.beginsMean() || meansFit());
+    const auto due = has_room ? viewer.wantsFrameAt() : std::nullopt;
     const bool ready = due && *due <= now;
     const Seconds piece = viewer.drawn ? viewer.piece_cost : kUnknownPiece;
     scheduler_.setReady(id, ready ? Ready::kFrame : Ready::kNo, piece, now);
     if (due && *due > now) {
         refine_at_ = refine_at_ ? std::min(*refine_at_, *due) : *due;
     }
+}
+
+// Whether another view may add up samples besides those that do.
+bool RenderLoop::meansFit() const {
+    uint64_t bytes = 0;
+    for (const auto& [id, viewer] : viewers_) {
+        bytes += viewer->mean.memoryBytes();
+    }
+    return bytes < kMostOfMeans_bytes;
 }
 
 bool RenderLoop::deviceTakesMore() const {
@@ -325,8 +344,10 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
         if (!isThisPictureAlone(work.error())) {
             throw StartupError(work.error());
         }
-        scheduler_.onFrame(id, now); // a refused one takes the host's time, too
-        if (frame->state.version == viewer.state.version) { // else what was asked for since is next
+        scheduler_.onFrame(id, now);   // a refused one takes the host's time, too
+        if (frame->sample_count > 1) { // what is shown stays
+            viewer.refinement.onSamplesRefused();
+        } else if (frame->state.version == viewer.state.version) { // else what came since is next
             refuse(id, viewer, work.error());
         }
         return false;
@@ -341,7 +362,9 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
     const Seconds known = typical ? *typical : typical_cost_.value().value_or(Seconds(0));
     frame->piece_estimate =
         (work->estimate > Seconds(0) ? work->estimate : known) / work->piece_count;
-    frame->record.frame_id = ++viewer.last_frame_id;
+    if (frame->isLastSample()) {
+        frame->record.frame_id = ++viewer.last_frame_id;
+    }
     viewer.noteBegun(*frame, now);
     viewer.waiting = frame;
     return true;
@@ -359,13 +382,17 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     settings::ViewSettings settings = frame.state.settings;
     settings.size = session::scaled(settings.size, with.scale);
     // A refined still leaves the encoder of video as it is.
-    const uint64_t encoding_bytes =
-        std::max(encode::memoryBytes(with.encoding, settings.size),
-                 encode::memoryBytes(frame.state.encoding, settings.size));
+    uint64_t beside_bytes = std::max(encode::memoryBytes(with.encoding, settings.size),
+                                     encode::memoryBytes(frame.state.encoding, settings.size));
     settings.camera = frame.record.followed.value_or(settings.camera);
+    if (frame.sample_count > 1) {
+        settings.camera = settings::sampled(settings.camera, settings.size, frame.sample);
+        settings.antialiasing = settings::Antialiasing::kNone; // the mean is smoother
+        beside_bytes += render::SampleMean::memoryBytes(settings.size);
+    }
     const FrameTime time{frame.record.time_s,
                          frame.state.playback.at(session::SessionState::secondsOf(frame.started))};
-    return viewer.source->begin(settings, time, encoding_bytes);
+    return viewer.source->begin(settings, time, beside_bytes);
 }
 
 void RenderLoop::submitPiece(Viewer& viewer) {
@@ -497,6 +524,11 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
     }
     if (viewer.leaving) {
         ++options_.fates->viewer_gone;
+        return;
+    }
+    if (frame.sample_count > 1 && !viewer.addSample(frame, drawn.pixels)) {
+        ++options_.fates->samples;
+        --viewer.started; // no credit is used
         return;
     }
     session::FrameRecord& record = frame.record;

@@ -106,6 +106,7 @@ class RenderLoop final : public session::StreamPort {
     void finishPictures();
 
     // Whatever ends the device's work throws StartupError.
+    [[nodiscard]] bool meansFit() const;
     [[nodiscard]] bool deviceTakesMore() const;
     [[nodiscard]] Seconds spentSince(TimePoint begin);
     [[nodiscard]] bool startNext();

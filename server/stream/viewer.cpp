@@ -20,11 +20,35 @@ std::optional<TimePoint> Viewer::wantsFrameAt() const {
 }
 
 std::optional<session::RefinementSchedule::Due> Viewer::refineNext() const {
-    return refinement.next(state.delivery.refine, delivery, state.settings.size);
+    return refinement.next(state.delivery.refine, delivery, state.settings);
 }
 
-session::Delivered Viewer::nextDelivered() const {
-    const auto due = moves() ? std::nullopt : refineNext();
+bool Viewer::beginsMean() const {
+    const auto due = built || moves() ? std::nullopt : refineNext();
+    return due && due->sample == 0 && due->sample_count > 1;
+}
+
+bool Viewer::addSample(const BegunFrame& frame, PixelLease& pixels) {
+    if (frame.sample == 0) {
+        mean = {};
+    }
+    if (mean.count() != frame.sample) { // one was lost: all are drawn again
+        return false;
+    }
+    mean.add(pixels.view());
+    if (!frame.isLastSample()) {
+        return false;
+    }
+    PixelView view = pixels.view();
+    auto rgba8 = std::make_shared<const std::vector<std::byte>>(mean.take());
+    view.data = rgba8->data();
+    view.stride_bytes = size_t{4} * view.width_px;
+    pixels = PixelLease(view, [rgba8] {});
+    return true;
+}
+
+session::Delivered
+Viewer::nextDelivered(const std::optional<session::RefinementSchedule::Due>& due) const {
     session::Delivery limits = delivery;
     limits.scale = std::min(limits.scale, render_scale.scale());
     return session::delivered(state.encoding, limits,
@@ -40,7 +64,12 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
         built = std::make_shared<BegunFrame>(BegunFrame{id, {}, state, now});
         session::FrameRecord& record = built->record;
         record.applied = state.applied;
-        record.delivered = nextDelivered();
+        const auto due = moves() ? std::nullopt : refineNext();
+        record.delivered = nextDelivered(due);
+        if (due) {
+            built->sample = due->sample;
+            built->sample_count = due->sample_count;
+        }
         record.time_s = state.light_clock.secondsAt(now);
         record.animation_time_s = state.playback.timeAt(session::SessionState::secondsOf(now));
         if (state.followed) {

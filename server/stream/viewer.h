@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/allowance.h"
+#include "render/sample_mean.h"
 #include "session/refinement.h"
 #include "session/render_scale.h"
 #include "session/steady_cost.h"
@@ -32,6 +33,10 @@ struct BegunFrame {
     Seconds host{0};           // of which the host took
     Seconds held{0};           // how long its pieces were the device's oldest, as the host saw it
     bool over = false;         // nothing more of it will be submitted
+    uint32_t sample = 0;       // of those whose mean is the picture
+    uint32_t sample_count = 1;
+
+    [[nodiscard]] bool isLastSample() const { return sample + 1 == sample_count; }
 };
 
 struct Viewer {
@@ -54,6 +59,7 @@ struct Viewer {
     session::RenderScale render_scale;
     session::RefinementSchedule refinement;
     session::SteadyCost frame_cost;
+    render::SampleMean mean; // of the samples so far of a view that rests
     Seconds piece_cost{0};   // the longest of the last frame; 0 before it
     TimePoint paced_until{}; // by the delivery's interval
     TimePoint shown_at{};    // of the frame begun last
@@ -68,12 +74,17 @@ struct Viewer {
     // When the next frame is due, as far as that is up to this viewer; none: nothing is to be
     // drawn.
     [[nodiscard]] std::optional<TimePoint> wantsFrameAt() const;
-    [[nodiscard]] session::Delivered nextDelivered() const;
     // The frame to go on with: the half built one, unless it is given up for what was asked for
     // meanwhile, by the rule of waitsInVain(); or a new one.
     [[nodiscard]] std::shared_ptr<BegunFrame> build(session::SessionId id, TimePoint now);
+    // Whether the next frame is the first of several samples.
+    [[nodiscard]] bool beginsMean() const;
+    // With the last sample gives the mean in its place; false: there is no picture yet.
+    [[nodiscard]] bool addSample(const BegunFrame& frame, PixelLease& pixels);
     void noteBegun(const BegunFrame& frame, TimePoint now);
     [[nodiscard]] bool hasRoom() const;
+    // Whether it takes no picture, and none is on the way to it.
+    [[nodiscard]] bool pauses() const { return idle() && started >= granted; }
     // Whether nobody wants the rest of the frame that waits. Where the one before it was given up
     // because of a change, the next change does not end this one: a camera that never rests gets
     // pictures too.
@@ -84,6 +95,9 @@ struct Viewer {
 
   private:
     [[nodiscard]] std::optional<session::RefinementSchedule::Due> refineNext() const;
+    // due: none where the view moves.
+    [[nodiscard]] session::Delivered
+    nextDelivered(const std::optional<session::RefinementSchedule::Due>& due) const;
 
     Allowance refusal_lines_{1, 1};
     uint64_t untold_refusals_ = 0;

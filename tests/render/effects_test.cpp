@@ -1,5 +1,6 @@
 // Antialiasing against many samples a pixel, and outlines: where they are and where they are not.
-#include "settings/camera.h"
+#include "render/sample_mean.h"
+#include "settings/samples.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
 #include "support/shapes.h"
@@ -62,6 +63,21 @@ std::vector<double> manySamples(render::ViewRenderer& view, const render::FrameI
     return mean;
 }
 
+// As a view that rests is shown.
+Picture meanOfSamples(render::ViewRenderer& view, render::FrameInputs inputs) {
+    const settings::Camera camera = inputs.settings.camera;
+    inputs.settings.antialiasing = Antialiasing::kNone;
+    Picture last;
+    render::SampleMean mean;
+    for (uint32_t i = 0; i < settings::kMeanSamples; ++i) {
+        inputs.settings.camera = settings::sampled(camera, kSize, i);
+        last = draw(view, inputs);
+        mean.add({last.rgba8.data(), kSize.width_px, kSize.height_px, size_t{4} * kSize.width_px});
+    }
+    last.rgba8 = mean.take();
+    return last;
+}
+
 double rmse(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (size_t i = 0; i < a.size(); ++i) {
@@ -105,8 +121,11 @@ TEST_F(Effects, Antialiasing_AgainstManySamples_IsNearer) {
         const double fxaa = rmse(emitted(draw(view, inputs)), reference);
         inputs.settings.antialiasing = Antialiasing::kSsaa4;
         const double ssaa4 = rmse(emitted(draw(view, inputs)), reference);
+        const double mean16 = rmse(emitted(meanOfSamples(view, inputs)), reference);
         EXPECT_LT(fxaa, 0.75 * none);
         EXPECT_LT(ssaa4, 0.6 * none);
+        EXPECT_LT(mean16, 0.2 * none);
+        EXPECT_LT(mean16, 0.5 * ssaa4);
     }
 }
 

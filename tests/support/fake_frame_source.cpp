@@ -33,6 +33,16 @@ std::vector<settings::Size> FakeDevice::done() {
     return done_;
 }
 
+void FakeDevice::addBegun(const settings::ViewSettings& settings) {
+    const std::lock_guard lock(mutex_);
+    begun_.push_back(settings);
+}
+
+std::vector<settings::ViewSettings> FakeDevice::begun() {
+    const std::lock_guard lock(mutex_);
+    return begun_;
+}
+
 namespace {
 
 constexpr int kReadbackSlots = 3;
@@ -85,7 +95,8 @@ class FakeView final : public stream::ViewSource {
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
-        if (areaOf(settings.size) > device_->max_area_px) {
+        if (areaOf(settings.size) > device_->max_area_px ||
+            beside_bytes > device_->max_beside_bytes) {
             ++device_->unfit_count;
             return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
         }
@@ -107,6 +118,7 @@ class FakeView final : public stream::ViewSource {
         }
         built_count_ = 0;
         ++device_->begun_count;
+        device_->addBegun(settings);
         waiting_ = device_->piece_count;
         frames_.push_back({settings, waiting_});
         return stream::FrameWork{device_->frame_time.load(), waiting_};

@@ -20,6 +20,7 @@ class FakeDevice {
   public:
     std::atomic<uint32_t> depth = 1;
     std::atomic<uint64_t> max_area_px = uint64_t{4096} * 4096; // larger pictures do not fit
+    std::atomic<uint64_t> max_beside_bytes = UINT64_MAX;       // nor does more beside them
     std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
     std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
     std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
@@ -50,12 +51,16 @@ class FakeDevice {
     // The sizes of whole frames, in the order in which they were done.
     void addDone(settings::Size size);
     [[nodiscard]] std::vector<settings::Size> done();
+    // The settings of frames, in the order in which they began.
+    void addBegun(const settings::ViewSettings& settings);
+    [[nodiscard]] std::vector<settings::ViewSettings> begun();
 
   private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool open_ = true;
     std::vector<settings::Size> done_;
+    std::vector<settings::ViewSettings> begun_;
 };
 
 [[nodiscard]] std::unique_ptr<stream::FrameSource>

@@ -9,6 +9,7 @@ const kRefinements: Readonly<Partial<Record<Refinement, string>>> = {
   [Refinement.INTERACTIVE]: 'moving',
   [Refinement.SETTLED]: 'at rest',
   [Refinement.HIGH]: 'refined',
+  [Refinement.SMOOTH]: 'smooth',
   [Refinement.LOSSLESS]: 'lossless',
 };
 

@@ -30,6 +30,7 @@ describe('deliveryRows', () => {
     const rest = { scale: 1, quality: 0, chroma: Chroma.CHROMA_444 };
     expect(values({ ...rest, refinement: Refinement.LOSSLESS })[0]).toBe('lossless');
     expect(values({ ...rest, quality: 92, refinement: Refinement.HIGH })[0]).toBe('refined · 92 · 4:4:4');
+    expect(values({ ...rest, quality: 92, refinement: Refinement.SMOOTH })[0]).toBe('smooth · 92 · 4:4:4');
   });
 
   it('ServerThatSaysNothing_IsADash', () => {

@@ -127,6 +127,18 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(first, self.render("b.pfm", "--time", "1.5"))
         self.assertNotEqual(first, self.render("c.pfm", "--time", "1.5", "--seed", "2"))
 
+    def test_mean16_is_the_mean_of_16_frames(self):
+        out = self.folder / "a.png"
+        run = froxel("render", *SMALL, "--out", out, "--antialiasing", "mean16")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertTrue(run.stdout.startswith("16 frames of"), run.stdout)
+        self.assertNotEqual(out.read_bytes(), self.render("b.png"))
+        self.assertEqual(out.read_bytes(), self.render("c.png", "--antialiasing", "mean16"))
+        mean, plain = (array.array("f", self.render("d.pfm", "--antialiasing", name)[-4 * 3 * 64:])
+                       for name in ("mean16", "none"))
+        self.assertNotEqual(mean, plain)
+        self.assertAlmostEqual(sum(mean) / sum(plain), 1, delta=0.2)
+
     def test_last_of_k_frames_is_the_frame_of_its_time(self):
         last = self.render("a.pfm", "--time", "1", "--frames", "4")
         self.assertEqual(last, self.render("b.pfm", "--time", repr(1 + 3 * (1 / 30))))

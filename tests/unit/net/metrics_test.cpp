@@ -90,12 +90,14 @@ TEST(Metrics, Fates_AreReadWhenScraped) {
     const auto fates = metrics.fates();
     fates->rendered = 5;
     fates->encoded = 3;
+    fates->samples = 15;
     fates->viewer_gone = 1;
     fates->given_up = 2;
     const std::string text = metrics.text();
     EXPECT_THAT(text, HasSubstr("# TYPE froxel_frames_rendered_total counter\n"
                                 "froxel_frames_rendered_total 5\n"));
     EXPECT_THAT(text, HasSubstr("\nfroxel_frames_encoded_total 3\n"));
+    EXPECT_THAT(text, HasSubstr("\nfroxel_frames_sampled_total 15\n"));
     EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total{reason=\"viewer_gone\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total{reason=\"not_encoded\"} 0\n"));
     EXPECT_THAT(text, HasSubstr("\nfroxel_frames_dropped_total{reason=\"given_up\"} 2\n"));

@@ -10,7 +10,12 @@ using namespace std::chrono_literals;
 using settings::Refine;
 
 constexpr TimePoint kStart{10s};
-constexpr settings::Size kSize{640, 360};
+
+settings::ViewSettings view(settings::Size size = {640, 360}) {
+    settings::ViewSettings settings;
+    settings.size = size;
+    return settings;
+}
 
 Delivery carrying(double bits_per_s) {
     Delivery delivery;
@@ -23,7 +28,7 @@ class RefinementTest : public testing::Test {
     // The stage that is due at this time; interactive where none is.
     [[nodiscard]] Refinement
     dueAt(Seconds time, Refine wanted, const Delivery& delivery = {}) const {
-        const auto due = schedule_.next(wanted, delivery, kSize);
+        const auto due = schedule_.next(wanted, delivery, view());
         const TimePoint now = kStart + std::chrono::duration_cast<Clock::duration>(time);
         return due && due->at <= now ? due->stage : Refinement::kInteractive;
     }
@@ -31,20 +36,64 @@ class RefinementTest : public testing::Test {
 };
 
 TEST_F(RefinementTest, BeforeTheFirstFrame_NothingIsDue) {
-    EXPECT_FALSE(schedule_.next(Refine::kLossless, {}, kSize));
+    EXPECT_FALSE(schedule_.next(Refine::kLossless, {}, view()));
 }
 
-TEST_F(RefinementTest, Rest_GoesHighThenLosslessThenNothing) {
+TEST_F(RefinementTest, Rest_GoesHighThenToTheMeanOfItsSamplesThenNothing) {
+    for (const auto& [wanted, last] : {std::pair(Refine::kHigh, Refinement::kSmooth),
+                                       std::pair(Refine::kLossless, Refinement::kLossless)}) {
+        schedule_.onChange(kStart);
+        schedule_.onBegun(Refinement::kInteractive, false);
+        EXPECT_EQ(dueAt(149ms, wanted), Refinement::kInteractive);
+        EXPECT_EQ(dueAt(151ms, wanted), Refinement::kHigh);
+        schedule_.onBegun(Refinement::kHigh, false);
+        EXPECT_EQ(dueAt(399ms, wanted), Refinement::kInteractive);
+        for (uint32_t sample = 0; sample < settings::kMeanSamples; ++sample) {
+            const auto due = schedule_.next(wanted, {}, view());
+            ASSERT_TRUE(due) << sample;
+            EXPECT_EQ(dueAt(401ms, wanted), last);
+            EXPECT_EQ(due->sample, sample);
+            EXPECT_EQ(due->sample_count, settings::kMeanSamples);
+            schedule_.onBegun(last, false);
+        }
+        EXPECT_FALSE(schedule_.next(wanted, {}, view()));
+    }
+}
+
+TEST_F(RefinementTest, DebugViewsAndHugePictures_HaveOneSample) {
+    auto debug = view();
+    debug.debug.view = settings::DebugView::kListedLights;
+    for (const auto& settings : {debug, view({4096, 4096})}) {
+        schedule_.onChange(kStart);
+        schedule_.onBegun(Refinement::kHigh, false);
+        EXPECT_FALSE(schedule_.next(Refine::kHigh, {}, settings));
+        const auto due = schedule_.next(Refine::kLossless, {}, settings);
+        ASSERT_TRUE(due);
+        EXPECT_EQ(due->stage, Refinement::kLossless);
+        EXPECT_EQ(due->sample_count, 1U);
+        schedule_.onBegun(Refinement::kLossless, false);
+        EXPECT_FALSE(schedule_.next(Refine::kLossless, {}, settings));
+    }
+}
+
+TEST_F(RefinementTest, SamplesThatAreLost_BeginAnew) {
     schedule_.onChange(kStart);
-    schedule_.onBegun(Refinement::kInteractive, false);
-    EXPECT_EQ(dueAt(149ms, Refine::kLossless), Refinement::kInteractive);
-    EXPECT_EQ(dueAt(151ms, Refine::kLossless), Refinement::kHigh);
     schedule_.onBegun(Refinement::kHigh, false);
-    EXPECT_EQ(dueAt(399ms, Refine::kLossless), Refinement::kInteractive);
-    EXPECT_EQ(dueAt(401ms, Refine::kLossless), Refinement::kLossless);
-    EXPECT_FALSE(schedule_.next(Refine::kHigh, {}, kSize));
-    schedule_.onBegun(Refinement::kLossless, false);
-    EXPECT_FALSE(schedule_.next(Refine::kLossless, {}, kSize));
+    schedule_.onBegun(Refinement::kSmooth, false);
+    schedule_.onBegun(Refinement::kSmooth, false);
+    EXPECT_EQ(schedule_.next(Refine::kHigh, {}, view())->sample, 2U);
+    schedule_.onSamplesLost();
+    EXPECT_EQ(schedule_.next(Refine::kHigh, {}, view())->sample, 0U);
+}
+
+TEST_F(RefinementTest, SamplesThatAreRefused_AreNotAskedForUntilSomethingChanges) {
+    schedule_.onChange(kStart);
+    schedule_.onBegun(Refinement::kHigh, false);
+    schedule_.onSamplesRefused();
+    EXPECT_FALSE(schedule_.next(Refine::kHigh, {}, view()));
+    EXPECT_EQ(schedule_.next(Refine::kLossless, {}, view())->sample_count, 1U);
+    schedule_.onChange(kStart + 1s);
+    EXPECT_EQ(schedule_.next(Refine::kHigh, {}, view())->sample_count, settings::kMeanSamples);
 }
 
 TEST_F(RefinementTest, Input_BeginsAnew) {
@@ -59,11 +108,11 @@ TEST_F(RefinementTest, Input_BeginsAnew) {
 TEST_F(RefinementTest, None_OnlyALimitedFrameIsMadeWhole) {
     schedule_.onChange(kStart);
     schedule_.onBegun(Refinement::kInteractive, false);
-    EXPECT_FALSE(schedule_.next(Refine::kNone, {}, kSize));
+    EXPECT_FALSE(schedule_.next(Refine::kNone, {}, view()));
     schedule_.onBegun(Refinement::kInteractive, true);
     EXPECT_EQ(dueAt(151ms, Refine::kNone), Refinement::kSettled);
     schedule_.onBegun(Refinement::kSettled, false);
-    EXPECT_FALSE(schedule_.next(Refine::kNone, {}, kSize));
+    EXPECT_FALSE(schedule_.next(Refine::kNone, {}, view()));
 }
 
 TEST_F(RefinementTest, SlowLink_GetsWhatItCarriesInASecond) {
@@ -72,8 +121,11 @@ TEST_F(RefinementTest, SlowLink_GetsWhatItCarriesInASecond) {
     EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(0.5e6)), Refinement::kSettled);
     EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(1.5e6)), Refinement::kHigh);
     schedule_.onBegun(Refinement::kHigh, false);
-    EXPECT_FALSE(schedule_.next(Refine::kLossless, carrying(1.5e6), kSize));
+    EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(1.5e6)), Refinement::kSmooth);
     EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(4e6)), Refinement::kLossless);
+    // What was begun ends, whatever the link carries by then.
+    schedule_.onBegun(Refinement::kLossless, false);
+    EXPECT_EQ(dueAt(1s, Refine::kLossless, carrying(1.5e6)), Refinement::kLossless);
 }
 
 TEST(Delivered, Stages_AreMadeWithWhatTheyPromise) {

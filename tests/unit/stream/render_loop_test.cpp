@@ -1,8 +1,10 @@
 #include "encode/memory.h"
 #include "render_loop_fixture.h"
 #include "session/refinement.h"
+#include "settings/samples.h"
 
 #include <algorithm>
+#include <thread>
 #include <vector>
 
 namespace froxel::stream {
@@ -333,22 +335,85 @@ bool isAt(const session::ReadyFrame& frame, session::Refinement stage) {
 }
 
 TEST_F(RenderLoopTest, Rest_IsRefinedInStagesAndThenNothing) {
+    for (const auto& [refine, last] :
+         {std::pair(settings::Refine::kLossless, session::Refinement::kLossless),
+          std::pair(settings::Refine::kHigh, session::Refinement::kSmooth)}) {
+        start();
+        const auto sink = makeSink();
+        auto state = still();
+        state.delivery.refine = refine;
+        join(sink, state, 3); // no frame of the mean but the last takes a credit
+        ASSERT_TRUE(sink->waitForFrames(3));
+        const auto frames = sink->frames();
+        EXPECT_TRUE(isAt(frames[0], session::Refinement::kInteractive));
+        EXPECT_TRUE(isAt(frames[1], session::Refinement::kHigh));
+        EXPECT_EQ(frames[1].record.delivered.encoding, session::kRefinedEncoding);
+        EXPECT_TRUE(isAt(frames[2], last));
+        EXPECT_EQ((*frames[2].bytes)[1] == std::byte{'P'}, refine == settings::Refine::kLossless);
+        EXPECT_EQ(frames[2].record.frame_id, 3U);
+        const Seconds apart = frames[2].ready_at - frames[0].ready_at;
+        EXPECT_GE(apart, session::RefinementSchedule::kSmoothAfter / 2);
+        settle();
+        EXPECT_EQ(sink->frames().size(), 3U);
+    }
+    EXPECT_EQ(fates_->samples, 2 * (settings::kMeanSamples - 1));
+}
+
+TEST_F(RenderLoopTest, MeanOfARest_IsOfFramesThatAreSeenThroughAShiftedLens) {
     start();
     const auto sink = makeSink();
     auto state = still();
+    state.settings.antialiasing = settings::Antialiasing::kFxaa;
+    state.delivery.refine = settings::Refine::kHigh;
+    join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(3));
+    const auto seen = device_->begun();
+    ASSERT_EQ(seen.size(), 2 + settings::kMeanSamples);
+    for (uint32_t sample = 0; sample < settings::kMeanSamples; ++sample) {
+        const auto& drawn = seen[2 + sample];
+        EXPECT_EQ(drawn.camera,
+                  settings::sampled(state.settings.camera, state.settings.size, sample));
+        EXPECT_EQ(drawn.antialiasing, settings::Antialiasing::kNone);
+    }
+    EXPECT_EQ(seen[1].antialiasing, settings::Antialiasing::kFxaa);
+}
+
+TEST_F(RenderLoopTest, InputAmidTheSamples_IsDrawnAtOnceAndTheMeanBeginsAnew) {
+    device_->frame_time = 20ms;
+    start();
+    const auto sink = makeSink();
+    auto state = still();
+    state.delivery.refine = settings::Refine::kHigh;
+    const auto id = join(sink, state, kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(2));
+    while (fates_->samples == 0) {
+        std::this_thread::yield();
+    }
+    ++state.version;
+    state.settings.exposure = 2;
+    loop_->update(id, state, Clock::now());
+    ASSERT_TRUE(sink->waitForFrames(5));
+    const auto frames = sink->frames();
+    EXPECT_TRUE(isAt(frames[2], session::Refinement::kInteractive));
+    EXPECT_TRUE(isAt(frames[3], session::Refinement::kHigh));
+    EXPECT_TRUE(isAt(frames[4], session::Refinement::kSmooth));
+    EXPECT_GE(fates_->samples, settings::kMeanSamples);
+}
+
+TEST_F(RenderLoopTest, PictureTooLargeForItsSamples_IsNotRefused) {
+    start();
+    const auto sink = makeSink();
+    auto state = still();
+    const auto lossless =
+        session::delivered(state.encoding, {}, session::Refinement::kLossless).encoding;
+    device_->max_beside_bytes = std::max(encode::memoryBytes(lossless, state.settings.size),
+                                         encode::memoryBytes(state.encoding, state.settings.size));
     state.delivery.refine = settings::Refine::kLossless;
     join(sink, state, kPlenty);
     ASSERT_TRUE(sink->waitForFrames(3));
-    const auto frames = sink->frames();
-    EXPECT_TRUE(isAt(frames[0], session::Refinement::kInteractive));
-    EXPECT_TRUE(isAt(frames[1], session::Refinement::kHigh));
-    EXPECT_EQ(frames[1].record.delivered.encoding, session::kRefinedEncoding);
-    EXPECT_TRUE(isAt(frames[2], session::Refinement::kLossless));
-    EXPECT_EQ((*frames[2].bytes)[1], std::byte{'P'});
-    const Seconds apart = frames[2].ready_at - frames[0].ready_at;
-    EXPECT_GE(apart, session::RefinementSchedule::kLosslessAfter / 2);
-    settle();
-    EXPECT_EQ(sink->frames().size(), 3U);
+    EXPECT_TRUE(isAt(sink->frames()[2], session::Refinement::kLossless));
+    EXPECT_EQ(fates_->samples, 0U);
+    EXPECT_TRUE(sink->waitFor([](const auto& record) { return record.refusals.empty(); }));
 }
 
 TEST_F(RenderLoopTest, RestOfVideo_CountsTheEncoderThatIsKept) {
