@@ -91,6 +91,15 @@ const say = (body: Parameters<typeof serverMessage>[0]): void =>
 const dimmed = (): Promise<boolean> =>
   viewer.page.evaluate(() => document.querySelector('#view')?.classList.contains('stale') ?? false);
 
+/** Whether an element lies outside of what its list shows of itself: others like it are measured. */
+const scrolledOut = (target: string): Promise<boolean> =>
+  viewer.page.evaluate((selector) => {
+    const element = document.querySelector(selector);
+    const list = element?.closest('#looks-list')?.getBoundingClientRect();
+    const own = element?.getBoundingClientRect();
+    return list !== undefined && own !== undefined && (own.bottom > list.bottom || own.top < list.top);
+  }, target);
+
 /** What keeps somebody from using the page, over a picture all of that colour. */
 async function findings(background: string, rules?: string[]): Promise<string[]> {
   const style = await viewer.page.addStyleTag({ content: `html, body { background: ${background} !important; }` });
@@ -102,6 +111,10 @@ async function findings(background: string, rules?: string[]): Promise<string[]>
   await style.evaluate((element) => (element as Element).remove());
   // Where axe cannot tell the contrast, nobody has measured it.
   const unsure = results.incomplete.filter(({ id }) => id === 'color-contrast');
+  for (const result of unsure) {
+    const out = await Promise.all(result.nodes.map(({ target }) => scrolledOut(target.join(' '))));
+    result.nodes = result.nodes.filter((_, index) => !out[index]);
+  }
   return [...results.violations, ...unsure].flatMap(({ id, nodes }) =>
     nodes.map(({ target, any }) => `${id} of ${target.join(' ')}: ${any[0]?.message ?? ''}`),
   );

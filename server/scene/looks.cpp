@@ -128,13 +128,13 @@ constexpr std::array kLooks = {
     Look{"mist", "Mist", "Cool lights adrift in thin fog", mist},
     Look{"toon", "Toon", "Pools of light in steps, dark outlines", toon},
     Look{"rainbow", "Rainbow", "A thousand lights of every hue all over the scene", rainbow},
+    Look{"clusters", "Clusters", "How many lights the list of each pixel's cluster holds",
+         clusters},
     Look{"ramp", "Ramp", "Toon by a ramp over the angle of each light alone", ramp},
     Look{"glow", "Glow", "Matt surfaces whose bright light spreads by a small kernel", spreading},
     Look{"matt", "Matt", "Nothing but light that surfaces scatter", matt},
     Look{"gloss", "Gloss", "Blinn-Phong highlights; normals are stored as a sphere map", gloss},
     Look{"blinn", "Blinn", "Blinn-Phong highlights; normals are stored by two components", blinn},
-    Look{"clusters", "Clusters", "How many lights the list of each pixel's cluster holds",
-         clusters},
 };
 
 constexpr auto kNames = [] {
