@@ -71,7 +71,10 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
     const auto submitted = slot.submitted;
     while (slot.stale || !maker.accepts(slot)) {
         const FrameInputs inputs = slot.inputs;
-        const auto recorded = maker.record(slot, inputs, slots);
+        auto recorded = maker.record(slot, inputs, slots);
+        while (recorded && *recorded == FrameMaker::Made::kHalf) {
+            recorded = maker.record(slot, inputs, slots);
+        }
         if (!recorded) {
             return recorded.error();
         }

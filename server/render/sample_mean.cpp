@@ -16,10 +16,6 @@ double linearOf(double srgb) {
     return srgb > 0.04045 ? std::pow((srgb + 0.055) / 1.055, 2.4) : srgb / 12.92;
 }
 
-double srgbOf(double linear) {
-    return linear > 0.0031308 ? 1.055 * std::pow(linear, 1 / 2.4) - 0.055 : 12.92 * linear;
-}
-
 // Apart by 20 and more, so that a mean of equal samples is that sample.
 const std::array<uint16_t, 256>& linearTable() {
     static const auto kTable = [] {
@@ -33,12 +29,16 @@ const std::array<uint16_t, 256>& linearTable() {
     return kTable;
 }
 
+// The nearest code of each linear value, by the display's steps.
 const std::vector<std::byte>& srgbTable() {
     static const auto kTable = [] {
-        std::vector<std::byte> table;
-        for (uint32_t i = 0; i <= kWhite; ++i) {
-            table.push_back(
-                static_cast<std::byte>(std::lround(srgbOf(static_cast<double>(i) / kWhite) * 255)));
+        std::vector<std::byte> table(size_t{kWhite} + 1);
+        uint32_t code = 0;
+        for (uint32_t i = 0; i < table.size(); ++i) {
+            while (i > linearOf((code + 0.5) / 255) * kWhite) {
+                ++code;
+            }
+            table[i] = static_cast<std::byte>(code);
         }
         return table;
     }();
@@ -68,14 +68,16 @@ void SampleMean::add(const PixelView& pixels) {
 
 std::vector<std::byte> SampleMean::take() {
     FROXEL_ASSERT(count_ > 0, "a mean needs a sample");
-    const auto& srgb = srgbTable();
-    std::vector<std::byte> rgba8;
-    rgba8.reserve(sums_.size() / 3 * 4);
-    for (size_t i = 0; i < sums_.size(); i += 3) {
-        for (size_t k = 0; k < 3; ++k) {
-            rgba8.push_back(srgb[(sums_[i + k] + count_ / 2) / count_]);
-        }
-        rgba8.push_back(std::byte{255});
+    const std::byte* srgb = srgbTable().data();
+    const uint64_t half = count_ / 2;
+    const uint64_t inverse = (uint64_t{1} << 32U) / count_ + 1; // right for all such sums
+    const auto mean = [&](uint32_t sum) { return srgb[(sum + half) * inverse >> 32U]; };
+    std::vector<std::byte> rgba8(sums_.size() / 3 * 4, std::byte{255});
+    std::byte* pixel = rgba8.data();
+    for (size_t i = 0; i < sums_.size(); i += 3, pixel += 4) {
+        pixel[0] = mean(sums_[i]);
+        pixel[1] = mean(sums_[i + 1]);
+        pixel[2] = mean(sums_[i + 2]);
     }
     *this = {};
     return rgba8;

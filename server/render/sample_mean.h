@@ -19,7 +19,7 @@ class SampleMean {
     }
     [[nodiscard]] uint64_t memoryBytes() const { return sums_.size() * sizeof(uint32_t); }
 
-    // At most 65,536; all of the first one's size.
+    // At most 255; all of the first one's size.
     void add(const PixelView& pixels);
     [[nodiscard]] uint32_t count() const { return count_; }
     // RGBA8, sRGB-encoded, alpha 255, rows one after the other; begins anew. At least one sample.

@@ -1,5 +1,4 @@
 #include "render/sample_mean.h"
-
 #include "settings/samples.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +15,8 @@ struct Sample {
 
     explicit Sample(const std::vector<uint8_t>& greys) {
         for (const uint8_t grey : greys) { // two rows of one pixel
-            bytes.insert(bytes.end(), {std::byte{grey}, std::byte{0}, std::byte{255}, std::byte{9}});
+            bytes.insert(bytes.end(),
+                         {std::byte{grey}, std::byte{0}, std::byte{255}, std::byte{9}});
             bytes.insert(bytes.end(), 4, std::byte{77});
         }
     }
