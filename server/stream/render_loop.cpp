@@ -30,9 +30,6 @@ constexpr Seconds kUnknownPiece{0.1};
 // that it is never idle; whoever comes then does not wait for a second long piece.
 constexpr Seconds kAhead{0.02};
 
-// Of host memory, of views that rest at the same time; the others wait until these are done.
-constexpr uint64_t kMostOfMeans_bytes = uint64_t{256} << 20U;
-
 // How often a view whose shaders are being made is asked whether it can begin.
 constexpr std::chrono::milliseconds kVariantsPoll{20};
 
@@ -187,7 +184,7 @@ void RenderLoop::takeState(Viewer& viewer, const ViewerNews& news) {
     viewer.render_scale.setTarget(viewer.state.delivery.target_fps);
     if (differs) {
         viewer.refinement.onChange(news.arrived);
-        viewer.mean = {};
+        viewer.dropMean();
     }
 }
 
@@ -275,8 +272,8 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
         scheduler_.setReady(id, Ready::kPiece, viewer.waiting->piece_estimate, now);
         return;
     }
-    if (viewer.mean.count() > 0 && viewer.pauses()) { // its memory is others'
-        viewer.mean = {};
+    if (viewer.meanBytes() > 0 && viewer.pauses()) { // its memory is others'
+        viewer.dropMean();
         viewer.refinement.onSamplesLost();
     }
     const bool has_room = viewer.hasRoom() && (!viewer.beginsMean() || meansFit());
@@ -293,9 +290,9 @@ void RenderLoop::updateReadiness(SessionId id, Viewer& viewer, TimePoint now) {
 bool RenderLoop::meansFit() const {
     uint64_t bytes = 0;
     for (const auto& [id, viewer] : viewers_) {
-        bytes += viewer->mean.memoryBytes();
+        bytes += viewer->meanBytes();
     }
-    return bytes < kMostOfMeans_bytes;
+    return bytes < options_.means_bytes;
 }
 
 bool RenderLoop::deviceTakesMore() const {
@@ -424,6 +421,7 @@ void RenderLoop::abandon(Viewer& viewer) {
 // It comes to no picture: its credit is free again.
 void RenderLoop::end(Viewer& viewer, BegunFrame& frame) {
     frame.over = true;
+    viewer.dropMean();
     --viewer.started;
     viewer.submitted.reset();
 }

@@ -36,6 +36,9 @@ namespace froxel::stream {
 struct RenderLoopOptions {
     Seconds min_frame_interval{1.0 / 60};
     std::shared_ptr<FrameFates> fates = std::make_shared<FrameFates>();
+    // Of the host's memory for views that rest and add up samples: while as much is taken, others
+    // wait.
+    uint64_t means_bytes = uint64_t{256} << 20U;
     // Steps of frames, as the render thread begins them and as the device draws their pieces:
     // nobody else is served meanwhile. Runs on the render thread.
     std::function<void(Seconds)> on_begun = [](Seconds) {};

@@ -28,6 +28,15 @@ bool Viewer::beginsMean() const {
     return due && due->sample == 0 && due->sample_count > 1;
 }
 
+uint64_t Viewer::meanBytes() const {
+    return amid_samples ? render::SampleMean::memoryBytes(state.settings.size) : mean.memoryBytes();
+}
+
+void Viewer::dropMean() {
+    mean = {};
+    amid_samples = false;
+}
+
 bool Viewer::addSample(const BegunFrame& frame, PixelLease& pixels) {
     if (frame.sample == 0) {
         mean = {};
@@ -86,6 +95,7 @@ void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
     const session::Delivered& with = frame.record.delivered;
     const bool limited = with.scale < 1 || with.encoding != frame.state.encoding;
     refinement.onBegun(with.refinement, limited);
+    amid_samples = frame.sample_count > 1 && !frame.isLastSample();
     if (moves()) {
         paced_until = now + std::chrono::duration_cast<Clock::duration>(delivery.min_interval);
     }

@@ -59,11 +59,12 @@ struct Viewer {
     session::RenderScale render_scale;
     session::RefinementSchedule refinement;
     session::SteadyCost frame_cost;
-    render::SampleMean mean; // of the samples so far of a view that rests
-    Seconds piece_cost{0};   // the longest of the last frame; 0 before it
-    TimePoint paced_until{}; // by the delivery's interval
-    TimePoint shown_at{};    // of the frame begun last
-    TimePoint ask_again{};   // nothing can begin before; see FrameWork::piece_count
+    render::SampleMean mean;   // of the samples so far of a view that rests
+    bool amid_samples = false; // begun, and not the last one
+    Seconds piece_cost{0};     // the longest of the last frame; 0 before it
+    TimePoint paced_until{};   // by the delivery's interval
+    TimePoint shown_at{};      // of the frame begun last
+    TimePoint ask_again{};     // nothing can begin before; see FrameWork::piece_count
     bool changed = true;
     bool blocked = false; // this state was refused; waits for another
     bool leaving = false;
@@ -79,6 +80,9 @@ struct Viewer {
     [[nodiscard]] std::shared_ptr<BegunFrame> build(session::SessionId id, TimePoint now);
     // Whether the next frame is the first of several samples.
     [[nodiscard]] bool beginsMean() const;
+    // Memory for the mean that is under way.
+    [[nodiscard]] uint64_t meanBytes() const;
+    void dropMean();
     // With the last sample gives the mean in its place; false: there is no picture yet.
     [[nodiscard]] bool addSample(const BegunFrame& frame, PixelLease& pixels);
     void noteBegun(const BegunFrame& frame, TimePoint now);

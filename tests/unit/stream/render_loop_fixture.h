@@ -22,6 +22,7 @@ class RenderLoopTest : public testing::Test {
         RenderLoopOptions options;
         options.min_frame_interval = min_frame_interval;
         options.fates = fates_;
+        options.means_bytes = means_bytes_;
         options.make_source = [this] { return test::makeFakeSource(device_); };
         options.on_failure = [this](const Error& error) { failure_.set_value(error); };
         loop_ = std::make_unique<RenderLoop>(pool_, std::move(options));
@@ -59,6 +60,7 @@ class RenderLoopTest : public testing::Test {
     std::shared_ptr<FrameFates> fates_ = std::make_shared<FrameFates>();
     std::promise<Error> failure_;
     encode::EncodePool pool_{2, 8};
+    uint64_t means_bytes_ = RenderLoopOptions{}.means_bytes;
     std::unique_ptr<RenderLoop> loop_;
 };
 

@@ -400,6 +400,55 @@ TEST_F(RenderLoopTest, InputAmidTheSamples_IsDrawnAtOnceAndTheMeanBeginsAnew) {
     EXPECT_GE(fates_->samples, settings::kMeanSamples);
 }
 
+// As long as one adds up its samples, whose memory is all that there is.
+TEST_F(RenderLoopTest, ViewsThatRestTogether_AddUpAsManyAsThereIsMemoryFor) {
+    means_bytes_ = 1;
+    start();
+    std::vector<std::shared_ptr<RecordingSink>> sinks;
+    for (const float exposure : {1.0F, 2.0F, 3.0F}) {
+        auto state = still();
+        state.settings.exposure = exposure;
+        state.delivery.refine = settings::Refine::kHigh;
+        sinks.push_back(makeSink());
+        join(sinks.back(), state, kPlenty);
+    }
+    for (const auto& sink : sinks) {
+        ASSERT_TRUE(sink->waitForFrames(3));
+        EXPECT_TRUE(isAt(sink->frames()[2], session::Refinement::kSmooth));
+    }
+    std::vector<float> of_samples; // each run of one viewer's once
+    for (const auto& drawn : device_->begun()) {
+        const bool sample = drawn.camera != still().settings.camera;
+        if (sample && (of_samples.empty() || of_samples.back() != drawn.exposure)) {
+            of_samples.push_back(drawn.exposure);
+        }
+    }
+    EXPECT_EQ(of_samples.size(), 3U) << "none begins amid another's";
+}
+
+// A viewer that takes no more pictures gives the memory back, and begins anew when it goes on.
+TEST_F(RenderLoopTest, PauseAmidTheSamples_GivesTheirMemoryToOthers) {
+    means_bytes_ = 1;
+    device_->frame_time = 5ms;
+    start();
+    const auto sink = makeSink();
+    auto state = still();
+    state.delivery.refine = settings::Refine::kHigh;
+    const auto id = join(sink, state, 3);
+    ASSERT_TRUE(sink->waitForFrames(2));
+    while (fates_->samples == 0) {
+        std::this_thread::yield();
+    }
+    loop_->grant(id, 2);
+    const auto other = makeSink();
+    join(other, state, kPlenty);
+    ASSERT_TRUE(other->waitForFrames(3));
+    EXPECT_EQ(sink->frames().size(), 2U);
+    loop_->grant(id, 3);
+    ASSERT_TRUE(sink->waitForFrames(3));
+    EXPECT_TRUE(isAt(sink->frames()[2], session::Refinement::kSmooth));
+}
+
 TEST_F(RenderLoopTest, PictureTooLargeForItsSamples_IsNotRefused) {
     start();
     const auto sink = makeSink();
