@@ -31,6 +31,9 @@ const kGiven: Readonly<Record<string, readonly [number, boolean]>> = {
   shadow_lights: [4, false],
   outline_strength: [1, true],
   outline_width: [0.01, true],
+  toon_bands: [5, true],
+  toon_rim: [3, true],
+  toon_rim_width: [0.9, true],
   lights: [300, true],
   light_radius: [4, true],
   light_intensity: [3, true],
@@ -56,6 +59,7 @@ const kNeeded = {
   peel_: { name: 'transparency', label: 'peeled', usual: 'sorted' },
   bloom_: { name: 'bloom', label: 'mip chain', usual: 'none' },
   outline_: { name: 'renderer', label: 'toon fragment', usual: 'clustered deferred' },
+  toon_: { name: 'renderer', label: 'toon fragment', usual: 'clustered deferred' },
   environment_: { name: 'environment', label: 'studio', usual: 'off' },
 } as const;
 const neededFor = (name: string) => Object.entries(kNeeded).find(([prefix]) => name.startsWith(prefix))?.[1];
