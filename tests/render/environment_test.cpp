@@ -297,7 +297,7 @@ TEST_F(Environment, Off_HasNothingOfIt) {
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor(Renderer::kForwardPlus, EnvironmentLight::kOff);
     const auto lit = [&] {
-        return std::ranges::any_of(renderer.resources().pipelines.made(), [](const auto& made) {
+        return std::ranges::any_of(renderer.resources().variantsMade(), [](const auto& made) {
             return (made.key.light_flags & io::kLightEnvironment) != 0;
         });
     };

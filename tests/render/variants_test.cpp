@@ -66,7 +66,7 @@ scene::Scene bareRoom() {
 
 template <class Test>
 bool anyPipeline(render::Renderer& renderer, Test test) {
-    const auto made = renderer.resources().pipelines.made();
+    const auto made = renderer.resources().variantsMade();
     return std::any_of(made.begin(), made.end(), test);
 }
 
@@ -159,21 +159,29 @@ TEST_F(Variants, CoatOfNoStrength_GivesTheSamePicture) {
 
 TEST_F(Variants, NothingAtAll_AllocatesAndCompilesNothingForIt) {
     const auto scene = bareRoom();
-    render::Renderer renderer(device(), scene);
-    render::ViewRenderer view(renderer);
-    drawPlain(view, inputsFor(scene, Renderer::kClusteredDeferred, 0));
-    const auto purposes = memory();
-    for (const char* absent : {"textures", "extended vertices", "radiance", "visible ids",
-                               "staging", "lights", "light lists"}) {
-        EXPECT_THAT(purposes, Not(Contains(Key(absent)))) << absent;
+    for (const bool by_ids : {false, true}) {
+        SCOPED_TRACE(by_ids);
+        render::Renderer renderer(device(), scene);
+        render::ViewRenderer view(renderer);
+        auto inputs = inputsFor(scene, Renderer::kClusteredDeferred, 0);
+        inputs.geometry =
+            by_ids ? render::GeometryPath::kVisibility : render::GeometryPath::kRaster;
+        drawPlain(view, inputs);
+        const auto purposes = memory();
+        EXPECT_EQ(purposes.contains("visible ids"), by_ids);
+        for (const char* absent :
+             {"textures", "extended vertices", "radiance", "staging", "lights", "light lists"}) {
+            EXPECT_THAT(purposes, Not(Contains(Key(absent)))) << absent;
+        }
+        EXPECT_FALSE(anyMaterialFlag(renderer, ~0U));
+        EXPECT_FALSE(anyLightFlag(renderer, ~0U));
+        auto made = renderer.resources().variantsMade();
+        std::ranges::sort(made, {}, &render::Pipelines::Made::pass);
+        ASSERT_EQ(made.size(), 2U);
+        EXPECT_EQ(made[by_ids ? 1 : 0].pass, by_ids ? "visibility gbuffer" : "gbuffer");
+        EXPECT_EQ(made[by_ids ? 0 : 1].pass, "lighting");
+        EXPECT_EQ(made[by_ids ? 1 : 0].key.output_flags & io::kOutputWideGbuffer, 0U);
     }
-    EXPECT_FALSE(anyMaterialFlag(renderer, ~0U));
-    EXPECT_FALSE(anyLightFlag(renderer, ~0U));
-    const auto made = renderer.resources().pipelines.made();
-    ASSERT_EQ(made.size(), 2U);
-    EXPECT_EQ(made[0].pass, "gbuffer");
-    EXPECT_EQ(made[1].pass, "lighting");
-    EXPECT_EQ(made[0].key.output_flags & io::kOutputWideGbuffer, 0U);
 }
 
 TEST_F(Variants, ForwardRenderer_HasNoGbuffer) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <thread>
 
@@ -251,6 +252,14 @@ VisibilityScene& SceneResources::visibility() {
         visibility_ = std::make_unique<VisibilityScene>(*this, uploader);
     }
     return *visibility_;
+}
+
+std::vector<Pipelines::Made> SceneResources::variantsMade() const {
+    auto all = pipelines.made();
+    if (visibility_) {
+        std::ranges::copy(visibility_->pipelines.made(), std::back_inserter(all));
+    }
+    return all;
 }
 
 const gpu::Buffer& SceneResources::ltcTable() {

@@ -93,6 +93,8 @@ class SceneResources {
     [[nodiscard]] const gpu::Buffer& ltcTable();
     // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
     [[nodiscard]] VisibilityScene& visibility();
+    // The variants kept, of whatever draws the scene's surfaces and lights them.
+    [[nodiscard]] std::vector<Pipelines::Made> variantsMade() const;
 
     [[nodiscard]] vk::DescriptorSet materialSet(uint32_t material) const {
         return *material_sets_[material];

@@ -129,4 +129,11 @@ vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
     });
 }
 
+std::vector<Pipelines::Made> VisibilityPipelines::made() const {
+    std::vector<Pipelines::Made> all;
+    gbuffer_.forEachKey([&](const auto& key) { all.push_back({"visibility gbuffer", key}); });
+    shade_.forEachKey([&](const auto& key) { all.push_back({"visibility shade", key}); });
+    return all;
+}
+
 } // namespace froxel::render

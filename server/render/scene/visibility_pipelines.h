@@ -34,6 +34,9 @@ class VisibilityPipelines {
     [[nodiscard]] vk::Pipeline cull() const { return *cull_; }
     [[nodiscard]] vk::Pipeline compact() const { return *compact_; }
 
+    // The variants kept that shade.
+    [[nodiscard]] std::vector<Pipelines::Made> made() const;
+
     [[nodiscard]] bool bindless() const { return bindless_; }
     [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
     [[nodiscard]] vk::DescriptorSetLayout textureLayout() const { return *texture_layout_; }
