@@ -41,7 +41,8 @@ bool Viewer::addSample(const BegunFrame& frame, PixelLease& pixels) {
     if (frame.sample == 0) {
         mean = {};
     }
-    if (mean.count() != frame.sample) { // one was lost: all are drawn again
+    // One was lost, or something else was asked for: all are drawn again.
+    if (mean.count() != frame.sample || frame.state.version != state.version) {
         return false;
     }
     mean.add(pixels.view());
