@@ -161,10 +161,8 @@ Result<Pictures::Shared> Pictures::sampleOnce(const settings::ViewSettings& sett
         std::vector<settings::Camera> samples;
         for (uint32_t i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
             const glm::dvec2 in_pixel(i % kSamplesAcross, i / kSamplesAcross);
-            const glm::dvec2 shift_px = (in_pixel + 0.5) / double{kSamplesAcross} - 0.5;
-            samples.push_back(settings.camera);
-            samples.back().lens_shift +=
-                2.0 * shift_px / glm::dvec2(settings.size.width_px, settings.size.height_px);
+            const glm::dvec2 place_px = (in_pixel + 0.5) / double{kSamplesAcross} - 0.5;
+            samples.push_back(settings::centredAt(settings.camera, settings.size, place_px));
         }
         return mean(settings, time_s, samples);
     });

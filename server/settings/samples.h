@@ -20,12 +20,16 @@ inline constexpr uint32_t kMeanSamples = 16;
     return {(sample + 0.5) / kMeanSamples - 0.5, (turned + 0.5) / kMeanSamples - 0.5};
 }
 
-// The camera that has that place in the middle of each pixel. sample: below kMeanSamples.
-[[nodiscard]] inline Camera sampled(Camera camera, const Size& size, uint32_t sample) {
-    const glm::dvec2 place = samplePlace(sample);
+// The camera that has this place, as samplePlace() gives one, in the middle of each pixel.
+[[nodiscard]] inline Camera centredAt(Camera camera, const Size& size, const glm::dvec2& place_px) {
     camera.lens_shift +=
-        2.0 * glm::dvec2(place.x, -place.y) / glm::dvec2(size.width_px, size.height_px);
+        2.0 * glm::dvec2(place_px.x, -place_px.y) / glm::dvec2(size.width_px, size.height_px);
     return camera;
+}
+
+// The camera of a sample. sample: below kMeanSamples.
+[[nodiscard]] inline Camera sampled(const Camera& camera, const Size& size, uint32_t sample) {
+    return centredAt(camera, size, samplePlace(sample));
 }
 
 // Frames whose mean a still with these settings is.
