@@ -15,11 +15,19 @@ struct VisibleTriangle {
     bool operator==(const VisibleTriangle&) const = default;
 };
 
+// How the device filters textures, as it states it.
+struct TextureFilter {
+    double max_anisotropy = 1; // of samplers that filter linearly between mip levels; 1: isotropic
+    double weight_step = 0;    // weights of a texel are multiples of it; 0: exact
+    double level_step = 0;     // levels of detail likewise
+};
+
 struct Visibility {
     uint32_t width_px = 0;
     uint32_t height_px = 0;
     std::vector<VisibleTriangle> pixels; // [height][width], top row first
     std::vector<float> depths;           // theirs, as the device has it: reversed, 0 where empty
+    TextureFilter filter{};
 };
 
 } // namespace froxel

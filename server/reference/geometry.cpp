@@ -48,28 +48,16 @@ glm::dvec4 tangentAt(const Placement& placement,
     return interpolated(corners, w);
 }
 
-// Change of the weights from this pixel to the next along one axis of the picture.
+// Change of the weights inside the pixel's block along one axis of the picture.
 glm::dvec2 weightsChange(const PixelRays& rays,
                          const Triangle& triangle,
                          const PixelHit& hit,
-                         glm::i64vec2 step,
-                         Gradients gradients) {
-    if (gradients == Gradients::kQuad) {
-        const glm::i64vec2 at(hit.x, hit.y);
-        const bool second = (step.x * at.x + step.y * at.y) % 2 != 0;
-        const glm::i64vec2 other = second ? at - step : at + step;
-        const auto met = meetPlane(rays.through(other.x, other.y), triangle).weights;
-        return second ? hit.point.weights - met : met - hit.point.weights;
-    }
-    // The weights are quotients of functions that are linear over the picture:
-    // with w = n / d, w' = (n' - w d') / d, where d at the neighbour tells d'.
-    const Ray here = rays.through(hit.x, hit.y);
-    const Ray next = rays.through(hit.x + step.x, hit.y + step.y);
-    const glm::dvec3 normal = glm::cross(triangle.edge1, triangle.edge2);
-    const double d = glm::dot(normal, here.direction);
-    const double d_next = glm::dot(normal, next.direction);
-    const auto met = meetPlane(next, triangle).weights;
-    return (met - hit.point.weights) * (d_next / d);
+                         glm::i64vec2 step) {
+    const glm::i64vec2 at(hit.x, hit.y);
+    const bool second = (step.x * at.x + step.y * at.y) % 2 != 0;
+    const glm::i64vec2 other = second ? at - step : at + step;
+    const auto met = meetPlane(rays.through(other.x, other.y), triangle).weights;
+    return second ? hit.point.weights - met : met - hit.point.weights;
 }
 
 } // namespace
@@ -96,8 +84,7 @@ SurfacePoint surfaceAt(const PixelRays& rays,
                        const PixelHit& hit,
                        const Placement& placement,
                        const scene::Primitive& primitive,
-                       uint32_t triangle,
-                       Gradients gradients) {
+                       uint32_t triangle) {
     SurfacePoint p;
     p.triangle = placedTriangle(placement, primitive, triangle);
     const Ray ray = rays.through(hit.x, hit.y);
@@ -118,8 +105,8 @@ SurfacePoint surfaceAt(const PixelRays& rays,
     }
     p.uv = {uvPlane(primitive.uv0, primitive, triangle),
             uvPlane(primitive.uv1, primitive, triangle)};
-    p.weights_dx = weightsChange(rays, p.triangle, hit, {1, 0}, gradients);
-    p.weights_dy = weightsChange(rays, p.triangle, hit, {0, 1}, gradients);
+    p.weights_dx = weightsChange(rays, p.triangle, hit, {1, 0});
+    p.weights_dy = weightsChange(rays, p.triangle, hit, {0, 1});
     return p;
 }
 

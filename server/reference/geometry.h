@@ -2,7 +2,6 @@
 #pragma once
 
 #include "reference/rays.h"
-#include "reference/texture.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -43,8 +42,8 @@ struct SurfacePoint {
     glm::dvec4 color{1};
     std::array<UvPlane, 2> uv;
     glm::dvec2 weights{0};
-    glm::dvec2 weights_dx{0}; // to the next pixel right
-    glm::dvec2 weights_dy{0}; // and down
+    glm::dvec2 weights_dx{0}; // between the two columns of the pixel's 2 x 2 block, as rasterisers
+    glm::dvec2 weights_dy{0}; // take derivatives; and between its rows
     bool front = true;        // the triangle's front faces the eye
 };
 
@@ -61,7 +60,6 @@ struct PixelHit {
                                      const PixelHit& hit,
                                      const Placement& placement,
                                      const scene::Primitive& primitive,
-                                     uint32_t triangle,
-                                     Gradients gradients);
+                                     uint32_t triangle);
 
 } // namespace froxel::reference

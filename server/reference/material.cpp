@@ -47,8 +47,8 @@ TangentFrame gradientFrame(const SurfacePoint& p, const scene::TextureSlot& slot
 
 Materials::Materials(const scene::Scene& scene,
                      std::span<const uint32_t> used,
-                     const Filtering& filtering)
-    : scene_(scene), filtering_(filtering) {
+                     const TextureFilter& filter)
+    : scene_(scene), filter_(filter) {
     for (const uint32_t index : used) {
         const scene::Material& m = scene.materials[index];
         Look look;
@@ -90,7 +90,7 @@ glm::dvec4 Materials::sample(const Slot& slot, const SurfacePoint& point) const 
     const Footprint footprint{transformed(slot.settings, uv.at(point.weights), true),
                               transformed(slot.settings, uv.change(point.weights_dx), false),
                               transformed(slot.settings, uv.change(point.weights_dy), false)};
-    return slot.chain->sample(slot.sampler, footprint, filtering_.max_anisotropy);
+    return slot.chain->sample(slot.sampler, footprint, filter_);
 }
 
 // The back of a double-sided surface has the front's normal, normal map and all, reversed.

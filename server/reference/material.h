@@ -18,7 +18,7 @@ class Materials {
     // Makes the chains of `used`, indices into scene.materials; keeps a reference to the scene.
     Materials(const scene::Scene& scene,
               std::span<const uint32_t> used,
-              const Filtering& filtering);
+              const TextureFilter& filter);
 
     // Of the base colour, by the texture's base level.
     [[nodiscard]] double alpha(uint32_t material, const SurfacePoint& point) const;
@@ -53,7 +53,7 @@ class Materials {
                                       const SurfacePoint& point) const;
 
     const scene::Scene& scene_;
-    Filtering filtering_;
+    TextureFilter filter_;
     std::map<std::pair<uint32_t, bool>, std::unique_ptr<MipChain>> chains_; // by image, encoding
     std::map<uint32_t, Look> looks_;
 };

@@ -74,16 +74,15 @@ class Shader {
     Shader(const scene::Scene& scene,
            const settings::ViewSettings& settings,
            double time_s,
-           const Visibility& visibility,
-           const Filtering& filtering)
-        : scene_(scene), settings_(settings), visibility_(visibility), filtering_(filtering),
+           const Visibility& visibility)
+        : scene_(scene), settings_(settings), visibility_(visibility),
           rays_(settings.camera, settings.size), model_(modelOf(settings)),
           lights_(lightsAt(scene, settings, time_s)),
           medium_(settings.fog, settings.camera, lights_, open_),
           placements_(placementsOf(scene, settings.camera.eye_world)),
           materials_(scene,
                      visibleMaterials(scene, visibility, settings.shadows.light_count > 0),
-                     filtering),
+                     visibility.filter),
           blended_(scene, placements_, settings.camera, settings.size) {
         if (settings.shadows.light_count > 0) {
             occluders_.emplace(scene, placements_, materials_);
@@ -141,8 +140,8 @@ class Shader {
     [[nodiscard]] glm::dvec3
     shadeHit(const PixelHit& hit, const VisibleTriangle& visible, double* alpha = nullptr) const {
         const auto& primitive = primitiveOf(scene_, visible.instance, visible.primitive);
-        const auto point = surfaceAt(rays_, hit, placements_[visible.instance], primitive,
-                                     visible.triangle, filtering_.gradients);
+        const auto point =
+            surfaceAt(rays_, hit, placements_[visible.instance], primitive, visible.triangle);
         const Surface surface = materials_.at(primitive.material, point);
         if (alpha != nullptr) {
             *alpha = surface.alpha;
@@ -153,7 +152,6 @@ class Shader {
     const scene::Scene& scene_;
     const settings::ViewSettings& settings_;
     const Visibility& visibility_;
-    const Filtering filtering_;
     const PixelRays rays_;
     const Model model_;
     const Lights lights_;
@@ -195,8 +193,7 @@ findFault(const scene::Scene& scene, const settings::Size& size, const Visibilit
 Result<LinearImage> shade(const scene::Scene& scene,
                           const settings::ViewSettings& settings,
                           double time_s,
-                          const Visibility& visibility,
-                          const Filtering& filtering) {
+                          const Visibility& visibility) {
     if (const auto fault = findFault(scene, settings.size, visibility); !fault.empty()) {
         return Error{ErrorCode::kInvalidArgument, fault};
     }
@@ -204,7 +201,7 @@ Result<LinearImage> shade(const scene::Scene& scene,
         return Error{ErrorCode::kInvalidArgument,
                      "the settings ask for a panorama, which the scene does not have"};
     }
-    const Shader shader(scene, settings, time_s, visibility, filtering);
+    const Shader shader(scene, settings, time_s, visibility);
     LinearImage image{settings.size.width_px, settings.size.height_px, {}};
     image.rgb.resize(visibility.pixels.size() * 3);
     std::atomic<uint32_t> next_row{0};

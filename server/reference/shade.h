@@ -1,6 +1,7 @@
 // R2, the second reference: the picture as the formulas say, in double on the host, from what a
-// device says it sees. Written apart from the shaders, so that it can catch them. Prices the
-// G-buffer, depth reconstruction, texture filtering and fp32 arithmetic, not the light model.
+// device says it sees and how it filters textures. Written apart from the shaders, so that it can
+// catch them. Prices the G-buffer, depth reconstruction and fp32 arithmetic, not the light model;
+// and, of a software device, its texture filter.
 #pragma once
 
 #include "core/error.h"
@@ -34,7 +35,6 @@ using froxel::VisibleTriangle;
 [[nodiscard]] Result<LinearImage> shade(const scene::Scene& scene,
                                         const settings::ViewSettings& settings,
                                         double time_s,
-                                        const Visibility& visibility,
-                                        const Filtering& filtering = {});
+                                        const Visibility& visibility);
 
 } // namespace froxel::reference

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace froxel::reference {
 namespace {
@@ -40,6 +41,47 @@ uint32_t wrapped(scene::Wrap wrap, double index, uint32_t size) {
         break;
     }
     return i > 0 ? static_cast<uint32_t>(std::min(i, n - 1)) : 0;
+}
+
+double stepped(double value, double step) {
+    return step > 0 ? std::round(value / step) * step : value;
+}
+
+// A footprint as the sampler sees it: the longer axis, and the width of what it covers across it.
+struct Axes {
+    glm::dvec2 along_uv{0};
+    double along = 0; // texels of level 0
+    double across = 0;
+};
+
+// At most 6 % from Euclid's.
+double lengthOf(const glm::dvec2& v) {
+    const glm::dvec2 a = glm::abs(v);
+    return std::max(a.x, a.y) + 11.0 / 32 * std::min(a.x, a.y);
+}
+
+// The longest of both changes and of the diagonals between them, whose half widths are those of
+// the ellipse where both are equally long.
+Axes axesOf(const Footprint& footprint, const glm::dvec2& texels) {
+    constexpr double kHalfDiagonal = 11.0 / 16;
+    Axes axes;
+    const auto offer = [&](const glm::dvec2& uv, double scale, double uv_scale) {
+        const double length = lengthOf(uv * texels) * scale;
+        if (length > axes.along) {
+            axes.along = length;
+            axes.along_uv = uv * uv_scale;
+        }
+    };
+    offer(footprint.dx, 1, 1);
+    offer(footprint.dy, 1, 1);
+    offer(footprint.dx + footprint.dy, kHalfDiagonal, std::numbers::sqrt2 / 2);
+    offer(footprint.dx - footprint.dy, kHalfDiagonal, std::numbers::sqrt2 / 2);
+    const glm::dvec2 a = footprint.dx * texels;
+    const glm::dvec2 b = footprint.dy * texels;
+    if (axes.along > 0) {
+        axes.across = std::min(axes.along, std::abs(a.x * b.y - a.y * b.x) / axes.along);
+    }
+    return axes;
 }
 
 } // namespace
@@ -95,7 +137,8 @@ MipChain::Level MipChain::halve(size_t level) const {
 glm::dvec4 MipChain::sampleLevel(const scene::Sampler& sampler,
                                  size_t level,
                                  bool linear,
-                                 const glm::dvec2& uv) const {
+                                 const glm::dvec2& uv,
+                                 double weight_step) const {
     const glm::uvec2 extent = size(level);
     const glm::dvec2 at = uv * glm::dvec2(extent);
     const auto fetch = [&](double x, double y) {
@@ -106,50 +149,64 @@ glm::dvec4 MipChain::sampleLevel(const scene::Sampler& sampler,
         return fetch(std::floor(at.x), std::floor(at.y));
     }
     const glm::dvec2 low = glm::floor(at - 0.5);
-    const glm::dvec2 w = at - 0.5 - low;
+    const glm::dvec2 share = at - 0.5 - low;
+    const glm::dvec2 w(stepped(share.x, weight_step), stepped(share.y, weight_step));
     return (fetch(low.x, low.y) * (1 - w.x) + fetch(low.x + 1, low.y) * w.x) * (1 - w.y) +
            (fetch(low.x, low.y + 1) * (1 - w.x) + fetch(low.x + 1, low.y + 1) * w.x) * w.y;
 }
 
-glm::dvec4
-MipChain::sampleLod(const scene::Sampler& sampler, double lod, const glm::dvec2& uv) const {
+glm::dvec4 MipChain::sampleLod(const scene::Sampler& sampler,
+                               double lod,
+                               const glm::dvec2& uv,
+                               const TextureFilter& filter) const {
     const double top = sampler.mipmapped ? static_cast<double>(levelCount() - 1) : 0.0;
     const bool magnified = !(lod > 0);
     const bool linear = (magnified ? sampler.mag : sampler.min) == scene::Filter::kLinear;
-    const double level = std::clamp(magnified ? 0.0 : lod, 0.0, top);
+    const double level = std::clamp(magnified ? 0.0 : stepped(lod, filter.level_step), 0.0, top);
+    const auto sampled = [&](double of) {
+        return sampleLevel(sampler, static_cast<size_t>(of), linear, uv, filter.weight_step);
+    };
     if (sampler.mip == scene::Filter::kNearest) {
-        const double nearest = std::max(0.0, std::ceil(level + 0.5) - 1); // ties: the sharper one
-        return sampleLevel(sampler, static_cast<size_t>(nearest), linear, uv);
+        return sampled(std::max(0.0, std::ceil(level + 0.5) - 1)); // ties: the sharper one
     }
     const double below = std::floor(level);
     const double share = level - below;
-    const auto first = static_cast<size_t>(below);
-    const glm::dvec4 sharp = sampleLevel(sampler, first, linear, uv);
-    return share > 0 ? glm::mix(sharp, sampleLevel(sampler, first + 1, linear, uv), share) : sharp;
+    const glm::dvec4 sharp = sampled(below);
+    return share > 0 ? glm::mix(sharp, sampled(below + 1), share) : sharp;
 }
 
 glm::dvec4 MipChain::sample(const scene::Sampler& sampler,
                             const Footprint& footprint,
-                            double max_anisotropy) const {
+                            const TextureFilter& filter) const {
     const glm::dvec2 base(size(0));
-    const double across = glm::length(footprint.dx * base);
-    const double down = glm::length(footprint.dy * base);
-    const double longest = std::max(across, down);
-    const bool filtered = sampler.mipmapped && sampler.min == scene::Filter::kLinear;
-    const double shortest = std::max(std::min(across, down), longest * 1e-6);
-    const double ratio =
-        filtered && longest > 0 ? std::min(longest / shortest, max_anisotropy) : 1.0;
-    const double taps = std::ceil(ratio);
-    const double lod = longest > 0 ? std::log2(longest / taps) : -1.0;
-    if (taps <= 1) {
-        return sampleLod(sampler, lod, footprint.uv);
+    const bool by_area =
+        filter.max_anisotropy > 1 && sampler.mipmapped && sampler.min == scene::Filter::kLinear;
+    if (!by_area) {
+        const double widest =
+            std::max(glm::length(footprint.dx * base), glm::length(footprint.dy * base));
+        return sampleLod(sampler, std::log2(widest), footprint.uv, filter);
     }
-    const glm::dvec2 along = across >= down ? footprint.dx : footprint.dy;
+    const Axes axes = axesOf(footprint, base);
+    const double across = std::max(axes.across, axes.along / filter.max_anisotropy);
+    const double lod = std::log2(across);
+    // No more of them than there are texels.
+    const double ratio = axes.along / std::max(across, 1.0);
+    if (!(ratio > 1)) {
+        return sampleLod(sampler, lod, footprint.uv, filter);
+    }
     glm::dvec4 sum(0);
-    for (double i = 1; i <= taps; ++i) {
-        sum += sampleLod(sampler, lod, footprint.uv + along * (i / (taps + 1) - 0.5));
+    const glm::dvec2 step = axes.along_uv / ratio;
+    const auto add = [&](double steps, double weight) {
+        sum += weight * (sampleLod(sampler, lod, footprint.uv + steps * step, filter) +
+                         sampleLod(sampler, lod, footprint.uv - steps * step, filter));
+    };
+    // Pairs of taps, a step apart and each for a step; the last two are for what is left.
+    const double whole = std::ceil(ratio / 2) - 1;
+    for (double i = 0; i < whole; ++i) {
+        add(i + 0.5, 1 / ratio);
     }
-    return sum / taps;
+    add(whole > 0 ? whole + 0.5 : 1 - 1 / ratio, 0.5 - whole / ratio);
+    return sum;
 }
 
 } // namespace froxel::reference

@@ -1,21 +1,13 @@
 // Textures filtered in double.
 #pragma once
 
+#include "core/visibility.h"
 #include "scene/scene.h"
 
 #include <span>
 #include <vector>
 
 namespace froxel::reference {
-
-// Change of texture coordinates from pixel to pixel. kQuad: differences inside the pixel's 2 x 2
-// block, as rasterisers take them; kPlane: derivatives at the pixel's centre.
-enum class Gradients { kQuad, kPlane };
-
-struct Filtering {
-    Gradients gradients = Gradients::kQuad;
-    double max_anisotropy = 1; // of samplers that filter linearly between mip levels; 1: isotropic
-};
 
 // Texture coordinates at a point and their change to the next pixel right and down.
 struct Footprint {
@@ -32,10 +24,12 @@ class MipChain {
     // Keeps a reference to the image. srgb: its colours are encoded by IEC 61966-2-1, alpha is not.
     MipChain(const scene::Image& image, bool srgb);
 
-    // The filter of Vulkan 1.3, 16.6 to 16.9, without its leave to approximate. Anisotropy: the
-    // mean of as many trilinear samples along the footprint's longer axis.
-    [[nodiscard]] glm::dvec4
-    sample(const scene::Sampler& sampler, const Footprint& footprint, double max_anisotropy) const;
+    // The filter of Vulkan 1.3, 16.6 to 16.9, without its leave to approximate but for `filter`.
+    // What a footprint is to an anisotropic sampler Vulkan leaves open: it is what an H200 makes of
+    // it, as measured (tests/render/texture_filter_test.cpp).
+    [[nodiscard]] glm::dvec4 sample(const scene::Sampler& sampler,
+                                    const Footprint& footprint,
+                                    const TextureFilter& filter = {}) const;
 
     [[nodiscard]] size_t levelCount() const { return levels_.size() + 1; }
     // Linear RGBA; x and y inside the level.
@@ -54,9 +48,12 @@ class MipChain {
     [[nodiscard]] glm::dvec4 sampleLevel(const scene::Sampler& sampler,
                                          size_t level,
                                          bool linear,
-                                         const glm::dvec2& uv) const;
-    [[nodiscard]] glm::dvec4
-    sampleLod(const scene::Sampler& sampler, double lod, const glm::dvec2& uv) const;
+                                         const glm::dvec2& uv,
+                                         double weight_step = 0) const;
+    [[nodiscard]] glm::dvec4 sampleLod(const scene::Sampler& sampler,
+                                       double lod,
+                                       const glm::dvec2& uv,
+                                       const TextureFilter& filter) const;
 
     const scene::Image& image_;
     bool srgb_;

@@ -5,6 +5,7 @@
 #include "render/pipelines/host_copies.h"
 #include "render/scene/geometry_pack.h"
 #include "render/scene/scene_resources.h"
+#include "render/scene/texture_store.h"
 
 #include <algorithm>
 #include <cstring>
@@ -82,7 +83,8 @@ class IdNames {
 Visibility
 copyVisibility(SceneResources& resources, const ViewTargets& targets, const scene::Scene& scene) {
     const size_t count = size_t{targets.size.width_px} * targets.size.height_px;
-    Visibility visibility{targets.size.width_px, targets.size.height_px, {}, {}};
+    Visibility visibility{
+        targets.size.width_px, targets.size.height_px, {}, {}, textureFilter(resources.device)};
     visibility.pixels.resize(count);
     visibility.depths.resize(count);
     if (!targets.needs.visibility) {

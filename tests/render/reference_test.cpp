@@ -17,7 +17,6 @@ namespace froxel::test {
 
 namespace {
 
-using reference::Filtering;
 using settings::Renderer;
 using settings::ShadingModel;
 
@@ -37,6 +36,15 @@ render::FrameInputs inputsFor(const settings::Camera& camera, Renderer renderer)
 render::FrameInputs withoutBands(render::FrameInputs inputs) {
     inputs.settings.toon = {.bands = 0, .rim = 0};
     return inputs;
+}
+
+// The largest relative error that fp32 may leave; of_lavapipe: whose operations round to nearest. A
+// GPU's quotients, roots and powers are off by up to 3 units of the last place, and its rasteriser
+// interpolates depths less exactly than a plane is met. Measured on an H200, doubled: 1.8e-4 where
+// triangles are met in compute, 1.5e-3 where they come from the rasteriser.
+double arithmeticBound(double of_lavapipe, settings::LightingStage stage) {
+    const bool rastered = stage == settings::LightingStage::kFragment;
+    return !onGpu() ? of_lavapipe : rastered ? 3e-3 : 4e-4;
 }
 
 // Errors of a linear picture, channel by channel. relative: over the reference's value and a
@@ -80,15 +88,14 @@ class Compared {
     Compared(gpu::Device& device, const scene::Scene& scene)
         : scene_(scene), renderer_(device, scene) {}
 
-    Errors against(const render::FrameInputs& inputs, const Filtering& filtering = {}) {
+    Errors against(const render::FrameInputs& inputs) {
         const auto seen = render::readVisibility(renderer_, scene_, inputs);
         const Picture picture = draw(renderer_, inputs);
         if (!seen) {
             ADD_FAILURE() << seen.error().message;
             return {};
         }
-        const auto expected =
-            reference::shade(scene_, inputs.settings, inputs.time_s, *seen, filtering);
+        const auto expected = reference::shade(scene_, inputs.settings, inputs.time_s, *seen);
         if (!expected) {
             ADD_FAILURE() << expected.error().message;
             return {};
@@ -151,7 +158,8 @@ TEST_F(Reference, PlainRoom_Forward_IsWithinArithmetic) {
             auto inputs = inputsFor(camera.camera, Renderer::kNaive);
             inputs.settings.shading = model;
             const Errors errors = compared.against(inputs);
-            EXPECT_LT(errors.max_relative, 1e-4);
+            EXPECT_LT(errors.max_relative,
+                      arithmeticBound(1e-4, settings::LightingStage::kCompute));
             EXPECT_LT(errors.median, 1e-7);
         }
     }
@@ -206,7 +214,7 @@ TEST_F(Reference, RoomOfReflectances_Forward_IsWithinArithmetic) {
                 inputs.settings.shading = model;
                 inputs.settings.lighting = stage;
                 const Errors errors = compared.against(inputs);
-                EXPECT_LT(errors.max_relative, onGpu() ? 1e-3 : 1e-4); // a GPU divides less well
+                EXPECT_LT(errors.max_relative, arithmeticBound(1e-4, stage));
                 EXPECT_LT(errors.median, onGpu() ? 1e-6 : 1e-7);
             }
         }
@@ -240,12 +248,13 @@ TEST_F(Reference, RoomInTheStudio_Forward_IsWithinArithmetic) {
             auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
             inputs.settings.shading = model;
             inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
-            EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 1e-4);
+            const double bound = arithmeticBound(1e-4, settings::LightingStage::kCompute);
+            EXPECT_LT(compared.against(inputs).max_relative, bound);
             inputs.settings.lights.count = 0;
             inputs.settings.lights.scene_lights = false;
             inputs.settings.fog.density = 0.1F;
             inputs.settings.environment.background = true;
-            EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 1e-4);
+            EXPECT_LT(compared.against(inputs).max_relative, bound);
         }
     }
 }
@@ -321,9 +330,9 @@ TEST_F(Reference, RoomOfCoats_Forward_IsWithinArithmetic) {
                 auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
                 inputs.settings.shading = model;
                 inputs.settings.lighting = stage;
-                EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 2e-4);
+                EXPECT_LT(compared.against(inputs).max_relative, arithmeticBound(2e-4, stage));
                 inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
-                EXPECT_LT(compared.against(inputs).max_relative, onGpu() ? 1e-3 : 2e-4);
+                EXPECT_LT(compared.against(inputs).max_relative, arithmeticBound(2e-4, stage));
             }
         }
     }
@@ -339,7 +348,7 @@ TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
         SCOPED_TRACE(nameOf(renderer));
         const Errors errors =
             compared.against(withoutBands(inputsFor(room.cameras[0].camera, renderer)));
-        EXPECT_LT(errors.max_relative, 1e-3);
+        EXPECT_LT(errors.max_relative, arithmeticBound(1e-3, settings::LightingStage::kFragment));
         EXPECT_LT(errors.median, onGpu() ? 1e-6 : 1e-7);
     }
 }
@@ -476,12 +485,16 @@ TEST_F(Reference, Surfaces_OfTheRasterPath_AreThoseOfTheVisibilityPath) {
 
 namespace {
 
-// 640x360 and 1,000 lights; doubled figures of lavapipe 22.3.
+struct Figures {
+    double rmse;
+    double p999;
+};
+
+// 640x360 and 1,000 lights; doubled figures of the device.
 void expectFigures(gpu::Device& device,
                    const scene::Scene& scene,
                    const render::FrameInputs& base,
-                   double rmse,
-                   double p999) {
+                   const Figures& bounds) {
     Compared compared(device, scene);
     for (const auto renderer : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
         SCOPED_TRACE(nameOf(renderer));
@@ -490,24 +503,26 @@ void expectFigures(gpu::Device& device,
         inputs.settings.renderer = renderer;
         inputs.settings.lights.count = 1000;
         const Errors errors = compared.against(inputs);
-        EXPECT_LT(errors.rmse, rmse);
-        EXPECT_LT(errors.p999, p999);
+        EXPECT_LT(errors.rmse, bounds.rmse);
+        EXPECT_LT(errors.p999, bounds.p999);
     }
 }
 
 } // namespace
 
-// RMSE 0.0205 and p99.9 0.091, of which lavapipe's fixed-point filter of 8-bit linear textures
-// (normal maps first) makes most: without it (GALLIVM_PERF=no_aos_sampling) 0.0127 and 0.042.
-// The largest differences are highlights of 30 to 800 in polished stone. The median, 0.00038,
-// is the base colour's: mip levels rounded to 8 bits, and a level of detail for four pixels at
-// once (without mip levels 0.00004, the driver's sRGB polynomial).
+// Lavapipe 22.3: RMSE 0.0205 and p99.9 0.091, of which lavapipe's fixed-point filter of 8-bit
+// linear textures (normal maps first) makes most: without it (GALLIVM_PERF=no_aos_sampling) 0.0127
+// and 0.042. The largest differences are highlights of 30 to 800 in polished stone. The median,
+// 0.00038, is the base colour's: mip levels rounded to 8 bits, and a level of detail for four
+// pixels at once (without mip levels 0.00004, the driver's sRGB polynomial). H200, whose filter the
+// reference has: 0.0095 and 0.030.
 TEST_F(Reference, Hall_IsWithinTheTextureFilter) {
     const auto hall = builtin_scene::makeHall();
-    expectFigures(device(), hall, inputsFor(hall.cameras[0].camera, Renderer::kNaive), 0.041, 0.19);
+    expectFigures(device(), hall, inputsFor(hall.cameras[0].camera, Renderer::kNaive),
+                  onGpu() ? Figures{0.019, 0.06} : Figures{0.041, 0.19});
 }
 
-// RMSE 0.0077 and p99.9 0.063.
+// Lavapipe 22.3: RMSE 0.0077 and p99.9 0.063. H200: 0.0030 and 0.025.
 TEST_F(Reference, Sponza_IsWithinTheTextureFilter) {
     const auto sponza = loadSponza();
     if (!sponza) {
@@ -515,7 +530,7 @@ TEST_F(Reference, Sponza_IsWithinTheTextureFilter) {
     }
     auto inputs = inputsFor(settings::lookAt({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}), Renderer::kNaive);
     inputs.settings.lights.box = BoundsD3{{-10, 0, -5}, {10, 8, 5}};
-    expectFigures(device(), *sponza, inputs, 0.016, 0.13);
+    expectFigures(device(), *sponza, inputs, onGpu() ? Figures{0.006, 0.05} : Figures{0.016, 0.13});
 }
 
 } // namespace froxel::test

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace froxel::render {
 
@@ -27,6 +28,17 @@ vk::Filter filter(scene::Filter value) {
 }
 
 } // namespace
+
+TextureFilter textureFilter(const gpu::Device& device) {
+    if (device.traits().is_cpu) {
+        return {};
+    }
+    return {
+        .max_anisotropy = std::min(kGpuAnisotropy, device.traits().max_anisotropy),
+        .weight_step = std::exp2(-static_cast<double>(device.limits().subTexelPrecisionBits)),
+        .level_step = std::exp2(-static_cast<double>(device.limits().mipmapPrecisionBits)),
+    };
+}
 
 TextureStore::TextureStore(const gpu::Device& device,
                            gpu::MemoryArena& arena,
@@ -73,20 +85,21 @@ vk::Sampler TextureStore::sampler(const scene::Sampler& settings) {
     if (found != samplers_.end()) {
         return *found->second;
     }
+    const auto max_anisotropy = static_cast<float>(textureFilter(device_).max_anisotropy);
     const bool anisotropic =
-        !device_.traits().is_cpu && settings.min == scene::Filter::kLinear && settings.mipmapped;
+        max_anisotropy > 1 && settings.min == scene::Filter::kLinear && settings.mipmapped;
     samplers_.emplace_back(
         settings,
-        device_.handle().createSampler(
-            {.magFilter = filter(settings.mag),
-             .minFilter = filter(settings.min),
-             .mipmapMode = settings.mip == scene::Filter::kLinear ? vk::SamplerMipmapMode::eLinear
-                                                                  : vk::SamplerMipmapMode::eNearest,
-             .addressModeU = addressMode(settings.wrap_u),
-             .addressModeV = addressMode(settings.wrap_v),
-             .anisotropyEnable = anisotropic,
-             .maxAnisotropy = std::min(kGpuAnisotropy, device_.traits().max_anisotropy),
-             .maxLod = settings.mipmapped ? VK_LOD_CLAMP_NONE : 0.0F}));
+        device_.handle().createSampler({.magFilter = filter(settings.mag),
+                                        .minFilter = filter(settings.min),
+                                        .mipmapMode = settings.mip == scene::Filter::kLinear
+                                                          ? vk::SamplerMipmapMode::eLinear
+                                                          : vk::SamplerMipmapMode::eNearest,
+                                        .addressModeU = addressMode(settings.wrap_u),
+                                        .addressModeV = addressMode(settings.wrap_v),
+                                        .anisotropyEnable = anisotropic,
+                                        .maxAnisotropy = max_anisotropy,
+                                        .maxLod = settings.mipmapped ? VK_LOD_CLAMP_NONE : 0.0F}));
     return *samplers_.back().second;
 }
 

@@ -1,6 +1,7 @@
 // A scene's textures on the device: each image once for each encoding in use, with mip chains.
 #pragma once
 
+#include "core/visibility.h"
 #include "gpu/memory.h"
 #include "gpu/upload.h"
 #include "scene/scene.h"
@@ -9,6 +10,9 @@
 #include <utility>
 
 namespace froxel::render {
+
+// Of the scene's textures. A software device's own arithmetic is not what it states: as if exact.
+[[nodiscard]] TextureFilter textureFilter(const gpu::Device& device);
 
 class TextureStore {
   public:

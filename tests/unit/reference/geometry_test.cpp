@@ -96,7 +96,7 @@ TEST(ReferenceGeometry, MirroredAndUnevenlyScaled_NormalsStandOnTheSurface) {
     const PixelRays rays(camera, {64, 64});
     const Triangle t = placedTriangle(placement, p, 0);
     const PixelHit hit{31, 32, meetPlane(rays.through(31, 32), t)};
-    const SurfacePoint s = surfaceAt(rays, hit, placement, p, 0, Gradients::kPlane);
+    const SurfacePoint s = surfaceAt(rays, hit, placement, p, 0);
     expectNear(s.normal, glm::normalize(glm::dvec3(-3, 6, 1)), 1e-7); // the file's normal is fp32
     EXPECT_NEAR(glm::dot(s.normal, t.edge1), 0, 1e-6);
     EXPECT_NEAR(glm::dot(s.normal, t.edge2), 0, 1e-6);
@@ -113,40 +113,37 @@ TEST(ReferenceGeometry, FarFromTheOrigin_PointsAreAsNearIt) {
         const glm::dvec3 offset = i == 0 ? glm::dvec3(0) : glm::dvec3(1e6, -1e6, 1e6);
         const Placement placement(placed(offset + glm::dvec3(0, 0, -2), glm::dvec3(1)), offset);
         const Triangle t = placedTriangle(placement, p, 0);
-        positions[i] = surfaceAt(rays, {36, 25, meetPlane(rays.through(36, 25), t)}, placement, p,
-                                 0, Gradients::kPlane)
-                           .position;
+        const PixelHit hit{36, 25, meetPlane(rays.through(36, 25), t)};
+        positions[i] = surfaceAt(rays, hit, placement, p, 0).position;
     }
     expectNear(positions[0], positions[1], 1e-9);
 }
 
-// A floor seen at a slant: both ways of taking gradients agree with finite differences of a tenth
-// of a thousandth of a pixel, the quad's to first order only.
-TEST(ReferenceGeometry, Gradients_OfAPlane_AreItsDerivatives) {
+// A floor seen at a slant: the same for all pixels of a block, near the derivatives at each.
+TEST(ReferenceGeometry, Gradients_OfAPlane_AreDifferencesInsideTheBlock) {
     scene::Primitive p = rightTriangle();
     p.positions = {{-50, -1, 50}, {50, -1, 50}, {-50, -1, -50}};
     p.normals.assign(3, {0, 1, 0});
     const Placement placement(placed({0, 0, -60}, glm::dvec3(1)), {0, 0, 0});
     const settings::Camera camera;
-    const PixelRays coarse(camera, {64, 64});
+    const PixelRays rays(camera, {64, 64});
     const Triangle t = placedTriangle(placement, p, 0);
-    const PixelHit hit{20, 40, meetPlane(coarse.through(20, 40), t)};
-    const auto plane = surfaceAt(coarse, hit, placement, p, 0, Gradients::kPlane);
-    const auto quad = surfaceAt(coarse, hit, placement, p, 0, Gradients::kQuad);
-    // The same view direction and a neighbour 1e-4 of a pixel away.
-    const Ray ray = coarse.through(20, 40);
-    const Ray right = coarse.through(21, 40);
-    const Ray down = coarse.through(20, 41);
-    const double h = 1e-4;
-    const auto derivative = [&](const Ray& next) {
-        const Ray near{ray.origin, ray.direction + (next.direction - ray.direction) * h};
-        return (meetPlane(near, t).weights - hit.point.weights) / h;
+    const auto at = [&](int64_t x, int64_t y) {
+        return surfaceAt(rays, {x, y, meetPlane(rays.through(x, y), t)}, placement, p, 0);
     };
-    EXPECT_NEAR(plane.weights_dx.x, derivative(right).x,
-                1e-4 * std::abs(plane.weights_dx.x) + 1e-9);
-    EXPECT_NEAR(plane.weights_dy.y, derivative(down).y, 1e-4 * std::abs(plane.weights_dy.y) + 1e-9);
-    EXPECT_NEAR(quad.weights_dy.y, plane.weights_dy.y, 0.2 * std::abs(plane.weights_dy.y));
-    EXPECT_NE(quad.weights_dy.y, plane.weights_dy.y);
+    const SurfacePoint first = at(20, 40);
+    const SurfacePoint last = at(21, 41);
+    EXPECT_EQ(first.weights_dx, at(21, 40).weights_dx);
+    EXPECT_EQ(first.weights_dx, at(21, 40).weights - first.weights);
+    EXPECT_EQ(last.weights_dy, at(21, 40).weights_dy);
+    EXPECT_EQ(last.weights_dy, last.weights - at(21, 40).weights);
+    // The same view direction and a neighbour 1e-4 of a pixel away.
+    const Ray ray = rays.through(20, 40);
+    const Ray down = rays.through(20, 41);
+    const double h = 1e-4;
+    const Ray near{ray.origin, ray.direction + (down.direction - ray.direction) * h};
+    const double derivative = (meetPlane(near, t).weights.y - first.weights.y) / h;
+    EXPECT_NEAR(first.weights_dy.y, derivative, 0.2 * std::abs(derivative));
 }
 
 } // namespace

@@ -29,8 +29,11 @@ scene::Sampler wrapping(Wrap wrap) {
     return {.wrap_u = wrap, .wrap_v = wrap};
 }
 
-double red(const MipChain& chain, const scene::Sampler& s, const Footprint& f, double aniso = 1) {
-    return chain.sample(s, f, aniso).x * 255;
+double red(const MipChain& chain,
+           const scene::Sampler& s,
+           const Footprint& f,
+           const TextureFilter& filter = {}) {
+    return chain.sample(s, f, filter).x * 255;
 }
 
 TEST(ReferenceTexture, Srgb_AtKnownValues_IsTheStandards) {
@@ -132,7 +135,68 @@ TEST(ReferenceTexture, LongFootprint_WithAnisotropy_KeepsWhatLiesAcross) {
     const scene::Sampler s;
     const Footprint f{{1.5 / 64, 0.3}, {1.0 / 64, 0}, {0, 8.0 / 64}};
     EXPECT_NEAR(red(chain, s, f), 100, 1e-5);
-    EXPECT_NEAR(red(chain, s, f, 8), 200, 1e-9);
+    EXPECT_NEAR(red(chain, s, f, {.max_anisotropy = 8}), 200, 1e-9);
+}
+
+// A white column seen through a footprint of `texels` of level 0 along u: what reaches a sample so
+// far from it.
+double columnAt(double texels, double distance) {
+    const auto column = image(64, 64, [](uint32_t x, uint32_t) { return x == 32 ? 255 : 0; });
+    const MipChain chain(column, false);
+    const Footprint f{{(32.5 + distance) / 64, 0.5}, {texels / 64, 0}, {0, 1.0 / 64}};
+    return red(chain, {}, f, {.max_anisotropy = 8}) / 255;
+}
+
+// Taps a texel apart, each for a texel of the footprint; the last two for what is left of it.
+TEST(ReferenceTexture, Taps_OfAFootprint_CoverItsLength) {
+    for (const double texels : {1.0, 1.4, 2.0, 2.5, 3.0, 4.0, 5.5, 8.0}) {
+        double sum = 0;
+        for (double distance = -8; distance <= 8; ++distance) {
+            sum += columnAt(texels, distance + 0.25);
+        }
+        EXPECT_NEAR(sum, 1, 1e-12) << texels;
+        EXPECT_NEAR(columnAt(texels, 0.5), texels > 1 ? 1 / std::max(texels, 2.0) : 0.5, 1e-12);
+        EXPECT_EQ(columnAt(texels, std::ceil(texels / 2) + 0.51), 0) << texels;
+    }
+    EXPECT_NEAR(columnAt(2.5, 1.5), 0.1, 1e-12);
+    EXPECT_NEAR(columnAt(1.25, 1), 0.1, 1e-12); // taps at 0.2 on both sides
+    EXPECT_GT(columnAt(16, 3), 0.05);           // more than 8: blurred, two texels a tap
+    EXPECT_LT(columnAt(16, 3), 0.07);
+}
+
+// Of a skewed footprint both axes count, whichever of its sides are given.
+TEST(ReferenceTexture, SkewedFootprint_IsAsWideAsItsAreaOverItsLength) {
+    auto levels = image(64, 64, [](uint32_t, uint32_t) { return 0; });
+    for (uint32_t level = 1; level <= 6; ++level) {
+        levels.mips.push_back(image(64U >> level, 64U >> level, [&](uint32_t, uint32_t) {
+                                  return 40 * level;
+                              }).rgba8);
+    }
+    const MipChain chain(levels, false);
+    const auto levelOf = [&](glm::dvec2 dx, glm::dvec2 dy) {
+        return red(chain, {}, {{0.5, 0.5}, dx / 64.0, dy / 64.0}, {.max_anisotropy = 8}) / 40;
+    };
+    EXPECT_NEAR(levelOf({4, 0}, {0, 4}), 2, 1e-6);
+    EXPECT_NEAR(levelOf({16, 0}, {0, 4}), 2, 1e-6);
+    EXPECT_NEAR(levelOf({16, 0}, {12, 4}), std::log2(16 * 4 / (28 + 4 * 11.0 / 32) * 16 / 11),
+                1e-6);
+    EXPECT_NEAR(levelOf({64, 0}, {0, 4}), 3, 1e-6); // an eighth of its length
+    EXPECT_NEAR(levelOf({0, 0}, {16, 0}), 1, 1e-6);
+    EXPECT_EQ(levelOf({0, 0}, {0, 0}), 0);
+}
+
+// As hardware has it: between texels and levels there are 256 steps.
+TEST(ReferenceTexture, Steps_OfWeightsAndLevels_AreRoundedTo) {
+    const auto edge = image(4, 1, [](uint32_t x, uint32_t) { return x > 1 ? 200 : 0; });
+    const MipChain chain(edge, false);
+    const TextureFilter coarse{.weight_step = 0.25, .level_step = 0.25};
+    const auto s = wrapping(Wrap::kClampToEdge);
+    EXPECT_EQ(red(chain, s, {{(1.5 + 0.12) / 4, 0.5}}, coarse), 0);
+    EXPECT_NEAR(red(chain, s, {{(1.5 + 0.13) / 4, 0.5}}, coarse), 50, 1e-12);
+    const auto checks = image(8, 8, [](uint32_t x, uint32_t y) { return (x + y) % 2 * 200; });
+    const double texels = std::exp2(0.3);
+    const Footprint f{{1.5 / 8, 0.5 / 8}, {texels / 8, 0}, {0, texels / 8}};
+    EXPECT_NEAR(red(MipChain(checks, false), {}, f, coarse), 175, 1e-5);
 }
 
 } // namespace
