@@ -66,8 +66,9 @@ void main() {
     addCoatSurface(g.coat, s);
 #endif
     LightSum sum = sumLights(s, pixel, distance, covered && !g.unlit);
-    vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
-               ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) + g.emissive;
+    precise vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
+                       ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) +
+                       g.emissive;
 #ifdef FROXEL_LAYERED
     lit = underCoat(lit, s, sum, g.coat, g.occlusion);
 #endif

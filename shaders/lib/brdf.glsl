@@ -65,7 +65,7 @@ LightSum noLight() {
 }
 
 Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
-    Surface s;
+    precise Surface s;
     s.position_view = position_view;
     s.normal_view = normal_view;
     s.shadows = uvec4(0u); // found where lights are looped over
@@ -78,7 +78,7 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     s.to_eye_view = frame.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
     s.n_dot_eye = dot(normal_view, s.to_eye_view);
     s.n_dot_v = max(abs(s.n_dot_eye), 1e-4);
-    float alpha = max(roughness, 0.045) * max(roughness, 0.045);
+    precise float alpha = max(roughness, 0.045) * max(roughness, 0.045);
     s.alpha2 = alpha * alpha;
     s.visibility_v = sqrt(s.n_dot_v * s.n_dot_v * (1.0 - s.alpha2) + s.alpha2);
     s.shininess = s.lobe = 0.0;
@@ -248,21 +248,26 @@ vec3 shadeSum(LightSum sum, vec3 base_color, float metallic, Dielectric dielectr
     const vec3 kMost = vec3(1e30);
     sum.diffuse = min(sum.diffuse, kMost);
     if (hasLight(kLightLambert)) {
-        return base_color * sum.diffuse / kPi;
+        precise vec3 lambert = base_color * sum.diffuse / kPi;
+        return lambert;
     }
     sum.specular = min(sum.specular, kMost);
     sum.grazing = min(sum.grazing, kMost);
     // Lobes are linear in f0; only the dielectric scatters, whatever its share.
-    vec3 f0 = mix(dielectric.f0, base_color, metallic);
-    vec3 albedo = base_color * (1.0 - metallic);
+    precise vec3 f0 = mix(dielectric.f0, base_color, metallic);
+    precise vec3 albedo = base_color * (1.0 - metallic);
+    precise vec3 lit;
     if (dielectric.usual) {
-        vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);
-        return (albedo * (1.0 - kDielectricF0) * sum.diffuse + lobe) / kPi;
+        precise vec3 lobe = 0.5 * (f0 * sum.specular + sum.grazing);
+        lit = (albedo * (1.0 - kDielectricF0) * sum.diffuse + lobe) / kPi;
+        return lit;
     }
-    vec3 lobe = 0.5 * (f0 * sum.specular + mix(dielectric.f90, 1.0, metallic) * sum.grazing);
-    vec3 scattered = entering(dielectric) * sum.diffuse;
+    precise vec3 lobe =
+        0.5 * (f0 * sum.specular + mix(dielectric.f90, 1.0, metallic) * sum.grazing);
+    precise vec3 scattered = entering(dielectric) * sum.diffuse;
     if (hasLight(kLightEdges)) {
         scattered += (1.0 - dielectric.f90) * min(sum.edge, kMost);
     }
-    return (albedo * scattered + lobe) / kPi;
+    lit = (albedo * scattered + lobe) / kPi;
+    return lit;
 }

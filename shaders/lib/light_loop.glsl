@@ -189,8 +189,9 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
 
 // Of a hemisphere about a normal.
 vec3 skyRadiance(vec3 normal_view) {
-    return mix(frame.ambient_ground, frame.ambient_sky,
-               fma(0.5, dot(normal_view, frame.up_view), 0.5));
+    precise vec3 radiance = mix(frame.ambient_ground, frame.ambient_sky,
+                                fma(0.5, dot(normal_view, frame.up_view), 0.5));
+    return radiance;
 }
 
 // Of light from around, where the frame has it. Else of a hemisphere of constant radiance from the
@@ -203,14 +204,16 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
     }
     vec3 sky = skyRadiance(s.normal_view);
     if (hasLight(kLightLambert)) {
-        return sky * base_color * occlusion;
+        precise vec3 lambert = sky * base_color * occlusion;
+        return lambert;
     }
-    vec3 f0 = mix(dielectric.f0, base_color, metallic);
-    vec3 albedo = base_color * (1.0 - metallic);
+    precise vec3 f0 = mix(dielectric.f0, base_color, metallic);
+    precise vec3 albedo = base_color * (1.0 - metallic);
     if (!dielectric.usual) {
         albedo *= entering(dielectric) / (1.0 - kDielectricF0);
     }
-    return sky * (albedo + f0) * occlusion;
+    precise vec3 lit = sky * (albedo + f0) * occlusion;
+    return lit;
 }
 
 #ifdef FROXEL_LAYERED
@@ -224,8 +227,9 @@ vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) 
     vec3 around = hasLight(kLightEnvironment)
                       ? glossyAround(c, occlusion) * lobeAlbedo(c.n_dot_v, lobeRoughness(c)).x
                       : skyRadiance(c.normal_view) * occlusion;
-    vec3 lobe = min(sum.coat, vec3(1e30)) * (0.5 / kPi) + around;
+    precise vec3 lobe = min(sum.coat, vec3(1e30)) * (0.5 / kPi) + around;
     float share = coatShare(coat, c.n_dot_v);
-    return below * (1.0 - share) + lobe * share;
+    precise vec3 seen = below * (1.0 - share) + lobe * share;
+    return seen;
 }
 #endif

@@ -66,7 +66,8 @@ vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view, vec3 sampled, UvTra
         t *= scale;
         b *= -scale;
     }
-    return normalize(t * sampled.x + b * sampled.y + n * sampled.z);
+    precise vec3 bent = t * sampled.x + b * sampled.y + n * sampled.z;
+    return normalize(bent);
 }
 
 // What the dielectric reflects, clamped before the strength; or, with it, how glossy it is.
@@ -116,7 +117,7 @@ Coat shadeCoat(VertexData v, vec3 position_view, bool front) {
 #endif
 
 GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
-    GbufferSample g;
+    precise GbufferSample g;
     g.base_color = clamp(base.rgb, vec3(0.0), vec3(1.0));
     vec3 n = normalize(v.normal_view);
     if (hasMaterial(kMaterialNormalTexture)) {

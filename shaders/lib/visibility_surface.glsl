@@ -1,4 +1,5 @@
-// From a pixel's id to its triangle, and from there to what the rasteriser would have interpolated.
+// From a pixel's id to its triangle, and from there to what the rasteriser would have interpolated:
+// `precise`, so that it has the same bits in every variant of a shader.
 
 struct VisibleTriangle {
     uvec3 vertices;
@@ -36,33 +37,49 @@ VisibleTriangle fetchTriangle(uint id) {
 // The ray of a pixel meets the triangle's plane at corner + x * edge1 + y * edge2 (Moeller and
 // Trumbore 1997): perspective-correct weights of the second and third corner.
 vec2 planeCoordinates(VisibleTriangle t, vec2 pixel) {
-    vec2 ray = (pixel + 0.5) * frame.ray_scale + frame.ray_offset;
-    vec3 direction = vec3(ray * frame.ray_spread.y, -1.0);
-    vec3 from_corner = vec3(ray * frame.ray_spread.x, 0.0) - t.corner;
-    vec3 across = cross(direction, t.edge2);
-    float area = dot(t.edge1, across);
-    vec2 weights = vec2(dot(from_corner, across), dot(direction, cross(from_corner, t.edge1)));
-    return area != 0.0 ? weights / area : vec2(0.0); // edge-on
+    precise vec2 ray = (pixel + 0.5) * frame.ray_scale + frame.ray_offset;
+    precise vec3 direction = vec3(ray * frame.ray_spread.y, -1.0);
+    precise vec3 from_corner = vec3(ray * frame.ray_spread.x, 0.0) - t.corner;
+    precise vec3 across = cross(direction, t.edge2);
+    precise float area = dot(t.edge1, across);
+    precise vec2 weights =
+        vec2(dot(from_corner, across), dot(direction, cross(from_corner, t.edge1))) / area;
+    return area != 0.0 ? weights : vec2(0.0); // edge-on
 }
 
 // A vertex attribute as an affine function of the plane's coordinates.
-#define interpolate(a, b, c, w) ((a) + ((b) - (a)) * (w).x + ((c) - (a)) * (w).y)
-#define change(a, b, c, w) (((b) - (a)) * (w).x + ((c) - (a)) * (w).y)
+#define attributeOf(type)                                                                          \
+    type interpolate(type a, type b, type c, vec2 w) {                                             \
+        precise type value = a + (b - a) * w.x + (c - a) * w.y;                                    \
+        return value;                                                                              \
+    }                                                                                              \
+    type change(type a, type b, type c, vec2 w) {                                                  \
+        precise type value = (b - a) * w.x + (c - a) * w.y;                                        \
+        return value;                                                                              \
+    }
+attributeOf(vec2);
+attributeOf(vec3);
+attributeOf(vec4);
+#undef attributeOf
 
 // As surface.vert.
 vec3 viewNormal(InstanceView view, vec3 normal_object) {
-    vec3 c0 = cross(view.row1.xyz, view.row2.xyz);
+    precise vec3 c0 = cross(view.row1.xyz, view.row2.xyz);
+    precise vec3 c1 = cross(view.row2.xyz, view.row0.xyz);
+    precise vec3 c2 = cross(view.row0.xyz, view.row1.xyz);
     float side = view.mirrored != 0u ? -1.0 : 1.0;
-    return side * vec3(dot(c0, normal_object),
-                       dot(cross(view.row2.xyz, view.row0.xyz), normal_object),
-                       dot(cross(view.row0.xyz, view.row1.xyz), normal_object));
+    precise vec3 normal =
+        side * vec3(dot(c0, normal_object), dot(c1, normal_object), dot(c2, normal_object));
+    return normal;
 }
 
 vec4 viewTangent(InstanceView view, vec4 tangent_object) {
-    vec3 t = vec3(dot(view.row0.xyz, tangent_object.xyz), dot(view.row1.xyz, tangent_object.xyz),
-                  dot(view.row2.xyz, tangent_object.xyz));
+    precise vec3 t =
+        vec3(dot(view.row0.xyz, tangent_object.xyz), dot(view.row1.xyz, tangent_object.xyz),
+             dot(view.row2.xyz, tangent_object.xyz));
     float side = view.mirrored != 0u ? -1.0 : 1.0;
-    return vec4(dot(t, t) > 0.0 ? normalize(t) : t, tangent_object.w * side);
+    precise vec4 tangent = vec4(dot(t, t) > 0.0 ? normalize(t) : t, tangent_object.w * side);
+    return tangent;
 }
 
 // Whether the pixel looks at the triangle's front.
@@ -83,13 +100,14 @@ VertexData fetchSurface(VisibleTriangle t, uvec2 pixel, out bool front) {
     front = showsFront(t, view, pixel);
 
     vec2 step = 1.0 - 2.0 * vec2(pixel & 1u);
-    vec2 w = planeCoordinates(t, vec2(pixel));
-    vec2 w_dx = (planeCoordinates(t, vec2(pixel) + vec2(step.x, 0.0)) - w) * step.x;
-    vec2 w_dy = (planeCoordinates(t, vec2(pixel) + vec2(0.0, step.y)) - w) * step.y;
+    precise vec2 w = planeCoordinates(t, vec2(pixel));
+    precise vec2 w_dx = (planeCoordinates(t, vec2(pixel) + vec2(step.x, 0.0)) - w) * step.x;
+    precise vec2 w_dy = (planeCoordinates(t, vec2(pixel) + vec2(0.0, step.y)) - w) * step.y;
     // The pixel's centre lies in the triangle; of slivers the arithmetic may say otherwise.
     w = clamp(w, vec2(0.0), vec2(1.0, 1.0 - clamp(w.x, 0.0, 1.0)));
-    gradients.position_dx = t.edge1 * w_dx.x + t.edge2 * w_dx.y;
-    gradients.position_dy = t.edge1 * w_dy.x + t.edge2 * w_dy.y;
+    const vec3 corner = vec3(0.0);
+    gradients.position_dx = change(corner, t.edge1, t.edge2, w_dx);
+    gradients.position_dy = change(corner, t.edge1, t.edge2, w_dy);
 
     SurfaceVertex a = surfaces[t.vertices.x];
     SurfaceVertex b = surfaces[t.vertices.y];

@@ -119,7 +119,7 @@ TEST_F(Exactness, Lists_Coats_EqualAllLightsBitForBit) {
 }
 
 // What the G-buffer has no room for is drawn over it: a deferred picture is the forward one where
-// all is coated, whichever stage lights the rest.
+// all is coated, whichever stage lights the rest. By one rasteriser, as layers are drawn.
 TEST_F(Exactness, Coats_OfEveryRenderer_AreTheForwardOnes) {
     auto scene = makeRoom();
     giveCoats(scene);
@@ -127,6 +127,7 @@ TEST_F(Exactness, Coats_OfEveryRenderer_AreTheForwardOnes) {
     render::Renderer renderer(device(), scene);
     auto inputs = inputsFor(scene.cameras[1].camera, Renderer::kForwardPlus);
     inputs.settings.lights.count = 100;
+    inputs.geometry = render::GeometryPath::kRaster;
     const Picture forward = draw(renderer, inputs);
     inputs.settings.renderer = Renderer::kClusteredDeferred;
     for (const auto stage :
