@@ -1,61 +1,131 @@
 #!/usr/bin/env bash
-# Checks and times a GPU: ./tests/bench/check_gpu.sh FROXEL OUT [SCENE.gltf]
-# Draws every renderer on the built-in scene (and SCENE), requires forward_plus to equal naive bit for
-# bit, and writes pictures and timings to OUT. Needs only the froxel binary and a Vulkan driver.
-# FROXEL_ASSIGNMENT_TEST=render_gpu_assignment_test also compares the light lists that the GPU makes with
-# the host's, entry by entry. FROXEL_HOSTILE_PYTHON=python3, one that has the module websockets, also plays
-# tests/hostile, an honest viewer beside hostile ones.
+# What lavapipe passes, on a GPU: every suite that draws, pictures of all lights against lists, storms of settings with
+# the validation layer, and the hostile viewers where Python has the module websockets.
+#   ./tests/bench/check_gpu.sh PACK OUT      PACK: of pack_gpu.sh, as a file or unpacked; OUT: a folder for logs
+# Needs a Vulkan driver, and for storms Python 3. Closes with "N passed, N failed, N skipped"; exit code 1 where a test
+# failed.
 set -euo pipefail
-froxel=$1
+pack=$1
 out=$2
 mkdir -p "$out"
-failures=0
+rm -f "$out"/*.log "$out"/*.counts
+if [[ -f $pack ]]; then
+    unpacked=$(mktemp -d)
+    trap 'rm -rf "$unpacked"' EXIT
+    tar -xJf "$pack" -C "$unpacked"
+    pack=$unpacked/gpu
+fi
+pack=$(cd "$pack" && pwd)
+froxel=$pack/bin/froxel
+export LD_LIBRARY_PATH=$pack/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+export VK_LAYER_PATH=$pack/layer FROXEL_TEST_DEVICE=gpu
+export FROXEL_REPOSITORY=$pack/repository FROXEL_BINARY=$froxel XDG_CACHE_HOME=$out/cache
+# As many at once as a GPU's time is worth sharing: the host's parts of most take longer than what they draw.
+at_once=$(($(nproc) / 3))
+at_once=$((at_once < 1 ? 1 : at_once > 5 ? 5 : at_once))
+begin=$SECONDS
 
-check() { # SCENE NAME LIGHTS STAGE [options]
-    local scene=$1 name=$2 lights=$3 stage=$4 renderer
+tell() { # NAME PASSED FAILED SKIPPED SECONDS [WHY]
+    echo "$2 $3 $4" >"$out/$1.counts"
+    printf '%-28s %4d passed %3d failed %3d skipped %4d s%s\n' "$1" "$2" "$3" "$4" "$5" "${6:+  $6}"
+}
+
+counted() { # KIND LOG: of gtest's closing lines, "[  PASSED  ] 12 tests."
+    awk -v kind="$1" '$2 == kind && $4 ~ /^[0-9]+$/ && $5 ~ /^tests?/ { n = $4 } END { print n + 0 }' "$2"
+}
+
+suite() { # BINARY
+    local name=${1##*/} start=$SECONDS code=0 failed why=
+    local log=$out/$name.log
+    timeout 330 "$1" >"$log" 2>&1 || code=$?
+    failed=$(counted FAILED "$log")
+    if ((code != 0 && failed == 0)); then
+        failed=1
+        why="ended with $code in $(grep '^\[ RUN' "$log" | tail -1)"
+    fi
+    tell "$name" "$(counted PASSED "$log")" "$failed" "$(counted SKIPPED "$log")" $((SECONDS - start)) "$why"
+    sed -nE '/^\[  FAILED  \] [A-Z].*[a-z]$/s/^/    /p; /: Skipped$/{n;s/^/    skipped: /p}' "$log" | sort -u
+}
+
+# forward_plus must be naive bit for bit, in pictures larger than the suites'.
+lists() { # SCENE NAME LIGHTS STAGE [options]
+    local scene=$1 name=lists.$2.$3.$4 lights=$3 stage=$4 start=$SECONDS renderer
     shift 4
     for renderer in naive forward_plus; do
         "$froxel" render --device gpu --scene "$scene" --lights "$lights" --size 960x540 --warmup 0 \
-            --renderer "$renderer" --lighting "$stage" --out "$out/$renderer.pfm" "$@" >/dev/null
+            --renderer "$renderer" --lighting "$stage" --out "$out/$name.$renderer.pfm" "$@" >/dev/null
     done
-    if cmp -s "$out/naive.pfm" "$out/forward_plus.pfm"; then
-        echo "equal: $name, $lights lights, $stage"
+    if cmp -s "$out/$name.naive.pfm" "$out/$name.forward_plus.pfm"; then
+        tell "$name" 1 0 0 $((SECONDS - start))
     else
-        echo "DIFFERENT: $name, $lights lights, $stage: forward_plus is not naive"
-        failures=$((failures + 1))
+        tell "$name" 0 1 0 $((SECONDS - start)) "forward_plus is not naive"
     fi
-    rm -f "$out/naive.pfm" "$out/forward_plus.pfm"
+    rm -f "$out/$name".*.pfm
 }
 
-measure() { # SCENE NAME LIGHTS RENDERER SIZE [options]
-    local scene=$1 file=$out/$2_$3_$4_$5.json
-    "$froxel" render --device gpu --scene "$scene" --lights "$3" --renderer "$4" --size "$5" \
-        --frames 60 --warmup 10 --timings "$file" --out "${file%.json}.jpg" "${@:6}"
+# Viewers come and go with every setting over its whole range: nothing is held on to, no message of the layer.
+storm() { # SCENE NAME
+    local name=storm.$2 start=$SECONDS log=$out/storm.$2.log options=(--device gpu --scene "$1" --size 640x360)
+    if ! command -v python3 >/dev/null; then
+        tell "$name" 0 0 1 0 "no python3"
+        return
+    fi
+    [[ -f $pack/layer/VkLayer_khronos_validation.json ]] && options+=(--validation)
+    if python3 "$pack/repository/tests/load/soak.py" "$froxel" --minutes 3 --scripts storm -- "${options[@]}" >"$log" 2>&1 &&
+        ! grep -q 'validation:' "$log"; then
+        tell "$name" 1 0 0 $((SECONDS - start)) "$(grep -c . "$log") lines"
+    else
+        tell "$name" 0 1 0 $((SECONDS - start)) "$(grep -m1 'validation:' "$log" || tail -1 "$log")"
+    fi
 }
 
-"$froxel" info --device gpu
-if [ -n "${FROXEL_ASSIGNMENT_TEST:-}" ]; then
-    FROXEL_TEST_DEVICE=gpu "$FROXEL_ASSIGNMENT_TEST" --gtest_filter='GpuAssignment.*' --gtest_brief=1 ||
-        failures=$((failures + 1))
-fi
+hostile() {
+    local start=$SECONDS log=$out/hostile.log python=${FROXEL_HOSTILE_PYTHON:-python3} held failed
+    if ! "$python" -c 'import websockets' 2>/dev/null; then
+        tell hostile 0 0 1 0 "$python has no module websockets"
+        return
+    fi
+    "$python" "$pack/repository/tests/hostile/hostile.py" "$froxel" --out "$out/hostile.json" \
+        -- --device gpu --size 1280x720 --lights 1000 >"$log" 2>&1 || true
+    held=$(grep -c '"holds": true' "$out/hostile.json" || true)
+    failed=$(grep -c '"holds": false' "$out/hostile.json" || true)
+    tell hostile "${held:-0}" "${failed:-1}" 0 $((SECONDS - start))
+}
+
+wait_for_place() {
+    while (($(jobs -rp | wc -l) >= at_once)); do
+        wait -n || true
+    done
+}
+
+"$froxel" info --device gpu | tee "$out/info.log"
+storm "$pack/shared/scenes/models/chess-board/chess-board.glb" coats &
+storm "$pack/shared/scenes/models/fox/Fox.glb" animation &
+dearest=(hard render_exactness render_reference render_variants render_shading)
+for binary in "${dearest[@]/#/$pack/bin/}" "$pack"/bin/*_test; do
+    binary=${binary%_test}_test
+    [[ -f $out/${binary##*/}.log ]] && continue # has begun
+    wait_for_place
+    : >"$out/${binary##*/}.log"
+    suite "$binary" &
+done
 scenes=("builtin|hall|--camera Nave")
-if [ $# -ge 3 ]; then
-    scenes+=("$3|sponza|--camera -7,2,0;0,2,0;45 --light-box -10,0,-5;10,8,5")
-fi
+sponza=${FROXEL_SPONZA:-$pack/shared/scenes/sponza/Sponza.gltf}
+[[ -f $sponza ]] && scenes+=("$sponza|sponza|--camera -7,2,0;0,2,0;45 --light-box -10,0,-5;10,8,5")
 for entry in "${scenes[@]}"; do
     IFS='|' read -r scene name text <<<"$entry"
     read -ra options <<<"$text"
     for lights in 0 7 1000; do
-        check "$scene" "$name" "$lights" fragment "${options[@]}"
-        check "$scene" "$name" "$lights" compute "${options[@]}"
+        for stage in fragment compute; do
+            wait_for_place
+            lists "$scene" "$name" "$lights" "$stage" "${options[@]}" &
+        done
     done
-    for renderer in forward_plus clustered_deferred toon_fragment toon_compute; do
-        measure "$scene" "$name" 1000 "$renderer" 1920x1080 "${options[@]}"
-    done
-    measure "$scene" "$name" 5000 clustered_deferred 1920x1080 "${options[@]}"
 done
-if [ -n "${FROXEL_HOSTILE_PYTHON:-}" ]; then
-    "$FROXEL_HOSTILE_PYTHON" "$(dirname "$0")/../hostile/hostile.py" "$froxel" --out "$out/hostile.json" \
-        -- --device gpu --size 1280x720 --lights 1000 || failures=$((failures + 1))
-fi
-exit "$((failures > 0))"
+wait
+hostile # by itself: it measures
+
+read -r passed failed skipped < <(cat "$out"/*.counts | awk '{ p += $1; f += $2; s += $3 } END { print p + 0, f + 0, s + 0 }')
+echo "$(sed -n 's/^  name: //p' "$out/info.log"), $(date -u +%F), $((SECONDS - begin)) s:" \
+    "$passed passed, $failed failed, $skipped skipped"
+exit "$((failed > 0))"

@@ -45,6 +45,11 @@ class Server:
         with urllib.request.urlopen(self.metrics_url, timeout=5) as answer:
             return answer.read().decode()
 
+    def of_device(self):
+        """Its memory by purpose, in words."""
+        found = re.findall(r'^froxel_device_memory_bytes{purpose="([^"]*)"} (\S+)$', self.scrape(), re.MULTILINE)
+        return ", ".join(f"{purpose} {float(value) / 1e6:.2f} MB" for purpose, value in found)
+
     def sample(self):
         """Every metric's value, summed over its labels; "at_s" and "scrape_s" besides."""
         start = time.monotonic()

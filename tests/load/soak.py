@@ -14,7 +14,8 @@ that is less than half) is warm-up. Passes if after it
   - resident memory at rest rises by less than a tenth, likewise: it has holes besides, which come and
     go by the order in which things end;
   - descriptors and sessions are back where they were before the first viewer, once all have left;
-  - device memory with no viewer left is what it was after the first ones, within 1 %;
+  - device memory with no viewer left is what it was after the first round, within 1 %: what viewers share is made when
+    the first of them needs it;
   - the server answered every scrape within 5 s, every viewer ended as it should, and the server ends
     with exit code 0.
 
@@ -41,7 +42,7 @@ SAMPLES_AT_REST = 3  # a second apart: the render thread frees what a session he
 
 def settle(server, device_bytes=None):
     """Waits until no session is left; with device_bytes also until the device's memory is that
-    again, within 1 %. None when it never happens."""
+    again, within 1 %. None when it never happens, and a line of what is left."""
     end = time.monotonic() + 60
     at_rest = 0
     while time.monotonic() < end:
@@ -52,6 +53,8 @@ def settle(server, device_bytes=None):
         if at_rest == SAMPLES_AT_REST:
             return values
         time.sleep(1)
+    print(f"left: {values['froxel_sessions']:.0f} sessions; device memory by purpose: {server.of_device()}, "
+          f"{(device_bytes or 0) / 1e6:.2f} MB before")
     return None
 
 
@@ -123,24 +126,25 @@ def busy_round(server, viewers, end, joins_per_minute):
     return samples
 
 
-def soak(server, viewers, device_bytes, minutes, joins_per_minute):
-    """Samples of a busy server and at rest, after the warm-up."""
+def soak(server, viewers, minutes, joins_per_minute):
+    """Samples of a busy server and at rest, after the warm-up, and the first at rest."""
     begin = time.monotonic()
     end = begin + minutes * 60
     warm = begin + max(minutes * 60 / 5, min(60, minutes * 30))
-    busy, rests = [], []
+    busy, rests, first = [], [], None
     while (now := time.monotonic()) < end:
         samples = busy_round(server, viewers, min(end, now + ROUND_S), joins_per_minute)
         line(time.monotonic() - begin, viewers.started, samples[-1])
         viewers.reap(wait=True)
-        rest = settle(server, device_bytes)
+        rest = settle(server, first and first["froxel_device_memory_bytes"])
         if rest is None:
-            return [], []
+            return [], [], first
+        first = first or rest
         line(time.monotonic() - begin, viewers.started, rest)
         if now >= warm:
             busy += samples
             rests.append(rest)
-    return busy, rests
+    return busy, rests, first
 
 
 def judge(busy, rests, before, after, device, viewers, scripts):
@@ -200,18 +204,17 @@ def main():
             viewers.run(script, 2)
             viewers.reap(wait=True)
         before = settle(server)
-        device = before["froxel_device_memory_bytes"] if before else 0
-        busy, rests = soak(server, viewers, device, options.minutes, options.joins_per_minute)
+        busy, rests, first = soak(server, viewers, options.minutes, options.joins_per_minute)
         for script in scripts:
             viewers.run(script, 2)
             viewers.reap(wait=True)
-        after = settle(server, device)
+        after = settle(server, first and first["froxel_device_memory_bytes"])
     finally:
         code = server.stop()
     if before is None or after is None or not rests:
         print("failed: sessions or device memory stay though all viewers left")
         return 1
-    device = [values["froxel_device_memory_bytes"] for values in (before, after)]
+    device = [values["froxel_device_memory_bytes"] for values in (first, after)]
     broken = judge(busy, rests, before, after, device, viewers, scripts)
     if code != 0:
         broken.append(f"the server ended with {code}")

@@ -5,7 +5,8 @@
 namespace froxel::test {
 
 std::filesystem::path repositoryPath(std::string_view below) {
-    return std::filesystem::path(FROXEL_REPOSITORY) / below;
+    const char* given = std::getenv("FROXEL_REPOSITORY"); // where binaries run elsewhere
+    return std::filesystem::path(given != nullptr ? given : FROXEL_REPOSITORY) / below;
 }
 
 std::filesystem::path sponzaPath() {
@@ -14,7 +15,8 @@ std::filesystem::path sponzaPath() {
 }
 
 std::string binaryPath() {
-    return FROXEL_BINARY;
+    const char* given = std::getenv("FROXEL_BINARY");
+    return given != nullptr ? given : FROXEL_BINARY;
 }
 
 } // namespace froxel::test
