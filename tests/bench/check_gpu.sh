@@ -98,7 +98,7 @@ wait_for_place() {
     done
 }
 
-"$froxel" info --device gpu | tee "$out/info.log"
+"$froxel" info --device gpu | sed '/^service:/,$d' | tee "$out/info.log"
 storm "$pack/shared/scenes/models/chess-board/chess-board.glb" coats &
 storm "$pack/shared/scenes/models/fox/Fox.glb" animation &
 dearest=(hard render_exactness render_reference render_variants render_shading)
