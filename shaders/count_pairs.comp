@@ -32,7 +32,7 @@ void main() {
     }
     barrier();
     uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (all(lessThan(pixel, uvec2(frame.width_px, frame.height_px)))) {
+    if (all(lessThan(pixel, uvec2(frame.camera.width_px, frame.camera.height_px)))) {
         float depth = texelFetch(depth_image, ivec2(pixel), 0).x;
         if (depth > 0.0) {
             countPixel(pixel, depth);

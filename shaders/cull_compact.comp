@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#define FROXEL_CAMERA_ALONE
 #include "lib/frame.glsl"
 #include "lib/visibility_set.glsl"
 #include "lib/visibility_draws.glsl"

@@ -8,6 +8,7 @@
 #endif
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#define FROXEL_CAMERA_ALONE
 #include "lib/frame.glsl"
 #include "lib/visibility_set.glsl"
 #include "lib/visibility_draws.glsl"
@@ -33,20 +34,21 @@ bool beyond(InstanceView view, vec3 normal, float offset, vec3 center, float rad
 
 // w + x, w - x, w + y, w - y and w - z of clip space, all linear in view space.
 bool outside(InstanceView view, vec3 center, float radius) {
-    vec2 s = frame.clip_scale;
-    vec2 more = 1.0 + frame.clip_offset;
-    vec2 less = 1.0 - frame.clip_offset;
-    vec2 w = frame.clip_w;
+    vec2 s = frame.camera.clip_scale;
+    vec2 more = 1.0 + frame.camera.clip_offset;
+    vec2 less = 1.0 - frame.camera.clip_offset;
+    vec2 w = frame.camera.clip_w;
     return beyond(view, vec3(s.x, 0.0, w.y * more.x), w.x * more.x, center, radius) ||
            beyond(view, vec3(-s.x, 0.0, w.y * less.x), w.x * less.x, center, radius) ||
            beyond(view, vec3(0.0, s.y, w.y * more.y), w.x * more.y, center, radius) ||
            beyond(view, vec3(0.0, -s.y, w.y * less.y), w.x * less.y, center, radius) ||
-           beyond(view, vec3(0.0, 0.0, w.y - frame.clip_z.y), w.x - frame.clip_z.x, center, radius);
+           beyond(view, vec3(0.0, 0.0, w.y - frame.camera.clip_z.y), w.x - frame.camera.clip_z.x,
+                  center, radius);
 }
 
 bool facesAway(InstanceView view, PlacedMeshlet m, uint flags) {
     // An eye too far away for its object space (a singular or tiny scale) says nothing.
-    bool known = frame.orthographic == 0.0 && all(lessThan(abs(view.eye_object), vec3(1e6)));
+    bool known = frame.camera.orthographic == 0.0 && all(lessThan(abs(view.eye_object), vec3(1e6)));
     if (!known || (flags & kMaterialDoubleSided) != 0 || m.cone_cutoff >= 1.0) {
         return false;
     }

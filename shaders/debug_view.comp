@@ -34,7 +34,7 @@ vec3 toWorld(vec3 v) {
 // The picture four times across and down at a quarter of its size; byte x of word y. Cells that the
 // target has no byte for are empty.
 uint byteMosaic(uvec2 pixel) {
-    uvec2 cell_size = max(uvec2(frame.width_px, frame.height_px) / 4u, 1u);
+    uvec2 cell_size = max(uvec2(frame.camera.width_px, frame.camera.height_px) / 4u, 1u);
     uvec2 cell = pixel / cell_size;
     if (any(greaterThan(cell, uvec2(3u))) || 4u * cell.y + cell.x >= debug.byte_count) {
         return kDebugEmpty;
@@ -135,6 +135,6 @@ uint debugColor(uvec2 pixel) {
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (insideScreen(pixel)) {
-        pixels[pixel.y * frame.width_px + pixel.x] = debugColor(pixel);
+        pixels[pixel.y * frame.camera.width_px + pixel.x] = debugColor(pixel);
     }
 }

@@ -139,8 +139,8 @@ void main() {
     s.direction_view = back / s.back_m;
     s.front_m = s.back_m * (begin / end);
     s.sample_view = positionFromDistance(pixel, distance);
-    vec2 tile = abs(frame.ray_scale) * float(fog.tile_px) *
-                (frame.ray_spread.x + frame.ray_spread.y * distance);
+    vec2 tile = abs(frame.camera.ray_scale) * float(fog.tile_px) *
+                (frame.camera.ray_spread.x + frame.camera.ray_spread.y * distance);
     s.width2 = kWidth * kWidth * tile.x * tile.y + 1.0 / mostInverse2();
     vec3 scattered = min(scatteredByAll(s, pixel, distance), vec3(1e30));
     volume[fogTexelOf(froxel)] = vec4(fog.albedo * scattered, 1.0);

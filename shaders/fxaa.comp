@@ -18,7 +18,7 @@ const float kLeastShare = 1.0 / 8.0;     // of the brightest around
 const int kMostSteps = 12;               // along the edge, either way
 const float kSinglePixels = 0.75;        // how much of a single pixel is blended away
 
-ivec2 size() { return ivec2(frame.width_px, frame.height_px); }
+ivec2 size() { return ivec2(frame.camera.width_px, frame.camera.height_px); }
 
 uint packedAt(ivec2 at) {
     ivec2 inside = clamp(at, ivec2(0), size() - 1);

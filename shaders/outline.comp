@@ -26,7 +26,7 @@ vec3 normalAt(ivec2 at) {
 // Whether the pixel's surface ends or folds within `reach` pixels of it.
 bool edgeWithin(ivec2 at, int reach) {
     const ivec2 kDirections[4] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1));
-    ivec2 last = ivec2(frame.width_px, frame.height_px) - 1;
+    ivec2 last = ivec2(frame.camera.width_px, frame.camera.height_px) - 1;
     float middle = depthAt(at);
     for (int i = 0; i < 4; ++i) {
         ivec2 a = at + reach * kDirections[i];

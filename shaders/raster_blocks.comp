@@ -9,6 +9,7 @@
 #ifdef FROXEL_BINDLESS
 #extension GL_EXT_nonuniform_qualifier : require
 #endif
+#define FROXEL_CAMERA_ALONE
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/visibility_set.glsl"
@@ -47,7 +48,7 @@ void drawBlock(Corner a, Corner b, Corner c, bool mirrored, VisibleItem item, ui
     if (!isInside(edges.inside + kLast * (max(edges.step_x, 0) + max(edges.step_y, 0)))) {
         return;
     }
-    uvec2 size = uvec2(frame.width_px, frame.height_px);
+    uvec2 size = uvec2(frame.camera.width_px, frame.camera.height_px);
     uvec2 lane = uvec2(gl_LocalInvocationIndex % kLaneSide, gl_LocalInvocationIndex / kLaneSide);
     for (uint y = 0; y < kRasterBlock; y += kLaneSide) {
         for (uint x = 0; x < kRasterBlock; x += kLaneSide) {

@@ -10,6 +10,7 @@
 #ifdef FROXEL_BINDLESS
 #extension GL_EXT_nonuniform_qualifier : require
 #endif
+#define FROXEL_CAMERA_ALONE
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/visibility_set.glsl"
@@ -89,7 +90,7 @@ uint prepare(PlacedMeshlet placed, VisibleItem item, uint id, uint lane) {
         boxOfClipped(t, low, high);
     }
     low = max(low, ivec2(0));
-    high = min(high, ivec2(frame.width_px, frame.height_px) - 1);
+    high = min(high, ivec2(frame.camera.width_px, frame.camera.height_px) - 1);
     if (any(lessThan(high, low))) {
         return 0; // out of sight, or between pixels' centres
     }

@@ -4,6 +4,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_image_load_formatted : require
 #extension GL_GOOGLE_include_directive : require
+#define FROXEL_CAMERA_ALONE
 #include "lib/frame.glsl"
 #include "lib/raster_set.glsl"
 
@@ -13,10 +14,10 @@ layout(set = 2, binding = 20) uniform writeonly uimage2D id_store;
 
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(pixel, uvec2(frame.width_px, frame.height_px)))) {
+    if (any(greaterThanEqual(pixel, uvec2(frame.camera.width_px, frame.camera.height_px)))) {
         return;
     }
-    uint64_t word = words[pixel.y * frame.width_px + pixel.x];
+    uint64_t word = words[pixel.y * frame.camera.width_px + pixel.x];
     imageStore(depth_store, ivec2(pixel), vec4(uintBitsToFloat(uint(word >> 32))));
     imageStore(id_store, ivec2(pixel), uvec4(uint(word)));
 }

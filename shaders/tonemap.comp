@@ -13,7 +13,7 @@ layout(local_size_x = kScreenGroup, local_size_y = kScreenGroup) in;
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (hasOutput(kOutputSamples)) {
-        uvec2 size = uvec2(frame.width_px, frame.height_px) / 2u;
+        uvec2 size = uvec2(frame.camera.width_px, frame.camera.height_px) / 2u;
         if (any(greaterThanEqual(pixel, size))) {
             return;
         }

@@ -4,6 +4,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 #ifdef FROXEL_MASKED
+#define FROXEL_CAMERA_ALONE
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/material.glsl"

@@ -7,9 +7,9 @@
 #ifdef FROXEL_BINDLESS
 #extension GL_EXT_nonuniform_qualifier : require
 #endif
+#define FROXEL_CAMERA_ALONE
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
-#include "lib/tonemap.glsl"
 #include "lib/screen.glsl"
 #include "lib/pixel_order.glsl"
 #include "lib/visibility_set.glsl"

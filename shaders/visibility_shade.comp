@@ -76,7 +76,7 @@ void main() {
         lit = g.base_color;
     }
     vec4 radiance = covered ? vec4(lit, radianceAlpha(g)) : vec4(0.0);
-    if (inside && (covered || (depth == 0.0 && last != 0u))) {
+    if (inside && (covered || (depth == 0.0 && (resolve_flags & kResolveLast) != 0u))) {
         if (hasOutput(kOutputRadiance)) {
             imageStore(radiance_image, ivec2(pixel), radiance);
         }

@@ -99,6 +99,7 @@ struct FrameStats {
     std::optional<double> gpu_us; // first to last timestamp of the frame; none: not written
     double host_us = 0;           // host work: culling, lights, assignment, recording
     double frame_us = 0;          // from submit call to readable pixels, on the host's clock
+    bool kept = false;            // depth and what else surfaces left are an earlier frame's
     uint32_t triangle_count = 0;  // triangles sent to the rasteriser
     uint32_t draw_count = 0;
     LightListStats lists;

@@ -189,19 +189,25 @@ void FrameBuilder::start(const FrameInputs& inputs, bool in_parts) {
 // 7 becomes 5 ms on two cores (Sponza). Elsewhere the host has too little to do for a thread.
 void FrameBuilder::startCulling() {
     const bool is_cpu = scene_.device.traits().is_cpu;
-    culling_ = std::async(is_cpu ? std::launch::async : std::launch::deferred, [this, is_cpu] {
-        const auto& settings = inputs_.settings;
-        buildDrawList(scene_, pose_, settings.camera, settings.size, projection_, is_cpu,
-                      !visibility_,
-                      settings.transparency == settings::Transparency::kSorted
-                          ? TransparentOrder::kByDistance
-                          : TransparentOrder::kOfTheScene,
-                      draws_);
-        if (visibility_) {
-            placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
-            orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
-        }
-    });
+    const auto order = inputs_.settings.transparency == settings::Transparency::kSorted
+                           ? TransparentOrder::kByDistance
+                           : TransparentOrder::kOfTheScene;
+    culls_ = {inputs_.settings.camera, inputs_.settings.size, pose_.number(), visibility_, order};
+    if (culled_ == culls_) {
+        return; // the draw list is a function of them
+    }
+    culled_.reset();
+    ++draw_list_number_;
+    culling_ =
+        std::async(is_cpu ? std::launch::async : std::launch::deferred, [this, is_cpu, order] {
+            const auto& settings = inputs_.settings;
+            buildDrawList(scene_, pose_, settings.camera, settings.size, projection_, is_cpu,
+                          !visibility_, order, draws_);
+            if (visibility_) {
+                placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
+                orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
+            }
+        });
 }
 
 void FrameBuilder::advance(ViewEffects& effects) {
@@ -222,7 +228,10 @@ void FrameBuilder::advance(ViewEffects& effects) {
         stage_ = capMore() ? Stage::kPlan : Stage::kCap;
         break;
     case Stage::kPlan:
-        culling_.get();
+        if (culling_.valid()) {
+            culling_.get();
+            culled_ = culls_;
+        }
         plan_ = plan(effects);
         stage_ = Stage::kBuilt;
         break;
@@ -496,12 +505,15 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
     UploadOffsets& offsets = offsets_;
     offsets = {};
     offsets.rows = upload.add(std::span<const InstanceRows>(draws_.rows));
+    std::span<const vk::DrawIndexedIndirectCommand> commands = draws_.commands;
     if (!draws_.indices.empty()) {
         // lavapipe 22.3 ignores an index buffer's offset in indirect draws: count from 0 instead.
         const auto first = upload.add(std::span<const uint32_t>(draws_.indices)) / sizeof(uint32_t);
-        for (auto& command : draws_.commands) {
+        placed_commands_ = draws_.commands;
+        for (auto& command : placed_commands_) {
             command.firstIndex += static_cast<uint32_t>(first);
         }
+        commands = placed_commands_;
     }
     if (visibility_) {
         offsets.instances = upload.add(std::span<const io::InstanceView>(instances_));
@@ -514,7 +526,7 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
         offsets.joints = upload.add(pose_.joints());
         offsets.weights = upload.add(pose_.weights());
     }
-    offsets.commands = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(draws_.commands));
+    offsets.commands = upload.add(commands);
     for (const ActiveEffect& active : effects) {
         active.effect->gather(upload, blocks_);
     }

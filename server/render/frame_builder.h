@@ -77,6 +77,10 @@ class FrameBuilder {
     [[nodiscard]] const ScenePose& pose() const { return pose_; }
     [[nodiscard]] const DrawList& draws() const { return draws_; }
     [[nodiscard]] const light::FrameLights& lights() const { return lights_; }
+    // What solid surfaces of the frame with that plan are drawn from.
+    [[nodiscard]] SurfacesDrawn surfaces(const FramePlan& plan) const {
+        return {uniforms_.camera, draw_list_number_, plan};
+    }
     // Point and spot lights of the frame.
     [[nodiscard]] uint32_t localLightCount() const {
         return static_cast<uint32_t>(lights_.lights.size());
@@ -149,6 +153,20 @@ class FrameBuilder {
     std::optional<SeenLists> seen_lists_;
     settings::ViewSettings refused_; // what the device's lists were too small for
     DrawList draws_;
+    // What buildDrawList() and what goes with it are told, besides the scene.
+    struct Culled {
+        settings::Camera camera;
+        settings::Size size;
+        uint64_t pose = 0;
+        bool visibility = false;
+        TransparentOrder order = TransparentOrder::kByDistance;
+        bool operator==(const Culled&) const = default;
+    };
+    std::optional<Culled> culled_; // what draws_ is of; none: of nothing whole
+    Culled culls_;                 // what it will be of
+    uint64_t draw_list_number_ = 0;
+    std::vector<vk::DrawIndexedIndirectCommand>
+        placed_commands_; // of draws_, for what was gathered
     settings::Size drawn_;
     FrameFacts planned_;
     bool visibility_ = false;

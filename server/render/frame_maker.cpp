@@ -42,6 +42,15 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
     return {};
 }
 
+bool FrameMaker::keepsSurfaces(const FramePlan& plan, const FrameInputs& asked) const {
+    const settings::Size drawn = drawnSize(asked.settings);
+    return asked.keep_surfaces && targets_ && !targets_->fresh && leavesSurfaces(plan) &&
+           targets_->surfaces == builder_.surfaces(plan) &&
+           targets_->fits(
+               drawn, asked.settings.size,
+               targetNeeds(plan, scene_.device, drawn, asked.settings.size, targets_.get()));
+}
+
 void FrameMaker::prepareTargets(FrameSlot& slot,
                                 const FramePlan& plan,
                                 const settings::Size& drawn,
@@ -123,6 +132,7 @@ void FrameMaker::prepareParts(FrameSlot& slot,
 
 void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameInputs& inputs) {
     slot.stats = {};
+    slot.stats.kept = plan.kept;
     slot.stats.triangle_count = builder_.draws().triangle_count;
     if (plan.visibility) { // the host does not know what the device culls
         slot.stats.triangle_count += scene_.visibility().triangle_count;
@@ -214,7 +224,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
                                      const FrameInputs& asked,
                                      const Slots& slots) {
     const auto start = Clock::now();
-    const FramePlan plan = builder_.take();
+    FramePlan plan = builder_.take();
     if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
         return tooManyToCap(builder_.localLightCount());
     }
@@ -223,6 +233,8 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
         !built) {
         return built;
     }
+    const SurfacesDrawn surfaces = builder_.surfaces(plan);
+    plan.kept = keepsSurfaces(plan, asked);
     const FrameCosts costs = builder_.costs(plan, asked.settings.size, effects_.ofFrame(), work_);
     if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
         return affordable;
@@ -249,6 +261,10 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     if (slot.pieces.estimate() > work_.frame) { // with what each piece does again
         markFresh(slot);
         return tooLongInPieces(asked.settings.size, slot.pieces, work_.frame);
+    }
+    targets_->surfaces.reset();
+    if (leavesSurfaces(plan)) {
+        targets_->surfaces = surfaces;
     }
     noteBuilt(slot, plan, inputs);
     slot.stats.host_us = built_us_ + microsSince(start);

@@ -68,6 +68,8 @@ class FrameMaker {
                                           const FramePlan& plan,
                                           const FrameInputs& asked,
                                           const Slots& slots);
+    // Whether the view's targets hold the surfaces of the frame that was built.
+    [[nodiscard]] bool keepsSurfaces(const FramePlan& plan, const FrameInputs& asked) const;
     void prepareTargets(FrameSlot& slot,
                         const FramePlan& plan,
                         const settings::Size& drawn,

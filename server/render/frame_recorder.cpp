@@ -60,7 +60,7 @@ void recordPose(const FrameContext& frame) {
 }
 
 void recordPrepass(const FrameContext& frame) {
-    if (frame.plan.depth_prepass) {
+    if (frame.plan.depth_prepass && !frame.plan.kept) {
         inParts(frame, drawn(frame), frame.costs.depthPrepass(), recordDepthPrepass);
         // prepass depth -> the next pass's equality test
         barrier(frame.slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages,
@@ -127,6 +127,9 @@ void recordVisiblePart(const FrameContext& frame, const vk::Rect2D& region) {
 
 // Depth and ids; what follows reads them in compute.
 void recordVisible(const FrameContext& frame) {
+    if (frame.plan.kept) {
+        return;
+    }
     if (frame.plan.compute_raster) {
         const RegionCost cost = frame.costs.ids();
         frame.pieces.add(cost.each + cost.of(whole(frame)));
@@ -146,6 +149,9 @@ void radianceToCompute(const vk::raii::CommandBuffer& cmd) {
 
 // Fills the G-buffer; what follows reads it.
 void recordGeometry(const FrameContext& frame) {
+    if (frame.plan.kept) {
+        return; // the frame that drew it has the barriers
+    }
     if (frame.plan.visibility) {
         recordVisible(frame);
         inParts(frame, drawn(frame), frame.costs.resolve(), recordVisibilityGbuffer);
@@ -211,7 +217,7 @@ void recordReplacement(const FrameContext& frame) {
         recordGeometry(frame);
     } else if (frame.plan.visibility) {
         recordVisible(frame);
-    } else {
+    } else if (!frame.plan.kept) {
         inParts(frame, drawn(frame), frame.costs.depthPrepass(), recordDepthPrepass);
         // depth -> loads
         barrier(cmd, kDepthStages, Access::eDepthStencilAttachmentWrite, Stage::eComputeShader,

@@ -57,6 +57,9 @@ void markFresh(FrameSlot& slot) {
         }
     };
     mark(slot.targets);
+    if (slot.targets) {
+        slot.targets->surfaces.reset();
+    }
     mark(slot.blend);
     mark(slot.posed);
     slot.effect_targets.forEach([](EffectTargets& effect) { effect.fresh = true; });

@@ -70,7 +70,8 @@ Json memoryOf(const FrameDetails& details) {
 Json frameReport(const FrameStats& stats) {
     const FrameDetails none;
     const FrameDetails& details = stats.details ? *stats.details : none;
-    Json json = {{"triangles", stats.triangle_count},
+    Json json = {{"kept", stats.kept},
+                 {"triangles", stats.triangle_count},
                  {"draws", stats.draw_count},
                  {"grid", toJson(stats.grid)},
                  {"light_lists", toJson(stats.lists)},

@@ -30,6 +30,7 @@ class RendererView final : public ViewSource {
         const auto work = view_.begin({.settings = settings,
                                        .time_s = time.lights_s,
                                        .playing = time.playing,
+                                       .keep_surfaces = true,
                                        .beside_bytes = beside_bytes});
         if (!work) {
             return work.error();

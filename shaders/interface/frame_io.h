@@ -17,7 +17,8 @@ struct ToonSegment {
 };
 FROXEL_SIZE_ASSERT(ToonSegment, 20);
 
-struct Frame {
+// All that passes that draw surfaces know of a frame: while it stays, so may what they drew.
+struct FrameCamera {
     // clip = (xy * clip_scale + clip_offset * w, clip_z.x + clip_z.y * z, w)
     // w = clip_w.x + clip_w.y * z
     vec2 clip_scale;
@@ -34,6 +35,12 @@ struct Frame {
     vec2 ray_spread;
     uint width_px;
     uint height_px;
+    float orthographic; // 1: all view rays are parallel
+};
+FROXEL_SIZE_ASSERT(FrameCamera, 84);
+
+struct Frame {
+    FrameCamera camera;
     uint tile_width_px;
     uint tile_height_px;
     uint tile_count_x;
@@ -45,10 +52,9 @@ struct Frame {
     uint slice_first;
     uint slice_scale;
     uint slice_shift;
-    vec3 up_view;       // world up
-    float exposure;     // where it is metered, as it was asked for until then
-    vec3 ambient_sky;   // linear radiance from above
-    float orthographic; // 1: all view rays are parallel
+    vec3 up_view;     // world up
+    float exposure;   // where it is metered, as it was asked for until then
+    vec3 ambient_sky; // linear radiance from above
     vec3 ambient_ground;
     float slice_unit;
     vec3 background;         // linear, of the display: halfway up the picture

@@ -11,6 +11,10 @@ FROXEL_CONST uint kTriangleBits = 7U;
 FROXEL_CONST uint kCullGroup = 256U; // placed meshlets a workgroup of the culling passes
 FROXEL_CONST uint kCulled = 0xffffffffU;
 FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
+// Of a dispatch that resolves ids: the last one of the frame also fills empty pixels; depths are
+// those of planes already, kept from a frame before.
+FROXEL_CONST uint kResolveLast = 1U;
+FROXEL_CONST uint kResolveKept = 2U;
 // Base colour, normal, roughness, occlusion, emission, specular, specular colour; coat, its
 // roughness, its normal.
 FROXEL_CONST uint kTexturesOfMaterial = 10U;

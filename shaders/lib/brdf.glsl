@@ -75,7 +75,8 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
         s.shininess = s.lobe = 0.0;
         return s;
     }
-    s.to_eye_view = frame.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
+    s.to_eye_view =
+        frame.camera.orthographic != 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-position_view);
     s.n_dot_eye = dot(normal_view, s.to_eye_view);
     s.n_dot_v = max(abs(s.n_dot_eye), 1e-4);
     precise float alpha = max(roughness, 0.045) * max(roughness, 0.045);

@@ -54,7 +54,7 @@ float fogPlane(uint k) {
 
 // The pixel that a node stands at: the last ones at the picture's border.
 uvec2 nodePixel(uvec2 node) {
-    return min(node * fog.tile_px, uvec2(frame.width_px, frame.height_px) - 1u);
+    return min(node * fog.tile_px, uvec2(frame.camera.width_px, frame.camera.height_px) - 1u);
 }
 
 uint fogTexelOf(uvec3 node) {

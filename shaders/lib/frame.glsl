@@ -8,7 +8,15 @@ layout(constant_id = 1) const uint LIGHT_FLAGS = 0;
 layout(constant_id = 2) const uint OUTPUT_FLAGS = 0;
 layout(constant_id = 3) const uint BATCH_SIZE = 8;
 
+#ifdef FROXEL_CAMERA_ALONE
+// Of passes whose results are kept while what they read stays.
+struct FrameOfSurfaces {
+    FrameCamera camera;
+};
+layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameOfSurfaces frame; };
+#else
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { Frame frame; };
+#endif
 // Texel buffers: a software rasteriser gathers from these without a branch for each invocation,
 // four times cheaper than from storage buffers.
 layout(set = 0, binding = 1) uniform textureBuffer light_texels;  // io::Light: 2 texels
@@ -33,17 +41,18 @@ bool hasOutput(uint flag) { return (OUTPUT_FLAGS & flag) != 0; }
 
 // Metres along the view axis; depth > 0.
 float distanceFromDepth(float depth) {
-    return (frame.distance_num.x + frame.distance_num.y * depth) /
-           (frame.distance_den.x + frame.distance_den.y * depth);
+    return (frame.camera.distance_num.x + frame.camera.distance_num.y * depth) /
+           (frame.camera.distance_den.x + frame.camera.distance_den.y * depth);
 }
 
 // The same bits in every renderer: from the integer pixel and the distance alone.
 vec3 positionFromDistance(uvec2 pixel, float distance) {
-    precise vec2 ray = (vec2(pixel) + 0.5) * frame.ray_scale + frame.ray_offset;
-    precise vec2 xy = ray * (frame.ray_spread.x + frame.ray_spread.y * distance);
+    precise vec2 ray = (vec2(pixel) + 0.5) * frame.camera.ray_scale + frame.camera.ray_offset;
+    precise vec2 xy = ray * (frame.camera.ray_spread.x + frame.camera.ray_spread.y * distance);
     return vec3(xy, -distance);
 }
 
+#ifndef FROXEL_CAMERA_ALONE
 const uint kNoCluster = 0xffffffffu;
 
 // A depth in fixed point: the unit is a power of two, so nothing rounds but the conversion, down.
@@ -96,3 +105,4 @@ float toonBand(float light, float middle) {
         middle > 0.0 ? middle * squared / (1.0 - squared) : band * band * frame.toon_brightest;
     return light > 0.0 ? level : 0.0;
 }
+#endif

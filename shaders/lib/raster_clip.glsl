@@ -26,7 +26,7 @@ vec4 cutEdge(vec4 inside, vec4 outside, uint plane) {
     precise float share = from / (from - insidePlane(outside, plane));
     precise vec4 cut = inside + share * (outside - inside);
     if (plane == kNearPlane) { // there w = z, and one of them is the same everywhere
-        if (frame.orthographic != 0.0) {
+        if (frame.camera.orthographic != 0.0) {
             cut.z = cut.w;
         } else {
             cut.w = cut.z;

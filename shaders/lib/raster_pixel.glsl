@@ -14,7 +14,7 @@ bool drawsItem(VisibleItem item) {
 }
 
 void drawPixel(uvec2 pixel, float depth, uint id) {
-    uint at = pixel.y * frame.width_px + pixel.x;
+    uint at = pixel.y * frame.camera.width_px + pixel.x;
     uint bits = floatBitsToUint(depth);
     if (!(depth > 0.0)) {
         return;

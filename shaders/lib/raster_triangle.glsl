@@ -25,7 +25,7 @@ ClipTriangle clipTriangle(PlacedMeshlet placed, VisibleItem item, InstanceView v
                         project(toView(positions[v.z])));
 }
 
-vec2 halfSize() { return 0.5 * vec2(frame.width_px, frame.height_px); }
+vec2 halfSize() { return 0.5 * vec2(frame.camera.width_px, frame.camera.height_px); }
 
 // In front of the near plane.
 bool inFront(vec4 clip) { return clip.w >= clip.z; }
@@ -45,7 +45,7 @@ struct Corner {
 Corner toScreen(vec4 clip) {
     precise vec2 ndc = clip.xy / clip.w;
     precise vec2 from_middle = ndc * (halfSize() * float(1u << kSubpixelBits));
-    ivec2 middle = ivec2(frame.width_px, frame.height_px) << (kSubpixelBits - 1u);
+    ivec2 middle = ivec2(frame.camera.width_px, frame.camera.height_px) << (kSubpixelBits - 1u);
     vec2 snapped = floor(from_middle + 0.5);
     return Corner(ivec2(snapped) + middle, snapped - from_middle, clip.z / clip.w);
 }

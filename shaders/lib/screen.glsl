@@ -7,10 +7,12 @@ layout(set = 1, binding = 4) uniform utexture2D extra_image; // the G-buffer's s
 
 // Without &&: what it guards would be loaded for each invocation on a software rasteriser.
 bool insideScreen(uvec2 pixel) {
-    return all(lessThan(pixel, uvec2(frame.width_px, frame.height_px)));
+    return all(lessThan(pixel, uvec2(frame.camera.width_px, frame.camera.height_px)));
 }
 
+#ifndef FROXEL_CAMERA_ALONE
 void storePixel(uvec2 pixel, vec4 radiance) {
-    pixels[pixel.y * frame.width_px + pixel.x] =
-        packDisplay(displayColor(radiance, backgroundAt(pixel.y, frame.height_px)));
+    pixels[pixel.y * frame.camera.width_px + pixel.x] =
+        packDisplay(displayColor(radiance, backgroundAt(pixel.y, frame.camera.height_px)));
 }
+#endif

@@ -37,9 +37,9 @@ VisibleTriangle fetchTriangle(uint id) {
 // The ray of a pixel meets the triangle's plane at corner + x * edge1 + y * edge2 (Moeller and
 // Trumbore 1997): perspective-correct weights of the second and third corner.
 vec2 planeCoordinates(VisibleTriangle t, vec2 pixel) {
-    precise vec2 ray = (pixel + 0.5) * frame.ray_scale + frame.ray_offset;
-    precise vec3 direction = vec3(ray * frame.ray_spread.y, -1.0);
-    precise vec3 from_corner = vec3(ray * frame.ray_spread.x, 0.0) - t.corner;
+    precise vec2 ray = (pixel + 0.5) * frame.camera.ray_scale + frame.camera.ray_offset;
+    precise vec3 direction = vec3(ray * frame.camera.ray_spread.y, -1.0);
+    precise vec3 from_corner = vec3(ray * frame.camera.ray_spread.x, 0.0) - t.corner;
     precise vec3 across = cross(direction, t.edge2);
     precise float area = dot(t.edge1, across);
     precise vec2 weights =
@@ -84,8 +84,8 @@ vec4 viewTangent(InstanceView view, vec4 tangent_object) {
 
 // Whether the pixel looks at the triangle's front.
 bool showsFront(VisibleTriangle t, InstanceView view, uvec2 pixel) {
-    vec2 ray = (vec2(pixel) + 0.5) * frame.ray_scale + frame.ray_offset;
-    vec3 direction = vec3(ray * frame.ray_spread.y, -1.0);
+    vec2 ray = (vec2(pixel) + 0.5) * frame.camera.ray_scale + frame.camera.ray_offset;
+    vec3 direction = vec3(ray * frame.camera.ray_spread.y, -1.0);
     bool counter_clockwise = dot(cross(t.edge1, t.edge2), direction) < 0.0;
     return counter_clockwise != (view.mirrored != 0u);
 }

@@ -96,10 +96,10 @@ using Point = glm::i64vec2;
 
 // In 1/256 of a pixel; the shader's own steps, none of which another order could round otherwise.
 Point snapped(const glm::vec3& position, const io::Frame& frame) {
-    const glm::vec2 ndc = glm::vec2(position) * frame.clip_scale / -position.z;
-    const glm::vec2 size(frame.width_px, frame.height_px);
+    const glm::vec2 ndc = glm::vec2(position) * frame.camera.clip_scale / -position.z;
+    const glm::vec2 size(frame.camera.width_px, frame.camera.height_px);
     const glm::vec2 at = glm::floor(ndc * (0.5F * size * 256.0F) + 0.5F);
-    return Point(at) + Point(frame.width_px, frame.height_px) * int64_t{128};
+    return Point(at) + Point(frame.camera.width_px, frame.camera.height_px) * int64_t{128};
 }
 
 bool covers(std::array<Point, 3> t, Point center) {
@@ -122,7 +122,8 @@ bool covers(std::array<Point, 3> t, Point center) {
 // For each pixel the triangles that cover it.
 std::vector<std::vector<uint32_t>> coverOnHost(const scene::Scene& scene, const io::Frame& frame) {
     const auto& p = scene.meshes[0].primitives[0];
-    std::vector<std::vector<uint32_t>> cover(size_t{frame.width_px} * frame.height_px);
+    std::vector<std::vector<uint32_t>> cover(size_t{frame.camera.width_px} *
+                                             frame.camera.height_px);
     const auto sign = static_cast<float>(scene.instances[0].world_from_object[0][0]);
     for (uint32_t i = 0; 3 * size_t{i} < p.indices.size(); ++i) {
         std::array<Point, 3> t;
@@ -133,10 +134,12 @@ std::vector<std::vector<uint32_t>> coverOnHost(const scene::Scene& scene, const 
         }
         const auto low = glm::min(t[0], glm::min(t[1], t[2])) / int64_t{256};
         const auto high = glm::max(t[0], glm::max(t[1], t[2])) / int64_t{256};
-        for (int64_t y = std::max<int64_t>(low.y, 0); y <= high.y && y < frame.height_px; ++y) {
-            for (int64_t x = std::max<int64_t>(low.x, 0); x <= high.x && x < frame.width_px; ++x) {
+        for (int64_t y = std::max<int64_t>(low.y, 0); y <= high.y && y < frame.camera.height_px;
+             ++y) {
+            for (int64_t x = std::max<int64_t>(low.x, 0); x <= high.x && x < frame.camera.width_px;
+                 ++x) {
                 if (covers(t, Point(x * 256 + 128, y * 256 + 128))) {
-                    cover[static_cast<size_t>(y) * frame.width_px + static_cast<size_t>(x)]
+                    cover[static_cast<size_t>(y) * frame.camera.width_px + static_cast<size_t>(x)]
                         .push_back(i);
                 }
             }
@@ -232,8 +235,8 @@ TEST_F(ComputeRasterCover, LeaningPlaneThroughTheNearPlane_Depths_AreThePlanes) 
         for (uint32_t y = 0; y < kSize.height_px; ++y) {
             for (uint32_t x = 0; x < kSize.width_px; ++x) {
                 // z = -4 - x * 6 / 40 on the ray (r, s, -1) * distance
-                const double r = (x + 0.5) * static_cast<double>(frame.ray_scale.x) +
-                                 static_cast<double>(frame.ray_offset.x);
+                const double r = (x + 0.5) * static_cast<double>(frame.camera.ray_scale.x) +
+                                 static_cast<double>(frame.camera.ray_offset.x);
                 const double expected = (1 - r * 6 / 40) / 4 * inputs.settings.camera.near_m;
                 const double depth =
                     static_cast<double>(seen.depths[size_t{y} * kSize.width_px + x]);

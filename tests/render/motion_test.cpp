@@ -210,6 +210,34 @@ TEST_F(Moving, Lists_EqualAllLightsBitForBit) {
     }
 }
 
+// A pose that stands keeps what was drawn of it while lights move; another one is drawn.
+TEST_F(Moving, SurfacesKept_OfAPoseThatStands_AreAFreshViews) {
+    const auto scene = movingRoom(true);
+    render::Renderer renderer(device(), scene);
+    for (const Way& way : kWays) {
+        SCOPED_TRACE(way.name);
+        render::ViewRenderer view(renderer);
+        double time_s = 3;
+        double stood_s = -1;
+        bool last_kept = false;
+        for (const double stands_s : {0.2, 0.2, 0.2, 0.9, 0.9, 0.2, 1.5, 1.5}) {
+            auto inputs = inputsOf(way, scene, time_s += 0.25);
+            inputs.depth_prepass = true;
+            inputs.settings.lights.speed = 1;
+            inputs.playing = motion::Playing{motion::usualClips(*scene.motion), stands_s};
+            const Picture expected = draw(renderer, inputs);
+            inputs.keep_surfaces = true;
+            const Picture kept = draw(view, inputs);
+            EXPECT_EQ(kept.rgba8, expected.rgba8);
+            EXPECT_EQ(differingFloats(kept, expected), 0U);
+            EXPECT_TRUE(stands_s == stood_s || !kept.stats.kept);
+            stood_s = stands_s;
+            last_kept = kept.stats.kept;
+        }
+        EXPECT_TRUE(last_kept);
+    }
+}
+
 // Half way from one clip to another.
 TEST_F(Moving, CrossFade_ListsEqualAllLights_AndItIsTheSceneThatStandsSo) {
     for (const bool bends : {false, true}) {

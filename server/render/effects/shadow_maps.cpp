@@ -237,9 +237,9 @@ io::ShadowLight tableEntry(const io::Light& light,
 
 io::Frame mapUniforms() {
     io::Frame frame{};
-    frame.clip_scale = {1, 1};
-    frame.clip_z = {io::kShadowNear, 0}; // reversed-Z, infinite far
-    frame.clip_w = {0, -1};
+    frame.camera.clip_scale = {1, 1};
+    frame.camera.clip_z = {io::kShadowNear, 0}; // reversed-Z, infinite far
+    frame.camera.clip_w = {0, -1};
     return frame;
 }
 

@@ -158,18 +158,20 @@ void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     const auto add = [&](const char* name, const RegionCost& cost) {
         passes.push_back({name, timeOver(cost, drawn)});
     };
-    if (plan.visibility) {
-        add("visibility", ids());
-        if (plan.gbuffer || plan.visibility_shade) {
-            add(plan.gbuffer ? "resolve" : "shade", resolve());
-        }
-    } else {
-        if (plan.depth_prepass || !(plan.forward || plan.gbuffer)) {
+    if (!plan.kept) {
+        if (plan.visibility) {
+            add("visibility", ids());
+        } else if (plan.depth_prepass || !(plan.forward || plan.gbuffer)) {
             add("depth_prepass", depthPrepass());
         }
-        if (plan.forward || plan.gbuffer) {
-            plan.forward ? add("forward", forward()) : add("gbuffer", gbuffer());
+        if (plan.gbuffer) {
+            plan.visibility ? add("resolve", resolve()) : add("gbuffer", gbuffer());
         }
+    }
+    if (plan.visibility_shade) {
+        add("shade", resolve());
+    } else if (plan.forward) {
+        add("forward", forward());
     }
     if (plan.lighting_compute || plan.lighting_fragment) {
         add("lighting", lighting());

@@ -24,6 +24,9 @@ struct FrameInputs {
     double time_s = 0; // the lights' clock; pauses and speed are already folded in
     // What plays of the scene; none: what Motion::played says, at time_s.
     std::optional<motion::Playing> playing = {};
+    // What rests since the view's frame before is not drawn again: the same bits, sooner. Not for
+    // whoever measures what a whole frame takes.
+    bool keep_surfaces = false;
     bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
     // For tests and measurements.
     GenericParts generic = {};

@@ -121,6 +121,11 @@ bool drawsLayers(const settings::ViewSettings& settings, bool scene_layers) {
            settings.shading != settings::ShadingModel::kLambert;
 }
 
+bool leavesSurfaces(const FramePlan& plan) {
+    return (plan.visibility || plan.gbuffer || plan.depth_prepass) && !plan.count_samples &&
+           plan.debug != settings::DebugView::kOverdraw;
+}
+
 bool FramePlan::hasEffect(EffectPlace place) const {
     return std::ranges::any_of(effects, [place](const auto& it) { return it.row->place == place; });
 }

@@ -64,6 +64,8 @@ struct FramePlan {
     bool visibility = false;       // solid surfaces by ids of triangles, culled on the device
     bool compute_raster = false;   // rastered in compute
     bool visibility_shade = false; // these are shaded at once, without a G-buffer
+    // What draws depth, ids and G-buffer is left out: the view's targets hold them (SurfacesDrawn).
+    bool kept = false;
     bool cull_meshlets = true;
     bool lighting_compute = false;
     bool lighting_fragment = false;
@@ -111,6 +113,9 @@ struct FramePlan {
 
 // Whether surfaces with layers, for which the G-buffer has no room, are drawn over the lit ones.
 [[nodiscard]] bool drawsLayers(const settings::ViewSettings& settings, bool scene_layers);
+
+// Whether the plan has passes whose results the next frame may keep.
+[[nodiscard]] bool leavesSurfaces(const FramePlan& plan);
 
 // What the settings' pictures are drawn at: twice the sides where pixels have four samples.
 [[nodiscard]] settings::Size drawnSize(const settings::ViewSettings& settings);

@@ -78,30 +78,30 @@ io::Frame makeFrameUniforms(const settings::ViewSettings& settings,
                             uint32_t directional_count) {
     const auto& camera = settings.camera;
     io::Frame frame{};
-    frame.clip_scale = projection.clip_scale;
-    frame.clip_offset = projection.clip_offset;
+    frame.camera.clip_scale = projection.clip_scale;
+    frame.camera.clip_offset = projection.clip_offset;
     const double near = camera.near_m;
     if (camera.projection == settings::Projection::kPerspective) {
         // Reversed-Z, infinite far: depth = near / distance.
-        frame.clip_z = {near, 0};
-        frame.clip_w = {0, -1};
-        frame.distance_num = {near, 0};
-        frame.distance_den = {0, 1};
-        frame.ray_spread = {0, 1};
+        frame.camera.clip_z = {near, 0};
+        frame.camera.clip_w = {0, -1};
+        frame.camera.distance_num = {near, 0};
+        frame.camera.distance_den = {0, 1};
+        frame.camera.ray_spread = {0, 1};
     } else {
         const double range = projection.far_m - near;
-        frame.clip_z = {projection.far_m / range, 1.0 / range};
-        frame.clip_w = {1, 0};
-        frame.distance_num = {projection.far_m, -range};
-        frame.distance_den = {1, 0};
-        frame.ray_spread = {1, 0};
-        frame.orthographic = 1;
+        frame.camera.clip_z = {projection.far_m / range, 1.0 / range};
+        frame.camera.clip_w = {1, 0};
+        frame.camera.distance_num = {projection.far_m, -range};
+        frame.camera.distance_den = {1, 0};
+        frame.camera.ray_spread = {1, 0};
+        frame.camera.orthographic = 1;
     }
-    frame.ray_scale = {2.0 / (settings.size.width_px * projection.clip_scale.x),
-                       2.0 / (settings.size.height_px * projection.clip_scale.y)};
-    frame.ray_offset = (glm::dvec2(-1.0) - projection.clip_offset) / projection.clip_scale;
-    frame.width_px = settings.size.width_px;
-    frame.height_px = settings.size.height_px;
+    frame.camera.ray_scale = {2.0 / (settings.size.width_px * projection.clip_scale.x),
+                              2.0 / (settings.size.height_px * projection.clip_scale.y)};
+    frame.camera.ray_offset = (glm::dvec2(-1.0) - projection.clip_offset) / projection.clip_scale;
+    frame.camera.width_px = settings.size.width_px;
+    frame.camera.height_px = settings.size.height_px;
     frame.tile_width_px = settings.size.width_px;
     frame.tile_height_px = settings.size.height_px;
     frame.tile_count_x = frame.tile_count_y = frame.slice_count = 1;

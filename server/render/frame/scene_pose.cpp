@@ -1,5 +1,8 @@
 #include "render/frame/scene_pose.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
 #include <utility>
 
 namespace froxel::render {
@@ -18,6 +21,16 @@ ScenePose::ScenePose(const SceneResources& scene) : scene_(scene) {
         standAt(0);
     }
 }
+
+namespace {
+
+// Bit by bit.
+template <class T>
+bool equal(const std::vector<T>& a, const std::vector<T>& b) {
+    return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
+}
+
+} // namespace
 
 void ScenePose::placeItems() {
     const auto& deformed_of_instance = scene_.motion->deformed_of_instance;
@@ -46,6 +59,8 @@ void ScenePose::standAt(double time_s, const std::optional<motion::Playing>& pla
         return;
     }
     motion::Moment& moment = moved_->moment;
+    const auto [instances, joints, weights] =
+        std::tuple(moment.instances, moved_->joints, moved_->weights);
     shared.player.at(wanted.clips, wanted.now_s, moment);
     moved_->bounds_world = scene_.bounds_world;
     moved_->bounds_world.add(moment.bounds_world);
@@ -63,6 +78,11 @@ void ScenePose::standAt(double time_s, const std::optional<motion::Playing>& pla
         moved_->weights.assign(moment.pose.weights.begin(), moment.pose.weights.end());
     }
     moved_->playing = std::move(wanted);
+    // A clip that is paused goes on in time and stands still.
+    number_ += equal(instances, moment.instances) && equal(joints, moved_->joints) &&
+                       equal(weights, moved_->weights)
+                   ? 0U
+                   : 1U;
 }
 
 uint64_t ScenePose::hostBytes() const {

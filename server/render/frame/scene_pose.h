@@ -45,6 +45,8 @@ class ScenePose {
     [[nodiscard]] std::span<const float> weights() const {
         return moved_ ? moved_->weights : std::span<const float>();
     }
+    // Counts changes of where surfaces are.
+    [[nodiscard]] uint64_t number() const { return number_; }
     // Kept on the host, for what grows with the scene.
     [[nodiscard]] uint64_t hostBytes() const;
 
@@ -63,6 +65,7 @@ class ScenePose {
 
     const SceneResources& scene_;
     std::unique_ptr<Moved> moved_; // null: the scene rests
+    uint64_t number_ = 0;
 };
 
 } // namespace froxel::render

@@ -3,9 +3,12 @@
 
 #include "gpu/command_context.h"
 #include "gpu/memory.h"
+#include "interface/frame_io.h"
 #include "render/frame/frame_plan.h"
 #include "settings/settings.h"
 
+#include <cstring>
+#include <optional>
 #include <vector>
 
 namespace froxel::render {
@@ -49,6 +52,19 @@ inline constexpr vk::DeviceSize kWordBytes = 8;
     return vk::DeviceSize{4} * shown.width_px * shown.height_px;
 }
 
+// What depth, ids and G-buffer were drawn from. They are functions of it alone: equal ones need no
+// drawing.
+struct SurfacesDrawn {
+    io::FrameCamera camera;
+    uint64_t draw_list = 0; // the view's, which counts those that it makes
+    FramePlan plan;         // all of it, so that nothing is forgotten
+
+    bool operator==(const SurfacesDrawn& other) const {
+        return std::memcmp(&camera, &other.camera, sizeof(camera)) == 0 &&
+               draw_list == other.draw_list && plan == other.plan;
+    }
+};
+
 struct ViewTargets {
     // All images end in the GENERAL layout, where they stay. Throws vk::OutOfDeviceMemoryError.
     ViewTargets(const gpu::Device& device,
@@ -70,7 +86,8 @@ struct ViewTargets {
     gpu::Buffer display;      // packed pixels that a filter follows; null handle: not needed
     gpu::Buffer pixels;       // null handle: not needed
     bool fresh = true;        // the images still await their first transition
-    bool rastered_in_compute = false; // solid surfaces of the frame last submitted
+    bool rastered_in_compute = false;      // solid surfaces of the frame last submitted
+    std::optional<SurfacesDrawn> surfaces; // that they hold once what is submitted has run
 
     [[nodiscard]] bool fits(const settings::Size& drawn,
                             const settings::Size& shown_now,

@@ -31,6 +31,11 @@ void LightGrid::chooseGrid(const settings::ViewSettings& settings,
                                                             : cluster::Lit::kSurfaces);
     const Asked asked{settings.size,     settings.renderer, settings.grid, settings.light_loop,
                       settings.list_cap, settings.lights,   &costs};
+    if (settings.list_cap >
+        0) { // another grid caps other lights: no picture may depend on what was
+        memory_ = {};
+        frames_left_ = 0;
+    }
     if (frames_left_ == 0 || asked != asked_) {
         makeChoice(settings, lights, costs);
         asked_ = asked;

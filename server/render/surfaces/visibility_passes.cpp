@@ -32,12 +32,13 @@ void shade(const FrameContext& frame,
 template <class Find>
 void resolve(const FrameContext& frame, const vk::Rect2D& region, const char* name, Find find) {
     const auto& scene = *frame.visibility;
+    const uint32_t kept = frame.plan.kept ? io::kResolveKept : 0U;
     const size_t used = frame.scene.variants.firstUses();
     const vk::Pipeline pipeline = find();
     if (scene.pipelines.bindless()) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, name);
         bindVisibilityCompute(frame, pipeline);
-        shade(frame, region, scene.textureSet(), {io::kAnyMaterial, 1});
+        shade(frame, region, scene.textureSet(), {io::kAnyMaterial, io::kResolveLast | kept});
         return;
     }
     const bool is_new = frame.scene.variants.firstUses() > used;
@@ -48,7 +49,8 @@ void resolve(const FrameContext& frame, const vk::Rect2D& region, const char* na
             bindVisibilityCompute(frame, pipeline);
             for (const uint32_t material : materials) {
                 const bool last = material == scene.materials_in_use.back();
-                shade(frame, region, frame.scene.materialSet(material), {material, last ? 1U : 0U});
+                shade(frame, region, frame.scene.materialSet(material),
+                      {material, (last ? io::kResolveLast : 0U) | kept});
             }
         });
 }

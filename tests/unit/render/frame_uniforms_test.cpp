@@ -27,9 +27,10 @@ io::Frame frameFor(const settings::ViewSettings& settings, double far_m = 100) {
 double roundTrip(const io::Frame& f, double distance) {
     const auto d = [](float x) { return static_cast<double>(x); };
     const double z = -distance;
-    const double depth = (d(f.clip_z.x) + d(f.clip_z.y) * z) / (d(f.clip_w.x) + d(f.clip_w.y) * z);
-    return (d(f.distance_num.x) + d(f.distance_num.y) * depth) /
-           (d(f.distance_den.x) + d(f.distance_den.y) * depth);
+    const double depth = (d(f.camera.clip_z.x) + d(f.camera.clip_z.y) * z) /
+                         (d(f.camera.clip_w.x) + d(f.camera.clip_w.y) * z);
+    return (d(f.camera.distance_num.x) + d(f.camera.distance_num.y) * depth) /
+           (d(f.camera.distance_den.x) + d(f.camera.distance_den.y) * depth);
 }
 
 } // namespace
@@ -53,11 +54,12 @@ TEST(FrameUniforms, Ray_OfAPixelCentre_ProjectsBackToIt) {
     settings.size = {17, 33};
     const auto frame = frameFor(settings);
     for (const float pixel : {0.5F, 8.5F, 16.5F}) {
-        const float x = pixel * frame.ray_scale.x + frame.ray_offset.x; // at distance 1
-        const float ndc = x * frame.clip_scale.x;
+        const float x =
+            pixel * frame.camera.ray_scale.x + frame.camera.ray_offset.x; // at distance 1
+        const float ndc = x * frame.camera.clip_scale.x;
         EXPECT_NEAR((ndc + 1) * 0.5F * 17, pixel, 1e-4F);
     }
-    EXPECT_GT(frame.ray_offset.y, 0); // the top row looks up
+    EXPECT_GT(frame.camera.ray_offset.y, 0); // the top row looks up
 }
 
 // The middle pixel of a shifted picture looks half a picture to the right and a quarter down.
@@ -72,13 +74,15 @@ TEST(FrameUniforms, ShiftedLens_MovesRaysAndProjectionAlike) {
         const double half_y = kind == settings::Projection::kPerspective
                                   ? std::tan(settings.camera.yfov_rad / 2)
                                   : settings.camera.half_height_m;
-        const glm::vec2 ray = glm::vec2(320, 180) * frame.ray_scale + frame.ray_offset;
+        const glm::vec2 ray =
+            glm::vec2(320, 180) * frame.camera.ray_scale + frame.camera.ray_offset;
         EXPECT_NEAR(ray.x, 0.5 * half_y * 640 / 360, 1e-5);
         EXPECT_NEAR(ray.y, -0.25 * half_y, 1e-5);
         const float distance = 7;
-        const glm::vec2 xy = ray * (frame.ray_spread.x + frame.ray_spread.y * distance);
-        const float w = frame.clip_w.x - frame.clip_w.y * distance;
-        const glm::vec2 clip = xy * frame.clip_scale + frame.clip_offset * w;
+        const glm::vec2 xy =
+            ray * (frame.camera.ray_spread.x + frame.camera.ray_spread.y * distance);
+        const float w = frame.camera.clip_w.x - frame.camera.clip_w.y * distance;
+        const glm::vec2 clip = xy * frame.camera.clip_scale + frame.camera.clip_offset * w;
         EXPECT_NEAR(clip.x / w, 0, 1e-6);
         EXPECT_NEAR(clip.y / w, 0, 1e-6);
     }

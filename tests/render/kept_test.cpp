@@ -1,0 +1,208 @@
+// What rests is not drawn again, and nobody can tell from a picture.
+#include "render/renderer.h"
+#include "settings/setting_rows.h"
+#include "support/draw.h"
+#include "support/gpu_fixture.h"
+#include "support/setting_values.h"
+#include "support/test_scenes.h"
+#include "support/tier.h"
+
+#include <random>
+#include <string>
+
+namespace froxel::test {
+
+namespace {
+
+using settings::Renderer;
+
+class Kept : public SharedGpuTest {
+  protected:
+    static void TearDownTestSuite() {
+        renderer_.reset();
+        SharedGpuTest::TearDownTestSuite();
+    }
+    // Of all tests, as its pipelines are: solid, masked, coated and blended surfaces.
+    [[nodiscard]] static render::Renderer& renderer() {
+        if (!renderer_) {
+            renderer_ = std::make_unique<render::Renderer>(device(), room());
+        }
+        return *renderer_;
+    }
+    static const scene::Scene& room() {
+        static const scene::Scene scene = [] {
+            scene::Scene made = makeRoom();
+            made.materials[0].coat = 0.7F;
+            made.materials[4].metallic_roughness_texture.texture = 0; // which lambert leaves out
+            return made;
+        }();
+        return scene;
+    }
+    [[nodiscard]] static render::FrameInputs inputs(Renderer kind = Renderer::kClusteredDeferred) {
+        render::FrameInputs inputs;
+        inputs.settings.camera = room().cameras[0].camera;
+        inputs.settings.size = {72, 40};
+        inputs.settings.renderer = kind;
+        inputs.settings.lights.count = 20;
+        inputs.time_s = 1;
+        inputs.keep_surfaces = true;
+        return inputs;
+    }
+    // The view's next frame, which may keep what it has, against a view's first.
+    static Picture expectAsAnew(render::ViewRenderer& view, const render::FrameInputs& inputs) {
+        render::FrameInputs whole = inputs;
+        whole.keep_surfaces = false;
+        render::ViewRenderer anew(renderer());
+        const auto submitted = view.submit(inputs);
+        const auto expected = anew.submit(whole);
+        EXPECT_EQ(submitted.has_value(), expected.has_value());
+        if (!submitted || !expected) {
+            EXPECT_EQ(submitted ? "" : submitted.error().message,
+                      expected ? "" : expected.error().message);
+            return {};
+        }
+        const Picture picture = collected(view, inputs);
+        const Picture first = collected(anew, whole);
+        EXPECT_FALSE(first.stats.kept);
+        EXPECT_EQ(picture.rgba8, first.rgba8);
+        EXPECT_EQ(differingFloats(picture, first), 0U);
+        return picture;
+    }
+
+  private:
+    static Picture collected(render::ViewRenderer& view, const render::FrameInputs& inputs) {
+        Picture picture;
+        auto frame = view.collect();
+        if (!frame) {
+            ADD_FAILURE() << frame.error().message;
+            return picture;
+        }
+        const PixelView& pixels = frame->pixels.view();
+        picture.rgba8.assign(pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px);
+        picture.stats = frame->stats;
+        if (inputs.keep_radiance) {
+            auto linear = view.readLinear();
+            picture.radiance = linear ? std::move(linear->rgb) : std::vector<float>();
+        }
+        return picture;
+    }
+
+    inline static std::unique_ptr<render::Renderer> renderer_;
+};
+
+// With the row at another value than the view has it.
+void change(const settings::SettingOf<settings::ViewSettings>& row, render::FrameInputs& inputs) {
+    row.set(inputs.settings, otherValue(row, row.get(inputs.settings)));
+}
+
+std::string nameOf(Renderer kind) {
+    return std::string(settings::kRendererNames[static_cast<size_t>(kind)]);
+}
+
+} // namespace
+
+// Lights that move are no reason to draw surfaces again. All renderers that have a part to keep.
+TEST_F(Kept, MovingLights_BeforeSurfacesThatRest_DrawThemOnce) {
+    for (const auto path :
+         {render::GeometryPath::kAuto, render::GeometryPath::kRaster,
+          render::GeometryPath::kVisibility, render::GeometryPath::kComputeRaster}) {
+        for (size_t kind = 0; kind < settings::kRendererNames.size(); ++kind) {
+            const auto renderer = static_cast<Renderer>(kind);
+            SCOPED_TRACE(nameOf(renderer));
+            render::ViewRenderer view(Kept::renderer());
+            auto asked = inputs(renderer);
+            asked.geometry = path;
+            asked.depth_prepass = renderer != Renderer::kNaive;
+            asked.keep_radiance = true;
+            (void)expectAsAnew(view, asked); // counts what is drawn over what
+            asked.time_s = 2;
+            EXPECT_TRUE(!expectAsAnew(view, asked).stats.kept || kind > 0);
+            asked.time_s = 3;
+            const Picture third = expectAsAnew(view, asked);
+            asked.time_s = 4;
+            const Picture fourth = expectAsAnew(view, asked);
+            const bool keeps = renderer != Renderer::kNaive || hasPass(fourth, "shade");
+            EXPECT_EQ(third.stats.kept, keeps);
+            EXPECT_EQ(fourth.stats.kept, keeps);
+            for (const char* pass :
+                 {"depth_prepass", "gbuffer", "visibility", "raster_meshlets", "cull", "resolve"}) {
+                EXPECT_FALSE(keeps && hasPass(fourth, pass)) << pass;
+            }
+            asked.settings.camera.eye_world.x += 0.01;
+            EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+            asked.keep_surfaces = false;
+            EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+        }
+    }
+}
+
+// Each row of the settings' table by itself, after a frame that was kept, and back.
+TEST_F(Kept, AnySetting_ChangedAlone_GivesThePictureOfAFreshView) {
+    render::ViewRenderer view(renderer());
+    const auto base = inputs();
+    const Picture at_rest = expectAsAnew(view, base);
+    for (const auto& row : settings::kSettingRows) {
+        SCOPED_TRACE(std::string(row.name));
+        auto changed = base;
+        change(row, changed);
+        (void)expectAsAnew(view, changed);
+        const Picture back = drawPixels(view, base);
+        EXPECT_EQ(back.rgba8, at_rest.rgba8);
+        EXPECT_EQ(drawPixels(view, base).rgba8, at_rest.rgba8);
+    }
+}
+
+// Settings, time, camera and size go at random ways; most frames keep what they can.
+TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
+    std::mt19937 random(11);
+    const auto one_of = [&](size_t count) { return random() % count; };
+    render::ViewRenderer view(renderer());
+    auto asked = inputs();
+    asked.keep_radiance = true;
+    const auto base = asked.settings;
+    size_t kept_count = 0;
+    const size_t steps = wholeGrids() ? 3000 : 200;
+    for (size_t step = 0; step < steps; ++step) {
+        SCOPED_TRACE(step);
+        const auto before = asked.settings;
+        asked.time_s += 0.1;
+        if (one_of(20) == 0) {
+            asked.settings = base;
+        } else if (one_of(3) == 0) {
+            const auto& row = settings::kSettingRows[one_of(std::size(settings::kSettingRows))];
+            SCOPED_TRACE(std::string(row.name));
+            change(row, asked);
+        } else if (one_of(6) == 0) {
+            asked.settings.size = one_of(2) == 0 ? settings::Size{40, 72} : settings::Size{72, 40};
+        } else if (one_of(6) == 0) {
+            asked.settings.camera = room().cameras[one_of(room().cameras.size())].camera;
+        }
+        const Picture picture = expectAsAnew(view, asked);
+        kept_count += picture.stats.kept ? 1U : 0U;
+        if (picture.rgba8.empty()) { // refused
+            asked.settings = before;
+        }
+        if (HasFailure()) {
+            return;
+        }
+    }
+    EXPECT_GT(kept_count, steps / 8);
+}
+
+// A frame that was given up half drawn leaves nothing to keep.
+TEST_F(Kept, FrameGivenUp_IsDrawnAnew) {
+    render::ViewRenderer view(renderer(), {}, {Seconds(100), Seconds(1e-5)});
+    auto asked = inputs();
+    (void)expectAsAnew(view, asked);
+    asked.settings.camera = room().cameras[1].camera;
+    const auto begun = view.begin(asked);
+    ASSERT_TRUE(begun && begun->piece_count > 1);
+    ASSERT_TRUE(view.submitPiece());
+    view.abandon();
+    ASSERT_TRUE(view.collectPiece());
+    EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+    asked.settings.camera = room().cameras[0].camera;
+    EXPECT_FALSE(expectAsAnew(view, asked).stats.kept);
+}
+
+} // namespace froxel::test
