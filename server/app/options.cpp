@@ -195,6 +195,9 @@ void addOutputs(CommandBuilder& command, RenderOptions& options) {
     command.number("--frames", options.frame_count, kFramesRange, "Frames to draw, 1/30 s apart");
     command.number("--warmup", options.warmup_count, kWarmupRange,
                    "Frames drawn before those and not counted");
+    command.cli().add_flag("--keep-surfaces", options.keep_surfaces,
+                           "Keep depth and G-buffer from frame to frame where nothing that is in "
+                           "them changes, as serve does; else each frame is drawn whole");
     command.text("--timings", "FILE", options.timings, "", "JSON: times of passes and frames");
 }
 

@@ -127,6 +127,9 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
     arguments.changed("--time", options.time_s, usual.time_s);
     arguments.always("--frames", numberText(options.frame_count));
     arguments.changed("--warmup", options.warmup_count, usual.warmup_count);
+    if (options.keep_surfaces) {
+        arguments.texts().emplace_back("--keep-surfaces");
+    }
     if (!options.out.empty()) {
         arguments.always("--out", options.out.string());
     }

@@ -116,8 +116,10 @@ Still drawAll(const RenderOptions& options,
               const motion::Playback& playback,
               render::ViewRenderer& viewer,
               TimedRun& run) {
-    render::FrameInputs inputs{
-        .settings = run.settings, .time_s = run.time_s, .playing = playback.at(run.time_s)};
+    render::FrameInputs inputs{.settings = run.settings,
+                               .time_s = run.time_s,
+                               .playing = playback.at(run.time_s),
+                               .keep_surfaces = options.keep_surfaces};
     for (uint32_t i = 0; i < options.warmup_count; ++i) {
         draw(viewer, inputs);
     }

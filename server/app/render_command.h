@@ -32,6 +32,7 @@ struct RenderOptions {
     // Drawn at time_s before the first frame and not counted: the first frame of a run compiles
     // pipelines and sizes the light lists.
     uint32_t warmup_count = 3;
+    bool keep_surfaces = false;    // from frame to frame, as serve does
     std::filesystem::path timings; // empty: none; else timings_report.h's JSON
 };
 

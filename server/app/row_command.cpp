@@ -20,6 +20,7 @@ std::string rowCommand(const BenchOptions& options,
     render.time_s = view.time_s;
     render.frame_count = static_cast<uint32_t>(frame_count);
     render.warmup_count = result.budget.warmup_first;
+    render.keep_surfaces = row.keep_surfaces;
     render.timings = "timings.json";
     return shellCommand(renderArguments(render, view.name));
 }

@@ -188,6 +188,25 @@ Sweep cameraPath(const Base& base) {
     return sweep;
 }
 
+// A viewer who looks: the camera rests, lights move.
+Sweep rest(const Base& base) {
+    Sweep sweep{"rest",
+                "A camera at rest before lights that move",
+                "surfaces",
+                "",
+                Axis::kCategory,
+                "Drawn anew in each frame, or kept as serve keeps them.",
+                {}};
+    for (const auto& way : kWays) {
+        for (const bool keep : {false, true}) {
+            auto row = rowOf(base, way, keep ? "kept" : "drawn anew", keep ? 1 : 0);
+            row.keep_surfaces = keep;
+            sweep.rows.push_back(std::move(row));
+        }
+    }
+    return sweep;
+}
+
 Sweep memory(const Base& base) {
     struct Load {
         settings::Size size;
@@ -248,6 +267,7 @@ constexpr std::array kPresets = {
     Preset{"toon", toon},
     Preset{"renderer", renderer},
     Preset{"view", cameraPath},
+    Preset{"rest", rest},
     Preset{"memory", memory},
     Preset{"debug_view", debugViews},
     Preset{"resolution_scale", resolutionScaleSweep},

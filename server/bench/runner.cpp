@@ -73,7 +73,8 @@ void skip(RowTimes& times, const Error& error) {
 uint32_t Runner::warmUp(const Row& row, double time_s, RowTimes& times, double& frame_s) {
     const double warmup_s = budget_.seconds_per_row / 4;
     render::ViewRenderer viewer(renderer_);
-    const render::FrameInputs inputs{.settings = row.settings, .time_s = time_s};
+    const render::FrameInputs inputs{
+        .settings = row.settings, .time_s = time_s, .keep_surfaces = row.keep_surfaces};
     const auto start = Clock::now();
     for (uint32_t i = 0; i < budget_.warmup_first; ++i) {
         const auto frame_start = Clock::now();
@@ -122,7 +123,8 @@ Runner::warmUpAll(const Sweep& sweep, const Base& base, std::vector<RowTimes>& t
 
 void Runner::draw(const Turn& turn, const Row& row, double time_s, RowTimes& times) {
     render::ViewRenderer viewer(renderer_);
-    render::FrameInputs inputs{.settings = row.settings, .time_s = time_s};
+    render::FrameInputs inputs{
+        .settings = row.settings, .time_s = time_s, .keep_surfaces = row.keep_surfaces};
     const auto timeOf = [&](uint32_t frame) {
         return time_s + frame * report::lightStepS(row.settings.lights);
     };

@@ -248,8 +248,25 @@ void recordOverlay(const FrameContext& frame) {
     }
 }
 
+// Between a frame and the next one of the view, which has no pass that draws surfaces to come
+// between: what that one loaded, stored and copied -> what this one does.
+void recordKept(const vk::raii::CommandBuffer& cmd) {
+    constexpr vk::PipelineStageFlags2 kAll =
+        kShaders | kDepthStages | Stage::eColorAttachmentOutput | Stage::eCopy;
+    constexpr vk::AccessFlags2 kWrites =
+        Access::eShaderStorageWrite | Access::eColorAttachmentWrite |
+        Access::eDepthStencilAttachmentWrite | Access::eTransferWrite;
+    barrier(cmd, kAll, kWrites, kAll,
+            kWrites | Access::eShaderSampledRead | Access::eShaderStorageRead |
+                Access::eColorAttachmentRead | Access::eDepthStencilAttachmentRead |
+                Access::eTransferRead);
+}
+
 // What there is to see, solid, or what a debug view shows in its place.
 void recordSurfaces(const FrameContext& frame) {
+    if (frame.plan.kept) {
+        recordKept(frame.slot.cmd);
+    }
     if (settings::replacesPicture(frame.plan.debug)) {
         recordReplacement(frame);
     } else if (frame.plan.visibility_shade) {

@@ -26,6 +26,7 @@ RenderOptions parsedCommand(const bench::Base& base, const bench::Row& row) {
     options.settings = row.settings;
     options.time_s = view.time_s;
     options.frame_count = 40;
+    options.keep_surfaces = true;
     options.timings = "timings.json";
     if (!row.light_set.empty()) {
         options.light_set = std::filesystem::path(testing::TempDir()) / row.light_set;
@@ -46,6 +47,7 @@ TEST(RenderArguments, EveryRow_ParsesBackToItsSettings) {
         EXPECT_EQ(parsed.device.choice, gpu::DeviceChoice::kCpu);
         EXPECT_EQ(parsed.time_s, view.time_s);
         EXPECT_EQ(parsed.frame_count, 40U);
+        EXPECT_TRUE(parsed.keep_surfaces);
         if (const auto* camera = std::get_if<settings::Camera>(&parsed.camera)) {
             EXPECT_EQ(*camera, std::get<settings::Camera>(parseCamera(view.name).value()));
         } else {

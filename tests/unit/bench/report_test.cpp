@@ -83,7 +83,7 @@ TEST(RunReport, Row_HasTheSchemasFields) {
                 testing::UnorderedElementsAre(
                     "label", "series", "value", "workload", "settings", "scaled_to", "command",
                     "frames", "gpu_us", "host_us", "frame_us", "cpu_us", "passes", "samples",
-                    "triangles", "draws", "grid", "light_lists", "pairs", "peel", "plan",
+                    "kept", "triangles", "draws", "grid", "light_lists", "pairs", "peel", "plan",
                     "memory_bytes", "gbuffer_bytes_per_pixel", "error_r1", "error_r2", "stream",
                     "note"));
     EXPECT_EQ(row["label"], "forward_plus");
