@@ -144,8 +144,11 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     }
     slot.stats.lists = builder_.listStats();
     slot.stats.peel.layer_count = peelLayers(plan, builder_.draws());
+    FramePlan described = plan;
+    described.kept = false; // comes and goes: of this frame's figures, not of what describes many
     slot.stats.details = details_.update(
-        inputs.settings, builder_.plannedFacts(), plan, scene_.needs, *scene_.device.memoryLedger(),
+        inputs.settings, builder_.plannedFacts(), described, scene_.needs,
+        *scene_.device.memoryLedger(),
         plan.debug != settings::DebugView::kNone ? &builder_.debugFrame().legend : nullptr);
     slot.stats.grid = builder_.gridStats();
     slot.counts_pairs = plan.count_pairs;

@@ -4,14 +4,18 @@ import { element, make } from '../core/dom';
 import { percent, timeText } from '../core/format';
 import { sumOf, type PassShare } from './pass_meter';
 
-/** Hues a golden angle apart: neighbours differ, however many there are. */
-export const passColor = (index: number): string =>
+/** Hues a golden angle apart. */
+const passColor = (index: number): string =>
   `hsl(${((index * 137.508 + 215) % 360).toFixed(0)}deg 62% 54%)`;
+
+/** A pass has its own, whichever passes were seen before it: a frame that keeps surfaces has fewer. The numbers were
+ * searched for: passes that follow each other in a frame are 43 degrees apart. */
+export const colorOfPass = (name: string): string =>
+  passColor(Array.from(name).reduce((sum, letter) => (sum * 281 + letter.charCodeAt(0)) % 9973, 39));
 
 export class PassStack {
   private readonly bar = element('passes-bar', HTMLElement);
   private readonly table = element('passes-table', HTMLTableElement);
-  private readonly colors = new Map<string, string>(); // a pass keeps its own
   private built = '';
 
   show(passes: readonly PassShare[]): void {
@@ -29,8 +33,7 @@ export class PassStack {
 
   private build(passes: readonly PassShare[]): void {
     const parts = passes.map(({ name }) => {
-      const color = this.colors.get(name) ?? passColor(this.colors.size);
-      this.colors.set(name, color);
+      const color = colorOfPass(name);
       const text = name.replaceAll('_', ' ');
       const segment = make('span');
       segment.style.background = color;

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { PassMeter, sumOf } from '../../src/stats/pass_meter';
-import { passColor } from '../../src/stats/pass_stack';
+import { colorOfPass } from '../../src/stats/pass_stack';
 import { frameHeader } from '../fakes';
 
 const frame = (...passes: [name: string, gpuUs?: number][]): ReturnType<typeof frameHeader> =>
@@ -60,9 +60,11 @@ describe('PassMeter of a driver without timestamps', () => {
   });
 });
 
-describe('passColor', () => {
-  it('TwentyPasses_HaveTwentyColours', () => {
-    const colors = Array.from({ length: 20 }, (_, index) => passColor(index));
-    expect(new Set(colors).size).toBe(20);
+describe('colorOfPass', () => {
+  it('PassesOfAFrame_HaveColoursOfTheirOwn', () => {
+    const names = ['assign_count', 'assign_scan', 'assign_fill', 'assign_order', 'shadows', 'cull', 'raster_meshlets'];
+    names.push('raster_blocks', 'raster_unpack', 'resolve', 'gbuffer', 'lighting', 'layers', 'transparent', 'bloom');
+    names.push('tonemap', 'fxaa', 'readback', 'depth_prepass', 'forward');
+    expect(new Set(names.map(colorOfPass)).size).toBe(names.length);
   });
 });

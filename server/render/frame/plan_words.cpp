@@ -116,11 +116,6 @@ void addSolidWords(Lines& lines,
                    const settings::ViewSettings& settings,
                    const FrameFacts& facts,
                    const FramePlan& plan) {
-    if (plan.kept) {
-        lines.emplace_back(plan.gbuffer ? "kept: depth and G-buffer are those of the frame before"
-                           : plan.visibility ? "kept: depth and ids are those of the frame before"
-                                             : "kept: depth is that of the frame before");
-    }
     if (plan.pose) {
         lines.emplace_back("skins or morph targets: their vertices are posed in compute");
     }
