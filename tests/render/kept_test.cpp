@@ -71,15 +71,7 @@ class Kept : public SharedGpuTest {
 
   private:
     static Picture collected(render::ViewRenderer& view, const render::FrameInputs& inputs) {
-        Picture picture;
-        auto frame = view.collect();
-        if (!frame) {
-            ADD_FAILURE() << frame.error().message;
-            return picture;
-        }
-        const PixelView& pixels = frame->pixels.view();
-        picture.rgba8.assign(pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px);
-        picture.stats = frame->stats;
+        Picture picture = collectPixels(view);
         if (inputs.keep_radiance) {
             auto linear = view.readLinear();
             picture.radiance = linear ? std::move(linear->rgb) : std::vector<float>();

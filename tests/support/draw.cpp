@@ -6,13 +6,8 @@
 
 namespace froxel::test {
 
-Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs) {
+Picture collectPixels(render::ViewRenderer& view) {
     Picture picture;
-    const auto submitted = view.submit(inputs);
-    if (!submitted) {
-        ADD_FAILURE() << submitted.error().message;
-        return picture;
-    }
     auto frame = view.collect();
     if (!frame) {
         ADD_FAILURE() << frame.error().message;
@@ -24,6 +19,15 @@ Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs
     picture.rgba8.assign(pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px);
     picture.stats = frame->stats;
     return picture;
+}
+
+Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs) {
+    const auto submitted = view.submit(inputs);
+    if (!submitted) {
+        ADD_FAILURE() << submitted.error().message;
+        return {};
+    }
+    return collectPixels(view);
 }
 
 Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {

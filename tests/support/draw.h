@@ -24,6 +24,9 @@ struct Picture {
 // Without its radiance, as debug views have none.
 [[nodiscard]] Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs);
 
+// Of the frame that was submitted.
+[[nodiscard]] Picture collectPixels(render::ViewRenderer& view);
+
 [[nodiscard]] bool hasPass(const Picture& picture, std::string_view name);
 
 // Floats whose bits differ; every float where the sizes do.
