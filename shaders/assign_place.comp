@@ -4,9 +4,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "lib/assign.glsl"
-#include "lib/assign_scan.glsl"
 
 layout(local_size_x = 256) in;
+#include "lib/assign_scan.glsl"
 
 shared uint counts[kAssignScanBlock];
 shared uint short_total;

@@ -145,7 +145,7 @@ bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
 }
 
 bool FrameBuilder::acceptLists(const AssignSlot& lists) {
-    const io::AssignTotals& totals = lists.totals();
+    const io::AssignTotals totals = lists.totals();
     const bool whole = device_lists_.accept(totals);
     if (const auto tiles = lists.tileLongest();
         !tiles.empty() && totals.outcome != io::kAssignShort) {

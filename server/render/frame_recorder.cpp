@@ -363,6 +363,18 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
                 Access::eShaderStorageRead | Access::eShaderStorageWrite |
                     Access::eIndirectCommandRead);
     };
+    const auto finish = [&] {
+        // lists and indices -> shading; lists or counters -> copy
+        barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders | Stage::eCopy,
+                Access::eShaderRead | Access::eTransferRead);
+        recordAssignCopy(assign);
+    };
+    if (assign.slot.inLines()) {
+        const gpu::PassScope scope(timestamps, cmd, "assign_lines");
+        recordAssignLines(assign);
+        finish();
+        return;
+    }
     {
         const gpu::PassScope scope(timestamps, cmd, "assign_count");
         recordAssignClear(assign);
@@ -388,10 +400,7 @@ void recordAssignment(const AssignContext& assign, gpu::Timestamps& timestamps) 
     }
     const gpu::PassScope scope(timestamps, cmd, "assign_order");
     recordAssignOrder(assign);
-    // lists and indices -> shading; counters -> copy
-    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, kShaders | Stage::eCopy,
-            Access::eShaderRead | Access::eTransferRead);
-    recordAssignCopy(assign);
+    finish();
 }
 
 } // namespace froxel::render

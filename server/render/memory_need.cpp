@@ -57,7 +57,7 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
         for (const auto& part : listParts(frame.lists)) {
             need.buffer(part.name, part.bytes);
         }
-        need.buffer("light list counters", kTotalsBytes * ViewRenderer::kReadbackSlots);
+        need.buffer("light list counters", kListReadbackBytes * ViewRenderer::kReadbackSlots);
     }
     need.buffer("posed vertices", frame.posed_bytes);
     need.buffer("counters", kSlotBytes * ViewRenderer::kReadbackSlots);

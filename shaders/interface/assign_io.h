@@ -25,6 +25,8 @@ FROXEL_CONST uint kAssignAllLights = 1U; // past max_entries: every cluster name
 FROXEL_CONST uint kAssignShort = 2U;     // a buffer was too small: no lists, draw the frame again
 FROXEL_CONST uint kAssignLong = 3U;      // pixels may loop over more than allowed: likewise
 FROXEL_CONST uint kAssignMaxTiles = 16384U;
+FROXEL_CONST uint kAssignMaxColumns = 128U;
+FROXEL_CONST uint kAssignLineGroup = 512U; // invocations of a workgroup that makes a line of lists
 
 // One frame's grid and limits. A table of doubles follows it in a buffer of its own: plane depths
 // and their reciprocals (grid_z + 1 each; 0 for the eye), row edges and row norms (used_rows + 1

@@ -85,6 +85,20 @@ Columns perspectiveColumns(Ball ball, uint slice, uint row) {
     return columnsWithin(x);
 }
 
+// Orthographic lines decide for themselves.
+bool inSlice(LightVolume volume, uint slice) {
+    Ball ball = volume.ball;
+    if (volume.unlimited || frame.perspective == 0u) {
+        return true;
+    }
+    precise double nearest = ball.z - ball.radius;
+    precise double farthest = ball.z + ball.radius;
+    return farthest >= 0.0 && nearest <= planeDepth(frame.grid_z) &&
+           (slice + 1u == frame.grid_z || planeDepth(slice + 1u) > nearest) &&
+           (slice == 0u || planeDepth(slice) <= farthest) &&
+           !outsidePicture(ball, frame.columns, frame.rows);
+}
+
 Columns orthographicColumns(Ball ball, uint slice, uint row) {
     double half_width =
         boxChord(ball, planeDepth(slice), planeDepth(slice + 1u), rowEdge(row), rowEdge(row + 1u));

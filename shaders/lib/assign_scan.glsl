@@ -1,5 +1,5 @@
-// Prefix sums over a workgroup of kAssignScanGroup invocations; all must call.
-shared uint scan_words[kAssignScanGroup];
+// Prefix sums over a workgroup, whose size is declared before; all must call.
+shared uint scan_words[gl_WorkGroupSize.x];
 
 uint saturated(uint sum) { return min(sum, kAssignSaturated); }
 
@@ -9,13 +9,13 @@ uint scanGroup(uint value, out uint total) {
     uint self = gl_LocalInvocationIndex;
     barrier();
     scan_words[self] = value;
-    for (uint step = 1u; step < kAssignScanGroup; step <<= 1u) {
+    for (uint step = 1u; step < gl_WorkGroupSize.x; step <<= 1u) {
         barrier();
         uint before = self >= step ? scan_words[self - step] : 0u;
         barrier();
         scan_words[self] = saturated(scan_words[self] + before);
     }
     barrier();
-    total = scan_words[kAssignScanGroup - 1u];
+    total = scan_words[gl_WorkGroupSize.x - 1u];
     return self > 0u ? scan_words[self - 1u] : 0u;
 }

@@ -30,13 +30,19 @@ class GpuAssignment : public SharedGpuTest {
     static void SetUpTestSuite() {
         SharedGpuTest::SetUpTestSuite();
         assigner_ = std::make_unique<DeviceAssigner>(device());
+        in_passes_ = std::make_unique<DeviceAssigner>(device(), kInPasses);
     }
     static void TearDownTestSuite() {
+        in_passes_.reset();
         assigner_.reset();
         SharedGpuTest::TearDownTestSuite();
     }
 
+    // As large grids are assigned.
+    static constexpr render::ListLimits kInPasses{.line_entries = 0};
+
     inline static std::unique_ptr<DeviceAssigner> assigner_;
+    inline static std::unique_ptr<DeviceAssigner> in_passes_;
 };
 
 cluster::LightLists onHost(const ClusterGrid& grid, const FrameLights& lights) {
@@ -157,15 +163,20 @@ TEST_F(GpuAssignment, RandomAndAdversarialCases_GiveTheHostsLists) {
     const uint32_t cases = text != nullptr ? static_cast<uint32_t>(std::atoi(text))
                            : wholeGrids()  ? 150
                                            : 60;
+    uint32_t in_lines = 0;
     for (uint32_t seed = 0; seed < cases; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const RandomCase random(seed);
-        expectSame(assigner_->assign(random.grid(), random.lights()),
-                   onHost(random.grid(), random.lights()));
+        const auto host = onHost(random.grid(), random.lights());
+        expectSame(assigner_->assign(random.grid(), random.lights()), host);
+        expectSame(in_passes_->assign(random.grid(), random.lights()), host);
+        EXPECT_FALSE(in_passes_->inLines());
+        in_lines += assigner_->inLines() ? 1U : 0U;
         if (HasFatalFailure()) {
             return;
         }
     }
+    EXPECT_GT(in_lines, cases / 2);
 }
 
 TEST_F(GpuAssignment, RandomLights_MeetTheClustersOfTheOracle) {
@@ -201,14 +212,17 @@ TEST_F(GpuAssignment, NoLights_LeaveEmptyLists) {
 TEST_F(GpuAssignment, ListsOfAnyLength_AreInOrder) {
     const ClusterGrid grid =
         cluster::makeClusterGrid({{2, 2, 1}}, {64, 64}, perspective(45), 0.1, 10);
-    for (const uint32_t count :
-         {1U, 2U, 63U, 64U, 65U, 2047U, 2048U, 2049U, 5000U, 65535U, 65536U, 131072U, 131073U}) {
+    for (const uint32_t count : {1U, 2U, 63U, 64U, 65U, 2047U, 2048U, 2049U, 4095U, 4096U, 4097U,
+                                 5000U, 65535U, 65536U, 131072U, 131073U}) {
         SCOPED_TRACE(count);
         FrameLights lights;
         for (uint32_t i = 0; i < count; ++i) {
             addPoint(lights, {i % 3 == 0 ? 0.5 : -0.5, 0, -3}, 0.4);
         }
-        expectSame(assigner_->assign(grid, lights), onHost(grid, lights));
+        const auto host = onHost(grid, lights);
+        expectSame(assigner_->assign(grid, lights), host);
+        EXPECT_EQ(assigner_->inLines(), count <= render::kLineLights);
+        expectSame(in_passes_->assign(grid, lights), host);
     }
 }
 
@@ -217,7 +231,8 @@ TEST_F(GpuAssignment, TooLittleRoom_GrowsToTheHostsLists) {
     const auto host = onHost(random.grid(), random.lights());
     ASSERT_GT(host.stats.entry_count, 200U);
     for (const auto& [entries, tasks] : {std::pair(1U, 100'000U), {100'000U, 1U}, {1U, 1U}}) {
-        DeviceAssigner tight(device(), {.first_entries = entries, .first_tasks = tasks});
+        DeviceAssigner tight(device(),
+                             {.first_entries = entries, .first_tasks = tasks, .line_entries = 0});
         expectSame(tight.assign(random.grid(), random.lights()), host);
         EXPECT_GT(tight.attempts(), 1U);
         expectSame(tight.assign(random.grid(), random.lights()), host);
@@ -240,7 +255,8 @@ TEST_F(GpuAssignment, PastTheLimit_EveryClusterNamesAllLights) {
 
 TEST_F(GpuAssignment, MoreTasksThanMayBe_AreRefused) {
     const RandomCase random(3);
-    DeviceAssigner device(SharedGpuTest::device(), {.first_tasks = 1, .max_tasks = 2});
+    DeviceAssigner device(SharedGpuTest::device(),
+                          {.first_tasks = 1, .line_entries = 0, .max_tasks = 2});
     (void)device.assign(random.grid(), random.lights());
     EXPECT_TRUE(device.refused());
 }

@@ -34,12 +34,23 @@ void expectSamePictures(const Picture& device, const Picture& host) {
     EXPECT_EQ(device.stats.lists.why, host.stats.lists.why);
 }
 
+std::vector<std::string> assignPasses(const Picture& picture) {
+    std::vector<std::string> names;
+    for (const PassTime& pass : picture.stats.passes) {
+        if (pass.name.rfind("assign_", 0) == 0) {
+            names.push_back(pass.name);
+        }
+    }
+    return names;
+}
+
 } // namespace
 
 TEST_F(GpuAssignmentFrames, EveryRenderer_DrawsTheSamePicture) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
     render::ViewRenderer view(renderer);
+    render::ViewRenderer view_in_passes(renderer, {.line_entries = 0});
     for (const auto kind :
          {settings::Renderer::kForwardPlus, settings::Renderer::kClusteredDeferred,
           settings::Renderer::kToonCompute}) {
@@ -49,10 +60,12 @@ TEST_F(GpuAssignmentFrames, EveryRenderer_DrawsTheSamePicture) {
         inputs.assignment = render::AssignmentPlace::kDevice;
         const Picture device = draw(view, inputs);
         expectSamePictures(device, host);
-        EXPECT_EQ(
-            std::count_if(device.stats.passes.begin(), device.stats.passes.end(),
-                          [](const PassTime& pass) { return pass.name.rfind("assign_", 0) == 0; }),
-            4);
+        EXPECT_EQ(assignPasses(device), std::vector<std::string>{"assign_lines"});
+        const Picture in_passes = draw(view_in_passes, inputs);
+        expectSamePictures(in_passes, host);
+        EXPECT_EQ(assignPasses(in_passes),
+                  (std::vector<std::string>{"assign_count", "assign_scan", "assign_fill",
+                                            "assign_order"}));
     }
 }
 
@@ -63,7 +76,7 @@ TEST_F(GpuAssignmentFrames, TooLittleRoom_IsDrawnAgainBeforeItIsShown) {
     render::Renderer renderer(device(), scene);
     const auto host_inputs = inputsFor(scene, render::AssignmentPlace::kHost);
     const Picture host = draw(renderer, host_inputs);
-    render::ViewRenderer view(renderer, {.first_entries = 1, .first_tasks = 1});
+    render::ViewRenderer view(renderer, {.first_entries = 1, .first_tasks = 1, .line_entries = 0});
     auto inputs = inputsFor(scene, render::AssignmentPlace::kDevice);
     inputs.keep_radiance = true;
     for (int i = 0; i < 3; ++i) {
@@ -85,7 +98,7 @@ TEST_F(GpuAssignmentFrames, TooLittleRoom_IsDrawnAgainBeforeItIsShown) {
 TEST_F(GpuAssignmentFrames, MoreTasksThanMayBe_AreAssignedOnTheHost) {
     const auto scene = makeRoom();
     render::Renderer renderer(device(), scene);
-    render::ViewRenderer view(renderer, {.first_tasks = 1, .max_tasks = 2});
+    render::ViewRenderer view(renderer, {.first_tasks = 1, .line_entries = 0, .max_tasks = 2});
     const Picture device = draw(view, inputsFor(scene, render::AssignmentPlace::kDevice));
     expectSamePictures(device, draw(renderer, inputsFor(scene, render::AssignmentPlace::kHost)));
 }

@@ -22,6 +22,17 @@ std::vector<T> readBack(const gpu::Buffer& buffer, size_t count) {
     return values;
 }
 
+// Lists that one dispatch made lie apart: moves them together.
+void closeUp(cluster::LightLists& lists) {
+    std::vector<uint32_t> together;
+    for (io::ClusterList& list : lists.clusters) {
+        const auto first = lists.indices.begin() + list.offset;
+        list.offset = static_cast<uint32_t>(together.size());
+        together.insert(together.end(), first, first + list.count);
+    }
+    lists.indices = std::move(together);
+}
+
 } // namespace
 
 struct DeviceAssigner::Impl {
@@ -62,11 +73,13 @@ void DeviceAssigner::Impl::run(const cluster::ClusterGrid& grid, const light::Fr
 
 cluster::LightLists DeviceAssigner::Impl::fetch(const cluster::ClusterGrid& grid,
                                                 size_t light_count) {
-    const auto& totals = slot.totals();
+    const io::AssignTotals totals = slot.totals();
     cluster::LightLists out;
     out.stats = render::listStats(totals, static_cast<uint32_t>(light_count), grid.clusterCount());
     out.all_lights = out.stats.overflowed;
-    const size_t index_count = out.all_lights ? light_count : totals.entry_count;
+    const size_t index_count = out.all_lights   ? light_count
+                               : slot.inLines() ? grid.clusterCount() * light_count
+                                                : totals.entry_count;
     gpu::MemoryArena arena(device);
     const auto usage = vk::BufferUsageFlagBits::eTransferDst;
     const auto list_copy = arena.makeBuffer(grid.clusterCount() * sizeof(io::ClusterList), usage,
@@ -84,6 +97,9 @@ cluster::LightLists DeviceAssigner::Impl::fetch(const cluster::ClusterGrid& grid
     });
     out.clusters = readBack<io::ClusterList>(list_copy, grid.clusterCount());
     out.indices = readBack<uint32_t>(index_copy, index_count);
+    if (slot.inLines()) {
+        closeUp(out);
+    }
     return out;
 }
 
@@ -113,6 +129,10 @@ uint32_t DeviceAssigner::attempts() const {
 
 bool DeviceAssigner::refused() const {
     return impl_->lists.refused();
+}
+
+bool DeviceAssigner::inLines() const {
+    return impl_->slot.inLines();
 }
 
 } // namespace froxel::test

@@ -21,6 +21,7 @@ class DeviceAssigner {
                                              const light::FrameLights& lights);
     [[nodiscard]] uint32_t attempts() const; // of the last call
     [[nodiscard]] bool refused() const;
+    [[nodiscard]] bool inLines() const; // of the last call: by one dispatch
 
   private:
     struct Impl;

@@ -47,6 +47,10 @@ void recordAssignClear(const AssignContext& assign) {
                           assign.slot.frame().cluster_count * sizeof(uint32_t), 0);
 }
 
+void recordAssignLines(const AssignContext& assign) {
+    dispatch(assign, AssignPass::kLines, assign.slot.frame().grid_y * assign.slot.frame().grid_z);
+}
+
 void recordAssignBound(const AssignContext& assign) {
     dispatch(assign, AssignPass::kBound, groups(assign.slot.frame().light_count, io::kAssignGroup));
 }
@@ -73,9 +77,12 @@ void recordAssignOrder(const AssignContext& assign) {
 }
 
 void recordAssignCopy(const AssignContext& assign) {
-    assign.cmd.copyBuffer(*assign.slot.buffers().totals.handle, assign.slot.readback(),
-                          vk::BufferCopy{.size = sizeof(io::AssignTotals) +
-                                                 assign.slot.pricedTiles() * sizeof(uint32_t)});
+    const AssignSlot& slot = assign.slot;
+    const auto& from = slot.inLines() ? slot.buffers().lists : slot.buffers().totals;
+    const uint64_t bytes = slot.inLines()
+                               ? slot.frame().cluster_count * sizeof(io::ClusterList)
+                               : sizeof(io::AssignTotals) + slot.pricedTiles() * sizeof(uint32_t);
+    assign.cmd.copyBuffer(*from.handle, slot.readback(), vk::BufferCopy{.size = bytes});
 }
 
 } // namespace froxel::render

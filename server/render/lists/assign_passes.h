@@ -13,6 +13,9 @@ struct AssignContext {
     const AssignSlot& slot;
 };
 
+// Of a small grid: all lists and indices at once.
+void recordAssignLines(const AssignContext& assign);
+// Of others, in this order.
 void recordAssignClear(const AssignContext& assign); // transfer: counters and cursors
 void recordAssignBound(const AssignContext& assign); // writes tasks and how many groups they take
 void recordAssignCount(const AssignContext& assign); // indirect; writes spans, adds to cursors
@@ -20,6 +23,7 @@ void recordAssignSum(const AssignContext& assign);   // reads cursors; writes bl
 void recordAssignPlace(const AssignContext& assign); // writes lists, cursors, queue, outcome
 void recordAssignFill(const AssignContext& assign);  // indirect; writes unordered indices
 void recordAssignOrder(const AssignContext& assign); // indirect, twice; writes indices
-void recordAssignCopy(const AssignContext& assign);  // transfer: counters to the host
+// Transfer: what the host reads of the lists.
+void recordAssignCopy(const AssignContext& assign);
 
 } // namespace froxel::render

@@ -3,7 +3,7 @@
 #include "embedded.h"
 #include "gpu/memory.h"
 #include "gpu/pipeline.h"
-#include "interface/assign_math.h"
+#include "interface/assign_io.h"
 #include "render/pipelines/host_copies.h"
 
 #include <array>
@@ -50,6 +50,9 @@ std::string AssignPipelines::unusable(const gpu::Device& device, gpu::Timeline& 
     }
     if (limits.maxPerStageDescriptorStorageBuffers < kBindings) {
         return "the device binds too few storage buffers";
+    }
+    if (limits.maxComputeWorkGroupInvocations < io::kAssignLineGroup) {
+        return "the device's workgroups are too small";
     }
     const auto set_layout = storageLayout(device, 2);
     const auto layout = gpu::makePipelineLayout(device, {*set_layout});
@@ -100,6 +103,7 @@ AssignPipelines::AssignPipelines(const gpu::Device& device)
     const auto add = [&](gpu::Spirv code, std::string_view name) {
         pipelines_.push_back(gpu::makeComputePipeline(device, code, {}, *layout_, name));
     };
+    add(assign_lines_comp(), "assign lines");
     add(assign_bound_comp(), "assign bound");
     add(assign_count_comp(), "assign count");
     add(assign_sum_comp(), "assign sum");

@@ -11,11 +11,11 @@
 
 namespace froxel::render {
 
-enum class AssignPass : uint8_t { kBound, kCount, kSum, kPlace, kFill, kOrder, kOrderLong };
+enum class AssignPass : uint8_t { kLines, kBound, kCount, kSum, kPlace, kFill, kOrder, kOrderLong };
 
 class AssignPipelines {
   public:
-    static constexpr uint32_t kPasses = 7;
+    static constexpr uint32_t kPasses = 8;
     static constexpr uint32_t kBindings = 14; // storage buffers: shaders/lib/assign.glsl
 
     explicit AssignPipelines(const gpu::Device& device); // why() of it must be empty

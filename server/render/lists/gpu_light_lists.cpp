@@ -46,8 +46,9 @@ io::AssignSpot makeSpot(const light::FrameLights& lights, const io::Light& light
 std::vector<ListPart> listParts(const ListCapacity& capacity) {
     constexpr uint64_t kWord = sizeof(uint32_t);
     const uint64_t clusters = capacity.clusters;
-    const uint64_t entries = capacity.entries;
-    const uint64_t tasks = capacity.tasks;
+    const uint64_t entries = std::max(capacity.entries, 1U);
+    const uint64_t unordered = std::max(capacity.unordered, 1U);
+    const uint64_t tasks = std::max(capacity.tasks, 1U);
     return {
         {&ListBuffers::totals, "light list counters", kTotalsBytes,
          Usage::eIndirectBuffer | Usage::eTransferDst | Usage::eTransferSrc},
@@ -58,7 +59,7 @@ std::vector<ListPart> listParts(const ListCapacity& capacity) {
         {&ListBuffers::queue, "light list queue", clusters * kWord, {}},
         {&ListBuffers::lists, "light lists", clusters * sizeof(io::ClusterList),
          Usage::eUniformTexelBuffer | Usage::eTransferSrc},
-        {&ListBuffers::raw_indices, "light indices, unordered", entries * kWord, {}},
+        {&ListBuffers::raw_indices, "light indices, unordered", unordered * kWord, {}},
         {&ListBuffers::indices, "light indices", entries * kWord,
          Usage::eUniformTexelBuffer | Usage::eTransferSrc}};
 }
@@ -72,9 +73,10 @@ ListBuffers::ListBuffers(const gpu::Device& device, const ListCapacity& capacity
 }
 
 AssignSlot::AssignSlot(const gpu::Device& device, const AssignPipelines& pipelines)
-    : device_(device), arena_(device),
-      readback_(arena_.makeBuffer(
-          kTotalsBytes, Usage::eTransferDst, gpu::MemoryUse::kReadback, "light list counters")),
+    : device_(device), arena_(device), readback_(arena_.makeBuffer(kListReadbackBytes,
+                                                                   Usage::eTransferDst,
+                                                                   gpu::MemoryUse::kReadback,
+                                                                   "light list counters")),
       pool_(nullptr) {
     static_assert(uint64_t{settings::kGridXRange.max} * settings::kGridYRange.max <=
                   io::kAssignMaxTiles);
@@ -90,6 +92,7 @@ void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
                        const AssignOffsets& offsets) {
     buffers_ = std::move(buffers);
     const io::AssignFrame& frame = frame_ = data.frame[0];
+    in_lines_ = data.in_lines;
     const auto part = [&](vk::DeviceSize offset, vk::DeviceSize bytes) {
         return vk::DescriptorBufferInfo{upload, offset, std::max<vk::DeviceSize>(bytes, 16)};
     };
@@ -121,8 +124,18 @@ void AssignSlot::write(std::shared_ptr<ListBuffers> buffers,
         {});
 }
 
-const io::AssignTotals& AssignSlot::totals() const {
-    return *reinterpret_cast<const io::AssignTotals*>(readback_.mapped);
+io::AssignTotals AssignSlot::totals() const {
+    if (!in_lines_) {
+        return *reinterpret_cast<const io::AssignTotals*>(readback_.mapped);
+    }
+    io::AssignTotals totals{};
+    const auto* lists = reinterpret_cast<const io::ClusterList*>(readback_.mapped);
+    for (const io::ClusterList& list : std::span(lists, frame_.cluster_count)) {
+        totals.entry_count += list.count;
+        totals.largest = std::max(totals.largest, list.count);
+        ++totals.histogram[io::histogramBucket(list.count)];
+    }
+    return totals;
 }
 
 std::span<const uint32_t> AssignSlot::tileLongest() const {
@@ -164,11 +177,6 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
         }
     }
     data_.radii_m = lights.radii_m;
-    const ListCapacity had = buffers_ ? buffers_->capacity : ListCapacity{};
-    capacity_ = {.clusters = std::max(grid.clusterCount(), had.clusters),
-                 // Also holds the list of all lights.
-                 .entries = std::max({wanted_.entries, light_count, had.entries}),
-                 .tasks = std::max(wanted_.tasks, had.tasks)};
     data_.frame.assign(
         1, {.columns = sweep_.columns(),
             .rows = sweep_.rows(),
@@ -180,8 +188,8 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
             .perspective = grid.projection == settings::Projection::kPerspective ? 1U : 0U,
             .light_count = light_count,
             .cluster_count = grid.clusterCount(),
-            .index_capacity = capacity_.entries,
-            .task_capacity = capacity_.tasks,
+            .index_capacity = 0,
+            .task_capacity = 0,
             .max_entries = static_cast<uint32_t>(limits_.max_entries),
             .max_pairs = 0,
             .max_list = UINT32_MAX,
@@ -189,7 +197,40 @@ const AssignData& GpuLightLists::prepare(const cluster::ClusterGrid& grid,
             .image_height_px = grid.image.height_px,
             .tile_width_px = grid.tile_width_px,
             .tile_height_px = grid.tile_height_px});
+    choosePasses();
     return data_;
+}
+
+void GpuLightLists::limit(double pairs, uint64_t longest) {
+    data_.frame[0].max_pairs = static_cast<float>(pairs);
+    data_.frame[0].max_list = static_cast<uint32_t>(std::min<uint64_t>(longest, UINT32_MAX));
+    choosePasses();
+}
+
+void GpuLightLists::choosePasses() {
+    io::AssignFrame& frame = data_.frame[0];
+    const uint64_t all_entries = uint64_t{frame.cluster_count} * frame.light_count;
+    // Lists that have room for all can neither run over nor be refused for what they cost.
+    data_.in_lines = limits_.line_entries > 0 && frame.max_pairs == 0 &&
+                     frame.cluster_count <= kLineClusters && frame.light_count <= kLineLights &&
+                     all_entries <= std::min<uint64_t>(limits_.line_entries, limits_.max_entries);
+    const ListCapacity had = buffers_ ? buffers_->capacity : ListCapacity{};
+    capacity_ = had;
+    const auto hold = [](uint32_t& room, uint64_t needed) {
+        room = std::max(room, static_cast<uint32_t>(needed));
+    };
+    hold(capacity_.clusters, frame.cluster_count);
+    if (data_.in_lines) {
+        hold(capacity_.entries, all_entries);
+    } else {
+        // Also holds the list of all lights.
+        const uint32_t entries = std::max(wanted_.entries, frame.light_count);
+        hold(capacity_.entries, entries);
+        hold(capacity_.unordered, entries);
+        hold(capacity_.tasks, wanted_.tasks);
+    }
+    frame.index_capacity = std::min(capacity_.entries, capacity_.unordered);
+    frame.task_capacity = capacity_.tasks;
 }
 
 const std::shared_ptr<ListBuffers>& GpuLightLists::makeBuffers() {

@@ -12,6 +12,7 @@
 #include "render/lists/assign_pipelines.h"
 #include "render/lists/list_limits.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,13 +23,20 @@ namespace froxel::render {
 struct ListCapacity {
     uint32_t clusters = 0;
     uint32_t entries = 0;
+    uint32_t unordered = 0; // of the entries, while they are put in order
     uint32_t tasks = 0;
     bool operator==(const ListCapacity&) const = default;
 };
 
-// Counters that come back, and those of tiles.
+// Counters, and those of tiles.
 inline constexpr uint64_t kTotalsBytes =
     sizeof(io::AssignTotals) + io::kAssignMaxTiles * sizeof(uint32_t);
+// What one dispatch makes lists of at most: clusters, whose lists come back themselves, and lights,
+// which a workgroup goes through in turns.
+inline constexpr uint32_t kLineClusters = 8192;
+inline constexpr uint32_t kLineLights = 1U << 16U;
+inline constexpr uint64_t kListReadbackBytes =
+    std::max(kTotalsBytes, kLineClusters * sizeof(io::ClusterList));
 
 // Device memory of the lists. Frames on one queue follow each other, so all of a view share it.
 struct ListBuffers;
@@ -63,6 +71,7 @@ struct AssignData {
     std::vector<double> tables;
     std::vector<io::AssignSpot> spots;
     std::span<const float> radii_m; // of the lights
+    bool in_lines = false;          // one dispatch makes all lists
 };
 
 // Where it lies in the frame's upload buffer.
@@ -93,12 +102,13 @@ class AssignSlot {
     [[nodiscard]] vk::Buffer readback() const { return *readback_.handle; }
     // What was written last.
     [[nodiscard]] const io::AssignFrame& frame() const { return frame_; }
+    [[nodiscard]] bool inLines() const { return in_lines_; }
     // Whether tiles are looked at.
     [[nodiscard]] uint32_t pricedTiles() const {
         return frame_.max_pairs > 0 ? frame_.grid_x * frame_.grid_y : 0;
     }
     // Of the last frame, which has completed.
-    [[nodiscard]] const io::AssignTotals& totals() const;
+    [[nodiscard]] io::AssignTotals totals() const;
     // Likewise the longest list of each tile; empty where they were not looked at.
     [[nodiscard]] std::span<const uint32_t> tileLongest() const;
 
@@ -110,6 +120,7 @@ class AssignSlot {
     vk::raii::DescriptorSet set_{nullptr};
     std::shared_ptr<ListBuffers> buffers_;
     io::AssignFrame frame_{};
+    bool in_lines_ = false;
 };
 
 class GpuLightLists {
@@ -121,10 +132,7 @@ class GpuLightLists {
     const AssignData& prepare(const cluster::ClusterGrid& grid, const light::FrameLights& lights);
     // Of what was prepared: how many (light, pixel) pairs the frame may evaluate, and how long a
     // list may be.
-    void limit(double pairs, uint64_t longest) {
-        data_.frame[0].max_pairs = static_cast<float>(pairs);
-        data_.frame[0].max_list = static_cast<uint32_t>(std::min<uint64_t>(longest, UINT32_MAX));
-    }
+    void limit(double pairs, uint64_t longest);
     [[nodiscard]] const AssignData& data() const { return data_; }
     // What the frame prepared last finds room for.
     [[nodiscard]] const ListCapacity& capacity() const { return capacity_; }
@@ -140,6 +148,9 @@ class GpuLightLists {
     void clearRefusal() { refused_ = false; }
 
   private:
+    // How the lists of data_ are made, and what room they find.
+    void choosePasses();
+
     const gpu::Device& device_;
     ListLimits limits_;
     cluster::BallSweep sweep_;
