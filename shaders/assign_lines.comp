@@ -126,8 +126,8 @@ void assignLine(uint slice, uint row, uint first_cluster) {
             if (inSlice(volume, slice)) {
                 Columns columns = columnsOf(volume, slice, row);
                 if (columns.first <= columns.last) {
-                    place |= uint(columns.first) << kPlaceBits |
-                             uint(columns.last + 1) << (kPlaceBits + kColumnBits);
+                    place |= uint(columns.first) << kPlaceBits | uint(columns.last + 1)
+                                                                     << (kPlaceBits + kColumnBits);
                 }
             }
             near_lights[k] = place;
