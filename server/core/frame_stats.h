@@ -65,7 +65,8 @@ struct PeelStats {
 // Depths drawn from lights; none: no light had maps.
 struct ShadowStats {
     uint32_t light_count = 0;
-    uint32_t map_count = 0; // six for a point light
+    uint32_t map_count = 0;  // six for a point light
+    uint32_t kept_count = 0; // of them, that hold what they would show
     uint32_t draw_count = 0;
     uint32_t triangle_count = 0; // of casters, sent to the rasteriser
 };

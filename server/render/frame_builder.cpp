@@ -326,7 +326,7 @@ FramePlan FrameBuilder::plan(ViewEffects& effects) {
         needsLights(settings.debug.view) ? light_grid_.why() : "the debug view shows no light";
     drawn_ = settings.size;
     FrameFacts found = facts(inputs_);
-    effects.look({settings, pose_, lights_, inputs_.time_s}, found);
+    effects.look({settings, pose_, lights_, inputs_.time_s, inputs_.keep_surfaces}, found);
     planned_ = generalised(found, inputs_.generic);
     const FramePlan plan = planFrame(settings, planned_);
     uniforms_ = makeFrameUniforms(settings, projection_, plan.lists ? &light_grid_.grid() : nullptr,

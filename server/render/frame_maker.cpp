@@ -145,7 +145,8 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     slot.stats.lists = builder_.listStats();
     slot.stats.peel.layer_count = peelLayers(plan, builder_.draws());
     FramePlan described = plan;
-    described.kept = false; // comes and goes: of this frame's figures, not of what describes many
+    // Come and go: of this frame's figures, not of what describes many.
+    described.kept = described.pose_kept = false;
     slot.stats.details = details_.update(
         inputs.settings, builder_.plannedFacts(), described, scene_.needs,
         *scene_.device.memoryLedger(),
@@ -231,13 +232,15 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     if (inputs.settings.list_cap > 0 && plan.lists && builder_.listStats().overflowed) {
         return tooManyToCap(builder_.localLightCount());
     }
-    if (auto built = effects_.build(
-            plan, {inputs.settings, builder_.pose(), builder_.lights(), inputs.time_s});
+    if (auto built = effects_.build(plan, {inputs.settings, builder_.pose(), builder_.lights(),
+                                           inputs.time_s, asked.keep_surfaces});
         !built) {
         return built;
     }
     const SurfacesDrawn surfaces = builder_.surfaces(plan);
     plan.kept = keepsSurfaces(plan, asked);
+    plan.pose_kept =
+        asked.keep_surfaces && posed_ && !posed_->fresh && posed_->pose == builder_.pose().number();
     const FrameCosts costs = builder_.costs(plan, asked.settings.size, effects_.ofFrame(), work_);
     if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
         return affordable;
@@ -268,6 +271,9 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     targets_->surfaces.reset();
     if (leavesSurfaces(plan)) {
         targets_->surfaces = surfaces;
+    }
+    if (plan.pose) {
+        posed_->pose = builder_.pose().number();
     }
     noteBuilt(slot, plan, inputs);
     slot.stats.host_us = built_us_ + microsSince(start);

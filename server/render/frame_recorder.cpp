@@ -298,7 +298,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_sh
     frame.pieces.begin(piece_limit, piece_share);
     slot.timestamps.reset();
     recordFreshTargets(slot);
-    if (frame.plan.pose) {
+    if (frame.plan.pose && !frame.plan.pose_kept) {
         recordPose(frame);
     }
     if (frame.plan.count_samples) {

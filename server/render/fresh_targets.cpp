@@ -57,12 +57,20 @@ void markFresh(FrameSlot& slot) {
         }
     };
     mark(slot.targets);
-    if (slot.targets) {
-        slot.targets->surfaces.reset();
-    }
     mark(slot.blend);
     mark(slot.posed);
     slot.effect_targets.forEach([](EffectTargets& effect) { effect.fresh = true; });
+    forgetDrawn(slot);
+}
+
+void forgetDrawn(const FrameSlot& slot) {
+    if (slot.targets) {
+        slot.targets->surfaces.reset();
+    }
+    if (slot.posed) {
+        slot.posed->pose.reset();
+    }
+    slot.effect_targets.forEach([](EffectTargets& effect) { effect.forgetDrawn(); });
 }
 
 } // namespace froxel::render

@@ -12,4 +12,7 @@ void recordFreshTargets(FrameSlot& slot);
 // view's own vertices to be copied. What the others hold is of no use to the next frame.
 void markFresh(FrameSlot& slot);
 
+// Nobody knows how much of the slot's frame was drawn: the next frames keep nothing of it.
+void forgetDrawn(const FrameSlot& slot);
+
 } // namespace froxel::render

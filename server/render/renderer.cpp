@@ -157,7 +157,7 @@ void ViewRenderer::abandon() {
                   "abandon needs a frame whose pieces wait");
     FrameSlot& slot = *impl_->pending.back();
     slot.given_up = true;
-    slot.targets->surfaces.reset(); // who knows how much of them was drawn
+    forgetDrawn(slot);
     slot.uses.giveUp();
     if (slot.done_values.empty()) {
         markFresh(slot);

@@ -53,6 +53,7 @@ Json toJson(const PeelStats& peel) {
 Json toJson(const ShadowStats& shadows) {
     return {{"lights", shadows.light_count},
             {"maps", shadows.map_count},
+            {"kept", shadows.kept_count},
             {"draws", shadows.draw_count},
             {"triangles", shadows.triangle_count}};
 }

@@ -149,6 +149,10 @@ TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
     std::mt19937 random(11);
     const auto one_of = [&](size_t count) { return random() % count; };
     render::ViewRenderer view(renderer());
+    render::ViewRenderer other(renderer());
+    auto elsewhere = inputs();
+    elsewhere.settings.camera = room().cameras[1].camera;
+    elsewhere.settings.size = {40, 40};
     auto asked = inputs();
     asked.keep_radiance = true;
     const auto base = asked.settings;
@@ -169,6 +173,7 @@ TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
         } else if (one_of(6) == 0) {
             asked.settings.camera = room().cameras[one_of(room().cameras.size())].camera;
         }
+        (void)drawPixels(other, elsewhere); // leaves its own in whatever views share
         const Picture picture = expectAsAnew(view, asked);
         kept_count += picture.stats.kept ? 1U : 0U;
         if (picture.rgba8.empty()) { // refused
@@ -179,6 +184,63 @@ TEST_F(Kept, RandomWalk_EachFrame_IsThatOfAFreshView) {
         }
     }
     EXPECT_GT(kept_count, steps / 8);
+}
+
+// Maps of lights that rest stay, beside those of lights that move and while the camera moves.
+TEST_F(Kept, ShadowMaps_OfLightsThatRest_AreDrawnOnce) {
+    render::ViewRenderer view(renderer());
+    auto asked = inputs();
+    asked.settings.camera = room().cameras[0].camera;
+    asked.settings.shadows.light_count = 4;
+    asked.settings.lights.count = 0;
+    settings::PlacedLight lamp{
+        .id = 1, .position_world = {0, 1.5, 0.5}, .intensity = 4, .radius_m = 4};
+    settings::PlacedLight spot{.id = 2,
+                               .kind = settings::LightKind::kSpot,
+                               .position_world = {0.5, 2, 0},
+                               .intensity = 4,
+                               .radius_m = 5};
+    const auto place = [&] { asked.settings.lights.placed = settings::PlacedLights({lamp, spot}); };
+    const auto expect = [&](uint32_t maps, uint32_t kept) {
+        asked.time_s += 0.1;
+        const Picture picture = expectAsAnew(view, asked);
+        EXPECT_EQ(picture.stats.shadows.map_count, maps);
+        EXPECT_EQ(picture.stats.shadows.kept_count, kept);
+        EXPECT_EQ(hasPass(picture, "shadows"), kept < maps);
+    };
+    place();
+    expect(7, 0);
+    expect(7, 7);
+    asked.settings.camera = room().cameras[1].camera;
+    expect(7, 7);
+    asked.settings.camera = room().cameras[0].camera;
+    spot.position_world.x -= 0.1;
+    place();
+    expect(7, 6);
+    lamp.position_world.y -= 0.1;
+    place();
+    expect(7, 1);
+    asked.settings.shadows.size_px /= 2;
+    expect(7, 0);
+    expect(7, 7);
+    asked.settings.lights.placed = settings::PlacedLights({spot});
+    expect(1, 0);
+    place();
+    expect(7, 0);
+    asked.settings.shadows.light_count = 0;
+    expect(0, 0);
+    asked.settings.shadows.light_count = 4;
+    expect(7, 0);
+    asked.keep_surfaces = false;
+    expect(7, 0);
+    asked.keep_surfaces = true;
+    expect(7, 0);
+    asked.settings.lights.count = 3; // which move
+    expect(19, 0);
+    asked.time_s += 0.1;
+    const uint32_t kept = expectAsAnew(view, asked).stats.shadows.kept_count;
+    EXPECT_GE(kept, 1U); // the spot's, and what shows nothing
+    EXPECT_LT(kept, 19U);
 }
 
 // A frame that was given up half drawn leaves nothing to keep.

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <tuple>
+#include <utility>
 
 namespace froxel::render {
 
@@ -137,6 +139,7 @@ class FaceDraws {
                     ++made.group_count;
                 }
                 out_.commands.push_back(draw.command);
+                made.bends = made.bends || draw.bends;
                 out_.triangle_count += draw.command.indexCount / 3;
                 ++out_.groups.back().command_count;
             }
@@ -148,6 +151,7 @@ class FaceDraws {
     struct Draw {
         uint32_t flags = 0;
         uint32_t material = 0;
+        bool bends = false;
         vk::DrawIndexedIndirectCommand command;
     };
     // The run of indices that an item's meshlets make in one face.
@@ -197,6 +201,7 @@ class FaceDraws {
         const bool masked = (item.material_flags & io::kMaterialMask) != 0;
         draws_[face].push_back({masked ? item.material_flags : 0U,
                                 masked ? item.primitive.material : 0U,
+                                item.bends,
                                 {.indexCount = run.end - run.first,
                                  .instanceCount = 1,
                                  .firstIndex = run.first,
@@ -243,7 +248,48 @@ io::Frame mapUniforms() {
     return frame;
 }
 
+// In either, commands count rows from the frame's first.
+bool sameDraws(const ShadowFrame& a,
+               const ShadowGroup& group_a,
+               const ShadowFrame& b,
+               const ShadowGroup& group_b) {
+    if (group_a.material != group_b.material || group_a.material_flags != group_b.material_flags ||
+        group_a.command_count != group_b.command_count) {
+        return false;
+    }
+    for (uint32_t i = 0; i < group_a.command_count; ++i) {
+        auto command_a = a.commands[group_a.first_command + i];
+        auto command_b = b.commands[group_b.first_command + i];
+        const uint32_t row_a = std::exchange(command_a.firstInstance, 0);
+        const uint32_t row_b = std::exchange(command_b.firstInstance, 0);
+        if (command_a != command_b ||
+            std::memcmp(&a.rows[row_a], &b.rows[row_b], sizeof(InstanceRows)) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 } // namespace
+
+bool sameFace(const ShadowFrame& a, const ShadowFrame& b, size_t face) {
+    if (face >= a.faces.size() || face >= b.faces.size() ||
+        std::memcmp(&a.uniforms, &b.uniforms, sizeof(io::Frame)) != 0) {
+        return false;
+    }
+    const ShadowFace& face_a = a.faces[face];
+    const ShadowFace& face_b = b.faces[face];
+    if (face_a.tile != face_b.tile || face_a.group_count != face_b.group_count ||
+        face_a.bends != face_b.bends) {
+        return false;
+    }
+    for (uint32_t i = 0; i < face_a.group_count; ++i) {
+        if (!sameDraws(a, a.groups[face_a.first_group + i], b, b.groups[face_b.first_group + i])) {
+            return false;
+        }
+    }
+    return true;
+}
 
 void ShadowFrame::clear() {
     shadow_of_light.clear();

@@ -31,6 +31,7 @@ struct ShadowFace {
     uint32_t tile = 0;
     uint32_t first_group = 0;
     uint32_t group_count = 0;
+    bool bends = false; // it shows posed vertices
 };
 
 // Keep one and build into it again: its buffers are reused.
@@ -56,6 +57,10 @@ struct ShadowPlace {
     uint32_t face_count = 6;
     double scale = 1; // io::ShadowLight::scale
 };
+
+// Whether a face shows in `b` what it shows in `a`, but for posed vertices: compares all that its
+// draws read.
+[[nodiscard]] bool sameFace(const ShadowFrame& a, const ShadowFrame& b, size_t face);
 
 // A spot of up to 60 degrees from its axis has one map, a wider one six like a point light.
 [[nodiscard]] ShadowPlace

@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
+#include <vector>
 
 namespace froxel::render {
 
@@ -43,6 +45,12 @@ vk::Extent2D extentOf(uint32_t tile_count, uint32_t size_px) {
     return {std::min(tile_count, io::kShadowColumns) * size_px, rows * size_px};
 }
 
+vk::Rect2D tileOf(const ShadowFace& face, uint32_t size_px) {
+    return {{static_cast<int32_t>(face.tile % io::kShadowColumns * size_px),
+             static_cast<int32_t>(face.tile / io::kShadowColumns * size_px)},
+            {size_px, size_px}};
+}
+
 // The atlas that `light_count` point lights have, or as many as the settings allow.
 gpu::ImageInfo atlasImage(const settings::Shadows& settings, uint32_t light_count) {
     using Usage = vk::ImageUsageFlagBits;
@@ -51,6 +59,12 @@ gpu::ImageInfo atlasImage(const settings::Shadows& settings, uint32_t light_coun
             .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc,
             .aspect = vk::ImageAspectFlagBits::eDepth};
 }
+
+// What maps were drawn from: equal faces need no drawing.
+struct ShadowsDrawn {
+    ShadowFrame frame;
+    uint64_t pose = 0; // ScenePose::number(), of what bends
+};
 
 // Tiles of shadows.size_px in rows of io::kShadowColumns.
 struct ShadowTargets final : EffectTargets {
@@ -66,11 +80,13 @@ struct ShadowTargets final : EffectTargets {
     void forEachImage(const Visit& visit) const override {
         visit(atlas, vk::ImageAspectFlagBits::eDepth);
     }
+    void forgetDrawn() override { drawn.reset(); }
 
     uint32_t size_px;
     uint32_t tile_count;
     gpu::MemoryArena arena;
     gpu::Image atlas;
+    std::optional<ShadowsDrawn> drawn; // that it holds once what is submitted has run
 };
 
 vk::raii::DescriptorPool makeShadowsPool(const gpu::Device& device) {
@@ -128,6 +144,9 @@ class Shadows final : public Effect {
         if (!drawn_) {
             frame_.clear();
         }
+        pose_ = inputs.pose.number();
+        keeps_ = inputs.keeps;
+        chooseFaces();
         return {};
     }
     void addLoad(const UnitCosts& unit, FrameLoad& load) const override {
@@ -135,9 +154,8 @@ class Shadows final : public Effect {
                                       .pair = onDevice(unit, kShadowPair)});
     }
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
-        if (drawn_) {
-            passes.push_back(
-                {"shadows", static_cast<double>(frame_.faces.size()) * faceTime(costs)});
+        if (!changed_.empty()) {
+            passes.push_back({"shadows", static_cast<double>(changed_.size()) * faceTime(costs)});
         }
     }
     void addMemory(NeedList& need) const override {
@@ -146,7 +164,10 @@ class Shadows final : public Effect {
         }
     }
     void gather(FrameUpload& upload, FrameBlocks& blocks) override;
-    void addStats(FrameStats& stats) const override { stats.shadows = frame_.stats(); }
+    void addStats(FrameStats& stats) const override {
+        stats.shadows = frame_.stats();
+        stats.shadows.kept_count = static_cast<uint32_t>(frame_.faces.size() - changed_.size());
+    }
 
     void freeUnfit(const ViewTargets* /*view*/) override {
         if (targets_ && !targets_->fits(settings_, caster_count_)) {
@@ -160,6 +181,8 @@ class Shadows final : public Effect {
     [[nodiscard]] ShadowAtlas copy() const;
 
   private:
+    // Into changed_: those that the atlas does not hold.
+    void chooseFaces();
     // Of a map.
     [[nodiscard]] Seconds faceTime(const FrameCosts& costs) const;
     void
@@ -170,12 +193,28 @@ class Shadows final : public Effect {
     settings::Shadows settings_;
     uint32_t caster_count_ = 0; // lights that may have maps
     bool drawn_ = false;
+    bool keeps_ = false;
+    uint64_t pose_ = 0;
     ShadowFrame frame_;
+    std::vector<ShadowFace> changed_; // of its faces, to draw
     vk::DeviceSize uniforms_offset_ = 0;
     vk::DeviceSize rows_offset_ = 0;
     vk::DeviceSize commands_offset_ = 0;
     std::shared_ptr<ShadowTargets> targets_; // null: none drawn yet that the settings still ask for
 };
+
+void Shadows::chooseFaces() {
+    changed_.clear();
+    const bool holds = keeps_ && targets_ && targets_->fits(settings_, caster_count_) &&
+                       !targets_->fresh && targets_->drawn;
+    for (size_t i = 0; i < frame_.faces.size(); ++i) {
+        const ShadowFace& face = frame_.faces[i];
+        if (!holds || !sameFace(frame_, targets_->drawn->frame, i) ||
+            (face.bends && targets_->drawn->pose != pose_)) {
+            changed_.push_back(face);
+        }
+    }
+}
 
 void Shadows::gather(FrameUpload& upload, FrameBlocks& blocks) {
     if (!drawn_) {
@@ -212,11 +251,11 @@ Seconds Shadows::faceTime(const FrameCosts& costs) const {
 }
 
 void Shadows::recordOwn(const FrameContext& frame) const {
-    if (!drawn_) {
+    if (changed_.empty()) {
         return;
     }
     const Seconds face_time = faceTime(frame.costs);
-    const std::span<const ShadowFace> faces = frame_.faces;
+    const std::span<const ShadowFace> faces = changed_;
     const size_t at_once = frame.pieces.fits(face_time);
     for (size_t first = 0; first < faces.size(); first += at_once) {
         const auto part = faces.subspan(first, std::min(at_once, faces.size() - first));
@@ -226,21 +265,26 @@ void Shadows::recordOwn(const FrameContext& frame) const {
     // depths as lights see them -> loads of whatever is lit
     barrier(frame.slot.cmd, kDepthStages, Access::eDepthStencilAttachmentWrite,
             Stage::eComputeShader | Stage::eFragmentShader, Access::eShaderSampledRead);
+    targets_->drawn.reset();
+    if (keeps_) {
+        targets_->drawn = {frame_, pose_};
+    }
 }
 
-// The first of them clear the atlas.
 void Shadows::recordFaces(const FrameContext& frame,
                           std::span<const ShadowFace> faces,
                           bool first) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "shadows");
     const auto& cmd = frame.slot.cmd;
     const auto& targets = frame.slot.effect_targets.get<ShadowTargets>();
-    const vk::RenderingAttachmentInfo depth{
-        .imageView = *targets.atlas.view,
-        .imageLayout = vk::ImageLayout::eGeneral,
-        .loadOp = first ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad,
-        .storeOp = vk::AttachmentStoreOp::eStore,
-        .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0}}; // nothing so far
+    const bool whole = changed_.size() == frame_.faces.size();
+    const vk::ClearValue nothing(vk::ClearDepthStencilValue{.depth = 0.0F, .stencil = 0});
+    const vk::RenderingAttachmentInfo depth{.imageView = *targets.atlas.view,
+                                            .imageLayout = vk::ImageLayout::eGeneral,
+                                            .loadOp = first && whole ? vk::AttachmentLoadOp::eClear
+                                                                     : vk::AttachmentLoadOp::eLoad,
+                                            .storeOp = vk::AttachmentStoreOp::eStore,
+                                            .clearValue = nothing};
     const auto used = static_cast<uint32_t>(frame_.faces.size());
     cmd.beginRendering({.renderArea = {{0, 0}, extentOf(used, targets.size_px)},
                         .layerCount = 1,
@@ -248,6 +292,15 @@ void Shadows::recordFaces(const FrameContext& frame,
     bindGeometry(frame, frame.scene.pipelines.geometryPipelineLayout(),
                  *frame.slot.kept.get<ShadowSet>().set, *frame.scene.index_buffer.handle,
                  rows_offset_);
+    if (!whole) {
+        std::vector<vk::ClearRect> tiles;
+        for (const ShadowFace& face : faces) {
+            tiles.push_back({tileOf(face, targets.size_px), 0, 1});
+        }
+        cmd.clearAttachments(vk::ClearAttachment{.aspectMask = vk::ImageAspectFlagBits::eDepth,
+                                                 .clearValue = nothing},
+                             tiles);
+    }
     cmd.setCullMode(vk::CullModeFlagBits::eNone);
     cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
     for (const ShadowFace& face : faces) {
@@ -259,12 +312,11 @@ void Shadows::recordFaces(const FrameContext& frame,
 void Shadows::drawFace(const FrameContext& frame, const ShadowFace& face, uint32_t size_px) const {
     const auto& cmd = frame.slot.cmd;
     auto& pipelines = frame.scene.pipelines;
-    const vk::Offset2D corner(static_cast<int32_t>(face.tile % io::kShadowColumns * size_px),
-                              static_cast<int32_t>(face.tile / io::kShadowColumns * size_px));
+    const vk::Rect2D tile = tileOf(face, size_px);
     const auto side = static_cast<float>(size_px);
-    cmd.setViewport(0, vk::Viewport{static_cast<float>(corner.x), static_cast<float>(corner.y),
-                                    side, side, 0, 1});
-    cmd.setScissor(0, vk::Rect2D{corner, {size_px, size_px}});
+    cmd.setViewport(0, vk::Viewport{static_cast<float>(tile.offset.x),
+                                    static_cast<float>(tile.offset.y), side, side, 0, 1});
+    cmd.setScissor(0, tile);
     for (uint32_t i = face.first_group; i < face.first_group + face.group_count; ++i) {
         const ShadowGroup& group = frame_.groups[i];
         cmd.bindPipeline(vk::PipelineBindPoint::eGraphics,
@@ -318,8 +370,7 @@ std::string wordsOfShadows(const settings::ViewSettings& settings, const EffectP
     }
     const uint32_t count = settings.shadows.light_count;
     return "shadow maps: up to " + std::to_string(count) + (count == 1 ? " light" : " lights") +
-           ", faces of " + std::to_string(settings.shadows.size_px) +
-           " pixels a side, drawn each frame";
+           ", faces of " + std::to_string(settings.shadows.size_px) + " pixels a side";
 }
 
 std::optional<std::string> memoryWordsOfShadows(const settings::ViewSettings& settings) {

@@ -31,6 +31,7 @@ struct EffectInputs {
     const ScenePose& pose;
     const light::FrameLights& lights;
     double time_s = 0;
+    bool keeps = false; // what rests since the frame before need not be drawn again
 };
 
 // One view's, made when a frame first has it. Only frames that have it call it, but for

@@ -24,6 +24,9 @@ class EffectTargets {
     // All images end in the GENERAL layout, where they stay.
     virtual void forEachImage(const Visit& /*visit*/) const {}
 
+    // Nobody knows how much of the frame that drew into them was drawn: nothing of it is kept.
+    virtual void forgetDrawn() {}
+
     bool fresh = true; // the images still await their first transition
 };
 

@@ -210,7 +210,7 @@ void FrameCosts::addBlended(std::vector<PassEstimate>& passes) const {
 
 std::vector<PassEstimate> FrameCosts::passes() const {
     std::vector<PassEstimate> passes;
-    if (load_.plan.pose) {
+    if (load_.plan.pose && !load_.plan.pose_kept) {
         passes.push_back({"pose", pose()});
     }
     addEffects(EffectPlace::kLights, passes);

@@ -56,7 +56,8 @@ struct GenericParts {
 [[nodiscard]] FrameFacts generalised(FrameFacts facts, const GenericParts& parts);
 
 struct FramePlan {
-    bool pose = false; // vertices that bend are posed, once for all passes
+    bool pose = false;      // vertices that bend are posed, once for all passes
+    bool pose_kept = false; // the view's stand so already
     bool depth_prepass = false;
     bool count_samples = false;    // that pass the depth test where depth is drawn first
     bool forward = false;          // solid surfaces by the forward shader

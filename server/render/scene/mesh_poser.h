@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace froxel::render {
@@ -36,6 +37,8 @@ class PosedVertices {
     void recordRest(const vk::raii::CommandBuffer& cmd, const SceneResources& scene) const;
 
     bool fresh = true; // these still have to be copied
+    std::optional<uint64_t>
+        pose; // ScenePose::number() that they hold once what is submitted has run
 
   private:
     gpu::MemoryArena arena_;
