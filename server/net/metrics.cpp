@@ -133,6 +133,8 @@ struct Metrics::Impl {
     Counter& redraws = counter("froxel_light_list_redraws_total",
                                "Times that the pictures sent were drawn again since their lists "
                                "had to grow.");
+    Counter& kept = counter("froxel_frames_kept_total",
+                            "Pictures sent whose surfaces were those of the frame before.");
     Counter& peel_overflow =
         counter("froxel_peel_overflow_pixels_total",
                 "Pixels of the pictures sent that have more blended layers than were peeled.");
@@ -244,6 +246,7 @@ void Metrics::sessionClosed() {
 
 void Metrics::frameSent(const FrameRecord& record) {
     impl_->sent.Increment();
+    impl_->kept.Increment(record.stats.kept ? 1 : 0);
     impl_->redraws.Increment(static_cast<double>(record.stats.lists.redraw_count));
     impl_->peel_overflow.Increment(static_cast<double>(record.stats.peel.overflow_count));
     for (size_t i = 0; i < kStages.size(); ++i) {

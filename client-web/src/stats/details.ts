@@ -46,7 +46,14 @@ export function peelText({ peel }: FrameHeader): string {
 
 /** Lights with shadow maps, and their maps. */
 export function shadowText({ shadows }: FrameHeader): string {
-  return shadows ? `${shadows.lights} · ${shadows.maps}` : '–';
+  if (!shadows) return '–';
+  const kept = shadows.mapsKept > 0 ? `, ${shadows.mapsKept} kept` : '';
+  return `${shadows.lights} · ${shadows.maps}${kept}`;
+}
+
+/** Whether surfaces were drawn, or are those of the frame before. */
+export function surfacesText({ surfacesKept }: FrameHeader): string {
+  return surfacesKept ? 'kept' : 'drawn';
 }
 
 /** Stops by which the frame metered its own exposure. */

@@ -6,7 +6,7 @@ import { CodecSchema } from '../gen/froxel/v1/common_pb';
 import type { FrameDetails, FrameHeader } from '../gen/froxel/v1/server_pb';
 import { nameIn } from '../protocol/schema_names';
 import { deliveryRows } from './delivery';
-import { Details, exposureText, peelText, shadowText } from './details';
+import { Details, exposureText, peelText, shadowText, surfacesText } from './details';
 import { Graph } from './graph';
 import { PassStack } from './pass_stack';
 import { kStages, type Figures, type Stats } from './stats';
@@ -62,6 +62,7 @@ export class FiguresBody {
     for (const { name, value } of deliveryRows(last)) this.value(name, '', value);
     const gpu = timeText(last.gpuUs === undefined ? null : last.gpuUs / 1000);
     this.value('Drawing · encoding', '', `${gpu} · ${ms(last.encodeUs / 1000)}`);
+    this.value('Surfaces', '', surfacesText(last));
     this.value('Triangles', '', count(last.triangles));
     this.value('Lights', '', count(last.lightCount));
     const lists = !last.allLights && !last.listsOverflowed;

@@ -9,6 +9,7 @@ import {
   memoryRows,
   peelText,
   shadowText,
+  surfacesText,
 } from '../../src/stats/details';
 import { frameHeader } from '../fakes';
 
@@ -55,6 +56,14 @@ describe('details', () => {
   it('ShadowMaps_AreToldWithTheirLights', () => {
     expect(shadowText(frameHeader({}))).toBe('–');
     expect(shadowText(frameHeader({ shadows: { lights: 2, maps: 7 } }))).toBe('2 · 7');
+    expect(shadowText(frameHeader({ shadows: { lights: 2, maps: 7, mapsKept: 6 } }))).toBe(
+      '2 · 7, 6 kept',
+    );
+  });
+
+  it('SurfacesThatRest_AreToldAsKept', () => {
+    expect(surfacesText(frameHeader({}))).toBe('drawn');
+    expect(surfacesText(frameHeader({ surfacesKept: true }))).toBe('kept');
   });
 
   it('Exposure_Metered_IsToldInStops', () => {

@@ -57,6 +57,16 @@ TEST(Metrics, FrameSent_FillsHistogramsAndGauges) {
     EXPECT_THAT(text, HasSubstr("\nfroxel_sent_bytes_total 1000\n"));
 }
 
+TEST(Metrics, FramesThatKeepSurfaces_AreCounted) {
+    Metrics metrics;
+    auto record = aRecord();
+    metrics.frameSent(record);
+    record.stats.kept = true;
+    metrics.frameSent(record);
+    metrics.frameSent(record);
+    EXPECT_THAT(metrics.text(), HasSubstr("\nfroxel_frames_kept_total 2\n"));
+}
+
 TEST(Metrics, Queue_OnlyOfFramesThatShowANewCommand) {
     Metrics metrics;
     auto record = aRecord();

@@ -387,14 +387,26 @@ TEST(FrameHeader, MeteredExposure_IsThereOnlyWhereTheFrameHasOne) {
     EXPECT_EQ(makeFrameHeader(frame).metered_ev(), -2.5);
 }
 
+TEST(FrameHeader, SurfacesThatAreKept_AreToldSo) {
+    FrameRecord frame = record();
+    for (const bool kept : {true, false}) {
+        frame.stats.kept = kept;
+        EXPECT_EQ(makeFrameHeader(frame).surfaces_kept(), kept);
+    }
+}
+
 TEST(FrameHeader, ShadowMaps_AreThereOnlyWhereALightHasOne) {
     FrameRecord frame = record();
     frame.stats.shadows = {};
     EXPECT_FALSE(makeFrameHeader(frame).has_shadows());
-    frame.stats.shadows = {
-        .light_count = 2, .map_count = 7, .draw_count = 90, .triangle_count = 1200};
+    frame.stats.shadows = {.light_count = 2,
+                           .map_count = 7,
+                           .kept_count = 3,
+                           .draw_count = 90,
+                           .triangle_count = 1200};
     EXPECT_EQ(makeFrameHeader(frame).shadows().lights(), 2U);
     EXPECT_EQ(makeFrameHeader(frame).shadows().maps(), 7U);
+    EXPECT_EQ(makeFrameHeader(frame).shadows().maps_kept(), 3U);
     EXPECT_EQ(makeFrameHeader(frame).shadows().triangles(), 1200U);
 }
 
