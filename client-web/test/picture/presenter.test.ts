@@ -216,4 +216,16 @@ describe('Presenter', () => {
     expect(painted).toEqual([1n]);
     expect(acks).toEqual([1n]);
   });
+
+  it('Restart_AfterLaterFramesWereAcknowledged_AcknowledgesFromOneAgain', async () => {
+    presenter.offer(frame(9));
+    await decodes[0]?.finish();
+    frames.run();
+    presenter.restart();
+    presenter.offer(frame(1));
+    await decodes[1]?.finish();
+    frames.run();
+    expect(painted).toEqual([9n, 1n]);
+    expect(acks).toEqual([9n, 1n]);
+  });
 });

@@ -92,6 +92,21 @@ describe('Connection', () => {
     expect(delays).toEqual([750, 1250, 2250, 4250]);
   });
 
+  it('AServerThatAcceptsAndCloses_IsTriedEverMoreSeldom', () => {
+    env.randomValue = 0.5;
+    const delays: number[] = [];
+    for (let i = 0; i < 4; i += 1) {
+      env.socket.accept();
+      env.pass(100);
+      env.socket.drop(1006);
+      const link = links.at(-1);
+      if (link?.phase !== 'waiting') throw new Error('not waiting');
+      delays.push(link.retryAtMs - env.now);
+      env.pass(link.retryAtMs - env.now);
+    }
+    expect(delays).toEqual([750, 1250, 2250, 4250]);
+  });
+
   it('AStableConnection_MakesTheNextDelaySmallAgain', () => {
     env.randomValue = 0.5;
     for (let i = 0; i < 4; i += 1) {

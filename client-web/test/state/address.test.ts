@@ -73,8 +73,11 @@ describe('addresses', () => {
 
   it('RoundTrip_OfAnOrthographicView_KeepsItsHeight', () => {
     const settings = sampleSettings({ orthographic: true, halfHeight: 3.5 });
-    const address = parseAddress(formatAddress(settings, kAuto, initial));
+    const written = formatAddress(settings, kAuto, initial);
+    const address = parseAddress(written);
     expect({ ...initial, ...address.settings }).toEqual(settings);
+    expect(written).not.toContain('fov');
+    expect(formatAddress(initial, kAuto, initial)).toContain('fov');
   });
 
   it('RampsAsTheyWere_AreNotInTheAddress', () => {
