@@ -51,6 +51,21 @@ bool FrameMaker::keepsSurfaces(const FramePlan& plan, const FrameInputs& asked) 
                targetNeeds(plan, scene_.device, drawn, asked.settings.size, targets_.get()));
 }
 
+bool FrameMaker::keepsPose(const FrameInputs& asked) const {
+    return asked.keep_surfaces && posed_ && !posed_->fresh &&
+           posed_->pose == builder_.pose().number();
+}
+
+void FrameMaker::noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces) {
+    targets_->surfaces.reset();
+    if (leavesSurfaces(plan)) {
+        targets_->surfaces = surfaces;
+    }
+    if (plan.pose) {
+        posed_->pose = builder_.pose().number();
+    }
+}
+
 void FrameMaker::prepareTargets(FrameSlot& slot,
                                 const FramePlan& plan,
                                 const settings::Size& drawn,
@@ -239,8 +254,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     }
     const SurfacesDrawn surfaces = builder_.surfaces(plan);
     plan.kept = keepsSurfaces(plan, asked);
-    plan.pose_kept =
-        asked.keep_surfaces && posed_ && !posed_->fresh && posed_->pose == builder_.pose().number();
+    plan.pose_kept = keepsPose(asked);
     const FrameCosts costs = builder_.costs(plan, asked.settings.size, effects_.ofFrame(), work_);
     if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
         return affordable;
@@ -268,13 +282,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
         markFresh(slot);
         return tooLongInPieces(asked.settings.size, slot.pieces, work_.frame);
     }
-    targets_->surfaces.reset();
-    if (leavesSurfaces(plan)) {
-        targets_->surfaces = surfaces;
-    }
-    if (plan.pose) {
-        posed_->pose = builder_.pose().number();
-    }
+    noteDrawn(plan, surfaces);
     noteBuilt(slot, plan, inputs);
     slot.stats.host_us = built_us_ + microsSince(start);
     slot.submitted = started_;

@@ -70,6 +70,10 @@ class FrameMaker {
                                           const Slots& slots);
     // Whether the view's targets hold the surfaces of the frame that was built.
     [[nodiscard]] bool keepsSurfaces(const FramePlan& plan, const FrameInputs& asked) const;
+    // Whether its vertices that bend stand as that frame has them.
+    [[nodiscard]] bool keepsPose(const FrameInputs& asked) const;
+    // What they hold once the frame that was recorded has run.
+    void noteDrawn(const FramePlan& plan, const SurfacesDrawn& surfaces);
     void prepareTargets(FrameSlot& slot,
                         const FramePlan& plan,
                         const settings::Size& drawn,
