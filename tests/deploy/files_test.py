@@ -418,5 +418,37 @@ class Files(unittest.TestCase):
             self.assertIn(f"froxel-a:{self.service['port']}", text)
 
 
+# Debian's package of what CMakeLists.txt ask for, as deploy/common.sh names it; None: comes with another.
+PACKAGES = {
+    "Boost": "libboost-url1.81-dev|libboost-url-dev", "CLI11": "libcli11-dev", "GTest": "libgtest-dev",
+    "OpenEXR": "libopenexr-dev", "OpenSSL": "libssl-dev", "PNG": "libpng-dev", "PkgConfig": "pkg-config",
+    "Protobuf": "libprotobuf-dev", "Python3": "python3", "Threads": None, "TinyGLTF": "libtinygltf-dev",
+    "Vulkan": "libvulkan-dev", "ZLIB": None, "benchmark": "libbenchmark-dev", "draco": "libdraco-dev",
+    "glm": "libglm-dev", "glslangValidator": "glslang-tools", "libturbojpeg": "libturbojpeg0-dev",
+    "libwebp": "libwebp-dev", "libzstd": "libzstd-dev", "meshoptimizer": "libmeshoptimizer-dev",
+    "nlohmann_json": "nlohmann-json3-dev", "prometheus-cpp-core": "prometheus-cpp-dev", "spdlog": "libspdlog-dev",
+    "spirv-val": "spirv-tools", "stb": "libstb-dev", "tomlplusplus": "libtomlplusplus-dev", "vpx": "libvpx-dev",
+    "wasm2c": "wabt",
+}
+
+
+class Packages(unittest.TestCase):
+    def test_install_list_has_what_cmake_asks_for(self):
+        asked = set()
+        for folder in (ROOT / "CMakeLists.txt", *ROOT.glob("server/**/CMakeLists.txt"),
+                       *ROOT.glob("shaders/**/CMakeLists.txt"), *ROOT.glob("tests/**/CMakeLists.txt")):
+            text = folder.read_text()
+            asked |= set(re.findall(r"find_package\((\w+)", text))
+            asked |= set(re.findall(r"pkg_check_modules\(\w+ REQUIRED IMPORTED_TARGET ([\w-]+)", text))
+            asked |= set(re.findall(r"find_program\(\w+ ([\w-]+) REQUIRED\)", text))
+        self.assertIn("libzstd", asked)  # or nothing is found
+        listed = run("bash", "-c", f"source {DEPLOY}/common.sh && "
+                     "printf '%s\\n' \"${build_packages[@]}\" \"${test_packages[@]}\"").split()
+        for name in sorted(asked):
+            self.assertIn(name, PACKAGES, "say here which package it is of")
+            if PACKAGES[name]:
+                self.assertIn(PACKAGES[name], listed, f"deploy/common.sh lacks the package of {name}")
+
+
 if __name__ == "__main__":
     told_skips.main()

@@ -216,6 +216,38 @@ TEST_F(Fog, FinerVolumes_ComeToTheReference) {
     }
 }
 
+// A sun's light in the air needs no volume: forwards, to all sides and backwards.
+TEST_F(Fog, SunAlone_IsAsIntegratedInDouble) {
+    auto maker = wallAhead(4);
+    scene::PunctualLight sun;
+    sun.type = scene::LightType::kDirectional;
+    sun.direction_world = {0.5, -0.7, 0.6};
+    sun.intensity = 3;
+    maker.scene.lights = {sun};
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = inputsFor(ahead(), 0);
+    inputs.settings.renderer = Renderer::kForwardPlus;
+    for (const float g : {-0.6F, 0.0F, 0.6F}) {
+        inputs.settings.fog = {.density = 0.2F, .anisotropy = g};
+        EXPECT_LT(errorOf(renderer, meant(renderer, maker.scene, inputs), inputs), 1e-4) << g;
+    }
+}
+
+// A narrow cone across the view: without it the whole ball would shine.
+TEST_F(Fog, SpotAlone_ScattersWithinItsCone) {
+    auto maker = insideOfABox(8);
+    maker.spot({-3, 2, -5}, {0.7, -0.5, 0}, 9, 20, 30);
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = inputsFor(ahead(), 0);
+    inputs.settings.renderer = Renderer::kForwardPlus;
+    inputs.settings.shading = settings::ShadingModel::kLambert;
+    inputs.settings.lights.ambient = 0;
+    inputs.settings.fog = {.density = 0.05F};
+    inputs.settings.fog.tile_px = 4;
+    inputs.settings.fog.slice_count = 256;
+    EXPECT_LT(errorOf(renderer, meant(renderer, maker.scene, inputs), inputs), 0.1);
+}
+
 // Blended surfaces, parallel rays, an off-centre lens, the eye within lights; by every renderer
 // that the reference knows.
 TEST_F(Fog, Room_IsAsIntegratedInDouble) {

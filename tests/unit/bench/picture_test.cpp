@@ -35,10 +35,14 @@ class BenchPictureTest : public test::SharedGpuTest {
 
 TEST_F(BenchPictureTest, ShownPicture_OfTheDevicesRadiance_IsTheDevicesPicture) {
     Pictures pictures(renderer_, scene_);
-    for (const auto tone_map : {settings::ToneMap::kPbrNeutral, settings::ToneMap::kClamp}) {
+    for (const auto& [tone_map, exposure] :
+         {std::pair(settings::ToneMap::kPbrNeutral, 1.0F),
+          {settings::ToneMap::kPbrNeutral, 16.0F}, // most of it beyond white
+          {settings::ToneMap::kClamp, 1.0F}}) {
         row_.settings.tone_map = tone_map;
+        row_.settings.exposure = exposure;
         const auto picture = pictures.draw(row_.settings, 0).value();
-        const auto right = shownPicture(picture->linear, 1, tone_map);
+        const auto right = shownPicture(picture->linear, static_cast<double>(exposure), tone_map);
         ASSERT_EQ(picture->rgba8.size(), right.size());
         size_t differing = 0;
         for (size_t i = 0; i < right.size(); ++i) {

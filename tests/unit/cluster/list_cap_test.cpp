@@ -116,6 +116,31 @@ TEST(ListCap, Dropped_IsAtLeastWhatAnyPointLacks) {
 }
 
 // A light that fills its cluster with light stays, whatever its place in the list.
+// Of the cluster that loses most, not of all together. Orthographic cells are boxes.
+TEST(ListCap, Dropped_IsTheSumOfTheWorstCluster) {
+    const Capped result = cappedLists(8, settings::Projection::kOrthographic);
+    double worst = 0;
+    double together = 0;
+    for (uint32_t cluster = 0; cluster < result.grid.clusterCount(); ++cluster) {
+        const uint32_t line = cluster / result.grid.size.x;
+        const Cell cell = result.grid.cell(cluster % result.grid.size.x, line % result.grid.size.y,
+                                           line / result.grid.size.y);
+        const auto kept = listOf(result.capped, cluster);
+        double lost = 0;
+        for (const uint32_t light : listOf(result.all, cluster)) {
+            if (!std::binary_search(kept.begin(), kept.end(), light)) {
+                lost +=
+                    mostIrradiance(result.lights, result.lights.lights[light],
+                                   {cell.x0, -cell.y1, -cell.z1}, {cell.x1, -cell.y0, -cell.z0});
+            }
+        }
+        worst = std::max(worst, lost);
+        together += lost;
+    }
+    ASSERT_GT(together, 10 * worst);
+    EXPECT_NEAR(result.capped.stats.dropped_irradiance, worst, 1e-9 * worst);
+}
+
 TEST(ListCap, Strongest_Stays) {
     settings::Lights settings;
     settings.count = 0;

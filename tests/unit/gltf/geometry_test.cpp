@@ -125,6 +125,23 @@ TEST(Geometry, SparseAccessor_ReplacesItsElements) {
                 ElementsAre(glm::vec3(5, 6, 7), glm::vec3(1, 0, 0), glm::vec3(8, 9, 10)));
 }
 
+TEST(Geometry, SparseAccessorOverAnInterleavedView_KeepsItsStride) {
+    SceneFile file;
+    const std::vector<float> vertices{0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 0, 1};
+    const int view = file.addView(bytesOf(vertices), 24);
+    const int position = file.addAccessorOf(view, 5126, 3, 3);
+    file.attributes()["POSITION"] = position;
+    addNormals(file);
+    const int indices = file.addView(bytesOf<uint16_t>({1}));
+    const int values = file.addView(bytesOf<float>({5, 6, 7}));
+    file.json["accessors"][static_cast<size_t>(position)]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
+        {"values", {{"bufferView", values}}}};
+    EXPECT_THAT(onlyPrimitive(file).positions,
+                ElementsAre(glm::vec3(0), glm::vec3(5, 6, 7), glm::vec3(0, 2, 0)));
+}
+
 TEST(Geometry, SparseAccessorWithoutView_StartsFromZeros) {
     SceneFile file;
     addNormals(file);

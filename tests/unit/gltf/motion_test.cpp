@@ -94,6 +94,27 @@ TEST(Motion, Clip_IsReadWithItsKeys) {
     EXPECT_EQ(scene.motion->instances.at(0).instance, 0U);
 }
 
+// As long as its longest track, whichever comes last.
+TEST(Motion, ClipOfTwoTracks_LastsAsLongAsTheLonger) {
+    for (const bool longer_first : {true, false}) {
+        SceneFile file;
+        const int lasting = file.addAccessor<float>({0, 3}, 1);
+        const int brief = file.addAccessor<float>({0, 1}, 1);
+        const int moves = file.addAccessor<float>({0, 0, 0, 1, 0, 0}, 3);
+        const int grows = file.addAccessor<float>({1, 1, 1, 2, 2, 2}, 3);
+        file.add("animations",
+                 {{"samplers",
+                   {{{"input", longer_first ? lasting : brief}, {"output", moves}},
+                    {{"input", longer_first ? brief : lasting}, {"output", grows}}}},
+                  {"channels",
+                   {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+                    {{"sampler", 1}, {"target", {{"node", 0}, {"path", "scale"}}}}}}});
+        const scene::Scene scene = loaded(file.load());
+        ASSERT_NE(scene.motion, nullptr);
+        EXPECT_EQ(scene.motion->clips.at(0).duration_s, 3) << longer_first;
+    }
+}
+
 TEST(Motion, NormalizedRotations_AreFloatsBeforeTheyAreMixed) {
     SceneFile file;
     const int input = file.addAccessor<float>({0}, 1);
@@ -189,6 +210,19 @@ TEST(Motion, WeightsOffOne_AreScaled) {
     EXPECT_EQ(influences[0].weight, 1);
     EXPECT_FLOAT_EQ(influences[1].weight, 2 / 3.0F);
     EXPECT_EQ(influences[3].weight, 0.75F);
+}
+
+// As rounding to 8 or 16 bits leaves them: scaled without a word.
+TEST(Motion, WeightsHardlyOffOne_SumToOne) {
+    SceneFile file = skinned();
+    file.attributes()["WEIGHTS_0"] =
+        file.addAccessor<float>({1, 0, 0, 0, 0.4995F, 0.5F, 0, 0, 0.5F, 0.5F, 0, 0}, 4);
+    const scene::Scene scene = loaded(file.load());
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    const auto& influences = onlyDeformation(scene).influences;
+    ASSERT_EQ(influences.size(), 5U);
+    EXPECT_FLOAT_EQ(influences[1].weight + influences[2].weight, 1);
+    EXPECT_FLOAT_EQ(influences[1].weight, 0.4995F / 0.9995F);
 }
 
 TEST(Motion, WeightsThatAreNotFinite_AreNone) {

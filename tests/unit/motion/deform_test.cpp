@@ -156,6 +156,24 @@ TEST(Deform, MirroredJoint_IsAMirroredInstance) {
     EXPECT_EQ(out.tangents, primitive.tangents);
 }
 
+// What follows the second joint, which mirrors where the first does not, has the other handedness.
+TEST(Deform, JointMirroredAgainstTheFirst_TurnsTheTangentsSide) {
+    std::mt19937_64 random(9);
+    const Primitive primitive = cloud(20, random);
+    const glm::dmat4 mirror = glm::scale(glm::dmat4(1), {-1, 1, 1});
+    const SkinPose skin = posedBy({glm::dmat4(1), mirror});
+    const auto tangent_of = [&](uint32_t joint) {
+        return deformed(primitive, followers(20, {{joint, 1}}), {}, &skin).tangents;
+    };
+    const auto kept = tangent_of(0);
+    const auto turned = tangent_of(1);
+    for (size_t i = 0; i < 20; ++i) {
+        EXPECT_EQ(kept[i], primitive.tangents[i]);
+        EXPECT_EQ(turned[i].w, -primitive.tangents[i].w);
+        EXPECT_NEAR(turned[i].x, -primitive.tangents[i].x, 1e-6F);
+    }
+}
+
 TEST(Deform, JointOfNoSize_KeepsDirections) {
     std::mt19937_64 random(4);
     const Primitive primitive = cloud(20, random);

@@ -255,6 +255,45 @@ TEST_F(ConversationTest, Pings_AnswersAreNotTaken_ClosesAsSlow) {
     EXPECT_EQ(talk_.closing()->code, CloseCode::kSlowConsumer);
 }
 
+// It may find a better way: its session waits for it. One that misbehaved has left.
+TEST_F(ConversationTest, Departure_OfASlowViewer_KeepsItsSession_OfAnOffenderNot) {
+    const auto leaves = [this](bool slow) {
+        const session::SessionId id = FakePort::kFirstId + port_.sessions.size();
+        const auto viewer = std::make_shared<Viewer>();
+        std::optional<Conversation> talk;
+        talk.emplace(viewer, lobby_, metrics_, Caller{{"192.0.2.7"}, false, {}});
+        viewer->talk = &*talk;
+        ServiceStatus status;
+        status.serving = Serving{std::make_shared<const session::SessionContext>(), &port_};
+        talk->onService(status, now_);
+        uint64_t seq = 0;
+        const auto tell = [&](v1::ClientMessage message) {
+            message.set_seq(++seq);
+            talk->onMessage(protocol::bytesOf(message.SerializeAsString()), WireFormat::kBinary,
+                            now_);
+        };
+        v1::ClientMessage hello;
+        hello.mutable_hello()->set_protocol_major(protocol::kMajor);
+        tell(hello);
+        while (talk->nextMessage(now_)) {
+        }
+        v1::ClientMessage message;
+        if (slow) {
+            message.mutable_ping();
+        } else {
+            message.mutable_set_exposure()->set_exposure(-1);
+        }
+        while (!talk->closing()) {
+            tell(message);
+        }
+        EXPECT_EQ(talk->closing()->code, slow ? CloseCode::kSlowConsumer : CloseCode::kPolicy);
+        talk.reset();
+        return port_.session(id).left;
+    };
+    EXPECT_FALSE(leaves(true));
+    EXPECT_TRUE(leaves(false));
+}
+
 TEST_F(ConversationTest, Refused_PictureTooLarge_FallsBackToWhatWasDrawn) {
     join();
     const session::SessionState drawn = port_.session().states.back();

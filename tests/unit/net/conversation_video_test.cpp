@@ -69,6 +69,24 @@ TEST_F(ConversationTest, Video_LostWhileThereIsNoRoom_KeyFrameIsDemandedWhenTher
     EXPECT_EQ(port_.session().states.back().key_requests, before + 1);
 }
 
+// A picture that waits shows the viewer what there is: a key frame is for after it.
+TEST_F(ConversationTest, Video_BegunAgainWhileAPictureWaits_DemandsNoKeyFrameYet) {
+    joinWithVideo();
+    const uint64_t before = port_.session().states.back().key_requests;
+    video(1, true);
+    (void)nextFrame();
+    frame(2);
+    for (const bool paused : {true, false}) {
+        v1::ClientMessage message;
+        message.mutable_pause()->set_paused(paused);
+        say(message);
+    }
+    EXPECT_EQ(port_.session().states.back().key_requests, before);
+    drainAnswers();
+    ack(2);
+    EXPECT_EQ(port_.session().states.back().key_requests, before + 1);
+}
+
 TEST_F(ConversationTest, RequestKeyFrame_OnlyOfVideo_IsPassedOn) {
     v1::ClientMessage message;
     message.mutable_request_key_frame();

@@ -103,6 +103,13 @@ TEST_F(ReadBudgetTest, Standing_BytesWithoutEndOfAMessage_IsSpent) {
     EXPECT_EQ(budget_.standing(), Standing::kSpent);
 }
 
+TEST_F(ReadBudgetTest, Standing_ControlFramesBetweenFragments_EndNoMessage) {
+    budget_.onBytes(ReadBudget::kMostWithoutMessage, now_);
+    budget_.onControlFrame(now_);
+    budget_.onBytes(1, now_);
+    EXPECT_EQ(budget_.standing(), Standing::kSpent);
+}
+
 TEST_F(ReadBudgetTest, Standing_LongMessageInFragmentsOfAByte_StaysWithin) {
     for (int i = 0; i < 2; ++i) {
         budget_.onBytes(7 * protocol::kMaxMessageBytes, now_);

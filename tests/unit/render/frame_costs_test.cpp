@@ -71,6 +71,25 @@ TEST(FrameCosts, MoreToLightAPixel_CountsOnceForEach) {
     EXPECT_NEAR((after - before).count(), 640 * 360 * 1e-6, 1e-9);
 }
 
+// Each of the pixels that lie over each other is shaded, but behind a prepass one.
+TEST(FrameCosts, Forward_IsWhatItsPixelsAndTrianglesTake) {
+    Load load;
+    load.draws.triangle_count = 5000;
+    const UnitCosts& unit = kCpuUnitCosts;
+    const double pixel = unit.surface_pixel + 10 * unit.fragment.pair + unit.lit_pixel;
+    const double triangles = 5000 * unit.triangle;
+    const auto estimate = [&](const FramePlan& plan) {
+        load.plan = plan;
+        FrameLoad forward = load.of(PairBound::uniform(10));
+        forward.overdraw = 3;
+        return FrameCosts(unit, forward).total().count();
+    };
+    const double expected = 3 * 640 * 360 * pixel + triangles;
+    EXPECT_NEAR(estimate({.forward = true}), expected, 1e-9 * expected);
+    const double behind = 640 * 360 * (pixel + unit.depth_pixel) + triangles + triangles / 2;
+    EXPECT_NEAR(estimate({.depth_prepass = true, .forward = true}), behind, 1e-9 * behind);
+}
+
 // Lights are added up for a coat as for what is below it, where the forward shader adds them up.
 TEST(FrameCosts, Coats_LightForwardPixelsTwice) {
     Load load;

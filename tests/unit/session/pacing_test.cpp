@@ -129,6 +129,23 @@ TEST(CreditWindow, Bulk_SaysNothingOfTheLink) {
     EXPECT_EQ(window.window(), 2U);
 }
 
+TEST(CreditWindow, FramesBehindFramesBehindBulk_SayNothingEither) {
+    CreditWindow window;
+    const TimePoint now{1s};
+    window.onSent(1, now, {.bytes = 1'000'000, .bulk = true});
+    window.onSent(2, now);
+    ASSERT_EQ(window.onAck(1, now + 100ms), AckOutcome::kFresh);
+    window.onSent(3, now + 100ms); // behind the second, which was behind the first
+    for (const uint64_t id : {2U, 3U}) {
+        ASSERT_EQ(window.onAck(id, now + 120ms), AckOutcome::kFresh);
+        EXPECT_FALSE(window.lastTrip()->measured) << id;
+    }
+    EXPECT_FALSE(window.baseRoundTrip());
+    window.onSent(4, now + 200ms);
+    ASSERT_EQ(window.onAck(4, now + 210ms), AckOutcome::kFresh);
+    EXPECT_TRUE(window.lastTrip()->measured);
+}
+
 TEST(CreditWindow, ClientsOwnTime_IsNotTheLinks) {
     CreditWindow window;
     const TimePoint now{1s};

@@ -113,6 +113,38 @@ TEST(RateController, LinkRecovers_FullQualityWithinThreeSeconds) {
     }
 }
 
+// A frame in company took the link no longer than its own round trip, however seldom frames come.
+TEST(RateController, FramesFurtherApartThanTheyTravel_AreNoOverload) {
+    RateController rate;
+    rate.setWanted({75, settings::Chroma::k420}, {});
+    TimePoint now = TimePoint() + 1h;
+    for (int i = 0; i < 12; ++i, now += 150ms) {
+        rate.onProduced(60ms, 1);
+        const Trip trip{.as = {.bytes = 25'000},
+                        .round_trip = 50ms,
+                        .queue = 40ms,
+                        .interval = 150ms,
+                        .ahead = 1,
+                        .held = 1};
+        EXPECT_EQ(rate.onTrip(trip, now), RateStep::kNone) << i;
+    }
+}
+
+// The full picture failed at 300 kB/s. That less failed at 60 since does not make 200 enough for
+// it.
+TEST(RateController, ALowerRungFailsAtALowerRate_TheHigherKeepsItsOwn) {
+    for (const uint32_t seed : {1U, 2U, 3U}) {
+        Simulation simulation({75, settings::Chroma::k420}, seed);
+        simulation.run(kCpu, 10s);
+        simulation.run(with(kCpu, 300e3), 5s);
+        ASSERT_GT(simulation.rate().delivery().rung, 0U);
+        simulation.run(with(kCpu, 60e3), 5s);
+        for (const auto& frame : simulation.run(with(kCpu, 250e3), 6s)) {
+            EXPECT_GT(frame.rung, 0U) << seed << " " << frame.at.count();
+        }
+    }
+}
+
 TEST(RateController, TenthOfTheBandwidth_IsFollowedDownToTheRate) {
     Simulation simulation;
     simulation.run(kCpu, 10s);

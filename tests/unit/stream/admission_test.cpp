@@ -88,6 +88,17 @@ TEST_F(AdmissionTest, SessionThatDrawsSeldom_CountsWithWhatItDraws) {
     EXPECT_TRUE(admits()) << "4 x 2 x 20 ms and one of 0.6";
 }
 
+// Wherever its window stands: of the one before it only the part counts that reaches in.
+TEST_F(AdmissionTest, SteadySlowSession_CountsTheSameAtAnyTime) {
+    newcomersCost(5ms);
+    add({1});
+    draw({1}, 10, 20ms, 4);
+    for (int i = 0; i < 20; ++i) {
+        draw({1}, 10, 20ms, 0.3);
+        EXPECT_NEAR(admission_.load(now_), 0.2 / (1 - 0.15), 0.025) << i;
+    }
+}
+
 TEST_F(AdmissionTest, CrowdThatHasNotDrawnYet_CountsAtTheCostOfNewcomers) {
     newcomersCost(10ms);
     add({1});
@@ -183,6 +194,20 @@ TEST_F(AdmissionTest, ManySessionsOfOneAccount_LeaveRoomForOthers) {
     draw(many, 10, 50ms, 5);
     EXPECT_FALSE(admits(kHostile));
     EXPECT_TRUE(admits(kHonest));
+}
+
+// Others count with their share at most, the newcomer's own account with all that it needs.
+TEST_F(AdmissionTest, AccountBeyondItsShare_HasNoRoomForMoreOfItself) {
+    newcomersCost(6ms);
+    add({1}, kHonest);
+    add({2}, kOther);
+    for (int i = 0; i < 200; ++i, now_ += 25ms) {
+        admission_.onFrame(1, 20ms, now_); // 0.6 of the device at the floor
+        admission_.onFrame(2, 10ms, now_); // 0.3
+    }
+    EXPECT_FALSE(admits(kHonest));
+    EXPECT_TRUE(admits(kOther)); // the first counts with half
+    EXPECT_TRUE(admits(kHostile));
 }
 
 TEST_F(AdmissionTest, HonestAccountsFillTheDevice_OthersAreRefusedToo) {
