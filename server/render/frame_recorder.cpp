@@ -283,7 +283,7 @@ void recordPairs(const FrameContext& frame) {
     auto& slot = frame.slot;
     slot.pairs->recordClear(slot.cmd);
     // cleared counters, depth -> counting
-    barrier(slot.cmd, Stage::eClear | kDepthStages | Stage::eComputeShader,
+    barrier(slot.cmd, Stage::eAllTransfer | kDepthStages | Stage::eComputeShader,
             Access::eTransferWrite | Access::eDepthStencilAttachmentWrite |
                 Access::eShaderStorageWrite,
             Stage::eComputeShader,

@@ -151,7 +151,7 @@ void Exposure::record(const FrameContext& frame) const {
     const auto& cmd = frame.slot.cmd;
     cmd.fillBuffer(*targets_->counts.handle, 0, VK_WHOLE_SIZE, 0);
     // cleared counts -> first additions
-    barrier(cmd, Stage::eClear, Access::eTransferWrite, Stage::eComputeShader,
+    barrier(cmd, Stage::eAllTransfer, Access::eTransferWrite, Stage::eComputeShader,
             Access::eShaderStorageRead | Access::eShaderStorageWrite);
     inParts(frame, invocationsOver(frame.slot.targets->size), countingCost(frame.costs),
             recordHistogram);
