@@ -291,6 +291,17 @@ double nearestBound() {
     return arithmeticBound(3e-5, settings::LightingStage::kFragment);
 }
 
+void expectInBothStages(Compared& compared, const scene::Scene& room, double median, double p999) {
+    for (const auto stage :
+         {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
+        auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
+        inputs.settings.lighting = stage;
+        const Errors errors = compared.against(inputs);
+        EXPECT_LT(errors.median, median);
+        EXPECT_LT(errors.p999, p999);
+    }
+}
+
 } // namespace
 
 // Floor and wall, matt and glossy, in even light, in the studio and under lights.
@@ -324,14 +335,7 @@ TEST_F(Reference, NormalScale_IsOfBothAxes) {
         room.materials[0].normal_texture.texture = 1;
         room.materials[0].normal_scale = scale;
         Compared compared(device(), room);
-        for (const auto stage :
-             {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
-            auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
-            inputs.settings.lighting = stage;
-            const Errors errors = compared.against(inputs);
-            EXPECT_LT(errors.median, 1e-6);
-            EXPECT_LT(errors.p999, nearestBound());
-        }
+        expectInBothStages(compared, room, 1e-6, nearestBound());
     }
 }
 
@@ -361,14 +365,7 @@ TEST_F(Reference, RoomOfGlossiness_IsWithinArithmetic) {
         material.metallic = 0;
     }
     Compared compared(device(), room);
-    for (const auto stage :
-         {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
-        auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
-        inputs.settings.lighting = stage;
-        const Errors errors = compared.against(inputs);
-        EXPECT_LT(errors.median, 1e-5);
-        EXPECT_LT(errors.p999, 4 * nearestBound()); // sRGB, too
-    }
+    expectInBothStages(compared, room, 1e-5, 4 * nearestBound()); // sRGB, too
 }
 
 // Strength, colour and glossiness out of textures.
@@ -385,14 +382,8 @@ TEST_F(Reference, RoomOfTexturedReflectances_IsWithinArithmetic) {
     glossy.roughness = 0.5F;
     glossy.metallic = 0;
     Compared compared(device(), room);
-    for (const auto stage :
-         {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
-        auto inputs = inputsFor(room.cameras[0].camera, Renderer::kForwardPlus);
-        inputs.settings.lighting = stage;
-        const Errors errors = compared.against(inputs);
-        EXPECT_LT(errors.median, 1e-5); // the driver's sRGB polynomial
-        EXPECT_LT(errors.p999, 5e-3);   // and texels at whose edges a pixel lies
-    }
+    // The driver's sRGB polynomial; and texels at whose edges a pixel lies.
+    expectInBothStages(compared, room, 1e-5, 5e-3);
 }
 
 namespace {
