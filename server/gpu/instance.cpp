@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace froxel::gpu {
@@ -53,8 +54,14 @@ Instance::Instance(bool validation)
         }
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
-    const vk::InstanceCreateInfo info{.pApplicationInfo = &application,
+    // Missing barriers, too.
+    const std::array looks = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = looks.size(),
+                                             .pEnabledValidationFeatures = looks.data()};
+    const vk::InstanceCreateInfo info{.pNext = validation ? &features : nullptr,
+                                      .pApplicationInfo = &application,
                                       .enabledLayerCount = static_cast<uint32_t>(layers.size()),
                                       .ppEnabledLayerNames = layers.data(),
                                       .enabledExtensionCount =

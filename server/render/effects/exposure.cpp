@@ -159,9 +159,9 @@ void Exposure::record(const FrameContext& frame) const {
     barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
             Access::eShaderStorageRead);
     recordMeter(frame);
-    // the exposure -> the uniforms of all that shows the picture
-    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
-            Stage::eComputeShader | Stage::eFragmentShader, Access::eUniformRead);
+    // the exposure -> the uniforms of all stages, and what else is in their buffer
+    barrier(cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eAllCommands,
+            Access::eMemoryRead);
 }
 
 void Exposure::addResults(const FrameSlot& slot, FrameStats& stats) const {

@@ -226,6 +226,8 @@ void Fog::recordOwn(const FrameContext& frame) const {
     if (!hasVolume()) {
         return;
     }
+    // solid surfaces' shader, which names the volume's binding -> stores
+    barrier(frame.slot.cmd, Stage::eFragmentShader, {}, Stage::eComputeShader, {});
     inParts(frame, nodes(), scatterCost(frame.costs),
             [this](const FrameContext& at, const vk::Rect2D& part) { recordScatter(at, part); });
     // the slices' scattering -> their sums, in place
