@@ -254,6 +254,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     }
     const SurfacesDrawn surfaces = builder_.surfaces(plan);
     plan.kept = keepsSurfaces(plan, asked);
+    plan.spoil_scratch = plan.kept && inputs.spoil_scratch;
     plan.pose_kept = keepsPose(asked);
     const FrameCosts costs = builder_.costs(plan, asked.settings.size, effects_.ofFrame(), work_);
     if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {

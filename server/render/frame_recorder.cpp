@@ -267,6 +267,13 @@ void recordSurfaces(const FrameContext& frame) {
     if (frame.plan.kept) {
         recordKept(frame.slot.cmd);
     }
+    if (frame.plan.spoil_scratch) {
+        // the frame before -> fill -> whatever loads or copies
+        barrier(frame.slot.cmd, Stage::eAllCommands, {}, Stage::eClear, {});
+        recordRasterSpoil(frame);
+        barrier(frame.slot.cmd, Stage::eClear, Access::eTransferWrite, Stage::eAllCommands,
+                Access::eMemoryRead | Access::eMemoryWrite);
+    }
     if (settings::replacesPicture(frame.plan.debug)) {
         recordReplacement(frame);
     } else if (frame.plan.visibility_shade) {

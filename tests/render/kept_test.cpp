@@ -46,6 +46,7 @@ class Kept : public SharedGpuTest {
         inputs.settings.lights.count = 20;
         inputs.time_s = 1;
         inputs.keep_surfaces = true;
+        inputs.spoil_scratch = true;
         return inputs;
     }
     // The view's next frame, which may keep what it has, against a view's first.

@@ -30,6 +30,7 @@ struct FrameInputs {
     bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
     // For tests and measurements.
     GenericParts generic = {};
+    bool spoil_scratch = false; // whatever a frame with kept surfaces must not read is overwritten
     GeometryPath geometry = GeometryPath::kAuto;
     bool cull_meshlets = true;              // in the visibility passes
     std::optional<bool> depth_prepass = {}; // none: where it pays

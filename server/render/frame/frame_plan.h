@@ -67,6 +67,7 @@ struct FramePlan {
     bool visibility_shade = false; // these are shaded at once, without a G-buffer
     // What draws depth, ids and G-buffer is left out: the view's targets hold them (SurfacesDrawn).
     bool kept = false;
+    bool spoil_scratch = false; // FrameInputs::spoil_scratch, of such a frame
     bool cull_meshlets = true;
     bool lighting_compute = false;
     bool lighting_fragment = false;

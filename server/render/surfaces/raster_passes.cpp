@@ -60,6 +60,12 @@ void recordRasterClear(const FrameContext& frame) {
     frame.slot.cmd.updateBuffer<io::RasterCounts>(*raster(frame).counts.handle, 0, counts);
 }
 
+void recordRasterSpoil(const FrameContext& frame) {
+    if (const auto& words = frame.slot.targets->words; *words.handle) {
+        frame.slot.cmd.fillBuffer(*words.handle, 0, VK_WHOLE_SIZE, 0xa5a5a5a5);
+    }
+}
+
 void recordRasterCull(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
     bindVisibilityCompute(frame, raster(frame).cull());

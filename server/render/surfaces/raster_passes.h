@@ -11,6 +11,7 @@ void recordRasterCull(const FrameContext& frame);     // writes the list of visi
 void recordRasterMeshlets(const FrameContext& frame); // reads that; writes words, large triangles
 void recordRasterBlocks(const FrameContext& frame);   // reads large triangles; writes words
 void recordRasterUnpack(const FrameContext& frame);   // reads words; writes depth and ids
+void recordRasterSpoil(const FrameContext& frame);    // for tests: overwrites words
 
 // Depth to where the rasteriser tests it, in two copies by way of the words' buffer.
 void recordDepthOut(const FrameContext& frame); // reads depth
