@@ -49,7 +49,6 @@ export function logScale({ min, max }: Range, number: NumberKind, usual: number)
     },
     toPosition: (value) => {
       if (value <= min) return 0;
-      if (value < floor) return 1;
       return Math.max(1, clampPosition((Math.log(value / floor) / span) * kSliderSteps));
     },
   };

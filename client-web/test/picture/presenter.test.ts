@@ -91,6 +91,15 @@ describe('Presenter', () => {
     expect(times).toEqual([{ frameId: 1n, receiveToPaintUs: 16_000, decodeUs: 4_500 }]);
   });
 
+  it('Acknowledgement_AfterAComputerSlept_SaysAnHourAtMost', async () => {
+    presenter.offer(frame(1));
+    clockMs += 2 * 3_600_000; // more microseconds than a uint32 holds
+    await decodes[0]?.finish();
+    clockMs -= 3 * 3_600_000; // a clock that was set back
+    frames.run();
+    expect(times).toEqual([{ frameId: 1n, receiveToPaintUs: 0, decodeUs: 3_600_000_000 }]);
+  });
+
   it('Decodes_AreTwoAtMostAndTheNewestWaits', async () => {
     for (const id of [1, 2, 3, 4, 5]) presenter.offer(frame(id));
     expect(decodes.map(({ id }) => id)).toEqual([1n, 2n]);
