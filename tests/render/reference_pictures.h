@@ -157,9 +157,11 @@ expectInBothStages(Compared& compared, const scene::Scene& room, double median, 
          {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
         auto inputs = inputsFor(room.cameras[0].camera, settings::Renderer::kForwardPlus);
         inputs.settings.lighting = stage;
+        // A GPU's rasteriser meets planes less exactly, and at texels' edges others.
+        const double slack = onGpu() && stage == settings::LightingStage::kFragment ? 5 : 1;
         const Errors errors = compared.against(inputs);
-        EXPECT_LT(errors.median, median);
-        EXPECT_LT(errors.p999, p999);
+        EXPECT_LT(errors.median, slack * median);
+        EXPECT_LT(errors.p999, slack * p999);
     }
 }
 

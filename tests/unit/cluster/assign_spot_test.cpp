@@ -1,5 +1,6 @@
 // Spots against the oracle: no cell with a lit point is left out, and few without are let in.
 #include "assign_cases.h"
+#include "cluster/spot_cut.h"
 
 #include <cmath>
 #include <ostream>
@@ -117,6 +118,26 @@ TEST_P(AssignSpot, FewCellsWithoutALitPoint_AreListed) {
     const double extra = static_cast<double>(total.listed) / static_cast<double>(total.lit) - 1;
     RecordProperty("extra_percent", std::to_string(extra * 100));
     EXPECT_LT(extra, 0.12);
+}
+
+TEST(SpotCut, Bound_HoldsTheConeAndIsNoLargerThanTheLights) {
+    const glm::dvec3 apex(1, 2, 5);
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
+    const glm::dvec3 side = glm::normalize(glm::cross(axis, glm::dvec3(0, 1, 0)));
+    for (const double half_angle_deg : {1.0, 20.0, 44.0, 46.0, 60.0, 79.0}) {
+        const double half = glm::radians(half_angle_deg);
+        const auto cut = SpotCut::make(apex, cellAxes(axis), {std::cos(half), std::sin(half)}, 3);
+        ASSERT_TRUE(cut);
+        const Ball ball = cut->bound();
+        const glm::dvec3 centre(ball.x, ball.y, ball.z);
+        EXPECT_LE(ball.radius, 3);
+        for (const double turn : {0.0, 0.5, 1.0}) {
+            const glm::dvec3 ray = axis * std::cos(turn * half) + side * std::sin(turn * half);
+            EXPECT_LE(glm::distance(apex + 3.0 * ray, centre), ball.radius + 1e-6)
+                << half_angle_deg;
+        }
+        EXPECT_LE(glm::distance(apex, centre), ball.radius + 1e-6) << half_angle_deg;
+    }
 }
 
 TEST_P(AssignSpot, PointingAway_IsInNoList) {

@@ -163,6 +163,7 @@ TEST(Instancing, Attributes_PlaceTheMeshManyTimes) {
     EXPECT_EQ(scene.meshes.size(), 1U);
     expectNear(apply(scene.instances[0], {1, 0, 0}), {2, 0, 9});
     expectNear(apply(scene.instances[1], {1, 0, 0}), {-2, 5, 9});
+    expectNear(apply(scene.instances[1], {0, 1, 1}), {0, 3, 11}); // a half turn about z
 }
 
 TEST(Instancing, UnequalCounts_AreRefused) {

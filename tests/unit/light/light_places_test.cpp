@@ -129,6 +129,12 @@ TEST(LightPlaces, Lights_HoverJustOffThem_AndMove) {
         }
         EXPECT_NEAR(static_cast<double>(low) / 3000, 0.2, 0.03);
     }
+    const auto soon = lightsOf(twoFloors(), settings, 0.01);
+    float farthest = 0;
+    for (size_t i = 0; i < soon.size(); ++i) {
+        farthest = std::max(farthest, glm::distance(soon[i].position_view, first[i].position_view));
+    }
+    EXPECT_NEAR(farthest, 0.01F * 0.25F * 1.5F, 5e-4F); // a quarter of the speed elsewhere
     const auto later = lightsOf(twoFloors(), settings, 0.5);
     EXPECT_TRUE(
         std::equal(first.begin(), first.end(), later.begin(), [](const auto& a, const auto& b) {

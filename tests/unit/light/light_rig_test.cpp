@@ -88,6 +88,12 @@ TEST(LightRig, AreaLight_IsARectangleAcrossItsDirection) {
             if (roll == 0) { // a level width; the camera is level too
                 EXPECT_NEAR(right.y, 0, 1e-6F);
             }
+            if (roll == 0 && direction.x == 0) { // up and down, too
+                EXPECT_NEAR(right.x, 1.5F, 1e-6F);
+            }
+            if (roll == 30 && direction == glm::dvec3(0, 0, -1)) { // seen along it, to the left
+                EXPECT_NEAR(right.y, 0.75F, 1e-6F);
+            }
             EXPECT_NEAR(extentOf(lights, lights.lights[1]), std::hypot(1.5F, 0.25F), 1e-6F);
         }
     }

@@ -76,6 +76,7 @@ TEST(ClientAddress, Account_IsAnIpv4AddressOrAnIpv6NetworkOf64Bits) {
     EXPECT_EQ(accountOf("2001:db8:1:2:3:4:5:6"), "2001:db8:1:2::/64");
     EXPECT_EQ(accountOf("2001:db8:1:2::1"), accountOf("2001:db8:1:2:ffff::"));
     EXPECT_NE(accountOf("2001:db8:1:2::1"), accountOf("2001:db8:1:3::1"));
+    EXPECT_EQ(accountOf("fe80::1%3"), accountOf("fe80::2%4")) << "on whichever card";
 }
 
 TEST(ClientAddress, AProxyOnThisHost_IsLocal) {

@@ -193,6 +193,27 @@ TEST(RenderScale, CostStep_IsFollowedAndTakenBack) {
     EXPECT_EQ(scale.scale(), 1);
 }
 
+// Smaller pictures are cheap, and the whole one is not: ever longer until it is tried again.
+TEST(RenderScale, AStepThatIsTakenBack_IsHeldLongerEachTime) {
+    RenderScale scale;
+    scale.setTarget(15);
+    TimePoint now(10s);
+    std::vector<TimePoint> tried;
+    while (now < TimePoint(200s)) {
+        const double at = scale.scale();
+        const auto cost = at == 1 ? 100ms : 20ms;
+        now += cost;
+        scale.onFrame(cost, at, now);
+        if (scale.scale() == 1 && at != 1) {
+            tried.push_back(now);
+        }
+    }
+    ASSERT_GE(tried.size(), 6U);
+    EXPECT_LE(tried.size(), 10U);
+    EXPECT_GT(tried[5] - tried[4], 1.5 * (tried[4] - tried[3]));
+    EXPECT_NEAR(Seconds(tried.back() - tried.end()[-2]).count(), 60, 2) << "30 s a step at most";
+}
+
 TEST(RenderScale, NotToBeReached_StopsAtTheSmallest) {
     RenderScale scale;
     scale.setTarget(60);
