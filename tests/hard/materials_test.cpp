@@ -139,6 +139,29 @@ TEST_F(HardMaterials, HighlightsOfAnyRoughness_AreAsDoublePrecisionHasThem) {
 }
 
 // Case 25. Light along a surface, a hair above it and a hair below.
+// A smaller highlight would slip between pixels.
+TEST_F(HardMaterials, RoughnessBelowTheLeast_IsTheLeast) {
+    const auto drawn = [&](float roughness) {
+        scene::Material gloss = chalk();
+        gloss.roughness = roughness;
+        SceneMaker maker(gloss);
+        glm::dmat4 placed(1);
+        placed[3] = glm::dvec4(0, 0, -2.5, 1);
+        maker.add(sphere(1, 32, 0), placed);
+        maker.sun({0, 0, -1});
+        render::Renderer renderer(device(), maker.scene);
+        auto inputs = hardInputs();
+        inputs.settings.size = {96, 54};
+        inputs.settings.renderer = settings::Renderer::kNaive;
+        inputs.settings.shading = settings::ShadingModel::kPbr;
+        return draw(renderer, inputs).radiance;
+    };
+    const auto least = drawn(0.045F);
+    EXPECT_TRUE(drawn(0) == least);
+    EXPECT_TRUE(drawn(0.044F) == least);
+    EXPECT_FALSE(drawn(0.05F) == least);
+}
+
 TEST_F(HardMaterials, GrazingLight_IsNeverNegative) {
     for (const auto shading : {settings::ShadingModel::kLambert,
                                settings::ShadingModel::kBlinnPhong, settings::ShadingModel::kPbr}) {

@@ -392,6 +392,43 @@ TEST_F(Shadows, APlainRoom_IsAsRaysHaveIt_ButAtEdges) {
     }
 }
 
+// As many lights as may have maps, each with shadows of its own: together they are the sum of what
+// each is alone. Levels are kept in 4 bits a light, eight lights a word.
+TEST_F(Shadows, ThirtyTwoLights_EachHaveTheirOwn) {
+    SceneMaker maker;
+    maker.add(ground(4));
+    for (const float x : {-1.5F, 0.0F, 1.5F}) {
+        maker.add(quad({x, 0.4F, 0.5F}, {0.5F, 0, 0}, {0, 0, -0.5F}, 1, 0));
+    }
+    render::Renderer renderer(device(), maker.scene);
+    render::ViewRenderer view(renderer);
+    const auto drawnWith = [&](const std::vector<settings::PlacedLight>& lights) {
+        auto inputs = inputsFrom({0, 3, 5}, {0, 0, 0}, {32, 64});
+        inputs.settings.renderer = Renderer::kNaive;
+        inputs.settings.lights.placed = settings::PlacedLights(lights);
+        return draw(view, inputs);
+    };
+    std::vector<settings::PlacedLight> lights;
+    std::vector<double> sum;
+    for (uint32_t i = 0; i < 32; ++i) {
+        const double turn = glm::radians(360.0 / 32 * i);
+        lights.push_back({.id = i + 1,
+                          .position_world = {3 * std::sin(turn), 1.2, 2 * std::cos(turn)},
+                          .intensity = 3,
+                          .radius_m = 8});
+        const Picture alone = drawnWith({lights.back()});
+        sum.resize(alone.radiance.size());
+        for (size_t j = 0; j < sum.size(); ++j) {
+            sum[j] += static_cast<double>(alone.radiance[j]);
+        }
+    }
+    const Picture all = drawnWith(lights);
+    EXPECT_EQ(all.stats.shadows.light_count, 32U);
+    for (size_t j = 0; j < sum.size(); ++j) {
+        ASSERT_NEAR(static_cast<double>(all.radiance[j]), sum[j], 1e-4 * (sum[j] + 0.01)) << j;
+    }
+}
+
 TEST_F(Shadows, ASpot_IsDarkBehindWhatBlocksIt) {
     for (const double outer_deg : {10.0, 35.0, 60.0, 75.0, 89.0}) {
         SceneMaker maker;

@@ -46,6 +46,8 @@ TEST(VideoDelivery, Ladder_LowersTheRateBeforeTheSize_AndAsksForLessAtEachRung) 
         EXPECT_TRUE(encoding.video_kbps < kbps || rung.alone) << rung.delivery.rung;
         EXPECT_TRUE(rung.delivery.scale == 1 || kbps <= 6000 * 0.35);
         EXPECT_LE(rung.bits / interval.count(), bits_per_s) << rung.delivery.rung;
+        EXPECT_NEAR(rung.bits / interval.count(), encoding.video_kbps / 6000.0 * 30, 1e-6)
+            << "fewer frames have more bits each";
         bits_per_s = rung.bits / interval.count();
         kbps = encoding.video_kbps;
     }
