@@ -494,13 +494,13 @@ void FrameBuilder::gather(FrameUpload& upload, std::span<const ActiveEffect> eff
         blocks_[binding] =
             span.empty() ? FrameBlock{} : FrameBlock{upload.add(span), span.size_bytes()};
     };
-    place(0, std::span<const io::Frame>(&uniforms_, 1));
-    place(1, std::span<const io::Light>(lights_.lights));
-    place(2, std::span<const io::ClusterList>(lists_.clusters));
-    place(3, std::span<const uint32_t>(lists_.indices));
-    place(4, std::span<const io::Spot>(lights_.spots));
-    place(5, std::span<const io::DirectionalLight>(lights_.directionals));
-    place(11, std::span<const io::AreaLight>(lights_.areas));
+    place(io::kFrameBinding, std::span<const io::Frame>(&uniforms_, 1));
+    place(io::kLightsBinding, std::span<const io::Light>(lights_.lights));
+    place(io::kListsBinding, std::span<const io::ClusterList>(lists_.clusters));
+    place(io::kIndicesBinding, std::span<const uint32_t>(lists_.indices));
+    place(io::kSpotsBinding, std::span<const io::Spot>(lights_.spots));
+    place(io::kSunsBinding, std::span<const io::DirectionalLight>(lights_.directionals));
+    place(io::kAreasBinding, std::span<const io::AreaLight>(lights_.areas));
     assign_offsets_ = on_device_ ? gatherAssignment(upload) : AssignOffsets{};
     UploadOffsets& offsets = offsets_;
     offsets = {};
@@ -536,7 +536,7 @@ AssignOffsets FrameBuilder::gatherAssignment(FrameUpload& upload) const {
     const AssignData& data = device_lists_.data();
     return {.frame = upload.add(std::span<const io::AssignFrame>(data.frame)),
             .tables = upload.add(std::span<const double>(data.tables)),
-            .lights = blocks_[1].offset,
+            .lights = blocks_[io::kLightsBinding].offset,
             .radii = upload.add(data.radii_m),
             .spots = upload.add(std::span<const io::AssignSpot>(data.spots))};
 }
@@ -548,7 +548,8 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect
     }
     if (!lights_.areas.empty()) {
         const gpu::Buffer& table = scene_.ltcTable();
-        blocks_[12] = {.bytes = area_light_table::table().size_bytes(), .buffer = *table.handle};
+        blocks_[io::kLtcBinding] = {.bytes = area_light_table::table().size_bytes(),
+                                    .buffer = *table.handle};
     }
     slot.device_lists = on_device_;
     if (on_device_) {
@@ -560,10 +561,11 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect
 
 void FrameBuilder::writeAssignment(FrameSlot& slot) {
     const auto& buffers = device_lists_.makeBuffers();
-    blocks_[2] = {.bytes = device_lists_.data().frame[0].cluster_count * sizeof(io::ClusterList),
-                  .buffer = *buffers->lists.handle};
-    blocks_[3] = {.bytes = uint64_t{buffers->capacity.entries} * sizeof(uint32_t),
-                  .buffer = *buffers->indices.handle};
+    blocks_[io::kListsBinding] = {.bytes = device_lists_.data().frame[0].cluster_count *
+                                           sizeof(io::ClusterList),
+                                  .buffer = *buffers->lists.handle};
+    blocks_[io::kIndicesBinding] = {.bytes = uint64_t{buffers->capacity.entries} * sizeof(uint32_t),
+                                    .buffer = *buffers->indices.handle};
     if (!slot.assignment) {
         slot.assignment = std::make_unique<AssignSlot>(scene_.device, *scene_.assignment());
     }

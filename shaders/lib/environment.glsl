@@ -3,7 +3,7 @@
 // each whole, as in lib/brdf.glsl.
 #include "lib/environment_map.glsl"
 
-layout(set = 0, binding = 15) uniform textureBuffer lobe_texels; // kLobeTableSize
+layout(set = 0, binding = kLobesBinding) uniform textureBuffer lobe_texels; // kLobeTableSize
 
 // What a lobe of reflectance 1 reflects in all, and of that the grazing part.
 vec2 lobeAlbedo(float n_dot_v, float roughness) {

@@ -1,9 +1,13 @@
 // The radiance from around, over directions. The cube's levels are filtered here, in fp32: a
 // device's filter has weights of 8 bits, and llvmpipe takes one level of detail for four fragments.
 #include "interface/environment_io.h"
+#include "interface/frame_bindings.h"
 
-layout(set = 0, binding = 13, scalar) uniform EnvironmentBlock { Environment environment; };
-layout(set = 0, binding = 14) uniform textureBuffer environment_texels; // environmentTexel()
+layout(set = 0, binding = kEnvironmentBinding, scalar) uniform EnvironmentBlock {
+    Environment environment;
+};
+layout(set = 0,
+       binding = kLevelsBinding) uniform textureBuffer environment_texels; // environmentTexel()
 
 // Irradiance over pi; n in the panorama's axes.
 vec3 mattRadiance(vec3 n) {

@@ -1,10 +1,11 @@
 // The medium between the eye and what it sees: extinction and light from all around in closed form,
 // light from lamps out of the froxel volume.
 #include "interface/fog_io.h"
+#include "interface/frame_bindings.h"
 
-layout(set = 0, binding = 6, scalar) uniform FogBlock { Fog fog; };
+layout(set = 0, binding = kFogBinding, scalar) uniform FogBlock { Fog fog; };
 // What it scatters: filled by fog_scatter.comp, added up by fog_integrate.comp.
-layout(set = 0, binding = 7) uniform textureBuffer fog_texels;
+layout(set = 0, binding = kFogVolumeBinding) uniform textureBuffer fog_texels;
 
 const float kFogFarthest_m = 1e9; // stands for an empty pixel's distance
 

@@ -1,4 +1,5 @@
 // Set 0: the frame, its lights and lists; and the geometry of a pixel.
+#include "interface/frame_bindings.h"
 #include "interface/frame_io.h"
 #include "interface/light_io.h"
 #include "interface/shadow_io.h"
@@ -13,22 +14,27 @@ layout(constant_id = 3) const uint BATCH_SIZE = 8;
 struct FrameOfSurfaces {
     FrameCamera camera;
 };
-layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameOfSurfaces frame; };
+layout(set = 0, binding = kFrameBinding, scalar) uniform FrameBlock { FrameOfSurfaces frame; };
 #else
-layout(set = 0, binding = 0, scalar) uniform FrameBlock { Frame frame; };
+layout(set = 0, binding = kFrameBinding, scalar) uniform FrameBlock { Frame frame; };
 #endif
 // Texel buffers: a software rasteriser gathers from these without a branch for each invocation,
 // four times cheaper than from storage buffers.
-layout(set = 0, binding = 1) uniform textureBuffer light_texels;  // io::Light: 2 texels
-layout(set = 0, binding = 2) uniform utextureBuffer list_texels;  // io::ClusterList
-layout(set = 0, binding = 3) uniform utextureBuffer index_texels; // light index list
-layout(set = 0, binding = 4) uniform textureBuffer spot_texels;   // io::Spot: 2 texels
-layout(set = 0, binding = 5, scalar) readonly buffer SunBlock { DirectionalLight suns[]; };
-layout(set = 0, binding = 8) uniform utextureBuffer shadow_of_light; // or kNoShadow
-layout(set = 0, binding = 9) uniform textureBuffer shadow_texels;    // io::ShadowLight: 5 texels
-layout(set = 0, binding = 10) uniform texture2D shadow_atlas;
-layout(set = 0, binding = 11) uniform textureBuffer area_texels; // io::AreaLight: 2 texels
-layout(set = 0, binding = 12) uniform textureBuffer ltc_texels;
+layout(set = 0, binding = kLightsBinding) uniform textureBuffer light_texels; // io::Light: 2 texels
+layout(set = 0, binding = kListsBinding) uniform utextureBuffer list_texels;  // io::ClusterList
+layout(set = 0, binding = kIndicesBinding) uniform utextureBuffer index_texels; // light index list
+layout(set = 0, binding = kSpotsBinding) uniform textureBuffer spot_texels; // io::Spot: 2 texels
+layout(set = 0, binding = kSunsBinding, scalar) readonly buffer SunBlock {
+    DirectionalLight suns[];
+};
+layout(set = 0,
+       binding = kShadowOfLightBinding) uniform utextureBuffer shadow_of_light; // or kNoShadow
+layout(set = 0, binding = kShadowLightsBinding) uniform textureBuffer
+    shadow_texels; // io::ShadowLight: 5 texels
+layout(set = 0, binding = kShadowAtlasBinding) uniform texture2D shadow_atlas;
+layout(set = 0,
+       binding = kAreasBinding) uniform textureBuffer area_texels; // io::AreaLight: 2 texels
+layout(set = 0, binding = kLtcBinding) uniform textureBuffer ltc_texels;
 
 #ifdef FROXEL_VISIBILITY
 uint visible_flags; // of this invocation's pixel; MATERIAL_FLAGS: what any of them may have

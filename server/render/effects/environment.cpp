@@ -15,9 +15,6 @@ namespace froxel::render {
 namespace {
 
 // Of the frame set.
-constexpr size_t kEnvironmentBinding = 13;
-constexpr size_t kLevelsBinding = 14;
-constexpr size_t kLobesBinding = 15;
 
 class Environment final : public Effect {
   public:
@@ -39,11 +36,12 @@ class Environment final : public Effect {
     void addCosts(const FrameCosts& /*costs*/,
                   std::vector<PassEstimate>& /*passes*/) const override {}
     void gather(FrameUpload& upload, FrameBlocks& blocks) override {
-        blocks[kEnvironmentBinding] = {upload.add(std::span<const io::Environment>(&uniforms_, 1)),
-                                       sizeof(uniforms_)};
-        blocks[kLevelsBinding] = {.bytes = map_->texels.size_bytes, .buffer = *map_->texels.handle};
+        blocks[io::kEnvironmentBinding] = {
+            upload.add(std::span<const io::Environment>(&uniforms_, 1)), sizeof(uniforms_)};
+        blocks[io::kLevelsBinding] = {.bytes = map_->texels.size_bytes,
+                                      .buffer = *map_->texels.handle};
         const gpu::Buffer& lobes = scene_.shared<EnvironmentMaps>().lobes();
-        blocks[kLobesBinding] = {.bytes = lobes.size_bytes, .buffer = *lobes.handle};
+        blocks[io::kLobesBinding] = {.bytes = lobes.size_bytes, .buffer = *lobes.handle};
     }
 
   private:

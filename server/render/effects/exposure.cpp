@@ -24,7 +24,6 @@ using Access = vk::AccessFlagBits2;
 using Stage = vk::PipelineStageFlagBits2;
 using Type = vk::DescriptorType;
 
-constexpr size_t kFrameBinding = 0; // of the frame set
 constexpr vk::DeviceSize kCountBytes = io::kMeterBins * sizeof(uint32_t);
 
 vk::raii::DescriptorSetLayout makeExposureSetLayout(const gpu::Device& device) {
@@ -144,7 +143,7 @@ void Exposure::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     slot.effect_targets.hold(targets_);
     const auto& shared = scene_.shared<ExposurePipelines>();
     slot.kept.findOrMake<ExposureSet>(scene_.device, *shared.set_layout)
-        .write(scene_.device, targets_->counts, slot.upload.buffer(), blocks[kFrameBinding]);
+        .write(scene_.device, targets_->counts, slot.upload.buffer(), blocks[io::kFrameBinding]);
 }
 
 void Exposure::record(const FrameContext& frame) const {

@@ -23,10 +23,6 @@ using Access = vk::AccessFlagBits2;
 using Stage = vk::PipelineStageFlagBits2;
 using Type = vk::DescriptorType;
 
-// Of the frame set.
-constexpr size_t kFogBinding = 6;
-constexpr size_t kVolumeBinding = 7;
-
 constexpr Measured<PairCost> kPair{.cpu = {5e-9, 8e-7}, .gpu = {8e-12, 1e-6}};
 constexpr Measured<double> kFroxel{.cpu = 6e-8, .gpu = 1e-10}; // without lights
 
@@ -148,7 +144,7 @@ class Fog final : public Effect {
     }
     void addMemory(NeedList& need) const override { need.buffer("fog volume", volumeBytes()); }
     void gather(FrameUpload& upload, FrameBlocks& blocks) override {
-        blocks[kFogBinding] = {upload.add(std::span<const io::Fog>(&fog_, 1)), sizeof(fog_)};
+        blocks[io::kFogBinding] = {upload.add(std::span<const io::Fog>(&fog_, 1)), sizeof(fog_)};
     }
 
     void freeUnfit(const ViewTargets* /*view*/) override {
@@ -219,7 +215,7 @@ void Fog::prepare(FrameSlot& slot, FrameBlocks& blocks) {
             scene_.device, scene_.shared<FogPipelines>().setLayout(), volumeBytes());
     }
     slot.effect_targets.hold(volume_);
-    blocks[kVolumeBinding] = {.bytes = volumeBytes(), .buffer = *volume_->froxels().handle};
+    blocks[io::kFogVolumeBinding] = {.bytes = volumeBytes(), .buffer = *volume_->froxels().handle};
 }
 
 void Fog::recordOwn(const FrameContext& frame) const {

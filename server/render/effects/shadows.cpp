@@ -28,11 +28,6 @@ using Access = vk::AccessFlagBits2;
 using Stage = vk::PipelineStageFlagBits2;
 using Type = vk::DescriptorType;
 
-// Of the frame set.
-constexpr size_t kShadowOfLightBinding = 8;
-constexpr size_t kShadowLightsBinding = 9;
-constexpr size_t kShadowAtlasBinding = 10;
-
 // A lookup of a light at a pixel. Measured on lavapipe on two cores and on an H200.
 constexpr Measured<double> kShadowPair{6e-8, 3e-11};
 
@@ -91,7 +86,7 @@ struct ShadowTargets final : EffectTargets {
 
 vk::raii::DescriptorPool makeShadowsPool(const gpu::Device& device) {
     std::vector<vk::DescriptorPoolSize> sizes;
-    for (const Type type : Pipelines::kFrameBindingTypes) {
+    for (const auto& [type, texels] : kFrameBindings) {
         sizes.push_back({type, 1});
     }
     return gpu::makeDescriptorPool(device, sizes);
@@ -116,12 +111,12 @@ void ShadowSet::write(const gpu::Device& device, vk::Buffer upload, vk::DeviceSi
     const vk::DescriptorImageInfo no_image{.imageView = {},
                                            .imageLayout = vk::ImageLayout::eGeneral};
     const vk::BufferView no_view;
-    std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
+    std::array<vk::WriteDescriptorSet, io::kFrameBindingCount> writes;
     for (uint32_t i = 0; i < writes.size(); ++i) {
         writes[i] = {.dstSet = *set,
                      .dstBinding = i,
                      .descriptorCount = 1,
-                     .descriptorType = Pipelines::kFrameBindingTypes[i],
+                     .descriptorType = kFrameBindings[i].type,
                      .pImageInfo = &no_image,
                      .pBufferInfo = i == 0 ? &frame : &no_buffer,
                      .pTexelBufferView = &no_view};
@@ -223,8 +218,8 @@ void Shadows::gather(FrameUpload& upload, FrameBlocks& blocks) {
     const auto place = [&](size_t binding, auto span) {
         blocks[binding] = {upload.add(span), span.size_bytes()};
     };
-    place(kShadowOfLightBinding, std::span<const uint32_t>(frame_.shadow_of_light));
-    place(kShadowLightsBinding, std::span<const io::ShadowLight>(frame_.lights));
+    place(io::kShadowOfLightBinding, std::span<const uint32_t>(frame_.shadow_of_light));
+    place(io::kShadowLightsBinding, std::span<const io::ShadowLight>(frame_.lights));
     uniforms_offset_ = upload.add(std::span<const io::Frame>(&frame_.uniforms, 1));
     rows_offset_ = upload.add(std::span<const InstanceRows>(frame_.rows));
     commands_offset_ = upload.add(std::span<const vk::DrawIndexedIndirectCommand>(frame_.commands));
@@ -238,7 +233,7 @@ void Shadows::prepare(FrameSlot& slot, FrameBlocks& blocks) {
         targets_ = std::make_shared<ShadowTargets>(scene_.device, settings_, caster_count_);
     }
     slot.effect_targets.hold(targets_);
-    blocks[kShadowAtlasBinding].image = *targets_->atlas.view;
+    blocks[io::kShadowAtlasBinding].image = *targets_->atlas.view;
     slot.kept.findOrMake<ShadowSet>(scene_.device, scene_.pipelines.frameLayout())
         .write(scene_.device, slot.upload.buffer(), uniforms_offset_);
 }

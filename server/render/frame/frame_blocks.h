@@ -14,6 +14,6 @@ struct FrameBlock {
     vk::ImageView image = {}; // of an image's binding; null: the frame lacks it
 };
 
-using FrameBlocks = std::array<FrameBlock, Pipelines::kFrameBindings>;
+using FrameBlocks = std::array<FrameBlock, io::kFrameBindingCount>;
 
 } // namespace froxel::render

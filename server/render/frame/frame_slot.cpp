@@ -14,7 +14,7 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device) {
     using Type = vk::DescriptorType;
     const std::array sizes = {
         vk::DescriptorPoolSize{Type::eUniformBuffer, 3},
-        vk::DescriptorPoolSize{Type::eUniformTexelBuffer, Pipelines::kFrameBindings},
+        vk::DescriptorPoolSize{Type::eUniformTexelBuffer, io::kFrameBindingCount},
         vk::DescriptorPoolSize{Type::eStorageBuffer, 2},
         vk::DescriptorPoolSize{Type::eSampledImage, 4},
         vk::DescriptorPoolSize{Type::eStorageImage, 1}};
@@ -121,10 +121,10 @@ const gpu::Buffer& pixelsOf(const FrameSlot& slot) {
 }
 
 void writeFrameSet(const gpu::Device& device, FrameSlot& slot, const FrameBlocks& blocks) {
-    std::array<vk::DescriptorBufferInfo, Pipelines::kFrameBindings> infos;
-    std::array<vk::DescriptorImageInfo, Pipelines::kFrameBindings> images;
-    std::array<vk::BufferView, Pipelines::kFrameBindings> views;
-    std::array<vk::WriteDescriptorSet, Pipelines::kFrameBindings> writes;
+    std::array<vk::DescriptorBufferInfo, io::kFrameBindingCount> infos;
+    std::array<vk::DescriptorImageInfo, io::kFrameBindingCount> images;
+    std::array<vk::BufferView, io::kFrameBindingCount> views;
+    std::array<vk::WriteDescriptorSet, io::kFrameBindingCount> writes;
     slot.texel_views.clear();
     for (uint32_t i = 0; i < infos.size(); ++i) {
         // What the frame lacks is described as none.
@@ -136,14 +136,14 @@ void writeFrameSet(const gpu::Device& device, FrameSlot& slot, const FrameBlocks
         writes[i] = {.dstSet = *slot.frame_set,
                      .dstBinding = i,
                      .descriptorCount = 1,
-                     .descriptorType = Pipelines::kFrameBindingTypes[i],
+                     .descriptorType = kFrameBindings[i].type,
                      .pImageInfo = &images[i],
                      .pBufferInfo = &infos[i]};
-        if (Pipelines::kFrameTexelFormats[i] != vk::Format::eUndefined) {
+        if (kFrameBindings[i].texels != vk::Format::eUndefined) {
             if (bytes > 0) {
                 slot.texel_views.push_back(
                     device.handle().createBufferView({.buffer = buffer,
-                                                      .format = Pipelines::kFrameTexelFormats[i],
+                                                      .format = kFrameBindings[i].texels,
                                                       .offset = offset,
                                                       .range = bytes}));
                 views[i] = *slot.texel_views.back();

@@ -27,10 +27,10 @@ constexpr std::string_view kFragmentLightingName = "lighting (fragment)";
 constexpr vk::ShaderStageFlags kAllStages = Stage::eVertex | Stage::eFragment | Stage::eCompute;
 
 vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
-    std::array<vk::DescriptorSetLayoutBinding, Pipelines::kFrameBindings> bindings;
+    std::array<vk::DescriptorSetLayoutBinding, io::kFrameBindingCount> bindings;
     for (uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {.binding = i,
-                       .descriptorType = Pipelines::kFrameBindingTypes[i],
+                       .descriptorType = kFrameBindings[i].type,
                        .descriptorCount = 1,
                        .stageFlags = kAllStages};
     }

@@ -4,6 +4,7 @@
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
+#include "interface/frame_bindings.h"
 #include "render/pipelines/variant_cache.h"
 #include "settings/settings.h"
 
@@ -51,49 +52,40 @@ struct VariantKey {
     auto operator<=>(const VariantKey&) const = default;
 };
 
+struct FrameBinding {
+    vk::DescriptorType type;
+    vk::Format texels = vk::Format::eUndefined; // of a texel buffer
+};
+// By the bindings of interface/frame_bindings.h.
+inline constexpr auto kFrameBindings = [] {
+    using Type = vk::DescriptorType;
+    constexpr auto kTexels = Type::eUniformTexelBuffer;
+    std::array<FrameBinding, io::kFrameBindingCount> all{};
+    all[io::kFrameBinding] = {Type::eUniformBuffer};
+    all[io::kLightsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kListsBinding] = {kTexels, vk::Format::eR32G32Uint};
+    all[io::kIndicesBinding] = {kTexels, vk::Format::eR32Uint};
+    all[io::kSpotsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kSunsBinding] = {Type::eStorageBuffer};
+    all[io::kFogBinding] = {Type::eUniformBuffer};
+    all[io::kFogVolumeBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kShadowOfLightBinding] = {kTexels, vk::Format::eR32Uint};
+    all[io::kShadowLightsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kShadowAtlasBinding] = {Type::eSampledImage};
+    all[io::kAreasBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kLtcBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kEnvironmentBinding] = {Type::eUniformBuffer};
+    all[io::kLevelsBinding] = {kTexels, vk::Format::eR32G32B32A32Sfloat};
+    all[io::kLobesBinding] = {kTexels, vk::Format::eR32G32Sfloat};
+    return all;
+}();
+
 class Pipelines {
   public:
     static constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
     static constexpr vk::Format kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
     static constexpr vk::Format kBlendWeightFormat = vk::Format::eR32Sfloat;
     static constexpr vk::Format kPeelKeyFormat = vk::Format::eR32G32Uint; // depth's bits, order
-    static constexpr uint32_t kFrameBindings = 16;
-    static constexpr std::array<vk::DescriptorType, kFrameBindings> kFrameBindingTypes = {
-        vk::DescriptorType::eUniformBuffer,       // frame
-        vk::DescriptorType::eUniformTexelBuffer,  // lights
-        vk::DescriptorType::eUniformTexelBuffer,  // cluster lists
-        vk::DescriptorType::eUniformTexelBuffer,  // light index list
-        vk::DescriptorType::eUniformTexelBuffer,  // spots
-        vk::DescriptorType::eStorageBuffer,       // directional lights
-        vk::DescriptorType::eUniformBuffer,       // fog
-        vk::DescriptorType::eUniformTexelBuffer,  // its volume
-        vk::DescriptorType::eUniformTexelBuffer,  // which shadow maps a light has
-        vk::DescriptorType::eUniformTexelBuffer,  // lights with shadow maps
-        vk::DescriptorType::eSampledImage,        // shadow atlas
-        vk::DescriptorType::eUniformTexelBuffer,  // rectangular lights
-        vk::DescriptorType::eUniformTexelBuffer,  // what their highlights take
-        vk::DescriptorType::eUniformBuffer,       // light from around
-        vk::DescriptorType::eUniformTexelBuffer,  // its levels
-        vk::DescriptorType::eUniformTexelBuffer}; // what lobes reflect of it
-    // Of the texel buffers among them; undefined for the others.
-    static constexpr std::array<vk::Format, kFrameBindings> kFrameTexelFormats = {
-        vk::Format::eUndefined,
-        vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eR32G32Uint,
-        vk::Format::eR32Uint,
-        vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eUndefined,
-        vk::Format::eUndefined,
-        vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eR32Uint,
-        vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eUndefined,
-        vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eUndefined,
-        vk::Format::eR32G32B32A32Sfloat,
-        vk::Format::eR32G32Sfloat};
-
     // Variants kept: of surfaces, where a frame takes one for each kind of material, and of passes
     // over the picture. llvmpipe takes 4 MB for one.
     static constexpr size_t kKeptGeometry = 48;
