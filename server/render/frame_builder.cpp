@@ -432,7 +432,7 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .effects = effects};
     if (plan.forward_unused_material_flags == 0 &&
         std::ranges::any_of(scene_.needs.material_flags,
-                            [](uint32_t it) { return (it & io::kMaterialCoat) != 0; })) {
+                            [](MaterialFlags it) { return (it & io::kMaterialLayers) != 0; })) {
         load.lit_surfaces = 2;
     }
     if (plan.visibility) {

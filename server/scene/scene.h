@@ -2,14 +2,17 @@
 #pragma once
 
 #include "core/math.h"
+#include "interface/material_slots.h"
 #include "scene/warning.h"
 #include "settings/camera.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -75,18 +78,11 @@ struct Material {
     float alpha_cutoff = 0.5F;
     bool double_sided = false;
     bool unlit = false;
-    TextureSlot base_color_texture;         // sRGB, alpha linear
-    TextureSlot metallic_roughness_texture; // linear: G roughness, B metallic
-    TextureSlot normal_texture;             // linear
-    TextureSlot occlusion_texture;          // linear: R
-    TextureSlot emissive_texture;           // sRGB
     // What the dielectric part reflects: head-on min(((ior - 1) / (ior + 1))^2 specular_color, 1)
     // specular, at grazing angles specular.
-    float ior = 1.5F;                   // 1 and more; 0: infinite
-    float specular = 1;                 // 0..1
-    glm::vec3 specular_color{1, 1, 1};  // linear; may exceed 1
-    TextureSlot specular_texture;       // linear: A
-    TextureSlot specular_color_texture; // sRGB
+    float ior = 1.5F;                  // 1 and more; 0: infinite
+    float specular = 1;                // 0..1
+    glm::vec3 specular_color{1, 1, 1}; // linear; may exceed 1
     // Roughness is 1 - (1 - roughness) times A of the specular colour's texture.
     bool glossiness_texture = false;
     // A clear coat over all of that (KHR_materials_clearcoat); its normal is the shape's where it
@@ -94,20 +90,37 @@ struct Material {
     float coat = 0; // strength, 0..1
     float coat_roughness = 0;
     float coat_normal_scale = 1;
-    TextureSlot coat_texture;           // linear: R
-    TextureSlot coat_roughness_texture; // linear: G
-    TextureSlot coat_normal_texture;    // linear
+    // base_color_texture and so on, a member a row.
+#define FROXEL_SLOT(number, name, colour) TextureSlot name##_texture;
+    FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)
+#undef FROXEL_SLOT
 };
 
-// All slots of a material, const or not.
+// All slots of a material, const or not, by their numbers.
 template <class AnyMaterial>
 [[nodiscard]] auto textureSlots(AnyMaterial& material) {
-    return std::array{&material.base_color_texture,     &material.metallic_roughness_texture,
-                      &material.normal_texture,         &material.occlusion_texture,
-                      &material.emissive_texture,       &material.specular_texture,
-                      &material.specular_color_texture, &material.coat_texture,
-                      &material.coat_roughness_texture, &material.coat_normal_texture};
+#define FROXEL_SLOT(number, name, colour) &material.name##_texture,
+    return std::array{FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)};
+#undef FROXEL_SLOT
 }
+
+struct SlotRow {
+    const char* name; // of Material's member
+    bool srgb;
+};
+inline constexpr std::array kSlotRows = {
+#define FROXEL_SLOT(number, name, colour) SlotRow{#name "_texture", (colour) != 0},
+    FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)
+#undef FROXEL_SLOT
+};
+static_assert(kSlotRows.size() == io::kMaterialSlots, "kMaterialSlots counts the rows");
+#define FROXEL_SLOT(number, name, colour) number,
+static_assert(std::ranges::equal(std::array{FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)},
+                                 std::views::iota(0, static_cast<int>(io::kMaterialSlots))),
+              "slots' numbers ascend by 1 from 0");
+static_assert(std::array{FROXEL_SURFACE_SLOTS(FROXEL_SLOT)}.size() == io::kSurfaceSlots,
+              "kSurfaceSlots counts those of the surface");
+#undef FROXEL_SLOT
 
 // Takes the texture of one of its slots away, and what goes by it.
 inline void clearTexture(Material& material, TextureSlot& slot) {

@@ -104,17 +104,9 @@ Fault faultIn(const Material& m, const Scene& scene) {
             return std::string(name) + " is not finite";
         }
     }
-    for (Fault fault : {faultIn(m.base_color_texture, "base_color_texture", scene),
-                        faultIn(m.metallic_roughness_texture, "metallic_roughness_texture", scene),
-                        faultIn(m.normal_texture, "normal_texture", scene),
-                        faultIn(m.occlusion_texture, "occlusion_texture", scene),
-                        faultIn(m.emissive_texture, "emissive_texture", scene),
-                        faultIn(m.specular_texture, "specular_texture", scene),
-                        faultIn(m.specular_color_texture, "specular_color_texture", scene),
-                        faultIn(m.coat_texture, "coat_texture", scene),
-                        faultIn(m.coat_roughness_texture, "coat_roughness_texture", scene),
-                        faultIn(m.coat_normal_texture, "coat_normal_texture", scene)}) {
-        if (fault) {
+    const auto slots = textureSlots(m);
+    for (size_t i = 0; i < slots.size(); ++i) {
+        if (Fault fault = faultIn(*slots[i], kSlotRows[i].name, scene)) {
             return fault;
         }
     }

@@ -6,39 +6,26 @@
 
 FROXEL_IO_NAMESPACE_BEGIN
 
-// Specialisation constant ids; every shader uses the same four.
+// Specialisation constant ids; every shader uses the same five.
 FROXEL_CONST uint kSpecMaterialFlags = 0U;
 FROXEL_CONST uint kSpecLightFlags = 1U;
 FROXEL_CONST uint kSpecOutputFlags = 2U;
-FROXEL_CONST uint kSpecBatchSize = 3U; // lights fetched together; see kLightBatched
+FROXEL_CONST uint kSpecBatchSize = 3U;        // lights fetched together; see kLightBatched
+FROXEL_CONST uint kSpecMaterialTextures = 4U; // a bit a slot of interface/material_slots.h
 
-// Material flags: what a draw's material has.
-FROXEL_CONST uint kMaterialBaseColorTexture = 1U << 0;
-FROXEL_CONST uint kMaterialNormalTexture = 1U << 1;
-FROXEL_CONST uint kMaterialRoughnessTexture = 1U << 2; // metallic-roughness
-FROXEL_CONST uint kMaterialOcclusionTexture = 1U << 3;
-FROXEL_CONST uint kMaterialEmissiveTexture = 1U << 4;
-// Any texture: coordinates are fetched.
-FROXEL_CONST uint kMaterialTextures = ((1U << 5) - 1U) | (3U << 13) | (7U << 17);
-FROXEL_CONST uint kMaterialMask = 1U << 5;
-FROXEL_CONST uint kMaterialUnlit = 1U << 6;
-FROXEL_CONST uint kMaterialDoubleSided = 1U << 7;
-FROXEL_CONST uint kMaterialUvTransform = 1U << 8; // a slot has a transform or TEXCOORD_1
-FROXEL_CONST uint kMaterialExtended = 1U << 9;    // vertices carry uv1, colour and tangent
-FROXEL_CONST uint kMaterialTangents = 1U << 10;   // the tangents are from the file
-FROXEL_CONST uint kMaterialBlend = 1U << 11;
-FROXEL_CONST uint kMaterialSpecular = 1U << 12; // reflects unlike a usual dielectric
-FROXEL_CONST uint kMaterialSpecularTexture = 1U << 13;
-FROXEL_CONST uint kMaterialSpecularColorTexture = 1U << 14;
-FROXEL_CONST uint kMaterialGlossiness = 1U << 15; // in A of the specular colour
-FROXEL_CONST uint kMaterialSpecularAll = 15U << 12;
-FROXEL_CONST uint kMaterialCoat = 1U << 16; // a clear coat over it
-FROXEL_CONST uint kMaterialCoatTexture = 1U << 17;
-FROXEL_CONST uint kMaterialCoatRoughnessTexture = 1U << 18;
-FROXEL_CONST uint kMaterialCoatNormalTexture = 1U << 19;
+// Material flags: what a draw's material has beside textures.
+FROXEL_CONST uint kMaterialMask = 1U << 0;
+FROXEL_CONST uint kMaterialUnlit = 1U << 1;
+FROXEL_CONST uint kMaterialDoubleSided = 1U << 2;
+FROXEL_CONST uint kMaterialUvTransform = 1U << 3; // a slot has a transform or TEXCOORD_1
+FROXEL_CONST uint kMaterialExtended = 1U << 4;    // vertices carry uv1, colour and tangent
+FROXEL_CONST uint kMaterialTangents = 1U << 5;    // the tangents are from the file
+FROXEL_CONST uint kMaterialBlend = 1U << 6;
+FROXEL_CONST uint kMaterialSpecular = 1U << 7;   // reflects unlike a usual dielectric
+FROXEL_CONST uint kMaterialGlossiness = 1U << 8; // in A of the specular colour
+FROXEL_CONST uint kMaterialCoat = 1U << 9;       // a clear coat over it
 // Layers over what glTF's core describes: the shaders of FROXEL_LAYERED alone know them.
 FROXEL_CONST uint kMaterialLayers = kMaterialCoat;
-FROXEL_CONST uint kMaterialLayersAll = 15U << 16; // and what belongs to them
 
 // Light flags: which lights a frame has and how they are looped over.
 FROXEL_CONST uint kLightLocal = 1U << 0; // any light that has a place

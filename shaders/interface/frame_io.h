@@ -3,6 +3,7 @@
 #define FROXEL_INTERFACE_FRAME_IO_H
 
 #include "compat.h"
+#include "material_slots.h"
 #include "constants.h"
 
 FROXEL_IO_NAMESPACE_BEGIN
@@ -93,22 +94,13 @@ struct Material {
     float alpha_cutoff;
     vec3 specular_f0; // what the index of refraction gives head-on, times the specular colour
     float specular;   // its strength
-    UvTransform uv_base_color;
-    UvTransform uv_normal;
-    UvTransform uv_metallic_roughness;
-    UvTransform uv_occlusion;
-    UvTransform uv_emissive;
-    UvTransform uv_specular;
-    UvTransform uv_specular_color;
-    float coat; // its strength
+    float coat;       // its strength
     float coat_roughness;
     float coat_normal_scale;
     float padding0;
-    UvTransform uv_coat;
-    UvTransform uv_coat_roughness;
-    UvTransform uv_coat_normal;
+    UvTransform uv[kMaterialSlots];
 };
-FROXEL_SIZE_ASSERT(Material, 400);
+FROXEL_SIZE_ASSERT(Material, 80 + 32 * kMaterialSlots);
 
 FROXEL_IO_NAMESPACE_END
 

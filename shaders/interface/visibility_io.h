@@ -15,18 +15,16 @@ FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
 // those of planes already, kept from a frame before.
 FROXEL_CONST uint kResolveLast = 1U;
 FROXEL_CONST uint kResolveKept = 2U;
-// Base colour, normal, roughness, occlusion, emission, specular, specular colour; coat, its
-// roughness, its normal.
-FROXEL_CONST uint kTexturesOfMaterial = 10U;
 
 // A primitive of an instance.
 struct VisibleItem {
     uint instance;
     uint vertex_offset;
     uint material_index;
-    uint flags; // material flags
+    uint flags;    // material flags
+    uint textures; // a bit a slot
 };
-FROXEL_SIZE_ASSERT(VisibleItem, 16);
+FROXEL_SIZE_ASSERT(VisibleItem, 20);
 
 // A meshlet of an item, and its bounds in object space (render::Meshlet).
 struct PlacedMeshlet {

@@ -8,6 +8,7 @@ layout(constant_id = 0) const uint MATERIAL_FLAGS = 0;
 layout(constant_id = 1) const uint LIGHT_FLAGS = 0;
 layout(constant_id = 2) const uint OUTPUT_FLAGS = 0;
 layout(constant_id = 3) const uint BATCH_SIZE = 8;
+layout(constant_id = 4) const uint MATERIAL_TEXTURES = 0;
 
 #ifdef FROXEL_CAMERA_ALONE
 // Of passes whose results are kept while what they read stays.
@@ -37,10 +38,14 @@ layout(set = 0,
 layout(set = 0, binding = kLtcBinding) uniform textureBuffer ltc_texels;
 
 #ifdef FROXEL_VISIBILITY
-uint visible_flags; // of this invocation's pixel; MATERIAL_FLAGS: what any of them may have
+// Of this invocation's pixel; the constants: what any of them may have.
+uint visible_flags;
+uint visible_textures;
 bool hasMaterial(uint flag) { return (MATERIAL_FLAGS & visible_flags & flag) != 0; }
+bool hasTexture(uint slot) { return (MATERIAL_TEXTURES & visible_textures & 1u << slot) != 0; }
 #else
 bool hasMaterial(uint flag) { return (MATERIAL_FLAGS & flag) != 0; }
+bool hasTexture(uint slot) { return (MATERIAL_TEXTURES & 1u << slot) != 0; }
 #endif
 bool hasLight(uint flag) { return (LIGHT_FLAGS & flag) != 0; }
 bool hasOutput(uint flag) { return (OUTPUT_FLAGS & flag) != 0; }

@@ -24,8 +24,8 @@ vec2 slotUv(VertexData v, UvTransform t) {
 
 vec4 baseColor(VertexData v) {
     vec4 color = material.base_color;
-    if (hasMaterial(kMaterialBaseColorTexture)) {
-        color *= sampleMaterial(base_color, v, material.uv_base_color);
+    if (hasTexture(base_color_slot)) {
+        color *= sampleMaterial(base_color, v);
     }
     if (hasMaterial(kMaterialExtended)) {
         color *= v.color;
@@ -74,15 +74,15 @@ vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view, vec3 sampled, UvTra
 void shadeSpecular(VertexData v, inout GbufferSample g) {
     vec3 f0 = material.specular_f0;
     float strength = material.specular;
-    if (hasMaterial(kMaterialSpecularColorTexture)) {
-        vec4 color = sampleMaterial(specular_color, v, material.uv_specular_color);
+    if (hasTexture(specular_color_slot)) {
+        vec4 color = sampleMaterial(specular_color, v);
         f0 *= color.rgb;
         if (hasMaterial(kMaterialGlossiness)) {
             g.roughness = 1.0 - (1.0 - material.roughness) * color.a;
         }
     }
-    if (hasMaterial(kMaterialSpecularTexture)) {
-        strength *= sampleMaterial(specular, v, material.uv_specular).a;
+    if (hasTexture(specular_slot)) {
+        strength *= sampleMaterial(specular, v).a;
     }
     g.dielectric = Dielectric(false, min(f0, vec3(1.0)) * strength, strength);
 }
@@ -97,17 +97,17 @@ vec3 unpackNormalMap(vec4 texel, float scale) {
 // Bumps of what it covers are not the coat's.
 Coat shadeCoat(VertexData v, vec3 position_view, bool front) {
     Coat coat = Coat(material.coat, material.coat_roughness, normalize(v.normal_view));
-    if (hasMaterial(kMaterialCoatTexture)) {
-        coat.strength *= sampleMaterial(coat, v, material.uv_coat).r;
+    if (hasTexture(coat_slot)) {
+        coat.strength *= sampleMaterial(coat, v).r;
     }
-    if (hasMaterial(kMaterialCoatRoughnessTexture)) {
-        coat.roughness *= sampleMaterial(coat_roughness, v, material.uv_coat_roughness).g;
+    if (hasTexture(coat_roughness_slot)) {
+        coat.roughness *= sampleMaterial(coat_roughness, v).g;
     }
-    if (hasMaterial(kMaterialCoatNormalTexture)) {
-        vec4 texel = sampleMaterial(coat_normal, v, material.uv_coat_normal);
+    if (hasTexture(coat_normal_slot)) {
+        vec4 texel = sampleMaterial(coat_normal, v);
         coat.normal_view = perturbNormal(v, coat.normal_view, position_view,
                                          unpackNormalMap(texel, material.coat_normal_scale),
-                                         material.uv_coat_normal);
+                                         material.uv[coat_normal_slot]);
     }
     if (hasMaterial(kMaterialDoubleSided)) {
         coat.normal_view = front ? coat.normal_view : -coat.normal_view;
@@ -120,10 +120,10 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     precise GbufferSample g;
     g.base_color = clamp(base.rgb, vec3(0.0), vec3(1.0));
     vec3 n = normalize(v.normal_view);
-    if (hasMaterial(kMaterialNormalTexture)) {
-        vec4 texel = sampleMaterial(normal, v, material.uv_normal);
+    if (hasTexture(normal_slot)) {
+        vec4 texel = sampleMaterial(normal, v);
         n = perturbNormal(v, n, position_view, unpackNormalMap(texel, material.normal_scale),
-                          material.uv_normal);
+                          material.uv[normal_slot]);
     }
     if (hasMaterial(kMaterialDoubleSided)) {
         n = front ? n : -n; // bumps and all: seen from behind they are dents
@@ -131,19 +131,19 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     g.normal_view = n;
     g.roughness = material.roughness;
     g.metallic = material.metallic;
-    if (hasMaterial(kMaterialRoughnessTexture)) {
-        vec4 mr = sampleMaterial(metallic_roughness, v, material.uv_metallic_roughness);
+    if (hasTexture(metallic_roughness_slot)) {
+        vec4 mr = sampleMaterial(metallic_roughness, v);
         g.roughness *= mr.g;
         g.metallic *= mr.b;
     }
     g.occlusion = 1.0;
-    if (hasMaterial(kMaterialOcclusionTexture)) {
-        float r = sampleMaterial(occlusion, v, material.uv_occlusion).r;
+    if (hasTexture(occlusion_slot)) {
+        float r = sampleMaterial(occlusion, v).r;
         g.occlusion = 1.0 + material.occlusion_strength * (r - 1.0);
     }
     g.emissive = material.emissive;
-    if (hasMaterial(kMaterialEmissiveTexture)) {
-        g.emissive *= sampleMaterial(emissive, v, material.uv_emissive).rgb;
+    if (hasTexture(emissive_slot)) {
+        g.emissive *= sampleMaterial(emissive, v).rgb;
     }
     g.unlit = hasMaterial(kMaterialUnlit);
     g.dielectric = usualDielectric();

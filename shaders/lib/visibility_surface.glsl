@@ -90,12 +90,14 @@ bool showsFront(VisibleTriangle t, InstanceView view, uvec2 pixel) {
     return counter_clockwise != (view.mirrored != 0u);
 }
 
-// Fills visible_flags, visible_material and gradients; returns what the vertex stage would have
-// handed on. Gradients are differences inside the pixel's quad, as a rasteriser takes them.
+// Fills visible_flags, visible_textures, visible_material and gradients; returns what the vertex
+// stage would have handed on. Gradients are differences inside the pixel's quad, as a rasteriser
+// takes them.
 VertexData fetchSurface(VisibleTriangle t, uvec2 pixel, out bool front) {
     VisibleItem item = items[t.item];
     InstanceView view = instances[item.instance];
     visible_flags = item.flags;
+    visible_textures = item.textures;
     visible_material = item.material_index;
     front = showsFront(t, view, pixel);
 

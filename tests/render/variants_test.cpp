@@ -70,7 +70,7 @@ bool anyPipeline(render::Renderer& renderer, Test test) {
     return std::any_of(made.begin(), made.end(), test);
 }
 
-bool anyMaterialFlag(render::Renderer& renderer, uint32_t flags) {
+bool anyMaterialFlag(render::Renderer& renderer, render::MaterialFlags flags) {
     return anyPipeline(renderer,
                        [&](const auto& made) { return (made.key.material_flags & flags) != 0; });
 }
@@ -119,7 +119,7 @@ void expectPartsNeutral(render::Renderer& renderer,
 void expectScenesAlike(gpu::Device& device,
                        const scene::Scene& lean,
                        const scene::Scene& generic,
-                       uint32_t generic_flags) {
+                       render::MaterialFlags generic_flags) {
     render::Renderer a(device, lean);
     render::Renderer b(device, generic);
     for (const auto kind : kAllRenderers) {
@@ -153,8 +153,8 @@ TEST_F(Variants, CoatOfNoStrength_GivesTheSamePicture) {
         inputs.settings.shading = settings::ShadingModel::kLambert; // which has none
         EXPECT_EQ(differingFloats(draw(a, inputs), draw(c, inputs)), 0U);
     }
-    EXPECT_FALSE(anyMaterialFlag(b, io::kMaterialLayersAll));
-    EXPECT_TRUE(anyMaterialFlag(c, io::kMaterialLayersAll));
+    EXPECT_FALSE(anyMaterialFlag(b, render::kLayerFlags));
+    EXPECT_TRUE(anyMaterialFlag(c, render::kLayerFlags));
 }
 
 TEST_F(Variants, NothingAtAll_AllocatesAndCompilesNothingForIt) {
@@ -305,7 +305,8 @@ TEST_F(Variants, WhiteTextures_GiveTheSameBits) {
         material.occlusion_texture.texture = 0;
     }
     expectScenesAlike(device(), lean, generic,
-                      io::kMaterialRoughnessTexture | io::kMaterialOcclusionTexture);
+                      render::textureFlag(io::metallic_roughness_slot) |
+                          render::textureFlag(io::occlusion_slot));
 }
 
 } // namespace froxel::test

@@ -49,7 +49,7 @@ bool castsShadows(const SceneResources& scene, const DrawItem& item) {
         return false;
     }
     const bool glows = scene.material_uniforms[item.primitive.material].emissive != glm::vec3(0) &&
-                       (item.material_flags & io::kMaterialEmissiveTexture) == 0;
+                       (item.material_flags & textureFlag(io::emissive_slot)) == 0;
     return !glows;
 }
 
@@ -149,7 +149,7 @@ class FaceDraws {
 
   private:
     struct Draw {
-        uint32_t flags = 0;
+        MaterialFlags flags = 0;
         uint32_t material = 0;
         bool bends = false;
         vk::DrawIndexedIndirectCommand command;

@@ -21,7 +21,7 @@ namespace froxel::render {
 // Of one face: draws of one pipeline and material.
 struct ShadowGroup {
     uint32_t material = 0;
-    uint32_t material_flags = 0; // 0: opaque, no material is looked at
+    MaterialFlags material_flags = 0; // 0: opaque, no material is looked at
     uint32_t first_command = 0;
     uint32_t command_count = 0;
 };

@@ -23,7 +23,7 @@ static_assert(sizeof(InstanceRows) == 48);
 // Draws of one material and winding: one indirect call.
 struct DrawGroup {
     uint32_t material = 0;
-    uint32_t material_flags = 0;
+    MaterialFlags material_flags = 0;
     bool mirrored = false;
     uint32_t first_command = 0;
     uint32_t command_count = 0;

@@ -241,11 +241,11 @@ FramePlan planFrame(const settings::ViewSettings& settings, const FrameFacts& fa
     const uint32_t specular = storesSpecular(settings, facts.specular) ? io::kOutputSpecular : 0U;
     plan.gbuffer_output_flags = plan.gbuffer ? wide | specular | layoutFlags(layout) : 0U;
     plan.lighting_output_flags = plan.gbuffer_output_flags;
-    plan.gbuffer_unused_material_flags = io::kMaterialLayersAll;
+    plan.gbuffer_unused_material_flags = kLayerFlags;
     if (settings.shading == settings::ShadingModel::kLambert) {
-        plan.forward_unused_material_flags = io::kMaterialLayersAll;
+        plan.forward_unused_material_flags = kLayerFlags;
         plan.gbuffer_unused_material_flags |=
-            io::kMaterialRoughnessTexture | io::kMaterialSpecularAll;
+            textureFlag(io::metallic_roughness_slot) | kSpecularFlags;
     }
     if (compute_lights) {
         plan.lighting_output_flags |= plan.radiance ? io::kOutputRadiance : 0U;

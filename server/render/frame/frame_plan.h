@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/frame/effect_plan.h"
+#include "render/pipelines/material_flags.h"
 #include "settings/settings.h"
 
 #include <cstdint>
@@ -95,8 +96,8 @@ struct FramePlan {
     uint32_t tone_output_flags = 0;    // how radiance becomes a colour of the display
     uint32_t gbuffer_output_flags = 0;
     // What the shading model, or the G-buffer, has no use for.
-    uint32_t forward_unused_material_flags = 0;
-    uint32_t gbuffer_unused_material_flags = 0;
+    MaterialFlags forward_unused_material_flags = 0;
+    MaterialFlags gbuffer_unused_material_flags = 0;
     uint32_t lighting_output_flags = 0;
     uint32_t toon_output_flags = 0;
     uint32_t tonemap_output_flags = 0;

@@ -17,10 +17,10 @@ std::string nameOf(const Names& names, Enum value) {
     return std::string(names[static_cast<size_t>(value)]);
 }
 
-size_t with(const SceneNeeds& needs, uint32_t flag) {
+size_t with(const SceneNeeds& needs, MaterialFlags flag) {
     const auto& all = needs.material_flags;
     return static_cast<size_t>(
-        std::count_if(all.begin(), all.end(), [&](uint32_t f) { return (f & flag) != 0; }));
+        std::count_if(all.begin(), all.end(), [&](MaterialFlags f) { return (f & flag) != 0; }));
 }
 
 // "normal maps on 18 of 25 materials", or what their absence saves.
@@ -211,14 +211,14 @@ std::string toneMapWords(const FrameFacts& facts, const FramePlan& plan) {
 
 std::vector<std::string> sceneWords(const SceneNeeds& needs) {
     const size_t total = needs.material_flags.size();
-    const auto materials = [&](const char* what, uint32_t flag, const char* none) {
+    const auto materials = [&](const char* what, MaterialFlags flag, const char* none) {
         return share(what, with(needs, flag), total, "materials", none);
     };
     const auto& lights = needs.lights;
     return {
-        materials("textures", io::kMaterialTextures, "no textures: nothing is sampled"),
-        materials("normal maps", io::kMaterialNormalTexture, "no normal maps: no tangent frames"),
-        materials("metallic-roughness textures", io::kMaterialRoughnessTexture,
+        materials("textures", kAnyTexture, "no textures: nothing is sampled"),
+        materials("normal maps", textureFlag(io::normal_slot), "no normal maps: no tangent frames"),
+        materials("metallic-roughness textures", textureFlag(io::metallic_roughness_slot),
                   "no metallic-roughness textures"),
         materials("alpha masks", io::kMaterialMask, "no alpha masks: no discard"),
         materials("blending", io::kMaterialBlend, "no blended materials: no sort, no blend pass"),

@@ -39,7 +39,7 @@ vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
 
 vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
     // Uniforms, textures.
-    std::array<vk::DescriptorSetLayoutBinding, 1 + io::kTexturesOfMaterial> bindings;
+    std::array<vk::DescriptorSetLayoutBinding, 1 + io::kMaterialSlots> bindings;
     for (uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {.binding = i,
                        .descriptorType =
@@ -241,8 +241,7 @@ Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, V
       fragment_lighting_(timeline, maker, kKeptScreen) {}
 
 gpu::SpecConstants Pipelines::constants(const VariantKey& key) const {
-    return {key.material_flags, key.light_flags, key.output_flags,
-            std::max(1U, device_.traits().subgroup_size)};
+    return specConstants(key, std::max(1U, device_.traits().subgroup_size));
 }
 
 vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& key) const {
@@ -253,7 +252,7 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     info.constants = constants(key);
     info.layout = peels(pass) ? *peel_layout_ : *geometry_layout_;
     info.depth_format = kDepthFormat;
-    const bool textured = extended || (key.material_flags & io::kMaterialTextures) != 0;
+    const bool textured = extended || (key.material_flags & kAnyTexture) != 0;
     describeVertices(info, surface, textured, surface && extended);
     info.vertex = !surface   ? shaders::depth_vert()
                   : extended ? shaders::surface_extended_vert()

@@ -5,6 +5,7 @@
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
 #include "interface/frame_bindings.h"
+#include "render/pipelines/material_flags.h"
 #include "render/pipelines/variant_cache.h"
 #include "settings/settings.h"
 
@@ -46,7 +47,7 @@ enum class ScreenPass : uint8_t { kLighting, kToon, kOutline, kTonemap };
 
 // Which specialisation a pipeline has (shaders/interface/constants.h).
 struct VariantKey {
-    uint32_t material_flags = 0;
+    MaterialFlags material_flags = 0;
     uint32_t light_flags = 0;
     uint32_t output_flags = 0;
     auto operator<=>(const VariantKey&) const = default;
@@ -79,6 +80,12 @@ inline constexpr auto kFrameBindings = [] {
     all[io::kLobesBinding] = {kTexels, vk::Format::eR32G32Sfloat};
     return all;
 }();
+
+// `batch_size`: of lights that are fetched together.
+[[nodiscard]] inline gpu::SpecConstants specConstants(const VariantKey& key, uint32_t batch_size) {
+    return {featuresOf(key.material_flags), key.light_flags, key.output_flags, batch_size,
+            texturesOf(key.material_flags)};
+}
 
 class Pipelines {
   public:

@@ -16,7 +16,7 @@ using Usage = vk::BufferUsageFlagBits;
 vk::raii::Pipeline makePipeline(const gpu::Device& device,
                                 const VisibilityScene& scene,
                                 gpu::Spirv code,
-                                uint32_t material_flags,
+                                MaterialFlags material_flags,
                                 const char* name) {
     return gpu::makeComputePipeline(device, code, scene.pipelines.constants({material_flags, 0, 0}),
                                     scene.pipelines.computeLayout(), name);

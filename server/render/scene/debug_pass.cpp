@@ -55,8 +55,7 @@ vk::Pipeline DebugPass::pipeline(DebugShader shader, const VariantKey& key) {
 vk::raii::Pipeline DebugPass::make(DebugShader shader, const VariantKey& key) const {
     switch (shader) {
     case DebugShader::kValues:
-        return gpu::makeComputePipeline(device_, shaders::debug_view_comp(),
-                                        {key.material_flags, key.light_flags, key.output_flags, 1},
+        return gpu::makeComputePipeline(device_, shaders::debug_view_comp(), specConstants(key, 1),
                                         *values_layout_, "debug view");
     case DebugShader::kLightWires:
         return gpu::makeGraphicsPipeline(

@@ -12,8 +12,7 @@ namespace froxel::render {
 namespace {
 
 bool transformed(const scene::TextureSlot& slot) {
-    return slot.texture != scene::kNone &&
-           (slot.texcoord != 0 || slot.offset != glm::vec2(0, 0) || slot.rotation_rad != 0 ||
+    return (slot.texcoord != 0 || slot.offset != glm::vec2(0, 0) || slot.rotation_rad != 0 ||
             slot.scale != glm::vec2(1, 1));
 }
 
@@ -23,51 +22,44 @@ bool reflectsUnusually(const scene::Material& m) {
            m.specular_color_texture.texture != scene::kNone;
 }
 
-// Of what is shown of its layers.
-uint32_t layerFlags(const scene::Material& m) {
-    uint32_t flags = 0;
-    const auto set = [&](bool condition, uint32_t flag) { flags |= condition ? flag : 0U; };
-    if (m.coat != 0) {
-        set(true, io::kMaterialCoat);
-        set(m.coat_texture.texture != scene::kNone, io::kMaterialCoatTexture);
-        set(m.coat_roughness_texture.texture != scene::kNone && m.coat_roughness != 0,
-            io::kMaterialCoatRoughnessTexture);
-        set(m.coat_normal_texture.texture != scene::kNone, io::kMaterialCoatNormalTexture);
-        set(transformed(m.coat_texture) || transformed(m.coat_roughness_texture) ||
-                transformed(m.coat_normal_texture),
-            io::kMaterialUvTransform);
+// Whether what a texture says can be seen: nothing multiplied by it is 0.
+bool shows(const scene::Material& m, uint32_t slot) {
+    if (m.unlit) {
+        return slot == io::base_color_slot;
+    }
+    if (slot >= io::kSurfaceSlots && m.coat == 0) {
+        return false;
+    }
+    return !(slot == io::emissive_slot && m.emissive == glm::vec3(0)) &&
+           !(slot == io::coat_roughness_slot && m.coat_roughness == 0);
+}
+
+MaterialFlags textureFlags(const scene::Material& m) {
+    MaterialFlags flags = 0;
+    const auto slots = textureSlots(m);
+    for (uint32_t i = 0; i < slots.size(); ++i) {
+        if (slots[i]->texture != scene::kNone && shows(m, i)) {
+            flags |= textureFlag(i);
+            flags |= transformed(*slots[i]) ? io::kMaterialUvTransform : 0U;
+        }
     }
     return flags;
 }
 
-uint32_t materialFlags(const scene::Material& m) {
-    uint32_t flags = 0;
+MaterialFlags materialFlags(const scene::Material& m) {
+    MaterialFlags flags = textureFlags(m);
     const auto set = [&](bool condition, uint32_t flag) { flags |= condition ? flag : 0U; };
-    set(m.base_color_texture.texture != scene::kNone, io::kMaterialBaseColorTexture);
     set(m.alpha_mode == scene::AlphaMode::kMask, io::kMaterialMask);
     set(m.alpha_mode == scene::AlphaMode::kBlend, io::kMaterialBlend);
     set(m.double_sided, io::kMaterialDoubleSided);
     set(m.unlit, io::kMaterialUnlit);
-    set(transformed(m.base_color_texture), io::kMaterialUvTransform);
-    if (m.unlit) {
-        return flags;
+    if (!m.unlit) {
+        set(reflectsUnusually(m), io::kMaterialSpecular);
+        set((flags & textureFlag(io::specular_color_slot)) != 0 && m.glossiness_texture,
+            io::kMaterialGlossiness);
+        set(m.coat != 0, io::kMaterialCoat);
     }
-    set(m.normal_texture.texture != scene::kNone, io::kMaterialNormalTexture);
-    set(m.metallic_roughness_texture.texture != scene::kNone, io::kMaterialRoughnessTexture);
-    set(m.occlusion_texture.texture != scene::kNone, io::kMaterialOcclusionTexture);
-    set(m.emissive_texture.texture != scene::kNone && m.emissive != glm::vec3(0),
-        io::kMaterialEmissiveTexture);
-    set(reflectsUnusually(m), io::kMaterialSpecular);
-    set(m.specular_texture.texture != scene::kNone, io::kMaterialSpecularTexture);
-    set(m.specular_color_texture.texture != scene::kNone, io::kMaterialSpecularColorTexture);
-    set(m.specular_color_texture.texture != scene::kNone && m.glossiness_texture,
-        io::kMaterialGlossiness);
-    set(transformed(m.specular_texture) || transformed(m.specular_color_texture),
-        io::kMaterialUvTransform);
-    set(transformed(m.normal_texture) || transformed(m.metallic_roughness_texture) ||
-            transformed(m.occlusion_texture) || transformed(m.emissive_texture),
-        io::kMaterialUvTransform);
-    return flags | layerFlags(m);
+    return flags;
 }
 
 bool needsWide(const scene::Material& m, bool metalness) {

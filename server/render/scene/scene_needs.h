@@ -1,6 +1,7 @@
 // What a scene has, and so which shader features, vertex streams and passes it needs.
 #pragma once
 
+#include "render/pipelines/material_flags.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -9,10 +10,10 @@
 namespace froxel::render {
 
 struct SceneNeeds {
-    std::vector<uint32_t> material_flags; // io::kMaterial* of each material
-    bool wide_gbuffer = false;            // metalness, occlusion, emission or unlit somewhere
-    bool wide_lambert = false;            // the same without metalness
-    uint32_t emission_exponent = 0;       // emission over 2 to the power of this fits the G-buffer
+    std::vector<MaterialFlags> material_flags; // of each material
+    bool wide_gbuffer = false;                 // metalness, occlusion, emission or unlit somewhere
+    bool wide_lambert = false;                 // the same without metalness
+    uint32_t emission_exponent = 0; // emission over 2 to the power of this fits the G-buffer
     bool specular = false; // a solid surface reflects unlike a usual dielectric: ior, specular
     bool edges = false;    // a surface reflects less than all at its edges: its strength is below 1
     bool layers = false;   // a solid surface has layers over it: a coat

@@ -23,7 +23,6 @@ namespace {
 
 constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
 constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
-using io::kTexturesOfMaterial;
 
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);
@@ -36,29 +35,23 @@ io::UvTransform uvTransform(const scene::TextureSlot& slot) {
 
 io::Material materialUniforms(const scene::Material& m) {
     const float root = (m.ior - 1) / (m.ior + 1);
-    return {.base_color = m.base_color,
-            .emissive = m.emissive,
-            .metallic = m.metallic,
-            .roughness = m.roughness,
-            .normal_scale = m.normal_scale,
-            .occlusion_strength = m.occlusion_strength,
-            .alpha_cutoff = m.alpha_cutoff,
-            .specular_f0 = m.specular_color * (root * root),
-            .specular = m.specular,
-            .uv_base_color = uvTransform(m.base_color_texture),
-            .uv_normal = uvTransform(m.normal_texture),
-            .uv_metallic_roughness = uvTransform(m.metallic_roughness_texture),
-            .uv_occlusion = uvTransform(m.occlusion_texture),
-            .uv_emissive = uvTransform(m.emissive_texture),
-            .uv_specular = uvTransform(m.specular_texture),
-            .uv_specular_color = uvTransform(m.specular_color_texture),
-            .coat = m.coat,
-            .coat_roughness = m.coat_roughness,
-            .coat_normal_scale = m.coat_normal_scale,
-            .padding0 = 0,
-            .uv_coat = uvTransform(m.coat_texture),
-            .uv_coat_roughness = uvTransform(m.coat_roughness_texture),
-            .uv_coat_normal = uvTransform(m.coat_normal_texture)};
+    io::Material out{.base_color = m.base_color,
+                     .emissive = m.emissive,
+                     .metallic = m.metallic,
+                     .roughness = m.roughness,
+                     .normal_scale = m.normal_scale,
+                     .occlusion_strength = m.occlusion_strength,
+                     .alpha_cutoff = m.alpha_cutoff,
+                     .specular_f0 = m.specular_color * (root * root),
+                     .specular = m.specular,
+                     .coat = m.coat,
+                     .coat_roughness = m.coat_roughness,
+                     .coat_normal_scale = m.coat_normal_scale,
+                     .padding0 = 0,
+                     .uv = {}};
+    const auto slots = textureSlots(m);
+    std::ranges::transform(slots, out.uv, [](const auto* slot) { return uvTransform(*slot); });
+    return out;
 }
 
 std::vector<glm::dmat4> placesOf(const scene::Scene& scene, const SceneMotion* motion) {
@@ -87,7 +80,7 @@ std::vector<DrawItem> makeItems(const scene::Scene& scene,
             if (primitive.index_count == 0) {
                 continue;
             }
-            uint32_t flags = needs.material_flags[primitive.material];
+            MaterialFlags flags = needs.material_flags[primitive.material];
             flags |= primitive.extended ? io::kMaterialExtended : 0U;
             flags |= primitive.tangents ? io::kMaterialTangents : 0U;
             items.push_back({i, primitive, flags, mirrored, bends});
@@ -166,7 +159,7 @@ void SceneResources::makeMaterialSets(uint32_t count) {
     const std::array pool_sizes = {
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
-                               count * kTexturesOfMaterial}};
+                               count * io::kMaterialSlots}};
     material_pool_ = gpu::makeDescriptorPool(device, pool_sizes, count);
     const std::vector layouts(count, pipelines.materialLayout());
     material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
@@ -195,26 +188,14 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         const auto& m = scene.materials[i];
         const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,
                                               sizeof(io::Material)};
-        // Only what the material's shader samples.
-        const auto used = [&](uint32_t flag, const scene::TextureSlot& slot) {
-            return (needs.material_flags[i] & flag) != 0 ? slot : scene::TextureSlot{};
-        };
-        const auto base = used(io::kMaterialBaseColorTexture, m.base_color_texture);
-        const auto normal = used(io::kMaterialNormalTexture, m.normal_texture);
-        const auto roughness = used(io::kMaterialRoughnessTexture, m.metallic_roughness_texture);
-        const auto occlusion = used(io::kMaterialOcclusionTexture, m.occlusion_texture);
-        const auto emissive = used(io::kMaterialEmissiveTexture, m.emissive_texture);
-        const auto specular = used(io::kMaterialSpecularTexture, m.specular_texture);
-        const auto color = used(io::kMaterialSpecularColorTexture, m.specular_color_texture);
-        const auto coat = used(io::kMaterialCoatTexture, m.coat_texture);
-        const auto coat_rough = used(io::kMaterialCoatRoughnessTexture, m.coat_roughness_texture);
-        const auto coat_normal = used(io::kMaterialCoatNormalTexture, m.coat_normal_texture);
-        const std::array<vk::DescriptorImageInfo, kTexturesOfMaterial> images = {
-            textures_->get(scene, base, true),        textures_->get(scene, normal, false),
-            textures_->get(scene, roughness, false),  textures_->get(scene, occlusion, false),
-            textures_->get(scene, emissive, true),    textures_->get(scene, specular, false),
-            textures_->get(scene, color, true),       textures_->get(scene, coat, false),
-            textures_->get(scene, coat_rough, false), textures_->get(scene, coat_normal, false)};
+        const auto slots = textureSlots(m);
+        std::array<vk::DescriptorImageInfo, io::kMaterialSlots> images;
+        for (uint32_t slot = 0; slot < slots.size(); ++slot) {
+            // Only what the material's shader samples.
+            const bool used = (needs.material_flags[i] & textureFlag(slot)) != 0;
+            images[slot] = textures_->get(scene, used ? *slots[slot] : scene::TextureSlot{},
+                                          scene::kSlotRows[slot].srgb);
+        }
         material_textures.insert(material_textures.end(), images.begin(), images.end());
         // The samplers are consecutive bindings of one descriptor each.
         const std::array writes = {
@@ -225,7 +206,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                    .pBufferInfo = &buffer},
             vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
                                    .dstBinding = 1,
-                                   .descriptorCount = kTexturesOfMaterial,
+                                   .descriptorCount = io::kMaterialSlots,
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .pImageInfo = images.data()}};
         device.handle().updateDescriptorSets(writes, {});

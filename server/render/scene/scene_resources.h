@@ -28,9 +28,9 @@ namespace froxel::render {
 struct DrawItem {
     uint32_t instance = 0;
     PackedPrimitive primitive;
-    uint32_t material_flags = 0; // with kMaterialExtended and kMaterialTangents
-    bool mirrored = false;       // the instance turns the winding round
-    bool bends = false;          // of its meshlets nothing but the primitive's sphere is known
+    MaterialFlags material_flags = 0; // with kMaterialExtended and kMaterialTangents
+    bool mirrored = false;            // the instance turns the winding round
+    bool bends = false;               // of its meshlets nothing but the primitive's sphere is known
 };
 
 class SceneResources {
@@ -66,7 +66,7 @@ class SceneResources {
     gpu::Buffer extended_buffer; // empty handle: no primitive needs it
     gpu::Buffer index_buffer;
     std::vector<io::Material> material_uniforms;
-    std::vector<vk::DescriptorImageInfo> material_textures; // kTexturesOfMaterial of each
+    std::vector<vk::DescriptorImageInfo> material_textures; // kMaterialSlots of each
     std::string visibility_unusable; // why; empty: visibility passes can draw the scene
     VariantMaker variants;
     Pipelines pipelines;

@@ -72,11 +72,10 @@ VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
 }
 
 gpu::SpecConstants VisibilityPipelines::constants(const VariantKey& key) const {
-    return {key.material_flags, key.light_flags, key.output_flags,
-            std::max(1U, device_.traits().subgroup_size)};
+    return specConstants(key, std::max(1U, device_.traits().subgroup_size));
 }
 
-vk::raii::Pipeline VisibilityPipelines::makeRaster(uint32_t material_flags) const {
+vk::raii::Pipeline VisibilityPipelines::makeRaster(MaterialFlags material_flags) const {
     using Format = vk::Format;
     const bool masked = (material_flags & io::kMaterialMask) != 0;
     const bool extended = masked && (material_flags & io::kMaterialExtended) != 0;
@@ -105,9 +104,9 @@ vk::raii::Pipeline VisibilityPipelines::makeRaster(uint32_t material_flags) cons
     return gpu::makeGraphicsPipeline(device_, info, "visibility");
 }
 
-vk::Pipeline VisibilityPipelines::raster(uint32_t material_flags) {
+vk::Pipeline VisibilityPipelines::raster(MaterialFlags material_flags) {
     const bool masked = (material_flags & io::kMaterialMask) != 0;
-    const uint32_t key = masked ? material_flags : 0U;
+    const MaterialFlags key = masked ? material_flags : 0U;
     return *raster_.findOrMake(key, [=, this] { return makeRaster(key); });
 }
 

@@ -27,7 +27,7 @@ class VisibilityPipelines {
                         uint32_t texture_count);
 
     // Depth and ids. material_flags: of a masked material, else of its faces alone.
-    [[nodiscard]] vk::Pipeline raster(uint32_t material_flags);
+    [[nodiscard]] vk::Pipeline raster(MaterialFlags material_flags);
     // From ids to the G-buffer, and from ids to radiance.
     [[nodiscard]] vk::Pipeline gbuffer(const VariantKey& key);
     [[nodiscard]] vk::Pipeline shade(const VariantKey& key);
@@ -46,7 +46,7 @@ class VisibilityPipelines {
     [[nodiscard]] gpu::SpecConstants constants(const VariantKey& key) const;
 
   private:
-    [[nodiscard]] vk::raii::Pipeline makeRaster(uint32_t material_flags) const;
+    [[nodiscard]] vk::raii::Pipeline makeRaster(MaterialFlags material_flags) const;
 
     const gpu::Device& device_;
     bool bindless_;
@@ -56,7 +56,7 @@ class VisibilityPipelines {
     vk::raii::PipelineLayout compute_layout_;
     vk::raii::Pipeline cull_;
     vk::raii::Pipeline compact_;
-    VariantCache<uint32_t> raster_;
+    VariantCache<MaterialFlags> raster_;
     VariantCache<VariantKey> gbuffer_;
     VariantCache<VariantKey> shade_;
 };

@@ -26,7 +26,7 @@ bool solid(const DrawItem& item) {
 
 // The flags that tell the raster pass's pipelines apart: all of a masked material's, else its
 // faces.
-uint32_t rasterFlags(const DrawItem& item) {
+MaterialFlags rasterFlags(const DrawItem& item) {
     const bool masked = (item.material_flags & io::kMaterialMask) != 0;
     return masked ? item.material_flags : item.material_flags & io::kMaterialDoubleSided;
 }
@@ -90,7 +90,8 @@ class Placer {
         const auto& primitive = item.primitive;
         const auto item_index = static_cast<uint32_t>(items.size());
         items.push_back({item.instance, static_cast<uint32_t>(primitive.vertex_offset),
-                         primitive.material, item.material_flags});
+                         primitive.material, featuresOf(item.material_flags),
+                         texturesOf(item.material_flags)});
         for (uint32_t i = 0; i < primitive.meshlet_count; ++i) {
             const Meshlet& m = scene_.meshlets[primitive.first_meshlet + i];
             FROXEL_ASSERT(m.index_count <= 3U << io::kTriangleBits,
@@ -159,7 +160,7 @@ VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
     }
     for (const auto& item : placer.items) {
         item_instances.push_back(item.instance);
-        material_flags |= item.flags;
+        material_flags |= MaterialFlags{item.textures} << 32U | item.flags;
         materials_in_use.push_back(item.material_index);
     }
     std::sort(materials_in_use.begin(), materials_in_use.end());

@@ -22,8 +22,8 @@ class SceneResources;
 
 // Meshlets drawn in one call; of opaque materials one group holds all with the same faces.
 struct VisibilityGroup {
-    uint32_t material = 0;       // of masked ones
-    uint32_t material_flags = 0; // what the raster pass looks at
+    uint32_t material = 0;            // of masked ones
+    MaterialFlags material_flags = 0; // what the raster pass looks at
     bool mirrored = false;
     io::MeshletGroup blocks{};
     uint32_t meshlet_count = 0;
@@ -42,7 +42,7 @@ class VisibilityScene {
     std::vector<io::PlacedMeshlet> placed; // the host's copy, for ordering them
     std::vector<uint32_t> item_instances;
     uint32_t block_count = 0;
-    uint32_t material_flags = 0; // of any solid item
+    MaterialFlags material_flags = 0; // of any solid item
     uint32_t triangle_count = 0;
 
     gpu::MemoryArena arena;

@@ -26,7 +26,7 @@ void bindGeometry(const FrameContext& frame,
 namespace {
 
 // What is blended and unlit looks at the tone map.
-uint32_t toneOf(const FramePlan& plan, uint32_t material_flags) {
+uint32_t toneOf(const FramePlan& plan, MaterialFlags material_flags) {
     return (material_flags & io::kMaterialUnlit) != 0 ? plan.tone_output_flags : 0U;
 }
 

@@ -118,7 +118,7 @@ TEST(FramePlan, NoLights_AnyRenderer_NeitherListsNorLightCode) {
 
 namespace {
 
-bool has(uint32_t flags, uint32_t flag) {
+bool has(uint64_t flags, uint64_t flag) {
     return (flags & flag) != 0;
 }
 
@@ -141,8 +141,8 @@ std::string_view brokenLayerRule(const settings::ViewSettings& settings,
                       settings.shading != settings::ShadingModel::kLambert),
          "layers over a G-buffer's surfaces, where the model has any"},
         {!p.layers || p.tonemap, "tones are mapped after layers"},
-        {has(p.gbuffer_unused_material_flags, io::kMaterialLayersAll), "no layers in a G-buffer"},
-        {has(p.forward_unused_material_flags, io::kMaterialLayersAll) ==
+        {has(p.gbuffer_unused_material_flags, kLayerFlags), "no layers in a G-buffer"},
+        {has(p.forward_unused_material_flags, kLayerFlags) ==
              (settings.shading == settings::ShadingModel::kLambert),
          "the shader of layers where they are seen"},
     };

@@ -44,10 +44,10 @@ TEST(SceneNeeds, MetalEmissionOrUnlit_NeedsTheWideGbuffer) {
 TEST(SceneNeeds, TransformedSlot_SetsTheTransformFlag) {
     auto m = plain();
     m.normal_texture.texture = 0;
-    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], io::kMaterialNormalTexture);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], textureFlag(io::normal_slot));
     m.normal_texture.scale = {2, 2};
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0],
-              io::kMaterialNormalTexture | io::kMaterialUvTransform);
+              textureFlag(io::normal_slot) | io::kMaterialUvTransform);
 }
 
 TEST(SceneNeeds, IorOrSpecular_SetsTheFlagWhereItIsNotUsual) {
@@ -69,7 +69,8 @@ TEST(SceneNeeds, IorOrSpecular_SetsTheFlagWhereItIsNotUsual) {
         EXPECT_FALSE(needs.wide_gbuffer);
     }
     EXPECT_EQ(findNeeds(sceneWith(glossy)).material_flags[0],
-              io::kMaterialSpecular | io::kMaterialSpecularColorTexture | io::kMaterialGlossiness);
+              io::kMaterialSpecular | textureFlag(io::specular_color_slot) |
+                  io::kMaterialGlossiness);
     weak.alpha_mode = scene::AlphaMode::kBlend; // is not in the G-buffer
     EXPECT_FALSE(findNeeds(sceneWith(weak)).specular);
     EXPECT_TRUE(findNeeds(sceneWith(weak)).edges);
@@ -89,15 +90,14 @@ TEST(SceneNeeds, Coat_SetsItsFlagsWhereItHasStrength) {
     m.coat = 1;
     EXPECT_TRUE(findNeeds(sceneWith(m)).layers);
     EXPECT_FALSE(findNeeds(sceneWith(m)).wide_gbuffer);
-    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0],
-              io::kMaterialLayersAll | io::kMaterialUvTransform);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], kLayerFlags | io::kMaterialUvTransform);
     m.coat_roughness = 0;
-    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialCoatRoughnessTexture, 0U);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & textureFlag(io::coat_roughness_slot), 0U);
     m.alpha_mode = scene::AlphaMode::kBlend; // is forward anyway
     EXPECT_FALSE(findNeeds(sceneWith(m)).layers);
     EXPECT_NE(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialCoat, 0U);
     m.unlit = true;
-    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialLayersAll, 0U);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & kLayerFlags, 0U);
 }
 
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {

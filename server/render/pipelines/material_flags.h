@@ -1,0 +1,36 @@
+// What a material has, in one word: io::kMaterial* below, above a bit for each of its textures.
+#pragma once
+
+#include "interface/constants.h"
+#include "interface/material_slots.h"
+
+#include <cstdint>
+
+namespace froxel::render {
+
+using MaterialFlags = uint64_t;
+
+// `slot`: of interface/material_slots.h.
+[[nodiscard]] constexpr MaterialFlags textureFlag(uint32_t slot) {
+    return MaterialFlags{1} << (32U + slot);
+}
+// As shaders have them.
+[[nodiscard]] constexpr uint32_t featuresOf(MaterialFlags flags) {
+    return static_cast<uint32_t>(flags);
+}
+[[nodiscard]] constexpr uint32_t texturesOf(MaterialFlags flags) {
+    return static_cast<uint32_t>(flags >> 32U);
+}
+
+// Any texture: coordinates are fetched.
+inline constexpr MaterialFlags kAnyTexture = ~MaterialFlags{0} << 32U;
+// What the dielectric part reflects, and what belongs to it.
+inline constexpr MaterialFlags kSpecularFlags =
+    MaterialFlags{io::kMaterialSpecular | io::kMaterialGlossiness} |
+    textureFlag(io::specular_slot) | textureFlag(io::specular_color_slot);
+// Layers, and what belongs to them.
+inline constexpr MaterialFlags kLayerFlags =
+    MaterialFlags{io::kMaterialLayers} |
+    (textureFlag(io::kMaterialSlots) - textureFlag(io::kSurfaceSlots));
+
+} // namespace froxel::render
