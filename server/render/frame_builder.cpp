@@ -430,10 +430,16 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                    .wire_lines = wireLines(plan),
                    .wire_px = debug_.wire_px,
                    .effects = effects};
-    if (plan.forward_unused_material_flags == 0 &&
-        std::ranges::any_of(scene_.needs.material_flags,
-                            [](MaterialFlags it) { return (it & io::kMaterialLayers) != 0; })) {
-        load.lit_surfaces = 2;
+    const MaterialFlags forward_flags = ~plan.forward_unused_material_flags;
+    for (const auto* groups : {&draws_.solid, &draws_.transparent}) {
+        for (const DrawGroup& group : *groups) {
+            load.lit_surfaces =
+                std::max(load.lit_surfaces, litSurfaces(group.material_flags & forward_flags));
+        }
+    }
+    if (plan.visibility_shade) {
+        load.lit_surfaces = std::max(
+            load.lit_surfaces, litSurfaces(scene_.visibility().material_flags & forward_flags));
     }
     if (plan.visibility) {
         const VisibilityScene& visible = scene_.visibility();

@@ -51,13 +51,8 @@ void addAreas(Surface s, bool all_lights, uint cluster, inout LightSum sum) {
         vec3 to_light = light.position_view - s.position_view;
         addAreaLight(s, rect, to_light, light.inv_radius2, light.color, coneShare(light, to_light),
                      sum);
-#ifdef FROXEL_LAYERED
-        if (hasMaterial(kMaterialCoat)) {
-            LightSum of_coat = noLight();
-            addAreaLight(coatOf(s), rect, to_light, light.inv_radius2, light.color,
-                         coneShare(light, to_light), of_coat);
-            addCoatLight(of_coat, sum);
-        }
-#endif
+        addToLayers(s, sum,
+                    addAreaLight(layer, rect, to_light, light.inv_radius2, light.color,
+                                 coneShare(light, to_light), of_layer));
     }
 }

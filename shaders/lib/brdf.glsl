@@ -93,32 +93,7 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     return s;
 }
 
-#ifdef FROXEL_LAYERED
-// Lets `s` have a coat: of a normal and roughness that count where the material has one.
-void addCoatSurface(Coat coat, inout Surface s) {
-    Surface c = makeSurface(s.position_view, coat.normal_view, coat.roughness);
-    s.coat = CoatSurface(c.normal_view, c.n_dot_v, c.n_dot_eye, c.alpha2, c.visibility_v,
-                         c.shininess, c.lobe);
-}
-
-// The coat as a surface by itself.
-Surface coatOf(Surface s) {
-    s.normal_view = s.coat.normal_view;
-    s.n_dot_v = s.coat.n_dot_v;
-    s.n_dot_eye = s.coat.n_dot_eye;
-    s.alpha2 = s.coat.alpha2;
-    s.visibility_v = s.coat.visibility_v;
-    s.shininess = s.coat.shininess;
-    s.lobe = s.coat.lobe;
-    return s;
-}
-
-// of_coat: what a light adds to coatOf(). Fresnel's term is the eye's, so its two parts are one.
-void addCoatLight(LightSum of_coat, inout LightSum sum) {
-    precise vec3 coat = sum.coat + (of_coat.specular + of_coat.grazing);
-    sum.coat = coat;
-}
-#endif
+#include "lib/layers.glsl"
 
 // (cosine^2)^power for cosine^2 = c2 / h2. Near 1 by a series in the sine: a software rasteriser's
 // logarithm is off by 1e-5 there, and powers go up to 2e5.

@@ -10,6 +10,8 @@ struct Coat {
     vec3 normal_view;
 };
 
+bool hasCoat() { return hasMaterial(kMaterialCoat); }
+
 Coat noCoat(vec3 normal_view) { return Coat(0.0, 0.0, normal_view); }
 
 // Schlick's, of an index of refraction of 1.5.

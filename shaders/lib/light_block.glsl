@@ -122,23 +122,14 @@ Block makeBlock(Surface s, bool mine) {
     b.high_view = largestOfBlock(mine ? s.position_view : kNone);
     b.low_view = -largestOfBlock(mine ? -s.position_view : kNone);
     b.centre_view = 0.5 * (b.low_view + b.high_view);
-#ifdef FROXEL_LAYERED
-    // A coat may face what the surface below it does not.
-    vec3 normal_high = largestOfBlock(mine ? largest(s.normal_view, s.coat.normal_view) : kNone);
-    vec3 normal_low = -largestOfBlock(mine ? largest(-s.normal_view, -s.coat.normal_view) : kNone);
-#else
-    vec3 normal_high = largestOfBlock(mine ? s.normal_view : kNone);
-    vec3 normal_low = -largestOfBlock(mine ? -s.normal_view : kNone);
-#endif
+    vec3 normal_high = largestOfBlock(mine ? highestNormal(s) : kNone);
+    vec3 normal_low = -largestOfBlock(mine ? -lowestNormal(s) : kNone);
     b.normal_view = 0.5 * (normal_low + normal_high);
     vec3 turn = s.normal_view - b.normal_view;
     vec3 from_centre = s.position_view - b.centre_view;
     vec3 own =
         vec3(dot(turn, turn), -dot(s.normal_view, from_centre), dot(from_centre, from_centre));
-#ifdef FROXEL_LAYERED
-    vec3 coat_turn = s.coat.normal_view - b.normal_view;
-    own = largest(own, vec3(dot(coat_turn, coat_turn), -dot(s.coat.normal_view, from_centre), 0.0));
-#endif
+    own = largestOfLayers(own, s, b.normal_view, from_centre);
     vec3 worst = largestOfBlock(mine ? own : kNone);
     // A product of three terms is off by less than 1e-6 of its terms' sizes, here and in a pixel.
     vec3 size = b.high_view - b.low_view;

@@ -81,13 +81,7 @@ void addLocalLight(Surface s, LocalLight light, float share, inout LightSum sum)
         share = seen;
     }
     addLight(s, to_light, light.inv_radius2, light.color, share, sum);
-#ifdef FROXEL_LAYERED
-    if (hasMaterial(kMaterialCoat)) {
-        LightSum of_coat = noLight();
-        addLight(coatOf(s), to_light, light.inv_radius2, light.color, share, of_coat);
-        addCoatLight(of_coat, sum);
-    }
-#endif
+    addToLayers(s, sum, addLight(layer, to_light, light.inv_radius2, light.color, share, of_layer));
 }
 
 #ifdef FROXEL_SUBGROUPS

@@ -122,9 +122,9 @@ void addListBatched(Surface s, bool lit, bool all_lights, uint cluster, inout Li
             share = mine ? 1.0 : 0.0;
         } else {
             shaded.normal_view = mine ? s.normal_view : vec3(0.0);
-#ifdef FROXEL_LAYERED
-            shaded.coat.normal_view = mine ? s.coat.normal_view : vec3(0.0);
-#endif
+            if (!mine) {
+                hideLayers(shaded);
+            }
         }
         if (hasLight(kLightCulled)) {
             addCulledBatches(shaded, list, mine, share, sum);
@@ -170,14 +170,9 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
             vec3 l = -suns[i].direction_view;
             addIrradiance(s, dot(s.normal_view, l), dot(s.to_eye_view, l), 1.0, 0.0, suns[i].color,
                           sum);
-#ifdef FROXEL_LAYERED
-            if (hasMaterial(kMaterialCoat)) {
-                LightSum of_coat = noLight();
-                addIrradiance(coatOf(s), dot(s.coat.normal_view, l), dot(s.to_eye_view, l), 1.0,
-                              0.0, suns[i].color, of_coat);
-                addCoatLight(of_coat, sum);
-            }
-#endif
+            addToLayers(s, sum,
+                        addIrradiance(layer, dot(layer.normal_view, l), dot(s.to_eye_view, l), 1.0,
+                                      0.0, suns[i].color, of_layer));
         }
     }
     if (hasLight(kLightRim) && s.n_dot_v < frame.toon_rim_width) {
@@ -220,7 +215,7 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
 // What the eye sees of a surface whose coat is over `below`; a coat reflects the ambient light as
 // whole as what it covers does.
 vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) {
-    if (!hasMaterial(kMaterialCoat)) {
+    if (!hasCoat()) {
         return below;
     }
     Surface c = coatOf(s);

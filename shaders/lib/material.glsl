@@ -152,7 +152,7 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     }
 #ifdef FROXEL_LAYERED
     g.coat = noCoat(n);
-    if (hasMaterial(kMaterialCoat)) {
+    if (hasCoat()) {
         g.coat = shadeCoat(v, position_view, front);
     }
 #endif

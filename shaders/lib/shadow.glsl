@@ -96,10 +96,7 @@ uint shadowsInReach(Surface s, uint count) {
         precise float d2 = fma(l.z, l.z, fma(l.y, l.y, l.x * l.x));
         precise float facing =
             fma(s.normal_view.z, l.z, fma(s.normal_view.y, l.y, s.normal_view.x * l.x));
-        bool faces = hasLight(kLightToon) || facing > 0.0;
-#ifdef FROXEL_LAYERED
-        faces = faces || dot(s.coat.normal_view, l) > 0.0;
-#endif
+        bool faces = hasLight(kLightToon) || facing > 0.0 || layersFace(s, l);
         bits |= faces && d2 * reach.w < 1.0 ? 1u << i : 0u;
     }
     return bits;

@@ -35,7 +35,7 @@ struct FrameLoad {
     uint32_t directional_count = 0;
     std::vector<CostlyLights> costly_lights = {};
     double lit_pixel = 0;          // seconds more to light a pixel, whatever its lights
-    double lit_surfaces = 1;       // of a pixel of the forward shader: 2 with a clear coat
+    double lit_surfaces = 1;       // most of a pixel of the forward shader (litSurfaces())
     double overdraw = 1;           // of solid surfaces, in fragments per pixel
     uint32_t device_triangles = 0; // that the host does not cull
     uint64_t posed_vertices = 0;

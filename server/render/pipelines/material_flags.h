@@ -4,6 +4,7 @@
 #include "interface/constants.h"
 #include "interface/material_slots.h"
 
+#include <bit>
 #include <cstdint>
 
 namespace froxel::render {
@@ -32,5 +33,10 @@ inline constexpr MaterialFlags kSpecularFlags =
 inline constexpr MaterialFlags kLayerFlags =
     MaterialFlags{io::kMaterialLayers} |
     (textureFlag(io::kMaterialSlots) - textureFlag(io::kSurfaceSlots));
+
+// Over how many surfaces lights are added up where this is: a layer is one of its own.
+[[nodiscard]] constexpr double litSurfaces(MaterialFlags flags) {
+    return 1 + std::popcount(featuresOf(flags) & io::kMaterialLayers);
+}
 
 } // namespace froxel::render
