@@ -94,7 +94,7 @@ void main() {
                        ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) +
                        g.emissive;
 #ifdef FROXEL_LAYERED
-    lit = underCoat(lit, s, sum, g.coat, g.occlusion);
+    lit = underLayers(lit, s, sum, g.coat, g.occlusion);
 #endif
     store(seen(lit, pixel, distance), alpha, distance);
 }

@@ -70,7 +70,7 @@ void main() {
                        ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) +
                        g.emissive;
 #ifdef FROXEL_LAYERED
-    lit = underCoat(lit, s, sum, g.coat, g.occlusion);
+    lit = underLayers(lit, s, sum, g.coat, g.occlusion);
 #endif
     if (g.unlit) {
         lit = g.base_color;

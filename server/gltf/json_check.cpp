@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gltf/json_types.h"
 #include "gltf/limits.h"
+#include "gltf/material_extensions.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,22 +19,11 @@ namespace {
 
 using Json = nlohmann::json;
 
+// Beside those of materials.
 constexpr std::string_view kSupportedExtensions[] = {
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_clearcoat",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_meshopt_compression",
-    "KHR_node_visibility",
-    "KHR_texture_basisu",
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",    "KHR_node_visibility",     "KHR_texture_basisu",
     "KHR_texture_transform",
 };
 
@@ -213,7 +203,9 @@ void checkArrays(const Json& root) {
 } // namespace
 
 bool isSupportedExtension(std::string_view name) {
-    return isOneOf(kSupportedExtensions, name);
+    return isOneOf(kSupportedExtensions, name) ||
+           std::ranges::any_of(materialExtensions(),
+                               [&](const MaterialExtension& row) { return row.name == name; });
 }
 
 Json parseJson(std::span<const std::byte> text) {

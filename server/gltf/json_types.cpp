@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "gltf/limits.h"
+#include "gltf/material_extensions.h"
 
 #include <nlohmann/json.hpp>
 
@@ -61,11 +62,6 @@ struct RuleTable {
         {"cameras", {kObjects}},
         {"channels", {kObjects}},
         {"children", {kIndices}},
-        {"clearcoatFactor", {kNumber}},
-        {"clearcoatNormalTexture", {kObject}},
-        {"clearcoatRoughnessFactor", {kNumber}},
-        {"clearcoatRoughnessTexture", {kObject}},
-        {"clearcoatTexture", {kObject}},
         {"color", {kNumbers, 3}},
         {"componentType", {kIndex}},
         {"count", {kIndex}},
@@ -88,7 +84,6 @@ struct RuleTable {
         {"intensity", {kNumber}},
         {"interpolation", {kWord}},
         {"inverseBindMatrices", {kIndex}},
-        {"ior", {kNumber}},
         {"joints", {kIndices}},
         {"light", {kIndex}},
         {"lights", {kObjects}},
@@ -130,11 +125,8 @@ struct RuleTable {
         {"skins", {kObjects}},
         {"source", {kIndex}},
         {"sparse", {kObject}},
-        {"specularColorFactor", {kNumbers, 3}},
-        {"specularColorTexture", {kObject}},
-        {"specularFactor", {kNumber | kNumbers, 3}},
+        {"specularFactor", {kNumbers, 3}}, // of KHR_materials_pbrSpecularGlossiness
         {"specularGlossinessTexture", {kObject}},
-        {"specularTexture", {kObject}},
         {"spot", {kObject}},
         {"strength", {kNumber}},
         {"target", {kIndex | kObject}},
@@ -156,6 +148,21 @@ struct RuleTable {
         {"zfar", {kNumber}},
         {"znear", {kNumber}},
     };
+
+    RuleTable() {
+        for (const MaterialExtension& row : materialExtensions()) {
+            scene::Material material;
+            for (const MaterialFactor& factor : row.factors) {
+                const size_t length = factor.of(material).size();
+                Rule& rule = of_name[factor.key];
+                rule.kinds |= length == 1 ? kNumber : kNumbers;
+                rule.length = length == 1 ? rule.length : length;
+            }
+            for (const MaterialTexture& texture : row.textures) {
+                of_name[texture.key].kinds |= kObject;
+            }
+        }
+    }
 };
 
 // The rule of a member `name` whose JSON pointer is `path`.

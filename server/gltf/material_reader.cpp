@@ -72,6 +72,33 @@ float MaterialReader::unit(double value, const char* factor, const std::string& 
     return static_cast<float>(clamped);
 }
 
+float MaterialReader::inRange(double value,
+                              const MaterialFactor& factor,
+                              float usual,
+                              const std::string& name) {
+    const auto tell = [&](const std::string& used, const char* right) {
+        warnings_.add(warning::kFactorRange, pointer_,
+                      name + " has the " + factor.key + " " + numberText(value) + "; " + used +
+                          " is used, since right is " + right);
+    };
+    switch (factor.range) {
+    case FactorRange::kUnit:
+        return unit(value, factor.key, name);
+    case FactorRange::kFromZero:
+        if (value < 0) {
+            tell("0", "0 or more");
+        }
+        return static_cast<float>(std::max(value, 0.0));
+    case FactorRange::kIor:
+        break;
+    }
+    if (value == 0 || value >= 1) {
+        return static_cast<float>(value);
+    }
+    tell(numberText(usual), "0 or at least 1");
+    return usual;
+}
+
 double MaterialReader::numberIn(const tinygltf::Value& object,
                                 const char* key,
                                 double fallback,
@@ -187,21 +214,23 @@ uint32_t MaterialReader::withTexcoords(uint32_t material,
 scene::Material MaterialReader::read(const tinygltf::Material& source, const std::string& name) {
     scene::Material material;
     material.name = source.name;
-    material.unlit = findExtension(source.extensions, "KHR_materials_unlit") != nullptr;
-    const auto* glossiness =
-        findExtension(source.extensions, "KHR_materials_pbrSpecularGlossiness");
+    material.unlit = findExtension(source.extensions, kUnlit) != nullptr;
+    const auto* glossiness = findExtension(source.extensions, kGlossiness);
     if (glossiness != nullptr && !material.unlit) {
         readGlossiness(*glossiness, name, material);
     } else {
         readMetallicRoughness(source, name, material);
     }
-    if (!material.unlit) {
-        readCoat(source.extensions, name, material);
+    for (const MaterialExtension& row : materialExtensions()) {
+        const auto* object = findExtension(source.extensions, row.name);
+        if (object != nullptr && !material.unlit && !(row.of_dielectric && glossiness != nullptr)) {
+            readExtension(row, *object, name, material);
+        }
     }
     material.normal_scale = static_cast<float>(source.normalTexture.scale);
     material.occlusion_strength = unit(source.occlusionTexture.strength, "strength", name);
     double strength = 1;
-    if (const auto* ext = findExtension(source.extensions, "KHR_materials_emissive_strength")) {
+    if (const auto* ext = findExtension(source.extensions, kEmissiveStrength)) {
         strength = numberOr(*ext, "emissiveStrength", 1);
         if (strength < 0) {
             warnings_.add(warning::kFactorRange, pointer_,
@@ -224,7 +253,6 @@ scene::Material MaterialReader::read(const tinygltf::Material& source, const std
     return material;
 }
 
-// With what says how its dielectric part reflects, where it is lit.
 void MaterialReader::readMetallicRoughness(const tinygltf::Material& source,
                                            const std::string& name,
                                            scene::Material& material) {
@@ -238,40 +266,6 @@ void MaterialReader::readMetallicRoughness(const tinygltf::Material& source,
     material.base_color_texture = slot(pbr.baseColorTexture, name + " baseColorTexture");
     material.metallic_roughness_texture =
         slot(pbr.metallicRoughnessTexture, name + " metallicRoughnessTexture");
-    if (!material.unlit) {
-        readSpecular(source.extensions, name, material);
-    }
-}
-
-// KHR_materials_ior and KHR_materials_specular.
-void MaterialReader::readSpecular(const tinygltf::ExtensionMap& extensions,
-                                  const std::string& name,
-                                  scene::Material& material) {
-    if (const auto* ext = findExtension(extensions, "KHR_materials_ior")) {
-        const double ior = numberOr(*ext, "ior", 1.5);
-        if (ior == 0 || ior >= 1) {
-            material.ior = static_cast<float>(ior);
-        } else {
-            warnings_.add(warning::kFactorRange, pointer_,
-                          name + " has the ior " + numberText(ior) +
-                              "; 1.5 is used, since right is 0 or at least 1");
-        }
-    }
-    if (const auto* ext = findExtension(extensions, "KHR_materials_specular")) {
-        material.specular = unit(numberIn(*ext, "specularFactor", 1, name), "specularFactor", name);
-        const auto color = factorsIn(*ext, "specularColorFactor", {1, 1, 1}, name);
-        for (size_t i = 0; i < color.size(); ++i) {
-            if (color[i] < 0) {
-                warnings_.add(warning::kFactorRange, pointer_,
-                              name + " has the specularColorFactor " + numberText(color[i]) +
-                                  "; 0 is used, since right is 0 or more");
-            }
-            material.specular_color[static_cast<int>(i)] =
-                static_cast<float>(std::max(color[i], 0.0));
-        }
-        material.specular_texture = slotIn(*ext, "specularTexture", name);
-        material.specular_color_texture = slotIn(*ext, "specularColorTexture", name);
-    }
 }
 
 // KHR_materials_pbrSpecularGlossiness, in place of metalness and roughness: a dielectric that would
@@ -296,23 +290,29 @@ void MaterialReader::readGlossiness(const tinygltf::Value& extension,
     material.glossiness_texture = material.specular_color_texture.texture != scene::kNone;
 }
 
-// KHR_materials_clearcoat.
-void MaterialReader::readCoat(const tinygltf::ExtensionMap& extensions,
-                              const std::string& name,
-                              scene::Material& material) {
-    const auto* ext = findExtension(extensions, "KHR_materials_clearcoat");
-    if (ext == nullptr) {
-        return;
+void MaterialReader::readExtension(const MaterialExtension& row,
+                                   const tinygltf::Value& object,
+                                   const std::string& name,
+                                   scene::Material& material) {
+    for (const MaterialFactor& factor : row.factors) {
+        const std::span<float> numbers = factor.of(material);
+        std::vector<double> values(numbers.begin(), numbers.end());
+        if (values.size() == 1) {
+            values[0] = numberIn(object, factor.key, values[0], name);
+        } else {
+            values = factorsIn(object, factor.key, values, name);
+        }
+        for (size_t i = 0; i < values.size(); ++i) {
+            numbers[i] = inRange(values[i], factor, numbers[i], name);
+        }
     }
-    material.coat = unit(numberOr(*ext, "clearcoatFactor", 0), "clearcoatFactor", name);
-    material.coat_roughness =
-        unit(numberOr(*ext, "clearcoatRoughnessFactor", 0), "clearcoatRoughnessFactor", name);
-    material.coat_texture = slotIn(*ext, "clearcoatTexture", name);
-    material.coat_roughness_texture = slotIn(*ext, "clearcoatRoughnessTexture", name);
-    material.coat_normal_texture = slotIn(*ext, "clearcoatNormalTexture", name);
-    if (ext->Has("clearcoatNormalTexture") && ext->Get("clearcoatNormalTexture").Has("scale")) {
-        material.coat_normal_scale =
-            static_cast<float>(numberIn(ext->Get("clearcoatNormalTexture"), "scale", 1, name));
+    for (const MaterialTexture& texture : row.textures) {
+        *textureSlots(material)[texture.slot] = slotIn(object, texture.key, name);
+        if (texture.scale != nullptr && object.Has(texture.key) &&
+            object.Get(texture.key).Has("scale")) {
+            texture.scale(material) =
+                static_cast<float>(numberIn(object.Get(texture.key), "scale", 1, name));
+        }
     }
 }
 

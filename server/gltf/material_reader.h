@@ -4,6 +4,7 @@
 
 #include "gltf/document.h"
 #include "gltf/failure.h"
+#include "gltf/material_extensions.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -44,15 +45,13 @@ class MaterialReader {
     void readMetallicRoughness(const tinygltf::Material& source,
                                const std::string& name,
                                scene::Material& material);
-    void readSpecular(const tinygltf::ExtensionMap& extensions,
-                      const std::string& name,
-                      scene::Material& material);
     void readGlossiness(const tinygltf::Value& extension,
                         const std::string& name,
                         scene::Material& material);
-    void readCoat(const tinygltf::ExtensionMap& extensions,
-                  const std::string& name,
-                  scene::Material& material);
+    void readExtension(const MaterialExtension& row,
+                       const tinygltf::Value& object,
+                       const std::string& name,
+                       scene::Material& material);
     // A texture that an extension's object names; none where it does not.
     [[nodiscard]] scene::TextureSlot
     slotIn(const tinygltf::Value& extension, const char* key, const std::string& name);
@@ -75,6 +74,9 @@ class MaterialReader {
                                                 const std::vector<double>& fallback,
                                                 const std::string& name);
     [[nodiscard]] float unit(double value, const char* factor, const std::string& name);
+    // usual: of a factor that has no nearest right value.
+    [[nodiscard]] float
+    inRange(double value, const MaterialFactor& factor, float usual, const std::string& name);
 
     const Document& document_;
     scene::Scene& scene_;

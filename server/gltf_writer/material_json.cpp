@@ -1,17 +1,14 @@
 #include "gltf_writer/material_json.h"
 
+#include "gltf/material_extensions.h"
+
 #include <algorithm>
+#include <span>
 
 namespace froxel::gltf_writer {
 namespace {
 
 constexpr const char* kTransform = "KHR_texture_transform";
-constexpr const char* kUnlit = "KHR_materials_unlit";
-constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
-constexpr const char* kIor = "KHR_materials_ior";
-constexpr const char* kSpecular = "KHR_materials_specular";
-constexpr const char* kClearcoat = "KHR_materials_clearcoat";
-constexpr const char* kGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 Json slotJson(const scene::TextureSlot& slot, std::set<std::string>& extensions) {
     Json json = {{"index", slot.texture}};
@@ -53,31 +50,6 @@ Json colorJson(const glm::vec3& color) {
     return {color.x, color.y, color.z};
 }
 
-// What the dielectric part reflects, in members of their own.
-void addSpecular(const scene::Material& m, Json& json, std::set<std::string>& extensions) {
-    if (m.ior != 1.5F) {
-        extensions.insert(kIor);
-        json["extensions"][kIor] = {{"ior", m.ior}};
-    }
-    Json specular = Json::object();
-    if (m.specular != 1) {
-        specular["specularFactor"] = m.specular;
-    }
-    if (m.specular_color != glm::vec3(1)) {
-        specular["specularColorFactor"] = colorJson(m.specular_color);
-    }
-    if (m.specular_texture.texture != scene::kNone) {
-        specular["specularTexture"] = slotJson(m.specular_texture, extensions);
-    }
-    if (m.specular_color_texture.texture != scene::kNone) {
-        specular["specularColorTexture"] = slotJson(m.specular_color_texture, extensions);
-    }
-    if (!specular.empty()) {
-        extensions.insert(kSpecular);
-        json["extensions"][kSpecular] = std::move(specular);
-    }
-}
-
 // A material whose roughness is in its specular colour's texture: no other extension has that.
 void addGlossiness(const scene::Material& m, Json& json, std::set<std::string>& extensions) {
     Json glossiness = {
@@ -88,27 +60,43 @@ void addGlossiness(const scene::Material& m, Json& json, std::set<std::string>& 
     if (m.base_color_texture.texture != scene::kNone) {
         glossiness["diffuseTexture"] = slotJson(m.base_color_texture, extensions);
     }
-    extensions.insert(kGlossiness);
-    json["extensions"][kGlossiness] = std::move(glossiness);
+    extensions.insert(gltf::kGlossiness);
+    json["extensions"][gltf::kGlossiness] = std::move(glossiness);
 }
 
-void addCoat(const scene::Material& m, Json& json, std::set<std::string>& extensions) {
-    if (m.coat == 0) {
+Json numbersJson(std::span<const float> numbers) {
+    return numbers.size() == 1 ? Json(numbers[0]) : Json(numbers);
+}
+
+// What is not as usual of a row of factors and textures.
+void addExtension(const gltf::MaterialExtension& row,
+                  scene::Material m,
+                  Json& json,
+                  std::set<std::string>& extensions) {
+    if (row.present != nullptr && !row.present(m)) {
         return; // there is nothing to see of the rest
     }
-    Json coat = {{"clearcoatFactor", m.coat}, {"clearcoatRoughnessFactor", m.coat_roughness}};
-    if (m.coat_texture.texture != scene::kNone) {
-        coat["clearcoatTexture"] = slotJson(m.coat_texture, extensions);
+    Json object = Json::object();
+    scene::Material usual;
+    for (const gltf::MaterialFactor& factor : row.factors) {
+        const std::span<float> numbers = factor.of(m);
+        if (factor.always || !std::ranges::equal(numbers, factor.of(usual))) {
+            object[factor.key] = numbersJson(numbers);
+        }
     }
-    if (m.coat_roughness_texture.texture != scene::kNone) {
-        coat["clearcoatRoughnessTexture"] = slotJson(m.coat_roughness_texture, extensions);
+    for (const gltf::MaterialTexture& texture : row.textures) {
+        const scene::TextureSlot& slot = *textureSlots(m)[texture.slot];
+        if (slot.texture != scene::kNone) {
+            object[texture.key] = slotJson(slot, extensions);
+            if (texture.scale != nullptr) {
+                object[texture.key]["scale"] = texture.scale(m);
+            }
+        }
     }
-    if (m.coat_normal_texture.texture != scene::kNone) {
-        coat["clearcoatNormalTexture"] = slotJson(m.coat_normal_texture, extensions);
-        coat["clearcoatNormalTexture"]["scale"] = m.coat_normal_scale;
+    if (!object.empty()) {
+        extensions.insert(row.name);
+        json["extensions"][row.name] = std::move(object);
     }
-    extensions.insert(kClearcoat);
-    json["extensions"][kClearcoat] = std::move(coat);
 }
 
 int wrapCode(scene::Wrap wrap) {
@@ -157,19 +145,21 @@ Json materialJson(const scene::Material& m, std::set<std::string>& extensions) {
         json["emissiveFactor"] = {factor.x, factor.y, factor.z};
     }
     if (strength > 1.0F) {
-        extensions.insert(kEmissiveStrength);
-        json["extensions"][kEmissiveStrength] = {{"emissiveStrength", strength}};
+        extensions.insert(gltf::kEmissiveStrength);
+        json["extensions"][gltf::kEmissiveStrength] = {{"emissiveStrength", strength}};
     }
     if (m.unlit) {
-        extensions.insert(kUnlit);
-        json["extensions"][kUnlit] = Json::object();
+        extensions.insert(gltf::kUnlit);
+        json["extensions"][gltf::kUnlit] = Json::object();
     }
     if (m.glossiness_texture) {
         addGlossiness(m, json, extensions);
-    } else {
-        addSpecular(m, json, extensions);
     }
-    addCoat(m, json, extensions);
+    for (const gltf::MaterialExtension& row : gltf::materialExtensions()) {
+        if (!(row.of_dielectric && m.glossiness_texture)) {
+            addExtension(row, m, json, extensions);
+        }
+    }
     if (m.alpha_mode == scene::AlphaMode::kMask) {
         json["alphaMode"] = "MASK";
         json["alphaCutoff"] = m.alpha_cutoff;

@@ -72,9 +72,9 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
 }
 
 glm::dvec3 coatAround(const Surface& s, const Around& around) {
-    const double roughness = std::max(s.coat_roughness, kLeastRoughness);
-    const double n_dot_v = std::max(std::abs(glm::dot(s.coat_normal, s.to_eye)), kLeastCosine);
-    return glossyAround(s, s.coat_normal, roughness, around) *
+    const double roughness = std::max(s.coat.roughness, kLeastRoughness);
+    const double n_dot_v = std::max(std::abs(glm::dot(s.coat.normal, s.to_eye)), kLeastCosine);
+    return glossyAround(s, s.coat.normal, roughness, around) *
            environment::albedoFromTable(n_dot_v, roughness).all;
 }
 

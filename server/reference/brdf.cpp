@@ -55,7 +55,7 @@ double rimShare(const Surface& s, const Model& model) {
 
 // What a coat reflects of the ambient light, of a share of 1.
 glm::dvec3 coatAmbient(const Surface& s, const Lights& lights) {
-    return glm::mix(lights.ground, lights.sky, 0.5 + 0.5 * s.coat_normal.y) * s.occlusion;
+    return glm::mix(lights.ground, lights.sky, 0.5 + 0.5 * s.coat.normal.y) * s.occlusion;
 }
 
 } // namespace
@@ -65,8 +65,8 @@ double coatShare(const Surface& s, const Model& model) {
     if (model.shading == settings::ShadingModel::kLambert) {
         return 0;
     }
-    const double n_dot_v = std::abs(glm::dot(s.coat_normal, s.to_eye));
-    return s.coat * (0.04 + 0.96 * lobes::fifth(std::max(0.0, 1 - n_dot_v)));
+    const double n_dot_v = std::abs(glm::dot(s.coat.normal, s.to_eye));
+    return s.coat.strength * (0.04 + 0.96 * lobes::fifth(std::max(0.0, 1 - n_dot_v)));
 }
 
 namespace {
@@ -87,7 +87,7 @@ class Banded {
         const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
         whole_ += irradiance;
         addTo(base_, s_.normal, s_.roughness, to_light, half, irradiance);
-        addTo(coat_, s_.coat_normal, s_.coat_roughness, to_light, half, irradiance);
+        addTo(coat_, s_.coat.normal, s_.coat.roughness, to_light, half, irradiance);
     }
 
     // Towards the eye, of bands about `middle`.
@@ -103,7 +103,7 @@ class Banded {
             f0 * (gloss(base_, s_.roughness) * light);
         const double share = coatShare(s_, model_);
         return share > 0
-                   ? below * (1 - share) + share * gloss(coat_, s_.coat_roughness) *
+                   ? below * (1 - share) + share * gloss(coat_, s_.coat.roughness) *
                                                toonBand(model_.bands, coat_.scattered, middle) /
                                                std::numbers::pi
                    : below;
@@ -163,8 +163,8 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     }
     const double share = coatShare(s, model);
     if (share > 0) {
-        const double coat_facing = std::max(0.0, glm::dot(s.coat_normal, to_light));
-        const double lobe = coat_facing > 0 ? lobeOf(model, s.coat_normal, s.coat_roughness,
+        const double coat_facing = std::max(0.0, glm::dot(s.coat.normal, to_light));
+        const double lobe = coat_facing > 0 ? lobeOf(model, s.coat.normal, s.coat.roughness,
                                                      s.to_eye, half, coat_facing)
                                             : 0;
         out = out * (1 - share) + share * coat_facing * lobe;

@@ -13,6 +13,13 @@ inline constexpr double kLeastRoughness = 0.045; // a smaller highlight would sl
 // A light's irradiance is colour * window / max(d, nearest)^2, window = max(0, 1 - (d^2/r^2)^2)^2:
 // exactly 0 from its radius on.
 
+// A clear coat over a surface.
+struct Coat {
+    double strength = 0;
+    double roughness = 0;
+    glm::dvec3 normal{0, 1, 0}; // unit
+};
+
 // Everything is in the world's axes; `position` is relative to the eye.
 struct Surface {
     glm::dvec3 position{0};
@@ -25,9 +32,7 @@ struct Surface {
     double roughness = 1;
     double occlusion = 1;
     glm::dvec3 emissive{0};
-    double coat = 0; // strength of a clear coat
-    double coat_roughness = 0;
-    glm::dvec3 coat_normal{0, 1, 0}; // unit
+    Coat coat;
     double alpha = 1;
     bool unlit = false;
 };

@@ -15,6 +15,12 @@ glm::dvec2 transformed(const scene::TextureSlot& slot, const glm::dvec2& uv, boo
     return offset ? rotated + glm::dvec2(slot.offset) : rotated;
 }
 
+// Stated here too, so that the table of slots does not speak for itself.
+bool isColor(uint32_t slot) {
+    return slot == io::base_color_slot || slot == io::emissive_slot ||
+           slot == io::specular_color_slot;
+}
+
 struct TangentFrame {
     glm::dvec3 tangent{0};   // where u grows
     glm::dvec3 bitangent{0}; // where v falls: glTF's green channel points up in the image
@@ -52,17 +58,11 @@ Materials::Materials(const scene::Scene& scene,
     for (const uint32_t index : used) {
         const scene::Material& m = scene.materials[index];
         Look look;
-        look.base_color = slot(m.base_color_texture, true);
-        if (!m.unlit) {
-            look.metallic_roughness = slot(m.metallic_roughness_texture, false);
-            look.normal = slot(m.normal_texture, false);
-            look.occlusion = slot(m.occlusion_texture, false);
-            look.emissive = slot(m.emissive_texture, true);
-            look.specular = slot(m.specular_texture, false);
-            look.specular_color = slot(m.specular_color_texture, true);
-            look.coat = slot(m.coat_texture, false);
-            look.coat_roughness = slot(m.coat_roughness_texture, false);
-            look.coat_normal = slot(m.coat_normal_texture, false);
+        const auto slots = textureSlots(m);
+        for (uint32_t i = 0; i < slots.size(); ++i) {
+            if (!m.unlit || i == io::base_color_slot) {
+                look[i] = slot(*slots[i], isColor(i));
+            }
         }
         looks_.emplace(index, look);
     }
@@ -122,30 +122,32 @@ glm::dvec3 Materials::normalAt(const scene::Material& material,
 
 double Materials::alpha(uint32_t material, const SurfacePoint& point) const {
     const scene::Material& m = scene_.materials[material];
-    return static_cast<double>(m.base_color.w) * sample(looks_.at(material).base_color, point).w *
-           point.color.w;
+    return static_cast<double>(m.base_color.w) *
+           sample(looks_.at(material)[io::base_color_slot], point).w * point.color.w;
 }
 
 Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     const scene::Material& m = scene_.materials[material];
     const Look& look = looks_.at(material);
-    const glm::dvec4 base = glm::dvec4(m.base_color) * sample(look.base_color, point) * point.color;
-    const glm::dvec4 roughness = sample(look.metallic_roughness, point);
-    const double occlusion = sample(look.occlusion, point).x;
+    const glm::dvec4 base =
+        glm::dvec4(m.base_color) * sample(look[io::base_color_slot], point) * point.color;
+    const glm::dvec4 roughness = sample(look[io::metallic_roughness_slot], point);
+    const double occlusion = sample(look[io::occlusion_slot], point).x;
     Surface s;
     s.position = point.position;
-    s.normal = normalAt(m, look.normal, m.normal_scale, point);
+    s.normal = normalAt(m, look[io::normal_slot], m.normal_scale, point);
     s.to_eye = point.to_eye;
     s.base_color = glm::clamp(glm::dvec3(base), 0.0, 1.0);
     s.alpha = m.alpha_mode == scene::AlphaMode::kBlend ? std::clamp(base.w, 0.0, 1.0) : 1.0;
     s.roughness = static_cast<double>(m.roughness) * roughness.y;
     s.metallic = static_cast<double>(m.metallic) * roughness.z;
     s.occlusion = 1 + static_cast<double>(m.occlusion_strength) * (occlusion - 1);
-    s.emissive = glm::dvec3(m.emissive) * glm::dvec3(sample(look.emissive, point));
+    s.emissive = glm::dvec3(m.emissive) * glm::dvec3(sample(look[io::emissive_slot], point));
     s.unlit = m.unlit;
-    const glm::dvec4 specular_color = sample(look.specular_color, point);
+    const glm::dvec4 specular_color = sample(look[io::specular_color_slot], point);
     const double ior = static_cast<double>(m.ior);
-    const double strength = static_cast<double>(m.specular) * sample(look.specular, point).w;
+    const double strength =
+        static_cast<double>(m.specular) * sample(look[io::specular_slot], point).w;
     const glm::dvec3 head_on = glm::dvec3(m.specular_color) * glm::dvec3(specular_color) *
                                (std::pow(ior - 1, 2) / std::pow(ior + 1, 2));
     s.dielectric_f0 = glm::min(head_on, 1.0) * strength;
@@ -153,9 +155,10 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     if (m.glossiness_texture) {
         s.roughness = 1 - (1 - static_cast<double>(m.roughness)) * specular_color.w;
     }
-    s.coat = static_cast<double>(m.coat) * sample(look.coat, point).x;
-    s.coat_roughness = static_cast<double>(m.coat_roughness) * sample(look.coat_roughness, point).y;
-    s.coat_normal = normalAt(m, look.coat_normal, m.coat_normal_scale, point);
+    s.coat.strength = static_cast<double>(m.coat.strength) * sample(look[io::coat_slot], point).x;
+    s.coat.roughness =
+        static_cast<double>(m.coat.roughness) * sample(look[io::coat_roughness_slot], point).y;
+    s.coat.normal = normalAt(m, look[io::coat_normal_slot], m.coat.normal_scale, point);
     return s;
 }
 

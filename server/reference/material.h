@@ -5,6 +5,7 @@
 #include "reference/geometry.h"
 #include "reference/texture.h"
 
+#include <array>
 #include <map>
 #include <memory>
 #include <span>
@@ -30,18 +31,7 @@ class Materials {
         scene::Sampler sampler;
         scene::TextureSlot settings;
     };
-    struct Look {
-        Slot base_color;
-        Slot metallic_roughness;
-        Slot normal;
-        Slot occlusion;
-        Slot emissive;
-        Slot specular;
-        Slot specular_color;
-        Slot coat;
-        Slot coat_roughness;
-        Slot coat_normal;
-    };
+    using Look = std::array<Slot, io::kMaterialSlots>; // by its number
 
     Slot slot(const scene::TextureSlot& settings, bool srgb);
     // White where there is no texture.

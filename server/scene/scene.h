@@ -66,6 +66,13 @@ struct TextureSlot {
 
 enum class AlphaMode : uint8_t { kOpaque, kMask, kBlend };
 
+// A clear coat over all of a material; its normal is the shape's where it has no map of its own.
+struct Coat {
+    float strength = 0; // 0..1; 0: none
+    float roughness = 0;
+    float normal_scale = 1;
+};
+
 struct Material {
     std::string name;
     glm::vec4 base_color{1, 1, 1, 1}; // linear
@@ -85,11 +92,7 @@ struct Material {
     glm::vec3 specular_color{1, 1, 1}; // linear; may exceed 1
     // Roughness is 1 - (1 - roughness) times A of the specular colour's texture.
     bool glossiness_texture = false;
-    // A clear coat over all of that (KHR_materials_clearcoat); its normal is the shape's where it
-    // has no map of its own.
-    float coat = 0; // strength, 0..1
-    float coat_roughness = 0;
-    float coat_normal_scale = 1;
+    Coat coat;
     // base_color_texture and so on, a member a row.
 #define FROXEL_SLOT(number, name, colour) TextureSlot name##_texture;
     FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)

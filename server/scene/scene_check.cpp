@@ -96,9 +96,9 @@ Fault faultIn(const Material& m, const Scene& scene) {
         {"ior", isFinite(m.ior)},
         {"specular", isFinite(m.specular)},
         {"specular_color", isFinite(m.specular_color)},
-        {"coat", isFinite(m.coat)},
-        {"coat_roughness", isFinite(m.coat_roughness)},
-        {"coat_normal_scale", isFinite(m.coat_normal_scale)}};
+        {"coat.strength", isFinite(m.coat.strength)},
+        {"coat.roughness", isFinite(m.coat.roughness)},
+        {"coat.normal_scale", isFinite(m.coat.normal_scale)}};
     for (const auto& [name, right] : factors) {
         if (!right) {
             return std::string(name) + " is not finite";

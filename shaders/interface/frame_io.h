@@ -84,6 +84,14 @@ struct UvTransform {
 };
 FROXEL_SIZE_ASSERT(UvTransform, 32);
 
+struct CoatFactors {
+    float strength;
+    float roughness;
+    float normal_scale;
+    float padding0;
+};
+FROXEL_SIZE_ASSERT(CoatFactors, 16);
+
 struct Material {
     vec4 base_color;
     vec3 emissive;
@@ -94,10 +102,7 @@ struct Material {
     float alpha_cutoff;
     vec3 specular_f0; // what the index of refraction gives head-on, times the specular colour
     float specular;   // its strength
-    float coat;       // its strength
-    float coat_roughness;
-    float coat_normal_scale;
-    float padding0;
+    CoatFactors coat;
     UvTransform uv[kMaterialSlots];
 };
 FROXEL_SIZE_ASSERT(Material, 80 + 32 * kMaterialSlots);

@@ -214,7 +214,7 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
 #ifdef FROXEL_LAYERED
 // What the eye sees of a surface whose coat is over `below`; a coat reflects the ambient light as
 // whole as what it covers does.
-vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) {
+vec3 underLayers(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) {
     if (!hasCoat()) {
         return below;
     }

@@ -96,7 +96,7 @@ vec3 unpackNormalMap(vec4 texel, float scale) {
 #ifdef FROXEL_LAYERED
 // Bumps of what it covers are not the coat's.
 Coat shadeCoat(VertexData v, vec3 position_view, bool front) {
-    Coat coat = Coat(material.coat, material.coat_roughness, normalize(v.normal_view));
+    Coat coat = Coat(material.coat.strength, material.coat.roughness, normalize(v.normal_view));
     if (hasTexture(coat_slot)) {
         coat.strength *= sampleMaterial(coat, v).r;
     }
@@ -106,7 +106,7 @@ Coat shadeCoat(VertexData v, vec3 position_view, bool front) {
     if (hasTexture(coat_normal_slot)) {
         vec4 texel = sampleMaterial(coat_normal, v);
         coat.normal_view = perturbNormal(v, coat.normal_view, position_view,
-                                         unpackNormalMap(texel, material.coat_normal_scale),
+                                         unpackNormalMap(texel, material.coat.normal_scale),
                                          material.uv[coat_normal_slot]);
     }
     if (hasMaterial(kMaterialDoubleSided)) {

@@ -168,8 +168,8 @@ TEST_F(HardAreas, Coats_AreNearTheSampledIntegral) {
     auto material = chalk();
     material.base_color = {0, 0, 0, 1};
     material.specular = 0;
-    material.coat = 1;
-    material.coat_roughness = 0.5F;
+    material.coat.strength = 1;
+    material.coat.roughness = 0.5F;
     SceneMaker maker(material);
     maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
     render::Renderer renderer(device(), maker.scene);

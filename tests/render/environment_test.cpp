@@ -131,8 +131,8 @@ TEST_F(Environment, WhiteFurnace_CoatsLoseWhatTheirLobesLose) {
     for (const float roughness : {0.0F, 1.0F}) {
         auto scene = makeSpheres({1, 1, 1, 1});
         for (auto& material : scene.materials) {
-            material.coat = 1;
-            material.coat_roughness = roughness;
+            material.coat.strength = 1;
+            material.coat.roughness = roughness;
         }
         scene.surroundings = surroundingsOf(
             environment::panoramaOf(8, [](const glm::dvec3&) { return glm::dvec3(1); }));

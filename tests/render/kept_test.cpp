@@ -32,7 +32,7 @@ class Kept : public SharedGpuTest {
     static const scene::Scene& room() {
         static const scene::Scene scene = [] {
             scene::Scene made = makeRoom();
-            made.materials[0].coat = 0.7F;
+            made.materials[0].coat.strength = 0.7F;
             made.materials[4].metallic_roughness_texture.texture = 0; // which lambert leaves out
             return made;
         }();

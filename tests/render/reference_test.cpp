@@ -154,8 +154,8 @@ void givePlainCoats(scene::Scene& room) {
     for (const auto& [material, coat, roughness] :
          {std::tuple(size_t{0}, 1.0F, 0.3F), std::tuple(size_t{2}, 1.0F, 0.5F),
           std::tuple(size_t{3}, 0.5F, 1.0F), std::tuple(size_t{4}, 0.7F, 0.4F)}) {
-        room.materials[material].coat = coat;
-        room.materials[material].coat_roughness = roughness;
+        room.materials[material].coat.strength = coat;
+        room.materials[material].coat.roughness = roughness;
     }
 }
 

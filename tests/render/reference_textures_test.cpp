@@ -50,10 +50,10 @@ TEST_F(ReferenceOfTextures, CoatNormalScale_IsOfBothAxes) {
     for (const float scale : {0.5F, 2.0F}) {
         auto room = makeNearestRoom();
         auto& floor = room.materials[0];
-        floor.coat = 1;
-        floor.coat_roughness = 0.3F;
+        floor.coat.strength = 1;
+        floor.coat.roughness = 0.3F;
         floor.coat_normal_texture.texture = 1;
-        floor.coat_normal_scale = scale;
+        floor.coat.normal_scale = scale;
         Compared compared(device(), room);
         const Errors errors =
             compared.against(inputsFor(room.cameras[0].camera, Renderer::kForwardPlus));
@@ -113,8 +113,8 @@ void giveEveryTexture(scene::Material& material, uint32_t texcoord, float shift)
     material.ior = 1.8F;
     material.specular = 0.9F;
     material.specular_color = {1, 0.8F, 0.6F};
-    material.coat = 0.7F;
-    material.coat_roughness = 0.8F;
+    material.coat.strength = 0.7F;
+    material.coat.roughness = 0.8F;
     float turn = shift;
     for (auto* slot : scene::textureSlots(material)) {
         *slot = {0, texcoord, {turn, 0.7F * turn}, 0.9F * turn, {1 + turn, 1.3F - 0.5F * turn}};
@@ -190,8 +190,8 @@ TEST_F(ReferenceOfTextures, CoatSeenFromBehind_IsReversed) {
     auto room = makeNearestRoom();
     auto& sheet = room.materials[1];
     sheet.alpha_mode = scene::AlphaMode::kOpaque;
-    sheet.coat = 1;
-    sheet.coat_roughness = 0.3F;
+    sheet.coat.strength = 1;
+    sheet.coat.roughness = 0.3F;
     room.instances.erase(room.instances.begin() + 3, room.instances.end());
     room.instances[0].world_from_object[3].y = -1;
     const auto behind = settings::lookAt({-2, 1, -1.5}, {-2, 1, 1}, {0, 1, 0});

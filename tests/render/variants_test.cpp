@@ -140,7 +140,7 @@ TEST_F(Variants, CoatOfNoStrength_GivesTheSamePicture) {
     giveCoats(neutral);
     auto coated = neutral;
     for (auto& material : neutral.materials) {
-        material.coat = 0;
+        material.coat.strength = 0;
     }
     render::Renderer a(device(), lean);
     render::Renderer b(device(), neutral);

@@ -122,19 +122,19 @@ scene::Scene makeRoom() {
 
 void giveCoats(scene::Scene& room) {
     auto& floor = room.materials[0];
-    floor.coat = 1;
-    floor.coat_roughness = 0.3F;
+    floor.coat.strength = 1;
+    floor.coat.roughness = 0.3F;
     floor.coat_normal_texture = {1, 0, {0.1F, 0.2F}, 0.3F, {0.5F, 0.5F}};
     auto& glass = room.materials[2];
-    glass.coat = 1;
-    glass.coat_roughness = 0.5F;
+    glass.coat.strength = 1;
+    glass.coat.roughness = 0.5F;
     auto& wall = room.materials[3];
-    wall.coat = 0.5F;
-    wall.coat_roughness = 0.8F;
+    wall.coat.strength = 0.5F;
+    wall.coat.roughness = 0.8F;
     wall.coat_roughness_texture.texture = 0;
     auto& box = room.materials[4];
-    box.coat = 0.7F;
-    box.coat_roughness = 0.4F;
+    box.coat.strength = 0.7F;
+    box.coat.roughness = 0.4F;
     box.coat_texture.texture = 0;
 }
 

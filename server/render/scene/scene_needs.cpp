@@ -27,11 +27,11 @@ bool shows(const scene::Material& m, uint32_t slot) {
     if (m.unlit) {
         return slot == io::base_color_slot;
     }
-    if (slot >= io::kSurfaceSlots && m.coat == 0) {
+    if (slot >= io::kSurfaceSlots && m.coat.strength == 0) {
         return false;
     }
     return !(slot == io::emissive_slot && m.emissive == glm::vec3(0)) &&
-           !(slot == io::coat_roughness_slot && m.coat_roughness == 0);
+           !(slot == io::coat_roughness_slot && m.coat.roughness == 0);
 }
 
 MaterialFlags textureFlags(const scene::Material& m) {
@@ -57,7 +57,7 @@ MaterialFlags materialFlags(const scene::Material& m) {
         set(reflectsUnusually(m), io::kMaterialSpecular);
         set((flags & textureFlag(io::specular_color_slot)) != 0 && m.glossiness_texture,
             io::kMaterialGlossiness);
-        set(m.coat != 0, io::kMaterialCoat);
+        set(m.coat.strength != 0, io::kMaterialCoat);
     }
     return flags;
 }

@@ -44,10 +44,10 @@ io::Material materialUniforms(const scene::Material& m) {
                      .alpha_cutoff = m.alpha_cutoff,
                      .specular_f0 = m.specular_color * (root * root),
                      .specular = m.specular,
-                     .coat = m.coat,
-                     .coat_roughness = m.coat_roughness,
-                     .coat_normal_scale = m.coat_normal_scale,
-                     .padding0 = 0,
+                     .coat = {.strength = m.coat.strength,
+                              .roughness = m.coat.roughness,
+                              .normal_scale = m.coat.normal_scale,
+                              .padding0 = 0},
                      .uv = {}};
     const auto slots = textureSlots(m);
     std::ranges::transform(slots, out.uv, [](const auto* slot) { return uvTransform(*slot); });

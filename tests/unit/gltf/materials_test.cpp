@@ -186,9 +186,9 @@ TEST(Materials, Clearcoat_IsRead) {
     file.useExtension("KHR_materials_clearcoat", true);
     const scene::Scene scene = loaded(file.load());
     const scene::Material& material = scene.materials.at(0);
-    EXPECT_EQ(material.coat, 0.75F);
-    EXPECT_EQ(material.coat_roughness, 0.25F);
-    EXPECT_EQ(material.coat_normal_scale, 0.5F);
+    EXPECT_EQ(material.coat.strength, 0.75F);
+    EXPECT_EQ(material.coat.roughness, 0.25F);
+    EXPECT_EQ(material.coat.normal_scale, 0.5F);
     EXPECT_EQ(scene.images.at(scene.textures.at(material.coat_texture.texture).image).name,
               "image1");
     EXPECT_EQ(
@@ -203,7 +203,7 @@ TEST(Materials, WithoutClearcoat_HaveNone) {
     for (const char* extensions : {R"({"extensions": {"KHR_materials_clearcoat": {}}})",
                                    R"({"extensions": {"KHR_materials_unlit": {},
                              "KHR_materials_clearcoat": {"clearcoatFactor": 1}}})"}) {
-        EXPECT_EQ(onlyMaterial(withMaterial(extensions)).coat, 0);
+        EXPECT_EQ(onlyMaterial(withMaterial(extensions)).coat.strength, 0);
     }
 }
 
@@ -211,8 +211,8 @@ TEST(Materials, WrongClearcoat_IsTold) {
     const scene::Scene scene = loaded(withMaterial(R"({"extensions": {
         "KHR_materials_clearcoat": {"clearcoatFactor": 3, "clearcoatRoughnessFactor": -1}}})")
                                           .load());
-    EXPECT_EQ(scene.materials.at(0).coat, 1);
-    EXPECT_EQ(scene.materials.at(0).coat_roughness, 0);
+    EXPECT_EQ(scene.materials.at(0).coat.strength, 1);
+    EXPECT_EQ(scene.materials.at(0).coat.roughness, 0);
     EXPECT_THAT(test::warningLines(scene),
                 ElementsAre(HasSubstr("material 0 has the clearcoatFactor 3"),
                             HasSubstr("material 0 has the clearcoatRoughnessFactor -1")));

@@ -114,12 +114,12 @@ std::vector<scene::Material> everyMaterial() {
     glass.specular_color = {1, 0.5F, 2};
     glass.specular_texture = {1};
     glass.specular_color_texture = {0};
-    glass.coat = 0.5F;
-    glass.coat_roughness = 0.25F;
+    glass.coat.strength = 0.5F;
+    glass.coat.roughness = 0.25F;
     glass.coat_texture = {1};
     glass.coat_roughness_texture = {0, 1};
     glass.coat_normal_texture = {2};
-    glass.coat_normal_scale = 2;
+    glass.coat.normal_scale = 2;
     scene::Material glossy;
     glossy.metallic = 0;
     glossy.roughness = 0.25F;

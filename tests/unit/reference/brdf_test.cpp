@@ -199,8 +199,8 @@ TEST(ReferenceBrdf, CoatHeadOn_DimsWhatIsBelowAndAddsItsLobe) {
     s.base_color = {0.8, 0.4, 0.2};
     s.roughness = 1;
     const glm::dvec3 below = reflected(s, kPbr, {0, 1, 0});
-    s.coat = 0.5;
-    s.coat_roughness = 0.5;
+    s.coat.strength = 0.5;
+    s.coat.roughness = 0.5;
     const double lobe = 1 / (kPi * std::pow(0.5, 4)) / 4;
     const glm::dvec3 out = reflected(s, kPbr, {0, 1, 0});
     EXPECT_NEAR(out.x, 0.98 * below.x + 0.02 * lobe, 1e-14);
@@ -216,15 +216,15 @@ TEST(ReferenceBrdf, CoatOfItsOwnNormal_IsLitByWhatItFaces) {
     Surface s = seenFrom(direction(0.3, 0));
     s.base_color = glm::dvec3(0.5);
     s.roughness = 0.4;
-    s.coat = 1;
-    s.coat_roughness = 0.4;
+    s.coat.strength = 1;
+    s.coat.roughness = 0.4;
     const glm::dvec3 to_light = direction(1.9, kPi); // from below the surface
     EXPECT_EQ(reflected(s, kPbr, to_light).x, 0);
-    s.coat_normal = direction(0.8, kPi);
+    s.coat.normal = direction(0.8, kPi);
     const double share = 0.04 + 0.96 * std::pow(1 - std::cos(1.1), 5);
     // A metal whose f0 is 1 reflects the lobe as it is.
     Surface metal = seenFrom(s.to_eye);
-    metal.normal = s.coat_normal;
+    metal.normal = s.coat.normal;
     metal.metallic = 1;
     metal.roughness = 0.4;
     EXPECT_NEAR(reflected(s, kPbr, to_light).x, share * reflected(metal, kPbr, to_light).x, 1e-14);
@@ -240,14 +240,14 @@ TEST(ReferenceBrdf, CoatInAFurnace_ReturnsItsClosedForm) {
         s.dielectric_f0 = glm::dvec3(0);
         s.dielectric_f90 = 0;
         s.base_color = glm::dvec3(0);
-        s.coat = 0.8;
-        s.coat_roughness = 1;
+        s.coat.strength = 0.8;
+        s.coat.roughness = 1;
         const double share = 0.8 * (0.04 + 0.96 * std::pow(1 - u, 5));
         const double lobe = 1 - u * std::log(1 + 1 / u);
         EXPECT_NEAR(albedo(s, kPbr), share * lobe, 2e-4);
         s.base_color = glm::dvec3(1);
         EXPECT_NEAR(albedo(s, kPbr), 1 - share * (1 - lobe), 2e-4);
-        s.coat_roughness = 0.1;
+        s.coat.roughness = 0.1;
         EXPECT_LT(albedo(s, kPbr), 1 + 1e-4);
         EXPECT_GT(albedo(s, kPbr), 1 - 0.1 * share);
     }

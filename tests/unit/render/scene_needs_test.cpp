@@ -81,17 +81,17 @@ TEST(SceneNeeds, IorOrSpecular_SetsTheFlagWhereItIsNotUsual) {
 
 TEST(SceneNeeds, Coat_SetsItsFlagsWhereItHasStrength) {
     auto m = plain();
-    m.coat_roughness = 0.5F;
+    m.coat.roughness = 0.5F;
     m.coat_texture.texture = 0;
     m.coat_roughness_texture.texture = 0;
     m.coat_normal_texture = {.texture = 0, .texcoord = 1};
     EXPECT_FALSE(findNeeds(sceneWith(m)).layers);
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U);
-    m.coat = 1;
+    m.coat.strength = 1;
     EXPECT_TRUE(findNeeds(sceneWith(m)).layers);
     EXPECT_FALSE(findNeeds(sceneWith(m)).wide_gbuffer);
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], kLayerFlags | io::kMaterialUvTransform);
-    m.coat_roughness = 0;
+    m.coat.roughness = 0;
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & textureFlag(io::coat_roughness_slot), 0U);
     m.alpha_mode = scene::AlphaMode::kBlend; // is forward anyway
     EXPECT_FALSE(findNeeds(sceneWith(m)).layers);

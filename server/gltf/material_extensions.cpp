@@ -1,0 +1,63 @@
+#include "gltf/material_extensions.h"
+
+namespace froxel::gltf {
+namespace {
+
+using scene::Material;
+using Numbers = std::span<float>;
+
+Numbers one(float& number) {
+    return {&number, 1};
+}
+Numbers three(glm::vec3& color) {
+    return {&color.x, 3};
+}
+
+constexpr MaterialFactor kIorFactors[] = {
+    {"ior", FactorRange::kIor, [](Material& m) { return one(m.ior); }}};
+
+constexpr MaterialFactor kSpecularFactors[] = {
+    {"specularFactor", FactorRange::kUnit, [](Material& m) { return one(m.specular); }},
+    {"specularColorFactor", FactorRange::kFromZero,
+     [](Material& m) { return three(m.specular_color); }}};
+constexpr MaterialTexture kSpecularTextures[] = {{"specularTexture", io::specular_slot},
+                                                 {"specularColorTexture", io::specular_color_slot}};
+
+constexpr MaterialFactor kCoatFactors[] = {
+    {"clearcoatFactor", FactorRange::kUnit, [](Material& m) { return one(m.coat.strength); }, true},
+    {"clearcoatRoughnessFactor", FactorRange::kUnit,
+     [](Material& m) { return one(m.coat.roughness); }, true}};
+constexpr MaterialTexture kCoatTextures[] = {
+    {"clearcoatTexture", io::coat_slot},
+    {"clearcoatRoughnessTexture", io::coat_roughness_slot},
+    {"clearcoatNormalTexture", io::coat_normal_slot,
+     [](Material& m) -> float& { return m.coat.normal_scale; }}};
+
+constexpr MaterialExtension kRows[] = {
+    {.name = kUnlit, .what = "a colour that no light changes"},
+    {.name = kEmissiveStrength, .what = "emission brighter than 1"},
+    {.name = kGlossiness,
+     .what = "a specular colour and glossiness in place of metalness and roughness"},
+    {.name = "KHR_materials_ior",
+     .what = "how much a dielectric reflects, by its index of refraction",
+     .factors = kIorFactors,
+     .of_dielectric = true},
+    {.name = "KHR_materials_specular",
+     .what = "strength and colour of a dielectric's reflection",
+     .factors = kSpecularFactors,
+     .textures = kSpecularTextures,
+     .of_dielectric = true},
+    {.name = "KHR_materials_clearcoat",
+     .what = "a clear coat over all of that",
+     .factors = kCoatFactors,
+     .textures = kCoatTextures,
+     .present = [](const Material& m) { return m.coat.strength != 0; }},
+};
+
+} // namespace
+
+std::span<const MaterialExtension> materialExtensions() {
+    return kRows;
+}
+
+} // namespace froxel::gltf
