@@ -54,7 +54,7 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     const bool pays =
         inputs.geometry == GeometryPath::kAuto && !traits.is_cpu && traits.descriptor_indexing;
     const auto stage = inputs.settings.lighting;
-    // Only the rasteriser writes one, and only it draws layers at depths that it wrote.
+    // Only the rasteriser writes one, and only it draws layers where lights are added up there.
     const bool second_target =
         extraFormat(inputs.settings.gbuffer,
                     storesSpecular(inputs.settings, scene_.needs.specular)) !=
@@ -62,8 +62,9 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     const bool wanted =
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
-            : !second_target && !drawsLayers(inputs.settings, scene_.needs.layers) &&
-                  (byIds(inputs.geometry) || pays);
+            : !second_target && (byIds(inputs.geometry) || pays) &&
+                  (stage != LightingStage::kFragment ||
+                   !drawsLayers(inputs.settings, scene_.needs.layers));
     return wanted && scene_.visibility_unusable.empty() && pose_.windsAsAtStart() &&
            !scene_.visibility().groups.empty();
 }
@@ -89,6 +90,12 @@ bool FrameBuilder::prepass(const FrameInputs& inputs) const {
                        scene_.device.traits().is_cpu ? kCpuPrepassCosts : kGpuPrepassCosts);
 }
 
+bool FrameBuilder::layersVisible() const {
+    const auto has = [](MaterialFlags flags) { return (flags & io::kMaterialLayers) != 0; };
+    return visibility_ ? has(scene_.visibility().material_flags)
+                       : std::ranges::any_of(draws_.solid, has, &DrawGroup::material_flags);
+}
+
 FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
     const auto& traits = scene_.device.traits();
     return {.wide_gbuffer = inputs.settings.shading == settings::ShadingModel::kLambert
@@ -97,9 +104,7 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
             .emission_exponent = scene_.needs.emission_exponent,
             .specular = scene_.needs.specular,
             .edges = scene_.needs.edges,
-            .layers_visible = std::ranges::any_of(
-                draws_.solid,
-                [](const DrawGroup& it) { return (it.material_flags & io::kMaterialLayers) != 0; }),
+            .layers_visible = layersVisible(),
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
             .spots = !lights_.spots.empty(),
@@ -437,7 +442,7 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                 std::max(load.lit_surfaces, litSurfaces(group.material_flags & forward_flags));
         }
     }
-    if (plan.visibility_shade) {
+    if (plan.visibility_shade || (plan.layers && plan.visibility)) {
         load.lit_surfaces = std::max(
             load.lit_surfaces, litSurfaces(scene_.visibility().material_flags & forward_flags));
     }

@@ -128,6 +128,7 @@ class FrameBuilder {
     [[nodiscard]] bool choosesVisibility(const FrameInputs& inputs);
     [[nodiscard]] bool choosesComputeRaster(const FrameInputs& inputs);
     [[nodiscard]] bool prepass(const FrameInputs& inputs) const;
+    [[nodiscard]] bool layersVisible() const; // of solid surfaces
     [[nodiscard]] FrameFacts facts(const FrameInputs& inputs) const;
     // The cluster grid that cluster_wires shows, as lines.
     [[nodiscard]] std::vector<io::WireVertex> buildWires(const FrameInputs& inputs,

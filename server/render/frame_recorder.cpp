@@ -174,7 +174,10 @@ void recordDeferred(const FrameContext& frame) {
     recordGeometry(frame);
     inParts(frame, drawn(frame), frame.costs.lighting(),
             frame.plan.lighting_compute ? recordLightingCompute : recordLightingFragment);
-    if (frame.plan.layers) {
+    if (frame.plan.layers && frame.plan.visibility) {
+        radianceToCompute(frame.slot.cmd);
+        inParts(frame, drawn(frame), frame.costs.layers(), recordVisibilityLayers);
+    } else if (frame.plan.layers) {
         // lit radiance, depth that lighting read -> stores, depth test
         barrier(frame.slot.cmd, kDepthStages | Stage::eColorAttachmentOutput | kShaders,
                 Access::eColorAttachmentWrite | Access::eShaderStorageWrite,
@@ -269,9 +272,9 @@ void recordSurfaces(const FrameContext& frame) {
     }
     if (frame.plan.spoil_scratch) {
         // the frame before -> fill -> whatever loads or copies
-        barrier(frame.slot.cmd, Stage::eAllCommands, {}, Stage::eClear, {});
+        barrier(frame.slot.cmd, Stage::eAllCommands, {}, Stage::eAllTransfer, {});
         recordRasterSpoil(frame);
-        barrier(frame.slot.cmd, Stage::eClear, Access::eTransferWrite, Stage::eAllCommands,
+        barrier(frame.slot.cmd, Stage::eAllTransfer, Access::eTransferWrite, Stage::eAllCommands,
                 Access::eMemoryRead | Access::eMemoryWrite);
     }
     if (settings::replacesPicture(frame.plan.debug)) {

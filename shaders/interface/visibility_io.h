@@ -15,6 +15,7 @@ FROXEL_CONST uint kAnyMaterial = 0xffffffffU;
 // those of planes already, kept from a frame before.
 FROXEL_CONST uint kResolveLast = 1U;
 FROXEL_CONST uint kResolveKept = 2U;
+FROXEL_CONST uint kResolveLayers = 4U; // only surfaces that have layers
 
 // A primitive of an instance.
 struct VisibleItem {

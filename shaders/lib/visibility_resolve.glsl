@@ -9,8 +9,12 @@ layout(push_constant) uniform ResolveBlock {
 
 // Whether this dispatch shades a pixel that shows `id`.
 bool mine(uint id) {
-    return only_material == kAnyMaterial ||
-           items[meshlets[id >> kTriangleBits].item].material_index == only_material;
+    uint item = meshlets[id >> kTriangleBits].item;
+    bool asked = only_material == kAnyMaterial || items[item].material_index == only_material;
+    if ((resolve_flags & kResolveLayers) != 0u) {
+        asked = asked && (items[item].flags & kMaterialLayers) != 0u;
+    }
+    return asked;
 }
 
 // Of the compute raster's depths, and of what replaces them.

@@ -183,7 +183,8 @@ TEST_F(Reference, RoomOfCoats_Forward_IsWithinArithmetic) {
     }
 }
 
-// The forward shader draws coats and what they cover, here everything that is solid but the leaves.
+// Coats and what they cover, here everything that is solid but the leaves, are drawn by the forward
+// shader or, from ids, by its twin in compute.
 TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
     auto room = makePlainRoom();
     givePlainCoats(room);
@@ -191,10 +192,14 @@ TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
     for (const auto renderer :
          {Renderer::kClusteredDeferred, Renderer::kToonFragment, Renderer::kToonCompute}) {
         SCOPED_TRACE(nameOf(renderer));
-        const Errors errors =
-            compared.against(withoutBands(inputsFor(room.cameras[0].camera, renderer)));
-        EXPECT_LT(errors.max_relative, arithmeticBound(1e-3, settings::LightingStage::kFragment));
-        EXPECT_LT(errors.median, onGpu() ? 1e-6 : 1e-7);
+        for (const auto path : {render::GeometryPath::kRaster, render::GeometryPath::kVisibility}) {
+            auto inputs = withoutBands(inputsFor(room.cameras[0].camera, renderer));
+            inputs.geometry = path;
+            const Errors errors = compared.against(inputs);
+            EXPECT_LT(errors.max_relative,
+                      arithmeticBound(1e-3, settings::LightingStage::kFragment));
+            EXPECT_LT(errors.median, onGpu() ? 1e-6 : 1e-7);
+        }
     }
 }
 

@@ -81,7 +81,7 @@ RegionCost FrameCosts::forward() const {
 }
 
 RegionCost FrameCosts::layers() const {
-    return shadedSurfaces(1);
+    return load_.plan.visibility ? resolved(true) : shadedSurfaces(1);
 }
 
 RegionCost FrameCosts::shadedSurfaces(double each) const {
@@ -104,7 +104,10 @@ RegionCost FrameCosts::ids() const {
 }
 
 RegionCost FrameCosts::resolve() const {
-    const bool shades = load_.plan.visibility_shade;
+    return resolved(load_.plan.visibility_shade);
+}
+
+RegionCost FrameCosts::resolved(bool shades) const {
     return {Seconds(0),
             [this, shades](const auto& region) {
                 const double surface = areaOf(region) * (unit_.surface_pixel +
@@ -277,9 +280,11 @@ double FrameCosts::slowestLoop() const {
         slowest = is_there ? std::max(slowest, loop) : slowest;
     };
     add(!replaced && plan.lighting_compute, unit_.compute.loop);
-    add(!replaced && plan.visibility_shade, load_.lit_surfaces * unit_.compute.loop);
+    const bool layers_by_ids = plan.layers && plan.visibility;
+    add(!replaced && (plan.visibility_shade || layers_by_ids),
+        load_.lit_surfaces * unit_.compute.loop);
     add(!replaced && plan.lighting_fragment, unit_.fragment.loop);
-    add(!replaced && (plan.forward || plan.layers || plan.transparent),
+    add(!replaced && (plan.forward || (plan.layers && !layers_by_ids) || plan.transparent),
         load_.lit_surfaces * unit_.fragment.loop);
     add(plan.count_pairs || (replaced && settings::testsLights(plan.debug)), unit_.counting.loop);
     for (const auto& [place, effect] : load_.effects) {

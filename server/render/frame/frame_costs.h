@@ -118,6 +118,7 @@ class FrameCosts {
     [[nodiscard]] RegionCost shading(const PairCost& unit) const;
     // By the forward shader, each pixel so many times.
     [[nodiscard]] RegionCost shadedSurfaces(double each) const;
+    [[nodiscard]] RegionCost resolved(bool shades) const; // ids, with lights or without
     // Of the frame's passes, seconds a light.
     [[nodiscard]] double slowestLoop() const;
     void addSurfaces(std::vector<PassEstimate>& passes) const;

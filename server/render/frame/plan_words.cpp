@@ -144,8 +144,12 @@ void addSolidWords(Lines& lines,
                                : "no G-buffer: surfaces are shaded at once");
     }
     if (plan.layers) {
-        lines.emplace_back("clear coats: surfaces that have one are drawn once more, over the lit "
-                           "picture by the forward shader; the G-buffer has no room for them");
+        lines.emplace_back(
+            plan.visibility ? "clear coats: surfaces that have one are shaded once more by their "
+                              "ids, over the lit picture; the G-buffer has no room for them"
+                            : "clear coats: surfaces that have one are drawn once more, over the "
+                              "lit picture by the forward shader; the G-buffer has no room for "
+                              "them");
     }
     if (plan.depth_prepass) {
         lines.emplace_back("depth prepass: each pixel is shaded once");

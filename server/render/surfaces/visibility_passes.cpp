@@ -28,17 +28,25 @@ void shade(const FrameContext& frame,
     dispatchOver(frame.slot.cmd, region);
 }
 
+uint32_t keptFlag(const FrameContext& frame) {
+    return frame.plan.kept ? io::kResolveKept : 0U;
+}
+
 // A pipeline over every pixel: once with all textures, or once for each material. find() gives it.
 template <class Find>
-void resolve(const FrameContext& frame, const vk::Rect2D& region, const char* name, Find find) {
+void resolve(const FrameContext& frame,
+             const vk::Rect2D& region,
+             const char* name,
+             uint32_t last_flag,
+             uint32_t flags,
+             Find find) {
     const auto& scene = *frame.visibility;
-    const uint32_t kept = frame.plan.kept ? io::kResolveKept : 0U;
     const size_t used = frame.scene.variants.firstUses();
     const vk::Pipeline pipeline = find();
     if (scene.pipelines.bindless()) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, name);
         bindVisibilityCompute(frame, pipeline);
-        shade(frame, region, scene.textureSet(), {io::kAnyMaterial, io::kResolveLast | kept});
+        shade(frame, region, scene.textureSet(), {io::kAnyMaterial, last_flag | flags});
         return;
     }
     const bool is_new = frame.scene.variants.firstUses() > used;
@@ -50,7 +58,7 @@ void resolve(const FrameContext& frame, const vk::Rect2D& region, const char* na
             for (const uint32_t material : materials) {
                 const bool last = material == scene.materials_in_use.back();
                 shade(frame, region, frame.scene.materialSet(material),
-                      {material, (last ? io::kResolveLast : 0U) | kept});
+                      {material, (last ? last_flag : 0U) | flags});
             }
         });
 }
@@ -128,7 +136,7 @@ void recordVisibility(const FrameContext& frame, const vk::Rect2D& region) {
 }
 
 void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region) {
-    resolve(frame, region, "resolve", [&] {
+    resolve(frame, region, "resolve", io::kResolveLast, keptFlag(frame), [&] {
         return frame.visibility->pipelines.gbuffer(
             {frame.visibility->material_flags, 0,
              frame.plan.gbuffer_output_flags | depthFlag(frame)});
@@ -136,10 +144,19 @@ void recordVisibilityGbuffer(const FrameContext& frame, const vk::Rect2D& region
 }
 
 void recordVisibilityShade(const FrameContext& frame, const vk::Rect2D& region) {
-    resolve(frame, region, "shade", [&] {
+    resolve(frame, region, "shade", io::kResolveLast, keptFlag(frame), [&] {
         return frame.visibility->pipelines.shade(
             {frame.visibility->material_flags & ~frame.plan.forward_unused_material_flags,
              frame.plan.lighting_light_flags, frame.plan.lighting_output_flags | depthFlag(frame)});
+    });
+}
+
+void recordVisibilityLayers(const FrameContext& frame, const vk::Rect2D& region) {
+    // Depths are those of planes since the G-buffer was filled.
+    resolve(frame, region, "layers", 0, io::kResolveLayers | io::kResolveKept, [&] {
+        return frame.visibility->pipelines.shade({frame.visibility->material_flags,
+                                                  frame.plan.lighting_light_flags,
+                                                  io::kOutputRadiance});
     });
 }
 

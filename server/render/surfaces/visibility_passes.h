@@ -15,5 +15,8 @@ void recordVisibilityGbuffer(const FrameContext& frame,
                              const vk::Rect2D& region); // reads depth, ids; writes G-buffer
 void recordVisibilityShade(const FrameContext& frame,
                            const vk::Rect2D& region); // reads depth, ids; writes radiance, pixels
+// Of surfaces with layers, over what lighting left of them.
+void recordVisibilityLayers(const FrameContext& frame,
+                            const vk::Rect2D& region); // reads depth, ids; writes radiance
 
 } // namespace froxel::render
