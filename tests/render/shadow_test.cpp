@@ -392,6 +392,30 @@ TEST_F(Shadows, APlainRoom_IsAsRaysHaveIt_ButAtEdges) {
     }
 }
 
+// Bumps of a coat face a lamp that is below the floor: what the lamp sends ends at the floor,
+// though nothing of the floor's own faces it.
+TEST_F(Shadows, ACoatThatFacesALampBelow_IsInTheShadowOfWhatItCovers) {
+    auto room = makeRoom();
+    room.instances.resize(1); // the floor
+    auto& floor = room.materials[0];
+    floor.normal_texture = {};
+    floor.double_sided = true;
+    floor.coat = {.strength = 1, .roughness = 0.5F, .normal_scale = 3};
+    floor.coat_normal_texture.texture = 1;
+    render::Renderer renderer(device(), room);
+    const auto brightest = [&](uint32_t maps) {
+        auto inputs = inputsFrom({0, 2, 4}, {0, 0, 0}, {maps, 256});
+        inputs.settings.shading = settings::ShadingModel::kPbr;
+        inputs.settings.lights.ambient = 0;
+        inputs.settings.lights.placed = settings::PlacedLights(
+            {{.id = 1, .position_world = {0, -0.4, -1}, .intensity = 20, .radius_m = 8}});
+        const Picture picture = draw(renderer, inputs);
+        return *std::ranges::max_element(picture.radiance);
+    };
+    EXPECT_GT(brightest(0), 0.01F) << "there is something to be in shadow";
+    EXPECT_EQ(brightest(1), 0);
+}
+
 // As many lights as may have maps, each with shadows of its own: together they are the sum of what
 // each is alone. Levels are kept in 4 bits a light, eight lights a word.
 TEST_F(Shadows, ThirtyTwoLights_EachHaveTheirOwn) {

@@ -331,4 +331,27 @@ TEST_F(TransparencyTest, WithOtherPasses_OneLayerIsAsSorted) {
     EXPECT_EQ(differingFloats(sorted, draw(renderer, inputs)), 0U);
 }
 
+// Through the neutral tone map and any exposure: dark channels, bright ones and those between.
+TEST_F(TransparencyTest, UnlitPanes_ThatCoverAll_HaveTheirOwnColours) {
+    for (const glm::vec4& color :
+         {glm::vec4(0.5F, 0, 0, 1), glm::vec4(0.02F, 0.3F, 0.1F, 1), glm::vec4(0.2F, 0.2F, 0.2F, 1),
+          glm::vec4(0.9F, 0.8F, 0.1F, 1), glm::vec4(0.039F, 0.041F, 0.7F, 1)}) {
+        SceneMaker maker(tint(color));
+        maker.add(quadOf({-3, {0, 0, 1}, {}}, 0));
+        render::Renderer renderer(device(), maker.scene);
+        auto inputs = inputsFor(Transparency::kSorted);
+        inputs.settings.tone_map = settings::ToneMap::kPbrNeutral;
+        inputs.settings.exposure = 2.5F;
+        const Picture picture = draw(renderer, inputs);
+        const size_t middle = 4 * (size_t{27} * kSize.width_px + 48);
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const auto linear = static_cast<double>(color[static_cast<int>(channel)]);
+            const double encoded =
+                linear < 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+            EXPECT_NEAR(std::to_integer<int>(picture.rgba8[middle + channel]), 255 * encoded, 1)
+                << color.x << " " << color.y << " " << color.z << ", channel " << channel;
+        }
+    }
+}
+
 } // namespace froxel::test
