@@ -267,4 +267,30 @@ TEST_F(Effects, Outline_RunsAlongEdgesAlone) {
     }
 }
 
+// 1.35 pixels: the farther one is darkened by what is left of it.
+TEST_F(Effects, Outline_BetweenTwoPixels_DarkensTheFartherInPart) {
+    auto maker = wallAhead(8);
+    glm::dmat4 placed(1);
+    placed[3] = glm::dvec4(0, 0, -4, 1);
+    maker.add(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 1, 0), placed);
+    maker.point({0, 1, -1}, 0, 20);
+    render::Renderer renderer(device(), maker.scene);
+    auto inputs = inputsFor({}, Renderer::kToonFragment);
+    inputs.settings.size = {240, 135};
+    inputs.settings.lights.count = 0;
+    const Picture before = draw(renderer, inputs);
+    inputs.settings.toon_outline = {1, 0.01F};
+    const Picture after = draw(renderer, inputs);
+    size_t black = 0;
+    size_t in_part = 0;
+    for (size_t i = 0; i < before.radiance.size(); i += 3) {
+        const float left = after.radiance[i] / before.radiance[i];
+        black += left == 0 ? 1U : 0U;
+        in_part += std::abs(left - 0.65F) < 1e-4F ? 1U : 0U;
+        EXPECT_TRUE(left == 0 || left == 1 || std::abs(left - 0.65F) < 1e-4F) << left;
+    }
+    EXPECT_GT(black, 100U);
+    EXPECT_GT(in_part, 100U);
+}
+
 } // namespace froxel::test

@@ -291,6 +291,33 @@ TEST_F(Environment, Background_IsThatOfEveryRenderer) {
     }
 }
 
+// Rays that are parallel all see what is ahead.
+TEST_F(Environment, BackgroundOfAnOrthographicCamera_IsWhatIsAhead) {
+    const scene::Scene nothing;
+    render::Renderer renderer(device(), nothing);
+    const auto ahead = [&](const glm::dvec3& target, bool orthographic) {
+        auto inputs = inputsFor(Renderer::kForwardPlus, EnvironmentLight::kStudio);
+        inputs.settings.environment.background = true;
+        inputs.settings.camera = settings::lookAt({0, 0, 0}, target, {0, 1, 0});
+        if (orthographic) {
+            inputs.settings.camera.projection = settings::Projection::kOrthographic;
+            inputs.settings.camera.half_height_m = 1;
+        } else {
+            inputs.settings.camera.yfov_rad = glm::radians(0.1);
+        }
+        return draw(renderer, inputs).radiance;
+    };
+    for (const glm::dvec3& target : {glm::dvec3(0, 0.9, -1), glm::dvec3(0, -0.9, 1)}) {
+        const auto narrow = ahead(target, false);
+        const auto parallel = ahead(target, true);
+        const auto behind = ahead(-target, false);
+        EXPECT_GT(std::abs(narrow[0] - behind[0]), 0.1F * narrow[0]) << "they can be told apart";
+        for (size_t i = 0; i < parallel.size(); ++i) {
+            ASSERT_NEAR(parallel[i], narrow[i], 0.02F * narrow[i]);
+        }
+    }
+}
+
 TEST_F(Environment, Off_HasNothingOfIt) {
     const auto scene = makeSpheres({1, 1, 1, 1});
     render::Renderer renderer(device(), scene);
