@@ -82,6 +82,17 @@ scene::Primitive octahedron(float radius_m) {
     return p;
 }
 
+// Ahead, without a light.
+SceneMaker glossySphere(float roughness) {
+    scene::Material gloss = chalk();
+    gloss.roughness = roughness;
+    SceneMaker maker(gloss);
+    glm::dmat4 placed(1);
+    placed[3] = glm::dvec4(0, 0, -2.5, 1);
+    maker.add(sphere(1, 32, 0), placed);
+    return maker;
+}
+
 } // namespace
 
 // Case 24. Spheres show every normal towards the eye: the folds of the octahedron, its corners, its
@@ -113,12 +124,7 @@ TEST_F(HardMaterials, NormalsInEveryDirection_AreWithinTheGbuffersBudget) {
 TEST_F(HardMaterials, HighlightsOfAnyRoughness_AreAsDoublePrecisionHasThem) {
     for (const float roughness : {0.045F, 0.1F, 0.25F, 0.5F, 1.0F}) {
         SCOPED_TRACE(roughness);
-        scene::Material gloss = chalk();
-        gloss.roughness = roughness;
-        SceneMaker maker(gloss);
-        glm::dmat4 placed(1);
-        placed[3] = glm::dvec4(0, 0, -2.5, 1);
-        maker.add(sphere(1, 32, 0), placed);
+        SceneMaker maker = glossySphere(roughness);
         maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
         maker.point({2, 1, -1}, 6);
         render::Renderer renderer(device(), maker.scene);
@@ -138,16 +144,10 @@ TEST_F(HardMaterials, HighlightsOfAnyRoughness_AreAsDoublePrecisionHasThem) {
     }
 }
 
-// Case 25. Light along a surface, a hair above it and a hair below.
 // A smaller highlight would slip between pixels.
 TEST_F(HardMaterials, RoughnessBelowTheLeast_IsTheLeast) {
     const auto drawn = [&](float roughness) {
-        scene::Material gloss = chalk();
-        gloss.roughness = roughness;
-        SceneMaker maker(gloss);
-        glm::dmat4 placed(1);
-        placed[3] = glm::dvec4(0, 0, -2.5, 1);
-        maker.add(sphere(1, 32, 0), placed);
+        SceneMaker maker = glossySphere(roughness);
         maker.sun({0, 0, -1});
         render::Renderer renderer(device(), maker.scene);
         auto inputs = hardInputs();
@@ -162,6 +162,7 @@ TEST_F(HardMaterials, RoughnessBelowTheLeast_IsTheLeast) {
     EXPECT_FALSE(drawn(0.05F) == least);
 }
 
+// Case 25. Light along a surface, a hair above it and a hair below.
 TEST_F(HardMaterials, GrazingLight_IsNeverNegative) {
     for (const auto shading : {settings::ShadingModel::kLambert,
                                settings::ShadingModel::kBlinnPhong, settings::ShadingModel::kPbr}) {

@@ -230,14 +230,23 @@ TEST_F(Effects, Outline_OfAPlaneAtAnyAngle_IsNone) {
     }
 }
 
-// A square before a wall: lines run along its silhouette, inside it, and nowhere else.
-TEST_F(Effects, Outline_RunsAlongEdgesAlone) {
+namespace {
+
+scene::Scene squareBeforeAWall() {
     auto maker = wallAhead(8);
     glm::dmat4 placed(1);
     placed[3] = glm::dvec4(0, 0, -4, 1);
     maker.add(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 1, 0), placed);
     maker.point({0, 1, -1}, 0, 20);
-    render::Renderer renderer(device(), maker.scene);
+    return maker.scene;
+}
+
+} // namespace
+
+// A square before a wall: lines run along its silhouette, inside it, and nowhere else.
+TEST_F(Effects, Outline_RunsAlongEdgesAlone) {
+    const auto scene = squareBeforeAWall();
+    render::Renderer renderer(device(), scene);
     for (const auto kind : {Renderer::kToonFragment, Renderer::kToonCompute}) {
         auto inputs = inputsFor({}, kind);
         inputs.settings.camera.yfov_rad = glm::radians(60.0);
@@ -269,12 +278,8 @@ TEST_F(Effects, Outline_RunsAlongEdgesAlone) {
 
 // 1.35 pixels: the farther one is darkened by what is left of it.
 TEST_F(Effects, Outline_BetweenTwoPixels_DarkensTheFartherInPart) {
-    auto maker = wallAhead(8);
-    glm::dmat4 placed(1);
-    placed[3] = glm::dvec4(0, 0, -4, 1);
-    maker.add(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 1, 0), placed);
-    maker.point({0, 1, -1}, 0, 20);
-    render::Renderer renderer(device(), maker.scene);
+    const auto scene = squareBeforeAWall();
+    render::Renderer renderer(device(), scene);
     auto inputs = inputsFor({}, Renderer::kToonFragment);
     inputs.settings.size = {240, 135};
     inputs.settings.lights.count = 0;
