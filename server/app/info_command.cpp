@@ -31,6 +31,7 @@ Json limitsOf(const gpu::Device& device) {
             {"max_uniform_buffer_bytes", limits.maxUniformBufferRange},
             {"max_color_attachments", limits.maxColorAttachments},
             {"max_compute_invocations", limits.maxComputeWorkGroupInvocations},
+            {"max_sampled_descriptors", limits.maxPerStageDescriptorSampledImages},
             {"max_anisotropy", limits.maxSamplerAnisotropy},
             {"max_memory_allocations", limits.maxMemoryAllocationCount},
             {"storage_alignment_bytes", limits.minStorageBufferOffsetAlignment},

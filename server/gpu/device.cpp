@@ -171,6 +171,9 @@ DeviceTraits readTraits(const vk::raii::PhysicalDevice& physical, bool use_subgr
         subgroups && (v11.subgroupSupportedStages & vk::ShaderStageFlagBits::eFragment);
     traits.timestamp_period_ns = static_cast<double>(core.limits.timestampPeriod);
     traits.max_anisotropy = core.limits.maxSamplerAnisotropy;
+    traits.most_textures =
+        std::min({core.limits.maxPerStageDescriptorSampledImages,
+                  core.limits.maxPerStageDescriptorSamplers, core.limits.maxPerStageResources});
     return traits;
 }
 
@@ -221,6 +224,7 @@ Device::Device(const DeviceOptions& options) try : instance_(options.validation)
     limits_ = physical_.getProperties().limits;
     memory_ = physical_.getMemoryProperties();
     const Features present = queryFeatures(physical_);
+    traits_.most_textures = std::min(traits_.most_textures, options.most_textures);
     traits_.descriptor_indexing = options.descriptor_indexing && hasDescriptorIndexing(present);
     for (const auto& feature : visibilityFeatures(present)) {
         if (!feature.present || !options.visibility) {

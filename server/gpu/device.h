@@ -30,6 +30,7 @@ struct DeviceTraits {
     bool counts_samples = false;      // precise occlusion queries
     double timestamp_period_ns = 1;
     float max_anisotropy = 1;
+    uint32_t most_textures = 0; // images and texel buffers that a shader stage may read
 };
 
 class Device {

@@ -28,6 +28,7 @@ struct DeviceOptions {
     bool descriptor_indexing = true;
     bool visibility = true; // visibility passes
     bool int64_atomics = true;
+    uint32_t most_textures = ~0U; // a shader reads; less: as on a device that allows less
 };
 
 } // namespace froxel::gpu

@@ -2,6 +2,7 @@
 // specialised variant gives the same bits as the generic one.
 #include "builtin_scene/hall.h"
 #include "interface/constants.h"
+#include "render/pipelines/texture_limit.h"
 #include "render/scene/scene_resources.h"
 #include "support/draw.h"
 #include "support/gpu_fixture.h"
@@ -155,6 +156,28 @@ TEST_F(Variants, CoatOfNoStrength_GivesTheSamePicture) {
     }
     EXPECT_FALSE(anyMaterialFlag(b, render::kLayerFlags));
     EXPECT_TRUE(anyMaterialFlag(c, render::kLayerFlags));
+}
+
+// As many textures in a shader as surfaces take, and not one for what is over them.
+TEST_F(Variants, DeviceOfFewTextures_DrawsWithoutLayers) {
+    const auto lean = makeRoom();
+    auto coated = lean;
+    giveCoats(coated);
+    gpu::DeviceOptions options;
+    options.most_textures = render::kPassTextures + io::kMaterialSlots - 1;
+    openDevice(options);
+    {
+        render::Renderer a(device(), lean);
+        render::Renderer b(device(), coated);
+        for (const auto kind : kAllRenderers) {
+            const auto inputs = inputsFor(lean, kind, 40);
+            EXPECT_EQ(differingFloats(draw(a, inputs), draw(b, inputs)), 0U);
+        }
+        EXPECT_FALSE(b.resources().needs.layers);
+    }
+    options.most_textures = render::kPassTextures + io::kSurfaceSlots - 1;
+    openDevice(options);
+    EXPECT_THROW(render::Renderer(device(), lean), StartupError);
 }
 
 TEST_F(Variants, NothingAtAll_AllocatesAndCompilesNothingForIt) {

@@ -5,6 +5,7 @@
 #include "interface/peel_io.h"
 #include "interface/visibility_io.h"
 #include "render/pipelines/gbuffer_layout.h"
+#include "render/pipelines/texture_limit.h"
 
 #include <algorithm>
 #include <array>
@@ -39,7 +40,7 @@ vk::raii::DescriptorSetLayout frameSetLayout(const gpu::Device& device) {
 
 vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
     // Uniforms, textures.
-    std::array<vk::DescriptorSetLayoutBinding, 1 + io::kMaterialSlots> bindings;
+    std::vector<vk::DescriptorSetLayoutBinding> bindings(1 + materialSlots(device.traits()));
     for (uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {.binding = i,
                        .descriptorType =
@@ -50,16 +51,22 @@ vk::raii::DescriptorSetLayout materialSetLayout(const gpu::Device& device) {
     return gpu::makeSetLayout(device, bindings);
 }
 
-vk::raii::DescriptorSetLayout screenSetLayout(const gpu::Device& device) {
-    const vk::ShaderStageFlags stages = Stage::eFragment | Stage::eCompute;
-    const std::array bindings = {
-        vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, stages},
-        vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, stages},
-        vk::DescriptorSetLayoutBinding{2, Type::eStorageImage, 1, Stage::eCompute},
-        vk::DescriptorSetLayoutBinding{3, Type::eStorageBuffer, 1, Stage::eCompute},
-        vk::DescriptorSetLayoutBinding{4, Type::eSampledImage, 1, stages}};
-    return gpu::makeSetLayout(device, bindings);
+constexpr vk::ShaderStageFlags kScreenStages = Stage::eFragment | Stage::eCompute;
+constexpr std::array kScreenBindings = {
+    vk::DescriptorSetLayoutBinding{0, Type::eSampledImage, 1, kScreenStages},
+    vk::DescriptorSetLayoutBinding{1, Type::eSampledImage, 1, kScreenStages},
+    vk::DescriptorSetLayoutBinding{2, Type::eStorageImage, 1, Stage::eCompute},
+    vk::DescriptorSetLayoutBinding{3, Type::eStorageBuffer, 1, Stage::eCompute},
+    vk::DescriptorSetLayoutBinding{4, Type::eSampledImage, 1, kScreenStages}};
+
+constexpr bool isTexture(Type type) {
+    return type == Type::eSampledImage || type == Type::eUniformTexelBuffer;
 }
+static_assert(
+    std::ranges::count_if(kFrameBindings, [](const auto& b) { return isTexture(b.type); }) +
+        std::ranges::count_if(kScreenBindings,
+                              [](const auto& b) { return isTexture(b.descriptorType); }) ==
+    kPassTextures);
 
 vk::raii::DescriptorSetLayout blendSetLayout(const gpu::Device& device) {
     const std::array bindings = {
@@ -227,7 +234,8 @@ void describeTests(gpu::GraphicsPipelineInfo& info, GeometryPass pass) {
 
 Pipelines::Pipelines(const gpu::Device& device, const gpu::Timeline& timeline, VariantMaker& maker)
     : device_(device), frame_layout_(frameSetLayout(device)),
-      material_layout_(materialSetLayout(device)), screen_set_layout_(screenSetLayout(device)),
+      material_layout_(materialSetLayout(device)),
+      screen_set_layout_(gpu::makeSetLayout(device, kScreenBindings)),
       geometry_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *material_layout_})),
       screen_layout_(gpu::makePipelineLayout(device, {*frame_layout_, *screen_set_layout_})),
       blend_set_layout_(render::blendSetLayout(device)),

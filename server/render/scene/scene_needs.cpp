@@ -85,10 +85,11 @@ uint32_t emissionExponent(const scene::Material& m) {
 
 } // namespace
 
-SceneNeeds findNeeds(const scene::Scene& scene) {
+SceneNeeds findNeeds(const scene::Scene& scene, bool layers) {
     SceneNeeds needs;
     for (const auto& material : scene.materials) {
-        needs.material_flags.push_back(materialFlags(material));
+        needs.material_flags.push_back(materialFlags(material) &
+                                       ~(layers ? MaterialFlags{0} : kLayerFlags));
         needs.wide_gbuffer |= needsWide(material, true);
         needs.wide_lambert |= needsWide(material, false);
         needs.emission_exponent = std::max(needs.emission_exponent, emissionExponent(material));

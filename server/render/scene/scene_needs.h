@@ -28,6 +28,7 @@ struct SceneNeeds {
     } lights; // the scene's own
 };
 
-[[nodiscard]] SceneNeeds findNeeds(const scene::Scene& scene);
+// layers: false where the device cannot draw them (texture_limit.h); surfaces are drawn without.
+[[nodiscard]] SceneNeeds findNeeds(const scene::Scene& scene, bool layers = true);
 
 } // namespace froxel::render

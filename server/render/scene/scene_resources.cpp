@@ -6,6 +6,7 @@
 #include "interface/frame_io.h"
 #include "interface/visibility_io.h"
 #include "render/lists/list_limits.h"
+#include "render/pipelines/texture_limit.h"
 #include "scene/scene_check.h"
 
 #include <spdlog/spdlog.h>
@@ -102,13 +103,28 @@ gpu::Buffer uploadVector(gpu::MemoryArena& arena,
     return buffer;
 }
 
+// What of the scene this device draws.
+SceneNeeds drawableNeeds(const gpu::Device& device, const scene::Scene& scene) {
+    SceneNeeds all = findNeeds(scene);
+    const auto layered = [](MaterialFlags flags) { return (flags & kLayerFlags) != 0; };
+    if (materialSlots(device.traits()) == io::kMaterialSlots ||
+        std::ranges::none_of(all.material_flags, layered)) {
+        return all;
+    }
+    spdlog::warn("event=layers_left_out reason=\"coats are drawn from {} sampled descriptors in a "
+                 "shader; this device allows {}\"",
+                 kPassTextures + io::kMaterialSlots, device.traits().most_textures);
+    return findNeeds(scene, false);
+}
+
 } // namespace
 
 SceneResources::SceneResources(gpu::Device& device_in,
                                const scene::Scene& scene,
                                const MemoryLimits& limits)
-    : device(device_in), timeline(device_in), memory(limits), needs(findNeeds(scene)),
-      bounds_world(scene.bounds_world), light_rig(scene), surroundings(scene.surroundings),
+    : device(device_in), timeline(device_in), memory(limits),
+      needs(drawableNeeds(device_in, scene)), bounds_world(scene.bounds_world), light_rig(scene),
+      surroundings(scene.surroundings),
       light_assigner(std::max(1U, std::thread::hardware_concurrency()), kHostListEntries),
       arena(device_in), texture_arena(device_in, kTextureChunkBytes, "textures"),
       pipelines(device_in, timeline, variants),
@@ -159,7 +175,7 @@ void SceneResources::makeMaterialSets(uint32_t count) {
     const std::array pool_sizes = {
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
-                               count * io::kMaterialSlots}};
+                               count * materialSlots(device.traits())}};
     material_pool_ = gpu::makeDescriptorPool(device, pool_sizes, count);
     const std::vector layouts(count, pipelines.materialLayout());
     material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
@@ -206,7 +222,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                    .pBufferInfo = &buffer},
             vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
                                    .dstBinding = 1,
-                                   .descriptorCount = io::kMaterialSlots,
+                                   .descriptorCount = materialSlots(device.traits()),
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .pImageInfo = images.data()}};
         device.handle().updateDescriptorSets(writes, {});

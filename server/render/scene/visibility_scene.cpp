@@ -3,6 +3,7 @@
 #include "core/assert.h"
 #include "gpu/pipeline.h"
 #include "interface/constants.h"
+#include "render/pipelines/texture_limit.h"
 #include "render/scene/scene_resources.h"
 
 #include <algorithm>
@@ -120,10 +121,11 @@ gpu::Buffer uploadTable(gpu::MemoryArena& arena,
     return buffer;
 }
 
+// Of all materials, where a shader may read them at once; else 0.
 uint32_t textureCount(const SceneResources& scene) {
-    return scene.device.traits().descriptor_indexing
-               ? static_cast<uint32_t>(scene.material_textures.size())
-               : 0;
+    const auto& traits = scene.device.traits();
+    const auto all = static_cast<uint32_t>(scene.material_textures.size());
+    return traits.descriptor_indexing && all + kPassTextures <= traits.most_textures ? all : 0;
 }
 
 } // namespace
