@@ -15,8 +15,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
 #include "lib/frame.glsl"
-#include "lib/gbuffer.glsl"
-#include "lib/light_loop.glsl"
+#include "lib/surface_radiance.glsl"
 #include "lib/tonemap.glsl"
 #include "lib/material.glsl"
 #include "lib/fragment_inputs.glsl"
@@ -87,14 +86,9 @@ void main() {
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
 #ifdef FROXEL_LAYERED
-    addCoatSurface(g.coat, s);
+    addLayers(g.layers, s);
 #endif
     LightSum sum = sumLights(s, pixel, distance, true);
-    precise vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
-                       ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) +
-                       g.emissive;
-#ifdef FROXEL_LAYERED
-    lit = underLayers(lit, s, sum, g.coat, g.occlusion);
-#endif
+    vec3 lit = surfaceRadiance(g, s, sum);
     store(seen(lit, pixel, distance), alpha, distance);
 }

@@ -13,8 +13,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
 #include "lib/frame.glsl"
-#include "lib/gbuffer.glsl"
-#include "lib/light_loop.glsl"
+#include "lib/surface_radiance.glsl"
 #include "lib/tonemap.glsl"
 #include "lib/screen.glsl"
 #include "lib/pixel_order.glsl"

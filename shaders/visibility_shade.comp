@@ -15,8 +15,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
 #include "lib/frame.glsl"
-#include "lib/gbuffer.glsl"
-#include "lib/light_loop.glsl"
+#include "lib/surface_radiance.glsl"
 #include "lib/tonemap.glsl"
 #include "lib/screen.glsl"
 #include "lib/pixel_order.glsl"
@@ -37,7 +36,7 @@ GbufferSample emptySample() {
     g.unlit = false;
     g.dielectric = usualDielectric();
 #ifdef FROXEL_LAYERED
-    g.coat = noCoat(g.normal_view);
+    g.layers = noLayers(g.normal_view);
     visible_flags = 0u;
 #endif
     return g;
@@ -63,15 +62,10 @@ void main() {
     }
     Surface s = makeSurface(position, g.normal_view, g.roughness);
 #ifdef FROXEL_LAYERED
-    addCoatSurface(g.coat, s);
+    addLayers(g.layers, s);
 #endif
     LightSum sum = sumLights(s, pixel, distance, covered && !g.unlit);
-    precise vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
-                       ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) +
-                       g.emissive;
-#ifdef FROXEL_LAYERED
-    lit = underLayers(lit, s, sum, g.coat, g.occlusion);
-#endif
+    vec3 lit = surfaceRadiance(g, s, sum);
     if (g.unlit) {
         lit = g.base_color;
     }

@@ -9,25 +9,10 @@
 // 2, the exponent whose slopes vary as much as those of a Beckmann surface of that alpha (Walter et
 // al. 2007, section 5.2).
 #include "lib/dielectric.glsl"
-#ifdef FROXEL_LAYERED
-#include "lib/coat.glsl"
-#endif
+#include "lib/layer_types.glsl"
 
 const float kPi = 3.14159265358979;
 const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
-
-#ifdef FROXEL_LAYERED
-// What a coat's surface has of its own.
-struct CoatSurface {
-    vec3 normal_view;
-    float n_dot_v;
-    float n_dot_eye;
-    float alpha2;
-    float visibility_v;
-    float shininess;
-    float lobe;
-};
-#endif
 
 struct Surface {
     vec3 position_view;
@@ -41,7 +26,7 @@ struct Surface {
     float lobe;         // blinn_phong: 2 pi times the lobe's height
     uvec4 shadows;      // what arrives of the lights with shadow maps (lib/shadow.glsl)
 #ifdef FROXEL_LAYERED
-    CoatSurface coat;
+    LayerSurfaces layers;
 #endif
 };
 
@@ -51,7 +36,7 @@ struct LightSum {
     vec3 grazing;  // sum of E D V p
     vec3 edge;     // with kLightEdges: sum of E p
 #ifdef FROXEL_LAYERED
-    vec3 coat; // sum of E D V, all of the coat's own
+    LayerSums layers;
 #endif
 };
 
@@ -59,7 +44,7 @@ LightSum noLight() {
     LightSum sum;
     sum.diffuse = sum.specular = sum.grazing = sum.edge = vec3(0.0);
 #ifdef FROXEL_LAYERED
-    sum.coat = vec3(0.0);
+    sum.layers = noLayerLight();
 #endif
     return sum;
 }
@@ -93,8 +78,6 @@ Surface makeSurface(vec3 position_view, vec3 normal_view, float roughness) {
     return s;
 }
 
-#include "lib/layers.glsl"
-
 // (cosine^2)^power for cosine^2 = c2 / h2. Near 1 by a series in the sine: a software rasteriser's
 // logarithm is off by 1e-5 there, and powers go up to 2e5.
 float lobePower(float c2, float h2, float power) {
@@ -108,6 +91,8 @@ float lobePower(float c2, float h2, float power) {
     // keep.
     return exponent > -64.0 ? exp2(exponent) : 0.0;
 }
+
+#include "lib/layers.glsl"
 
 // (1 - l.h)^5 for h2 = |l + v|^2.
 float schlick(float h2) {

@@ -10,6 +10,17 @@ struct Coat {
     vec3 normal_view;
 };
 
+// What is lit of it.
+struct CoatSurface {
+    vec3 normal_view;
+    float n_dot_v;
+    float n_dot_eye;
+    float alpha2;
+    float visibility_v;
+    float shininess;
+    float lobe;
+};
+
 bool hasCoat() { return hasMaterial(kMaterialCoat); }
 
 Coat noCoat(vec3 normal_view) { return Coat(0.0, 0.0, normal_view); }

@@ -18,8 +18,7 @@ vec4 lightPixel(uvec2 pixel, bool inside) {
     vec3 position = extraPosition(extra, positionFromDistance(pixel, distance));
     Surface s = makeSurface(position, g.normal_view, g.roughness);
     LightSum sum = sumLights(s, pixel, distance, covered && !g.unlit);
-    vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
-               ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion) + g.emissive;
+    vec3 lit = surfaceRadiance(g, s, sum);
     if (g.unlit) {
         lit = g.base_color;
     }

@@ -5,9 +5,7 @@
 #include "interface/gbuffer_io.h"
 #include "lib/dielectric.glsl"
 #include "lib/octahedral.glsl"
-#ifdef FROXEL_LAYERED
-#include "lib/coat.glsl"
-#endif
+#include "lib/layer_types.glsl"
 
 const uint kNormalEncoding = (OUTPUT_FLAGS >> kOutputNormalShift) & 7u;
 const uint kPositionSource = (OUTPUT_FLAGS >> kOutputPositionShift) & 3u;
@@ -26,7 +24,7 @@ struct GbufferSample {
     vec3 emissive;
     Dielectric dielectric;
 #ifdef FROXEL_LAYERED
-    Coat coat;
+    Layers layers;
 #endif
 };
 

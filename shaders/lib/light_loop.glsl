@@ -210,21 +210,3 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
     precise vec3 lit = sky * (albedo + f0) * occlusion;
     return lit;
 }
-
-#ifdef FROXEL_LAYERED
-// What the eye sees of a surface whose coat is over `below`; a coat reflects the ambient light as
-// whole as what it covers does.
-vec3 underLayers(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) {
-    if (!hasCoat()) {
-        return below;
-    }
-    Surface c = coatOf(s);
-    vec3 around = hasLight(kLightEnvironment)
-                      ? glossyAround(c, occlusion) * lobeAlbedo(c.n_dot_v, lobeRoughness(c)).x
-                      : skyRadiance(c.normal_view) * occlusion;
-    precise vec3 lobe = min(sum.coat, vec3(1e30)) * (0.5 / kPi) + around;
-    float share = coatShare(coat, c.n_dot_v);
-    precise vec3 seen = below * (1.0 - share) + lobe * share;
-    return seen;
-}
-#endif

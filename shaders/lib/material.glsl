@@ -151,9 +151,9 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
         shadeSpecular(v, g);
     }
 #ifdef FROXEL_LAYERED
-    g.coat = noCoat(n);
+    g.layers = noLayers(n);
     if (hasCoat()) {
-        g.coat = shadeCoat(v, position_view, front);
+        g.layers.coat = shadeCoat(v, position_view, front);
     }
 #endif
     return g;

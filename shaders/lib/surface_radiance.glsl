@@ -1,0 +1,33 @@
+// From what lights add up to on a surface to what the eye sees of it: what is around is added, and
+// layers are put over it, the lowest first.
+#include "lib/gbuffer.glsl"
+#include "lib/light_loop.glsl"
+
+#ifdef FROXEL_LAYERED
+// What the eye sees of a surface whose coat is over `below`; a coat reflects the ambient light as
+// whole as what it covers does.
+vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) {
+    if (!hasCoat()) {
+        return below;
+    }
+    Surface c = coatOf(s);
+    vec3 around = hasLight(kLightEnvironment)
+                      ? glossyAround(c, occlusion) * lobeAlbedo(c.n_dot_v, lobeRoughness(c)).x
+                      : skyRadiance(c.normal_view) * occlusion;
+    precise vec3 lobe = min(sum.layers.coat, vec3(1e30)) * (0.5 / kPi) + around;
+    float share = coatShare(coat, c.n_dot_v);
+    precise vec3 seen = below * (1.0 - share) + lobe * share;
+    return seen;
+}
+#endif
+
+// What the eye sees of a lit surface, its layers and all.
+vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
+    precise vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
+                       ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion);
+    precise vec3 seen = lit + g.emissive;
+#ifdef FROXEL_LAYERED
+    seen = underCoat(seen, s, sum, g.layers.coat, g.occlusion);
+#endif
+    return seen;
+}
