@@ -33,6 +33,13 @@ constexpr MaterialTexture kCoatTextures[] = {
     {"clearcoatNormalTexture", io::coat_normal_slot,
      [](Material& m) -> float& { return m.coat.normal_scale; }}};
 
+constexpr MaterialFactor kSheenFactors[] = {
+    {"sheenColorFactor", FactorRange::kUnit, [](Material& m) { return three(m.sheen.color); }},
+    {"sheenRoughnessFactor", FactorRange::kUnit,
+     [](Material& m) { return one(m.sheen.roughness); }}};
+constexpr MaterialTexture kSheenTextures[] = {{"sheenColorTexture", io::sheen_color_slot},
+                                              {"sheenRoughnessTexture", io::sheen_roughness_slot}};
+
 constexpr MaterialExtension kRows[] = {
     {.name = kUnlit, .what = "a colour that no light changes"},
     {.name = kEmissiveStrength, .what = "emission brighter than 1"},
@@ -52,6 +59,11 @@ constexpr MaterialExtension kRows[] = {
      .factors = kCoatFactors,
      .textures = kCoatTextures,
      .present = [](const Material& m) { return m.coat.strength != 0; }},
+    {.name = "KHR_materials_sheen",
+     .what = "fibres that scatter light towards its edges, as those of cloth",
+     .factors = kSheenFactors,
+     .textures = kSheenTextures,
+     .present = [](const Material& m) { return m.sheen.color != glm::vec3(0); }},
 };
 
 } // namespace

@@ -53,6 +53,14 @@ double rimShare(const Surface& s, const Model& model) {
     return std::abs(glm::dot(s.normal, s.to_eye)) < model.rim_width ? 1 + model.rim : 1;
 }
 
+bool hasSheen(const Surface& s, const Model& model) {
+    return s.sheen.color != glm::dvec3(0) && model.shading != settings::ShadingModel::kLambert;
+}
+
+double cosineToEye(const Surface& s) {
+    return std::max(std::abs(glm::dot(s.normal, s.to_eye)), 1e-4);
+}
+
 // What a coat reflects of the ambient light, of a share of 1.
 glm::dvec3 coatAmbient(const Surface& s, const Lights& lights) {
     return glm::mix(lights.ground, lights.sky, 0.5 + 0.5 * s.coat.normal.y) * s.occlusion;
@@ -98,9 +106,12 @@ class Banded {
             return scattered;
         }
         const glm::dvec3 f0 = glm::mix(s_.dielectric_f0, s_.base_color, s_.metallic);
-        const glm::dvec3 below =
-            scattered * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) +
-            f0 * (gloss(base_, s_.roughness) * light);
+        glm::dvec3 below = scattered * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) +
+                           f0 * (gloss(base_, s_.roughness) * light);
+        if (hasSheen(s_, model_)) { // its fibres scatter as matt surfaces do
+            below = below * belowSheen(s_.sheen, cosineToEye(s_)) +
+                    sheenReflectance(s_.sheen, cosineToEye(s_)) * (rimShare(s_, model_) * light);
+        }
         const double share = coatShare(s_, model_);
         return share > 0
                    ? below * (1 - share) + share * gloss(coat_, s_.coat.roughness) *
@@ -160,6 +171,14 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     if (facing > 0) {
         const double lobe = lobeOf(model, s.normal, s.roughness, s.to_eye, half, facing);
         out += glm::mix(of_dielectric, of_metal, s.metallic) * (facing * lobe);
+    }
+    if (hasSheen(s, model)) {
+        const double n_dot_v = cosineToEye(s);
+        const double lobe =
+            facing > 0 ? sheenLobe(glm::dot(s.normal, half), facing, n_dot_v, s.sheen.roughness)
+                       : 0;
+        out =
+            out * belowSheen(s.sheen, n_dot_v) + sheenStrength(s.sheen, n_dot_v) * (facing * lobe);
     }
     const double share = coatShare(s, model);
     if (share > 0) {
@@ -242,8 +261,16 @@ glm::dvec3 radiance(const Surface& s, const Model& model, const Lights& lights, 
     for (const DirectionalLight& light : lights.directionals) {
         sum += light.color * fromDirection(s, model, -light.direction, 1, 0);
     }
-    const glm::dvec3 all_around =
+    glm::dvec3 all_around =
         lights.around ? fromAround(s, model, *lights.around) : ambient(s, model, lights);
+    if (hasSheen(s, model)) {
+        const double n_dot_v = cosineToEye(s);
+        const glm::dvec3 matt = lights.around
+                                    ? lights.around->matt.at(s.normal)
+                                    : glm::mix(lights.ground, lights.sky, 0.5 + 0.5 * s.normal.y);
+        all_around = all_around * belowSheen(s.sheen, n_dot_v) +
+                     sheenReflectance(s.sheen, n_dot_v) * matt * s.occlusion;
+    }
     const double share = coatShare(s, model);
     if (share > 0) {
         sum += share * (lights.around ? coatAround(s, *lights.around) : coatAmbient(s, lights));

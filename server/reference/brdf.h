@@ -3,6 +3,7 @@
 #pragma once
 
 #include "reference/lights.h"
+#include "reference/sheen.h"
 #include "settings/settings.h"
 
 #include <functional>
@@ -33,6 +34,7 @@ struct Surface {
     double occlusion = 1;
     glm::dvec3 emissive{0};
     Coat coat;
+    Sheen sheen;
     double alpha = 1;
     bool unlit = false;
 };

@@ -18,7 +18,7 @@ glm::dvec2 transformed(const scene::TextureSlot& slot, const glm::dvec2& uv, boo
 // Stated here too, so that the table of slots does not speak for itself.
 bool isColor(uint32_t slot) {
     return slot == io::base_color_slot || slot == io::emissive_slot ||
-           slot == io::specular_color_slot;
+           slot == io::specular_color_slot || slot == io::sheen_color_slot;
 }
 
 struct TangentFrame {
@@ -159,6 +159,10 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     s.coat.roughness =
         static_cast<double>(m.coat.roughness) * sample(look[io::coat_roughness_slot], point).y;
     s.coat.normal = normalAt(m, look[io::coat_normal_slot], m.coat.normal_scale, point);
+    s.sheen.color =
+        glm::dvec3(m.sheen.color) * glm::dvec3(sample(look[io::sheen_color_slot], point));
+    s.sheen.roughness =
+        static_cast<double>(m.sheen.roughness) * sample(look[io::sheen_roughness_slot], point).w;
     return s;
 }
 

@@ -73,6 +73,12 @@ struct Coat {
     float normal_scale = 1;
 };
 
+// Fibres that stand on all of a material, below its coat.
+struct Sheen {
+    glm::vec3 color{0}; // 0..1; 0: none
+    float roughness = 0;
+};
+
 struct Material {
     std::string name;
     glm::vec4 base_color{1, 1, 1, 1}; // linear
@@ -93,6 +99,7 @@ struct Material {
     // Roughness is 1 - (1 - roughness) times A of the specular colour's texture.
     bool glossiness_texture = false;
     Coat coat;
+    Sheen sheen;
     // base_color_texture and so on, a member a row.
 #define FROXEL_SLOT(number, name, colour) TextureSlot name##_texture;
     FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)

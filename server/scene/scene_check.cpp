@@ -98,7 +98,9 @@ Fault faultIn(const Material& m, const Scene& scene) {
         {"specular_color", isFinite(m.specular_color)},
         {"coat.strength", isFinite(m.coat.strength)},
         {"coat.roughness", isFinite(m.coat.roughness)},
-        {"coat.normal_scale", isFinite(m.coat.normal_scale)}};
+        {"coat.normal_scale", isFinite(m.coat.normal_scale)},
+        {"sheen.color", isFinite(m.sheen.color)},
+        {"sheen.roughness", isFinite(m.sheen.roughness)}};
     for (const auto& [name, right] : factors) {
         if (!right) {
             return std::string(name) + " is not finite";

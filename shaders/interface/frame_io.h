@@ -92,6 +92,12 @@ struct CoatFactors {
 };
 FROXEL_SIZE_ASSERT(CoatFactors, 16);
 
+struct SheenFactors {
+    vec3 color;
+    float roughness;
+};
+FROXEL_SIZE_ASSERT(SheenFactors, 16);
+
 struct Material {
     vec4 base_color;
     vec3 emissive;
@@ -103,9 +109,10 @@ struct Material {
     vec3 specular_f0; // what the index of refraction gives head-on, times the specular colour
     float specular;   // its strength
     CoatFactors coat;
+    SheenFactors sheen;
     UvTransform uv[kMaterialSlots];
 };
-FROXEL_SIZE_ASSERT(Material, 80 + 32 * kMaterialSlots);
+FROXEL_SIZE_ASSERT(Material, 96 + 32 * kMaterialSlots);
 
 FROXEL_IO_NAMESPACE_END
 

@@ -19,7 +19,9 @@
 #define FROXEL_LAYER_SLOTS(X)                                                                      \
     X(7, coat, 0)           /* R: strength */                                                      \
     X(8, coat_roughness, 0) /* G */                                                                \
-    X(9, coat_normal, 0)
+    X(9, coat_normal, 0)                                                                           \
+    X(10, sheen_color, 1)                                                                          \
+    X(11, sheen_roughness, 0) /* A */
 #define FROXEL_MATERIAL_SLOTS(X)                                                                   \
     FROXEL_SURFACE_SLOTS(X)                                                                        \
     FROXEL_LAYER_SLOTS(X)
@@ -31,7 +33,7 @@ FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)
 #undef FROXEL_SLOT
 
 FROXEL_CONST uint kSurfaceSlots = 7U;
-FROXEL_CONST uint kMaterialSlots = 10U;
+FROXEL_CONST uint kMaterialSlots = 12U;
 
 FROXEL_IO_NAMESPACE_END
 

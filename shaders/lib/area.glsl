@@ -140,6 +140,46 @@ vec3 transformed(Ltc ltc, vec3 v) {
     return plain;
 }
 
+// What the rectangle takes of all directions from the origin, sr (Van Oosterom and Strackee 1983).
+float solidAngle(vec3 to_light, AreaRect rect) {
+    vec3 corner = to_light - rect.half_right - rect.half_up;
+    vec3 far_corner = to_light + rect.half_right + rect.half_up;
+    vec3 at[2] = vec3[](corner + 2.0 * rect.half_right, corner + 2.0 * rect.half_up);
+    vec3 a = normalize(corner);
+    vec3 c = normalize(far_corner);
+    precise float sum = 0.0;
+    [[unroll]] for (int i = 0; i < 2; ++i) {
+        vec3 b = normalize(at[i]);
+        precise float volume = abs(dot(a, cross(b, c)));
+        precise float below = 1.0 + dot(a, b) + dot(b, c) + dot(c, a);
+        sum += 2.0 * atan(volume, below);
+    }
+    return sum;
+}
+
+// Fibres have no transform to a cosine: the rectangle is 3 x 3 small lights (Gauss and Legendre's
+// points), which together take as much of all directions. Of a rectangle that takes much of them
+// that is coarse.
+void addToFibres(Surface s, AreaRect rect, vec3 to_light, float scale, vec3 color,
+                 inout LightSum sum) {
+    const float kAt[3] = float[](-0.7745967, 0.0, 0.7745967);
+    const float kWeight[3] = float[](5.0, 8.0, 5.0);
+    LightSum parts = noLight();
+    float taken = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        precise vec3 to_part = to_light + kAt[i % 3] * rect.half_right + kAt[i / 3] * rect.half_up;
+        float inv_d = inversesqrt(max(dot(to_part, to_part), kLeastDistance2));
+        vec3 l = to_part * inv_d;
+        float solid_angle = kWeight[i % 3] * kWeight[i / 3] * (inv_d * inv_d) * inv_d;
+        taken += solid_angle;
+        addIrradiance(s, dot(s.normal_view, l), dot(s.to_eye_view, l), solid_angle, 0.0, vec3(1.0),
+                      parts);
+    }
+    precise float radiance = scale * solidAngle(to_light, rect) / taken;
+    sum.specular += color * (parts.specular * radiance);
+    sum.grazing += color * (parts.grazing * radiance);
+}
+
 // `share`: 0 or 1; of color, what the rectangle sends along its normal, candela.
 void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, vec3 color,
                   float share, inout LightSum sum) {
@@ -166,6 +206,10 @@ void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, ve
         return;
     }
     precise float v_dot_l = dot(flux.whole, inAxes(axes, s.to_eye_view)) / max(size, 1e-30);
+    if (isFibres(s)) {
+        addToFibres(s, rect, to_light, scale, color, sum);
+        return;
+    }
     precise float p = schlick(max(fma(2.0, v_dot_l, 2.0), 1e-6));
     Ltc ltc = ltcOf(s);
     Flux lobe = fluxOf(transformed(ltc, corner), transformed(ltc, right), transformed(ltc, up));
@@ -183,21 +227,4 @@ void addAreaLight(Surface s, AreaRect rect, vec3 to_light, float inv_radius2, ve
     addScattered(scattered, p, color, sum);
     sum.specular = f;
     sum.grazing = r;
-}
-
-// What the rectangle takes of all directions from the origin, sr (Van Oosterom and Strackee 1983).
-float solidAngle(vec3 to_light, AreaRect rect) {
-    vec3 corner = to_light - rect.half_right - rect.half_up;
-    vec3 far_corner = to_light + rect.half_right + rect.half_up;
-    vec3 at[2] = vec3[](corner + 2.0 * rect.half_right, corner + 2.0 * rect.half_up);
-    vec3 a = normalize(corner);
-    vec3 c = normalize(far_corner);
-    precise float sum = 0.0;
-    [[unroll]] for (int i = 0; i < 2; ++i) {
-        vec3 b = normalize(at[i]);
-        precise float volume = abs(dot(a, cross(b, c)));
-        precise float below = 1.0 + dot(a, b) + dot(b, c) + dot(c, a);
-        sum += 2.0 * atan(volume, below);
-    }
-    return sum;
 }

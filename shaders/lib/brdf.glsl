@@ -161,7 +161,9 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, f
     precise float n_dot_sum = facing + s.n_dot_eye;
     precise float p = schlick(h2);
     precise float lobe;
-    if (hasLight(kLightBlinnPhong)) {
+    if (isFibres(s)) {
+        lobe = fibresLobe(s, n_dot_sum, h2, facing);
+    } else if (hasLight(kLightBlinnPhong)) {
         precise float c2 = min(n_dot_sum * n_dot_sum, h2);
         lobe = s.lobe * lobePower(c2, h2, s.shininess);
     } else {

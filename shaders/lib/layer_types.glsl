@@ -1,23 +1,28 @@
-// What layers over a surface have of their own: in a material, in what is lit, in what lights add up
-// to. A member a layer; all else asks lib/layers.glsl.
+// What layers over a surface have of their own: in a material, in what is lit, in what lights add
+// up to. A member a layer; all else asks lib/layers.glsl.
 #ifndef FROXEL_LAYER_TYPES
 #define FROXEL_LAYER_TYPES
 #ifdef FROXEL_LAYERED
 #include "lib/coat.glsl"
+#include "lib/sheen.glsl"
 
 struct Layers {
     Coat coat;
+    Sheen sheen;
 };
 
 struct LayerSurfaces {
+    bool fibres; // lights meet the sheen's, not facets
     CoatSurface coat;
+    SheenSurface sheen;
 };
 
 struct LayerSums {
-    vec3 coat; // sum of E D V, all of the coat's own
+    vec3 coat; // sums of E D V, all of the layer's own
+    vec3 sheen;
 };
 
-Layers noLayers(vec3 normal_view) { return Layers(noCoat(normal_view)); }
-LayerSums noLayerLight() { return LayerSums(vec3(0.0)); }
+Layers noLayers(vec3 normal_view) { return Layers(noCoat(normal_view), noSheen()); }
+LayerSums noLayerLight() { return LayerSums(vec3(0.0), vec3(0.0)); }
 #endif
 #endif

@@ -5,7 +5,11 @@
 void addLayers(Layers layers, inout Surface s) {
     Surface c = makeSurface(s.position_view, layers.coat.normal_view, layers.coat.roughness);
     s.layers.coat = CoatSurface(c.normal_view, c.n_dot_v, c.n_dot_eye, c.alpha2, c.visibility_v,
-                         c.shininess, c.lobe);
+                                c.shininess, c.lobe);
+    s.layers.fibres = false;
+    if (hasSheen()) {
+        s.layers.sheen = sheenSurface(layers.sheen, s.n_dot_v);
+    }
 }
 
 // The coat as a surface by itself.
@@ -18,6 +22,24 @@ Surface coatOf(Surface s) {
     s.shininess = s.layers.coat.shininess;
     s.lobe = s.layers.coat.lobe;
     return s;
+}
+
+// The sheen as a surface by itself.
+Surface sheenOf(Surface s) {
+    s.layers.fibres = true;
+    return s;
+}
+
+bool isFibres(Surface s) { return hasSheen() && s.layers.fibres; }
+
+// A light's D V of fibres, times 2 pi, as the others' lobes are. Where light is brought to bands
+// there are none: the sheen then scatters as matt surfaces do.
+float fibresLobe(Surface s, float n_dot_sum, float h2, float facing) {
+    float sine2 = max(h2 - n_dot_sum * n_dot_sum, 0.0);
+    precise float d = s.layers.sheen.height * lobePower(sine2, h2, s.layers.sheen.power);
+    precise float shading = 1.0 + s.layers.sheen.lambda_v + sheenLambda(s.layers.sheen, facing);
+    precise float lobe = d / (4.0 * shading * s.n_dot_v * max(facing, 1e-7));
+    return lobe;
 }
 
 // What a light adds to a layer. Fresnel's term is the eye's, so its two parts are one.
@@ -33,6 +55,12 @@ vec3 addLayerLight(LightSum of_layer, vec3 sum) {
         LightSum of_layer = noLight();                                                             \
         add;                                                                                       \
         sum.layers.coat = addLayerLight(of_layer, sum.layers.coat);                                \
+    }                                                                                              \
+    if (hasSheen() && !hasLight(kLightBands)) {                                                    \
+        Surface layer = sheenOf(s);                                                                \
+        LightSum of_layer = noLight();                                                             \
+        add;                                                                                       \
+        sum.layers.sheen = addLayerLight(of_layer, sum.layers.sheen);                              \
     }
 
 // Whether a layer may face what the surface below it does not.
@@ -52,6 +80,8 @@ vec3 largestOfLayers(vec3 own, Surface s, vec3 normal, vec3 from) {
 }
 #else
 #define addToLayers(s, sum, add)
+bool isFibres(Surface s) { return false; }
+float fibresLobe(Surface s, float n_dot_sum, float h2, float facing) { return 0.0; }
 bool layersFace(Surface s, vec3 l) { return false; }
 void hideLayers(inout Surface s) {}
 vec3 highestNormal(Surface s) { return s.normal_view; }

@@ -114,6 +114,17 @@ Coat shadeCoat(VertexData v, vec3 position_view, bool front) {
     }
     return coat;
 }
+
+Sheen shadeSheen(VertexData v) {
+    Sheen sheen = Sheen(material.sheen.color, material.sheen.roughness);
+    if (hasTexture(sheen_color_slot)) {
+        sheen.color *= sampleMaterial(sheen_color, v).rgb;
+    }
+    if (hasTexture(sheen_roughness_slot)) {
+        sheen.roughness *= sampleMaterial(sheen_roughness, v).a;
+    }
+    return sheen;
+}
 #endif
 
 GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
@@ -154,6 +165,9 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     g.layers = noLayers(n);
     if (hasCoat()) {
         g.layers.coat = shadeCoat(v, position_view, front);
+    }
+    if (hasSheen()) {
+        g.layers.sheen = shadeSheen(v);
     }
 #endif
     return g;

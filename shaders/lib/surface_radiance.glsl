@@ -4,6 +4,34 @@
 #include "lib/light_loop.glsl"
 
 #ifdef FROXEL_LAYERED
+// What is around, as a matt surface sees it.
+vec3 mattAround(Surface s, float occlusion) {
+    if (hasLight(kLightEnvironment)) {
+        return mattRadiance(environment.map_from_view * s.normal_view) * occlusion;
+    }
+    return skyRadiance(s.normal_view) * occlusion;
+}
+
+// What the eye sees of a surface whose fibres are over `below`, which does not shine through them
+// by itself. They reflect no more than what comes: at grazing angles their formula would.
+vec3 underSheen(vec3 below, Surface s, LightSum sum, Sheen sheen, float occlusion) {
+    if (!hasSheen()) {
+        return below;
+    }
+    float whole = sheenAlbedo(s.n_dot_v, sheen.roughness);
+    float albedo = min(whole, 1.0);
+    precise vec3 scattered = mattAround(s, occlusion) * albedo;
+    if (hasLight(kLightBands)) {
+        scattered += min(sum.diffuse, vec3(1e30)) * (albedo / kPi);
+    } else {
+        scattered += min(sum.layers.sheen, vec3(1e30)) * (0.5 / kPi * albedo / whole);
+    }
+    vec3 color = sheen.color;
+    float most = max(max(color.r, color.g), color.b);
+    precise vec3 seen = below * (1.0 - most * albedo) + color * scattered;
+    return seen;
+}
+
 // What the eye sees of a surface whose coat is over `below`; a coat reflects the ambient light as
 // whole as what it covers does.
 vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) {
@@ -25,6 +53,9 @@ vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) 
 vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
     precise vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
                        ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion);
+#ifdef FROXEL_LAYERED
+    lit = underSheen(lit, s, sum, g.layers.sheen, g.occlusion);
+#endif
     precise vec3 seen = lit + g.emissive;
 #ifdef FROXEL_LAYERED
     seen = underCoat(seen, s, sum, g.layers.coat, g.occlusion);

@@ -5,6 +5,7 @@
 #include "support/shapes.h"
 
 #include <cmath>
+#include <map>
 #include <string>
 
 namespace froxel::test {
@@ -179,6 +180,30 @@ TEST_F(HardAreas, Coats_AreNearTheSampledIntegral) {
         const auto pictures = expectExact(renderer, inputs);
         const auto off = differenceTo(refer(renderer, maker.scene, inputs).picture, pictures.naive);
         EXPECT_LT(off.rms, 0.1);
+    }
+}
+
+// Fibres see a rectangle as nine small lights: coarse where it takes much of what is around.
+TEST_F(HardAreas, Sheen_IsNearTheSampledIntegral) {
+    auto material = chalk();
+    material.base_color = {0, 0, 0, 1};
+    material.specular = 0;
+    material.sheen = {.color = glm::vec3(1), .roughness = 0.5F};
+    SceneMaker maker(material);
+    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    render::Renderer renderer(device(), maker.scene);
+    const std::map<std::string, double> coarse = {{"sliver", 0.2},
+                                                  {"large", 0.3},
+                                                  {"near", 0.15},
+                                                  {"cut by the horizon", 0.5},
+                                                  {"centre below the horizon", 0.65}};
+    for (const auto& place : places()) {
+        SCOPED_TRACE(place.name);
+        const auto inputs = litBy(place.light, settings::ShadingModel::kPbr);
+        const auto pictures = expectExact(renderer, inputs);
+        const auto off = differenceTo(refer(renderer, maker.scene, inputs).picture, pictures.naive);
+        const auto bound = coarse.find(place.name);
+        EXPECT_LT(off.rms, bound != coarse.end() ? bound->second : 0.02);
     }
 }
 

@@ -144,6 +144,34 @@ TEST_F(HardMaterials, HighlightsOfAnyRoughness_AreAsDoublePrecisionHasThem) {
     }
 }
 
+// Fibres of any roughness and strength, black ones among them: finite, and the double's but for the
+// fit of their albedo, snapped corners, and edges where a smooth sheen rises to many times what is
+// below it.
+TEST_F(HardMaterials, SheenOfAnyRoughness_IsAsDoublePrecisionHasIt) {
+    for (const float roughness : {0.0F, 0.2F, 1.0F}) {
+        for (const float color : {1.0F, 1e-20F}) {
+            if (color < 1 && roughness > 0) {
+                continue;
+            }
+            SCOPED_TRACE(std::to_string(roughness) + " " + std::to_string(color));
+            SceneMaker maker = glossySphere(0.5F);
+            maker.scene.materials[0].sheen = {.color = glm::vec3(color), .roughness = roughness};
+            maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
+            maker.point({2, 1, -1}, 6);
+            render::Renderer renderer(device(), maker.scene);
+            auto inputs = hardInputs();
+            inputs.settings.size = {96, 54};
+            inputs.settings.shading = settings::ShadingModel::kPbr;
+            const auto pictures = expectExact(renderer, inputs, Toon::kNo);
+            EXPECT_TRUE(std::ranges::all_of(pictures.naive.radiance,
+                                            [](float v) { return std::isfinite(v) && v >= 0; }));
+            const auto worst = worstOf(pictures.naive, refer(renderer, maker.scene, inputs),
+                                       within(0.01, roughness < 0.2F ? 1 : 0.05));
+            EXPECT_LE(worst.ratio, 1) << worst;
+        }
+    }
+}
+
 // A smaller highlight would slip between pixels.
 TEST_F(HardMaterials, RoughnessBelowTheLeast_IsTheLeast) {
     const auto drawn = [&](float roughness) {

@@ -160,6 +160,30 @@ TEST_F(Environment, WhiteFurnace_CoatsLoseWhatTheirLobesLose) {
     }
 }
 
+// Fibres return what they keep from a white surface, whatever their roughness.
+TEST_F(Environment, WhiteFurnace_SheenLosesNothing) {
+    for (const float roughness : {0.0F, 0.4F, 1.0F}) {
+        auto scene = makeSpheres({1, 1, 1, 1});
+        for (auto& material : scene.materials) {
+            material.sheen = {.color = glm::vec3(0.9F), .roughness = roughness};
+        }
+        scene.surroundings = surroundingsOf(
+            environment::panoramaOf(8, [](const glm::dvec3&) { return glm::dvec3(1); }));
+        render::Renderer renderer(device(), scene);
+        for (const auto kind : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+            const Picture picture = draw(renderer, inputsFor(kind, EnvironmentLight::kFile));
+            size_t covered = 0;
+            for (const float seen : picture.radiance) {
+                if (seen != 0) {
+                    ++covered;
+                    ASSERT_NEAR(static_cast<double>(seen), 1, 1e-5);
+                }
+            }
+            EXPECT_GT(covered, 3U * 120 * 72 / 5);
+        }
+    }
+}
+
 // Samples of a lobe lie at other angles about its normal: 0.01 of up to 2.5.
 TEST_F(Environment, Rotation_IsThatOfThePanorama) {
     const auto panorama = environment::panoramaOf(64, softSky);

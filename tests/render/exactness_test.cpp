@@ -86,9 +86,10 @@ TEST_F(Exactness, Lists_Sponza_EqualAllLightsBitForBit) {
 
 // Coats face lights that what is below them does not. Fewer cases than of other scenes: what else
 // there is to a list is the same.
-TEST_F(Exactness, Lists_Coats_EqualAllLightsBitForBit) {
+TEST_F(Exactness, Lists_Layers_EqualAllLightsBitForBit) {
     auto scene = makeRoom();
     giveCoats(scene);
+    giveSheen(scene);
     render::Renderer renderer(device(), scene);
     for (const auto transparency :
          {settings::Transparency::kSorted, settings::Transparency::kWeighted,
@@ -119,10 +120,11 @@ TEST_F(Exactness, Lists_Coats_EqualAllLightsBitForBit) {
 }
 
 // What the G-buffer has no room for is drawn over it: a deferred picture is the forward one where
-// all is coated, whichever stage lights the rest. By one rasteriser, as layers are drawn.
-TEST_F(Exactness, Coats_OfEveryRenderer_AreTheForwardOnes) {
+// all has layers, whichever stage lights the rest. By one rasteriser, as layers are drawn.
+TEST_F(Exactness, Layers_OfEveryRenderer_AreTheForwardOnes) {
     auto scene = makeRoom();
     giveCoats(scene);
+    giveSheen(scene);
     scene.materials[1] = scene.materials[0];
     render::Renderer renderer(device(), scene);
     auto inputs = inputsFor(scene.cameras[1].camera, Renderer::kForwardPlus);

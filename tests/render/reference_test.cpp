@@ -183,6 +183,45 @@ TEST_F(Reference, RoomOfCoats_Forward_IsWithinArithmetic) {
     }
 }
 
+namespace {
+
+// Of fibres in every way that needs no texture, below coats.
+void givePlainSheen(scene::Scene& room) {
+    givePlainCoats(room);
+    for (const auto& [material, color, roughness] :
+         {std::tuple(size_t{0}, glm::vec3(0.9F, 0.5F, 0.2F), 0.3F),
+          std::tuple(size_t{2}, glm::vec3(1), 0.0F), std::tuple(size_t{3}, glm::vec3(1), 1.0F),
+          std::tuple(size_t{4}, glm::vec3(0.2F, 0.4F, 0.9F), 0.6F)}) {
+        room.materials[material].sheen = {.color = color, .roughness = roughness};
+    }
+    room.materials[0].coat.strength = 0;
+}
+
+} // namespace
+
+// By the albedo's fit, which is within 0.0034 of the reference's integral, as a share of what
+// comes.
+TEST_F(Reference, RoomOfSheen_IsWithinItsFit) {
+    auto room = makePlainRoom();
+    givePlainSheen(room);
+    Compared compared(device(), room);
+    for (const auto& camera : room.cameras) {
+        for (const auto renderer : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+            for (const auto model : {ShadingModel::kBlinnPhong, ShadingModel::kPbr}) {
+                auto inputs = inputsFor(camera.camera, renderer);
+                inputs.settings.shading = model;
+                Errors errors = compared.against(inputs);
+                EXPECT_LT(errors.max_relative, 0.02);
+                EXPECT_LT(errors.rmse, 2e-3);
+                inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
+                errors = compared.against(inputs);
+                EXPECT_LT(errors.max_relative, 0.02);
+                EXPECT_LT(errors.rmse, 2e-3);
+            }
+        }
+    }
+}
+
 // Coats and what they cover, here everything that is solid but the leaves, are drawn by the forward
 // shader or, from ids, by its twin in compute.
 TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
@@ -209,7 +248,9 @@ TEST_F(Reference, ToonBandsAndRim_AreTheReferencesButAtSteps) {
     const auto plain = makePlainRoom();
     auto coated = plain;
     givePlainCoats(coated);
-    for (const auto& room : {plain, coated}) {
+    auto cloth = plain;
+    givePlainSheen(cloth);
+    for (const auto& room : {plain, coated, cloth}) {
         Compared compared(device(), room);
         for (const auto renderer : {Renderer::kToonFragment, Renderer::kToonCompute}) {
             for (const auto model :

@@ -115,6 +115,7 @@ void giveEveryTexture(scene::Material& material, uint32_t texcoord, float shift)
     material.specular_color = {1, 0.8F, 0.6F};
     material.coat.strength = 0.7F;
     material.coat.roughness = 0.8F;
+    material.sheen = {.color = {0.5F, 0.8F, 0.3F}, .roughness = 0.9F};
     float turn = shift;
     for (auto* slot : scene::textureSlots(material)) {
         *slot = {0, texcoord, {turn, 0.7F * turn}, 0.9F * turn, {1 + turn, 1.3F - 0.5F * turn}};

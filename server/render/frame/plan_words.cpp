@@ -145,10 +145,10 @@ void addSolidWords(Lines& lines,
     }
     if (plan.layers) {
         lines.emplace_back(
-            plan.visibility ? "clear coats: surfaces that have one are shaded once more by their "
-                              "ids, over the lit picture; the G-buffer has no room for them"
-                            : "clear coats: surfaces that have one are drawn once more, over the "
-                              "lit picture by the forward shader; the G-buffer has no room for "
+            plan.visibility ? "layers: materials with coats or the like are shaded once more by "
+                              "their ids, over the lit picture; the G-buffer has no room for them"
+                            : "layers: materials with coats or the like are drawn once more, over "
+                              "the lit picture by the forward shader; the G-buffer has no room for "
                               "them");
     }
     if (plan.depth_prepass) {
@@ -231,6 +231,7 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
                   "no ior, specular or glossiness: dielectrics reflect 4 % head-on"),
         materials("clear coats", io::kMaterialCoat,
                   "no clear coats: no light is added up a second time"),
+        materials("sheen", io::kMaterialSheen, "no sheen: no light is added up by fibres"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,

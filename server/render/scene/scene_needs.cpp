@@ -27,11 +27,21 @@ bool shows(const scene::Material& m, uint32_t slot) {
     if (m.unlit) {
         return slot == io::base_color_slot;
     }
-    if (slot >= io::kSurfaceSlots && m.coat.strength == 0) {
-        return false;
+    switch (slot) {
+    case io::emissive_slot:
+        return m.emissive != glm::vec3(0);
+    case io::coat_slot:
+    case io::coat_normal_slot:
+        return m.coat.strength != 0;
+    case io::coat_roughness_slot:
+        return m.coat.strength != 0 && m.coat.roughness != 0;
+    case io::sheen_color_slot:
+        return m.sheen.color != glm::vec3(0);
+    case io::sheen_roughness_slot:
+        return m.sheen.color != glm::vec3(0) && m.sheen.roughness != 0;
+    default:
+        return true;
     }
-    return !(slot == io::emissive_slot && m.emissive == glm::vec3(0)) &&
-           !(slot == io::coat_roughness_slot && m.coat.roughness == 0);
 }
 
 MaterialFlags textureFlags(const scene::Material& m) {
@@ -58,6 +68,7 @@ MaterialFlags materialFlags(const scene::Material& m) {
         set((flags & textureFlag(io::specular_color_slot)) != 0 && m.glossiness_texture,
             io::kMaterialGlossiness);
         set(m.coat.strength != 0, io::kMaterialCoat);
+        set(m.sheen.color != glm::vec3(0), io::kMaterialSheen);
     }
     return flags;
 }

@@ -49,6 +49,7 @@ io::Material materialUniforms(const scene::Material& m) {
                               .roughness = m.coat.roughness,
                               .normal_scale = m.coat.normal_scale,
                               .padding0 = 0},
+                     .sheen = {.color = m.sheen.color, .roughness = m.sheen.roughness},
                      .uv = {}};
     const auto slots = textureSlots(m);
     std::ranges::transform(slots, out.uv, [](const auto* slot) { return uvTransform(*slot); });
@@ -111,7 +112,7 @@ SceneNeeds drawableNeeds(const gpu::Device& device, const scene::Scene& scene) {
         std::ranges::none_of(all.material_flags, layered)) {
         return all;
     }
-    spdlog::warn("event=layers_left_out reason=\"coats are drawn from {} sampled descriptors in a "
+    spdlog::warn("event=layers_left_out reason=\"layers are drawn from {} sampled descriptors in a "
                  "shader; this device allows {}\"",
                  kPassTextures + io::kMaterialSlots, device.traits().most_textures);
     return findNeeds(scene, false);

@@ -226,6 +226,30 @@ TEST(Materials, WrongClearcoat_IsTold) {
                 HasSubstr("a scale that is not used"));
 }
 
+TEST(Materials, Sheen_IsRead) {
+    SceneFile file = textured(R"({"extensions": {"KHR_materials_sheen": {
+        "sheenColorFactor": [0.5, 0.25, 3], "sheenRoughnessFactor": 0.75,
+        "sheenColorTexture": {"index": 1}, "sheenRoughnessTexture": {"index": 0, "texCoord": 1}}}})");
+    file.useExtension("KHR_materials_sheen", true);
+    const scene::Scene scene = loaded(file.load());
+    const scene::Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.sheen.color, glm::vec3(0.5F, 0.25F, 1));
+    EXPECT_EQ(material.sheen.roughness, 0.75F);
+    const auto imageOf = [&](const scene::TextureSlot& slot) {
+        return scene.images.at(scene.textures.at(slot.texture).image).name;
+    };
+    EXPECT_EQ(imageOf(material.sheen_color_texture), "image1");
+    EXPECT_EQ(imageOf(material.sheen_roughness_texture), "image0");
+    EXPECT_EQ(material.sheen_roughness_texture.texcoord, 1U);
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("material 0 has the sheenColorFactor 3")));
+    for (const char* extensions : {R"({"extensions": {"KHR_materials_sheen": {}}})",
+                                   R"({"extensions": {"KHR_materials_unlit": {},
+                             "KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1]}}})"}) {
+        EXPECT_EQ(onlyMaterial(withMaterial(extensions)).sheen.color, glm::vec3(0));
+    }
+}
+
 // A dielectric of infinite index, so that it reflects its specular colour; and what would have been
 // its metalness and roughness is not even loaded.
 TEST(Materials, SpecularGlossiness_WinsOverMetallicRoughness) {

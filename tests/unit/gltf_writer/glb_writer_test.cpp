@@ -120,6 +120,9 @@ std::vector<scene::Material> everyMaterial() {
     glass.coat_roughness_texture = {0, 1};
     glass.coat_normal_texture = {2};
     glass.coat.normal_scale = 2;
+    glass.sheen = {.color = {1, 0.5F, 0.25F}, .roughness = 0.5F};
+    glass.sheen_color_texture = {0};
+    glass.sheen_roughness_texture = {1};
     scene::Material glossy;
     glossy.metallic = 0;
     glossy.roughness = 0.25F;
@@ -179,8 +182,8 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
     EXPECT_EQ(
         d["extensionsUsed"],
         json({"KHR_lights_punctual", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-              "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_specular",
-              "KHR_materials_unlit", "KHR_texture_transform"}));
+              "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen",
+              "KHR_materials_specular", "KHR_materials_unlit", "KHR_texture_transform"}));
     // The chunk is padded to a multiple of four.
     EXPECT_EQ((d["buffers"][0]["byteLength"].get<size_t>() + 3) / 4 * 4, glb.bin.size());
 
@@ -203,12 +206,6 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
                                                      {"specularColorFactor", {1.0, 0.5, 2.0}},
                                                      {"specularTexture", {{"index", 1}}},
                                                      {"specularColorTexture", {{"index", 0}}}}));
-    EXPECT_EQ(glass["KHR_materials_clearcoat"],
-              json({{"clearcoatFactor", 0.5},
-                    {"clearcoatRoughnessFactor", 0.25},
-                    {"clearcoatTexture", {{"index", 1}}},
-                    {"clearcoatRoughnessTexture", {{"index", 0}, {"texCoord", 1}}},
-                    {"clearcoatNormalTexture", {{"index", 2}, {"scale", 2.0}}}}));
     EXPECT_EQ(d["materials"][3]["extensions"],
               json({{"KHR_materials_pbrSpecularGlossiness",
                      {{"diffuseFactor", {1.0, 1.0, 1.0, 1.0}},
@@ -230,6 +227,21 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
     EXPECT_EQ(d["extensions"]["KHR_lights_punctual"]["lights"][1]["type"], "spot");
     // The spot shines down: its node's -Z is -Y, so its third column is +Y.
     EXPECT_NEAR(d["nodes"][6]["matrix"][9].get<double>(), 1.0, 1e-12);
+}
+
+TEST(GlbWriter, Layers_ReadBackAsWritten) {
+    const Glb glb = written(everything(), "layers.glb");
+    const json& glass = glb.document["materials"][2]["extensions"];
+    EXPECT_EQ(glass["KHR_materials_clearcoat"],
+              json({{"clearcoatFactor", 0.5},
+                    {"clearcoatRoughnessFactor", 0.25},
+                    {"clearcoatTexture", {{"index", 1}}},
+                    {"clearcoatRoughnessTexture", {{"index", 0}, {"texCoord", 1}}},
+                    {"clearcoatNormalTexture", {{"index", 2}, {"scale", 2.0}}}}));
+    EXPECT_EQ(glass["KHR_materials_sheen"], json({{"sheenColorFactor", {1.0, 0.5, 0.25}},
+                                                  {"sheenRoughnessFactor", 0.5},
+                                                  {"sheenColorTexture", {{"index", 0}}},
+                                                  {"sheenRoughnessTexture", {{"index", 1}}}}));
 }
 
 TEST(GlbWriter, Positions_AreInTheBufferWithTheirBounds) {

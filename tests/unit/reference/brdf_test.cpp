@@ -253,6 +253,61 @@ TEST(ReferenceBrdf, CoatInAFurnace_ReturnsItsClosedForm) {
     }
 }
 
+// Numbers of an integration elsewhere, to their digits.
+TEST(ReferenceBrdf, SheenAlbedo_IsTheIntegral) {
+    const double cosines[] = {0.1, 0.3, 0.5, 0.75};
+    const double albedos[][4] = {
+        {0.549, 0.188, 0.060, 0.010}, {0.567, 0.321, 0.188, 0.089}, {0.721, 0.491, 0.356, 0.246}};
+    for (const auto& [row, roughness] :
+         {std::pair(size_t{0}, 0.25), std::pair(size_t{1}, 0.5), std::pair(size_t{2}, 1.0)}) {
+        for (size_t i = 0; i < 4; ++i) {
+            EXPECT_NEAR(sheenAlbedo(cosines[i], roughness), albedos[row][i], 2.5e-3);
+        }
+    }
+}
+
+// White fibres on a white surface return what comes, as the surface alone would: less by none.
+TEST(ReferenceBrdf, SheenInAFurnace_ReturnsWhatItTakes) {
+    for (const double roughness : {0.3, 0.6, 1.0}) {
+        for (const double angle : {0.0, 0.7, 1.2, 1.45}) {
+            Surface s = seenFrom(direction(angle, 0.5));
+            s.dielectric_f0 = glm::dvec3(0);
+            s.dielectric_f90 = 0;
+            s.sheen = {glm::dvec3(0.8, 0.8, 0.8), roughness};
+            EXPECT_NEAR(albedo(s, kPbr), 1, 4e-3) << roughness << " at " << angle;
+            s.base_color = glm::dvec3(0);
+            EXPECT_NEAR(albedo(s, kPbr), 0.8 * sheenAlbedo(std::cos(angle), roughness), 4e-3);
+        }
+    }
+    // By its formula the smoothest sheen would return three times what comes.
+    Surface s = seenFrom(direction(1.565, 0.5));
+    s.base_color = glm::dvec3(0);
+    s.dielectric_f0 = glm::dvec3(0);
+    s.dielectric_f90 = 0;
+    s.sheen = {glm::dvec3(1), 0};
+    EXPECT_GT(sheenAlbedo(std::cos(1.565), 0), 2);
+    EXPECT_LT(albedo(s, kPbr), 1.02);
+}
+
+// By hand: D = (2 + 1 / alpha) sin^(1 / alpha) / 2 pi with alpha = 1.
+TEST(ReferenceBrdf, SheenOfRoughnessOne_IsASine) {
+    Surface s = seenFrom(direction(0.8, 0));
+    s.base_color = glm::dvec3(0);
+    s.dielectric_f0 = glm::dvec3(0);
+    s.dielectric_f90 = 0;
+    s.sheen = {{1, 0.5, 0}, 1};
+    const double lambda =
+        std::exp(2 * (21.5473 / (1 + 3.82987 * std::pow(0.5, 0.19823)) - 1.97760 * 0.5 - 4.32054) -
+                 (21.5473 / (1 + 3.82987 * std::pow(1 - std::cos(0.8), 0.19823)) -
+                  1.97760 * (1 - std::cos(0.8)) - 4.32054));
+    const double expected = 3 * std::sin(0.8) / (2 * kPi) / ((1 + 2 * lambda) * 4 * std::cos(0.8));
+    const glm::dvec3 out = reflected(s, kPbr, direction(0.8, 0));
+    EXPECT_NEAR(out.x, expected, 1e-12);
+    EXPECT_NEAR(out.y, expected / 2, 1e-12);
+    EXPECT_EQ(out.z, 0);
+    EXPECT_EQ(reflected(s, kLambert, direction(0.8, 0)).x, 0);
+}
+
 TEST(ReferenceBrdf, PbrLobe_SwappingLightAndEye_GivesTheSame) {
     Surface s = seenFrom(direction(0.9, 0.2));
     s.metallic = 1; // the diffuse part's Fresnel term is symmetric too, but say so for the lobe

@@ -49,15 +49,15 @@ TEST(PlanWords, IorAndSpecular_AreNamedWhereTheyAreStored) {
     EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("ior"))));
 }
 
-TEST(PlanWords, Coats_AreNamedWhereAPassDrawsThem) {
+TEST(PlanWords, Layers_AreNamedWhereAPassDrawsThem) {
     settings::ViewSettings settings;
     settings.renderer = settings::Renderer::kClusteredDeferred;
     const FrameFacts facts{.layers_visible = true};
-    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("clear coats: surfaces that have")));
+    EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("layers: materials with coats")));
     EXPECT_THAT(wordsOf(settings, facts), Contains(HasSubstr("tone map in a pass of its own")));
-    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("clear coat"))));
+    EXPECT_THAT(wordsOf(settings, {}), Not(Contains(HasSubstr("layers:"))));
     settings.renderer = settings::Renderer::kForwardPlus;
-    EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("clear coat"))));
+    EXPECT_THAT(wordsOf(settings, facts), Not(Contains(HasSubstr("layers:"))));
 }
 
 TEST(PlanWords, MeshesThatBend_AreNamed) {

@@ -90,7 +90,11 @@ TEST(SceneNeeds, Coat_SetsItsFlagsWhereItHasStrength) {
     m.coat.strength = 1;
     EXPECT_TRUE(findNeeds(sceneWith(m)).layers);
     EXPECT_FALSE(findNeeds(sceneWith(m)).wide_gbuffer);
-    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], kLayerFlags | io::kMaterialUvTransform);
+    const MaterialFlags textures = textureFlag(io::coat_slot) |
+                                   textureFlag(io::coat_roughness_slot) |
+                                   textureFlag(io::coat_normal_slot);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0],
+              textures | io::kMaterialCoat | io::kMaterialUvTransform);
     m.coat.roughness = 0;
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & textureFlag(io::coat_roughness_slot), 0U);
     m.alpha_mode = scene::AlphaMode::kBlend; // is forward anyway
@@ -98,6 +102,24 @@ TEST(SceneNeeds, Coat_SetsItsFlagsWhereItHasStrength) {
     EXPECT_NE(findNeeds(sceneWith(m)).material_flags[0] & io::kMaterialCoat, 0U);
     m.unlit = true;
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0] & kLayerFlags, 0U);
+}
+
+TEST(SceneNeeds, Sheen_SetsItsFlagsWhereItHasAColor) {
+    auto m = plain();
+    m.sheen.roughness = 0.5F;
+    m.sheen_color_texture.texture = 0;
+    m.sheen_roughness_texture.texture = 0;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U);
+    m.sheen.color = {0, 0, 0.1F};
+    EXPECT_TRUE(findNeeds(sceneWith(m)).layers);
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], textureFlag(io::sheen_color_slot) |
+                                                             textureFlag(io::sheen_roughness_slot) |
+                                                             io::kMaterialSheen);
+    m.sheen.roughness = 0;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0],
+              textureFlag(io::sheen_color_slot) | io::kMaterialSheen);
+    m.unlit = true;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], io::kMaterialUnlit);
 }
 
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {
