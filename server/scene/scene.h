@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/math.h"
+#include "interface/material_factors.h"
 #include "interface/material_slots.h"
 #include "scene/warning.h"
 #include "settings/camera.h"
@@ -66,19 +67,6 @@ struct TextureSlot {
 
 enum class AlphaMode : uint8_t { kOpaque, kMask, kBlend };
 
-// A clear coat over all of a material; its normal is the shape's where it has no map of its own.
-struct Coat {
-    float strength = 0; // 0..1; 0: none
-    float roughness = 0;
-    float normal_scale = 1;
-};
-
-// Fibres that stand on all of a material, below its coat.
-struct Sheen {
-    glm::vec3 color{0}; // 0..1; 0: none
-    float roughness = 0;
-};
-
 struct Material {
     std::string name;
     glm::vec4 base_color{1, 1, 1, 1}; // linear
@@ -98,8 +86,10 @@ struct Material {
     glm::vec3 specular_color{1, 1, 1}; // linear; may exceed 1
     // Roughness is 1 - (1 - roughness) times A of the specular colour's texture.
     bool glossiness_texture = false;
-    Coat coat;
-    Sheen sheen;
+    // coat and so on, a member a row.
+#define FROXEL_MEMBER(type, name) io::type name;
+    FROXEL_MATERIAL_FACTORS(FROXEL_MEMBER)
+#undef FROXEL_MEMBER
     // base_color_texture and so on, a member a row.
 #define FROXEL_SLOT(number, name, colour) TextureSlot name##_texture;
     FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)

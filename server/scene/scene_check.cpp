@@ -5,6 +5,8 @@
 #include "scene/transform.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace froxel::scene {
@@ -84,6 +86,13 @@ Fault faultIn(const TextureSlot& slot, const char* name, const Scene& scene) {
     return isFinite(slot.scale) ? Fault() : of + "scale is not finite";
 }
 
+// Of a row of interface/material_factors.h, which consists of floats.
+template <class Factors>
+bool areFinite(const Factors& factors) {
+    const auto numbers = std::bit_cast<std::array<float, sizeof(Factors) / sizeof(float)>>(factors);
+    return std::ranges::all_of(numbers, [](float number) { return isFinite(number); });
+}
+
 Fault faultIn(const Material& m, const Scene& scene) {
     const std::pair<const char*, bool> factors[] = {
         {"base_color", isFinite(m.base_color)},
@@ -96,11 +105,10 @@ Fault faultIn(const Material& m, const Scene& scene) {
         {"ior", isFinite(m.ior)},
         {"specular", isFinite(m.specular)},
         {"specular_color", isFinite(m.specular_color)},
-        {"coat.strength", isFinite(m.coat.strength)},
-        {"coat.roughness", isFinite(m.coat.roughness)},
-        {"coat.normal_scale", isFinite(m.coat.normal_scale)},
-        {"sheen.color", isFinite(m.sheen.color)},
-        {"sheen.roughness", isFinite(m.sheen.roughness)}};
+#define FROXEL_FACTORS(type, name) {#name, areFinite(m.name)},
+        FROXEL_MATERIAL_FACTORS(FROXEL_FACTORS)
+#undef FROXEL_FACTORS
+    };
     for (const auto& [name, right] : factors) {
         if (!right) {
             return std::string(name) + " is not finite";

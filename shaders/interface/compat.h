@@ -12,6 +12,8 @@
 #define FROXEL_IO_NAMESPACE_END }
 #define FROXEL_SIZE_ASSERT(type, bytes) static_assert(sizeof(type) == (bytes))
 #define FROXEL_CONST inline constexpr
+#define FROXEL_USUAL(...)                                                                          \
+    { __VA_ARGS__ } // of a member
 namespace froxel::io {
 using uint = uint32_t;
 using vec2 = glm::vec2;
@@ -27,6 +29,7 @@ using mat4 = glm::mat4;
 #define FROXEL_IO_NAMESPACE_END
 #define FROXEL_SIZE_ASSERT(type, bytes)
 #define FROXEL_CONST const
+#define FROXEL_USUAL(value)
 #endif
 
 #endif

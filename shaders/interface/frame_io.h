@@ -3,6 +3,7 @@
 #define FROXEL_INTERFACE_FRAME_IO_H
 
 #include "compat.h"
+#include "material_factors.h"
 #include "material_slots.h"
 #include "constants.h"
 
@@ -84,20 +85,6 @@ struct UvTransform {
 };
 FROXEL_SIZE_ASSERT(UvTransform, 32);
 
-struct CoatFactors {
-    float strength;
-    float roughness;
-    float normal_scale;
-    float padding0;
-};
-FROXEL_SIZE_ASSERT(CoatFactors, 16);
-
-struct SheenFactors {
-    vec3 color;
-    float roughness;
-};
-FROXEL_SIZE_ASSERT(SheenFactors, 16);
-
 struct Material {
     vec4 base_color;
     vec3 emissive;
@@ -108,11 +95,14 @@ struct Material {
     float alpha_cutoff;
     vec3 specular_f0; // what the index of refraction gives head-on, times the specular colour
     float specular;   // its strength
-    CoatFactors coat;
-    SheenFactors sheen;
+#define FROXEL_MEMBER(type, name) type name;
+    FROXEL_MATERIAL_FACTORS(FROXEL_MEMBER)
+#undef FROXEL_MEMBER
     UvTransform uv[kMaterialSlots];
 };
-FROXEL_SIZE_ASSERT(Material, 96 + 32 * kMaterialSlots);
+#define FROXEL_BYTES(type, name) +sizeof(type)
+FROXEL_SIZE_ASSERT(Material, 64 FROXEL_MATERIAL_FACTORS(FROXEL_BYTES) + 32 * kMaterialSlots);
+#undef FROXEL_BYTES
 
 FROXEL_IO_NAMESPACE_END
 

@@ -45,12 +45,10 @@ io::Material materialUniforms(const scene::Material& m) {
                      .alpha_cutoff = m.alpha_cutoff,
                      .specular_f0 = m.specular_color * (root * root),
                      .specular = m.specular,
-                     .coat = {.strength = m.coat.strength,
-                              .roughness = m.coat.roughness,
-                              .normal_scale = m.coat.normal_scale,
-                              .padding0 = 0},
-                     .sheen = {.color = m.sheen.color, .roughness = m.sheen.roughness},
-                     .uv = {}};
+#define FROXEL_MEMBER(type, name) .name = m.name,
+                     FROXEL_MATERIAL_FACTORS(FROXEL_MEMBER)
+#undef FROXEL_MEMBER
+                         .uv = {}};
     const auto slots = textureSlots(m);
     std::ranges::transform(slots, out.uv, [](const auto* slot) { return uvTransform(*slot); });
     return out;

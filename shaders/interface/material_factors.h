@@ -1,0 +1,32 @@
+// What materials have beyond glTF's core but textures: a struct and a row each, as scenes hold them
+// and as shaders read them. Members, checks and what is uploaded are made of the rows.
+#ifndef FROXEL_INTERFACE_MATERIAL_FACTORS_H
+#define FROXEL_INTERFACE_MATERIAL_FACTORS_H
+
+#include "compat.h"
+
+#define FROXEL_MATERIAL_FACTORS(X)                                                                 \
+    X(CoatFactors, coat)                                                                           \
+    X(SheenFactors, sheen)
+
+FROXEL_IO_NAMESPACE_BEGIN
+
+// A clear coat over all of a material; its normal is the shape's where it has no map of its own.
+struct CoatFactors {
+    float strength FROXEL_USUAL(0); // 0..1; 0: none
+    float roughness FROXEL_USUAL(0);
+    float normal_scale FROXEL_USUAL(1);
+    float padding0 FROXEL_USUAL(0);
+};
+FROXEL_SIZE_ASSERT(CoatFactors, 16);
+
+// Fibres that stand on all of a material, below its coat.
+struct SheenFactors {
+    vec3 color FROXEL_USUAL(0); // 0..1; 0: none
+    float roughness FROXEL_USUAL(0);
+};
+FROXEL_SIZE_ASSERT(SheenFactors, 16);
+
+FROXEL_IO_NAMESPACE_END
+
+#endif
