@@ -40,6 +40,13 @@ constexpr MaterialFactor kSheenFactors[] = {
 constexpr MaterialTexture kSheenTextures[] = {{"sheenColorTexture", io::sheen_color_slot},
                                               {"sheenRoughnessTexture", io::sheen_roughness_slot}};
 
+constexpr MaterialFactor kAnisotropyFactors[] = {
+    {"anisotropyStrength", FactorRange::kUnit,
+     [](Material& m) { return one(m.anisotropy.strength); }},
+    {"anisotropyRotation", FactorRange::kAny,
+     [](Material& m) { return one(m.anisotropy.rotation_rad); }}};
+constexpr MaterialTexture kAnisotropyTextures[] = {{"anisotropyTexture", io::anisotropy_slot}};
+
 constexpr MaterialExtension kRows[] = {
     {.name = kUnlit, .what = "a colour that no light changes"},
     {.name = kEmissiveStrength, .what = "emission brighter than 1"},
@@ -64,6 +71,11 @@ constexpr MaterialExtension kRows[] = {
      .factors = kSheenFactors,
      .textures = kSheenTextures,
      .present = [](const Material& m) { return m.sheen.color != glm::vec3(0); }},
+    {.name = "KHR_materials_anisotropy",
+     .what = "highlights that are longer in one direction, as those of brushed metal",
+     .factors = kAnisotropyFactors,
+     .textures = kAnisotropyTextures,
+     .present = [](const Material& m) { return m.anisotropy.strength != 0; }},
 };
 
 } // namespace

@@ -62,10 +62,15 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
     }
     const double roughness = std::max(s.roughness, kLeastRoughness);
     const double n_dot_v = std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine);
-    const auto albedo = environment::albedoFromTable(n_dot_v, roughness);
+    auto albedo = environment::albedoFromTable(n_dot_v, roughness);
+    glm::dvec3 glossy = glossyAround(s, s.normal, roughness, around);
+    if (isStretched(s, model)) {
+        const AnisotropyAxes axes(s.anisotropy, s.normal, roughness * roughness);
+        glossy = glossyAround(s, axes.bent(s.anisotropy, s.normal, s.to_eye), roughness, around);
+        albedo = environment::albedoFromTable(n_dot_v, std::pow(axes.alpha_t * axes.alpha_b, 0.25));
+    }
     const glm::dvec3 of_dielectric = reflectedShare(s.dielectric_f0, s.dielectric_f90, albedo);
     const glm::dvec3 of_metal = reflectedShare(s.base_color, 1, albedo);
-    const glm::dvec3 glossy = glossyAround(s, s.normal, roughness, around);
     const double entering = 1 - std::max({of_dielectric.x, of_dielectric.y, of_dielectric.z});
     return glm::mix(of_dielectric, of_metal, s.metallic) * glossy +
            s.base_color * ((1 - s.metallic) * entering) * matt;

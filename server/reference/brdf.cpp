@@ -48,6 +48,18 @@ double lobeOf(const Model& model,
                      lobes::visibility(facing, std::abs(glm::dot(normal, to_eye)), alpha2);
 }
 
+// D V of a surface's own highlight, below its coat.
+double baseLobe(const Surface& s, const Model& model, const glm::dvec3& to_light, double facing) {
+    if (isStretched(s, model)) {
+        return AnisotropyAxes(s.anisotropy, s.normal, alphaOf(s.roughness))
+            .lobe(s.normal, to_light, s.to_eye);
+    }
+    const glm::dvec3 sum = to_light + s.to_eye;
+    const double length = glm::length(sum);
+    return lobeOf(model, s.normal, s.roughness, s.to_eye, length > 0 ? sum / length : glm::dvec3(0),
+                  facing);
+}
+
 // What a surface scatters, as a multiple of what one that is no rim does.
 double rimShare(const Surface& s, const Model& model) {
     return std::abs(glm::dot(s.normal, s.to_eye)) < model.rim_width ? 1 + model.rim : 1;
@@ -67,6 +79,11 @@ glm::dvec3 coatAmbient(const Surface& s, const Lights& lights) {
 }
 
 } // namespace
+
+bool isStretched(const Surface& s, const Model& model) {
+    return s.anisotropy.strength > 0 && s.anisotropy.direction != glm::dvec3(0) &&
+           model.shading == settings::ShadingModel::kPbr;
+}
 
 // fresnel_coat() of KHR_materials_clearcoat, whose index of refraction is 1.5.
 double coatShare(const Surface& s, const Model& model) {
@@ -94,8 +111,11 @@ class Banded {
         const double length = glm::length(sum);
         const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
         whole_ += irradiance;
-        addTo(base_, s_.normal, s_.roughness, to_light, half, irradiance);
-        addTo(coat_, s_.coat.normal, s_.coat.roughness, to_light, half, irradiance);
+        addTo(base_, s_.normal, to_light, irradiance,
+              [&](double facing) { return baseLobe(s_, model_, to_light, facing); });
+        addTo(coat_, s_.coat.normal, to_light, irradiance, [&](double facing) {
+            return lobeOf(model_, s_.coat.normal, s_.coat.roughness, s_.to_eye, half, facing);
+        });
     }
 
     // Towards the eye, of bands about `middle`.
@@ -107,14 +127,14 @@ class Banded {
         }
         const glm::dvec3 f0 = glm::mix(s_.dielectric_f0, s_.base_color, s_.metallic);
         glm::dvec3 below = scattered * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) +
-                           f0 * (gloss(base_, s_.roughness) * light);
+                           f0 * (gloss(base_, baseAlpha()) * light);
         if (hasSheen(s_, model_)) { // its fibres scatter as matt surfaces do
             below = below * belowSheen(s_.sheen, cosineToEye(s_)) +
                     sheenReflectance(s_.sheen, cosineToEye(s_)) * (rimShare(s_, model_) * light);
         }
         const double share = coatShare(s_, model_);
         return share > 0
-                   ? below * (1 - share) + share * gloss(coat_, s_.coat.roughness) *
+                   ? below * (1 - share) + share * gloss(coat_, alphaOf(s_.coat.roughness)) *
                                                toonBand(model_.bands, coat_.scattered, middle) /
                                                std::numbers::pi
                    : below;
@@ -125,22 +145,30 @@ class Banded {
         double scattered = 0; // through the ramp
         double lobe = 0;      // times pi
     };
+    // lobe: D V, of n.l.
+    template <class Lobe>
     void addTo(Layer& layer,
                const glm::dvec3& normal,
-               double roughness,
                const glm::dvec3& to_light,
-               const glm::dvec3& half,
-               double irradiance) const {
+               double irradiance,
+               const Lobe& lobe) const {
         const double facing = std::max(0.0, glm::dot(normal, to_light));
         layer.scattered += irradiance * ramped(model_, facing);
         if (facing > 0 && model_.shading != settings::ShadingModel::kLambert) {
-            layer.lobe += irradiance * facing * std::numbers::pi *
-                          lobeOf(model_, normal, roughness, s_.to_eye, half, facing);
+            layer.lobe += irradiance * facing * std::numbers::pi * lobe(facing);
         }
     }
-    [[nodiscard]] double gloss(const Layer& layer, double roughness) const {
-        const double gloss = toonGloss(alphaOf(roughness));
+    // alpha: of a round lobe of as much area
+    [[nodiscard]] double gloss(const Layer& layer, double alpha) const {
+        const double gloss = toonGloss(alpha);
         return layer.lobe >= gloss * whole_ ? gloss : 0;
+    }
+
+    [[nodiscard]] double baseAlpha() const {
+        const double alpha = alphaOf(s_.roughness);
+        return isStretched(s_, model_)
+                   ? std::sqrt(alpha * AnisotropyAxes(s_.anisotropy, s_.normal, alpha).alpha_t)
+                   : alpha;
     }
 
     const Surface& s_;
@@ -169,7 +197,7 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     glm::dvec3 out =
         s.base_color * ((1 - greatest(of_dielectric)) * (1 - s.metallic) * scattered * kInvPi);
     if (facing > 0) {
-        const double lobe = lobeOf(model, s.normal, s.roughness, s.to_eye, half, facing);
+        const double lobe = baseLobe(s, model, to_light, facing);
         out += glm::mix(of_dielectric, of_metal, s.metallic) * (facing * lobe);
     }
     if (hasSheen(s, model)) {

@@ -2,6 +2,7 @@
 // in double.
 #pragma once
 
+#include "reference/anisotropy.h"
 #include "reference/lights.h"
 #include "reference/sheen.h"
 #include "settings/settings.h"
@@ -35,6 +36,7 @@ struct Surface {
     glm::dvec3 emissive{0};
     Coat coat;
     Sheen sheen;
+    Anisotropy anisotropy;
     double alpha = 1;
     bool unlit = false;
 };
@@ -49,6 +51,9 @@ struct Model {
     double rim = 0; // how much more is scattered where n.v is below the rim's width
     double rim_width = 0;
 };
+
+// Whether highlights are not round: Blinn's always are.
+[[nodiscard]] bool isStretched(const Surface& surface, const Model& model);
 
 // The share of what the eye sees of a surface that is its coat's own; 0 where the model knows none.
 [[nodiscard]] double coatShare(const Surface& surface, const Model& model);

@@ -49,6 +49,18 @@ TangentFrame gradientFrame(const SurfacePoint& p, const scene::TextureSlot& slot
     return frame;
 }
 
+// By the file's tangent where it has one.
+TangentFrame tangentFrame(const SurfacePoint& p, const scene::TextureSlot& slot) {
+    if (p.tangent.w == 0) {
+        return gradientFrame(p, slot);
+    }
+    TangentFrame frame;
+    frame.tangent = glm::dvec3(p.tangent);
+    frame.bitangent = glm::cross(p.normal, frame.tangent) * p.tangent.w;
+    frame.known = true;
+    return frame;
+}
+
 } // namespace
 
 Materials::Materials(const scene::Scene& scene,
@@ -104,20 +116,38 @@ glm::dvec3 Materials::normalAt(const scene::Material& material,
     }
     glm::dvec3 bump = glm::dvec3(sample(map, point)) * 2.0 - 1.0;
     bump *= glm::dvec3(glm::dvec2(static_cast<double>(scale)), 1);
-    TangentFrame frame;
-    if (point.tangent.w != 0) {
-        frame.tangent = glm::dvec3(point.tangent);
-        frame.bitangent = glm::cross(point.normal, frame.tangent) * point.tangent.w;
-        frame.known = true;
-    } else {
-        frame = gradientFrame(point, map.settings);
-    }
+    const TangentFrame frame = tangentFrame(point, map.settings);
     if (!frame.known) {
         return point.normal * facing;
     }
     return glm::normalize(frame.tangent * bump.x + frame.bitangent * bump.y +
                           point.normal * bump.z) *
            facing;
+}
+
+Anisotropy Materials::anisotropyAt(const scene::Material& material,
+                                   const Slot& map,
+                                   const SurfacePoint& point) const {
+    Anisotropy out{static_cast<double>(material.anisotropy.strength), glm::dvec3(0)};
+    glm::dvec2 direction(1, 0);
+    if (map.chain != nullptr) {
+        const glm::dvec4 texel = sample(map, point);
+        direction = glm::dvec2(texel) * 2.0 - 1.0;
+        out.strength *= texel.z;
+    }
+    const double turn = static_cast<double>(material.anisotropy.rotation_rad);
+    direction = {std::cos(turn) * direction.x - std::sin(turn) * direction.y,
+                 std::sin(turn) * direction.x + std::cos(turn) * direction.y};
+    const TangentFrame frame = tangentFrame(point, map.settings);
+    if (frame.known) {
+        const glm::dvec3 t = glm::length(frame.tangent) > 0
+                                 ? glm::normalize(frame.tangent)
+                                 : glm::cross(frame.bitangent, point.normal);
+        const glm::dvec3 turned = glm::cross(point.normal, t);
+        const double hand = glm::dot(turned, frame.bitangent) < 0 ? -1 : 1;
+        out.direction = t * direction.x + turned * (hand * direction.y);
+    }
+    return out;
 }
 
 double Materials::alpha(uint32_t material, const SurfacePoint& point) const {
@@ -163,6 +193,9 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
         glm::dvec3(m.sheen.color) * glm::dvec3(sample(look[io::sheen_color_slot], point));
     s.sheen.roughness =
         static_cast<double>(m.sheen.roughness) * sample(look[io::sheen_roughness_slot], point).w;
+    if (m.anisotropy.strength > 0) {
+        s.anisotropy = anisotropyAt(m, look[io::anisotropy_slot], point);
+    }
     return s;
 }
 

@@ -42,6 +42,10 @@ class Materials {
                                       float scale,
                                       const SurfacePoint& point) const;
 
+    // Where highlights are longer, on the shape's surface.
+    [[nodiscard]] Anisotropy
+    anisotropyAt(const scene::Material& material, const Slot& map, const SurfacePoint& point) const;
+
     const scene::Scene& scene_;
     TextureFilter filter_;
     std::map<std::pair<uint32_t, bool>, std::unique_ptr<MipChain>> chains_; // by image, encoding

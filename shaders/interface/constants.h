@@ -25,8 +25,11 @@ FROXEL_CONST uint kMaterialSpecular = 1U << 7;   // reflects unlike a usual diel
 FROXEL_CONST uint kMaterialGlossiness = 1U << 8; // in A of the specular colour
 FROXEL_CONST uint kMaterialCoat = 1U << 9;       // a clear coat over it
 FROXEL_CONST uint kMaterialSheen = 1U << 10;     // fibres over it, below its coat
-// Layers over what glTF's core describes: the shaders of FROXEL_LAYERED alone know them.
-FROXEL_CONST uint kMaterialLayers = kMaterialCoat | kMaterialSheen;
+FROXEL_CONST uint kMaterialAnisotropy = 1U << 11; // highlights of two roughnesses
+// Layers, of which lights add up what each reflects; and what else the G-buffer has no room for.
+// The shaders of FROXEL_LAYERED alone know them.
+FROXEL_CONST uint kMaterialLitLayers = kMaterialCoat | kMaterialSheen;
+FROXEL_CONST uint kMaterialLayers = kMaterialLitLayers | kMaterialAnisotropy;
 
 // Light flags: which lights a frame has and how they are looped over.
 FROXEL_CONST uint kLightLocal = 1U << 0; // any light that has a place

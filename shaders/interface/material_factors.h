@@ -7,7 +7,8 @@
 
 #define FROXEL_MATERIAL_FACTORS(X)                                                                 \
     X(CoatFactors, coat)                                                                           \
-    X(SheenFactors, sheen)
+    X(SheenFactors, sheen)                                                                         \
+    X(AnisotropyFactors, anisotropy)
 
 FROXEL_IO_NAMESPACE_BEGIN
 
@@ -26,6 +27,15 @@ struct SheenFactors {
     float roughness FROXEL_USUAL(0);
 };
 FROXEL_SIZE_ASSERT(SheenFactors, 16);
+
+// Highlights that are longer in one direction of the surface.
+struct AnisotropyFactors {
+    float strength FROXEL_USUAL(0);     // 0..1; 0: none
+    float rotation_rad FROXEL_USUAL(0); // of that direction, from the tangent towards the bitangent
+    float padding0 FROXEL_USUAL(0);
+    float padding1 FROXEL_USUAL(0);
+};
+FROXEL_SIZE_ASSERT(AnisotropyFactors, 16);
 
 FROXEL_IO_NAMESPACE_END
 

@@ -21,7 +21,8 @@
     X(8, coat_roughness, 0) /* G */                                                                \
     X(9, coat_normal, 0)                                                                           \
     X(10, sheen_color, 1)                                                                          \
-    X(11, sheen_roughness, 0) /* A */
+    X(11, sheen_roughness, 0) /* A */                                                              \
+    X(12, anisotropy, 0)      /* RG: direction, B: strength */
 #define FROXEL_MATERIAL_SLOTS(X)                                                                   \
     FROXEL_SURFACE_SLOTS(X)                                                                        \
     FROXEL_LAYER_SLOTS(X)
@@ -33,7 +34,7 @@ FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)
 #undef FROXEL_SLOT
 
 FROXEL_CONST uint kSurfaceSlots = 7U;
-FROXEL_CONST uint kMaterialSlots = 12U;
+FROXEL_CONST uint kMaterialSlots = 13U;
 
 FROXEL_IO_NAMESPACE_END
 

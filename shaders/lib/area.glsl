@@ -172,8 +172,8 @@ void addToFibres(Surface s, AreaRect rect, vec3 to_light, float scale, vec3 colo
         vec3 l = to_part * inv_d;
         float solid_angle = kWeight[i % 3] * kWeight[i / 3] * (inv_d * inv_d) * inv_d;
         taken += solid_angle;
-        addIrradiance(s, dot(s.normal_view, l), dot(s.to_eye_view, l), solid_angle, 0.0, vec3(1.0),
-                      parts);
+        addIrradiance(s, l, dot(s.normal_view, l), dot(s.to_eye_view, l), solid_angle, 0.0,
+                      vec3(1.0), parts);
     }
     precise float radiance = scale * solidAngle(to_light, rect) / taken;
     sum.specular += color * (parts.specular * radiance);

@@ -140,9 +140,9 @@ void addScattered(float scattered, float p, vec3 color, inout LightSum sum) {
     }
 }
 
-// Adds light of irradiance colour * attenuation from direction l; both dot products signed. middle:
-// of its toon bands.
-void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, float middle,
+// Adds light of irradiance colour * attenuation from direction l (unit); both dot products signed.
+// middle: of its toon bands.
+void addIrradiance(Surface s, vec3 l, float n_dot_l, float v_dot_l, float attenuation, float middle,
                    vec3 color, inout LightSum sum) {
     precise float facing = max(n_dot_l, 0.0);
     precise float e = attenuation * facing;
@@ -163,6 +163,8 @@ void addIrradiance(Surface s, float n_dot_l, float v_dot_l, float attenuation, f
     precise float lobe;
     if (isFibres(s)) {
         lobe = fibresLobe(s, n_dot_sum, h2, facing);
+    } else if (isStretched(s)) {
+        lobe = stretchedLobe(s, l, n_dot_sum, h2, facing);
     } else if (hasLight(kLightBlinnPhong)) {
         precise float c2 = min(n_dot_sum * n_dot_sum, h2);
         lobe = s.lobe * lobePower(c2, h2, s.shininess);
@@ -202,7 +204,8 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
     precise float v_dot_l = fma(s.to_eye_view.z, to_light.z,
                                 fma(s.to_eye_view.y, to_light.y, s.to_eye_view.x * to_light.x)) *
                             inv_d;
-    addIrradiance(s, n_dot_l, v_dot_l, attenuation, bandsMiddle(inv_radius2), color, sum);
+    addIrradiance(s, to_light * inv_d, n_dot_l, v_dot_l, attenuation, bandsMiddle(inv_radius2),
+                  color, sum);
 }
 
 // Outgoing radiance of all that was added. Sums of lights as bright as floats go may be infinite,

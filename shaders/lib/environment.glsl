@@ -59,7 +59,7 @@ vec3 environmentRadiance(Surface s, vec3 base_color, float metallic, Dielectric 
     vec2 albedo = lobeAlbedo(s.n_dot_v, lobeRoughness(s));
     vec3 of_dielectric = reflectedShare(dielectric.f0, dielectric.f90, albedo);
     vec3 of_metal = reflectedShare(base_color, 1.0, albedo);
-    vec3 glossy = glossyAround(s, occlusion);
+    vec3 glossy = glossyAround(isStretched(s) ? bentByAnisotropy(s) : s, occlusion);
     float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
     precise vec3 lit = mix(of_dielectric, of_metal, metallic) * glossy +
                        base_color * ((1.0 - metallic) * entering) * matt;

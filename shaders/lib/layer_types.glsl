@@ -3,18 +3,22 @@
 #ifndef FROXEL_LAYER_TYPES
 #define FROXEL_LAYER_TYPES
 #ifdef FROXEL_LAYERED
+#include "lib/anisotropy.glsl"
 #include "lib/coat.glsl"
 #include "lib/sheen.glsl"
 
 struct Layers {
     Coat coat;
     Sheen sheen;
+    Anisotropy anisotropy;
 };
 
 struct LayerSurfaces {
     bool fibres; // lights meet the sheen's, not facets
+    bool round;  // highlights are round, whatever the material's
     CoatSurface coat;
     SheenSurface sheen;
+    AnisotropySurface anisotropy;
 };
 
 struct LayerSums {
@@ -22,7 +26,7 @@ struct LayerSums {
     vec3 sheen;
 };
 
-Layers noLayers(vec3 normal_view) { return Layers(noCoat(normal_view), noSheen()); }
+Layers noLayers(vec3 normal_view) { return Layers(noCoat(normal_view), noSheen(), noAnisotropy()); }
 LayerSums noLayerLight() { return LayerSums(vec3(0.0), vec3(0.0)); }
 #endif
 #endif

@@ -7,6 +7,12 @@ void addLayers(Layers layers, inout Surface s) {
     s.layers.coat = CoatSurface(c.normal_view, c.n_dot_v, c.n_dot_eye, c.alpha2, c.visibility_v,
                                 c.shininess, c.lobe);
     s.layers.fibres = false;
+    s.layers.round = false;
+    if (hasAnisotropy()) {
+        s.layers.anisotropy = anisotropySurface(layers.anisotropy, s.normal_view, sqrt(s.alpha2));
+        // Elsewhere it is round, and of as much area.
+        s.alpha2 = s.layers.anisotropy.alpha_t * s.layers.anisotropy.alpha_b;
+    }
     if (hasSheen()) {
         s.layers.sheen = sheenSurface(layers.sheen, s.n_dot_v);
     }
@@ -14,6 +20,7 @@ void addLayers(Layers layers, inout Surface s) {
 
 // The coat as a surface by itself.
 Surface coatOf(Surface s) {
+    s.layers.round = true;
     s.normal_view = s.layers.coat.normal_view;
     s.n_dot_v = s.layers.coat.n_dot_v;
     s.n_dot_eye = s.layers.coat.n_dot_eye;
@@ -40,6 +47,38 @@ float fibresLobe(Surface s, float n_dot_sum, float h2, float facing) {
     precise float shading = 1.0 + s.layers.sheen.lambda_v + sheenLambda(s.layers.sheen, facing);
     precise float lobe = d / (4.0 * shading * s.n_dot_v * max(facing, 1e-7));
     return lobe;
+}
+
+bool isStretched(Surface s) { return hasAnisotropy() && !s.layers.round; }
+
+// As fibresLobe(), of facets of two roughnesses. l: unit.
+float stretchedLobe(Surface s, vec3 l, float n_dot_sum, float h2, float facing) {
+    AnisotropySurface a = s.layers.anisotropy;
+    precise vec2 at_l = vec2(dot(a.tangent_view, l), dot(a.bitangent_view, l));
+    precise vec2 at_v =
+        vec2(dot(a.tangent_view, s.to_eye_view), dot(a.bitangent_view, s.to_eye_view));
+    vec2 alpha = vec2(a.alpha_t, a.alpha_b);
+    precise vec3 half_over = vec3((at_l + at_v) / alpha, n_dot_sum);
+    precise float k = dot(half_over, half_over) / h2;
+    precise float v = facing * length(vec3(alpha * at_v, s.n_dot_v)) +
+                      s.n_dot_v * length(vec3(alpha * at_l, facing));
+    precise float lobe = 1.0 / (alpha.x * alpha.y * k * k * v);
+    return lobe;
+}
+
+// As its surroundings see it.
+Surface bentByAnisotropy(Surface s) {
+    AnisotropySurface a = s.layers.anisotropy;
+    float roughness = sqrt(a.alpha_b);
+    float even = 1.0 - a.strength * (1.0 - roughness);
+    precise vec3 across = s.to_eye_view - a.bitangent_view * dot(a.bitangent_view, s.to_eye_view);
+    precise vec3 bent = normalize(mix(across * inversesqrt(max(dot(across, across), 1e-12)),
+                                      s.normal_view, (even * even) * (even * even)));
+    s.normal_view = bent;
+    s.n_dot_eye = dot(bent, s.to_eye_view);
+    s.n_dot_v = max(abs(s.n_dot_eye), 1e-4);
+    s.alpha2 = a.alpha_b * a.alpha_b;
+    return s;
 }
 
 // What a light adds to a layer. Fresnel's term is the eye's, so its two parts are one.
@@ -82,6 +121,9 @@ vec3 largestOfLayers(vec3 own, Surface s, vec3 normal, vec3 from) {
 #define addToLayers(s, sum, add)
 bool isFibres(Surface s) { return false; }
 float fibresLobe(Surface s, float n_dot_sum, float h2, float facing) { return 0.0; }
+bool isStretched(Surface s) { return false; }
+float stretchedLobe(Surface s, vec3 l, float n_dot_sum, float h2, float facing) { return 0.0; }
+Surface bentByAnisotropy(Surface s) { return s; }
 bool layersFace(Surface s, vec3 l) { return false; }
 void hideLayers(inout Surface s) {}
 vec3 highestNormal(Surface s) { return s.normal_view; }

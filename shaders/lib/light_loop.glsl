@@ -168,11 +168,11 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
     if (hasLight(kLightDirectional)) {
         for (uint i = 0; i < frame.directional_count; ++i) {
             vec3 l = -suns[i].direction_view;
-            addIrradiance(s, dot(s.normal_view, l), dot(s.to_eye_view, l), 1.0, 0.0, suns[i].color,
-                          sum);
+            addIrradiance(s, l, dot(s.normal_view, l), dot(s.to_eye_view, l), 1.0, 0.0,
+                          suns[i].color, sum);
             addToLayers(s, sum,
-                        addIrradiance(layer, dot(layer.normal_view, l), dot(s.to_eye_view, l), 1.0,
-                                      0.0, suns[i].color, of_layer));
+                        addIrradiance(layer, l, dot(layer.normal_view, l), dot(s.to_eye_view, l),
+                                      1.0, 0.0, suns[i].color, of_layer));
         }
     }
     if (hasLight(kLightRim) && s.n_dot_v < frame.toon_rim_width) {

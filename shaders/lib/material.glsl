@@ -35,38 +35,52 @@ vec4 baseColor(VertexData v) {
 
 bool maskedOut(vec4 base) { return hasMaterial(kMaterialMask) && base.a < material.alpha_cutoff; }
 
-// The tangent frame of a triangle from screen-space derivatives (Mikkelsen 2020, "Surface Gradient
+// A surface's directions along which u grows and v falls: glTF's green channel points up in the
+// image. The longer of the two is about unit.
+struct TangentFrame {
+    vec3 tangent_view;
+    vec3 bitangent_view;
+    bool known; // false: no texture coordinates to speak of
+};
+
+// From the file's tangents; else from screen-space derivatives (Mikkelsen 2020, "Surface Gradient
 // Based Bump Mapping Framework"): constant over a triangle, right for mirrored texture coordinates,
 // and nothing to store. Derivatives are taken of the same values in every renderer.
+TangentFrame tangentFrame(VertexData v, vec3 n, vec3 position_view, UvTransform transform) {
+    TangentFrame frame;
+    frame.known = true;
+    if (hasMaterial(kMaterialTangents)) {
+        frame.tangent_view = v.tangent_view.xyz;
+        frame.bitangent_view = cross(n, v.tangent_view.xyz) * v.tangent_view.w;
+        return frame;
+    }
+    vec3 dpx = positionDx(position_view);
+    vec3 dpy = positionDy(position_view);
+    vec2 dux = uvDx(v, transform);
+    vec2 duy = uvDy(v, transform);
+    vec3 across_x = cross(n, dpx);
+    vec3 across_y = cross(dpy, n);
+    // Gradients of u and v over the surface, up to a common factor.
+    vec3 t = across_y * dux.x + across_x * duy.x;
+    vec3 b = across_y * dux.y + across_x * duy.y;
+    float longest = max(dot(t, t), dot(b, b));
+    frame.known = longest > 0.0;
+    // Keeps handedness: the area's sign in screen space turns both.
+    float handed = dot(across_y, dpx) < 0.0 ? -1.0 : 1.0;
+    float scale = handed * inversesqrt(longest);
+    frame.tangent_view = t * scale;
+    frame.bitangent_view = b * -scale;
+    return frame;
+}
+
 // `sampled`: of a map that `transform` places.
 vec3 perturbNormal(VertexData v, vec3 n, vec3 position_view, vec3 sampled, UvTransform transform) {
-    vec3 t;
-    vec3 b;
-    if (hasMaterial(kMaterialTangents)) {
-        t = v.tangent_view.xyz;
-        b = cross(n, t) * v.tangent_view.w;
-    } else {
-        vec3 dpx = positionDx(position_view);
-        vec3 dpy = positionDy(position_view);
-        vec2 dux = uvDx(v, transform);
-        vec2 duy = uvDy(v, transform);
-        vec3 across_x = cross(n, dpx);
-        vec3 across_y = cross(dpy, n);
-        // Gradients of u and v over the surface, up to a common factor. glTF's green channel
-        // points up in the image, where v decreases.
-        t = across_y * dux.x + across_x * duy.x;
-        b = across_y * dux.y + across_x * duy.y;
-        float longest = max(dot(t, t), dot(b, b));
-        if (!(longest > 0.0)) {
-            return n; // no texture coordinates to speak of
-        }
-        // Keeps handedness: the area's sign in screen space turns both.
-        float handed = dot(across_y, dpx) < 0.0 ? -1.0 : 1.0;
-        float scale = handed * inversesqrt(longest);
-        t *= scale;
-        b *= -scale;
+    TangentFrame frame = tangentFrame(v, n, position_view, transform);
+    if (!frame.known) {
+        return n;
     }
-    precise vec3 bent = t * sampled.x + b * sampled.y + n * sampled.z;
+    precise vec3 bent =
+        frame.tangent_view * sampled.x + frame.bitangent_view * sampled.y + n * sampled.z;
     return normalize(bent);
 }
 
@@ -125,6 +139,31 @@ Sheen shadeSheen(VertexData v) {
     }
     return sheen;
 }
+
+// n: the shape's normal.
+Anisotropy shadeAnisotropy(VertexData v, vec3 n, vec3 position_view) {
+    Anisotropy a = Anisotropy(material.anisotropy.strength, vec3(0.0));
+    vec2 direction = vec2(1.0, 0.0);
+    if (hasTexture(anisotropy_slot)) {
+        vec3 texel = sampleMaterial(anisotropy, v).xyz;
+        direction = texel.xy * 2.0 - 1.0;
+        a.strength *= texel.z;
+    }
+    float c = cos(material.anisotropy.rotation_rad);
+    float s = sin(material.anisotropy.rotation_rad);
+    direction = vec2(c * direction.x - s * direction.y, s * direction.x + c * direction.y);
+    TangentFrame frame = tangentFrame(v, n, position_view, material.uv[anisotropy_slot]);
+    if (frame.known) {
+        vec3 t = frame.tangent_view;
+        vec3 b = frame.bitangent_view;
+        float t2 = dot(t, t);
+        t = t2 > 0.0 ? t * inversesqrt(t2) : cross(b, n);
+        vec3 turned = cross(n, t);
+        b = dot(turned, b) < 0.0 ? -turned : turned;
+        a.tangent_view = t * direction.x + b * direction.y;
+    }
+    return a;
+}
 #endif
 
 GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
@@ -168,6 +207,9 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     }
     if (hasSheen()) {
         g.layers.sheen = shadeSheen(v);
+    }
+    if (hasAnisotropy()) {
+        g.layers.anisotropy = shadeAnisotropy(v, normalize(v.normal_view), position_view);
     }
 #endif
     return g;

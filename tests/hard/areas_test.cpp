@@ -207,6 +207,27 @@ TEST_F(HardAreas, Sheen_IsNearTheSampledIntegral) {
     }
 }
 
+// Highlights longer in one direction are taken for round ones of as much area.
+TEST_F(HardAreas, Anisotropy_IsAsFarFromTheSampledIntegralAsItsRoundLobe) {
+    auto material = chalk();
+    material.roughness = 0.4F;
+    material.metallic = 1;
+    for (const float strength : {0.3F, 0.8F}) {
+        material.anisotropy.strength = strength;
+        SceneMaker maker(material);
+        maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+        render::Renderer renderer(device(), maker.scene);
+        for (const auto& place : places()) {
+            SCOPED_TRACE(place.name);
+            auto inputs = litBy(place.light, settings::ShadingModel::kPbr);
+            inputs.settings.renderer = settings::Renderer::kNaive;
+            const auto off =
+                differenceTo(refer(renderer, maker.scene, inputs).picture, draw(renderer, inputs));
+            EXPECT_LT(off.rms, strength < 0.5F ? 0.25 : 0.65);
+        }
+    }
+}
+
 // Many, with points and spots among them, each ending somewhere in the picture.
 TEST_F(HardAreas, AmongOthers_ListsAreExact) {
     auto material = chalk();

@@ -172,6 +172,27 @@ TEST_F(HardMaterials, SheenOfAnyRoughness_IsAsDoublePrecisionHasIt) {
     }
 }
 
+// Highlights as long as they go, from the sharpest to the widest.
+TEST_F(HardMaterials, AnisotropyOfAnyRoughness_IsAsDoublePrecisionHasIt) {
+    for (const float roughness : {0.0F, 0.3F, 1.0F}) {
+        SCOPED_TRACE(roughness);
+        SceneMaker maker = glossySphere(roughness);
+        maker.scene.materials[0].anisotropy = {.strength = 1, .rotation_rad = 0.6F};
+        maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
+        maker.point({2, 1, -1}, 6);
+        render::Renderer renderer(device(), maker.scene);
+        auto inputs = hardInputs();
+        inputs.settings.size = {96, 54};
+        inputs.settings.shading = settings::ShadingModel::kPbr;
+        const auto pictures = expectExact(renderer, inputs, Toon::kNo);
+        EXPECT_TRUE(std::ranges::all_of(pictures.naive.radiance,
+                                        [](float v) { return std::isfinite(v) && v >= 0; }));
+        const auto worst = worstOf(pictures.naive, refer(renderer, maker.scene, inputs),
+                                   within(1e-3, roughness == 0 ? 1 : 0.05));
+        EXPECT_LE(worst.ratio, 1) << worst;
+    }
+}
+
 // A smaller highlight would slip between pixels.
 TEST_F(HardMaterials, RoughnessBelowTheLeast_IsTheLeast) {
     const auto drawn = [&](float roughness) {

@@ -89,7 +89,7 @@ TEST_F(Exactness, Lists_Sponza_EqualAllLightsBitForBit) {
 TEST_F(Exactness, Lists_Layers_EqualAllLightsBitForBit) {
     auto scene = makeRoom();
     giveCoats(scene);
-    giveSheen(scene);
+    giveLobes(scene);
     render::Renderer renderer(device(), scene);
     for (const auto transparency :
          {settings::Transparency::kSorted, settings::Transparency::kWeighted,
@@ -124,7 +124,7 @@ TEST_F(Exactness, Lists_Layers_EqualAllLightsBitForBit) {
 TEST_F(Exactness, Layers_OfEveryRenderer_AreTheForwardOnes) {
     auto scene = makeRoom();
     giveCoats(scene);
-    giveSheen(scene);
+    giveLobes(scene);
     scene.materials[1] = scene.materials[0];
     render::Renderer renderer(device(), scene);
     auto inputs = inputsFor(scene.cameras[1].camera, Renderer::kForwardPlus);

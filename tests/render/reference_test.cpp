@@ -222,6 +222,34 @@ TEST_F(Reference, RoomOfSheen_IsWithinItsFit) {
     }
 }
 
+// What is around, too: by the same bent normal on both sides.
+TEST_F(Reference, RoomOfAnisotropy_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    giveReflectances(room);
+    for (const auto& [material, strength, rotation] :
+         {std::tuple(size_t{0}, 0.6F, 0.0F), std::tuple(size_t{2}, 1.0F, 0.7F),
+          std::tuple(size_t{3}, 0.3F, 1.5F), std::tuple(size_t{4}, 1.0F, -2.0F)}) {
+        room.materials[material].anisotropy = {.strength = strength, .rotation_rad = rotation};
+        room.materials[material].roughness = 0.4F;
+    }
+    room.materials[4].coat.strength = 1;
+    room.materials[4].coat.roughness = 0.5F;
+    Compared compared(device(), room);
+    for (const auto& camera : room.cameras) {
+        for (const auto stage :
+             {settings::LightingStage::kFragment, settings::LightingStage::kCompute}) {
+            for (const auto model : {ShadingModel::kPbr, ShadingModel::kBlinnPhong}) {
+                auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
+                inputs.settings.shading = model;
+                inputs.settings.lighting = stage;
+                EXPECT_LT(compared.against(inputs).max_relative, arithmeticBound(2e-4, stage));
+                inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
+                EXPECT_LT(compared.against(inputs).max_relative, arithmeticBound(2e-4, stage));
+            }
+        }
+    }
+}
+
 // Coats and what they cover, here everything that is solid but the leaves, are drawn by the forward
 // shader or, from ids, by its twin in compute.
 TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
@@ -250,6 +278,7 @@ TEST_F(Reference, ToonBandsAndRim_AreTheReferencesButAtSteps) {
     givePlainCoats(coated);
     auto cloth = plain;
     givePlainSheen(cloth);
+    cloth.materials[3].anisotropy = {.strength = 0.8F, .rotation_rad = 0.5F};
     for (const auto& room : {plain, coated, cloth}) {
         Compared compared(device(), room);
         for (const auto renderer : {Renderer::kToonFragment, Renderer::kToonCompute}) {

@@ -116,6 +116,7 @@ void giveEveryTexture(scene::Material& material, uint32_t texcoord, float shift)
     material.coat.strength = 0.7F;
     material.coat.roughness = 0.8F;
     material.sheen = {.color = {0.5F, 0.8F, 0.3F}, .roughness = 0.9F};
+    material.anisotropy = {.strength = 0.8F, .rotation_rad = 0.4F};
     float turn = shift;
     for (auto* slot : scene::textureSlots(material)) {
         *slot = {0, texcoord, {turn, 0.7F * turn}, 0.9F * turn, {1 + turn, 1.3F - 0.5F * turn}};

@@ -138,13 +138,16 @@ void giveCoats(scene::Scene& room) {
     box.coat_texture.texture = 0;
 }
 
-void giveSheen(scene::Scene& room) {
+void giveLobes(scene::Scene& room) {
     room.materials[0].sheen = {.color = {0.9F, 0.5F, 0.2F}, .roughness = 0.3F};
     room.materials[2].sheen = {.color = {0.2F, 0.4F, 1}, .roughness = 0.6F};
     room.materials[3].sheen = {.color = {1, 1, 1}, .roughness = 1};
     room.materials[3].sheen_color_texture.texture = 0;
     room.materials[4].sheen = {.color = {0.4F, 0.8F, 0.4F}, .roughness = 0.8F};
     room.materials[4].sheen_roughness_texture.texture = 2;
+    room.materials[0].anisotropy = {.strength = 0.9F, .rotation_rad = 0.5F};
+    room.materials[4].anisotropy.strength = 0.7F;
+    room.materials[4].anisotropy_texture.texture = 1;
 }
 
 std::optional<scene::Scene> loadSponza() {

@@ -15,9 +15,9 @@ namespace froxel::test {
 // and one in holes.
 void giveCoats(scene::Scene& room);
 
-// The same under fibres: of every roughness, one in colours and one in holes; below coats where it
-// has them.
-void giveSheen(scene::Scene& room);
+// The same under fibres: of every roughness, one in colours and one in holes; and with highlights
+// longer in one direction. Below coats where it has them.
+void giveLobes(scene::Scene& room);
 
 // Crytek Sponza from FROXEL_SPONZA or beside the checkout; none where it is absent.
 [[nodiscard]] std::optional<scene::Scene> loadSponza();

@@ -232,6 +232,7 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
         materials("clear coats", io::kMaterialCoat,
                   "no clear coats: no light is added up a second time"),
         materials("sheen", io::kMaterialSheen, "no sheen: no light is added up by fibres"),
+        materials("anisotropy", io::kMaterialAnisotropy, "no anisotropy: highlights are round"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,

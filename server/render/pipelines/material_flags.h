@@ -25,6 +25,10 @@ using MaterialFlags = uint64_t;
 
 // Any texture: coordinates are fetched.
 inline constexpr MaterialFlags kAnyTexture = ~MaterialFlags{0} << 32U;
+// Whether shaders fetch coordinates; a direction on the surface is derived from them, too.
+[[nodiscard]] constexpr bool fetchesCoordinates(MaterialFlags flags) {
+    return (flags & (kAnyTexture | io::kMaterialAnisotropy)) != 0;
+}
 // What the dielectric part reflects, and what belongs to it.
 inline constexpr MaterialFlags kSpecularFlags =
     MaterialFlags{io::kMaterialSpecular | io::kMaterialGlossiness} |
@@ -36,7 +40,7 @@ inline constexpr MaterialFlags kLayerFlags =
 
 // Over how many surfaces lights are added up where this is: a layer is one of its own.
 [[nodiscard]] constexpr double litSurfaces(MaterialFlags flags) {
-    return 1 + std::popcount(featuresOf(flags) & io::kMaterialLayers);
+    return 1 + std::popcount(featuresOf(flags) & io::kMaterialLitLayers);
 }
 
 } // namespace froxel::render

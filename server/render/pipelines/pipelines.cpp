@@ -260,7 +260,7 @@ vk::raii::Pipeline Pipelines::makeGeometry(GeometryPass pass, const VariantKey& 
     info.constants = constants(key);
     info.layout = peels(pass) ? *peel_layout_ : *geometry_layout_;
     info.depth_format = kDepthFormat;
-    const bool textured = extended || (key.material_flags & kAnyTexture) != 0;
+    const bool textured = extended || fetchesCoordinates(key.material_flags);
     describeVertices(info, surface, textured, surface && extended);
     info.vertex = !surface   ? shaders::depth_vert()
                   : extended ? shaders::surface_extended_vert()

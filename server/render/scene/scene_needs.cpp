@@ -39,6 +39,8 @@ bool shows(const scene::Material& m, uint32_t slot) {
         return m.sheen.color != glm::vec3(0);
     case io::sheen_roughness_slot:
         return m.sheen.color != glm::vec3(0) && m.sheen.roughness != 0;
+    case io::anisotropy_slot:
+        return m.anisotropy.strength != 0;
     default:
         return true;
     }
@@ -69,6 +71,7 @@ MaterialFlags materialFlags(const scene::Material& m) {
             io::kMaterialGlossiness);
         set(m.coat.strength != 0, io::kMaterialCoat);
         set(m.sheen.color != glm::vec3(0), io::kMaterialSheen);
+        set(m.anisotropy.strength != 0, io::kMaterialAnisotropy);
     }
     return flags;
 }

@@ -250,6 +250,20 @@ TEST(Materials, Sheen_IsRead) {
     }
 }
 
+TEST(Materials, Anisotropy_IsRead) {
+    SceneFile file = textured(R"({"extensions": {"KHR_materials_anisotropy": {
+        "anisotropyStrength": 0.5, "anisotropyRotation": -7.5,
+        "anisotropyTexture": {"index": 1, "texCoord": 1}}}})");
+    file.useExtension("KHR_materials_anisotropy", true);
+    const scene::Scene scene = loaded(file.load());
+    const scene::Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.anisotropy.strength, 0.5F);
+    EXPECT_EQ(material.anisotropy.rotation_rad, -7.5F); // any angle is right
+    EXPECT_NE(material.anisotropy_texture.texture, scene::kNone);
+    EXPECT_EQ(material.anisotropy_texture.texcoord, 1U);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
 // A dielectric of infinite index, so that it reflects its specular colour; and what would have been
 // its metalness and roughness is not even loaded.
 TEST(Materials, SpecularGlossiness_WinsOverMetallicRoughness) {

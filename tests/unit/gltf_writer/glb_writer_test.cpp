@@ -122,6 +122,8 @@ std::vector<scene::Material> everyMaterial() {
     glass.coat.normal_scale = 2;
     glass.sheen = {.color = {1, 0.5F, 0.25F}, .roughness = 0.5F};
     glass.sheen_color_texture = {0};
+    glass.anisotropy = {.strength = 0.5F, .rotation_rad = -2};
+    glass.anisotropy_texture = {1};
     glass.sheen_roughness_texture = {1};
     scene::Material glossy;
     glossy.metallic = 0;
@@ -179,11 +181,11 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
     const Glb glb = written(everything(), "everything.glb");
     const json& d = glb.document;
     EXPECT_EQ(d["asset"]["version"], "2.0");
-    EXPECT_EQ(
-        d["extensionsUsed"],
-        json({"KHR_lights_punctual", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-              "KHR_materials_ior", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen",
-              "KHR_materials_specular", "KHR_materials_unlit", "KHR_texture_transform"}));
+    EXPECT_EQ(d["extensionsUsed"],
+              json({"KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
+                    "KHR_materials_emissive_strength", "KHR_materials_ior",
+                    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen",
+                    "KHR_materials_specular", "KHR_materials_unlit", "KHR_texture_transform"}));
     // The chunk is padded to a multiple of four.
     EXPECT_EQ((d["buffers"][0]["byteLength"].get<size_t>() + 3) / 4 * 4, glb.bin.size());
 
@@ -238,6 +240,9 @@ TEST(GlbWriter, Layers_ReadBackAsWritten) {
                     {"clearcoatTexture", {{"index", 1}}},
                     {"clearcoatRoughnessTexture", {{"index", 0}, {"texCoord", 1}}},
                     {"clearcoatNormalTexture", {{"index", 2}, {"scale", 2.0}}}}));
+    EXPECT_EQ(glass["KHR_materials_anisotropy"], json({{"anisotropyStrength", 0.5},
+                                                       {"anisotropyRotation", -2.0},
+                                                       {"anisotropyTexture", {{"index", 1}}}}));
     EXPECT_EQ(glass["KHR_materials_sheen"], json({{"sheenColorFactor", {1.0, 0.5, 0.25}},
                                                   {"sheenRoughnessFactor", 0.5},
                                                   {"sheenColorTexture", {{"index", 0}}},

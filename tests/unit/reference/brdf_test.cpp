@@ -308,6 +308,49 @@ TEST(ReferenceBrdf, SheenOfRoughnessOne_IsASine) {
     EXPECT_EQ(reflected(s, kLambert, direction(0.8, 0)).x, 0);
 }
 
+// By hand: h = n, where D = 1 / (pi at ab) and V = 1 / 4.
+TEST(ReferenceBrdf, AnisotropyHeadOn_IsAsHighAsItsAreaSays) {
+    Surface s = seenFrom({0, 1, 0});
+    s.metallic = 1;
+    s.roughness = 0.5;
+    s.anisotropy = {0.6, {0.3, 5, 0.4}}; // is brought onto the surface
+    const double at = 0.25 + 0.75 * 0.36;
+    EXPECT_NEAR(reflected(s, kPbr, {0, 1, 0}).x, 1 / (kPi * at * 0.25) / 4, 1e-14);
+    // Half a radian off along the longer axis and along the other.
+    const glm::dvec3 along(0.6, 0, 0.8);
+    const glm::dvec3 across(0.8, 0, -0.6);
+    const auto towards = [&](const glm::dvec3& side) {
+        return reflected(s, kPbr, side * std::sin(0.5) + glm::dvec3(0, std::cos(0.5), 0)).x;
+    };
+    EXPECT_GT(towards(along), 2 * towards(across));
+    EXPECT_NEAR(towards(along), towards(-along), 1e-14);
+    // Blinn's lobe is round, whatever the material's.
+    const double blinn = reflected(s, kBlinnPhong, direction(0.5, 0)).x;
+    s.anisotropy.strength = 0;
+    EXPECT_EQ(blinn, reflected(s, kBlinnPhong, direction(0.5, 0)).x);
+}
+
+// A white metal returns no more than comes, whichever way its highlights are long; and light and
+// eye may be swapped.
+TEST(ReferenceBrdf, AnisotropyInAFurnace_ReturnsAtMostAll) {
+    for (const double strength : {0.3, 1.0}) {
+        for (const double turn : {0.0, 0.8, 1.57}) {
+            for (const double angle : {0.0, 0.7, 1.2}) {
+                Surface s = seenFrom(direction(angle, 0.5 + turn));
+                s.metallic = 1;
+                s.roughness = 0.5;
+                s.anisotropy = {strength, {std::cos(0.5), 0, std::sin(0.5)}};
+                EXPECT_LE(albedo(s, kPbr), 1.001) << strength << " " << turn << " " << angle;
+                const glm::dvec3 eye = s.to_eye;
+                const glm::dvec3 light = direction(0.4, 2.5);
+                const double there = reflected(s, kPbr, light).x / light.y;
+                s.to_eye = light;
+                EXPECT_NEAR(reflected(s, kPbr, eye).x / eye.y, there, 1e-12);
+            }
+        }
+    }
+}
+
 TEST(ReferenceBrdf, PbrLobe_SwappingLightAndEye_GivesTheSame) {
     Surface s = seenFrom(direction(0.9, 0.2));
     s.metallic = 1; // the diffuse part's Fresnel term is symmetric too, but say so for the lobe

@@ -122,6 +122,21 @@ TEST(SceneNeeds, Sheen_SetsItsFlagsWhereItHasAColor) {
     EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], io::kMaterialUnlit);
 }
 
+// Its direction is derived from coordinates, texture or none; no light is added up again.
+TEST(SceneNeeds, Anisotropy_SetsItsFlagsWhereItHasStrength) {
+    auto m = plain();
+    m.anisotropy.rotation_rad = 1;
+    m.anisotropy_texture.texture = 0;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U);
+    m.anisotropy.strength = 0.1F;
+    const SceneNeeds needs = findNeeds(sceneWith(m));
+    EXPECT_TRUE(needs.layers);
+    EXPECT_EQ(needs.material_flags[0], textureFlag(io::anisotropy_slot) | io::kMaterialAnisotropy);
+    EXPECT_EQ(litSurfaces(needs.material_flags[0]), 1);
+    EXPECT_TRUE(fetchesCoordinates(io::kMaterialAnisotropy));
+    EXPECT_FALSE(fetchesCoordinates(io::kMaterialCoat | io::kMaterialSheen));
+}
+
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {
     auto m = plain();
     m.unlit = true;
