@@ -47,6 +47,17 @@ constexpr MaterialFactor kAnisotropyFactors[] = {
      [](Material& m) { return one(m.anisotropy.rotation_rad); }}};
 constexpr MaterialTexture kAnisotropyTextures[] = {{"anisotropyTexture", io::anisotropy_slot}};
 
+constexpr MaterialFactor kFilmFactors[] = {
+    {"iridescenceFactor", FactorRange::kUnit, [](Material& m) { return one(m.film.strength); }},
+    {"iridescenceIor", FactorRange::kFromOne, [](Material& m) { return one(m.film.ior); }},
+    {"iridescenceThicknessMinimum", FactorRange::kFromZero,
+     [](Material& m) { return one(m.film.least_nm); }},
+    {"iridescenceThicknessMaximum", FactorRange::kFromZero,
+     [](Material& m) { return one(m.film.most_nm); }}};
+constexpr MaterialTexture kFilmTextures[] = {
+    {"iridescenceTexture", io::film_slot},
+    {"iridescenceThicknessTexture", io::film_thickness_slot}};
+
 constexpr MaterialExtension kRows[] = {
     {.name = kUnlit, .what = "a colour that no light changes"},
     {.name = kEmissiveStrength, .what = "emission brighter than 1"},
@@ -76,6 +87,11 @@ constexpr MaterialExtension kRows[] = {
      .factors = kAnisotropyFactors,
      .textures = kAnisotropyTextures,
      .present = [](const Material& m) { return m.anisotropy.strength != 0; }},
+    {.name = "KHR_materials_iridescence",
+     .what = "a film as thin as light's waves, whose colours change with the angle",
+     .factors = kFilmFactors,
+     .textures = kFilmTextures,
+     .present = [](const Material& m) { return m.film.strength != 0; }},
 };
 
 } // namespace

@@ -19,6 +19,7 @@ enum class FactorRange : uint8_t {
     kUnit,     // 0 to 1
     kFromZero, // 0 or more
     kIor,      // 0 or at least 1
+    kFromOne,  // 1 or more
     kAny,
 };
 

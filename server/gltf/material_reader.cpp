@@ -89,6 +89,11 @@ float MaterialReader::inRange(double value,
             tell("0", "0 or more");
         }
         return static_cast<float>(std::max(value, 0.0));
+    case FactorRange::kFromOne:
+        if (value < 1) {
+            tell("1", "1 or more");
+        }
+        return static_cast<float>(std::max(value, 1.0));
     case FactorRange::kAny:
         return static_cast<float>(value);
     case FactorRange::kIor:

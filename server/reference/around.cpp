@@ -71,9 +71,21 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
     }
     const glm::dvec3 of_dielectric = reflectedShare(s.dielectric_f0, s.dielectric_f90, albedo);
     const glm::dvec3 of_metal = reflectedShare(s.base_color, 1, albedo);
-    const double entering = 1 - std::max({of_dielectric.x, of_dielectric.y, of_dielectric.z});
-    return glm::mix(of_dielectric, of_metal, s.metallic) * glossy +
-           s.base_color * ((1 - s.metallic) * entering) * matt;
+    const auto seen = [&](const glm::dvec3& dielectric, const glm::dvec3& metal) {
+        const double entering = 1 - std::max({dielectric.x, dielectric.y, dielectric.z});
+        return glm::mix(dielectric, metal, s.metallic) * glossy +
+               s.base_color * ((1 - s.metallic) * entering) * matt;
+    };
+    const glm::dvec3 plain = seen(of_dielectric, of_metal);
+    if (s.film.strength == 0) {
+        return plain;
+    }
+    // A film's term is one for all of the lobe.
+    const auto filmed = [&](const glm::dvec3& base_f0) {
+        const glm::dvec3 f = filmReflects(s.film, base_f0, n_dot_v);
+        return f * albedo.all * (1.0 + f * (1 / albedo.all - 1));
+    };
+    return glm::mix(plain, seen(filmed(s.dielectric_f0), filmed(s.base_color)), s.film.strength);
 }
 
 glm::dvec3 coatAround(const Surface& s, const Around& around) {

@@ -17,6 +17,14 @@ double greatest(const glm::dvec3& color) {
     return std::max({color.x, color.y, color.z});
 }
 
+double cosineToEye(const Surface& s) {
+    return std::max(std::abs(glm::dot(s.normal, s.to_eye)), 1e-4);
+}
+
+bool hasFilm(const Surface& s, const Model& model) {
+    return s.film.strength > 0 && model.shading != settings::ShadingModel::kLambert;
+}
+
 glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     const double up = 0.5 + 0.5 * s.normal.y;
     const glm::dvec3 incoming = glm::mix(lights.ground, lights.sky, up);
@@ -26,7 +34,15 @@ glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     // Scaled so that a usual dielectric returns its base colour and its f0.
     const glm::dvec3 dielectric =
         s.base_color * ((1 - greatest(s.dielectric_f0)) / 0.96) + s.dielectric_f0;
-    return incoming * glm::mix(dielectric, s.base_color, s.metallic) * s.occlusion;
+    glm::dvec3 all = glm::mix(dielectric, s.base_color, s.metallic);
+    if (hasFilm(s, model)) {
+        const glm::dvec3 of_dielectric = filmReflects(s.film, s.dielectric_f0, cosineToEye(s));
+        const glm::dvec3 filmed =
+            glm::mix(s.base_color * ((1 - greatest(of_dielectric)) / 0.96) + of_dielectric,
+                     filmReflects(s.film, s.base_color, cosineToEye(s)), s.metallic);
+        all = glm::mix(all, filmed, s.film.strength);
+    }
+    return incoming * all * s.occlusion;
 }
 
 double alphaOf(double roughness) {
@@ -69,10 +85,6 @@ bool hasSheen(const Surface& s, const Model& model) {
     return s.sheen.color != glm::dvec3(0) && model.shading != settings::ShadingModel::kLambert;
 }
 
-double cosineToEye(const Surface& s) {
-    return std::max(std::abs(glm::dot(s.normal, s.to_eye)), 1e-4);
-}
-
 // What a coat reflects of the ambient light, of a share of 1.
 glm::dvec3 coatAmbient(const Surface& s, const Lights& lights) {
     return glm::mix(lights.ground, lights.sky, 0.5 + 0.5 * s.coat.normal.y) * s.occlusion;
@@ -98,6 +110,15 @@ namespace {
 
 double ramped(const Model& model, double facing) {
     return model.ramp != nullptr ? toonRamp(*model.ramp, facing) : facing;
+}
+
+// What a surface that is all under its film sends: `scattered` of its base colour, and a lobe
+// before Fresnel's term.
+glm::dvec3 underFilm(const Surface& s, const glm::dvec3& scattered, const glm::dvec3& lobe) {
+    const glm::dvec3 of_dielectric = filmReflects(s.film, s.dielectric_f0, cosineToEye(s));
+    const glm::dvec3 of_metal = filmReflects(s.film, s.base_color, cosineToEye(s));
+    return scattered * ((1 - greatest(of_dielectric)) * (1 - s.metallic)) +
+           glm::mix(of_dielectric, of_metal, s.metallic) * lobe;
 }
 
 // What one light, in parts, sends to a surface, before it is brought to its bands.
@@ -126,8 +147,12 @@ class Banded {
             return scattered;
         }
         const glm::dvec3 f0 = glm::mix(s_.dielectric_f0, s_.base_color, s_.metallic);
-        glm::dvec3 below = scattered * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) +
-                           f0 * (gloss(base_, baseAlpha()) * light);
+        const double shine = gloss(base_, baseAlpha()) * light;
+        glm::dvec3 below =
+            scattered * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) + f0 * shine;
+        if (hasFilm(s_, model_)) {
+            below = glm::mix(below, underFilm(s_, scattered, glm::dvec3(shine)), s_.film.strength);
+        }
         if (hasSheen(s_, model_)) { // its fibres scatter as matt surfaces do
             below = below * belowSheen(s_.sheen, cosineToEye(s_)) +
                     sheenReflectance(s_.sheen, cosineToEye(s_)) * (rimShare(s_, model_) * light);
@@ -196,17 +221,19 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     // what the strongest reflected channel leaves (KHR_materials_specular).
     glm::dvec3 out =
         s.base_color * ((1 - greatest(of_dielectric)) * (1 - s.metallic) * scattered * kInvPi);
-    if (facing > 0) {
-        const double lobe = baseLobe(s, model, to_light, facing);
-        out += glm::mix(of_dielectric, of_metal, s.metallic) * (facing * lobe);
+    const double lobe = facing > 0 ? facing * baseLobe(s, model, to_light, facing) : 0;
+    out += glm::mix(of_dielectric, of_metal, s.metallic) * lobe;
+    if (hasFilm(s, model)) {
+        out = glm::mix(out, underFilm(s, s.base_color * (scattered * kInvPi), glm::dvec3(lobe)),
+                       s.film.strength);
     }
     if (hasSheen(s, model)) {
         const double n_dot_v = cosineToEye(s);
-        const double lobe =
+        const double fibres =
             facing > 0 ? sheenLobe(glm::dot(s.normal, half), facing, n_dot_v, s.sheen.roughness)
                        : 0;
-        out =
-            out * belowSheen(s.sheen, n_dot_v) + sheenStrength(s.sheen, n_dot_v) * (facing * lobe);
+        out = out * belowSheen(s.sheen, n_dot_v) +
+              sheenStrength(s.sheen, n_dot_v) * (facing * fibres);
     }
     const double share = coatShare(s, model);
     if (share > 0) {

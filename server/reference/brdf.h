@@ -3,6 +3,7 @@
 #pragma once
 
 #include "reference/anisotropy.h"
+#include "reference/film.h"
 #include "reference/lights.h"
 #include "reference/sheen.h"
 #include "settings/settings.h"
@@ -37,6 +38,7 @@ struct Surface {
     Coat coat;
     Sheen sheen;
     Anisotropy anisotropy;
+    Film film;
     double alpha = 1;
     bool unlit = false;
 };

@@ -193,6 +193,11 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
         glm::dvec3(m.sheen.color) * glm::dvec3(sample(look[io::sheen_color_slot], point));
     s.sheen.roughness =
         static_cast<double>(m.sheen.roughness) * sample(look[io::sheen_roughness_slot], point).w;
+    s.film.strength = static_cast<double>(m.film.strength) * sample(look[io::film_slot], point).x;
+    s.film.ior = static_cast<double>(m.film.ior);
+    s.film.thickness_nm =
+        std::lerp(static_cast<double>(m.film.least_nm), static_cast<double>(m.film.most_nm),
+                  sample(look[io::film_thickness_slot], point).y);
     if (m.anisotropy.strength > 0) {
         s.anisotropy = anisotropyAt(m, look[io::anisotropy_slot], point);
     }

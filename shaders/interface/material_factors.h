@@ -8,7 +8,8 @@
 #define FROXEL_MATERIAL_FACTORS(X)                                                                 \
     X(CoatFactors, coat)                                                                           \
     X(SheenFactors, sheen)                                                                         \
-    X(AnisotropyFactors, anisotropy)
+    X(AnisotropyFactors, anisotropy)                                                               \
+    X(FilmFactors, film)
 
 FROXEL_IO_NAMESPACE_BEGIN
 
@@ -36,6 +37,15 @@ struct AnisotropyFactors {
     float padding1 FROXEL_USUAL(0);
 };
 FROXEL_SIZE_ASSERT(AnisotropyFactors, 16);
+
+// A film as thin as light's waves, whose colours change with the angle.
+struct FilmFactors {
+    float strength FROXEL_USUAL(0); // 0..1; 0: none
+    float ior FROXEL_USUAL(1.3F);
+    float least_nm FROXEL_USUAL(100); // its thickness where the texture has 0
+    float most_nm FROXEL_USUAL(400);  // where it has 1, or where there is none
+};
+FROXEL_SIZE_ASSERT(FilmFactors, 16);
 
 FROXEL_IO_NAMESPACE_END
 

@@ -22,7 +22,9 @@
     X(9, coat_normal, 0)                                                                           \
     X(10, sheen_color, 1)                                                                          \
     X(11, sheen_roughness, 0) /* A */                                                              \
-    X(12, anisotropy, 0)      /* RG: direction, B: strength */
+    X(12, anisotropy, 0)      /* RG: direction, B: strength */                                     \
+    X(13, film, 0)            /* R: strength */                                                    \
+    X(14, film_thickness, 0)  /* G */
 #define FROXEL_MATERIAL_SLOTS(X)                                                                   \
     FROXEL_SURFACE_SLOTS(X)                                                                        \
     FROXEL_LAYER_SLOTS(X)
@@ -34,7 +36,7 @@ FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)
 #undef FROXEL_SLOT
 
 FROXEL_CONST uint kSurfaceSlots = 7U;
-FROXEL_CONST uint kMaterialSlots = 13U;
+FROXEL_CONST uint kMaterialSlots = 15U;
 
 FROXEL_IO_NAMESPACE_END
 

@@ -11,7 +11,6 @@
 #include "lib/dielectric.glsl"
 #include "lib/layer_types.glsl"
 
-const float kPi = 3.14159265358979;
 const float kLeastDistance2 = 1e-30; // that the direction to a light is still taken from, m^2
 
 struct Surface {

@@ -5,12 +5,14 @@
 #ifdef FROXEL_LAYERED
 #include "lib/anisotropy.glsl"
 #include "lib/coat.glsl"
+#include "lib/film.glsl"
 #include "lib/sheen.glsl"
 
 struct Layers {
     Coat coat;
     Sheen sheen;
     Anisotropy anisotropy;
+    Film film;
 };
 
 struct LayerSurfaces {
@@ -26,7 +28,9 @@ struct LayerSums {
     vec3 sheen;
 };
 
-Layers noLayers(vec3 normal_view) { return Layers(noCoat(normal_view), noSheen(), noAnisotropy()); }
+Layers noLayers(vec3 normal_view) {
+    return Layers(noCoat(normal_view), noSheen(), noAnisotropy(), noFilm());
+}
 LayerSums noLayerLight() { return LayerSums(vec3(0.0), vec3(0.0)); }
 #endif
 #endif

@@ -166,6 +166,20 @@ Anisotropy shadeAnisotropy(VertexData v, vec3 n, vec3 position_view) {
 }
 #endif
 
+#ifdef FROXEL_LAYERED
+Film shadeFilm(VertexData v) {
+    Film film = Film(material.film.strength, material.film.ior, material.film.most_nm);
+    if (hasTexture(film_slot)) {
+        film.strength *= sampleMaterial(film, v).r;
+    }
+    if (hasTexture(film_thickness_slot)) {
+        film.thickness_nm =
+            mix(material.film.least_nm, material.film.most_nm, sampleMaterial(film_thickness, v).g);
+    }
+    return film;
+}
+#endif
+
 GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool front) {
     precise GbufferSample g;
     g.base_color = clamp(base.rgb, vec3(0.0), vec3(1.0));
@@ -210,6 +224,9 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     }
     if (hasAnisotropy()) {
         g.layers.anisotropy = shadeAnisotropy(v, normalize(v.normal_view), position_view);
+    }
+    if (hasFilm()) {
+        g.layers.film = shadeFilm(v);
     }
 #endif
     return g;

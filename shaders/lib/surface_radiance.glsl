@@ -12,6 +12,39 @@ vec3 mattAround(Surface s, float occlusion) {
     return skyRadiance(s.normal_view) * occlusion;
 }
 
+// `lit`, but what a film takes of the surface: what lights and what is around send from there, by
+// one Fresnel term of the eye's for all. What is around is brought as in ambientRadiance().
+vec3 underFilm(vec3 lit, Surface s, LightSum sum, GbufferSample g) {
+    if (!hasFilm()) {
+        return lit;
+    }
+    Film film = g.layers.film;
+    vec3 of_dielectric = filmReflects(film, g.dielectric.f0, s.n_dot_v);
+    vec3 of_metal = filmReflects(film, g.base_color, s.n_dot_v);
+    float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
+    vec3 albedo = g.base_color * (1.0 - g.metallic);
+    const vec3 kMost = vec3(1e30);
+    precise vec3 lobe = min(sum.specular, kMost) + min(sum.grazing, kMost);
+    precise vec3 scattered = min(sum.diffuse, kMost) + min(sum.edge, kMost);
+    precise vec3 filmed =
+        (albedo * entering * scattered + mix(of_dielectric, of_metal, g.metallic) * lobe * 0.5) /
+        kPi;
+    if (hasLight(kLightEnvironment)) {
+        float whole = lobeAlbedo(s.n_dot_v, lobeRoughness(s)).x;
+        of_dielectric *= whole * (1.0 + of_dielectric * (1.0 / whole - 1.0));
+        of_metal *= whole * (1.0 + of_metal * (1.0 / whole - 1.0));
+        entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
+        filmed += mix(of_dielectric, of_metal, g.metallic) *
+                      glossyAround(isStretched(s) ? bentByAnisotropy(s) : s, g.occlusion) +
+                  albedo * entering * mattAround(s, g.occlusion);
+    } else {
+        filmed += mattAround(s, g.occlusion) * (albedo * (entering / (1.0 - kDielectricF0)) +
+                                                mix(of_dielectric, of_metal, g.metallic));
+    }
+    precise vec3 seen = mix(lit, filmed, film.strength);
+    return seen;
+}
+
 // What the eye sees of a surface whose fibres are over `below`, which does not shine through them
 // by itself. They reflect no more than what comes: at grazing angles their formula would.
 vec3 underSheen(vec3 below, Surface s, LightSum sum, Sheen sheen, float occlusion) {
@@ -54,6 +87,7 @@ vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
     precise vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
                        ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion);
 #ifdef FROXEL_LAYERED
+    lit = underFilm(lit, s, sum, g);
     lit = underSheen(lit, s, sum, g.layers.sheen, g.occlusion);
 #endif
     precise vec3 seen = lit + g.emissive;

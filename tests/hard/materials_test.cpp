@@ -193,6 +193,35 @@ TEST_F(HardMaterials, AnisotropyOfAnyRoughness_IsAsDoublePrecisionHasIt) {
     }
 }
 
+// No film, one far beyond what interferes, one of no index, one over what reflects all.
+TEST_F(HardMaterials, FilmsOfAnyThickness_AreAsDoublePrecisionHasThem) {
+    struct Case {
+        float ior;
+        float most_nm;
+        float base_ior;
+    };
+    for (const auto& [ior, most_nm, base_ior] :
+         {Case{1.3F, 0, 1.5F}, Case{1.3F, 20000, 1.5F}, Case{1, 400, 1.5F}, Case{3, 700, 1},
+          Case{1.3F, 0.02F, 0}}) {
+        SCOPED_TRACE(std::to_string(ior) + " " + std::to_string(most_nm));
+        SceneMaker maker = glossySphere(0.5F);
+        maker.scene.materials[0].film = {.strength = 1, .ior = ior, .most_nm = most_nm};
+        maker.scene.materials[0].ior = base_ior;
+        maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
+        maker.point({2, 1, -1}, 6);
+        render::Renderer renderer(device(), maker.scene);
+        auto inputs = hardInputs();
+        inputs.settings.size = {96, 54};
+        inputs.settings.shading = settings::ShadingModel::kPbr;
+        const auto pictures = expectExact(renderer, inputs, Toon::kNo);
+        EXPECT_TRUE(std::ranges::all_of(pictures.naive.radiance,
+                                        [](float v) { return std::isfinite(v) && v >= 0; }));
+        const auto worst =
+            worstOf(pictures.naive, refer(renderer, maker.scene, inputs), within(1e-3, 0.05));
+        EXPECT_LE(worst.ratio, 1) << worst;
+    }
+}
+
 // A smaller highlight would slip between pixels.
 TEST_F(HardMaterials, RoughnessBelowTheLeast_IsTheLeast) {
     const auto drawn = [&](float roughness) {

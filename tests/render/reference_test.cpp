@@ -250,6 +250,34 @@ TEST_F(Reference, RoomOfAnisotropy_IsWithinArithmetic) {
     }
 }
 
+// Films on dielectrics, metals and both, thin and thick, of all and of a part.
+TEST_F(Reference, RoomOfFilms_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    giveReflectances(room);
+    for (const auto& [material, strength, ior, thickness] :
+         {std::tuple(size_t{0}, 0.8F, 1.8F, 300.0F), std::tuple(size_t{2}, 1.0F, 1.3F, 550.0F),
+          std::tuple(size_t{3}, 1.0F, 1.33F, 900.0F), std::tuple(size_t{4}, 0.5F, 2.4F, 5.0F)}) {
+        room.materials[material].film = {.strength = strength, .ior = ior, .most_nm = thickness};
+    }
+    room.materials[4].coat.strength = 1;
+    room.materials[4].coat.roughness = 0.5F;
+    Compared compared(device(), room);
+    for (const auto& camera : room.cameras) {
+        for (const auto renderer : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+            for (const auto model : {ShadingModel::kPbr, ShadingModel::kBlinnPhong}) {
+                auto inputs = inputsFor(camera.camera, renderer);
+                inputs.settings.shading = model;
+                inputs.settings.lighting = settings::LightingStage::kCompute;
+                const double bound = arithmeticBound(2e-4, settings::LightingStage::kFragment) *
+                                     (renderer == Renderer::kForwardPlus ? 1 : 5);
+                EXPECT_LT(compared.against(inputs).max_relative, bound);
+                inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
+                EXPECT_LT(compared.against(inputs).max_relative, bound);
+            }
+        }
+    }
+}
+
 // Coats and what they cover, here everything that is solid but the leaves, are drawn by the forward
 // shader or, from ids, by its twin in compute.
 TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
@@ -278,6 +306,7 @@ TEST_F(Reference, ToonBandsAndRim_AreTheReferencesButAtSteps) {
     givePlainCoats(coated);
     auto cloth = plain;
     givePlainSheen(cloth);
+    cloth.materials[3].film = {.strength = 0.8F};
     cloth.materials[3].anisotropy = {.strength = 0.8F, .rotation_rad = 0.5F};
     for (const auto& room : {plain, coated, cloth}) {
         Compared compared(device(), room);

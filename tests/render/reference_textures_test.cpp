@@ -117,6 +117,7 @@ void giveEveryTexture(scene::Material& material, uint32_t texcoord, float shift)
     material.coat.roughness = 0.8F;
     material.sheen = {.color = {0.5F, 0.8F, 0.3F}, .roughness = 0.9F};
     material.anisotropy = {.strength = 0.8F, .rotation_rad = 0.4F};
+    material.film = {.strength = 0.7F, .ior = 1.4F, .least_nm = 350, .most_nm = 450};
     float turn = shift;
     for (auto* slot : scene::textureSlots(material)) {
         *slot = {0, texcoord, {turn, 0.7F * turn}, 0.9F * turn, {1 + turn, 1.3F - 0.5F * turn}};

@@ -145,6 +145,8 @@ void giveLobes(scene::Scene& room) {
     room.materials[3].sheen_color_texture.texture = 0;
     room.materials[4].sheen = {.color = {0.4F, 0.8F, 0.4F}, .roughness = 0.8F};
     room.materials[4].sheen_roughness_texture.texture = 2;
+    room.materials[3].film = {.strength = 0.8F, .ior = 1.4F, .least_nm = 200, .most_nm = 600};
+    room.materials[3].film_thickness_texture.texture = 0;
     room.materials[0].anisotropy = {.strength = 0.9F, .rotation_rad = 0.5F};
     room.materials[4].anisotropy.strength = 0.7F;
     room.materials[4].anisotropy_texture.texture = 1;

@@ -16,7 +16,7 @@ namespace froxel::test {
 void giveCoats(scene::Scene& room);
 
 // The same under fibres: of every roughness, one in colours and one in holes; and with highlights
-// longer in one direction. Below coats where it has them.
+// longer in one direction, or under a film. Below coats where it has them.
 void giveLobes(scene::Scene& room);
 
 // Crytek Sponza from FROXEL_SPONZA or beside the checkout; none where it is absent.

@@ -233,6 +233,7 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
                   "no clear coats: no light is added up a second time"),
         materials("sheen", io::kMaterialSheen, "no sheen: no light is added up by fibres"),
         materials("anisotropy", io::kMaterialAnisotropy, "no anisotropy: highlights are round"),
+        materials("iridescence", io::kMaterialFilm, "no iridescence: no thin films"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,

@@ -41,6 +41,10 @@ bool shows(const scene::Material& m, uint32_t slot) {
         return m.sheen.color != glm::vec3(0) && m.sheen.roughness != 0;
     case io::anisotropy_slot:
         return m.anisotropy.strength != 0;
+    case io::film_slot:
+        return m.film.strength != 0;
+    case io::film_thickness_slot:
+        return m.film.strength != 0 && m.film.least_nm != m.film.most_nm;
     default:
         return true;
     }
@@ -72,6 +76,7 @@ MaterialFlags materialFlags(const scene::Material& m) {
         set(m.coat.strength != 0, io::kMaterialCoat);
         set(m.sheen.color != glm::vec3(0), io::kMaterialSheen);
         set(m.anisotropy.strength != 0, io::kMaterialAnisotropy);
+        set(m.film.strength != 0, io::kMaterialFilm);
     }
     return flags;
 }
@@ -112,6 +117,7 @@ SceneNeeds findNeeds(const scene::Scene& scene, bool layers) {
             needs.edges |=
                 material.specular != 1 || material.specular_texture.texture != scene::kNone;
         }
+        needs.edges |= (needs.material_flags.back() & io::kMaterialFilm) != 0;
         needs.layers |= (needs.material_flags.back() & io::kMaterialLayers) != 0 &&
                         material.alpha_mode != scene::AlphaMode::kBlend;
         needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;

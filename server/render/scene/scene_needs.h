@@ -15,8 +15,9 @@ struct SceneNeeds {
     bool wide_lambert = false;                 // the same without metalness
     uint32_t emission_exponent = 0; // emission over 2 to the power of this fits the G-buffer
     bool specular = false; // a solid surface reflects unlike a usual dielectric: ior, specular
-    bool edges = false;    // a surface reflects less than all at its edges: its strength is below 1
-    bool layers = false;   // a solid surface has layers over it: a coat
+    // A surface reflects less than all at its edges: its strength is below 1, or a film is over it.
+    bool edges = false;
+    bool layers = false; // a solid surface has layers over it: a coat
     bool masked = false;
     bool blended = false;
     uint32_t primitive_count = 0;

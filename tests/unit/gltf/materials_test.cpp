@@ -264,6 +264,26 @@ TEST(Materials, Anisotropy_IsRead) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST(Materials, Iridescence_IsRead) {
+    SceneFile file = textured(R"({"extensions": {"KHR_materials_iridescence": {
+        "iridescenceFactor": 0.5, "iridescenceIor": 0.5, "iridescenceThicknessMinimum": -1,
+        "iridescenceThicknessMaximum": 2000, "iridescenceTexture": {"index": 0},
+        "iridescenceThicknessTexture": {"index": 1, "texCoord": 1}}}})");
+    file.useExtension("KHR_materials_iridescence", true);
+    const scene::Scene scene = loaded(file.load());
+    const scene::Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.film.strength, 0.5F);
+    EXPECT_EQ(material.film.ior, 1);
+    EXPECT_EQ(material.film.least_nm, 0);
+    EXPECT_EQ(material.film.most_nm, 2000);
+    EXPECT_NE(material.film_texture.texture, scene::kNone);
+    EXPECT_EQ(material.film_thickness_texture.texcoord, 1U);
+    EXPECT_THAT(test::warningLines(scene),
+                ElementsAre(HasSubstr("material 0 has the iridescenceIor 0.5; 1 is used, since "
+                                      "right is 1 or more"),
+                            HasSubstr("material 0 has the iridescenceThicknessMinimum -1")));
+}
+
 // A dielectric of infinite index, so that it reflects its specular colour; and what would have been
 // its metalness and roughness is not even loaded.
 TEST(Materials, SpecularGlossiness_WinsOverMetallicRoughness) {

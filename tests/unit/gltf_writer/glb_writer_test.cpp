@@ -124,6 +124,9 @@ std::vector<scene::Material> everyMaterial() {
     glass.sheen_color_texture = {0};
     glass.anisotropy = {.strength = 0.5F, .rotation_rad = -2};
     glass.anisotropy_texture = {1};
+    glass.film = {.strength = 0.5F, .ior = 1.5F, .least_nm = 50, .most_nm = 500};
+    glass.film_texture = {1};
+    glass.film_thickness_texture = {0};
     glass.sheen_roughness_texture = {1};
     scene::Material glossy;
     glossy.metallic = 0;
@@ -181,11 +184,12 @@ TEST(GlbWriter, Everything_ReadsBackAsWritten) {
     const Glb glb = written(everything(), "everything.glb");
     const json& d = glb.document;
     EXPECT_EQ(d["asset"]["version"], "2.0");
-    EXPECT_EQ(d["extensionsUsed"],
-              json({"KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
-                    "KHR_materials_emissive_strength", "KHR_materials_ior",
-                    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen",
-                    "KHR_materials_specular", "KHR_materials_unlit", "KHR_texture_transform"}));
+    EXPECT_EQ(
+        d["extensionsUsed"],
+        json({"KHR_lights_punctual", "KHR_materials_anisotropy", "KHR_materials_clearcoat",
+              "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_iridescence",
+              "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen",
+              "KHR_materials_specular", "KHR_materials_unlit", "KHR_texture_transform"}));
     // The chunk is padded to a multiple of four.
     EXPECT_EQ((d["buffers"][0]["byteLength"].get<size_t>() + 3) / 4 * 4, glb.bin.size());
 
@@ -243,6 +247,13 @@ TEST(GlbWriter, Layers_ReadBackAsWritten) {
     EXPECT_EQ(glass["KHR_materials_anisotropy"], json({{"anisotropyStrength", 0.5},
                                                        {"anisotropyRotation", -2.0},
                                                        {"anisotropyTexture", {{"index", 1}}}}));
+    EXPECT_EQ(glass["KHR_materials_iridescence"],
+              json({{"iridescenceFactor", 0.5},
+                    {"iridescenceIor", 1.5},
+                    {"iridescenceThicknessMinimum", 50.0},
+                    {"iridescenceThicknessMaximum", 500.0},
+                    {"iridescenceTexture", {{"index", 1}}},
+                    {"iridescenceThicknessTexture", {{"index", 0}}}}));
     EXPECT_EQ(glass["KHR_materials_sheen"], json({{"sheenColorFactor", {1.0, 0.5, 0.25}},
                                                   {"sheenRoughnessFactor", 0.5},
                                                   {"sheenColorTexture", {{"index", 0}}},

@@ -351,6 +351,40 @@ TEST(ReferenceBrdf, AnisotropyInAFurnace_ReturnsAtMostAll) {
     }
 }
 
+// Where nothing interferes a film is two borders: outer and inner, and all that goes to and fro.
+TEST(ReferenceBrdf, ThickFilm_IsTwoBorders) {
+    const double outer = std::pow(0.5 / 2.5, 2);
+    const double inner = std::pow(0.5 / 3.5, 2); // a base of 2, head-on
+    const double expected = outer + inner * std::pow(1 - outer, 2) / (1 - outer * inner);
+    const glm::dvec3 base_f0(1.0 / 9);
+    const glm::dvec3 thick = filmReflects({1, 1.5, 1e6}, base_f0, 1);
+    EXPECT_NEAR(thick.x, expected, 1e-6);
+    EXPECT_NEAR(thick.z, expected, 1e-6);
+    // A film of no thickness is none.
+    EXPECT_NEAR(filmReflects({1, 1.5, 0}, base_f0, 1).y, 1.0 / 9, 1e-12);
+    // One of a quarter wave and the root of the base's index lets green through.
+    EXPECT_LT(filmReflects({1, std::sqrt(2.0), 550 / 4 / std::sqrt(2.0)}, base_f0, 1).y, 0.01);
+    EXPECT_GT(filmReflects({1, std::sqrt(2.0), 550 / 2 / std::sqrt(2.0)}, base_f0, 1).y, 0.1);
+}
+
+// Never more than comes; of a white metal nearly all.
+TEST(ReferenceBrdf, FilmInAFurnace_ReturnsAtMostAll) {
+    for (const double thickness_nm : {0.0, 150.0, 400.0, 1200.0, 5000.0}) {
+        for (const double angle : {0.0, 0.7, 1.2}) {
+            Surface s = seenFrom(direction(angle, 0.5));
+            s.roughness = 0.3;
+            s.film = {1, 1.5, thickness_nm};
+            s.metallic = 1;
+            EXPECT_LE(albedo(s, kPbr), 1.001);
+            EXPECT_GE(albedo(s, kPbr), 0.85);
+            s.metallic = 0;
+            EXPECT_LE(albedo(s, kPbr), 1.001);
+            s.film.strength = 0.5;
+            EXPECT_LE(albedo(s, kPbr), 1.05); // glTF's own coupling, as above
+        }
+    }
+}
+
 TEST(ReferenceBrdf, PbrLobe_SwappingLightAndEye_GivesTheSame) {
     Surface s = seenFrom(direction(0.9, 0.2));
     s.metallic = 1; // the diffuse part's Fresnel term is symmetric too, but say so for the lobe

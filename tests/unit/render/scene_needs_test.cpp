@@ -137,6 +137,24 @@ TEST(SceneNeeds, Anisotropy_SetsItsFlagsWhereItHasStrength) {
     EXPECT_FALSE(fetchesCoordinates(io::kMaterialCoat | io::kMaterialSheen));
 }
 
+TEST(SceneNeeds, Film_SetsItsFlagsWhereItHasStrength) {
+    auto m = plain();
+    m.film_texture.texture = 0;
+    m.film_thickness_texture.texture = 0;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U);
+    m.film.strength = 0.1F;
+    const SceneNeeds needs = findNeeds(sceneWith(m));
+    EXPECT_TRUE(needs.layers);
+    EXPECT_TRUE(needs.edges); // one Fresnel term for all that is scattered
+    EXPECT_EQ(needs.material_flags[0], textureFlag(io::film_slot) |
+                                           textureFlag(io::film_thickness_slot) |
+                                           io::kMaterialFilm);
+    EXPECT_EQ(litSurfaces(needs.material_flags[0]), 1);
+    m.film.least_nm = m.film.most_nm;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0],
+              textureFlag(io::film_slot) | io::kMaterialFilm);
+}
+
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {
     auto m = plain();
     m.unlit = true;
