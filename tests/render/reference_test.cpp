@@ -222,7 +222,8 @@ TEST_F(Reference, RoomOfSheen_IsWithinItsFit) {
     }
 }
 
-// What is around, too: by the same bent normal on both sides.
+// What is around, too: by the same bent normal on both sides. A rasteriser derives tangents from
+// differences of its own between pixels, which a GPU's snapped corners move: 3.5e-3.
 TEST_F(Reference, RoomOfAnisotropy_IsWithinArithmetic) {
     auto room = makePlainRoom();
     giveReflectances(room);
@@ -242,9 +243,10 @@ TEST_F(Reference, RoomOfAnisotropy_IsWithinArithmetic) {
                 auto inputs = inputsFor(camera.camera, Renderer::kForwardPlus);
                 inputs.settings.shading = model;
                 inputs.settings.lighting = stage;
-                EXPECT_LT(compared.against(inputs).max_relative, arithmeticBound(2e-4, stage));
+                const double bound = 2 * arithmeticBound(1e-4, stage);
+                EXPECT_LT(compared.against(inputs).max_relative, bound);
                 inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
-                EXPECT_LT(compared.against(inputs).max_relative, arithmeticBound(2e-4, stage));
+                EXPECT_LT(compared.against(inputs).max_relative, bound);
             }
         }
     }

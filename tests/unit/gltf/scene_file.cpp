@@ -1,5 +1,7 @@
 #include "unit/gltf/scene_file.h"
 
+#include "gltf/material_extensions.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -134,6 +136,39 @@ Result<scene::Scene> SceneFile::load() const {
 Result<scene::Scene> SceneFile::loadGlb() const {
     const TempFolder folder;
     return gltf::load(folder.write("scene.glb", glb()));
+}
+
+Json everyExtension() {
+    Json all = Json::object();
+    double number = 0.125;
+    int texcoord = 0;
+    for (const MaterialExtension& row : materialExtensions()) {
+        Json keys = Json::object();
+        const auto next = [&](FactorRange range) {
+            number += 0.0078125; // exact in fp32
+            return range == FactorRange::kUnit ? number : 1 + number;
+        };
+        for (const MaterialFactor& factor : row.factors) {
+            scene::Material material;
+            const size_t count = factor.of(material).size();
+            Json values = Json::array();
+            for (size_t i = 0; i < count; ++i) {
+                values.push_back(next(factor.range));
+            }
+            keys[factor.key] = count == 1 ? values[0] : values;
+        }
+        for (const MaterialTexture& texture : row.textures) {
+            keys[texture.key] = {{"index", 0}, {"texCoord", texcoord}};
+            texcoord = 1 - texcoord;
+            if (texture.scale != nullptr) {
+                keys[texture.key]["scale"] = next(FactorRange::kAny);
+            }
+        }
+        if (!keys.empty()) {
+            all[row.name] = keys;
+        }
+    }
+    return all;
 }
 
 scene::Scene loaded(const Result<scene::Scene>& result) {

@@ -97,6 +97,10 @@ class SceneFile {
     [[nodiscard]] Result<scene::Scene> loadIn(const TempFolder& folder) const;
 };
 
+// Every row of the table of material extensions that has factors or textures, with all of its keys:
+// numbers that no two share, textures of index 0 from both sets of coordinates in turn.
+[[nodiscard]] Json everyExtension();
+
 // The scene, or a test failure with the error's line and an empty scene.
 [[nodiscard]] scene::Scene loaded(const Result<scene::Scene>& result);
 
