@@ -21,10 +21,7 @@ vec3 underFilm(vec3 lit, Surface s, LightSum sum, GbufferSample g) {
     Film film = g.layers.film;
     FilmWaves waves = filmWaves(film, s.n_dot_v);
     vec3 of_dielectric = filmReflects(waves, g.dielectric.f0, s.n_dot_v);
-    vec3 of_metal = of_dielectric; // counts for nothing where there is none
-    if (g.metallic > 0.0) {
-        of_metal = filmReflects(waves, g.base_color, s.n_dot_v);
-    }
+    vec3 of_metal = filmReflects(waves, g.base_color, s.n_dot_v);
     float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
     vec3 albedo = g.base_color * (1.0 - g.metallic);
     const vec3 kMost = vec3(1e30);
