@@ -37,11 +37,11 @@ struct ShadowFace {
 // Keep one and build into it again: its buffers are reused.
 struct ShadowFrame {
     std::vector<uint32_t> shadow_of_light; // of each local light: into `lights`, or io::kNoShadow
-    std::vector<io::ShadowLight> lights;   // in light order; empty: the frame has no shadows
+    std::vector<io::ShadowLight> lights;   // in light order
     std::vector<ShadowFace> faces;
     std::vector<ShadowGroup> groups;
     std::vector<InstanceRows> rows; // face_from_object, over the light's reach
-    std::vector<vk::DrawIndexedIndirectCommand> commands;
+    std::vector<vk::DrawIndexedIndirectCommand> commands; // empty: nothing casts a shadow
     io::Frame uniforms{}; // of the passes that draw maps
     uint32_t triangle_count = 0;
 

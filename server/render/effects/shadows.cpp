@@ -130,7 +130,7 @@ class Shadows final : public Effect {
 
     void look(const EffectInputs& inputs, FrameFacts& facts) override {
         buildShadows(scene_, inputs.pose, inputs.lights, inputs.settings, inputs.time_s, frame_);
-        facts.shadows = !frame_.lights.empty();
+        facts.shadows = !frame_.commands.empty(); // else nothing stands before any light
     }
     Result<void> build(const EffectInputs& inputs, const EffectPlan& plan) override {
         settings_ = inputs.settings.shadows;
