@@ -42,7 +42,7 @@ struct ShadowFrame {
     std::vector<ShadowGroup> groups;
     std::vector<InstanceRows> rows; // face_from_object, over the light's reach
     std::vector<vk::DrawIndexedIndirectCommand> commands; // empty: nothing casts a shadow
-    io::Frame uniforms{}; // of the passes that draw maps
+    io::Frame uniforms{};                                 // of the passes that draw maps
     uint32_t triangle_count = 0;
 
     void clear();
