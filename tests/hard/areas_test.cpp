@@ -67,6 +67,12 @@ render::FrameInputs litBy(const settings::PlacedLight& light, settings::ShadingM
     return inputs;
 }
 
+SceneMaker wallOf(const scene::Material& material) {
+    SceneMaker maker(material);
+    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    return maker;
+}
+
 struct Difference {
     double worst = 0; // of the brightest wanted
     double rms = 0;   // of the wanted rms
@@ -123,8 +129,7 @@ TEST_F(HardAreas, Highlights_AreNearTheSampledIntegral) {
         auto material = chalk();
         material.roughness = roughness;
         material.metallic = metallic;
-        SceneMaker maker(material);
-        maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+        const SceneMaker maker = wallOf(material);
         render::Renderer renderer(device(), maker.scene);
         for (const auto shading :
              {settings::ShadingModel::kPbr, settings::ShadingModel::kBlinnPhong}) {
@@ -150,8 +155,7 @@ TEST_F(HardAreas, DielectricsOfTheirOwn_AreNearTheSampledIntegral) {
     material.ior = 2.4F;
     material.specular = 0.5F;
     material.specular_color = {1, 0.5F, 4};
-    SceneMaker maker(material);
-    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    const SceneMaker maker = wallOf(material);
     render::Renderer renderer(device(), maker.scene);
     for (const auto& place : places()) {
         SCOPED_TRACE(place.name);
@@ -171,8 +175,7 @@ TEST_F(HardAreas, Coats_AreNearTheSampledIntegral) {
     material.specular = 0;
     material.coat.strength = 1;
     material.coat.roughness = 0.5F;
-    SceneMaker maker(material);
-    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    const SceneMaker maker = wallOf(material);
     render::Renderer renderer(device(), maker.scene);
     for (const auto& place : places()) {
         SCOPED_TRACE(place.name);
@@ -189,8 +192,7 @@ TEST_F(HardAreas, Sheen_IsNearTheSampledIntegral) {
     material.base_color = {0, 0, 0, 1};
     material.specular = 0;
     material.sheen = {.color = glm::vec3(1), .roughness = 0.5F};
-    SceneMaker maker(material);
-    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    const SceneMaker maker = wallOf(material);
     render::Renderer renderer(device(), maker.scene);
     const std::map<std::string, double> coarse = {{"sliver", 0.2},
                                                   {"large", 0.3},
@@ -214,8 +216,7 @@ TEST_F(HardAreas, Anisotropy_IsAsFarFromTheSampledIntegralAsItsRoundLobe) {
     material.metallic = 1;
     for (const float strength : {0.3F, 0.8F}) {
         material.anisotropy.strength = strength;
-        SceneMaker maker(material);
-        maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+        const SceneMaker maker = wallOf(material);
         render::Renderer renderer(device(), maker.scene);
         for (const auto& place : places()) {
             SCOPED_TRACE(place.name);
@@ -232,8 +233,7 @@ TEST_F(HardAreas, Anisotropy_IsAsFarFromTheSampledIntegralAsItsRoundLobe) {
 TEST_F(HardAreas, AmongOthers_ListsAreExact) {
     auto material = chalk();
     material.roughness = 0.4F;
-    SceneMaker maker(material);
-    maker.add(wallAhead(static_cast<float>(kWall_m)).scene.meshes[0].primitives[0]);
+    const SceneMaker maker = wallOf(material);
     auto inputs = hardInputs();
     std::vector<settings::PlacedLight> placed;
     for (uint32_t i = 0; i < 40; ++i) {

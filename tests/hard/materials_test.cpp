@@ -93,6 +93,23 @@ SceneMaker glossySphere(float roughness) {
     return maker;
 }
 
+// Of glossySphere() under three suns and a lamp: every renderer is exact, and what the naive one
+// draws is finite, not negative and within what is `allowed` of the reference.
+template <class Allowed>
+void expectAsInDouble(gpu::Device& device, SceneMaker& maker, const Allowed& allowed) {
+    maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
+    maker.point({2, 1, -1}, 6);
+    render::Renderer renderer(device, maker.scene);
+    auto inputs = hardInputs();
+    inputs.settings.size = {96, 54};
+    inputs.settings.shading = settings::ShadingModel::kPbr;
+    const auto pictures = expectExact(renderer, inputs, Toon::kNo);
+    EXPECT_TRUE(std::ranges::all_of(pictures.naive.radiance,
+                                    [](float v) { return std::isfinite(v) && v >= 0; }));
+    const auto worst = worstOf(pictures.naive, refer(renderer, maker.scene, inputs), allowed);
+    EXPECT_LE(worst.ratio, 1) << worst;
+}
+
 } // namespace
 
 // Case 24. Spheres show every normal towards the eye: the folds of the octahedron, its corners, its
@@ -156,18 +173,7 @@ TEST_F(HardMaterials, SheenOfAnyRoughness_IsAsDoublePrecisionHasIt) {
             SCOPED_TRACE(std::to_string(roughness) + " " + std::to_string(color));
             SceneMaker maker = glossySphere(0.5F);
             maker.scene.materials[0].sheen = {.color = glm::vec3(color), .roughness = roughness};
-            maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
-            maker.point({2, 1, -1}, 6);
-            render::Renderer renderer(device(), maker.scene);
-            auto inputs = hardInputs();
-            inputs.settings.size = {96, 54};
-            inputs.settings.shading = settings::ShadingModel::kPbr;
-            const auto pictures = expectExact(renderer, inputs, Toon::kNo);
-            EXPECT_TRUE(std::ranges::all_of(pictures.naive.radiance,
-                                            [](float v) { return std::isfinite(v) && v >= 0; }));
-            const auto worst = worstOf(pictures.naive, refer(renderer, maker.scene, inputs),
-                                       within(0.01, roughness < 0.2F ? 1 : 0.05));
-            EXPECT_LE(worst.ratio, 1) << worst;
+            expectAsInDouble(device(), maker, within(0.01, roughness < 0.2F ? 1 : 0.05));
         }
     }
 }
@@ -178,18 +184,7 @@ TEST_F(HardMaterials, AnisotropyOfAnyRoughness_IsAsDoublePrecisionHasIt) {
         SCOPED_TRACE(roughness);
         SceneMaker maker = glossySphere(roughness);
         maker.scene.materials[0].anisotropy = {.strength = 1, .rotation_rad = 0.6F};
-        maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
-        maker.point({2, 1, -1}, 6);
-        render::Renderer renderer(device(), maker.scene);
-        auto inputs = hardInputs();
-        inputs.settings.size = {96, 54};
-        inputs.settings.shading = settings::ShadingModel::kPbr;
-        const auto pictures = expectExact(renderer, inputs, Toon::kNo);
-        EXPECT_TRUE(std::ranges::all_of(pictures.naive.radiance,
-                                        [](float v) { return std::isfinite(v) && v >= 0; }));
-        const auto worst = worstOf(pictures.naive, refer(renderer, maker.scene, inputs),
-                                   within(1e-3, roughness == 0 ? 1 : 0.05));
-        EXPECT_LE(worst.ratio, 1) << worst;
+        expectAsInDouble(device(), maker, within(1e-3, roughness == 0 ? 1 : 0.05));
     }
 }
 
@@ -207,18 +202,7 @@ TEST_F(HardMaterials, FilmsOfAnyThickness_AreAsDoublePrecisionHasThem) {
         SceneMaker maker = glossySphere(0.5F);
         maker.scene.materials[0].film = {.strength = 1, .ior = ior, .most_nm = most_nm};
         maker.scene.materials[0].ior = base_ior;
-        maker.sun({0.3, -0.4, -1}).sun({-1, 0.2, -0.1}).sun({0, 0, -1});
-        maker.point({2, 1, -1}, 6);
-        render::Renderer renderer(device(), maker.scene);
-        auto inputs = hardInputs();
-        inputs.settings.size = {96, 54};
-        inputs.settings.shading = settings::ShadingModel::kPbr;
-        const auto pictures = expectExact(renderer, inputs, Toon::kNo);
-        EXPECT_TRUE(std::ranges::all_of(pictures.naive.radiance,
-                                        [](float v) { return std::isfinite(v) && v >= 0; }));
-        const auto worst =
-            worstOf(pictures.naive, refer(renderer, maker.scene, inputs), within(1e-3, 0.05));
-        EXPECT_LE(worst.ratio, 1) << worst;
+        expectAsInDouble(device(), maker, within(1e-3, 0.05));
     }
 }
 
