@@ -44,8 +44,10 @@ const kGiven: Readonly<Record<string, readonly [number, boolean]>> = {
   target_fps: [1, false], // which every picture meets: none is scaled
 };
 
-/** The hall has no animations, and so no controls of them. */
-const kShownFields = kAllFields.filter(({ name }) => !name.startsWith('animation'));
+/** The hall has neither animations nor material variants, and so no controls of them. */
+const kShownFields = kAllFields.filter(
+  ({ name }) => !name.startsWith('animation') && name !== 'material_variant',
+);
 const kNumbers: readonly NumberField[] = kShownFields.filter((field) => field.kind === 'number');
 const kGivenNumbers = Object.keys(kGiven).map((name) => {
   const field = kNumbers.find((candidate) => candidate.name === name);

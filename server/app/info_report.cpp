@@ -125,6 +125,7 @@ Json sceneReport(const scene::Scene& scene) {
             {"geometry_bytes", geometryBytes(scene)},
             {"texture_bytes", textureBytes(scene)},
             {"cameras", cameras},
+            {"material_variants", scene.material_variants},
             {"lights", lightsOf(scene)},
             {"bounds_m", boundsOf(scene)},
             {"needs", render::sceneWords(render::findNeeds(scene))},

@@ -83,9 +83,12 @@ void addSceneOption(CommandBuilder& command, std::string& target, const std::str
     command.text("--scene", "PATH|builtin", target, shown, "glTF 2.0 or GLB file, or the hall");
 }
 
-void addAnimationOption(CommandBuilder& command, std::string& target) {
-    command.text("--animation", "NAME|NUMBER|none", target, "the scene's first",
+void addSceneChoices(CommandBuilder& command, SceneChoices& target) {
+    constexpr const char* kForm = "NAME|NUMBER|none";
+    command.text("--animation", kForm, target.animation, "the scene's first",
                  "Which of the scene's animations plays, numbers from 1");
+    command.text("--material-variant", kForm, target.material_variant, "none",
+                 "Which of the scene's material variants is shown, numbers from 1");
 }
 
 void addEnvironmentFile(CommandBuilder& command, std::filesystem::path& target) {
@@ -174,7 +177,7 @@ void addServe(CLI::App& app, Targets& targets) {
     CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
     addServeAddresses(command, options);
     addSceneOption(command, options.scene, options.scene);
-    addAnimationOption(command, options.animation);
+    addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device, options.validation);
     command.pipelineCache(options.pipeline_cache);
@@ -206,7 +209,7 @@ void addRender(CLI::App& app, Targets& targets) {
     CommandBuilder command(app, "render", "Draw a picture of a scene, or time its frames");
     auto& settings = options.settings;
     addSceneOption(command, options.scene, options.scene);
-    addAnimationOption(command, options.animation);
+    addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.pipelineCache(options.device.pipeline_cache);

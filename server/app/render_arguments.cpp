@@ -103,8 +103,12 @@ std::vector<std::string> renderArguments(const RenderOptions& options, const std
     Arguments arguments;
     arguments.texts().emplace_back("render");
     arguments.always("--scene", options.scene);
-    if (!options.animation.empty()) {
-        arguments.always("--animation", options.animation);
+    for (const auto& [name, choice] :
+         {std::pair("--animation", &options.choices.animation),
+          std::pair("--material-variant", &options.choices.material_variant)}) {
+        if (!choice->empty()) {
+            arguments.always(name, *choice);
+        }
     }
     if (!options.environment_file.empty()) {
         arguments.always("--environment-file", options.environment_file.string());

@@ -157,12 +157,13 @@ void runRender(const RenderOptions& options) try {
             requireFolderOf(*file);
         }
     }
-    auto scene = loadScene(options.scene, options.animation).value();
+    auto scene = loadScene(options.scene, options.choices).value();
     surround(scene, options.environment_file);
     logWarnings(scene);
     gpu::Device device(options.device);
     auto run = describeRun(options, scene, device.traits());
     run.settings.animation.number = scene.motion ? motion::usualAnimation(*scene.motion) : 0;
+    run.settings.material_variant = scene.material_variant;
     const motion::Playback playback(scene.motion, run.settings.animation, 0);
     if (const auto playing = playback.at(run.time_s)) {
         motion::placeCameras(scene, playing->clips, playing->now_s);

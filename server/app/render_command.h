@@ -1,6 +1,7 @@
 // `froxel render`: a scene to a picture, or to timings along the lights' animation.
 #pragma once
 
+#include "app/scene_source.h"
 #include "app/setting_options.h"
 #include "app/value_parsers.h"
 #include "gpu/device_options.h"
@@ -15,7 +16,7 @@ namespace froxel::app {
 
 struct RenderOptions {
     std::string scene = "builtin";
-    std::string animation;                  // as for loadScene()
+    SceneChoices choices;
     std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceOptions device;
     settings::ViewSettings settings; // but for the camera, which `camera` chooses

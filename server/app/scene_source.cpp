@@ -7,6 +7,7 @@
 #include "motion/posed_scene.h"
 #include "scene/first_look.h"
 #include "scene/motion.h"
+#include "scene/name_list.h"
 #include "settings/setting_rows.h"
 
 #include <spdlog/fmt/fmt.h>
@@ -22,27 +23,32 @@ namespace {
 
 constexpr const char* kBuiltin = "builtin";
 
-// Of Motion::clips; scene::kNone: none plays.
-Result<uint32_t> findAnimation(const std::string& wanted, const std::vector<scene::Clip>& clips) {
-    const auto named = std::ranges::find(clips, wanted, &scene::Clip::name);
-    if (named != clips.end()) {
-        return static_cast<uint32_t>(named - clips.begin());
+// The place of a thing that is named, or numbered from 1, among those that there are; scene::kNone
+// for "none".
+Result<uint32_t> findByName(const std::string& wanted,
+                            const std::vector<std::string>& names,
+                            const char* option,
+                            const char* what) {
+    const auto named = std::ranges::find(names, wanted);
+    if (named != names.end()) {
+        return static_cast<uint32_t>(named - names.begin());
     }
     if (wanted == "none") {
         return scene::kNone;
     }
-    const settings::Range<uint32_t> numbers{"", 1, static_cast<uint32_t>(clips.size())};
+    const settings::Range<uint32_t> numbers{"", 1, static_cast<uint32_t>(names.size())};
     if (const auto number = parseNumber(wanted, numbers)) {
         return *number - 1;
     }
     return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("--animation: '{}' is no animation of this scene; it has {}",
-                             printable(wanted), scene::listOf(clips))};
+                 fmt::format("{}: '{}' is no {} of this scene; it has {}", option,
+                             printable(wanted), what, scene::numberedList(names))};
 }
 
-Result<void> choose(const std::string& animation, scene::Scene& scene) {
-    static const std::vector<scene::Clip> kNoClips;
-    const auto found = findAnimation(animation, scene.motion ? scene.motion->clips : kNoClips);
+Result<void> chooseAnimation(const std::string& wanted, scene::Scene& scene) {
+    const auto names =
+        scene.motion ? scene::namesOf(scene.motion->clips) : std::vector<std::string>();
+    const auto found = findByName(wanted, names, "--animation", "animation");
     if (!found) {
         return found.error();
     }
@@ -54,16 +60,31 @@ Result<void> choose(const std::string& animation, scene::Scene& scene) {
     return {};
 }
 
+Result<void> chooseMaterialVariant(const std::string& wanted, scene::Scene& scene) {
+    const auto found =
+        findByName(wanted, scene.material_variants, "--material-variant", "material variant");
+    if (!found) {
+        return found.error();
+    }
+    scene.material_variant = *found + 1; // kNone becomes 0
+    return {};
+}
+
 } // namespace
 
-Result<scene::Scene> loadScene(const std::string& source, const std::string& animation) {
+Result<scene::Scene> loadScene(const std::string& source, const SceneChoices& choices) {
     auto scene =
         source == kBuiltin ? Result<scene::Scene>(builtin_scene::makeHall()) : gltf::load(source);
     if (!scene) {
         return scene;
     }
-    if (!animation.empty()) {
-        if (auto chosen = choose(animation, *scene); !chosen) {
+    if (!choices.animation.empty()) {
+        if (auto chosen = chooseAnimation(choices.animation, *scene); !chosen) {
+            return chosen.error();
+        }
+    }
+    if (!choices.material_variant.empty()) {
+        if (auto chosen = chooseMaterialVariant(choices.material_variant, *scene); !chosen) {
             return chosen.error();
         }
     }

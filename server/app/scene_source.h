@@ -9,12 +9,17 @@
 
 namespace froxel::app {
 
-// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. `animation`
-// plays: a name in the file, else a number there from 1, or "none"; empty: the first, if there is
-// one. Cameras that move stand where it begins. Errors with one line: kScene;
-// kInvalidArgument where there is no such animation.
+// What of a scene is shown at first: a name in the file, else a number there from 1, or "none".
+struct SceneChoices {
+    std::string animation{};        // empty: the first, if there is one
+    std::string material_variant{}; // empty: none
+};
+
+// `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. Cameras that
+// move stand where the animation begins. Errors with one line: kScene; kInvalidArgument where there
+// is no such animation or variant.
 [[nodiscard]] Result<scene::Scene> loadScene(const std::string& source,
-                                             const std::string& animation = {});
+                                             const SceneChoices& choices = {});
 
 // The settings of a view of it where nobody has asked for others: those given stay, the rest goes
 // by the scene (scene::lookFor()) and `look`, if there is one. The built-in scene begins with the

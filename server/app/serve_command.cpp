@@ -118,7 +118,7 @@ OpenedScene openScene(const ServeOptions& options,
     const gpu::DeviceTraits& traits = device->traits();
 
     report({"loading the scene", 0.1});
-    scene::Scene scene = loadScene(options.scene, options.animation).value();
+    scene::Scene scene = loadScene(options.scene, options.choices).value();
     surround(scene, options.environment_file);
     const scene::FirstView first_view = firstViewOf(scene);
     if (first_view.remark) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/memory_limits.h"
+#include "app/scene_source.h"
 #include "app/setting_options.h"
 #include "gpu/device_options.h"
 #include "net/bind_address.h"
@@ -22,8 +23,8 @@ struct ServeOptions {
     uint16_t port = 8080;                      // 0: any free one; the printed URL tells which
     net::BindAddress admin{"127.0.0.1", 9090}; // for operators; an empty address: nowhere
     std::string scene = "builtin";             // as for loadScene()
-    std::string animation;                     // likewise
-    std::filesystem::path environment_file;    // of light from around; empty: none
+    SceneChoices choices;
+    std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;
     gpu::PipelineCacheOptions pipeline_cache;

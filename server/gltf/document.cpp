@@ -153,6 +153,23 @@ void takeLights(Json& root, Document& document) {
     }
 }
 
+// tinygltf would drop those without a name, and so renumber the others.
+void takeMaterialVariants(const Json& root, Document& document, Warnings& warnings) {
+    const std::string place = "/extensions/KHR_materials_variants/variants";
+    if (!root.contains(Json::json_pointer(place))) {
+        return;
+    }
+    for (const Json& variant : root.at(Json::json_pointer(place))) {
+        auto& names = document.material_variants;
+        if (!variant.is_object()) {
+            warnings.add(warning::kType, place,
+                         place + "/" + std::to_string(names.size()) + " is " + variant.dump() +
+                             "; right is an object; it is one without a name");
+        }
+        names.push_back(variant.is_object() ? variant.value("name", "") : "");
+    }
+}
+
 // tinygltf refuses the whole file for one of these.
 void dropTexturesWithoutIndex(Json& value, const std::string& pointer, Warnings& warnings) {
     for (auto it = value.begin(); it != value.end();) {
@@ -214,6 +231,7 @@ Document readDocument(SceneFolder& folder, Warnings& warnings) {
     takeClips(root, document, warnings);
     takeCameras(root, document);
     takeLights(root, document);
+    takeMaterialVariants(root, document, warnings);
     mendMaterials(root, warnings);
 
     const std::string clean = root.dump();

@@ -80,7 +80,8 @@ struct Document {
     std::vector<SkinSource> skins;
     std::vector<ClipSource> clips;
     std::vector<CameraSource> cameras;
-    std::vector<LightSource> lights; // KHR_lights_punctual
+    std::vector<LightSource> lights;            // KHR_lights_punctual
+    std::vector<std::string> material_variants; // names of KHR_materials_variants
     Bytes file;
     std::span<const std::byte> binary_chunk; // in `file`
 };

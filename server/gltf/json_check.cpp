@@ -23,8 +23,8 @@ using Json = nlohmann::json;
 constexpr std::string_view kSupportedExtensions[] = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_mesh_quantization",
-    "KHR_meshopt_compression",    "KHR_node_visibility",     "KHR_texture_basisu",
-    "KHR_texture_transform",
+    "KHR_materials_variants",     "KHR_meshopt_compression", "KHR_node_visibility",
+    "KHR_texture_basisu",         "KHR_texture_transform",
 };
 
 // They say things about a scene that no picture of it shows.
@@ -37,7 +37,6 @@ constexpr std::string_view kMetadataExtensions[] = {
 constexpr std::string_view kPrimitivesReadWithout[] = {
     "CESIUM_primitive_outline",
     "KHR_gaussian_splatting",
-    "KHR_materials_variants",
 };
 
 struct Required {

@@ -88,6 +88,7 @@ struct RuleTable {
         {"light", {kIndex}},
         {"lights", {kObjects}},
         {"magFilter", {kIndex}},
+        {"mappings", {kObjects}},
         {"material", {kIndex}},
         {"materials", {kObjects}},
         {"matrix", {kNumbers, 16}},
@@ -137,6 +138,7 @@ struct RuleTable {
         {"type", {kWord}},
         {"uri", {kText}},
         {"values", {kObject}},
+        {"variants", {kIndices | kObjects}},
         {"version", {kText}},
         {"visible", {kBool}},
         {"weights", {kNumbers}},
@@ -191,7 +193,8 @@ bool bearsGeometry(std::string_view name, std::string_view path) {
                                            "/extensionsRequired", "/extensionsUsed"};
     const auto below = [&](std::string_view start) { return path.starts_with(start); };
     return std::any_of(std::begin(kWhole), std::end(kWhole), below) ||
-           (below("/meshes/") && path.find("/extensions/") != std::string_view::npos) ||
+           (below("/meshes/") && path.find("/extensions/") != std::string_view::npos &&
+            path.find("/KHR_materials_variants/") == std::string_view::npos) ||
            std::find(std::begin(kGeometry), std::end(kGeometry), name) != std::end(kGeometry);
 }
 

@@ -5,6 +5,7 @@
 #include "gltf/failure.h"
 #include "gltf/stream_repair.h"
 #include "gltf/triangles.h"
+#include "gltf/variant_reader.h"
 #include "gltf/vertex_source.h"
 
 #include <algorithm>
@@ -198,13 +199,27 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     readMotion(source, stream, use, primitive, pointer, user);
     finishNormals(stream.has("NORMAL"), primitive, pointer, user);
     finishTangents(primitive, pointer, user);
-    primitive.material =
-        materials_.withTexcoords(materials_.material(source.material, pointer, user),
-                                 !primitive.uv0.empty(), !primitive.uv1.empty(), pointer, user);
+    readMaterials(source, primitive, pointer, user);
     for (const glm::vec3& position : primitive.positions) {
         primitive.bounds.add(position);
     }
     return primitive;
+}
+
+void MeshReader::readMaterials(const tinygltf::Primitive& source,
+                               scene::Primitive& primitive,
+                               const std::string& pointer,
+                               const std::string& user) {
+    const auto read = [&](int material) {
+        return materials_.withTexcoords(materials_.material(material, pointer, user),
+                                        !primitive.uv0.empty(), !primitive.uv1.empty(), pointer,
+                                        user);
+    };
+    primitive.material = read(source.material);
+    for (const auto& [variant, material] :
+         variantMaterials(source, scene_.material_variants.size(), pointer, user, warnings_)) {
+        primitive.variant_materials.push_back({variant, read(material)});
+    }
 }
 
 std::vector<uint32_t> MeshReader::readIndices(const tinygltf::Primitive& source,

@@ -82,6 +82,11 @@ class MeshReader {
                      scene::Primitive& primitive,
                      const std::string& pointer,
                      const std::string& user);
+    // Of the primitive, whose streams are read, and of its variants.
+    void readMaterials(const tinygltf::Primitive& source,
+                       scene::Primitive& primitive,
+                       const std::string& pointer,
+                       const std::string& user);
     void finishNormals(bool has_normals,
                        scene::Primitive& primitive,
                        const std::string& pointer,

@@ -60,6 +60,7 @@ class Builder {
           motion_(document, placed_, weightCounts(), accessors_, warnings) {}
 
     scene::Scene build(SceneFolder& folder) {
+        scene_.material_variants = document_.material_variants;
         for (uint32_t place = 0; place < placed_.size(); ++place) {
             if (placed_[place].visible) {
                 addMesh(place);

@@ -79,6 +79,7 @@ inline constexpr WarningKind kConeAngles{"KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES"
 inline constexpr WarningKind kNoDirection{"NODE_SCALE_ZERO", kWarning};
 // Materials, textures and images.
 inline constexpr WarningKind kNoIndex{"UNDEFINED_PROPERTY", kWarning};
+inline constexpr WarningKind kVariantTwice{"DUPLICATE_ELEMENTS", kWarning};
 inline constexpr WarningKind kSamplerValue{"VALUE_NOT_IN_LIST", kWarning};
 inline constexpr WarningKind kUri{"INVALID_URI", kWarning};
 inline constexpr WarningKind kFactorRange{"VALUE_NOT_IN_RANGE", kWarning};

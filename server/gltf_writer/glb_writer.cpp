@@ -21,6 +21,7 @@ namespace {
 constexpr uint32_t kGlbMagic = 0x46546C67;  // "glTF"
 constexpr uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
 constexpr uint32_t kBinChunk = 0x004E4942;  // "BIN"
+constexpr const char* kVariantsExtension = "KHR_materials_variants";
 
 // Adds `value` under `key` unless it is empty: glTF forbids empty arrays.
 void addArray(Json& root, const char* key, Json value) {
@@ -61,10 +62,14 @@ Result<void> addPrimitive(const scene::Primitive& primitive,
     if (!primitive.colors.empty()) {
         attributes["COLOR_0"] = buffer.addVectors(primitive.colors);
     }
-    primitives.push_back(
-        {{"attributes", std::move(attributes)},
-         {"indices", buffer.addIndices(primitive.indices, primitive.positions.size())},
-         {"material", primitive.material}});
+    Json json = {{"attributes", std::move(attributes)},
+                 {"indices", buffer.addIndices(primitive.indices, primitive.positions.size())},
+                 {"material", primitive.material}};
+    for (const scene::VariantMaterial& of : primitive.variant_materials) {
+        json["extensions"][kVariantsExtension]["mappings"].push_back(
+            {{"material", of.material}, {"variants", Json::array({of.variant})}});
+    }
+    primitives.push_back(std::move(json));
     return {};
 }
 
@@ -94,6 +99,10 @@ class Document {
         }
         for (const scene::Material& material : scene.materials) {
             materials.push_back(materialJson(material, extensions_));
+        }
+        for (const std::string& name : scene.material_variants) {
+            extensions_.insert(kVariantsExtension);
+            root["extensions"][kVariantsExtension]["variants"].push_back({{"name", name}});
         }
         if (!lights_.empty()) {
             extensions_.insert(kLightsExtension);

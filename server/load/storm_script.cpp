@@ -36,7 +36,7 @@ constexpr std::array kTurns = {
     Turn::kSetDebugView,    Turn::kSetShadows,
     Turn::kSetFog,          Turn::kSetTransparency,
     Turn::kSetPlacedLights, Turn::kSetEnvironment,
-    Turn::kSetAnimation,
+    Turn::kSetAnimation,    Turn::kSetMaterialVariant,
 };
 
 v1::Vec3 vec(double x, double y, double z) {
@@ -52,6 +52,7 @@ v1::Vec3 vec(double x, double y, double z) {
 StormScript::StormScript(const v1::Welcome& welcome, uint32_t viewer)
     : start_(welcome.state()),
       cameras_(welcome.scene().cameras().begin(), welcome.scene().cameras().end()),
+      material_variants_(static_cast<uint32_t>(welcome.scene().material_variants_size())),
       values_(welcome, viewer) {
     for (const v1::SceneAnimation& animation : welcome.scene().animations()) {
         durations_s_.push_back(animation.duration_s());
@@ -204,6 +205,9 @@ void StormScript::fillCommand(v1::ClientMessage& message) {
         return fillLights(*message.mutable_set_lights());
     case Turn::kSetAnimation:
         return fillAnimation(*message.mutable_set_animation());
+    case Turn::kSetMaterialVariant:
+        return message.mutable_set_material_variant()->set_material_variant(
+            values_.whole(0, material_variants_));
     case Turn::kSetGrid:
         return fillGrid(*message.mutable_set_grid());
     case Turn::kSetFog:

@@ -31,6 +31,7 @@ class StormScript final : public Script {
     const v1::ViewState start_;
     std::vector<std::string> cameras_;
     std::vector<double> durations_s_; // of the scene's animations
+    const uint32_t material_variants_;
     RandomValues values_;
     uint64_t count_ = 0;
 };

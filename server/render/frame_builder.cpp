@@ -57,22 +57,22 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     // Only the rasteriser writes one, and only it draws layers where lights are added up there.
     const bool second_target =
         extraFormat(inputs.settings.gbuffer,
-                    storesSpecular(inputs.settings, scene_.needs.specular)) !=
+                    storesSpecular(inputs.settings, pose_.dressing()->needs.specular)) !=
         vk::Format::eUndefined;
     const bool wanted =
         isForward(inputs.settings.renderer)
             ? stage == LightingStage::kCompute || (stage == LightingStage::kAuto && pays)
             : !second_target && (byIds(inputs.geometry) || pays) &&
                   (stage != LightingStage::kFragment ||
-                   !drawsLayers(inputs.settings, scene_.needs.layers));
-    return wanted && scene_.visibility_unusable.empty() && pose_.windsAsAtStart() &&
-           !scene_.visibility().groups.empty();
+                   !drawsLayers(inputs.settings, pose_.dressing()->needs.layers));
+    return wanted && pose_.dressing()->visibility_unusable.empty() && pose_.windsAsAtStart() &&
+           !pose_.dressing()->visibility().groups.empty();
 }
 
 bool FrameBuilder::choosesComputeRaster(const FrameInputs& inputs) {
     const bool wanted = inputs.geometry == GeometryPath::kComputeRaster ||
                         (inputs.geometry == GeometryPath::kAuto && !scene_.device.traits().is_cpu);
-    return wanted && scene_.visibility().compute_unusable.empty();
+    return wanted && pose_.dressing()->visibility().compute_unusable.empty();
 }
 
 bool FrameBuilder::prepass(const FrameInputs& inputs) const {
@@ -92,18 +92,18 @@ bool FrameBuilder::prepass(const FrameInputs& inputs) const {
 
 bool FrameBuilder::layersVisible() const {
     const auto has = [](MaterialFlags flags) { return (flags & io::kMaterialLayers) != 0; };
-    return visibility_ ? has(scene_.visibility().material_flags)
+    return visibility_ ? has(pose_.dressing()->visibility().material_flags)
                        : std::ranges::any_of(draws_.solid, has, &DrawGroup::material_flags);
 }
 
 FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
     const auto& traits = scene_.device.traits();
     return {.wide_gbuffer = inputs.settings.shading == settings::ShadingModel::kLambert
-                                ? scene_.needs.wide_lambert
-                                : scene_.needs.wide_gbuffer,
-            .emission_exponent = scene_.needs.emission_exponent,
-            .specular = scene_.needs.specular,
-            .edges = scene_.needs.edges,
+                                ? pose_.dressing()->needs.wide_lambert
+                                : pose_.dressing()->needs.wide_gbuffer,
+            .emission_exponent = pose_.dressing()->needs.emission_exponent,
+            .specular = pose_.dressing()->needs.specular,
+            .edges = pose_.dressing()->needs.edges,
             .layers_visible = layersVisible(),
             .transparent_visible = !draws_.transparent.empty(),
             .local_lights = !lights_.lights.empty(),
@@ -181,6 +181,7 @@ void FrameBuilder::start(const FrameInputs& inputs, bool in_parts) {
     cap_.reset();
     assignment_.reset();
     const auto& settings = inputs_.settings;
+    pose_.wear(settings.material_variant);
     pose_.standAt(inputs_.time_s, inputs_.playing);
     farthest_m_ = farthestDepth(settings.camera, pose_.boundsWorld());
     projection_ = makeProjection(settings.camera, settings.size, farthest_m_);
@@ -210,7 +211,7 @@ void FrameBuilder::startCulling() {
                           !visibility_, order, draws_);
             if (visibility_) {
                 placeInstances(pose_.instances(), settings.camera, draws_.rows, instances_);
-                orderMeshlets(scene_.visibility(), draws_.rows, meshlet_order_);
+                orderMeshlets(pose_.dressing()->visibility(), draws_.rows, meshlet_order_);
             }
         });
 }
@@ -443,11 +444,12 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
         }
     }
     if (plan.visibility_shade || (plan.layers && plan.visibility)) {
-        load.lit_surfaces = std::max(
-            load.lit_surfaces, litSurfaces(scene_.visibility().material_flags & forward_flags));
+        load.lit_surfaces =
+            std::max(load.lit_surfaces,
+                     litSurfaces(pose_.dressing()->visibility().material_flags & forward_flags));
     }
     if (plan.visibility) {
-        const VisibilityScene& visible = scene_.visibility();
+        const VisibilityScene& visible = pose_.dressing()->visibility();
         load.device_triangles = visible.triangle_count;
         load.resolve_count = visible.pipelines.bindless()
                                  ? 1

@@ -108,20 +108,21 @@ void FrameMaker::preparePose(FrameSlot& slot, const UploadOffsets& offsets) {
 
 void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
     if (!slot.visibility) {
-        slot.visibility = std::make_unique<VisibilityFrame>(scene_.device, scene_.visibility());
+        slot.visibility =
+            std::make_unique<VisibilityFrame>(scene_.device, slot.dressing->visibility());
     }
     const auto& t = *slot.targets;
     slot.visibility->write(
         {.resources = scene_,
-         .scene = scene_.visibility(),
+         .scene = slot.dressing->visibility(),
          .vertices = vertexBuffers(scene_, slot.posed.get()),
          .instances = {slot.upload.buffer(), offsets.instances,
                        scene_.instances.size() * sizeof(io::InstanceView)},
          .order = {slot.upload.buffer(), offsets.meshlet_order,
-                   scene_.visibility().placed.size() * sizeof(uint32_t)},
+                   slot.dressing->visibility().placed.size() * sizeof(uint32_t)},
          .ids = *t.ids.view,
          .gbuffer = t.needs.gbuffer ? *t.gbuffer.view : *t.ids.view,
-         .raster = t.rastered_in_compute ? &scene_.visibility().computeRaster() : nullptr,
+         .raster = t.rastered_in_compute ? &slot.dressing->visibility().computeRaster() : nullptr,
          .words = *t.words.handle,
          .depth = *t.compute_depth.view});
 }
@@ -150,7 +151,7 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     slot.stats.kept = plan.kept;
     slot.stats.triangle_count = builder_.draws().triangle_count;
     if (plan.visibility) { // the host does not know what the device culls
-        slot.stats.triangle_count += scene_.visibility().triangle_count;
+        slot.stats.triangle_count += slot.dressing->visibility().triangle_count;
     }
     slot.stats.draw_count = static_cast<uint32_t>(builder_.draws().commands.size());
     slot.effects.assign(effects_.ofFrame().begin(), effects_.ofFrame().end());
@@ -265,6 +266,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     }
     prepareTargets(slot, plan, inputs.settings.size, asked.settings.size);
     prepareBlend(slot, plan);
+    slot.dressing = builder_.pose().dressing();
     const UploadOffsets offsets = builder_.upload(slot, effects_.ofFrame());
     prepareParts(slot, plan, offsets);
     recordFrame(
@@ -273,7 +275,7 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
          .plan = plan,
          .draws = builder_.draws(),
          .offsets = offsets,
-         .visibility = plan.visibility ? &scene_.visibility() : nullptr,
+         .visibility = plan.visibility ? &slot.dressing->visibility() : nullptr,
          .debug = plan.debug != settings::DebugView::kNone ? &builder_.debugFrame() : nullptr,
          .effects = effects_.ofFrame(),
          .pieces = slot.pieces,

@@ -47,6 +47,7 @@ class FrameMaker {
 
     // Of the frame recorded last; null: none, or none of that.
     [[nodiscard]] const ViewTargets* targets() const { return targets_.get(); }
+    [[nodiscard]] Dressing& dressing() const { return *builder_.pose().dressing(); }
     [[nodiscard]] const ViewEffects& effects() const { return effects_; }
 
   private:

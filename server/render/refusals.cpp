@@ -60,9 +60,11 @@ Result<void> storable(const FrameInputs& inputs, bool specular) {
 }
 
 // Peeling tells triangles apart and counts what it leaves out. Errors: kUnsupported.
-Result<void> peelable(const FrameInputs& inputs, const SceneResources& scene) {
+Result<void>
+peelable(const FrameInputs& inputs, const SceneResources& scene, const Dressing& dressing) {
     const auto& traits = scene.device.traits();
-    if (inputs.settings.transparency != settings::Transparency::kPeeled || !scene.needs.blended) {
+    if (inputs.settings.transparency != settings::Transparency::kPeeled ||
+        !dressing.needs.blended) {
         return {};
     }
     const std::string lacks = !traits.visibility_lacks.empty() ? traits.visibility_lacks
@@ -79,19 +81,20 @@ Result<void> peelable(const FrameInputs& inputs, const SceneResources& scene) {
 } // namespace
 
 Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
-    if (const auto& why = scene.visibility_unusable; !why.empty() && needsVisibility(inputs)) {
+    const auto dressing = scene.dressing(inputs.settings.material_variant);
+    if (const auto& why = dressing->visibility_unusable; !why.empty() && needsVisibility(inputs)) {
         return Error{ErrorCode::kUnsupported, "lighting: compute is not available for renderer " +
                                                   rendererName(inputs) + ", since " + why +
                                                   "; use auto or fragment"};
     }
-    const bool specular = storesSpecular(inputs.settings, scene.needs.specular);
+    const bool specular = storesSpecular(inputs.settings, dressing->needs.specular);
     if (auto shown = showable(inputs, specular); !shown) {
         return shown;
     }
     if (auto stored = storable(inputs, specular); !stored) {
         return stored;
     }
-    if (auto peeled = peelable(inputs, scene); !peeled) {
+    if (auto peeled = peelable(inputs, scene, *dressing); !peeled) {
         return peeled;
     }
     for (const EffectRow* row : effectRows()) {
@@ -102,9 +105,9 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
         }
     }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
-        !scene.visibility().compute_unusable.empty()) {
+        !dressing->visibility().compute_unusable.empty()) {
         return Error{ErrorCode::kUnsupported, "ids cannot be rastered in compute, since " +
-                                                  scene.visibility().compute_unusable};
+                                                  dressing->visibility().compute_unusable};
     }
     return {};
 }

@@ -247,7 +247,8 @@ Result<LinearImage> ViewRenderer::readLinear() {
 Result<Visibility> ViewRenderer::readVisibility(const scene::Scene& scene) {
     FROXEL_ASSERT(impl_->maker.targets(), "readVisibility needs a frame");
     try {
-        return copyVisibility(impl_->scene, *impl_->maker.targets(), scene);
+        return copyVisibility(impl_->scene, impl_->maker.dressing(), *impl_->maker.targets(),
+                              scene);
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice,
                      std::string("reading the visible triangles failed: ") + error.what()};

@@ -80,8 +80,10 @@ class IdNames {
 
 } // namespace
 
-Visibility
-copyVisibility(SceneResources& resources, const ViewTargets& targets, const scene::Scene& scene) {
+Visibility copyVisibility(SceneResources& resources,
+                          Dressing& dressing,
+                          const ViewTargets& targets,
+                          const scene::Scene& scene) {
     const size_t count = size_t{targets.size.width_px} * targets.size.height_px;
     Visibility visibility{
         targets.size.width_px, targets.size.height_px, {}, {}, textureFilter(resources.device)};
@@ -98,7 +100,7 @@ copyVisibility(SceneResources& resources, const ViewTargets& targets, const scen
                                                      : vk::ImageAspectFlagBits::eDepth,
                          readback.buffer, count * sizeof(uint32_t));
     });
-    IdNames names(scene, resources.visibility());
+    IdNames names(scene, dressing.visibility());
     const std::byte* ids = readback.buffer.mapped;
     const std::byte* depths = ids + count * sizeof(uint32_t);
     for (size_t i = 0; i < count; ++i) {
@@ -119,6 +121,7 @@ readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs
     settings::ViewSettings plain; // nothing but surfaces
     plain.camera = inputs.settings.camera;
     plain.size = inputs.settings.size;
+    plain.material_variant = inputs.settings.material_variant;
     plain.shading = settings::ShadingModel::kLambert;
     plain.lights.count = 0;
     plain.lights.scene_lights = false;

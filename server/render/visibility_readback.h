@@ -9,6 +9,7 @@
 
 namespace froxel::render {
 
+class Dressing;
 struct ViewTargets;
 
 // Draws the solid surfaces of `inputs` by the visibility passes, without lights, and reads them
@@ -19,7 +20,9 @@ readVisibility(Renderer& renderer, const scene::Scene& scene, FrameInputs inputs
 
 // The same of a frame that took the visibility passes and is complete, out of its targets.
 // Throws vk::SystemError.
-[[nodiscard]] Visibility
-copyVisibility(SceneResources& resources, const ViewTargets& targets, const scene::Scene& scene);
+[[nodiscard]] Visibility copyVisibility(SceneResources& resources,
+                                        Dressing& dressing,
+                                        const ViewTargets& targets,
+                                        const scene::Scene& scene);
 
 } // namespace froxel::render

@@ -41,9 +41,6 @@ struct Clip {
     std::vector<Channel> channels;
 };
 
-// "1 walk, 2 (nameless)", for messages: printable and of bounded length. "none": there are none.
-[[nodiscard]] std::string listOf(const std::vector<Clip>& clips);
-
 struct Node {
     uint32_t parent = kNone;          // before it in Motion::nodes
     Transform rest;                   // without clips
@@ -113,5 +110,13 @@ struct Motion {
     std::vector<Clip> clips;
     uint32_t played = 0; // of clips, where nobody chose another; none there: nothing plays
 };
+
+[[nodiscard]] inline std::vector<std::string> namesOf(const std::vector<Clip>& clips) {
+    std::vector<std::string> names;
+    for (const Clip& clip : clips) {
+        names.push_back(clip.name);
+    }
+    return names;
+}
 
 } // namespace froxel::scene

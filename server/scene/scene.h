@@ -129,6 +129,12 @@ inline void clearTexture(Material& material, TextureSlot& slot) {
         material.glossiness_texture && material.specular_color_texture.texture != kNone;
 }
 
+// A primitive's material in one of Scene::material_variants.
+struct VariantMaterial {
+    uint32_t variant = 0; // from 0
+    uint32_t material = 0;
+};
+
 // Triangles of one material. Optional streams are empty or have one element per vertex.
 struct Primitive {
     std::vector<glm::vec3> positions; // object space
@@ -140,7 +146,8 @@ struct Primitive {
     std::vector<glm::vec4> colors;    // optional: linear, 0..1
     std::vector<uint32_t> indices;    // three per triangle, each < positions.size()
     uint32_t material = 0;            // always valid
-    Bounds3 bounds;                   // of positions
+    std::vector<VariantMaterial> variant_materials; // by rising variant; in the others: material
+    Bounds3 bounds;                                 // of positions
 };
 
 struct Mesh {
@@ -189,6 +196,9 @@ struct Scene {
     std::vector<Sampler> samplers;
     std::vector<Texture> textures;
     std::vector<Material> materials;
+    // KHR_materials_variants: their names, as the file has them: may be empty, may be another's.
+    std::vector<std::string> material_variants;
+    uint32_t material_variant = 0; // from 1, where nobody chose another; 0: none
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<NamedCamera> cameras;

@@ -33,7 +33,24 @@ Fault faultIn(const std::vector<T>& stream, const char* name, size_t count, bool
     return {};
 }
 
-Fault faultIn(const Primitive& p, size_t material_count) {
+Fault faultInMaterials(const Primitive& p, size_t material_count, size_t variant_count) {
+    if (p.material >= material_count) {
+        return "material is " + std::to_string(p.material) + "; there are " +
+               std::to_string(material_count);
+    }
+    uint32_t least = 0;
+    for (const VariantMaterial& of : p.variant_materials) {
+        if (of.material >= material_count || of.variant < least || of.variant >= variant_count) {
+            return "variant " + std::to_string(of.variant) + " has material " +
+                   std::to_string(of.material) + "; there are " + std::to_string(variant_count) +
+                   " variants, which ascend, and " + std::to_string(material_count) + " materials";
+        }
+        least = of.variant + 1;
+    }
+    return {};
+}
+
+Fault faultIn(const Primitive& p) {
     const size_t count = p.positions.size();
     for (Fault fault :
          {faultIn(p.positions, "positions", count, false),
@@ -52,10 +69,6 @@ Fault faultIn(const Primitive& p, size_t material_count) {
             return numbered("indices", i) + " is " + std::to_string(p.indices[i]) + "; there are " +
                    std::to_string(count) + " positions";
         }
-    }
-    if (p.material >= material_count) {
-        return "material is " + std::to_string(p.material) + "; there are " +
-               std::to_string(material_count);
     }
     return {};
 }
@@ -147,8 +160,13 @@ Fault findFault(const Scene& scene) {
     }
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         for (size_t p = 0; p < scene.meshes[m].primitives.size(); ++p) {
-            if (const Fault fault =
-                    faultIn(scene.meshes[m].primitives[p], scene.materials.size())) {
+            const Primitive& primitive = scene.meshes[m].primitives[p];
+            Fault fault = faultIn(primitive);
+            if (!fault) {
+                fault = faultInMaterials(primitive, scene.materials.size(),
+                                         scene.material_variants.size());
+            }
+            if (fault) {
                 return named(numbered("mesh", m) + numbered(" primitive", p), *fault);
             }
         }

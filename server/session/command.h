@@ -54,6 +54,10 @@ struct SetAnimation : SetSettings {
     std::optional<double> time_s = std::nullopt;   // of the animation
 };
 
+struct SetMaterialVariant {
+    uint32_t number = 0; // as settings::ViewSettings has it
+};
+
 struct PlacedLightChange {
     uint32_t id = 0;
     std::optional<settings::LightKind> kind;
@@ -130,6 +134,7 @@ using Command = std::variant<Hello,
                              SetSettings,
                              SetLights,
                              SetAnimation,
+                             SetMaterialVariant,
                              SetPlacedLights,
                              PickLight,
                              SetGrid,

@@ -135,6 +135,11 @@ Command decode(const v1::SetAnimation& set, FieldValidator& fields) {
     return command;
 }
 
+Command decode(const v1::SetMaterialVariant& set, FieldValidator& fields) {
+    fields.require(set.has_material_variant(), "material_variant");
+    return SetMaterialVariant{set.material_variant()};
+}
+
 Command decode(const v1::PickLight& pick, FieldValidator& fields) {
     PickLight command;
     command.id = fields.number("id", settings::kPlacedIdRange, pick.id());
@@ -242,6 +247,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_lights(), fields);
     case v1::ClientMessage::kSetAnimation:
         return decode(message.set_animation(), fields);
+    case v1::ClientMessage::kSetMaterialVariant:
+        return decode(message.set_material_variant(), fields);
     case v1::ClientMessage::kSetPlacedLights:
         return decodePlacedLights(message.set_placed_lights(), fields);
     case v1::ClientMessage::kPickLight:

@@ -9,6 +9,8 @@ SceneSummary summarize(const scene::Scene& scene) {
     summary.texture_count = static_cast<uint32_t>(scene.textures.size());
     summary.punctual_light_count = static_cast<uint32_t>(scene.lights.size());
     summary.cameras = scene.cameras;
+    summary.material_variants = scene.material_variants;
+    summary.material_variant = scene.material_variant;
     summary.bounds_world = scene.bounds_world;
     summary.motion = scene.motion;
     summary.warnings = scene.warnings;

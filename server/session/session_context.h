@@ -28,6 +28,8 @@ struct SceneSummary {
     uint32_t texture_count = 0;
     uint32_t punctual_light_count = 0;
     std::vector<scene::NamedCamera> cameras;
+    std::vector<std::string> material_variants;  // their names
+    uint32_t material_variant = 0;               // at first; from 1, 0: none
     BoundsD3 bounds_world;                       // empty for an empty scene
     std::shared_ptr<const scene::Motion> motion; // null: it rests
     std::vector<scene::Warning> warnings;

@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "motion/posed_scene.h"
 #include "scene/motion.h"
+#include "scene/name_list.h"
 #include "session/placed_lights.h"
 
 #include <algorithm>
@@ -116,7 +117,8 @@ struct Reducer {
         assignIfGiven(animation.number, command.number);
         if (animation.number > clips.size()) {
             return outOfRange("animation", "is " + numberText(animation.number) +
-                                               "; this scene has " + scene::listOf(clips));
+                                               "; this scene has " +
+                                               scene::numberedList(namesOf(clips)));
         }
         Outcome outcome = set(command.changes);
         state.playback.follow(animation, SessionState::secondsOf(now));
@@ -135,6 +137,17 @@ struct Reducer {
                                              " for animation " + numberText(number)));
         }
         state.playback.seek(time_s, SessionState::secondsOf(now));
+        return {};
+    }
+
+    Outcome operator()(const SetMaterialVariant& command) const {
+        const auto& names = context.scene.material_variants;
+        if (command.number > names.size()) {
+            return outOfRange("material_variant", "is " + numberText(command.number) +
+                                                      "; this scene has " +
+                                                      scene::numberedList(names));
+        }
+        state.settings.material_variant = command.number;
         return {};
     }
 
@@ -246,6 +259,7 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
     const LightClock clock(now, settings.lights.speed, settings.lights.animate);
     const auto& motion = context.scene.motion;
     settings.animation.number = motion ? motion::usualAnimation(*motion) : 0;
+    settings.material_variant = context.scene.material_variant;
     SessionState state{settings, defaults.encoding, defaults.delivery, clock, {}};
     state.playback = {motion, settings.animation, SessionState::secondsOf(now)};
     if (const auto camera = context.first_view.scene_camera) {

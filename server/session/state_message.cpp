@@ -29,6 +29,9 @@ void fill(v1::SceneInfo& out, const SceneSummary& scene) {
     if (!scene.bounds_world.empty()) {
         fillBox(*out.mutable_bounds(), scene.bounds_world);
     }
+    for (const std::string& name : scene.material_variants) {
+        out.add_material_variants(name);
+    }
     if (scene.motion) {
         for (const scene::Clip& clip : scene.motion->clips) {
             v1::SceneAnimation& row = *out.add_animations();

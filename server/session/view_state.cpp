@@ -48,6 +48,7 @@ void fillViewState(v1::ViewState& out, const SessionContext& context, const Sess
     if (const auto paused_s = state.playback.pausedAt()) {
         out.set_animation_time_s(*paused_s);
     }
+    out.set_material_variant(settings.material_variant);
     if (state.followed) {
         out.set_followed_camera(context.scene.cameras[*state.followed].name);
     }

@@ -6,8 +6,8 @@
 namespace froxel::settings {
 namespace {
 
-// The camera, the size, two ramps, and the structs below.
-static_assert(covers<ViewSettings>(kSettingRows, 4 + 12));
+// The camera, the size, two ramps, the material variant, and the structs below.
+static_assert(covers<ViewSettings>(kSettingRows, 5 + 12));
 static_assert(covers<GbufferLayout>(kSettingRows, 0));
 static_assert(covers<Grid>(kSettingRows, 2));   // whether it is automatic, and its size
 static_assert(covers<Debug>(kSettingRows, 1));  // whose grid

@@ -304,6 +304,7 @@ struct ViewSettings {
     Environment environment;
     Background background;
     Animation animation;
+    uint32_t material_variant = 0; // of the scene's, from 1; 0: none
     ExposureMode exposure_mode = ExposureMode::kFixed;
     float exposure = 1.0F; // multiplies linear radiance before the tone map
     ToneMap tone_map = ToneMap::kPbrNeutral;

@@ -1,7 +1,7 @@
 // The scene's own animations: which one plays, how, and where it stands.
 
 import { element, make } from '../core/dom';
-import { tidy } from '../core/format';
+import { numberedName, tidy } from '../core/format';
 import { Repeat, RepeatSchema } from '../gen/froxel/v1/common_pb';
 import type { SceneAnimation } from '../gen/froxel/v1/server_pb';
 import { choicesOf } from '../protocol/schema_names';
@@ -21,7 +21,7 @@ export interface AnimationActions {
 /** Of the list, the first for none. */
 export const namesOf = (animations: readonly Pick<SceneAnimation, 'name'>[]): string[] => [
   'none',
-  ...animations.map(({ name }, index) => `${index + 1} ${name === '' ? '(nameless)' : name}`),
+  ...animations.map(({ name }, index) => numberedName(name, index)),
 ];
 
 /** "0:01.5 / 1:02.0" */

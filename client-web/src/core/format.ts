@@ -35,3 +35,7 @@ export const percent = (part: number, whole: number): string =>
 /** At most seven significant digits, what a 32-bit float holds; whole numbers as they are. */
 export const tidy = (value: number): number =>
   Number.isInteger(value) ? value : Number(value.toPrecision(7));
+
+/** A thing of the scene by its place in a list, from 0: "2 walk". */
+export const numberedName = (name: string, index: number): string =>
+  `${index + 1} ${name === '' ? '(nameless)' : name}`;

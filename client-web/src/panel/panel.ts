@@ -4,7 +4,7 @@
 import GUI, { type Controller } from 'lil-gui';
 
 import type { Entry } from '../core/entries';
-import { gridText, tidy } from '../core/format';
+import { gridText, numberedName, tidy } from '../core/format';
 import { keepOpen, wasOpen } from '../core/kept';
 import { displayColor, linearColor } from '../core/srgb';
 import type { Codec } from '../gen/froxel/v1/common_pb';
@@ -38,6 +38,7 @@ const kTitles: Readonly<Record<Section, string>> = {
   exposure: 'Exposure and colour',
   environment: 'Environment',
   animation: 'Animation',
+  materials: 'Materials',
   effects: 'Effects',
   rendering: 'Rendering',
   clusters: 'Clusters and light lists',
@@ -144,6 +145,7 @@ export class Panel {
     this.section('exposure', server);
     this.section('environment', server);
     if (hasAnimations(server)) this.section('animation', server);
+    if (variantsOf(server).length > 0) this.section('materials', server);
     this.section('effects', server);
     for (const folder of this.gui.folders.slice(1)) folder.close();
     this.addExpert(server);
@@ -170,6 +172,10 @@ export class Panel {
   }
 
   private addField(folder: GUI, field: Field, server: ServerInfo): void {
+    if (field.name === 'material_variant') {
+      this.addVariants(folder, field, server);
+      return;
+    }
     if (field.kind === 'number') {
       this.addNumber(folder, field, server);
       return;
@@ -213,6 +219,18 @@ export class Panel {
       model.value = value;
       controller.updateDisplay();
       slide?.(value);
+    });
+  }
+
+  private addVariants(folder: GUI, field: Field, server: ServerInfo): void {
+    const names = ['none', ...variantsOf(server).map(numberedName)];
+    const model = { value: 0 };
+    const options = Object.fromEntries(names.map((name, number) => [name, number]));
+    const controller = folder.add(model, 'value', options);
+    controller.onChange((value: number) => this.actions.set(field, value));
+    this.finish(controller, field, '', ({ materialVariant }) => {
+      model.value = materialVariant;
+      controller.updateDisplay();
     });
   }
 
@@ -290,9 +308,17 @@ export class Panel {
 
 const hasAnimations = ({ scene }: ServerInfo): boolean => (scene?.animations.length ?? 0) > 0;
 
+const variantsOf = ({ scene }: ServerInfo): readonly string[] => scene?.materialVariants ?? [];
+
 /** Whether a panel built for one server fits another, as after most reconnects. */
 function sameControls(a: ServerInfo, b: ServerInfo): boolean {
   const shape = ({ scene, bounds, ranges }: ServerInfo): string =>
-    JSON.stringify([scene?.cameras, scene?.animations.length, bounds, [...ranges.values()]]);
+    JSON.stringify([
+      scene?.cameras,
+      scene?.animations.length,
+      scene?.materialVariants,
+      bounds,
+      [...ranges.values()],
+    ]);
   return shape(a) === shape(b);
 }

@@ -43,6 +43,10 @@ const kOwnWords: ReadonlyMap<string, OwnWords> = new Map([
     'animation',
     { label: 'Animation number', help: 'Number of the scene’s animation, from 1; 0: none' },
   ],
+  [
+    'material_variant',
+    { label: 'Variant', help: 'Materials that the scene is shown with, of those in its file' },
+  ],
   ['grid.x', { label: 'Tiles across', help: 'Number of clusters along the picture’s width' }],
   ['grid.y', { label: 'Tiles down', help: 'Number of clusters along the picture’s height' }],
   ['grid.z', { label: 'Slices in depth', help: 'Number of clusters along the view’s depth' }],

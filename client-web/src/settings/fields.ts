@@ -15,6 +15,7 @@ export type Section =
   | 'effects'
   | 'lights'
   | 'animation'
+  | 'materials'
   | 'environment'
   | 'clusters'
   | 'debug'
@@ -56,6 +57,7 @@ const kByHand: Readonly<Partial<Record<Section, readonly Field[]>>> = {
     byHand('grid.z', 'gridZ', kWhole),
   ],
   animation: [byHand('animation', 'animation', kWhole)],
+  materials: [byHand('material_variant', 'materialVariant', kWhole)],
   debug: [byHand('debug_frozen', 'debugFrozen', kSwitch)],
 };
 

@@ -43,6 +43,10 @@ export function settingCommands(from: Settings, to: Settings): ClientBody[] {
   if (from.width !== to.width || from.height !== to.height) {
     commands.push({ case: 'setSize', value: { width: to.width, height: to.height } });
   }
+  if (from.materialVariant !== to.materialVariant) {
+    const value = { materialVariant: to.materialVariant };
+    commands.push({ case: 'setMaterialVariant', value });
+  }
   for (const name of kCommands) {
     const value = changesOf(name, from, to);
     if (hasAny(value)) commands.push({ case: name, value } as ClientBody);

@@ -68,6 +68,7 @@ export interface Settings extends TableSettings {
   readonly lightTime: number | null; // seconds where the lights' clock stands; null: it runs
   readonly animation: number; // of the scene's, from 1; 0: none
   readonly animationTime: number | null; // seconds of it where it is paused; null: it plays
+  readonly materialVariant: number; // of the scene's, from 1; 0: none
   readonly followedCamera: string; // of the scene's, which moves; empty: none
   readonly gridAutomatic: boolean;
   readonly gridX: number; // the size given by hand, used while not automatic
@@ -151,6 +152,7 @@ export function settingsOf(
     lightTime: state.lightTimeS ?? null,
     animation: state.animation,
     animationTime: state.animationTimeS ?? null,
+    materialVariant: state.materialVariant,
     followedCamera: state.followedCamera,
     gridAutomatic: state.gridAutomatic,
     gridX: state.grid?.x ?? 0,

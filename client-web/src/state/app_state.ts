@@ -270,13 +270,13 @@ function desired(state: AppState, server: ServerInfo, present: Settings): Settin
     const refine = present.refine === Refine.HIGH ? Refine.LOSSLESS : present.refine;
     return { ...present, refine, ...state.wanted };
   }
-  const { placedLights, animation, animationTime, followedCamera } = present;
+  const { placedLights, animation, animationTime, materialVariant, followedCamera } = present;
   if (state.server?.scene?.name === server.scene?.name) {
     const follows = followedCamera !== '' && followedCamera === before.followedCamera;
     return follows ? { ...before, ...cameraOf(present) } : before;
   }
   // Another scene: places of the old one mean nothing in it.
-  const places = { placedLights, animation, animationTime, followedCamera };
+  const places = { placedLights, animation, animationTime, materialVariant, followedCamera };
   return { ...before, ...cameraOf(present), lightBox: null, ...places };
 }
 

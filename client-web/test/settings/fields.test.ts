@@ -20,6 +20,7 @@ describe('fields', () => {
       'effects',
       'lights',
       'animation',
+      'materials',
       'environment',
       'clusters',
       'debug',

@@ -74,6 +74,11 @@ describe('settingCommands', () => {
     ['animate', { animate: false }, { case: 'setLights', value: { animate: false } }],
     ['box', { lightBox: kBounds }, { case: 'setLights', value: { box: kBounds } }],
     ['lights’ clock', { lightTime: 0 }, { case: 'setLights', value: { timeS: 0 } }],
+    [
+      'material variant',
+      { materialVariant: 2 },
+      { case: 'setMaterialVariant', value: { materialVariant: 2 } },
+    ],
     ['animation', { animation: 2 }, { case: 'setAnimation', value: { animation: 2 } }],
     [
       'a place of a paused animation',

@@ -41,6 +41,7 @@ describe('addresses', () => {
       lightTime: 0.1 + 0.2,
       animation: 2,
       animationTime: 0.3 + 0.6,
+      materialVariant: 3,
       shading: ShadingModel.BLINN_PHONG,
       bloom: BloomKind.A_TROUS,
       bloomRadius: 0.02,

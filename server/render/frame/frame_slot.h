@@ -17,6 +17,7 @@
 #include "render/lists/pair_counter.h"
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
+#include "render/scene/dressing.h"
 #include "render/scene/mesh_poser.h"
 #include "render/scene/visibility_scene.h"
 
@@ -113,6 +114,7 @@ struct FrameSlot {
     vk::raii::DescriptorSet frame_set{nullptr};
     vk::raii::DescriptorSet screen_set{nullptr};
     std::vector<vk::raii::BufferView> texel_views; // of the frame set's texel buffers
+    std::shared_ptr<Dressing> dressing;            // of the frame last recorded
     std::unique_ptr<VisibilityFrame> visibility;   // null: no frame asked for it yet
     std::unique_ptr<PairCounter> pairs;            // likewise
     bool counts_pairs = false;                     // in the frame last recorded

@@ -9,11 +9,11 @@ namespace froxel::render {
 
 static_assert(sizeof(io::PoseJoint) == sizeof(motion::JointMatrix));
 
-ScenePose::ScenePose(const SceneResources& scene) : scene_(scene) {
+ScenePose::ScenePose(SceneResources& scene) : scene_(scene), dressing_(scene.dressing(0)) {
     if (scene.motion) {
         moved_ = std::unique_ptr<Moved>(new Moved{.playing = {},
                                                   .moment = {},
-                                                  .items = scene.items,
+                                                  .items = dressing_->items,
                                                   .bounds_world = scene.bounds_world,
                                                   .light_rig = scene.light_rig,
                                                   .joints = {},
@@ -38,7 +38,7 @@ void ScenePose::placeItems() {
     for (size_t i = 0; i < moved_->items.size(); ++i) {
         DrawItem& item = moved_->items[i];
         item.mirrored = glm::determinant(glm::dmat3(moved_->moment.instances[item.instance])) < 0;
-        moved_->winds_as_at_start &= item.mirrored == scene_.items[i].mirrored;
+        moved_->winds_as_at_start &= item.mirrored == dressing_->items[i].mirrored;
         if (item.bends) {
             const BoundsD3& box = moved_->moment.deformed[deformed_of_instance[item.instance]];
             item.primitive.center = glm::vec3(box.center());
@@ -47,6 +47,19 @@ void ScenePose::placeItems() {
             item.primitive.radius = static_cast<float>(reach * (1 + 1e-6));
         }
     }
+}
+
+void ScenePose::wear(uint32_t material_variant) {
+    if (material_variant_ == material_variant) {
+        return;
+    }
+    material_variant_ = material_variant;
+    dressing_ = scene_.dressing(material_variant);
+    if (moved_) {
+        moved_->items = dressing_->items;
+        placeItems();
+    }
+    ++number_;
 }
 
 void ScenePose::standAt(double time_s, const std::optional<motion::Playing>& playing) {

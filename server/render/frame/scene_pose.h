@@ -16,7 +16,12 @@ namespace froxel::render {
 // time changes it, any number may read. A scene that rests is read where it is: nothing is copied.
 class ScenePose {
   public:
-    explicit ScenePose(const SceneResources& scene);
+    explicit ScenePose(SceneResources& scene);
+
+    // Shows the scene with that material variant's materials; see SceneResources::dressing(). Spans
+    // handed out before end.
+    void wear(uint32_t material_variant);
+    [[nodiscard]] const std::shared_ptr<Dressing>& dressing() const { return dressing_; }
 
     // Stands where the clips have the scene then: a pure function of what plays. None: what
     // Motion::played says, at time_s. Spans handed out before end.
@@ -26,7 +31,7 @@ class ScenePose {
         return moved_ ? moved_->moment.instances : scene_.instances;
     }
     [[nodiscard]] std::span<const DrawItem> items() const {
-        return moved_ ? moved_->items : scene_.items;
+        return moved_ ? moved_->items : dressing_->items;
     }
     [[nodiscard]] const BoundsD3& boundsWorld() const {
         return moved_ ? moved_->bounds_world : scene_.bounds_world;
@@ -34,8 +39,8 @@ class ScenePose {
     [[nodiscard]] const light::LightRig& lightRig() const {
         return moved_ ? moved_->light_rig : scene_.light_rig;
     }
-    // Whether all items are mirrored as SceneResources::items are: the visibility passes' groups
-    // are cut by that.
+    // Whether all items are mirrored as Dressing::items are: the visibility passes' groups are cut
+    // by that.
     [[nodiscard]] bool windsAsAtStart() const { return !moved_ || moved_->winds_as_at_start; }
 
     // What MeshPoser's vertices follow.
@@ -45,7 +50,7 @@ class ScenePose {
     [[nodiscard]] std::span<const float> weights() const {
         return moved_ ? moved_->weights : std::span<const float>();
     }
-    // Counts changes of where surfaces are.
+    // Counts changes of where surfaces are, and of their materials.
     [[nodiscard]] uint64_t number() const { return number_; }
     // Kept on the host, for what grows with the scene.
     [[nodiscard]] uint64_t hostBytes() const;
@@ -63,7 +68,9 @@ class ScenePose {
     };
     void placeItems();
 
-    const SceneResources& scene_;
+    SceneResources& scene_;
+    uint32_t material_variant_ = 0;
+    std::shared_ptr<Dressing> dressing_;
     std::unique_ptr<Moved> moved_; // null: the scene rests
     uint64_t number_ = 0;
 };

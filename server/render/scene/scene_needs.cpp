@@ -102,26 +102,41 @@ uint32_t emissionExponent(const scene::Material& m) {
     return exponent;
 }
 
+SurfaceNeeds surfaceNeeds(const scene::Material& m, MaterialFlags flags) {
+    const bool solid = m.alpha_mode != scene::AlphaMode::kBlend;
+    const bool unusual = !m.unlit && reflectsUnusually(m);
+    return {.wide_gbuffer = needsWide(m, true),
+            .wide_lambert = needsWide(m, false),
+            .emission_exponent = emissionExponent(m),
+            .specular = unusual && solid,
+            .edges = (unusual && (m.specular != 1 || m.specular_texture.texture != scene::kNone)) ||
+                     (flags & io::kMaterialFilm) != 0,
+            .layers = (flags & io::kMaterialLayers) != 0 && solid,
+            .masked = m.alpha_mode == scene::AlphaMode::kMask,
+            .blended = !solid};
+}
+
 } // namespace
+
+void SurfaceNeeds::add(const SurfaceNeeds& other) {
+    wide_gbuffer |= other.wide_gbuffer;
+    wide_lambert |= other.wide_lambert;
+    emission_exponent = std::max(emission_exponent, other.emission_exponent);
+    specular |= other.specular;
+    edges |= other.edges;
+    layers |= other.layers;
+    masked |= other.masked;
+    blended |= other.blended;
+}
 
 SceneNeeds findNeeds(const scene::Scene& scene, bool layers) {
     SceneNeeds needs;
     for (const auto& material : scene.materials) {
-        needs.material_flags.push_back(materialFlags(material) &
-                                       ~(layers ? MaterialFlags{0} : kLayerFlags));
-        needs.wide_gbuffer |= needsWide(material, true);
-        needs.wide_lambert |= needsWide(material, false);
-        needs.emission_exponent = std::max(needs.emission_exponent, emissionExponent(material));
-        if (!material.unlit && reflectsUnusually(material)) {
-            needs.specular |= material.alpha_mode != scene::AlphaMode::kBlend;
-            needs.edges |=
-                material.specular != 1 || material.specular_texture.texture != scene::kNone;
-        }
-        needs.edges |= (needs.material_flags.back() & io::kMaterialFilm) != 0;
-        needs.layers |= (needs.material_flags.back() & io::kMaterialLayers) != 0 &&
-                        material.alpha_mode != scene::AlphaMode::kBlend;
-        needs.masked |= material.alpha_mode == scene::AlphaMode::kMask;
-        needs.blended |= material.alpha_mode == scene::AlphaMode::kBlend;
+        const MaterialFlags flags =
+            materialFlags(material) & ~(layers ? MaterialFlags{0} : kLayerFlags);
+        needs.material_flags.push_back(flags);
+        needs.of_material.push_back(surfaceNeeds(material, flags));
+        needs.add(needs.of_material.back());
     }
     for (const auto& mesh : scene.meshes) {
         for (const auto& primitive : mesh.primitives) {

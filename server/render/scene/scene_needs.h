@@ -9,10 +9,10 @@
 
 namespace froxel::render {
 
-struct SceneNeeds {
-    std::vector<MaterialFlags> material_flags; // of each material
-    bool wide_gbuffer = false;                 // metalness, occlusion, emission or unlit somewhere
-    bool wide_lambert = false;                 // the same without metalness
+// Of materials that are drawn together.
+struct SurfaceNeeds {
+    bool wide_gbuffer = false;      // metalness, occlusion, emission or unlit somewhere
+    bool wide_lambert = false;      // the same without metalness
     uint32_t emission_exponent = 0; // emission over 2 to the power of this fits the G-buffer
     bool specular = false; // a solid surface reflects unlike a usual dielectric: ior, specular
     // A surface reflects less than all at its edges: its strength is below 1, or a film is over it.
@@ -20,6 +20,13 @@ struct SceneNeeds {
     bool layers = false; // a solid surface has layers over it: a coat
     bool masked = false;
     bool blended = false;
+
+    void add(const SurfaceNeeds& other);
+};
+
+struct SceneNeeds : SurfaceNeeds { // of all materials
+    std::vector<MaterialFlags> material_flags;
+    std::vector<SurfaceNeeds> of_material;
     uint32_t primitive_count = 0;
     uint32_t extended_count = 0; // primitives with a second texcoord, colours or tangents
     struct Lights {

@@ -23,7 +23,6 @@ namespace froxel::render {
 namespace {
 
 constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
-constexpr vk::DeviceSize kStagingBytes = 16U << 20U;
 
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);
@@ -67,6 +66,12 @@ std::vector<glm::dmat4> placesOf(const scene::Scene& scene, const SceneMotion* m
     return places;
 }
 
+MaterialFlags itemFlags(const PackedPrimitive& primitive, const SceneNeeds& needs) {
+    return needs.material_flags[primitive.material] |
+           (primitive.extended ? io::kMaterialExtended : 0U) |
+           (primitive.tangents ? io::kMaterialTangents : 0U);
+}
+
 std::vector<DrawItem> makeItems(const scene::Scene& scene,
                                 const PackedGeometry& geometry,
                                 const SceneNeeds& needs,
@@ -80,10 +85,7 @@ std::vector<DrawItem> makeItems(const scene::Scene& scene,
             if (primitive.index_count == 0) {
                 continue;
             }
-            MaterialFlags flags = needs.material_flags[primitive.material];
-            flags |= primitive.extended ? io::kMaterialExtended : 0U;
-            flags |= primitive.tangents ? io::kMaterialTangents : 0U;
-            items.push_back({i, primitive, flags, mirrored, bends});
+            items.push_back({i, primitive, itemFlags(primitive, needs), mirrored, bends});
         }
     }
     return items;
@@ -137,11 +139,12 @@ SceneResources::SceneResources(gpu::Device& device_in,
         motion = std::make_unique<const SceneMotion>(device, arena, uploader, scene, geometry);
     }
     instances = placesOf(scene, motion.get());
-    items = makeItems(scene, geometry, needs, motion.get(), instances);
+    auto items = makeItems(scene, geometry, needs, motion.get(), instances);
+    keepVariantMaterials(scene, geometry);
     uploadGeometry(geometry, poser() != nullptr, uploader);
     uploadMaterials(scene, uploader);
-    visibility_unusable = VisibilityScene::unusable(*this);
     meshlets = std::move(geometry.meshlets);
+    undressed_ = std::make_shared<Dressing>(*this, std::move(items));
     if (device.traits().is_cpu) {
         indices = std::move(geometry.indices);
         positions = std::move(geometry.positions);
@@ -149,7 +152,7 @@ SceneResources::SceneResources(gpu::Device& device_in,
     const uint64_t device_bytes = arena.allocatedBytes() + texture_arena.allocatedBytes();
     memory.setShared(device_bytes);
     spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
-                 items.size(), meshlets.size(), textures_->imageCount(), device_bytes);
+                 undressed_->items.size(), meshlets.size(), textures_->imageCount(), device_bytes);
 }
 
 void SceneResources::uploadGeometry(const PackedGeometry& geometry,
@@ -242,18 +245,63 @@ PairPipelines& SceneResources::pairs() {
     return *pairs_;
 }
 
-VisibilityScene& SceneResources::visibility() {
-    if (!visibility_) {
-        gpu::Uploader uploader(device, timeline, kStagingBytes);
-        visibility_ = std::make_unique<VisibilityScene>(*this, uploader);
+void SceneResources::keepVariantMaterials(const scene::Scene& scene,
+                                          const PackedGeometry& geometry) {
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        const auto& primitives = scene.meshes[m].primitives;
+        for (size_t p = 0; p < primitives.size(); ++p) {
+            const PackedPrimitive& packed = geometry.meshes[m][p];
+            if (packed.index_count > 0 && !primitives[p].variant_materials.empty()) {
+                variant_materials_.emplace(packed.first_index, primitives[p].variant_materials);
+            }
+        }
     }
-    return *visibility_;
+}
+
+std::shared_ptr<Dressing> SceneResources::dressing(uint32_t material_variant) {
+    if (material_variant == 0) {
+        return undressed_;
+    }
+    std::weak_ptr<Dressing>& known = dressings_[material_variant];
+    if (auto dressing = known.lock()) {
+        return dressing;
+    }
+    std::vector<DrawItem> items = undressed_->items;
+    for (DrawItem& item : items) {
+        const auto materials = variant_materials_.find(item.primitive.first_index);
+        if (materials == variant_materials_.end()) {
+            continue;
+        }
+        const auto found = std::ranges::find(materials->second, material_variant - 1,
+                                             &scene::VariantMaterial::variant);
+        if (found != materials->second.end()) {
+            item.primitive.material = found->material;
+            item.material_flags = itemFlags(item.primitive, needs);
+        }
+    }
+    auto dressing = std::make_shared<Dressing>(*this, std::move(items));
+    known = dressing;
+    return dressing;
+}
+
+VisibilityPipelines& SceneResources::visibilityPipelines() {
+    if (!visibility_pipelines_) {
+        visibility_pipelines_ = std::make_unique<VisibilityPipelines>(device, timeline, variants,
+                                                                      pipelines, texturesAtOnce());
+    }
+    return *visibility_pipelines_;
+}
+
+uint32_t SceneResources::texturesAtOnce() const {
+    const auto& traits = device.traits();
+    const auto all = static_cast<uint32_t>(material_textures.size());
+    return traits.descriptor_indexing && all + kPassTextures <= traits.most_textures ? all : 0;
 }
 
 std::vector<Pipelines::Made> SceneResources::variantsMade() const {
     auto all = pipelines.made();
-    if (visibility_) {
-        std::ranges::copy(visibility_->pipelines.made(), std::back_inserter(all));
+    if (visibility_pipelines_) {
+        std::ranges::copy(visibility_pipelines_->made(), std::back_inserter(all));
     }
     return all;
 }

@@ -10,6 +10,7 @@
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
 #include "render/scene/debug_pass.h"
+#include "render/scene/dressing.h"
 #include "render/scene/geometry_pack.h"
 #include "render/scene/memory_budget.h"
 #include "render/scene/scene_motion.h"
@@ -19,19 +20,13 @@
 #include "render/scene/visibility_scene.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace froxel::render {
 
-// One primitive of one instance: what culling looks at and what a draw needs.
-struct DrawItem {
-    uint32_t instance = 0;
-    PackedPrimitive primitive;
-    MaterialFlags material_flags = 0; // with kMaterialExtended and kMaterialTangents
-    bool mirrored = false;            // the instance turns the winding round
-    bool bends = false;               // of its meshlets nothing but the primitive's sphere is known
-};
+inline constexpr vk::DeviceSize kStagingBytes = 16U << 20U; // of what all of a scene has
 
 class SceneResources {
   public:
@@ -52,7 +47,6 @@ class SceneResources {
     // As they stand at time 0, where the scene moves; a frame has its ScenePose. bounds_world and
     // the rig's seeded lights are over all clips.
     std::vector<glm::dmat4> instances; // world_from_object
-    std::vector<DrawItem> items;
     std::vector<Meshlet> meshlets;
     // The host's copies, for culling by triangle; empty on a GPU, which does not.
     std::vector<uint32_t> indices;
@@ -67,7 +61,6 @@ class SceneResources {
     gpu::Buffer index_buffer;
     std::vector<io::Material> material_uniforms;
     std::vector<vk::DescriptorImageInfo> material_textures; // kMaterialSlots of each
-    std::string visibility_unusable; // why; empty: visibility passes can draw the scene
     VariantMaker variants;
     Pipelines pipelines;
     // Fragments that pass the depth test, per pixel of the picture: of the first frame that the
@@ -91,10 +84,16 @@ class SceneResources {
     [[nodiscard]] PairPipelines& pairs();
     // The highlights of rectangular lights: area_light_table::table().
     [[nodiscard]] const gpu::Buffer& ltcTable();
-    // Made at the first call; VisibilityScene::unusable() is empty. Throws vk::SystemError.
-    [[nodiscard]] VisibilityScene& visibility();
+    // That of a material variant, by its number (settings::ViewSettings). All who hold it share it;
+    // with the last of them it goes, but for that of no variant.
+    [[nodiscard]] std::shared_ptr<Dressing> dressing(uint32_t material_variant);
+    // Made at the first call. Throws vk::SystemError.
+    [[nodiscard]] VisibilityPipelines& visibilityPipelines();
     // The variants kept, of whatever draws the scene's surfaces and lights them.
     [[nodiscard]] std::vector<Pipelines::Made> variantsMade() const;
+
+    // Textures of all materials, where a shader may read them at once; else 0.
+    [[nodiscard]] uint32_t texturesAtOnce() const;
 
     [[nodiscard]] vk::DescriptorSet materialSet(uint32_t material) const {
         return *material_sets_[material];
@@ -102,6 +101,7 @@ class SceneResources {
 
   private:
     void uploadGeometry(const PackedGeometry& geometry, bool bends, gpu::Uploader& uploader);
+    void keepVariantMaterials(const scene::Scene& scene, const PackedGeometry& geometry);
     void makeMaterialSets(uint32_t count);
     void uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader);
 
@@ -109,7 +109,11 @@ class SceneResources {
     std::unique_ptr<TextureStore> textures_;
     vk::raii::DescriptorPool material_pool_{nullptr};
     std::vector<vk::raii::DescriptorSet> material_sets_;
-    std::unique_ptr<VisibilityScene> visibility_;
+    std::shared_ptr<Dressing> undressed_; // of no variant
+    std::map<uint32_t, std::weak_ptr<Dressing>> dressings_;
+    // Of primitives that have any, by PackedPrimitive::first_index, which no two share.
+    std::map<uint32_t, std::vector<scene::VariantMaterial>> variant_materials_;
+    std::unique_ptr<VisibilityPipelines> visibility_pipelines_;
     bool assignment_tried_ = false;
     std::unique_ptr<AssignPipelines> assignment_;
     std::unique_ptr<DebugPass> debug_;

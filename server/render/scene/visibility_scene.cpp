@@ -42,19 +42,19 @@ auto groupKey(const DrawItem& item) {
 // Placed meshlets in the order of their draws, groups filled up to whole workgroups.
 class Placer {
   public:
-    explicit Placer(const SceneResources& scene) : scene_(scene) {
+    Placer(const SceneResources& scene, std::span<const DrawItem> drawn) : scene_(scene) {
         std::vector<uint32_t> order;
-        for (uint32_t i = 0; i < scene.items.size(); ++i) {
-            if (solid(scene.items[i])) {
+        for (uint32_t i = 0; i < drawn.size(); ++i) {
+            if (solid(drawn[i])) {
                 order.push_back(i);
             }
         }
         std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-            return groupKey(scene.items[a]) < groupKey(scene.items[b]);
+            return groupKey(drawn[a]) < groupKey(drawn[b]);
         });
         const DrawItem* last = nullptr;
         for (const uint32_t i : order) {
-            const DrawItem& item = scene.items[i];
+            const DrawItem& item = drawn[i];
             if (last == nullptr || groupKey(*last) != groupKey(item)) {
                 closeGroup();
                 groups.push_back({item.primitive.material, rasterFlags(item), item.mirrored,
@@ -121,22 +121,16 @@ gpu::Buffer uploadTable(gpu::MemoryArena& arena,
     return buffer;
 }
 
-// Of all materials, where a shader may read them at once; else 0.
-uint32_t textureCount(const SceneResources& scene) {
-    const auto& traits = scene.device.traits();
-    const auto all = static_cast<uint32_t>(scene.material_textures.size());
-    return traits.descriptor_indexing && all + kPassTextures <= traits.most_textures ? all : 0;
-}
-
 } // namespace
 
-std::string VisibilityScene::unusable(const SceneResources& scene) {
+std::string VisibilityScene::unusable(const SceneResources& scene,
+                                      std::span<const DrawItem> drawn) {
     const auto& traits = scene.device.traits();
     if (!traits.visibility_lacks.empty()) {
         return "the device lacks " + traits.visibility_lacks;
     }
     size_t meshlet_count = 0;
-    for (const auto& item : scene.items) {
+    for (const auto& item : drawn) {
         // Groups fill up workgroups: at most one a material and winding.
         meshlet_count += solid(item) ? item.primitive.meshlet_count : 0;
     }
@@ -147,11 +141,11 @@ std::string VisibilityScene::unusable(const SceneResources& scene) {
     return {};
 }
 
-VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
-    : arena(scene.device),
-      pipelines(scene.device, scene.timeline, scene.variants, scene.pipelines, textureCount(scene)),
-      device_(scene.device) {
-    Placer placer(scene);
+VisibilityScene::VisibilityScene(SceneResources& scene,
+                                 std::span<const DrawItem> drawn,
+                                 gpu::Uploader& uploader)
+    : arena(scene.device), pipelines(scene.visibilityPipelines()), device_(scene.device) {
+    Placer placer(scene, drawn);
     groups = std::move(placer.groups);
     placed = std::move(placer.meshlets);
     triangle_count = placer.triangle_count;
@@ -182,7 +176,7 @@ VisibilityScene::VisibilityScene(SceneResources& scene, gpu::Uploader& uploader)
     ranks = scratch(placed.size() * sizeof(uint32_t), {}, "cull ranks");
     counts = scratch((groups.size() + block_count) * sizeof(uint32_t), Usage::eIndirectBuffer,
                      "culled draw counts");
-    if (textureCount(scene) > 0) {
+    if (scene.texturesAtOnce() > 0) {
         writeTextures(scene);
     }
     compute_unusable = ComputeRaster::unusable(device_, *this);

@@ -19,6 +19,7 @@
 namespace froxel::render {
 
 class SceneResources;
+struct DrawItem;
 
 // Meshlets drawn in one call; of opaque materials one group holds all with the same faces.
 struct VisibilityGroup {
@@ -32,10 +33,13 @@ struct VisibilityGroup {
 class VisibilityScene {
   public:
     // Throws vk::SystemError.
-    VisibilityScene(SceneResources& scene, gpu::Uploader& uploader);
+    VisibilityScene(SceneResources& scene,
+                    std::span<const DrawItem> drawn,
+                    gpu::Uploader& uploader);
 
-    // Empty when visibility passes can draw the scene on the device, else why not.
-    [[nodiscard]] static std::string unusable(const SceneResources& scene);
+    // Empty when visibility passes can draw them on the device, else why not.
+    [[nodiscard]] static std::string unusable(const SceneResources& scene,
+                                              std::span<const DrawItem> drawn);
 
     std::vector<VisibilityGroup> groups;
     std::vector<uint32_t> materials_in_use;
@@ -55,7 +59,7 @@ class VisibilityScene {
     gpu::Buffer ranks;
     gpu::Buffer counts;
 
-    VisibilityPipelines pipelines;
+    VisibilityPipelines& pipelines;
 
     // Why ids cannot be rastered in compute; empty: they can.
     std::string compute_unusable;

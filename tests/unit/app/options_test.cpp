@@ -15,7 +15,8 @@ using testing::HasSubstr;
 TEST(Options, RenderWithAll_FillsEveryField) {
     const auto command =
         parseLine(
-            "render --out a.png --scene sponza.glb --animation Walk --renderer forward_plus "
+            "render --out a.png --scene sponza.glb --animation Walk --material-variant dusk "
+            "--renderer forward_plus "
             "--lights 5000 "
             "--light-radius 1.5 "
             "--light-box -10,0,-5;10,8,5 --seed 9 --light-speed 2.5 --time 2.5 --size 640x361 "
@@ -29,7 +30,8 @@ TEST(Options, RenderWithAll_FillsEveryField) {
             .command;
     const auto& options = std::get<RenderOptions>(command);
     EXPECT_EQ(options.scene, "sponza.glb");
-    EXPECT_EQ(options.animation, "Walk");
+    EXPECT_EQ(options.choices.animation, "Walk");
+    EXPECT_EQ(options.choices.material_variant, "dusk");
     EXPECT_EQ(options.settings.renderer, settings::Renderer::kForwardPlus);
     EXPECT_EQ(options.settings.lights.count, 5000U);
     EXPECT_EQ(options.settings.lights.radius_m, 1.5F);
@@ -110,7 +112,7 @@ TEST(Options, ServeWithAll_FillsEveryField) {
     EXPECT_EQ(serve.port, 0);
     EXPECT_EQ(serve.admin, (net::BindAddress{"::1", 0}));
     EXPECT_EQ(serve.scene, "a.glb");
-    EXPECT_EQ(serve.animation, "2");
+    EXPECT_EQ(serve.choices.animation, "2");
     EXPECT_EQ(serve.size, (settings::Size{320, 200}));
     EXPECT_EQ(serve.quality, 90U);
     EXPECT_EQ(serve.first_view.lights.count, 7U);

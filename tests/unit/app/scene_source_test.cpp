@@ -1,4 +1,4 @@
-// Which animation of a file plays.
+// What of a file is shown at first.
 #include "app/scene_source.h"
 #include "scene/motion.h"
 
@@ -29,13 +29,15 @@ class SceneSource : public testing::Test {
                 {"name": "walk", "samplers": [{"input": 0, "output": 1}],
                  "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]},
                 {"samplers": [{"input": 0, "output": 1}],
-                 "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]})";
+                 "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
+            "extensionsUsed": ["KHR_materials_variants"],
+            "extensions": {"KHR_materials_variants": {"variants": [{"name": "dusk"}, {}]}}})";
     }
     ~SceneSource() override { std::filesystem::remove(file_); }
 
     // None: it is refused.
     [[nodiscard]] std::optional<uint32_t> played(const std::string& animation) const {
-        const auto scene = loadScene(file_, animation);
+        const auto scene = loadScene(file_, {.animation = animation});
         return scene ? std::optional(scene->motion->played) : std::nullopt;
     }
 
@@ -53,11 +55,26 @@ TEST_F(SceneSource, UnknownAnimation_IsRefusedByName) {
     for (const char* unknown : {"0", "3", "-1", "1.5", "Walk", "\x1b"}) {
         EXPECT_EQ(played(unknown), std::nullopt) << unknown;
     }
-    EXPECT_EQ(loadScene(file_, "run").error().message,
+    EXPECT_EQ(loadScene(file_, {.animation = "run"}).error().message,
               "--animation: 'run' is no animation of this scene; it has 1 walk, 2 (nameless)");
-    EXPECT_EQ(loadScene("builtin", "run").error().message,
+    EXPECT_EQ(loadScene("builtin", {.animation = "run"}).error().message,
               "--animation: 'run' is no animation of this scene; it has none");
-    EXPECT_TRUE(loadScene("builtin", "none"));
+    EXPECT_TRUE(loadScene("builtin", {.animation = "none"}));
+}
+
+TEST_F(SceneSource, MaterialVariant_IsChosenByNameOrNumber) {
+    const auto shown = [&](const char* variant) {
+        return loadScene(file_, {.material_variant = variant}).value().material_variant;
+    };
+    EXPECT_EQ(shown(""), 0U);
+    EXPECT_EQ(shown("dusk"), 1U);
+    EXPECT_EQ(shown("2"), 2U);
+    EXPECT_EQ(shown("none"), 0U);
+    EXPECT_EQ(loadScene(file_, {.material_variant = "3"}).error().message,
+              "--material-variant: '3' is no material variant of this scene; it has 1 dusk, 2 "
+              "(nameless)");
+    EXPECT_EQ(loadScene("builtin", {.material_variant = "1"}).error().message,
+              "--material-variant: '1' is no material variant of this scene; it has none");
 }
 
 // An empty scene is no room: it has no seeded lights.

@@ -101,10 +101,19 @@ void addMotion(SceneFile& file) {
     file.json["animations"][0]["samplers"][1].update({{"input", times}, {"output", weights}});
 }
 
+void addVariants(SceneFile& file) {
+    constexpr const char* kExtension = "KHR_materials_variants";
+    file.json["extensions"][kExtension] =
+        Json::parse(R"({"variants": [{"name": "one"}, {"name": "two"}]})");
+    file.primitive()["extensions"][kExtension] =
+        Json::parse(R"({"mappings": [{"material": 0, "variants": [0, 1]}]})");
+}
+
 SceneFile richFile() {
     SceneFile file;
     addGeometry(file);
     addMaterial(file);
+    addVariants(file);
     addNodes(file);
     addMotion(file);
     file.json["buffers"][0]["byteLength"] = file.binary.size();

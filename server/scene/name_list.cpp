@@ -1,13 +1,14 @@
+#include "scene/name_list.h"
+
 #include "core/text.h"
-#include "scene/motion.h"
 
 namespace froxel::scene {
 
-std::string listOf(const std::vector<Clip>& clips) {
+std::string numberedList(const std::vector<std::string>& names) {
     constexpr size_t kMostBytes = 400;
     std::string list;
-    for (size_t i = 0; i < clips.size() && list.size() <= kMostBytes; ++i) {
-        const std::string name = clips[i].name.empty() ? "(nameless)" : printable(clips[i].name);
+    for (size_t i = 0; i < names.size() && list.size() <= kMostBytes; ++i) {
+        const std::string name = names[i].empty() ? "(nameless)" : printable(names[i]);
         list += (list.empty() ? "" : ", ") + numberText(i + 1) + " " + name;
     }
     return list.empty() ? "none" : printable(list, kMostBytes);

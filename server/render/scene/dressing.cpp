@@ -1,0 +1,33 @@
+#include "render/scene/dressing.h"
+
+#include "render/scene/scene_resources.h"
+
+#include <utility>
+
+namespace froxel::render {
+
+namespace {
+
+SurfaceNeeds needsOf(const SceneResources& scene, const std::vector<DrawItem>& items) {
+    SurfaceNeeds needs;
+    for (const DrawItem& item : items) {
+        needs.add(scene.needs.of_material[item.primitive.material]);
+    }
+    return needs;
+}
+
+} // namespace
+
+Dressing::Dressing(SceneResources& scene, std::vector<DrawItem> items_in)
+    : items(std::move(items_in)), needs(needsOf(scene, items)),
+      visibility_unusable(VisibilityScene::unusable(scene, items)), scene_(scene) {}
+
+VisibilityScene& Dressing::visibility() {
+    if (!visibility_) {
+        gpu::Uploader uploader(scene_.device, scene_.timeline, kStagingBytes);
+        visibility_ = std::make_unique<VisibilityScene>(scene_, items, uploader);
+    }
+    return *visibility_;
+}
+
+} // namespace froxel::render
