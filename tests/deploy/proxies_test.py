@@ -49,6 +49,7 @@ LONGEST_OUTAGE_S = 3.0
 # What as many take to their first pictures without a proxy; where they take longer, the machine is starved and
 # everything may take as many times longer.
 DIRECT_S = 0.5
+SCENE = Path(__file__).with_name("triangle.gltf")  # its light moves, so that frames come; made at once
 DEPLOY = Path(__file__).resolve().parents[2] / "deploy"
 os.environ["PATH"] += ":/usr/sbin"
 
@@ -75,7 +76,7 @@ class Server:
 
     def start(self):
         self.process = subprocess.Popen(
-            [FROXEL, "serve", "--device", "cpu", "--size", "32x32", "--lights", "1", "--min-fps", "0",
+            [FROXEL, "serve", "--device", "cpu", "--scene", SCENE, "--size", "32x32", "--lights", "1", "--min-fps", "0",
              "--port", str(self.port), "--admin-bind", f"127.0.0.1:{self.admin}",
              "--drain-seconds", "3", "--log-level", "error", *self.options], stdout=subprocess.DEVNULL)
 
