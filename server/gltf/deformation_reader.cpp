@@ -232,4 +232,20 @@ void DeformationReader::makeFlat(const std::vector<uint32_t>& corners,
     unshare(deformation.deltas, deformation.first_delta, corners, deltas_);
 }
 
+void DeformationReader::addCopies(const std::vector<uint32_t>& of,
+                                  scene::Deformation& deformation) {
+    const auto add = [&](auto& elements, std::vector<uint32_t>& first, Budget& budget) {
+        for (size_t i = 0; !first.empty() && i < of.size(); ++i) {
+            budget.take(first[of[i] + size_t{1}] - first[of[i]], "a tangent");
+            for (uint32_t at = first[of[i]]; at < first[of[i] + size_t{1}]; ++at) {
+                const auto element = elements[at]; // which may move
+                elements.push_back(element);
+            }
+            first.push_back(static_cast<uint32_t>(elements.size()));
+        }
+    };
+    add(deformation.influences, deformation.first_influence, influences_);
+    add(deformation.deltas, deformation.first_delta, deltas_);
+}
+
 } // namespace froxel::gltf

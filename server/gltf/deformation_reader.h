@@ -42,6 +42,8 @@ class DeformationReader {
                       const std::string& user);
     // As makeFlat() does with the streams: vertex i is then what corners[i] was.
     void makeFlat(const std::vector<uint32_t>& corners, scene::Deformation& deformation);
+    // Puts copies of vertices at the end.
+    void addCopies(const std::vector<uint32_t>& of, scene::Deformation& deformation);
 
   private:
     // The target's own of a stream; empty where it has none.

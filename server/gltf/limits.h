@@ -25,6 +25,8 @@ inline constexpr uint64_t kMaxFileBytes = limitOf(4ULL << 30U);        // all of
 inline constexpr uint64_t kMaxDecodedViewBytes = limitOf(4ULL << 30U); // EXT_meshopt_compression
 inline constexpr uint64_t kMaxVertices = limitOf(1ULL << 26U);
 inline constexpr uint64_t kMaxIndices = limitOf(3ULL << 26U);
+// Of a primitive: beyond, the shader derives its tangents.
+inline constexpr uint64_t kMostTangentCorners = limitOf(3ULL << 23U);
 inline constexpr uint64_t kMaxInfluences = limitOf(1ULL << 27U);
 inline constexpr uint64_t kMaxMorphDeltas = limitOf(1ULL << 25U);
 inline constexpr uint64_t kMaxKeyNumbers = limitOf(1ULL << 27U); // of all clips

@@ -4,6 +4,7 @@
 #include "gltf/extension_value.h"
 #include "gltf/failure.h"
 #include "gltf/stream_repair.h"
+#include "gltf/tangent_space.h"
 #include "gltf/triangles.h"
 #include "gltf/variant_reader.h"
 #include "gltf/vertex_source.h"
@@ -76,6 +77,28 @@ bool makeUnit(glm::vec3& vector) {
     }
     vector = glm::vec3(exact / length);
     return true;
+}
+
+// The set of coordinates that tangents of these materials go by; none where no texture asks for
+// tangents, where several ask for different ones, or where one is turned or mirrored on its way to
+// the surface, which the tangents would not follow.
+std::optional<uint32_t> tangentTexcoord(std::span<const scene::Material* const> materials) {
+    std::optional<uint32_t> texcoord;
+    for (const scene::Material* material : materials) {
+        for (const scene::TextureSlot* slot :
+             {&material->normal_texture, &material->coat_normal_texture,
+              &material->anisotropy_texture}) {
+            if (slot->texture == scene::kNone) {
+                continue;
+            }
+            if (slot->rotation_rad != 0 || slot->scale.x <= 0 || slot->scale.y <= 0 ||
+                texcoord.value_or(slot->texcoord) != slot->texcoord) {
+                return std::nullopt;
+            }
+            texcoord = slot->texcoord;
+        }
+    }
+    return texcoord;
 }
 
 } // namespace
@@ -200,6 +223,7 @@ MeshReader::readPrimitive(size_t mesh, size_t number, const Use& use) {
     finishNormals(stream.has("NORMAL"), primitive, pointer, user);
     finishTangents(primitive, pointer, user);
     readMaterials(source, primitive, pointer, user);
+    makeTangents(use, primitive, user);
     for (const glm::vec3& position : primitive.positions) {
         primitive.bounds.add(position);
     }
@@ -219,6 +243,30 @@ void MeshReader::readMaterials(const tinygltf::Primitive& source,
     for (const auto& [variant, material] :
          variantMaterials(source, scene_.material_variants.size(), pointer, user, warnings_)) {
         primitive.variant_materials.push_back({variant, read(material)});
+    }
+}
+
+void MeshReader::makeTangents(const Use& use,
+                              scene::Primitive& primitive,
+                              const std::string& user) {
+    if (!primitive.tangents.empty() || primitive.indices.size() > kMostTangentCorners ||
+        (use.deformations != nullptr && (use.deformations->back().flat_normals ||
+                                         !use.deformations->back().first_delta.empty()))) {
+        return;
+    }
+    std::vector<const scene::Material*> materials = {&scene_.materials[primitive.material]};
+    for (const scene::VariantMaterial& of : primitive.variant_materials) {
+        materials.push_back(&scene_.materials[of.material]);
+    }
+    const auto texcoord = tangentTexcoord(materials);
+    if (!texcoord) {
+        return;
+    }
+    const auto& uv = *texcoord == 0 ? primitive.uv0 : primitive.uv1;
+    const auto copies = addTangents(primitive, cornerTangents(primitive, uv));
+    vertices_.take(copies.size(), user);
+    if (use.deformations != nullptr) {
+        deformations_.addCopies(copies, use.deformations->back());
     }
 }
 

@@ -91,6 +91,8 @@ class MeshReader {
                        scene::Primitive& primitive,
                        const std::string& pointer,
                        const std::string& user);
+    // Where the file has none and its materials ask for them.
+    void makeTangents(const Use& use, scene::Primitive& primitive, const std::string& user);
     void finishTangents(scene::Primitive& primitive,
                         const std::string& pointer,
                         const std::string& user);

@@ -16,7 +16,6 @@ struct Totals {
     size_t triangles = 0;
     size_t vertices = 0;
     size_t tangents = 0;
-    bool operator==(const Totals&) const = default;
 };
 
 Totals placedTotals(const scene::Scene& scene) {
@@ -53,8 +52,12 @@ TEST_F(HallRoundTrip, Geometry_IsTheSame) {
     EXPECT_THAT(read_->warnings, ::testing::IsEmpty());
     EXPECT_EQ(read_->instances.size(), hall_->instances.size());
     const Totals totals = placedTotals(*read_);
-    EXPECT_EQ(totals.triangles, placedTotals(*hall_).triangles);
-    EXPECT_EQ(totals, placedTotals(*hall_));
+    const Totals before = placedTotals(*hall_);
+    EXPECT_EQ(totals.triangles, before.triangles);
+    // The hall leaves tangents to the shader; the reader makes them, and parts vertices for them.
+    EXPECT_GT(totals.tangents, totals.vertices / 2);
+    EXPECT_GE(totals.vertices, before.vertices);
+    EXPECT_LT(totals.vertices, before.vertices + before.vertices / 100);
     const glm::dvec3 moved = glm::max(glm::abs(read_->bounds_world.min - hall_->bounds_world.min),
                                       glm::abs(read_->bounds_world.max - hall_->bounds_world.max));
     EXPECT_LT(moved.x + moved.y + moved.z, 1e-3);
