@@ -58,6 +58,25 @@ constexpr MaterialTexture kFilmTextures[] = {
     {"iridescenceTexture", io::film_slot},
     {"iridescenceThicknessTexture", io::film_thickness_slot}};
 
+constexpr MaterialFactor kDiffuseTransmissionFactors[] = {
+    {"diffuseTransmissionFactor", FactorRange::kUnit,
+     [](Material& m) { return one(m.diffuse_transmission.strength); }},
+    {"diffuseTransmissionColorFactor", FactorRange::kUnit,
+     [](Material& m) { return three(m.diffuse_transmission.color); }}};
+constexpr MaterialTexture kDiffuseTransmissionTextures[] = {
+    {"diffuseTransmissionTexture", io::diffuse_transmission_slot},
+    {"diffuseTransmissionColorTexture", io::diffuse_transmission_color_slot}};
+
+// An attenuationDistance without end, as where a file has none, is 0.
+constexpr MaterialFactor kVolumeFactors[] = {
+    {"thicknessFactor", FactorRange::kFromZero,
+     [](Material& m) { return one(m.volume.thickness_m); }},
+    {"attenuationDistance", FactorRange::kFromZero,
+     [](Material& m) { return one(m.volume.attenuation_m); }},
+    {"attenuationColor", FactorRange::kUnit,
+     [](Material& m) { return three(m.volume.attenuation_color); }}};
+constexpr MaterialTexture kVolumeTextures[] = {{"thicknessTexture", io::thickness_slot}};
+
 constexpr MaterialExtension kRows[] = {
     {.name = kUnlit, .what = "a colour that no light changes"},
     {.name = kEmissiveStrength, .what = "emission brighter than 1"},
@@ -92,6 +111,16 @@ constexpr MaterialExtension kRows[] = {
      .factors = kFilmFactors,
      .textures = kFilmTextures,
      .present = [](const Material& m) { return m.film.strength != 0; }},
+    {.name = "KHR_materials_diffuse_transmission",
+     .what = "light from behind that comes through, scattered, as through leaves and paper",
+     .factors = kDiffuseTransmissionFactors,
+     .textures = kDiffuseTransmissionTextures,
+     .present = [](const Material& m) { return m.diffuse_transmission.strength != 0; }},
+    {.name = "KHR_materials_volume",
+     .what = "a body that dims what comes through it so",
+     .factors = kVolumeFactors,
+     .textures = kVolumeTextures,
+     .present = [](const Material& m) { return m.volume.thickness_m != 0; }},
 };
 
 } // namespace

@@ -31,6 +31,7 @@ struct DeviceTraits {
     double timestamp_period_ns = 1;
     float max_anisotropy = 1;
     uint32_t most_textures = 0; // images and texel buffers that a shader stage may read
+    uint32_t most_samplers = 0; // and those of the images with samplers of their own
 };
 
 class Device {

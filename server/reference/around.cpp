@@ -57,8 +57,9 @@ glm::dvec3 radianceFrom(const Around& around, const glm::dvec3& direction, doubl
 
 glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around) {
     const glm::dvec3 matt = around.matt.at(s.normal) * s.occlusion;
+    const glm::dvec3 sent = scattered(s, model, matt, around.matt.at(-s.normal) * s.occlusion);
     if (model.shading == settings::ShadingModel::kLambert) {
-        return s.base_color * matt;
+        return sent;
     }
     const double roughness = std::max(s.roughness, kLeastRoughness);
     const double n_dot_v = std::max(std::abs(glm::dot(s.normal, s.to_eye)), kLeastCosine);
@@ -74,7 +75,7 @@ glm::dvec3 fromAround(const Surface& s, const Model& model, const Around& around
     const auto seen = [&](const glm::dvec3& dielectric, const glm::dvec3& metal) {
         const double entering = 1 - std::max({dielectric.x, dielectric.y, dielectric.z});
         return glm::mix(dielectric, metal, s.metallic) * glossy +
-               s.base_color * ((1 - s.metallic) * entering) * matt;
+               sent * ((1 - s.metallic) * entering);
     };
     const glm::dvec3 plain = seen(of_dielectric, of_metal);
     if (s.film.strength == 0) {

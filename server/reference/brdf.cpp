@@ -28,21 +28,23 @@ bool hasFilm(const Surface& s, const Model& model) {
 glm::dvec3 ambient(const Surface& s, const Model& model, const Lights& lights) {
     const double up = 0.5 + 0.5 * s.normal.y;
     const glm::dvec3 incoming = glm::mix(lights.ground, lights.sky, up);
+    const glm::dvec3 matt =
+        scattered(s, model, incoming, glm::mix(lights.ground, lights.sky, 1 - up));
     if (model.shading == settings::ShadingModel::kLambert) {
-        return incoming * s.base_color * s.occlusion;
+        return matt * s.occlusion;
     }
     // Scaled so that a usual dielectric returns its base colour and its f0.
     const glm::dvec3 dielectric =
-        s.base_color * ((1 - greatest(s.dielectric_f0)) / 0.96) + s.dielectric_f0;
-    glm::dvec3 all = glm::mix(dielectric, s.base_color, s.metallic);
+        matt * ((1 - greatest(s.dielectric_f0)) / 0.96) + s.dielectric_f0 * incoming;
+    glm::dvec3 all = glm::mix(dielectric, s.base_color * incoming, s.metallic);
     if (hasFilm(s, model)) {
         const glm::dvec3 of_dielectric = filmReflects(s.film, s.dielectric_f0, cosineToEye(s));
         const glm::dvec3 filmed =
-            glm::mix(s.base_color * ((1 - greatest(of_dielectric)) / 0.96) + of_dielectric,
-                     filmReflects(s.film, s.base_color, cosineToEye(s)), s.metallic);
+            glm::mix(matt * ((1 - greatest(of_dielectric)) / 0.96) + of_dielectric * incoming,
+                     filmReflects(s.film, s.base_color, cosineToEye(s)) * incoming, s.metallic);
         all = glm::mix(all, filmed, s.film.strength);
     }
-    return incoming * all * s.occlusion;
+    return all * s.occlusion;
 }
 
 double alphaOf(double roughness) {
@@ -92,6 +94,15 @@ glm::dvec3 coatAmbient(const Surface& s, const Lights& lights) {
 
 } // namespace
 
+glm::dvec3
+scattered(const Surface& s, const Model& model, const glm::dvec3& ahead, const glm::dvec3& behind) {
+    const glm::dvec3 plain = s.base_color * ahead;
+    return model.shading == settings::ShadingModel::kLambert
+               ? plain
+               : glm::mix(plain, s.diffuse_transmission.color * behind,
+                          s.diffuse_transmission.strength);
+}
+
 bool isStretched(const Surface& s, const Model& model) {
     return s.anisotropy.strength > 0 && s.anisotropy.direction != glm::dvec3(0) &&
            model.shading == settings::ShadingModel::kPbr;
@@ -112,12 +123,12 @@ double ramped(const Model& model, double facing) {
     return model.ramp != nullptr ? toonRamp(*model.ramp, facing) : facing;
 }
 
-// What a surface that is all under its film sends: `scattered` of its base colour, and a lobe
-// before Fresnel's term.
-glm::dvec3 underFilm(const Surface& s, const glm::dvec3& scattered, const glm::dvec3& lobe) {
+// What a surface that is all under its film sends: what it scatters and a lobe, both before
+// Fresnel's term.
+glm::dvec3 underFilm(const Surface& s, const glm::dvec3& matt, const glm::dvec3& lobe) {
     const glm::dvec3 of_dielectric = filmReflects(s.film, s.dielectric_f0, cosineToEye(s));
     const glm::dvec3 of_metal = filmReflects(s.film, s.base_color, cosineToEye(s));
-    return scattered * ((1 - greatest(of_dielectric)) * (1 - s.metallic)) +
+    return matt * ((1 - greatest(of_dielectric)) * (1 - s.metallic)) +
            glm::mix(of_dielectric, of_metal, s.metallic) * lobe;
 }
 
@@ -134,6 +145,7 @@ class Banded {
         whole_ += irradiance;
         addTo(base_, s_.normal, to_light, irradiance,
               [&](double facing) { return baseLobe(s_, model_, to_light, facing); });
+        addTo(behind_, -s_.normal, to_light, irradiance, [](double) { return 0.0; });
         addTo(coat_, s_.coat.normal, to_light, irradiance, [&](double facing) {
             return lobeOf(model_, s_.coat.normal, s_.coat.roughness, s_.to_eye, half, facing);
         });
@@ -142,16 +154,18 @@ class Banded {
     // Towards the eye, of bands about `middle`.
     [[nodiscard]] glm::dvec3 reflected(double middle) const {
         const double light = toonBand(model_.bands, base_.scattered, middle) / std::numbers::pi;
-        const glm::dvec3 scattered = s_.base_color * (rimShare(s_, model_) * light);
+        const double behind = toonBand(model_.bands, behind_.scattered, middle) / std::numbers::pi;
+        const glm::dvec3 matt =
+            rimShare(s_, model_) * scattered(s_, model_, glm::dvec3(light), glm::dvec3(behind));
         if (model_.shading == settings::ShadingModel::kLambert) {
-            return scattered;
+            return matt;
         }
         const glm::dvec3 f0 = glm::mix(s_.dielectric_f0, s_.base_color, s_.metallic);
         const double shine = gloss(base_, baseAlpha()) * light;
         glm::dvec3 below =
-            scattered * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) + f0 * shine;
+            matt * ((1 - greatest(s_.dielectric_f0)) * (1 - s_.metallic)) + f0 * shine;
         if (hasFilm(s_, model_)) {
-            below = glm::mix(below, underFilm(s_, scattered, glm::dvec3(shine)), s_.film.strength);
+            below = glm::mix(below, underFilm(s_, matt, glm::dvec3(shine)), s_.film.strength);
         }
         if (hasSheen(s_, model_)) { // its fibres scatter as matt surfaces do
             below = below * belowSheen(s_.sheen, cosineToEye(s_)) +
@@ -200,32 +214,56 @@ class Banded {
     const Model& model_;
     double whole_ = 0;
     Layer base_;
+    Layer behind_;
     Layer coat_;
 };
 
 } // namespace
 
+namespace {
+
+glm::dvec3 halfOf(const glm::dvec3& a, const glm::dvec3& b) {
+    const double length = glm::length(a + b);
+    return length > 0 ? (a + b) / length : glm::dvec3(0);
+}
+
+double edgeOf(const glm::dvec3& to_eye, const glm::dvec3& to_light) {
+    const glm::dvec3 half = halfOf(to_light, to_eye);
+    return lobes::fifth(std::max(0.0, 1 - std::abs(glm::dot(to_eye, half))));
+}
+
+glm::dvec3 dielectricAt(const Surface& s, double edge) {
+    return glm::mix(s.dielectric_f0, glm::dvec3(s.dielectric_f90), edge);
+}
+
+} // namespace
+
 glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_light) {
     const double facing = std::max(0.0, glm::dot(s.normal, to_light));
-    const double scattered = rimShare(s, model) * ramped(model, facing);
+    const double ahead = rimShare(s, model) * ramped(model, facing) * kInvPi;
+    const double behind =
+        rimShare(s, model) * kInvPi * ramped(model, std::max(0.0, -glm::dot(s.normal, to_light)));
     if (model.shading == settings::ShadingModel::kLambert) {
-        return s.base_color * (scattered * kInvPi);
+        return s.base_color * ahead;
     }
-    const glm::dvec3 sum = to_light + s.to_eye;
-    const double length = glm::length(sum);
-    const glm::dvec3 half = length > 0 ? sum / length : glm::dvec3(0);
-    const double edge = lobes::fifth(std::max(0.0, 1 - std::abs(glm::dot(s.to_eye, half))));
-    const glm::dvec3 of_dielectric = glm::mix(s.dielectric_f0, glm::dvec3(s.dielectric_f90), edge);
+    const glm::dvec3 half = halfOf(to_light, s.to_eye);
+    const double edge = edgeOf(s.to_eye, to_light);
+    const glm::dvec3 of_dielectric = dielectricAt(s, edge);
     const glm::dvec3 of_metal = s.base_color + (1.0 - s.base_color) * edge;
+    // KHR_materials_diffuse_transmission leaves Fresnel's term open: an eye mirrored to the other
+    // side makes the way there and back the same.
+    const glm::dvec3 mirrored = s.to_eye - 2.0 * glm::dot(s.normal, s.to_eye) * s.normal;
+    const double enters_behind = 1 - greatest(dielectricAt(s, edgeOf(mirrored, to_light)));
     // Appendix B: both models are whole, and metalness mixes what they give. A dielectric scatters
     // what the strongest reflected channel leaves (KHR_materials_specular).
     glm::dvec3 out =
-        s.base_color * ((1 - greatest(of_dielectric)) * (1 - s.metallic) * scattered * kInvPi);
+        (1 - s.metallic) * scattered(s, model, glm::dvec3((1 - greatest(of_dielectric)) * ahead),
+                                     glm::dvec3(enters_behind * behind));
     const double lobe = facing > 0 ? facing * baseLobe(s, model, to_light, facing) : 0;
     out += glm::mix(of_dielectric, of_metal, s.metallic) * lobe;
     if (hasFilm(s, model)) {
-        out = glm::mix(out, underFilm(s, s.base_color * (scattered * kInvPi), glm::dvec3(lobe)),
-                       s.film.strength);
+        const glm::dvec3 matt = scattered(s, model, glm::dvec3(ahead), glm::dvec3(behind));
+        out = glm::mix(out, underFilm(s, matt, glm::dvec3(lobe)), s.film.strength);
     }
     if (hasSheen(s, model)) {
         const double n_dot_v = cosineToEye(s);

@@ -23,6 +23,13 @@ struct Coat {
     glm::dvec3 normal{0, 1, 0}; // unit
 };
 
+// Light from behind that a surface scatters towards the eye, in place of as much of its base
+// colour.
+struct DiffuseTransmission {
+    double strength = 0;
+    glm::dvec3 color{1}; // dimmed by the body behind
+};
+
 // Everything is in the world's axes; `position` is relative to the eye.
 struct Surface {
     glm::dvec3 position{0};
@@ -39,6 +46,7 @@ struct Surface {
     Sheen sheen;
     Anisotropy anisotropy;
     Film film;
+    DiffuseTransmission diffuse_transmission;
     double alpha = 1;
     bool unlit = false;
 };
@@ -56,6 +64,12 @@ struct Model {
 
 // Whether highlights are not round: Blinn's always are.
 [[nodiscard]] bool isStretched(const Surface& surface, const Model& model);
+
+// What its colours make of matt light on its own side and on the other.
+[[nodiscard]] glm::dvec3 scattered(const Surface& surface,
+                                   const Model& model,
+                                   const glm::dvec3& ahead,
+                                   const glm::dvec3& behind);
 
 // The share of what the eye sees of a surface that is its coat's own; 0 where the model knows none.
 [[nodiscard]] double coatShare(const Surface& surface, const Model& model);

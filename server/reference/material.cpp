@@ -18,7 +18,8 @@ glm::dvec2 transformed(const scene::TextureSlot& slot, const glm::dvec2& uv, boo
 // Stated here too, so that the table of slots does not speak for itself.
 bool isColor(uint32_t slot) {
     return slot == io::base_color_slot || slot == io::emissive_slot ||
-           slot == io::specular_color_slot || slot == io::sheen_color_slot;
+           slot == io::specular_color_slot || slot == io::sheen_color_slot ||
+           slot == io::diffuse_transmission_color_slot;
 }
 
 struct TangentFrame {
@@ -198,6 +199,18 @@ Surface Materials::at(uint32_t material, const SurfacePoint& point) const {
     s.film.thickness_nm =
         std::lerp(static_cast<double>(m.film.least_nm), static_cast<double>(m.film.most_nm),
                   sample(look[io::film_thickness_slot], point).y);
+    s.diffuse_transmission = {
+        static_cast<double>(m.diffuse_transmission.strength) *
+            sample(look[io::diffuse_transmission_slot], point).w,
+        glm::dvec3(m.diffuse_transmission.color) *
+            glm::dvec3(sample(look[io::diffuse_transmission_color_slot], point))};
+    if (m.volume.thickness_m > 0 && m.volume.attenuation_m > 0) { // Beer's law
+        const double ways = static_cast<double>(m.volume.thickness_m) *
+                            sample(look[io::thickness_slot], point).y /
+                            static_cast<double>(m.volume.attenuation_m);
+        s.diffuse_transmission.color *=
+            glm::pow(glm::dvec3(m.volume.attenuation_color), glm::dvec3(ways));
+    }
     if (m.anisotropy.strength > 0) {
         s.anisotropy = anisotropyAt(m, look[io::anisotropy_slot], point);
     }

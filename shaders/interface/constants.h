@@ -21,15 +21,17 @@ FROXEL_CONST uint kMaterialUvTransform = 1U << 3; // a slot has a transform or T
 FROXEL_CONST uint kMaterialExtended = 1U << 4;    // vertices carry uv1, colour and tangent
 FROXEL_CONST uint kMaterialTangents = 1U << 5;    // the tangents are from the file
 FROXEL_CONST uint kMaterialBlend = 1U << 6;
-FROXEL_CONST uint kMaterialSpecular = 1U << 7;    // reflects unlike a usual dielectric
-FROXEL_CONST uint kMaterialGlossiness = 1U << 8;  // in A of the specular colour
-FROXEL_CONST uint kMaterialCoat = 1U << 9;        // a clear coat over it
-FROXEL_CONST uint kMaterialSheen = 1U << 10;      // fibres over it, below its coat
-FROXEL_CONST uint kMaterialAnisotropy = 1U << 11; // highlights of two roughnesses
-FROXEL_CONST uint kMaterialFilm = 1U << 12;       // iridescence
+FROXEL_CONST uint kMaterialSpecular = 1U << 7;             // reflects unlike a usual dielectric
+FROXEL_CONST uint kMaterialGlossiness = 1U << 8;           // in A of the specular colour
+FROXEL_CONST uint kMaterialCoat = 1U << 9;                 // a clear coat over it
+FROXEL_CONST uint kMaterialSheen = 1U << 10;               // fibres over it, below its coat
+FROXEL_CONST uint kMaterialAnisotropy = 1U << 11;          // highlights of two roughnesses
+FROXEL_CONST uint kMaterialFilm = 1U << 12;                // iridescence
+FROXEL_CONST uint kMaterialDiffuseTransmission = 1U << 13; // light comes through it, scattered
 // Layers, of which lights add up what each reflects; and what else the G-buffer has no room for.
 // The shaders of FROXEL_LAYERED alone know them.
-FROXEL_CONST uint kMaterialLitLayers = kMaterialCoat | kMaterialSheen;
+FROXEL_CONST uint kMaterialLitLayers =
+    kMaterialCoat | kMaterialSheen | kMaterialDiffuseTransmission;
 FROXEL_CONST uint kMaterialLayers = kMaterialLitLayers | kMaterialAnisotropy | kMaterialFilm;
 
 // Light flags: which lights a frame has and how they are looped over.

@@ -9,7 +9,9 @@
     X(CoatFactors, coat)                                                                           \
     X(SheenFactors, sheen)                                                                         \
     X(AnisotropyFactors, anisotropy)                                                               \
-    X(FilmFactors, film)
+    X(FilmFactors, film)                                                                           \
+    X(DiffuseTransmissionFactors, diffuse_transmission)                                            \
+    X(VolumeFactors, volume)
 
 FROXEL_IO_NAMESPACE_BEGIN
 
@@ -46,6 +48,25 @@ struct FilmFactors {
     float most_nm FROXEL_USUAL(400);  // where it has 1, or where there is none
 };
 FROXEL_SIZE_ASSERT(FilmFactors, 16);
+
+// Light from behind that a surface scatters towards the eye, in place of as much of its base
+// colour.
+struct DiffuseTransmissionFactors {
+    vec3 color FROXEL_USUAL(1);
+    float strength FROXEL_USUAL(0); // 0..1; 0: none
+};
+FROXEL_SIZE_ASSERT(DiffuseTransmissionFactors, 16);
+
+// The body behind a surface, which dims what comes through it.
+struct VolumeFactors {
+    vec3 attenuation_color FROXEL_USUAL(1); // 0..1, of white light after
+    float attenuation_m FROXEL_USUAL(0);    // this way; 0: nothing is dimmed
+    float thickness_m FROXEL_USUAL(0);      // 0: no body; it is thin
+    float padding0 FROXEL_USUAL(0);
+    float padding1 FROXEL_USUAL(0);
+    float padding2 FROXEL_USUAL(0);
+};
+FROXEL_SIZE_ASSERT(VolumeFactors, 32);
 
 FROXEL_IO_NAMESPACE_END
 

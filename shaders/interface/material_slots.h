@@ -21,10 +21,13 @@
     X(8, coat_roughness, 0) /* G */                                                                \
     X(9, coat_normal, 0)                                                                           \
     X(10, sheen_color, 1)                                                                          \
-    X(11, sheen_roughness, 0) /* A */                                                              \
-    X(12, anisotropy, 0)      /* RG: direction, B: strength */                                     \
-    X(13, film, 0)            /* R: strength */                                                    \
-    X(14, film_thickness, 0)  /* G */
+    X(11, sheen_roughness, 0)      /* A */                                                         \
+    X(12, anisotropy, 0)           /* RG: direction, B: strength */                                \
+    X(13, film, 0)                 /* R: strength */                                               \
+    X(14, film_thickness, 0)       /* G */                                                         \
+    X(15, diffuse_transmission, 0) /* A: strength */                                               \
+    X(16, diffuse_transmission_color, 1)                                                           \
+    X(17, thickness, 0) /* G */
 #define FROXEL_MATERIAL_SLOTS(X)                                                                   \
     FROXEL_SURFACE_SLOTS(X)                                                                        \
     FROXEL_LAYER_SLOTS(X)
@@ -36,7 +39,7 @@ FROXEL_MATERIAL_SLOTS(FROXEL_SLOT)
 #undef FROXEL_SLOT
 
 FROXEL_CONST uint kSurfaceSlots = 7U;
-FROXEL_CONST uint kMaterialSlots = 15U;
+FROXEL_CONST uint kMaterialSlots = 18U;
 
 FROXEL_IO_NAMESPACE_END
 

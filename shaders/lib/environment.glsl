@@ -61,7 +61,12 @@ vec3 environmentRadiance(Surface s, vec3 base_color, float metallic, Dielectric 
     vec3 of_metal = reflectedShare(base_color, 1.0, albedo);
     vec3 glossy = glossyAround(isStretched(s) ? bentByAnisotropy(s) : s, occlusion);
     float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
-    precise vec3 lit = mix(of_dielectric, of_metal, metallic) * glossy +
-                       base_color * ((1.0 - metallic) * entering) * matt;
+    precise vec3 scattered = base_color * ((1.0 - metallic) * entering) * matt;
+    if (scattersLightFromBehind()) {
+        vec3 behind = mattRadiance(-normal) * occlusion;
+        scattered =
+            withLightFromBehind(s, base_color * matt, behind) * ((1.0 - metallic) * entering);
+    }
+    precise vec3 lit = mix(of_dielectric, of_metal, metallic) * glossy + scattered;
     return lit;
 }

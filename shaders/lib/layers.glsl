@@ -8,6 +8,7 @@ void addLayers(Layers layers, inout Surface s) {
                                 c.shininess, c.lobe);
     s.layers.fibres = false;
     s.layers.round = false;
+    s.layers.behind = false;
     if (hasAnisotropy()) {
         s.layers.anisotropy = anisotropySurface(layers.anisotropy, s.normal_view, sqrt(s.alpha2));
         // Elsewhere it is round, and of as much area.
@@ -16,6 +17,8 @@ void addLayers(Layers layers, inout Surface s) {
     if (hasSheen()) {
         s.layers.sheen = sheenSurface(layers.sheen, s.n_dot_v);
     }
+    s.layers.diffuse_transmission = layers.diffuse_transmission;
+    s.layers.shadows_behind = uvec4(0u); // found where lights are looped over
 }
 
 // The coat as a surface by itself.
@@ -34,6 +37,16 @@ Surface coatOf(Surface s) {
 // The sheen as a surface by itself.
 Surface sheenOf(Surface s) {
     s.layers.fibres = true;
+    return s;
+}
+
+// Its other side as a surface by itself, whose eye is mirrored there.
+Surface behindOf(Surface s) {
+    s.layers.round = true;
+    s.layers.behind = true;
+    s.to_eye_view -= (2.0 * s.n_dot_eye) * s.normal_view;
+    s.normal_view = -s.normal_view;
+    s.shadows = s.layers.shadows_behind;
     return s;
 }
 
@@ -81,6 +94,17 @@ Surface bentByAnisotropy(Surface s) {
     return s;
 }
 
+bool isBehind(Surface layer) { return hasDiffuseTransmission() && layer.layers.behind; }
+
+bool scattersLightFromBehind() { return hasDiffuseTransmission(); }
+
+// What comes through the surface of what is behind it, and what it scatters of its own side's.
+vec3 withLightFromBehind(Surface s, vec3 scattered, vec3 behind) {
+    precise vec3 both = mix(scattered, s.layers.diffuse_transmission.color * behind,
+                            s.layers.diffuse_transmission.strength);
+    return both;
+}
+
 // What a light adds to a layer. Fresnel's term is the eye's, so its two parts are one.
 vec3 addLayerLight(LightSum of_layer, vec3 sum) {
     precise vec3 all = sum + (of_layer.specular + of_layer.grazing);
@@ -100,7 +124,20 @@ vec3 addLayerLight(LightSum of_layer, vec3 sum) {
         LightSum of_layer = noLight();                                                             \
         add;                                                                                       \
         sum.layers.sheen = addLayerLight(of_layer, sum.layers.sheen);                              \
+    }                                                                                              \
+    if (hasDiffuseTransmission()) {                                                                \
+        Surface layer = behindOf(s);                                                               \
+        LightSum of_layer = noLight();                                                             \
+        add;                                                                                       \
+        sum.layers.behind += of_layer.diffuse;                                                     \
+        sum.layers.behind_edge += of_layer.edge;                                                   \
     }
+
+// What a rim scatters more.
+void brightenLayers(float by, inout LightSum sum) {
+    sum.layers.behind *= by;
+    sum.layers.behind_edge *= by;
+}
 
 // Whether a layer may face what the surface below it does not.
 bool layersFace(Surface s, vec3 l) { return dot(s.layers.coat.normal_view, l) > 0.0; }
@@ -109,22 +146,36 @@ bool layersFace(Surface s, vec3 l) { return dot(s.layers.coat.normal_view, l) > 
 void hideLayers(inout Surface s) { s.layers.coat.normal_view = vec3(0.0); }
 
 // Componentwise, of the surface's normal and its layers'.
-vec3 highestNormal(Surface s) { return max(s.normal_view, s.layers.coat.normal_view); }
-vec3 lowestNormal(Surface s) { return min(s.normal_view, s.layers.coat.normal_view); }
+vec3 highestNormal(Surface s) {
+    vec3 other = hasDiffuseTransmission() ? -s.normal_view : s.normal_view;
+    return max(max(s.normal_view, other), s.layers.coat.normal_view);
+}
+vec3 lowestNormal(Surface s) {
+    vec3 other = hasDiffuseTransmission() ? -s.normal_view : s.normal_view;
+    return min(min(s.normal_view, other), s.layers.coat.normal_view);
+}
 
 // Of x: how far a normal is from `normal`, squared; of y: a normal's negated product with `from`.
 vec3 largestOfLayers(vec3 own, Surface s, vec3 normal, vec3 from) {
     vec3 turn = s.layers.coat.normal_view - normal;
-    return max(own, vec3(dot(turn, turn), -dot(s.layers.coat.normal_view, from), 0.0));
+    own = max(own, vec3(dot(turn, turn), -dot(s.layers.coat.normal_view, from), 0.0));
+    if (hasDiffuseTransmission()) {
+        turn = -s.normal_view - normal;
+        own = max(own, vec3(dot(turn, turn), dot(s.normal_view, from), 0.0));
+    }
+    return own;
 }
 #else
 #define addToLayers(s, sum, add)
+void brightenLayers(float by, inout LightSum sum) {}
 bool isFibres(Surface s) { return false; }
 float fibresLobe(Surface s, float n_dot_sum, float h2, float facing) { return 0.0; }
 bool isStretched(Surface s) { return false; }
 float stretchedLobe(Surface s, vec3 l, float n_dot_sum, float h2, float facing) { return 0.0; }
 Surface bentByAnisotropy(Surface s) { return s; }
 bool layersFace(Surface s, vec3 l) { return false; }
+bool scattersLightFromBehind() { return false; }
+vec3 withLightFromBehind(Surface s, vec3 scattered, vec3 behind) { return scattered; }
 void hideLayers(inout Surface s) {}
 vec3 highestNormal(Surface s) { return s.normal_view; }
 vec3 lowestNormal(Surface s) { return s.normal_view; }

@@ -76,12 +76,15 @@ void addLocalLight(Surface s, LocalLight light, float share, inout LightSum sum)
     if (hasLight(kLightSpots)) {
         share *= coneShare(light, to_light);
     }
+    float whole = share;
     if (hasLight(kLightShadows)) {
-        precise float seen = share * shadowShare(s, light.shadow);
+        precise float seen = whole * shadowShare(s, light.shadow);
         share = seen;
     }
     addLight(s, to_light, light.inv_radius2, light.color, share, sum);
-    addToLayers(s, sum, addLight(layer, to_light, light.inv_radius2, light.color, share, of_layer));
+    addToLayers(s, sum,
+                addLight(layer, to_light, light.inv_radius2, light.color,
+                         shareOnLayer(layer, light.shadow, whole, share), of_layer));
 }
 
 #ifdef FROXEL_SUBGROUPS

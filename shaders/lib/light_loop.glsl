@@ -144,6 +144,7 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
     if (hasLight(kLightLocal)) {
         if (hasLight(kLightShadows)) {
             s.shadows = findShadows(s, lit);
+            findShadowsOfLayers(lit, s);
         }
         bool all_lights = !hasLight(kLightLists);
         uint cluster = all_lights || !lit ? kNoCluster : clusterAt(pixel, distance);
@@ -171,13 +172,15 @@ LightSum sumLights(Surface s, uvec2 pixel, float distance, bool lit) {
             addIrradiance(s, l, dot(s.normal_view, l), dot(s.to_eye_view, l), 1.0, 0.0,
                           suns[i].color, sum);
             addToLayers(s, sum,
-                        addIrradiance(layer, l, dot(layer.normal_view, l), dot(s.to_eye_view, l),
-                                      1.0, 0.0, suns[i].color, of_layer));
+                        addIrradiance(layer, l, dot(layer.normal_view, l),
+                                      dot(layer.to_eye_view, l), 1.0, 0.0, suns[i].color,
+                                      of_layer));
         }
     }
     if (hasLight(kLightRim) && s.n_dot_v < frame.toon_rim_width) {
         sum.diffuse *= frame.toon_rim;
         sum.edge *= frame.toon_rim;
+        brightenLayers(frame.toon_rim, sum);
     }
     return sum;
 }
@@ -208,5 +211,10 @@ vec3 ambientRadiance(Surface s, vec3 base_color, float metallic, Dielectric diel
         albedo *= entering(dielectric) / (1.0 - kDielectricF0);
     }
     precise vec3 lit = sky * (albedo + f0) * occlusion;
+    if (scattersLightFromBehind()) {
+        float white = (1.0 - metallic) * (entering(dielectric) / (1.0 - kDielectricF0));
+        vec3 behind = skyRadiance(-s.normal_view) * white;
+        lit = (sky * f0 + withLightFromBehind(s, sky * albedo, behind)) * occlusion;
+    }
     return lit;
 }

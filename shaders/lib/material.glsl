@@ -164,9 +164,7 @@ Anisotropy shadeAnisotropy(VertexData v, vec3 n, vec3 position_view) {
     }
     return a;
 }
-#endif
 
-#ifdef FROXEL_LAYERED
 Film shadeFilm(VertexData v) {
     Film film = Film(material.film.strength, material.film.ior, material.film.most_nm);
     if (hasTexture(film_slot)) {
@@ -177,6 +175,26 @@ Film shadeFilm(VertexData v) {
             mix(material.film.least_nm, material.film.most_nm, sampleMaterial(film_thickness, v).g);
     }
     return film;
+}
+
+DiffuseTransmission shadeDiffuseTransmission(VertexData v) {
+    DiffuseTransmission through = DiffuseTransmission(material.diffuse_transmission.color,
+                                                      material.diffuse_transmission.strength);
+    if (hasTexture(diffuse_transmission_slot)) {
+        through.strength *= sampleMaterial(diffuse_transmission, v).a;
+    }
+    if (hasTexture(diffuse_transmission_color_slot)) {
+        through.color *= sampleMaterial(diffuse_transmission_color, v).rgb;
+    }
+    if (material.volume.thickness_m > 0.0 && material.volume.attenuation_m > 0.0) {
+        float thickness_m = material.volume.thickness_m;
+        if (hasTexture(thickness_slot)) {
+            thickness_m *= sampleMaterial(thickness, v).g;
+        }
+        through.color *= attenuated(material.volume.attenuation_color,
+                                    thickness_m / material.volume.attenuation_m);
+    }
+    return through;
 }
 #endif
 
@@ -227,6 +245,9 @@ GbufferSample shadeMaterial(VertexData v, vec4 base, vec3 position_view, bool fr
     }
     if (hasFilm()) {
         g.layers.film = shadeFilm(v);
+    }
+    if (hasDiffuseTransmission()) {
+        g.layers.diffuse_transmission = shadeDiffuseTransmission(v);
     }
 #endif
     return g;

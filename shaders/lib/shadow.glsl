@@ -130,3 +130,24 @@ float shadowShare(Surface s, uint shadow) {
     precise float share = float(level) * (1.0 / float(kShadowLevels));
     return whole ? 1.0 : share;
 }
+
+#ifdef FROXEL_LAYERED
+// Of the surface's other side, where light comes through it.
+void findShadowsOfLayers(bool lit, inout Surface s) {
+    if (hasDiffuseTransmission()) {
+        s.layers.shadows_behind = findShadows(behindOf(s), lit);
+    }
+}
+
+// Of a light's irradiance on a layer: `share` as on the surface, whose shadows the layers over it
+// have; of `whole` what arrives on its other side.
+float shareOnLayer(Surface layer, uint shadow, float whole, float share) {
+    if (isBehind(layer) && hasLight(kLightShadows)) {
+        precise float seen = whole * shadowShare(layer, shadow);
+        return seen;
+    }
+    return share;
+}
+#else
+void findShadowsOfLayers(bool lit, inout Surface s) {}
+#endif

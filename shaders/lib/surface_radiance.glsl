@@ -12,9 +12,30 @@ vec3 mattAround(Surface s, float occlusion) {
     return skyRadiance(s.normal_view) * occlusion;
 }
 
+// What is around, as a matt surface of that base colour scatters it.
+vec3 scatteredAround(Surface s, vec3 base_color, float occlusion) {
+    vec3 scattered = base_color * mattAround(s, occlusion);
+    return scattersLightFromBehind()
+               ? withLightFromBehind(s, scattered, mattAround(behindOf(s), occlusion))
+               : scattered;
+}
+
+// What lights behind the surface add up to there, as far as it lets them through; `own`, all
+// lights' sum, then has as much less of what its own side scatters.
+LightSum throughSurface(DiffuseTransmission through, inout LightSum own) {
+    LightSum behind = noLight();
+    if (hasDiffuseTransmission()) {
+        behind.diffuse = own.layers.behind * through.strength;
+        behind.edge = own.layers.behind_edge * through.strength;
+        own.diffuse *= 1.0 - through.strength;
+        own.edge *= 1.0 - through.strength;
+    }
+    return behind;
+}
+
 // `lit`, but what a film takes of the surface: what lights and what is around send from there, by
 // one Fresnel term of the eye's for all. What is around is brought as in ambientRadiance().
-vec3 underFilm(vec3 lit, Surface s, LightSum sum, GbufferSample g) {
+vec3 underFilm(vec3 lit, Surface s, LightSum sum, LightSum behind, GbufferSample g) {
     if (!hasFilm()) {
         return lit;
     }
@@ -23,13 +44,18 @@ vec3 underFilm(vec3 lit, Surface s, LightSum sum, GbufferSample g) {
     vec3 of_dielectric = filmReflects(waves, g.dielectric.f0, s.n_dot_v);
     vec3 of_metal = filmReflects(waves, g.base_color, s.n_dot_v);
     float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
-    vec3 albedo = g.base_color * (1.0 - g.metallic);
+    float scatters = 1.0 - g.metallic;
     const vec3 kMost = vec3(1e30);
     precise vec3 lobe = min(sum.specular, kMost) + min(sum.grazing, kMost);
-    precise vec3 scattered = min(sum.diffuse, kMost) + min(sum.edge, kMost);
-    precise vec3 filmed =
-        (albedo * entering * scattered + mix(of_dielectric, of_metal, g.metallic) * lobe * 0.5) /
-        kPi;
+    precise vec3 scattered = g.base_color * (min(sum.diffuse, kMost) + min(sum.edge, kMost));
+    if (hasDiffuseTransmission()) {
+        scattered += g.layers.diffuse_transmission.color *
+                     (min(behind.diffuse, kMost) + min(behind.edge, kMost));
+    }
+    precise vec3 filmed = (scattered * (scatters * entering) +
+                           mix(of_dielectric, of_metal, g.metallic) * lobe * 0.5) /
+                          kPi;
+    vec3 around = scatteredAround(s, g.base_color, g.occlusion) * scatters;
     if (hasLight(kLightEnvironment)) {
         float whole = lobeAlbedo(s.n_dot_v, lobeRoughness(s)).x;
         of_dielectric *= whole * (1.0 + of_dielectric * (1.0 / whole - 1.0));
@@ -37,10 +63,10 @@ vec3 underFilm(vec3 lit, Surface s, LightSum sum, GbufferSample g) {
         entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
         filmed += mix(of_dielectric, of_metal, g.metallic) *
                       glossyAround(isStretched(s) ? bentByAnisotropy(s) : s, g.occlusion) +
-                  albedo * entering * mattAround(s, g.occlusion);
+                  around * entering;
     } else {
-        filmed += mattAround(s, g.occlusion) * (albedo * (entering / (1.0 - kDielectricF0)) +
-                                                mix(of_dielectric, of_metal, g.metallic));
+        filmed += around * (entering / (1.0 - kDielectricF0)) +
+                  mattAround(s, g.occlusion) * mix(of_dielectric, of_metal, g.metallic);
     }
     precise vec3 seen = mix(lit, filmed, film.strength);
     return seen;
@@ -85,10 +111,17 @@ vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) 
 
 // What the eye sees of a lit surface, its layers and all.
 vec3 surfaceRadiance(GbufferSample g, Surface s, LightSum sum) {
-    precise vec3 lit = shadeSum(sum, g.base_color, g.metallic, g.dielectric) +
+    LightSum own = sum;
+#ifdef FROXEL_LAYERED
+    LightSum behind = throughSurface(g.layers.diffuse_transmission, own);
+#endif
+    precise vec3 lit = shadeSum(own, g.base_color, g.metallic, g.dielectric) +
                        ambientRadiance(s, g.base_color, g.metallic, g.dielectric, g.occlusion);
 #ifdef FROXEL_LAYERED
-    lit = underFilm(lit, s, sum, g);
+    if (hasDiffuseTransmission()) {
+        lit += shadeSum(behind, g.layers.diffuse_transmission.color, g.metallic, g.dielectric);
+    }
+    lit = underFilm(lit, s, own, behind, g);
     lit = underSheen(lit, s, sum, g.layers.sheen, g.occlusion);
 #endif
     precise vec3 seen = lit + g.emissive;

@@ -206,6 +206,36 @@ TEST_F(HardMaterials, FilmsOfAnyThickness_AreAsDoublePrecisionHasThem) {
     }
 }
 
+// None of its own colour left, nothing let through, nearly nothing; bodies that let nothing or all
+// through, thicker and thinner than single precision can tell.
+TEST_F(HardMaterials, LightFromBehind_IsAsDoublePrecisionHasIt) {
+    struct Case {
+        float strength;
+        glm::vec3 color;
+        io::VolumeFactors volume;
+    };
+    for (const auto& [strength, color, volume] :
+         {Case{1, glm::vec3(1), {}}, Case{1, glm::vec3(0), {}}, Case{1e-20F, glm::vec3(1), {}},
+          Case{0.7F,
+               {1, 0.5F, 0},
+               {.attenuation_color = {0, 0.5F, 1}, .attenuation_m = 1e-30F, .thickness_m = 1e30F}},
+          Case{0.7F,
+               {1, 0.5F, 0},
+               {.attenuation_color = {0.01F, 0.5F, 1},
+               .attenuation_m = 1e30F,
+               .thickness_m = 1e-30F}},
+          Case{1,
+               glm::vec3(1),
+               {.attenuation_color = {0, 0.1F, 1}, .attenuation_m = 10, .thickness_m = 0.2F}}}) {
+        SCOPED_TRACE(std::to_string(strength) + " " + std::to_string(volume.thickness_m));
+        SceneMaker maker = glossySphere(0.5F);
+        maker.sun({0, 0, 1}); // from behind
+        maker.scene.materials[0].diffuse_transmission = {.color = color, .strength = strength};
+        maker.scene.materials[0].volume = volume;
+        expectAsInDouble(device(), maker, within(1e-3, 0.05));
+    }
+}
+
 // A smaller highlight would slip between pixels.
 TEST_F(HardMaterials, RoughnessBelowTheLeast_IsTheLeast) {
     const auto drawn = [&](float roughness) {

@@ -184,6 +184,41 @@ TEST_F(Environment, WhiteFurnace_SheenLosesNothing) {
     }
 }
 
+// All at once: a coat over fibres over a film over what lets half of it through. White keeps
+// nothing, but what a coat, fibres and a film take once and do not give back.
+TEST_F(Environment, WhiteFurnace_AllLayersTogetherGiveNoMoreThanTheyTake) {
+    auto scene = makeSpheres({1, 1, 1, 1});
+    for (auto& material : scene.materials) {
+        material.diffuse_transmission.strength = 0.5F;
+        material.roughness = 0.3F;
+    }
+    scene.surroundings =
+        surroundingsOf(environment::panoramaOf(8, [](const glm::dvec3&) { return glm::dvec3(1); }));
+    const auto furnace = [&](double least) {
+        render::Renderer renderer(device(), scene);
+        for (const auto kind : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+            const Picture picture = draw(renderer, inputsFor(kind, EnvironmentLight::kFile));
+            size_t covered = 0;
+            for (const float seen : picture.radiance) {
+                if (seen != 0) {
+                    ++covered;
+                    ASSERT_LT(static_cast<double>(seen), 1 + 1e-5);
+                    ASSERT_GT(static_cast<double>(seen), least);
+                }
+            }
+            EXPECT_GT(covered, 3U * 120 * 72 / 5);
+        }
+    };
+    furnace(1 - 1e-5);
+    for (auto& material : scene.materials) {
+        material.sheen = {.color = glm::vec3(0.7F), .roughness = 0.5F};
+        material.film = {.strength = 0.8F};
+        material.anisotropy = {.strength = 0.6F};
+        material.coat = {.strength = 1};
+    }
+    furnace(0.9);
+}
+
 // Samples of a lobe lie at other angles about its normal: 0.01 of up to 2.5.
 TEST_F(Environment, Rotation_IsThatOfThePanorama) {
     const auto panorama = environment::panoramaOf(64, softSky);

@@ -280,6 +280,40 @@ TEST_F(Reference, RoomOfFilms_IsWithinArithmetic) {
     }
 }
 
+// Light from behind through thin and thick, of all and of a part, below coats and films.
+TEST_F(Reference, RoomThatLetsLightThrough_IsWithinArithmetic) {
+    auto room = makePlainRoom();
+    giveReflectances(room);
+    for (const auto& [material, strength, color] :
+         {std::tuple(size_t{0}, 0.5F, glm::vec3(0.9F, 0.5F, 0.2F)),
+          std::tuple(size_t{2}, 1.0F, glm::vec3(0.2F, 0.8F, 0.3F)),
+          std::tuple(size_t{3}, 0.8F, glm::vec3(1)), std::tuple(size_t{4}, 0.3F, glm::vec3(1))}) {
+        room.materials[material].diffuse_transmission = {.color = color, .strength = strength};
+    }
+    room.materials[3].volume = {
+        .attenuation_color = {0.9F, 0.4F, 1}, .attenuation_m = 0.2F, .thickness_m = 0.3F};
+    room.materials[3].film = {.strength = 0.6F, .most_nm = 500};
+    room.materials[4].coat.strength = 1;
+    Compared compared(device(), room);
+    for (const auto& camera : room.cameras) {
+        for (const auto renderer : {Renderer::kForwardPlus, Renderer::kClusteredDeferred}) {
+            for (const auto model : {ShadingModel::kPbr, ShadingModel::kLambert}) {
+                if (renderer != Renderer::kForwardPlus && model == ShadingModel::kLambert) {
+                    continue; // which has none of it: the G-buffer's steps
+                }
+                auto inputs = inputsFor(camera.camera, renderer);
+                inputs.settings.shading = model;
+                inputs.settings.lighting = settings::LightingStage::kCompute;
+                const double bound = arithmeticBound(2e-4, settings::LightingStage::kFragment) *
+                                     (renderer == Renderer::kForwardPlus ? 1 : 5);
+                EXPECT_LT(compared.against(inputs).max_relative, bound);
+                inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
+                EXPECT_LT(compared.against(inputs).max_relative, bound);
+            }
+        }
+    }
+}
+
 // Coats and what they cover, here everything that is solid but the leaves, are drawn by the forward
 // shader or, from ids, by its twin in compute.
 TEST_F(Reference, RoomOfCoats_Deferred_IsWithinTheGbuffersSteps) {
@@ -309,6 +343,7 @@ TEST_F(Reference, ToonBandsAndRim_AreTheReferencesButAtSteps) {
     auto cloth = plain;
     givePlainSheen(cloth);
     cloth.materials[3].film = {.strength = 0.8F};
+    cloth.materials[0].diffuse_transmission = {.color = {0.9F, 0.6F, 0.3F}, .strength = 0.6F};
     cloth.materials[3].anisotropy = {.strength = 0.8F, .rotation_rad = 0.5F};
     for (const auto& room : {plain, coated, cloth}) {
         Compared compared(device(), room);

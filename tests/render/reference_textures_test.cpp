@@ -117,6 +117,9 @@ void giveEveryTexture(scene::Material& material, uint32_t texcoord, float shift)
     material.coat.roughness = 0.8F;
     material.sheen = {.color = {0.5F, 0.8F, 0.3F}, .roughness = 0.9F};
     material.anisotropy = {.strength = 0.8F, .rotation_rad = 0.4F};
+    material.diffuse_transmission = {.color = {0.8F, 0.9F, 0.5F}, .strength = 0.8F};
+    material.volume = {
+        .attenuation_color = {0.6F, 0.3F, 0.8F}, .attenuation_m = 0.5F, .thickness_m = 0.7F};
     material.film = {.strength = 0.7F, .ior = 1.4F, .least_nm = 350, .most_nm = 450};
     float turn = shift;
     for (auto* slot : scene::textureSlots(material)) {

@@ -442,6 +442,37 @@ TEST_F(Shadows, ACoatThatFacesALampBelow_IsInTheShadowOfWhatItCovers) {
     EXPECT_EQ(brightest(1), 0);
 }
 
+// A lamp below a floor that lets its light through: the floor is in no shadow of its own, on
+// neither side, and in that of what stands between.
+TEST_F(Shadows, ASheetThatLetsLightThrough_IsInNoShadowOfItsOwn) {
+    for (const bool blocked : {false, true}) {
+        SceneMaker maker;
+        maker.add(ground(4));
+        maker.scene.materials[0].double_sided = true;
+        maker.scene.materials[0].diffuse_transmission.strength = 0.7F;
+        if (blocked) {
+            maker.add(quad({-1, -0.3F, 0}, {2, 0, 0}, {0, 0, -2}, 1, 0));
+        }
+        render::Renderer renderer(device(), maker.scene);
+        const auto drawn = [&](uint32_t maps) {
+            auto inputs = inputsFrom({0, 2, 4}, {0, 0, 0}, {maps, 256});
+            inputs.settings.shading = settings::ShadingModel::kPbr;
+            inputs.settings.lights.ambient = 0;
+            inputs.settings.lights.placed = settings::PlacedLights(
+                {{.id = 1, .position_world = {0, -0.8, -1}, .intensity = 20, .radius_m = 8},
+                 {.id = 2, .position_world = {1, 1.5, 0}, .intensity = 20, .radius_m = 8}});
+            return draw(renderer, inputs);
+        };
+        const Picture open = drawn(0);
+        const Picture shadowed = drawn(2);
+        const size_t differing = differingFloats(open, shadowed);
+        EXPECT_TRUE(blocked ? differing > 100 : differing == 0) << differing;
+        for (size_t i = 0; i < open.radiance.size(); ++i) {
+            ASSERT_LE(shadowed.radiance[i], open.radiance[i]);
+        }
+    }
+}
+
 // As many lights as may have maps, each with shadows of its own: together they are the sum of what
 // each is alone. Levels are kept in 4 bits a light, eight lights a word.
 TEST_F(Shadows, ThirtyTwoLights_EachHaveTheirOwn) {

@@ -148,6 +148,9 @@ void giveLobes(scene::Scene& room) {
     room.materials[3].film = {.strength = 0.8F, .ior = 1.4F, .least_nm = 200, .most_nm = 600};
     room.materials[3].film_thickness_texture.texture = 0;
     room.materials[0].anisotropy = {.strength = 0.9F, .rotation_rad = 0.5F};
+    room.materials[2].diffuse_transmission = {.color = {0.3F, 0.9F, 0.4F}, .strength = 0.5F};
+    room.materials[3].diffuse_transmission = {.color = glm::vec3(1), .strength = 0.8F};
+    room.materials[3].diffuse_transmission_color_texture.texture = 0;
     room.materials[4].anisotropy.strength = 0.7F;
     room.materials[4].anisotropy_texture.texture = 1;
 }

@@ -234,6 +234,8 @@ std::vector<std::string> sceneWords(const SceneNeeds& needs) {
         materials("sheen", io::kMaterialSheen, "no sheen: no light is added up by fibres"),
         materials("anisotropy", io::kMaterialAnisotropy, "no anisotropy: highlights are round"),
         materials("iridescence", io::kMaterialFilm, "no iridescence: no thin films"),
+        materials("diffuse transmission", io::kMaterialDiffuseTransmission,
+                  "no diffuse transmission: no light is added up from behind"),
         materials("both sides drawn", io::kMaterialDoubleSided,
                   "no double-sided materials: back faces are culled"),
         materials("texture transforms or a second set", io::kMaterialUvTransform,

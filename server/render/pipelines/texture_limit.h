@@ -8,7 +8,7 @@
 namespace froxel::render {
 
 // Images and texel buffers that a pass over surfaces reads at most, beside materials': the frame's
-// set and the screen's.
+// set and the screen's. Only materials' have samplers.
 inline constexpr uint32_t kPassTextures = 15;
 
 // Of interface/material_slots.h, from the first: all; or those of surfaces alone, where layers over

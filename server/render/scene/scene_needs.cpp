@@ -45,6 +45,12 @@ bool shows(const scene::Material& m, uint32_t slot) {
         return m.film.strength != 0;
     case io::film_thickness_slot:
         return m.film.strength != 0 && m.film.least_nm != m.film.most_nm;
+    case io::diffuse_transmission_slot:
+    case io::diffuse_transmission_color_slot:
+        return m.diffuse_transmission.strength != 0;
+    case io::thickness_slot:
+        return m.diffuse_transmission.strength != 0 && m.volume.thickness_m != 0 &&
+               m.volume.attenuation_m != 0;
     default:
         return true;
     }
@@ -77,6 +83,7 @@ MaterialFlags materialFlags(const scene::Material& m) {
         set(m.sheen.color != glm::vec3(0), io::kMaterialSheen);
         set(m.anisotropy.strength != 0, io::kMaterialAnisotropy);
         set(m.film.strength != 0, io::kMaterialFilm);
+        set(m.diffuse_transmission.strength != 0, io::kMaterialDiffuseTransmission);
     }
     return flags;
 }

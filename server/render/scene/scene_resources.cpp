@@ -113,8 +113,9 @@ SceneNeeds drawableNeeds(const gpu::Device& device, const scene::Scene& scene) {
         return all;
     }
     spdlog::warn("event=layers_left_out reason=\"layers are drawn from {} sampled descriptors in a "
-                 "shader; this device allows {}\"",
-                 kPassTextures + io::kMaterialSlots, device.traits().most_textures);
+                 "shader, {} of them with samplers; this device allows {} and {}\"",
+                 kPassTextures + io::kMaterialSlots, io::kMaterialSlots,
+                 device.traits().most_textures, device.traits().most_samplers);
     return findNeeds(scene, false);
 }
 
@@ -295,7 +296,10 @@ VisibilityPipelines& SceneResources::visibilityPipelines() {
 uint32_t SceneResources::texturesAtOnce() const {
     const auto& traits = device.traits();
     const auto all = static_cast<uint32_t>(material_textures.size());
-    return traits.descriptor_indexing && all + kPassTextures <= traits.most_textures ? all : 0;
+    return traits.descriptor_indexing && all + kPassTextures <= traits.most_textures &&
+                   all <= traits.most_samplers
+               ? all
+               : 0;
 }
 
 std::vector<Pipelines::Made> SceneResources::variantsMade() const {

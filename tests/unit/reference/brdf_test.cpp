@@ -289,6 +289,35 @@ TEST(ReferenceBrdf, SheenInAFurnace_ReturnsWhatItTakes) {
     EXPECT_LT(albedo(s, kPbr), 1.02);
 }
 
+// By hand: what comes through is a matt surface's of the other side, by Fresnel's term of an eye
+// that is mirrored there; on its own side as much is missing. There and back it is the same.
+TEST(ReferenceBrdf, LightFromBehind_IsScatteredByTheOtherColor) {
+    Surface s = seenFrom({0, 1, 0});
+    s.base_color = {0.8, 0.4, 0.2};
+    s.diffuse_transmission = {0.25, {0.5, 1, 0}};
+    EXPECT_LT(
+        glm::distance(reflected(s, kPbr, {0, -1, 0}), glm::dvec3(0.5, 1, 0) * (0.25 * 0.96 / kPi)),
+        1e-15);
+    Surface opaque = s;
+    opaque.diffuse_transmission.strength = 0;
+    EXPECT_EQ(reflected(opaque, kPbr, {0, -1, 0}), glm::dvec3(0));
+    const glm::dvec3 missing = reflected(opaque, kPbr, {0, 1, 0}) - reflected(s, kPbr, {0, 1, 0});
+    EXPECT_LT(glm::distance(missing, s.base_color * (0.25 * 0.96 / kPi)), 1e-15);
+    s.metallic = 1;
+    EXPECT_EQ(reflected(s, kPbr, {0, -1, 0}), glm::dvec3(0)) << "metals let nothing through";
+    s.metallic = 0;
+    EXPECT_EQ(reflected(s, kLambert, {0, -1, 0}), glm::dvec3(0)) << "Lambert knows none";
+    for (const double angle : {0.3, 1.0, 1.5}) {
+        const glm::dvec3 to_eye = direction(angle, 0.5);
+        const glm::dvec3 to_light = -direction(0.8, 2.0);
+        s.to_eye = to_eye;
+        const glm::dvec3 there = reflected(s, kPbr, to_light) / std::abs(to_light.y);
+        s.to_eye = -to_light;
+        const glm::dvec3 back = reflected(s, kPbr, -to_eye) / std::abs(to_eye.y);
+        EXPECT_LT(glm::distance(there, back), 1e-14) << angle;
+    }
+}
+
 // By hand: D = (2 + 1 / alpha) sin^(1 / alpha) / 2 pi with alpha = 1.
 TEST(ReferenceBrdf, SheenOfRoughnessOne_IsASine) {
     Surface s = seenFrom(direction(0.8, 0));

@@ -155,6 +155,26 @@ TEST(SceneNeeds, Film_SetsItsFlagsWhereItHasStrength) {
               textureFlag(io::film_slot) | io::kMaterialFilm);
 }
 
+TEST(SceneNeeds, DiffuseTransmission_SetsItsFlagsWhereItHasStrength) {
+    auto m = plain();
+    m.diffuse_transmission_texture.texture = 0;
+    m.diffuse_transmission_color_texture.texture = 0;
+    m.thickness_texture.texture = 0;
+    m.volume.thickness_m = 1;
+    m.volume.attenuation_m = 1;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], 0U) << "nothing comes through";
+    m.diffuse_transmission.strength = 0.1F;
+    const MaterialFlags own = textureFlag(io::diffuse_transmission_slot) |
+                              textureFlag(io::diffuse_transmission_color_slot) |
+                              io::kMaterialDiffuseTransmission;
+    const SceneNeeds needs = findNeeds(sceneWith(m));
+    EXPECT_TRUE(needs.layers);
+    EXPECT_EQ(needs.material_flags[0], own | textureFlag(io::thickness_slot));
+    EXPECT_EQ(litSurfaces(needs.material_flags[0]), 2) << "its other side is lit, too";
+    m.volume.attenuation_m = 0;
+    EXPECT_EQ(findNeeds(sceneWith(m)).material_flags[0], own) << "nothing is dimmed";
+}
+
 TEST(SceneNeeds, UnlitMaterial_DropsWhatItDoesNotShow) {
     auto m = plain();
     m.unlit = true;
