@@ -1,6 +1,6 @@
 // three.js in headless Chromium, without network: what its page asks for are files of this machine.
 
-import { dirname, join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 import type { Browser } from 'playwright-core';
@@ -26,10 +26,14 @@ async function bundle(): Promise<string> {
   return code;
 }
 
-function fileOf(scene: string, path: string): string {
-  const [, kind, ...rest] = decodeURIComponent(path).split('/');
-  return join(kind === 'decoders' ? kDecoders : dirname(scene), ...rest);
+type Paths = Readonly<Record<string, string>>; // folders by the first part of their URLs
+
+function fileOf(folders: Paths, path: string): string {
+  const [, kind = '', ...rest] = decodeURIComponent(path).split('/');
+  return join(folders[kind] ?? kDecoders, ...rest);
 }
+
+const urlOf = (kind: string, file: string): string => `${kSite}/${kind}/${encodeURIComponent(basename(file))}`;
 
 export class ThreeJs {
   private constructor(
@@ -45,8 +49,13 @@ export class ThreeJs {
     return new ThreeJs(browser, script);
   }
 
-  /** A PNG file. Rejects where three.js cannot read the scene. */
+  /** A PNG file; `environment` is a file, too. Rejects where three.js cannot read the scene. */
   async draw(scene: string, task: Omit<Drawing.Task, 'url' | 'decoders'>): Promise<Buffer> {
+    const { environment } = task;
+    const folders: Paths = {
+      scene: dirname(scene),
+      ...(environment !== null && { environment: dirname(environment) }),
+    };
     const page = await this.browser.newPage();
     try {
       page.on('console', (message) => void (message.type() === 'error' && console.error(message.text())));
@@ -54,13 +63,18 @@ export class ThreeJs {
         const { pathname } = new URL(route.request().url());
         return pathname === '/'
           ? route.fulfill({ contentType: 'text/html', body: '<!doctype html>' })
-          : route.fulfill({ path: fileOf(scene, pathname) });
+          : route.fulfill({ path: fileOf(folders, pathname) });
       });
       await page.goto(kSite);
       await page.addScriptTag({ content: this.script });
       const url = await page.evaluate(
         (whole) => (globalThis as unknown as { drawing: typeof Drawing }).drawing.draw(whole),
-        { ...task, url: `${kSite}/scene/${encodeURIComponent(scene.slice(dirname(scene).length + 1))}`, decoders: `${kSite}/decoders` },
+        {
+          ...task,
+          url: urlOf('scene', scene),
+          environment: environment && urlOf('environment', environment),
+          decoders: `${kSite}/decoders`,
+        },
       );
       return Buffer.from(url.slice(url.indexOf(',') + 1), 'base64');
     } finally {

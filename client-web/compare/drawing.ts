@@ -4,6 +4,7 @@
 import {
   AnimationMixer,
   Color,
+  EquirectangularReflectionMapping,
   type Light,
   NeutralToneMapping,
   PerspectiveCamera,
@@ -13,6 +14,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import { DRACOLoader } from 'three/examples/jsm/loaders/DRACOLoader.js';
+import { EXRLoader } from 'three/examples/jsm/loaders/EXRLoader.js';
 import { type GLTF, GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/examples/jsm/loaders/KTX2Loader.js';
 import { MeshoptDecoder } from 'three/examples/jsm/libs/meshopt_decoder.module.js';
@@ -32,6 +34,7 @@ export interface Task {
   readonly far: number;
   readonly ownLights: boolean;
   readonly light: Lighting;
+  readonly environment: string | null; // URL of a panorama, EXR
 }
 
 const kBackground = new Color(0.01, 0.013, 0.02); // linear, before the tone map
@@ -89,6 +92,11 @@ export async function draw(task: Task): Promise<string> {
   // Which three.js exposes.
   scene.background = kBackground.clone().multiplyScalar(1 / task.light.exposure);
   scene.add(gltf.scene, ...task.light.lamps.map(lampOf));
+  if (task.environment !== null) {
+    const panorama = await new EXRLoader().loadAsync(task.environment);
+    panorama.mapping = EquirectangularReflectionMapping;
+    scene.environment = panorama;
+  }
   // Straight to the canvas three.js would blend what the tone map and sRGB have made of surfaces.
   const composer = new EffectComposer(renderer);
   composer.addPass(new RenderPass(scene, cameraOf(task)));

@@ -26,6 +26,14 @@ export function freshFolder(name: string): string {
   return folder;
 }
 
+/** A panorama beside the checkout; null where it is not there. */
+export function sharedPanorama(): string | null {
+  const file = join(kRoot, '../shared/scenes/environments/warehouse.exr');
+  if (existsSync(file)) return file;
+  console.log(`skipped: ${file} is not there`);
+  return null;
+}
+
 /** Scenes beside the checkout, where there are any. */
 export function sharedScenes(): string[] {
   const folder = join(kRoot, '../shared/scenes/models');

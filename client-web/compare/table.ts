@@ -5,26 +5,30 @@ export interface Row {
   readonly flip: number; // mean LDR-FLIP of the picture
   readonly drawn: number; // the share of its pixels that are not background
   readonly mssim: number;
+  readonly around: number | null; // FLIP with light from around alone; null: not drawn
   readonly why?: string | undefined; // why the pictures differ
 }
 
 /** Above it a row needs a reason. */
 export const kMostFlip = 0.05;
 
-const kHead = '| file | FLIP | over what is drawn | SSIM | why |';
+const kHead = '| file | FLIP | over what is drawn | SSIM | around: FLIP | over what is drawn | why |';
+
+const worst = ({ flip, around }: Row): number => Math.max(flip, around ?? 0);
 
 export function table(rows: readonly Row[]): string {
   const lines = rows.map((row) => {
-    const { name, flip, drawn, mssim, why = flip > kMostFlip ? 'not known' : '' } = row;
-    const numbers = [flip, flip / drawn, mssim].map((value) => value.toFixed(3));
+    const { name, flip, drawn, mssim, around, why = worst(row) > kMostFlip ? 'not known' : '' } = row;
+    const surroundings = around === null ? [null, null] : [around, around / drawn];
+    const numbers = [flip, flip / drawn, mssim, ...surroundings].map((value) => value?.toFixed(3) ?? '–');
     return `| ${[name, ...numbers, why].join(' | ')} |`.replace('|  |', '| |');
   });
-  return [kHead, '|---|---|---|---|---|', ...lines].join('\n');
+  return [kHead, '|---|---|---|---|---|---|---|', ...lines].join('\n');
 }
 
 /** Names of files that differ for no known reason. */
 export const unexplained = (rows: readonly Row[]): string[] =>
-  rows.filter(({ flip, why }) => flip > kMostFlip && why === undefined).map(({ name }) => name);
+  rows.filter((row) => worst(row) > kMostFlip && row.why === undefined).map(({ name }) => name);
 
 /** The page with its table replaced. */
 export function withTable(page: string, newTable: string): string {

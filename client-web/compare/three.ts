@@ -5,26 +5,55 @@ import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 
 import { ThreeJs } from './browser';
-import { freshFolder, given, nameOf, scenesIn, sharedScenes } from './files';
+import { freshFolder, given, nameOf, scenesIn, sharedPanorama, sharedScenes } from './files';
 import { htmlPage, type Figure } from './html';
 import { noteOf } from './notes';
-import { difference, kRoot, render, sceneFacts, writeFeatures } from './programs';
+import { difference, kRoot, render, sceneFacts, writeFeatures, type Difference } from './programs';
 import { kMostFlip, table, unexplained, withTable, type Row } from './table';
 import { cameraText, farthest, kNear, lightAround, overview, type Light, type Size, type View } from './view';
 
 const kPage = join(kRoot, 'docs/figures/three.md');
 const kBackground = [0.0006, 0.0037, 0.0103]; // what the tone map makes of drawing.ts's
 const kSize: Size = { width: 640, height: 480 };
+const kPanorama = sharedPanorama();
 
-async function byFroxel(scene: string, out: string, view: View, { lamps, exposure }: Light): Promise<void> {
+/** What lights a file: its own lights, lamps of ours, or what is around. */
+interface Lit extends Light {
+  readonly ownLights: boolean;
+  readonly environment: string | null;
+}
+
+async function byFroxel(scene: string, out: string, view: View, lit: Lit): Promise<void> {
+  const { lamps, exposure, ownLights, environment } = lit;
   const set = `${out}.lights.json`;
   writeFileSync(set, JSON.stringify({ lights: lamps }));
   await render(scene, out, [
     ...['--camera', cameraText(view), '--size', `${kSize.width}x${kSize.height}`, '--exposure', String(exposure)],
-    ...['--lights', '0', '--ambient', '0', '--environment', 'off', '--exposure-mode', 'fixed'],
+    ...['--lights', '0', '--ambient', '0', '--exposure-mode', 'fixed'],
     ...['--background-color', kBackground.join(','), '--background-gradient', '0'],
-    ...(lamps.length > 0 ? ['--light-set', set, '--no-scene-lights'] : []),
+    ...(environment === null
+      ? ['--environment', 'off']
+      : ['--environment', 'file', '--environment-file', environment, '--environment-strength', '1']),
+    ...(lamps.length > 0 ? ['--light-set', set] : []),
+    ...(ownLights ? [] : ['--no-scene-lights']),
   ]);
+}
+
+/** Both pictures, in files whose names begin so, and how far they are apart. */
+async function drawBoth(
+  { scene, folder, three, prefix }: { scene: string; folder: string; three: ThreeJs; prefix: string },
+  { view, far, lit }: { view: View; far: number; lit: Lit },
+): Promise<{ pictures: Figure['pictures']; difference: Difference }> {
+  const pictures = [
+    { file: `${prefix}.froxel.png`, caption: 'Froxel' },
+    { file: `${prefix}.three.png`, caption: 'three.js' },
+  ] as const;
+  const [froxels, theirs] = [join(folder, pictures[0].file), join(folder, pictures[1].file)];
+  await byFroxel(scene, froxels, view, lit);
+  const { ownLights, environment } = lit;
+  const task = { size: kSize, view, near: kNear, far, ownLights, light: lit, environment };
+  writeFileSync(theirs, await three.draw(scene, task));
+  return { pictures, difference: await difference(froxels, theirs) };
 }
 
 interface Compared {
@@ -37,19 +66,22 @@ async function compare(scene: string, folder: string, three: ThreeJs): Promise<C
   const { ownLights = false, why } = noteOf(name);
   const { sphere, warnings } = await sceneFacts(scene);
   const view = overview(sphere);
+  const at = { view, far: farthest(view, sphere) };
   const light = ownLights ? { lamps: [], exposure: 1 } : lightAround(sphere);
-  const pictures = [
-    { file: `${name}.froxel.png`, caption: 'Froxel' },
-    { file: `${name}.three.png`, caption: 'three.js' },
-  ] as const;
-  const [froxels, theirs] = [join(folder, pictures[0].file), join(folder, pictures[1].file)];
-  await byFroxel(scene, froxels, view, light);
-  const far = farthest(view, sphere);
-  writeFileSync(theirs, await three.draw(scene, { size: kSize, view, near: kNear, far, ownLights, light }));
-  const { flip, mssim, drawn } = await difference(froxels, theirs);
-  const numbers = `FLIP ${flip.toFixed(4)}, SSIM ${mssim.toFixed(4)}`;
-  const lines = [numbers, ...(why === undefined ? [] : [why]), ...warnings];
-  return { row: { name, flip, drawn, mssim, why }, figure: { name, pictures, lines } };
+  const where = { scene, folder, three };
+  const lamps = await drawBoth({ ...where, prefix: name }, { ...at, lit: { ...light, ownLights, environment: null } });
+  const lit: Lit = { lamps: [], exposure: 1, ownLights: false, environment: kPanorama };
+  const around = kPanorama ? await drawBoth({ ...where, prefix: `${name}.around` }, { ...at, lit }) : null;
+  const { flip, mssim, drawn } = lamps.difference;
+  const lines = [
+    `FLIP ${flip.toFixed(4)}, SSIM ${mssim.toFixed(4)}`,
+    ...(around ? [`around: FLIP ${around.difference.flip.toFixed(4)}`] : []),
+    ...(why === undefined ? [] : [why]),
+    ...warnings,
+  ];
+  const pictures = [...lamps.pictures, ...(around?.pictures ?? [])];
+  const row = { name, flip, drawn, mssim, around: around?.difference.flip ?? null, why };
+  return { row, figure: { name, pictures, lines } };
 }
 
 async function tried(scene: string, folder: string, three: ThreeJs): Promise<Compared> {
@@ -68,7 +100,7 @@ async function compareAll(scenes: readonly string[], folder: string): Promise<Co
     for (const scene of scenes) {
       const compared = await tried(scene, folder, three);
       all.push(compared);
-      console.log(`${compared.figure.name}: ${compared.figure.lines[0] ?? ''}`);
+      console.log(`${compared.figure.name}: ${compared.figure.lines.slice(0, 2).join(', ')}`);
     }
     return all;
   } finally {

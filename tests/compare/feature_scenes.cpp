@@ -118,6 +118,56 @@ scene::Scene specular() {
     return maker.scene;
 }
 
+// A row of spheres, each with more of it.
+template <class Give>
+scene::Scene lobes(const vec3& color, float metallic, float roughness, const Give& give) {
+    std::vector<scene::Material> materials;
+    for (const float share : {0.0F, 0.25F, 0.5F, 0.75F, 1.0F}) {
+        materials.push_back(painted(color, metallic, roughness));
+        give(materials.back(), share);
+    }
+    SceneMaker maker;
+    addRow(maker, materials);
+    return maker.scene;
+}
+
+scene::Scene coat() {
+    return lobes({0.6F, 0.1F, 0.1F}, 0, 0.6F, [](scene::Material& m, float share) {
+        m.coat = {.strength = 1, .roughness = 0.1F + 0.6F * share};
+    });
+}
+
+scene::Scene sheen() {
+    return lobes({0.1F, 0.05F, 0.2F}, 0, 0.9F, [](scene::Material& m, float share) {
+        m.sheen = {.color = {0.9F, 0.6F, 0.9F}, .roughness = 0.2F + 0.8F * share};
+    });
+}
+
+// Along circles of latitude; coordinates and tangents are the file's.
+scene::Scene anisotropy() {
+    scene::Scene made = lobes({0.8F, 0.7F, 0.5F}, 1, 0.35F, [](scene::Material& m, float share) {
+        m.anisotropy = {.strength = share};
+    });
+    for (scene::Mesh& mesh : made.meshes) {
+        for (scene::Primitive& p : mesh.primitives) {
+            p.uv0.clear();
+            for (const vec3& n : p.normals) {
+                const vec2 across(n.z, -n.x);
+                const vec2 along = glm::length(across) > 0 ? glm::normalize(across) : vec2(1, 0);
+                p.tangents.emplace_back(along.x, 0, along.y, 1);
+                p.uv0.emplace_back(0.5F + std::atan2(n.z, n.x) / 6.2831853F, 0.5F - 0.5F * n.y);
+            }
+        }
+    }
+    return made;
+}
+
+scene::Scene iridescence() {
+    return lobes({0.1F, 0.1F, 0.1F}, 0, 0.25F, [](scene::Material& m, float share) {
+        m.film = {.strength = 1, .ior = 1.5F, .most_nm = 150 + 500 * share};
+    });
+}
+
 // Opaque, masked and blended panes before a wall; of the last two blended ones one is behind the
 // other.
 scene::Scene alphaModes() {
@@ -244,6 +294,10 @@ constexpr std::array kFeatures = {
     Feature{"metallic_roughness", metallicRoughness},
     Feature{"ior", ior},
     Feature{"specular", specular},
+    Feature{"coat", coat},
+    Feature{"sheen", sheen},
+    Feature{"anisotropy", anisotropy},
+    Feature{"iridescence", iridescence},
     Feature{"alpha_modes", alphaModes},
     Feature{"vertex_colors", vertexColors},
     Feature{"texture_transform", textureTransform},

@@ -2,20 +2,34 @@ import { describe, expect, it } from 'vitest';
 
 import { table, unexplained, withTable, type Row } from '../../compare/table';
 
-const row = (name: string, flip: number, why?: string): Row => ({ name, flip, drawn: 0.2, mssim: 0.98765, why });
+const row = (name: string, flip: number, why?: string, around: number | null = null): Row => ({
+  name,
+  flip,
+  drawn: 0.2,
+  mssim: 0.98765,
+  around,
+  why,
+});
 
 describe('table', () => {
   it('Rows_HaveTheirNumbersAndReason_AndSayWhereNoneIsKnown', () => {
-    const lines = table([row('near', 0.01, 'glass'), row('even', 0.05), row('odd', 0.0501)]).split('\n');
-    expect(lines.slice(2)).toEqual([
-      '| near | 0.010 | 0.050 | 0.988 | glass |',
-      '| even | 0.050 | 0.250 | 0.988 | |',
-      '| odd | 0.050 | 0.251 | 0.988 | not known |',
+    const rows = [
+      row('near', 0.01, 'glass', 0.02),
+      row('even', 0.05),
+      row('odd', 0.0501),
+      row('lit', 0.01, undefined, 0.06),
+    ];
+    expect(table(rows).split('\n').slice(2)).toEqual([
+      '| near | 0.010 | 0.050 | 0.988 | 0.020 | 0.100 | glass |',
+      '| even | 0.050 | 0.250 | 0.988 | – | – | |',
+      '| odd | 0.050 | 0.251 | 0.988 | – | – | not known |',
+      '| lit | 0.010 | 0.050 | 0.988 | 0.060 | 0.300 | not known |',
     ]);
   });
 
   it('Unexplained_NamesRowsThatDifferWithoutAReason', () => {
-    expect(unexplained([row('a', 0.04), row('b', 0.06), row('c', 0.06, 'glass')])).toEqual(['b']);
+    const rows = [row('a', 0.04), row('b', 0.06), row('c', 0.06, 'glass'), row('d', 0, undefined, 0.06)];
+    expect(unexplained(rows)).toEqual(['b', 'd']);
   });
 
   it('WithTable_ReplacesTheTableAlone', () => {
