@@ -97,7 +97,7 @@ startOf(const BenchOptions& options, const scene::Scene& scene, const gpu::Devic
     result.triangle_count = summary.triangle_count;
     result.budget = bench::budgetFor(device.is_cpu, options.seconds_per_row);
     result.error_options = errorOptionsOf(options, device.is_cpu);
-    result.base = {options.settings, viewsOf(options, scene)};
+    result.base = {options.settings, viewsOf(options, scene), scene.material_variants};
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include "app/render_arguments.h"
 
 #include <cstdint>
+#include <string>
 
 namespace froxel::app {
 
@@ -16,6 +17,9 @@ std::string rowCommand(const BenchOptions& options,
     render.environment_file = options.environment_file;
     render.device.choice = options.device.choice;
     render.settings = row.settings;
+    if (row.settings.material_variant > 0) {
+        render.choices.material_variant = std::to_string(row.settings.material_variant);
+    }
     render.light_set = row.light_set.empty() ? options.light_set : row.light_set;
     render.time_s = view.time_s;
     render.frame_count = static_cast<uint32_t>(frame_count);

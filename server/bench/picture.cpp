@@ -9,12 +9,14 @@
 #include "render/renderer.h"
 #include "render/visibility_readback.h"
 #include "report/settings_report.h"
+#include "scene/material_variants.h"
 #include "settings/samples.h"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace froxel::bench {
@@ -22,7 +24,8 @@ namespace froxel::bench {
 namespace {
 
 std::string keyOf(const char* how, const settings::ViewSettings& settings, double time_s) {
-    return fmt::format("{} {} {}", how, time_s, report::settingsReport(settings).dump());
+    return fmt::format("{} {} {} {}", how, time_s, settings.material_variant,
+                       report::settingsReport(settings).dump());
 }
 
 std::vector<std::byte> withoutPadding(const PixelView& pixels) {
@@ -107,15 +110,21 @@ Result<Pictures::Shared> Pictures::shade(const settings::ViewSettings& settings,
     if (!visibility) {
         return visibility.error();
     }
-    auto linear = scene_.motion
-                      ? reference::shade(standing(scene_, time_s), settings, time_s, *visibility)
-                      : reference::shade(scene_, settings, time_s, *visibility);
+    std::optional<scene::Scene> shown; // none: as it is
+    if (settings.material_variant > 0) {
+        shown = scene::inMaterialVariant(scene_, settings.material_variant);
+    }
+    if (scene_.motion) {
+        shown = standing(shown ? *shown : scene_, time_s);
+    }
+    const scene::Scene& scene = shown ? *shown : scene_;
+    auto linear = reference::shade(scene, settings, time_s, *visibility);
     if (!linear) {
         return linear.error();
     }
     auto exposure = static_cast<double>(settings.exposure);
     if (settings.exposure_mode == settings::ExposureMode::kFrame) {
-        exposure *= reference::meteredFactor(scene_, *linear, *visibility);
+        exposure *= reference::meteredFactor(scene, *linear, *visibility);
     }
     if (settings.bloom.kind != settings::BloomKind::kNone) {
         *linear = reference::spread(*linear, settings.bloom, exposure);

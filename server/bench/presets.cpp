@@ -129,6 +129,24 @@ Sweep shading(const Base& base) {
     return sweep;
 }
 
+Sweep materialVariants(const Base& base) {
+    Sweep sweep{"material_variants",
+                "Material variants of the scene",
+                "variant",
+                "",
+                Axis::kCategory,
+                "The surfaces' own materials, and those of each variant.",
+                {}};
+    for (const auto& way : kWays) {
+        for (uint32_t number = 0; number <= base.material_variants.size(); ++number) {
+            sweep.rows.push_back(rowOf(base, way,
+                                       number == 0 ? "none" : base.material_variants[number - 1],
+                                       number, [&](auto& s) { s.material_variant = number; }));
+        }
+    }
+    return sweep;
+}
+
 // Rows of one row a way, told apart by it.
 Sweep byWay(Sweep sweep, const Base& base, std::span<const Way> ways) {
     for (const auto& way : ways) {
@@ -282,6 +300,7 @@ constexpr std::array kPresets = {
     Preset{"area_lights", areaSweep},
     Preset{"environment", environmentSweep},
     Preset{"stream", streamSweep},
+    Preset{"material_variants", materialVariants},
     Preset{"smoke", smokeSweep},
 };
 constexpr auto kPresetNames = [] {
@@ -297,7 +316,8 @@ std::span<const std::string_view> presetNames() {
 }
 
 std::span<const std::string_view> fullPresetNames() {
-    return std::span(kPresetNames).first(kPresetNames.size() - 1);
+    constexpr size_t kByNameAlone = 2; // few scenes have variants, and smoke measures nothing
+    return std::span(kPresetNames).first(kPresetNames.size() - kByNameAlone);
 }
 
 Sweep makeSweep(std::string_view name, const Base& base) {

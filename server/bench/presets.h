@@ -8,7 +8,8 @@
 
 namespace froxel::bench {
 
-// All names, and those of a run without --preset: all but `smoke`.
+// All names, and those of a run without --preset: all but
+// `material_variants` and `smoke`.
 [[nodiscard]] std::span<const std::string_view> presetNames();
 [[nodiscard]] std::span<const std::string_view> fullPresetNames();
 

@@ -57,6 +57,7 @@ struct Sweep {
 struct Base {
     settings::ViewSettings settings;
     std::vector<View> views; // at least one
+    std::vector<std::string> material_variants{}; // the scene's
 };
 
 } // namespace froxel::bench

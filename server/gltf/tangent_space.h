@@ -14,8 +14,9 @@ namespace froxel::gltf {
 // Of each corner of each triangle: xyz unit and on the plane of the corner's normal, w as glTF has
 // it: the bitangent, w (normal x tangent), points against rising v. Triangles share a corner's
 // tangent across edges whose ends agree in position, normal and coordinates, unless one is mirrored
-// in the texture and the other is not. Where no triangle says, any direction on the plane. Triangles about one corner
-// whose tangents are exactly opposite share one, where MikkTSpace parts them.
+// in the texture and the other is not. Where no triangle says, any direction on the plane.
+// Triangles about one corner whose tangents are exactly opposite share one, where MikkTSpace parts
+// them.
 [[nodiscard]] std::vector<glm::vec4> cornerTangents(const scene::Primitive& primitive,
                                                     std::span<const glm::vec2> uv);
 

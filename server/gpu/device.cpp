@@ -171,8 +171,8 @@ DeviceTraits readTraits(const vk::raii::PhysicalDevice& physical, bool use_subgr
         subgroups && (v11.subgroupSupportedStages & vk::ShaderStageFlagBits::eFragment);
     traits.timestamp_period_ns = static_cast<double>(core.limits.timestampPeriod);
     traits.max_anisotropy = core.limits.maxSamplerAnisotropy;
-    traits.most_textures = std::min(core.limits.maxPerStageDescriptorSampledImages,
-                                    core.limits.maxPerStageResources);
+    traits.most_textures =
+        std::min(core.limits.maxPerStageDescriptorSampledImages, core.limits.maxPerStageResources);
     traits.most_samplers = core.limits.maxPerStageDescriptorSamplers;
     return traits;
 }

@@ -1,6 +1,6 @@
-// Light from behind that a surface scatters towards the eye (KHR_materials_diffuse_transmission), in
-// place of as much of what its base colour scatters. It is lit as a matt surface on the other side,
-// and Fresnel's term is that of an eye mirrored there.
+// Light from behind that a surface scatters towards the eye (KHR_materials_diffuse_transmission),
+// in place of as much of what its base colour scatters. It is lit as a matt surface on the other
+// side, and Fresnel's term is that of an eye mirrored there.
 #ifndef FROXEL_DIFFUSE_TRANSMISSION
 #define FROXEL_DIFFUSE_TRANSMISSION
 

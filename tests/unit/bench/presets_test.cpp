@@ -16,10 +16,11 @@
 namespace froxel::bench {
 namespace {
 
-TEST(Presets, Full_AreAllButSmoke) {
+TEST(Presets, Full_AreAllButSmokeAndVariants) {
     const auto full = fullPresetNames();
-    EXPECT_EQ(full.size() + 1, presetNames().size());
+    EXPECT_EQ(full.size() + 2, presetNames().size());
     EXPECT_EQ(std::ranges::count(full, "smoke"), 0);
+    EXPECT_EQ(std::ranges::count(full, "material_variants"), 0);
     EXPECT_EQ(presetNames().back(), "smoke");
 }
 
@@ -31,6 +32,17 @@ TEST(Presets, EverySweep_IsNamedByItsPresetAndHasRows) {
         EXPECT_FALSE(sweep.title.empty()) << name;
         EXPECT_FALSE(sweep.variable.empty()) << name;
     }
+}
+
+TEST(Presets, MaterialVariants_AreRowsBesideTheSurfacesOwn) {
+    Base with = base();
+    with.material_variants = {"red", ""};
+    const auto sweep = makeSweep("material_variants", with);
+    ASSERT_GE(sweep.rows.size(), 6U);
+    EXPECT_EQ(sweep.rows[0].label, "none");
+    EXPECT_EQ(sweep.rows[1].label, "red");
+    EXPECT_EQ(sweep.rows[2].settings.material_variant, 2U);
+    EXPECT_EQ(sweep.rows[2].value, 2);
 }
 
 TEST(Presets, EveryRow_IsInRange) {
