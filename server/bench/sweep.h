@@ -56,7 +56,7 @@ struct Sweep {
 // What the sweeps start from.
 struct Base {
     settings::ViewSettings settings;
-    std::vector<View> views; // at least one
+    std::vector<View> views;                      // at least one
     std::vector<std::string> material_variants{}; // the scene's
 };
 
