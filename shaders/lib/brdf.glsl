@@ -207,17 +207,19 @@ void addLight(Surface s, vec3 to_light, float inv_radius2, vec3 color, float sha
                   color, sum);
 }
 
-// Outgoing radiance of all that was added. Sums of lights as bright as floats go may be infinite,
-// and black times that is no number: they end here.
+// Sums of lights as bright as floats go may be infinite, and black times that is no number: they
+// end here.
+const vec3 kMostSum = vec3(1e30);
+
+// Outgoing radiance of all that was added.
 vec3 shadeSum(LightSum sum, vec3 base_color, float metallic, Dielectric dielectric) {
-    const vec3 kMost = vec3(1e30);
-    sum.diffuse = min(sum.diffuse, kMost);
+    sum.diffuse = min(sum.diffuse, kMostSum);
     if (hasLight(kLightLambert)) {
         precise vec3 lambert = base_color * sum.diffuse / kPi;
         return lambert;
     }
-    sum.specular = min(sum.specular, kMost);
-    sum.grazing = min(sum.grazing, kMost);
+    sum.specular = min(sum.specular, kMostSum);
+    sum.grazing = min(sum.grazing, kMostSum);
     // Lobes are linear in f0; only the dielectric scatters, whatever its share.
     precise vec3 f0 = mix(dielectric.f0, base_color, metallic);
     precise vec3 albedo = base_color * (1.0 - metallic);
@@ -231,7 +233,7 @@ vec3 shadeSum(LightSum sum, vec3 base_color, float metallic, Dielectric dielectr
         0.5 * (f0 * sum.specular + mix(dielectric.f90, 1.0, metallic) * sum.grazing);
     precise vec3 scattered = entering(dielectric) * sum.diffuse;
     if (hasLight(kLightEdges)) {
-        scattered += (1.0 - dielectric.f90) * min(sum.edge, kMost);
+        scattered += (1.0 - dielectric.f90) * min(sum.edge, kMostSum);
     }
     lit = (albedo * scattered + lobe) / kPi;
     return lit;

@@ -25,10 +25,11 @@ vec3 scatteredAround(Surface s, vec3 base_color, float occlusion) {
 LightSum throughSurface(DiffuseTransmission through, inout LightSum own) {
     LightSum behind = noLight();
     if (hasDiffuseTransmission()) {
-        behind.diffuse = own.layers.behind * through.strength;
-        behind.edge = own.layers.behind_edge * through.strength;
-        own.diffuse *= 1.0 - through.strength;
-        own.edge *= 1.0 - through.strength;
+        float left = 1.0 - through.strength;
+        behind.diffuse = min(own.layers.behind, kMostSum) * through.strength;
+        behind.edge = min(own.layers.behind_edge, kMostSum) * through.strength;
+        own.diffuse = min(own.diffuse, kMostSum) * left;
+        own.edge = min(own.edge, kMostSum) * left;
     }
     return behind;
 }
@@ -45,12 +46,11 @@ vec3 underFilm(vec3 lit, Surface s, LightSum sum, LightSum behind, GbufferSample
     vec3 of_metal = filmReflects(waves, g.base_color, s.n_dot_v);
     float entering = 1.0 - max(max(of_dielectric.r, of_dielectric.g), of_dielectric.b);
     float scatters = 1.0 - g.metallic;
-    const vec3 kMost = vec3(1e30);
-    precise vec3 lobe = min(sum.specular, kMost) + min(sum.grazing, kMost);
-    precise vec3 scattered = g.base_color * (min(sum.diffuse, kMost) + min(sum.edge, kMost));
+    precise vec3 lobe = min(sum.specular, kMostSum) + min(sum.grazing, kMostSum);
+    precise vec3 scattered = g.base_color * (min(sum.diffuse, kMostSum) + min(sum.edge, kMostSum));
     if (hasDiffuseTransmission()) {
         scattered += g.layers.diffuse_transmission.color *
-                     (min(behind.diffuse, kMost) + min(behind.edge, kMost));
+                     (min(behind.diffuse, kMostSum) + min(behind.edge, kMostSum));
     }
     precise vec3 filmed = (scattered * (scatters * entering) +
                            mix(of_dielectric, of_metal, g.metallic) * lobe * 0.5) /
@@ -82,9 +82,9 @@ vec3 underSheen(vec3 below, Surface s, LightSum sum, Sheen sheen, float occlusio
     float albedo = min(whole, 1.0);
     precise vec3 scattered = mattAround(s, occlusion) * albedo;
     if (hasLight(kLightBands)) {
-        scattered += min(sum.diffuse, vec3(1e30)) * (albedo / kPi);
+        scattered += min(sum.diffuse, kMostSum) * (albedo / kPi);
     } else {
-        scattered += min(sum.layers.sheen, vec3(1e30)) * (0.5 / kPi * albedo / whole);
+        scattered += min(sum.layers.sheen, kMostSum) * (0.5 / kPi * albedo / whole);
     }
     vec3 color = sheen.color;
     float most = max(max(color.r, color.g), color.b);
@@ -102,7 +102,7 @@ vec3 underCoat(vec3 below, Surface s, LightSum sum, Coat coat, float occlusion) 
     vec3 around = hasLight(kLightEnvironment)
                       ? glossyAround(c, occlusion) * lobeAlbedo(c.n_dot_v, lobeRoughness(c)).x
                       : skyRadiance(c.normal_view) * occlusion;
-    precise vec3 lobe = min(sum.layers.coat, vec3(1e30)) * (0.5 / kPi) + around;
+    precise vec3 lobe = min(sum.layers.coat, kMostSum) * (0.5 / kPi) + around;
     float share = coatShare(coat, c.n_dot_v);
     precise vec3 seen = below * (1.0 - share) + lobe * share;
     return seen;

@@ -227,13 +227,23 @@ TEST_F(HardBadInput, FileOfExtremeValues_IsFiniteAndExact) {
         node["extensions"]["KHR_lights_punctual"]["light"] = i;
         file.json["scenes"][0]["nodes"].push_back(file.add("nodes", node));
     }
-    const auto scene = gltf::test::loaded(file.load());
+    auto scene = gltf::test::loaded(file.load());
     ASSERT_EQ(scene.lights.size(), 6U);
-    render::Renderer renderer(device(), scene);
     auto inputs = hardInputs();
     inputs.settings.camera = settings::lookAt({0.3, 0.3, 2}, {0.3, 0.3, 0}, {0, 1, 0});
     inputs.settings.shading = settings::ShadingModel::kPbr;
+    render::Renderer renderer(device(), scene);
     (void)expectExact(renderer, inputs);
+    // Nothing is left of what its own side scatters, the other's is black, and neither reflects.
+    auto& material = scene.materials.at(scene.meshes.at(0).primitives.at(0).material);
+    material = {};
+    material.metallic = 0;
+    material.specular = 0;
+    material.diffuse_transmission = {.color = glm::vec3(0), .strength = 1};
+    render::Renderer through(device(), scene);
+    const auto pictures = expectExact(through, inputs);
+    EXPECT_EQ(std::ranges::count(pictures.naive.radiance, 0.0F),
+              std::ssize(pictures.naive.radiance));
 }
 
 // What a file cannot mean is one line that names it; nothing of it reaches the device.
