@@ -252,6 +252,20 @@ TEST_F(Reference, RoomOfAnisotropy_IsWithinArithmetic) {
     }
 }
 
+namespace {
+
+// By ids, or through the G-buffer with its steps; lit by lights, then by what is around, too.
+void expectByLightsAndAround(Compared& compared, render::FrameInputs inputs) {
+    inputs.settings.lighting = settings::LightingStage::kCompute;
+    const double bound = arithmeticBound(2e-4, settings::LightingStage::kFragment) *
+                         (inputs.settings.renderer == Renderer::kForwardPlus ? 1 : 5);
+    EXPECT_LT(compared.against(inputs).max_relative, bound);
+    inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
+    EXPECT_LT(compared.against(inputs).max_relative, bound);
+}
+
+} // namespace
+
 // Films on dielectrics, metals and both, thin and thick, of all and of a part.
 TEST_F(Reference, RoomOfFilms_IsWithinArithmetic) {
     auto room = makePlainRoom();
@@ -269,12 +283,7 @@ TEST_F(Reference, RoomOfFilms_IsWithinArithmetic) {
             for (const auto model : {ShadingModel::kPbr, ShadingModel::kBlinnPhong}) {
                 auto inputs = inputsFor(camera.camera, renderer);
                 inputs.settings.shading = model;
-                inputs.settings.lighting = settings::LightingStage::kCompute;
-                const double bound = arithmeticBound(2e-4, settings::LightingStage::kFragment) *
-                                     (renderer == Renderer::kForwardPlus ? 1 : 5);
-                EXPECT_LT(compared.against(inputs).max_relative, bound);
-                inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
-                EXPECT_LT(compared.against(inputs).max_relative, bound);
+                expectByLightsAndAround(compared, inputs);
             }
         }
     }
@@ -303,12 +312,7 @@ TEST_F(Reference, RoomThatLetsLightThrough_IsWithinArithmetic) {
                 }
                 auto inputs = inputsFor(camera.camera, renderer);
                 inputs.settings.shading = model;
-                inputs.settings.lighting = settings::LightingStage::kCompute;
-                const double bound = arithmeticBound(2e-4, settings::LightingStage::kFragment) *
-                                     (renderer == Renderer::kForwardPlus ? 1 : 5);
-                EXPECT_LT(compared.against(inputs).max_relative, bound);
-                inputs.settings.environment = {settings::EnvironmentLight::kStudio, 40, 1.5F};
-                EXPECT_LT(compared.against(inputs).max_relative, bound);
+                expectByLightsAndAround(compared, inputs);
             }
         }
     }
