@@ -25,6 +25,13 @@ Json takeArray(Json& root, const char* key) {
     return array;
 }
 
+// Of an extension of the whole file.
+Json takeExtensionArray(Json& root, const char* extension, const char* key) {
+    const Json::json_pointer place(std::string("/extensions/") + extension);
+    return root.contains(place) && root.at(place).is_object() ? takeArray(root.at(place), key)
+                                                              : Json::array();
+}
+
 void takeBuffers(Json& root, Document& document) {
     for (const Json& buffer : takeArray(root, "buffers")) {
         document.buffers.push_back(
@@ -139,11 +146,7 @@ void takeCameras(Json& root, Document& document) {
 }
 
 void takeLights(Json& root, Document& document) {
-    const Json::json_pointer place("/extensions/KHR_lights_punctual");
-    if (!root.contains(place) || !root.at(place).is_object()) {
-        return;
-    }
-    for (const Json& light : takeArray(root.at(place), "lights")) {
+    for (const Json& light : takeExtensionArray(root, "KHR_lights_punctual", "lights")) {
         const Json spot = light.value("spot", Json::object());
         document.lights.push_back({light.value("name", ""), light.value("type", ""),
                                    light.value("color", std::vector<double>()),
@@ -154,12 +157,9 @@ void takeLights(Json& root, Document& document) {
 }
 
 // tinygltf would drop those without a name, and so renumber the others.
-void takeMaterialVariants(const Json& root, Document& document, Warnings& warnings) {
+void takeMaterialVariants(Json& root, Document& document, Warnings& warnings) {
     const std::string place = "/extensions/KHR_materials_variants/variants";
-    if (!root.contains(Json::json_pointer(place))) {
-        return;
-    }
-    for (const Json& variant : root.at(Json::json_pointer(place))) {
+    for (const Json& variant : takeExtensionArray(root, "KHR_materials_variants", "variants")) {
         auto& names = document.material_variants;
         if (!variant.is_object()) {
             warnings.add(warning::kType, place,

@@ -80,21 +80,20 @@ peelable(const FrameInputs& inputs, const SceneResources& scene, const Dressing&
 
 } // namespace
 
-Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
-    const auto dressing = scene.dressing(inputs.settings.material_variant);
-    if (const auto& why = dressing->visibility_unusable; !why.empty() && needsVisibility(inputs)) {
+Result<void> canDraw(const FrameInputs& inputs, const SceneResources& scene, Dressing& dressing) {
+    if (const auto& why = dressing.visibility_unusable; !why.empty() && needsVisibility(inputs)) {
         return Error{ErrorCode::kUnsupported, "lighting: compute is not available for renderer " +
                                                   rendererName(inputs) + ", since " + why +
                                                   "; use auto or fragment"};
     }
-    const bool specular = storesSpecular(inputs.settings, dressing->needs.specular);
+    const bool specular = storesSpecular(inputs.settings, dressing.needs.specular);
     if (auto shown = showable(inputs, specular); !shown) {
         return shown;
     }
     if (auto stored = storable(inputs, specular); !stored) {
         return stored;
     }
-    if (auto peeled = peelable(inputs, scene, *dressing); !peeled) {
+    if (auto peeled = peelable(inputs, scene, dressing); !peeled) {
         return peeled;
     }
     for (const EffectRow* row : effectRows()) {
@@ -105,9 +104,9 @@ Result<void> canDraw(const FrameInputs& inputs, SceneResources& scene) {
         }
     }
     if (inputs.geometry == GeometryPath::kComputeRaster &&
-        !dressing->visibility().compute_unusable.empty()) {
+        !dressing.visibility().compute_unusable.empty()) {
         return Error{ErrorCode::kUnsupported, "ids cannot be rastered in compute, since " +
-                                                  dressing->visibility().compute_unusable};
+                                                  dressing.visibility().compute_unusable};
     }
     return {};
 }

@@ -113,7 +113,9 @@ uint32_t ViewRenderer::inFlight() const {
 Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     FROXEL_ASSERT(canSubmit(), "begin needs a free readback slot and no frame half submitted");
     FrameSlot* slot = impl_->freeSlot();
-    if (auto able = canDraw(inputs, impl_->scene); !able) {
+    // Held, so that the view, when it wears it, finds the one that was looked at.
+    const auto dressing = impl_->scene.dressing(inputs.settings.material_variant);
+    if (auto able = canDraw(inputs, impl_->scene, *dressing); !able) {
         return able.error();
     }
     try {

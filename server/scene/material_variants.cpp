@@ -4,16 +4,17 @@
 
 namespace froxel::scene {
 
+uint32_t materialIn(uint32_t number, uint32_t own, std::span<const VariantMaterial> others) {
+    const auto found = std::ranges::find_if(
+        others, [&](const VariantMaterial& of) { return of.variant + 1 == number; });
+    return found == others.end() ? own : found->material;
+}
+
 Scene inMaterialVariant(Scene scene, uint32_t number) {
     for (Mesh& mesh : scene.meshes) {
         for (Primitive& primitive : mesh.primitives) {
-            const auto found =
-                std::ranges::find_if(primitive.variant_materials, [&](const VariantMaterial& of) {
-                    return of.variant + 1 == number;
-                });
-            if (found != primitive.variant_materials.end()) {
-                primitive.material = found->material;
-            }
+            primitive.material =
+                materialIn(number, primitive.material, primitive.variant_materials);
             primitive.variant_materials.clear();
         }
     }

@@ -7,6 +7,7 @@
 #include "interface/visibility_io.h"
 #include "render/lists/list_limits.h"
 #include "render/pipelines/texture_limit.h"
+#include "scene/material_variants.h"
 #include "scene/scene_check.h"
 
 #include <spdlog/spdlog.h>
@@ -270,13 +271,9 @@ std::shared_ptr<Dressing> SceneResources::dressing(uint32_t material_variant) {
     std::vector<DrawItem> items = undressed_->items;
     for (DrawItem& item : items) {
         const auto materials = variant_materials_.find(item.primitive.first_index);
-        if (materials == variant_materials_.end()) {
-            continue;
-        }
-        const auto found = std::ranges::find(materials->second, material_variant - 1,
-                                             &scene::VariantMaterial::variant);
-        if (found != materials->second.end()) {
-            item.primitive.material = found->material;
+        if (materials != variant_materials_.end()) {
+            uint32_t& material = item.primitive.material;
+            material = scene::materialIn(material_variant, material, materials->second);
             item.material_flags = itemFlags(item.primitive, needs);
         }
     }
