@@ -1,12 +1,12 @@
 // The composition root: puts the parts together and ties them to the page.
 
 import { actionsOf, camerasOf, looksOf, type Doings } from './actions';
-import { AnimationCard } from './cards/animation_card';
+import type { AnimationCard } from './cards/animation_card';
 import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
 import { RoomCard } from './cards/room_card';
-import { SearchCard } from './cards/search_card';
+import type { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
 import { Commands } from './commands';
 import { element, make } from './core/dom';
@@ -69,7 +69,7 @@ const presenter = new Presenter({
     stats.painted(header, decodeMs, nowMs());
     lookCosts.painted(header);
     panel.here?.showGrid(header.grid);
-    animationCard.showTime(header.animationTimeS);
+    animationCard.here?.showTime(header.animationTimeS);
     if (header.camera) {
       const { eye, target, up } = header.camera;
       const pose = { eye: toVec(eye), target: toVec(target), up: toVec(up) };
@@ -138,8 +138,9 @@ const banner = new Banner({
   nowMs,
 });
 const roomCard = new RoomCard(commands);
-const animationCard = new AnimationCard(commands);
+const animationCard = new Later(makeAnimation, partMissing);
 const looksCard = new Later(makeLooks, partMissing);
+const searchCard = new Later(makeSearch, partMissing);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
 const help = element('help', HTMLDialogElement);
@@ -155,7 +156,7 @@ store.listen((state) => {
   panel.here?.show(state);
   banner.show(state);
   roomCard.show(state.room);
-  animationCard.show(state);
+  animationCard.here?.show(state);
   handles.show(state);
   element('panel', HTMLElement).inert = !mayControl(state.room);
 });
@@ -182,6 +183,7 @@ store.listen(({ server }, before) => {
   const about = `${scene} on ${server.device} · froxel ${server.version}`;
   element('about', HTMLElement).textContent = about;
   sceneWarnings.show(server.scene);
+  if (server.scene?.animations.length) void animationCard.want().then((card) => card?.show(store.state));
 });
 
 async function makePanel(): Promise<Panel> {
@@ -206,10 +208,21 @@ async function makeLooks(): Promise<LooksCard> {
   return new LooksCard(commands, lookCosts);
 }
 
+async function makeAnimation(): Promise<AnimationCard> {
+  const { AnimationCard } = await import('./cards/animation_card');
+  return new AnimationCard(commands);
+}
+
+async function makeSearch(): Promise<SearchCard> {
+  const { SearchCard } = await import('./cards/search_card');
+  return new SearchCard(() => [...keyed(), ...(panel.here?.entries() ?? [])]);
+}
+
 /** Nobody waits for these when they are wanted, and they open when the server is gone, too. */
 function prefetch(): void {
   panel.ahead();
   looksCard.ahead();
+  searchCard.ahead();
   statsCard.prefetch();
   commands.prefetch();
 }
@@ -236,8 +249,10 @@ function lostSync({ message, broken }: LostSync): void {
 
 const doings: Doings = {
   search: () => {
-    search.toggle();
-    void panel.want().then(() => search.refresh());
+    void searchCard.want().then((search) => {
+      search?.toggle();
+      void panel.want().then(() => search?.refresh());
+    });
   },
   panel: () => void panel.want().then((made) => made?.toggle()),
   looks: () => void looksCard.want().then((card) => card?.toggle()),
@@ -252,7 +267,7 @@ const doings: Doings = {
     });
   },
   lights: () => commands.toggleLights(),
-  playing: () => animationCard.toggle(),
+  playing: () => animationCard.here?.toggle(),
   nextRenderer: () => commands.nextRenderer(),
   addLight: () => commands.addLight(),
   reset: () => commands.resetAll(),
@@ -266,7 +281,6 @@ const keyed = (): Entry[] => [
   ...camerasOf(store.state.server?.scene?.cameras ?? [], doings),
   ...looksOf(commands.looks(), doings),
 ];
-const search = new SearchCard(() => [...keyed(), ...(panel.here?.entries() ?? [])]);
 
 const tools: readonly (readonly [string, () => void])[] = [
   ['tool-search', doings.search],
