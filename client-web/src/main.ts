@@ -54,7 +54,7 @@ const store = new Store();
 const stats = new Stats();
 const lookCosts = new LookCosts();
 const picture = new Picture(canvas);
-const codecs = await decodableCodecs();
+let codecs: readonly Codec[] = [kPlainCodec]; // until it is known what this browser decodes
 const videoFallback = new VideoFallback();
 const recorder = new Recorder(nowMs);
 const worker = new Worker(new URL('./picture/decode_worker.ts', import.meta.url), { type: 'module' });
@@ -120,7 +120,9 @@ const connection = new Connection(
       const timer = setTimeout(action, delayMs);
       return () => clearTimeout(timer);
     },
-    codecs,
+    get codecs() {
+      return codecs;
+    },
   },
 );
 
@@ -151,7 +153,7 @@ new SettingsSync(store, connection, nextFrame);
 // Who asked their system for less motion begins with what stands still.
 const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const wishes: Partial<Settings> = still ? { animate: false, animationPlaying: false } : {};
-const address = new AddressKeeper(store, codecs, wishes);
+const address = new AddressKeeper(store, () => codecs, wishes);
 store.listen((state) => {
   panel.here?.show(state);
   banner.show(state);
@@ -358,11 +360,19 @@ function tellVisibility(newConnection: boolean): void {
 }
 
 canvas.focus({ preventScroll: true });
-if (wasOpen('settings')) void panel.want();
-address.read();
-if ('problem' in wantedRoom) {
-  const link: Link = { phase: 'refused', reason: wantedRoom.problem, remedy: null };
-  store.dispatch({ type: 'link', link });
-} else {
-  connection.open();
+// A module that waits for something itself would be cut into pieces, some kilobytes more of them.
+void decodableCodecs().then((decoded) => {
+  codecs = decoded;
+  begin();
+});
+
+function begin(): void {
+  if (wasOpen('settings')) void panel.want();
+  address.read();
+  if ('problem' in wantedRoom) {
+    const link: Link = { phase: 'refused', reason: wantedRoom.problem, remedy: null };
+    store.dispatch({ type: 'link', link });
+  } else {
+    connection.open();
+  }
 }

@@ -16,7 +16,7 @@ export class AddressKeeper {
   /** `codecs` are those that this browser decodes. `wishes` are what is set unless the address says otherwise. */
   constructor(
     private readonly store: Store,
-    private readonly codecs: readonly Codec[],
+    private readonly codecs: () => readonly Codec[],
     private readonly wishes: Partial<Settings>,
   ) {
     store.listen((state, before) => this.changed(state, before));
@@ -27,7 +27,7 @@ export class AddressKeeper {
     const { settings, size, problems: unread } = parseAddress(location.hash);
     const problems = [...unread];
     const { codec, ...others } = settings;
-    const decodes = codec === undefined || this.codecs.includes(codec);
+    const decodes = codec === undefined || this.codecs().includes(codec);
     if (!decodes) {
       problems.push(`link: codec=${Codec[codec].toLowerCase()} is not decoded by this browser here; video needs WebCodecs, and those https`);
     }
