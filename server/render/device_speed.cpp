@@ -134,7 +134,7 @@ measureSpeed(Renderer& renderer, bool device_is_cpu, const settings::Camera& cam
     inputs.settings.lights.radius_m = 1000;
     inputs.settings.count_pairs = true;
     auto view = std::make_unique<ViewRenderer>(renderer);
-    UnitCosts& unit = renderer.resources().unit_costs;
+    UnitCosts& unit = renderer.resources().shared.unit_costs;
     constexpr int kAttempts = 5;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const auto speed = tryMeasuring(*view, inputs, device_is_cpu, unit);

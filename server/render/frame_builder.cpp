@@ -47,7 +47,7 @@ bool byIds(GeometryPath path) {
 
 bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
     using settings::LightingStage;
-    const auto& traits = scene_.device.traits();
+    const auto& traits = scene_.shared.device.traits();
     if (inputs.settings.debug.view == settings::DebugView::kOverdraw) {
         return false; // what a rasteriser draws over is what it shows
     }
@@ -70,8 +70,9 @@ bool FrameBuilder::choosesVisibility(const FrameInputs& inputs) {
 }
 
 bool FrameBuilder::choosesComputeRaster(const FrameInputs& inputs) {
-    const bool wanted = inputs.geometry == GeometryPath::kComputeRaster ||
-                        (inputs.geometry == GeometryPath::kAuto && !scene_.device.traits().is_cpu);
+    const bool wanted =
+        inputs.geometry == GeometryPath::kComputeRaster ||
+        (inputs.geometry == GeometryPath::kAuto && !scene_.shared.device.traits().is_cpu);
     return wanted && pose_.dressing()->visibility().compute_unusable.empty();
 }
 
@@ -87,7 +88,7 @@ bool FrameBuilder::prepass(const FrameInputs& inputs) const {
                         .pixel_count = uint64_t{size.width_px} * size.height_px,
                         .overdraw = *scene_.overdraw,
                         .lights = forward ? looped : 0.0},
-                       scene_.device.traits().is_cpu ? kCpuPrepassCosts : kGpuPrepassCosts);
+                       scene_.shared.device.traits().is_cpu ? kCpuPrepassCosts : kGpuPrepassCosts);
 }
 
 bool FrameBuilder::layersVisible() const {
@@ -97,7 +98,7 @@ bool FrameBuilder::layersVisible() const {
 }
 
 FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
-    const auto& traits = scene_.device.traits();
+    const auto& traits = scene_.shared.device.traits();
     return {.wide_gbuffer = inputs.settings.shading == settings::ShadingModel::kLambert
                                 ? pose_.dressing()->needs.wide_lambert
                                 : pose_.dressing()->needs.wide_gbuffer,
@@ -135,10 +136,10 @@ FrameFacts FrameBuilder::facts(const FrameInputs& inputs) const {
 bool FrameBuilder::assignsOnDevice(const FrameInputs& inputs) {
     const bool wanted =
         inputs.assignment == AssignmentPlace::kDevice ||
-        (inputs.assignment == AssignmentPlace::kAuto && !scene_.device.traits().is_cpu);
+        (inputs.assignment == AssignmentPlace::kAuto && !scene_.shared.device.traits().is_cpu);
     // Grown lights are assigned, and lists are capped, on the host.
     if (!wanted || inputs.settings.list_cap > 0 || storesHalves(inputs.settings) ||
-        !light_grid_.lists() || scene_.assignment() == nullptr) {
+        !light_grid_.lists() || scene_.shared.assignment() == nullptr) {
         return false;
     }
     const auto& settings = inputs.settings;
@@ -165,7 +166,7 @@ bool FrameBuilder::acceptLists(const AssignSlot& lists) {
 }
 
 const cluster::GridCosts& FrameBuilder::gridCosts(const settings::ViewSettings& settings) const {
-    if (scene_.device.traits().is_cpu) {
+    if (scene_.shared.device.traits().is_cpu) {
         return cluster::kCpuCosts;
     }
     const bool in_fragments = isForward(settings.renderer)
@@ -194,7 +195,7 @@ void FrameBuilder::start(const FrameInputs& inputs, bool in_parts) {
 // On a CPU device culling and light assignment, which do not need each other, go side by side:
 // 7 becomes 5 ms on two cores (Sponza). Elsewhere the host has too little to do for a thread.
 void FrameBuilder::startCulling() {
-    const bool is_cpu = scene_.device.traits().is_cpu;
+    const bool is_cpu = scene_.shared.device.traits().is_cpu;
     const auto order = inputs_.settings.transparency == settings::Transparency::kSorted
                            ? TransparentOrder::kByDistance
                            : TransparentOrder::kOfTheScene;
@@ -289,7 +290,7 @@ uint64_t FrameBuilder::entriesOfAStage() const {
 bool FrameBuilder::capMore() {
     if (!cap_) {
         cap_.emplace(light_grid_.grid(), reach(), inputs_.settings.list_cap,
-                     scene_.light_assigner.crew(), lists_);
+                     scene_.shared.light_assigner.crew(), lists_);
     }
     return cap_->advance(entriesOfAStage());
 }
@@ -312,10 +313,10 @@ bool FrameBuilder::assignMore() {
         (void)device_lists_.prepare(light_grid_.grid(), lights_);
     } else if (light_grid_.lists()) {
         if (in_parts_) {
-            assignment_.emplace(scene_.light_assigner, light_grid_.grid(), reach(), lists_);
+            assignment_.emplace(scene_.shared.light_assigner, light_grid_.grid(), reach(), lists_);
             return assignment_->advance(entriesOfAStage());
         }
-        scene_.light_assigner.assign(light_grid_.grid(), reach(), lists_);
+        scene_.shared.light_assigner.assign(light_grid_.grid(), reach(), lists_);
     } else {
         lists_.clusters.clear();
         lists_.indices.clear();
@@ -457,21 +458,21 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
     }
     if (!lights_.areas.empty()) {
         load.costly_lights.push_back({.count = static_cast<uint32_t>(lights_.areas.size()),
-                                      .pair = scene_.unit_costs.area_pair});
+                                      .pair = scene_.shared.unit_costs.area_pair});
     }
     if (plan.pose) {
         load.posed_vertices = scene_.poser()->vertex_count;
     }
     for (const auto& [place, effect] : effects) {
-        effect->addLoad(scene_.unit_costs, load);
+        effect->addLoad(scene_.shared.unit_costs, load);
     }
     load.longest_loop = load.pairs.longest();
-    FrameCosts costs(scene_.unit_costs, load);
+    FrameCosts costs(scene_.shared.unit_costs, load);
     if (!on_device_ || costs.total() <= std::min(work.piece, work.loop)) {
         return costs;
     }
     limitLists(costs, work, load);
-    return {scene_.unit_costs, std::move(load)};
+    return {scene_.shared.unit_costs, std::move(load)};
 }
 
 void FrameBuilder::limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load) {
@@ -560,7 +561,7 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect
         active.effect->prepare(slot, blocks_);
     }
     if (!lights_.areas.empty()) {
-        const gpu::Buffer& table = scene_.ltcTable();
+        const gpu::Buffer& table = scene_.shared.ltcTable();
         blocks_[io::kLtcBinding] = {.bytes = area_light_table::table().size_bytes(),
                                     .buffer = *table.handle};
     }
@@ -568,7 +569,7 @@ UploadOffsets FrameBuilder::upload(FrameSlot& slot, std::span<const ActiveEffect
     if (on_device_) {
         writeAssignment(slot);
     }
-    writeFrameSet(scene_.device, slot, blocks_);
+    writeFrameSet(scene_.shared.device, slot, blocks_);
     return offsets_;
 }
 
@@ -580,7 +581,8 @@ void FrameBuilder::writeAssignment(FrameSlot& slot) {
     blocks_[io::kIndicesBinding] = {.bytes = uint64_t{buffers->capacity.entries} * sizeof(uint32_t),
                                     .buffer = *buffers->indices.handle};
     if (!slot.assignment) {
-        slot.assignment = std::make_unique<AssignSlot>(scene_.device, *scene_.assignment());
+        slot.assignment =
+            std::make_unique<AssignSlot>(scene_.shared.device, *scene_.shared.assignment());
     }
     slot.assignment->write(buffers, device_lists_.data(), slot.upload.buffer(), assign_offsets_);
 }

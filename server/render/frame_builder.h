@@ -29,7 +29,7 @@ class ViewEffects;
 class FrameBuilder {
   public:
     FrameBuilder(SceneResources& scene, const ListLimits& limits)
-        : scene_(scene), pose_(scene), device_lists_(scene.device, limits) {}
+        : scene_(scene), pose_(scene), device_lists_(scene.shared.device, limits) {}
 
     // Culls, evaluates lights, assigns them to clusters, lets effects look, plans: a stage at a
     // time, so that whoever shares the thread waits for one of them at most. Starting anew forgets

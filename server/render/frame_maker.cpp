@@ -25,11 +25,12 @@ Result<void> FrameMaker::takeMemory(FrameSlot& slot,
                                     const FrameInputs& asked,
                                     const Slots& slots) {
     builder_.gather(slot.upload, effects_.ofFrame());
-    target_needs_ = targetNeeds(plan, scene_.device, drawnSize(asked.settings), asked.settings.size,
-                                targets_.get());
+    target_needs_ = targetNeeds(plan, scene_.shared.device, drawnSize(asked.settings),
+                                asked.settings.size, targets_.get());
     FrameMemory frame = frameMemory(builder_, plan, asked, target_needs_, effects_.ofFrame());
     letGo(slots, slot, frame);
-    if (auto taken = take(memory_, frame, scene_.device, pictureWords(asked.settings)); !taken) {
+    if (auto taken = take(memory_, frame, scene_.shared.device, pictureWords(asked.settings));
+        !taken) {
         builder_.letGo();
         return taken;
     }
@@ -48,7 +49,7 @@ bool FrameMaker::keepsSurfaces(const FramePlan& plan, const FrameInputs& asked) 
            targets_->surfaces == builder_.surfaces(plan) &&
            targets_->fits(
                drawn, asked.settings.size,
-               targetNeeds(plan, scene_.device, drawn, asked.settings.size, targets_.get()));
+               targetNeeds(plan, scene_.shared.device, drawn, asked.settings.size, targets_.get()));
 }
 
 bool FrameMaker::keepsPose(const FrameInputs& asked) const {
@@ -71,20 +72,20 @@ void FrameMaker::prepareTargets(FrameSlot& slot,
                                 const settings::Size& drawn,
                                 const settings::Size& shown) {
     if (!targets_) {
-        targets_ = std::make_shared<ViewTargets>(scene_.device, drawn, shown, target_needs_);
+        targets_ = std::make_shared<ViewTargets>(scene_.shared.device, drawn, shown, target_needs_);
     }
     targets_->rastered_in_compute = plan.compute_raster;
     slot.targets = targets_;
-    slot.makeReadback(scene_.device, packedBytes(shown));
+    slot.makeReadback(scene_.shared.device, packedBytes(shown));
 }
 
 void FrameMaker::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
     slot.blend.reset(); // its last frame has finished
-    slot.blend = blend_ =
-        blendTargetsFor(plan, scene_.device, scene_.pipelines, targets_, std::move(blend_));
+    slot.blend = blend_ = blendTargetsFor(plan, scene_.shared.device, scene_.shared.pipelines,
+                                          targets_, std::move(blend_));
     slot.counts_overflow = countsOverflow(plan, builder_.draws());
     if (slot.counts_overflow && !slot.overflow) {
-        slot.overflow = std::make_unique<gpu::SampleCounter>(scene_.device);
+        slot.overflow = std::make_unique<gpu::SampleCounter>(scene_.shared.device);
     }
 }
 
@@ -95,7 +96,7 @@ void FrameMaker::preparePose(FrameSlot& slot, const UploadOffsets& offsets) {
     }
     slot.posed = posed_;
     if (!slot.pose) {
-        slot.pose = std::make_unique<PoseSet>(scene_.device, poser);
+        slot.pose = std::make_unique<PoseSet>(scene_.shared.device, poser);
     }
     const auto part = [&](vk::DeviceSize offset, size_t bytes) {
         // Where there are none, of what nothing reads.
@@ -109,7 +110,7 @@ void FrameMaker::preparePose(FrameSlot& slot, const UploadOffsets& offsets) {
 void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offsets) const {
     if (!slot.visibility) {
         slot.visibility =
-            std::make_unique<VisibilityFrame>(scene_.device, slot.dressing->visibility());
+            std::make_unique<VisibilityFrame>(scene_.shared.device, slot.dressing->visibility());
     }
     const auto& t = *slot.targets;
     slot.visibility->write(
@@ -130,7 +131,7 @@ void FrameMaker::writeVisibilitySet(FrameSlot& slot, const UploadOffsets& offset
 void FrameMaker::prepareParts(FrameSlot& slot,
                               const FramePlan& plan,
                               const UploadOffsets& offsets) {
-    writeScreenSet(scene_.device, slot,
+    writeScreenSet(scene_.shared.device, slot,
                    plan.hasEffect(EffectPlace::kPixels) ? targets_->display : pixelsOf(slot));
     if (plan.pose) {
         preparePose(slot, offsets);
@@ -139,10 +140,10 @@ void FrameMaker::prepareParts(FrameSlot& slot,
         writeVisibilitySet(slot, offsets);
     }
     if (plan.count_pairs && !slot.pairs) {
-        slot.pairs = std::make_unique<PairCounter>(scene_.device, scene_.pairs());
+        slot.pairs = std::make_unique<PairCounter>(scene_.shared.device, scene_.shared.pairs());
     }
     if (plan.count_samples && !slot.samples) {
-        slot.samples = std::make_unique<gpu::SampleCounter>(scene_.device);
+        slot.samples = std::make_unique<gpu::SampleCounter>(scene_.shared.device);
     }
 }
 
@@ -165,7 +166,7 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
     described.kept = described.pose_kept = false;
     slot.stats.details = details_.update(
         inputs.settings, builder_.plannedFacts(), described, scene_.needs,
-        *scene_.device.memoryLedger(),
+        *scene_.shared.device.memoryLedger(),
         plan.debug != settings::DebugView::kNone ? &builder_.debugFrame().legend : nullptr);
     slot.stats.grid = builder_.gridStats();
     slot.counts_pairs = plan.count_pairs;
@@ -175,14 +176,14 @@ void FrameMaker::noteBuilt(FrameSlot& slot, const FramePlan& plan, const FrameIn
 
 Result<FrameMaker::Made>
 FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots) {
-    VariantMaker& variants = scene_.variants;
+    VariantMaker& variants = scene_.shared.variants;
     if (variants.busyFor(this)) {
         return Made::kNothing;
     }
     variants.setAsker(this);
     variants.beginRecording();
     try {
-        const uint64_t since = scene_.timeline.next();
+        const uint64_t since = scene_.shared.timeline.next();
         const auto recorded = recordNow(slot, inputs, slots);
         slot.uses = variants.endRecording(since);
         if (!recorded || !*recorded) {
@@ -206,7 +207,8 @@ FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slot
 
 Result<bool> FrameMaker::build(const FrameInputs& inputs) {
     if (!builder_.builds(inputs)) {
-        if (auto able = checkAllLights(scene_.unit_costs, inputs.settings, work_.frame); !able) {
+        if (auto able = checkAllLights(scene_.shared.unit_costs, inputs.settings, work_.frame);
+            !able) {
             return able.error();
         }
         started_ = Clock::now();

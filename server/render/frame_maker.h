@@ -18,11 +18,11 @@ class FrameMaker {
   public:
     FrameMaker(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work_limits)
         : scene_(scene_in), work_(work_limits), builder_(scene_in, limits), effects_(scene_in),
-          memory_(scene_in.memory) {}
+          memory_(scene_in.shared.memory) {}
 
     using Slots = std::vector<std::unique_ptr<FrameSlot>>;
 
-    ~FrameMaker() { scene_.variants.forget(this); }
+    ~FrameMaker() { scene_.shared.variants.forget(this); }
     FrameMaker(const FrameMaker&) = delete;
     FrameMaker& operator=(const FrameMaker&) = delete;
 

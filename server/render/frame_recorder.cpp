@@ -106,7 +106,7 @@ void recordVisiblePart(const FrameContext& frame, const vk::Rect2D& region) {
     barrier(cmd, Stage::eDrawIndirect | Stage::eComputeShader, Access::eShaderStorageWrite,
             Stage::eComputeShader | Stage::eTransfer,
             Access::eShaderStorageWrite | Access::eTransferWrite);
-    if (!frame.scene.device.traits().draw_indirect_count) {
+    if (!frame.scene.shared.device.traits().draw_indirect_count) {
         recordEmptyDraws(frame);
     }
     recordCull(frame);
@@ -315,7 +315,8 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_sh
         slot.samples->restart();
     }
     if (slot.device_lists) {
-        recordAssignment({slot.cmd, *frame.scene.assignment(), *slot.assignment}, slot.timestamps);
+        recordAssignment({slot.cmd, *frame.scene.shared.assignment(), *slot.assignment},
+                         slot.timestamps);
     }
     recordEffects(frame, EffectPlace::kLights, [] {}); // there is no picture yet
     recordSurfaces(frame);

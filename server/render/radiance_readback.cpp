@@ -33,8 +33,8 @@ LinearImage copyRadiance(SceneResources& scene, const ViewTargets& targets) {
     const size_t pixel_count = size_t{targets.size.width_px} * targets.size.height_px;
     LinearImage image{targets.size.width_px, targets.size.height_px, {}};
     image.rgb.resize(pixel_count * 3);
-    const Readback readback(scene.device, pixel_count * 4 * sizeof(float));
-    scene.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
+    const Readback readback(scene.shared.device, pixel_count * 4 * sizeof(float));
+    scene.shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         recordTargetCopy(cmd, targets.radiance, vk::ImageAspectFlagBits::eColor, readback.buffer);
     });
     for (size_t i = 0; i < pixel_count; ++i) {

@@ -62,7 +62,7 @@ Result<void> storable(const FrameInputs& inputs, bool specular) {
 // Peeling tells triangles apart and counts what it leaves out. Errors: kUnsupported.
 Result<void>
 peelable(const FrameInputs& inputs, const SceneResources& scene, const Dressing& dressing) {
-    const auto& traits = scene.device.traits();
+    const auto& traits = scene.shared.device.traits();
     if (inputs.settings.transparency != settings::Transparency::kPeeled ||
         !dressing.needs.blended) {
         return {};
@@ -98,7 +98,7 @@ Result<void> canDraw(const FrameInputs& inputs, const SceneResources& scene, Dre
     }
     for (const EffectRow* row : effectRows()) {
         if (row->able != nullptr) {
-            if (auto able = row->able(inputs.settings, scene.device); !able) {
+            if (auto able = row->able(inputs.settings, scene.shared.device); !able) {
                 return able;
             }
         }

@@ -15,28 +15,37 @@
 
 namespace froxel::render {
 
-Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits)
-    : resources_(std::make_unique<SceneResources>(device, scene, limits)) {}
+RenderDevice::RenderDevice(gpu::Device& device, const MemoryLimits& limits)
+    : resources_(std::make_unique<DeviceResources>(device, limits)) {}
 
-Renderer::~Renderer() = default;
+RenderDevice::~RenderDevice() = default;
 
-void Renderer::makeVariantsInBackground(int niceness) {
+void RenderDevice::makeVariantsInBackground(int niceness) {
     resources_->variants.start(niceness);
 }
+
+Renderer::Renderer(RenderDevice& on, const scene::Scene& scene)
+    : resources_(std::make_unique<SceneResources>(on.resources(), scene)) {}
+
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits)
+    : own_(std::make_unique<RenderDevice>(device, limits)),
+      resources_(std::make_unique<SceneResources>(own_->resources(), scene)) {}
+
+Renderer::~Renderer() = default;
 
 struct ViewRenderer::Impl {
     Impl(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work)
         : scene(scene_in), maker(scene_in, limits, work) {
         for (uint32_t i = 0; i < kReadbackSlots; ++i) {
-            slots.push_back(
-                std::make_unique<FrameSlot>(scene.device, scene.timeline, scene.pipelines));
+            slots.push_back(std::make_unique<FrameSlot>(scene.shared.device, scene.shared.timeline,
+                                                        scene.shared.pipelines));
         }
     }
     ~Impl() {
         for (const FrameSlot* slot : pending) {
             // A lost device has nothing left to wait for.
             if (!slot->done_values.empty()) {
-                (void)scene.timeline.wait(slot->done_values.back());
+                (void)scene.shared.timeline.wait(slot->done_values.back());
             }
         }
     }
@@ -61,7 +70,7 @@ struct ViewRenderer::Impl {
 
 void ViewRenderer::Impl::submitPiece(FrameSlot& slot) const {
     const auto next = static_cast<uint32_t>(slot.done_values.size());
-    slot.done_values.push_back(scene.timeline.submit(slot.pieces.piece(next)));
+    slot.done_values.push_back(scene.shared.timeline.submit(slot.pieces.piece(next)));
 }
 
 // The targets are the view's: frames submitted since must be drawn again after this one, so that
@@ -83,7 +92,7 @@ Result<void> ViewRenderer::Impl::redraw(FrameSlot& slot) {
         while (slot.unfinished()) {
             submitPiece(slot);
         }
-        if (const auto done = scene.timeline.wait(slot.done_values.back()); !done) {
+        if (const auto done = scene.shared.timeline.wait(slot.done_values.back()); !done) {
             return done.error();
         }
         ++count;
@@ -174,7 +183,8 @@ Result<PieceResult> ViewRenderer::collectPiece() {
     FROXEL_ASSERT(inFlight() > 0, "collectPiece needs a submitted piece");
     FrameSlot& slot = *impl_->pending.front();
     FROXEL_ASSERT(slot.waited_count < slot.done_values.size(), "a piece is on the device");
-    if (const auto done = impl_->scene.timeline.wait(slot.done_values[slot.waited_count]); !done) {
+    if (const auto done = impl_->scene.shared.timeline.wait(slot.done_values[slot.waited_count]);
+        !done) {
         return done.error();
     }
     ++slot.waited_count;
@@ -214,7 +224,7 @@ Result<RenderedFrame> ViewRenderer::collect() {
     FROXEL_ASSERT(!impl_->pending.empty(), "collect needs a submitted frame");
     FrameSlot& slot = *impl_->pending.front();
     FROXEL_ASSERT(!slot.unfinished(), "all of the frame was submitted");
-    if (const auto done = impl_->scene.timeline.wait(slot.done_values.back()); !done) {
+    if (const auto done = impl_->scene.shared.timeline.wait(slot.done_values.back()); !done) {
         return done.error();
     }
     impl_->pending.pop_front();

@@ -1,5 +1,5 @@
-// Draws a scene. One Renderer a device and scene; one ViewRenderer a viewer. Everything here is
-// used by one thread, the render thread; only PixelLease may end elsewhere.
+// Draws scenes. One RenderDevice a device; one Renderer a scene on it; one ViewRenderer a viewer.
+// Everything here is used by one thread, the render thread; only PixelLease may end elsewhere.
 #pragma once
 
 #include "core/clock.h"
@@ -20,6 +20,7 @@
 
 namespace froxel::render {
 
+class DeviceResources;
 class SceneResources;
 class ViewEffects;
 
@@ -43,22 +44,40 @@ struct PieceResult {
     std::optional<RenderedFrame> frame; // it was the last one; neither: more follow, or given up
 };
 
-// Geometry, textures and pipelines shared by all viewers of one scene.
-class Renderer {
+// What all scenes on a device share, such as pipelines.
+class RenderDevice {
   public:
-    // Throws StartupError, vk::SystemError.
-    Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits = {});
-    ~Renderer();
-    Renderer(const Renderer&) = delete;
-    Renderer& operator=(const Renderer&) = delete;
+    // Throws vk::SystemError. The device outlives it, and it its Renderers.
+    explicit RenderDevice(gpu::Device& device, const MemoryLimits& limits = {});
+    ~RenderDevice();
+    RenderDevice(const RenderDevice&) = delete;
+    RenderDevice& operator=(const RenderDevice&) = delete;
 
     // From now on variants are made on a thread of its own, and begin() does not wait for them. For
     // those who use begin() alone. niceness: as nice(2).
     void makeVariantsInBackground(int niceness);
 
+    [[nodiscard]] DeviceResources& resources() { return *resources_; }
+
+  private:
+    std::unique_ptr<DeviceResources> resources_;
+};
+
+// Geometry and textures shared by all viewers of one scene, who end before it.
+class Renderer {
+  public:
+    // Throws StartupError, vk::SystemError.
+    Renderer(RenderDevice& on, const scene::Scene& scene);
+    // The same for whoever has one scene alone.
+    Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits = {});
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
     [[nodiscard]] SceneResources& resources() { return *resources_; }
 
   private:
+    std::unique_ptr<RenderDevice> own_; // null: the device is shared
     std::unique_ptr<SceneResources> resources_;
 };
 

@@ -85,15 +85,18 @@ Visibility copyVisibility(SceneResources& resources,
                           const ViewTargets& targets,
                           const scene::Scene& scene) {
     const size_t count = size_t{targets.size.width_px} * targets.size.height_px;
-    Visibility visibility{
-        targets.size.width_px, targets.size.height_px, {}, {}, textureFilter(resources.device)};
+    Visibility visibility{targets.size.width_px,
+                          targets.size.height_px,
+                          {},
+                          {},
+                          textureFilter(resources.shared.device)};
     visibility.pixels.resize(count);
     visibility.depths.resize(count);
     if (!targets.needs.visibility) {
         return visibility; // no solid surface in the whole scene
     }
-    const Readback readback(resources.device, count * (sizeof(uint32_t) + sizeof(float)));
-    resources.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
+    const Readback readback(resources.shared.device, count * (sizeof(uint32_t) + sizeof(float)));
+    resources.shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         recordTargetCopy(cmd, targets.ids, vk::ImageAspectFlagBits::eColor, readback.buffer);
         recordTargetCopy(cmd, targets.solidDepth(),
                          targets.rastered_in_compute ? vk::ImageAspectFlagBits::eColor

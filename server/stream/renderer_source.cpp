@@ -80,7 +80,7 @@ class RendererSource final : public FrameSource {
                    const scene::Scene& scene,
                    Seconds frame_limit,
                    const render::MemoryLimits& memory)
-        : device_(std::move(device)), renderer_(*device_, scene, memory),
+        : device_(std::move(device)), on_(*device_, memory), renderer_(on_, scene),
           limits_(limitsOf(*device_, frame_limit)) {}
 
     // Estimates of frames are scaled by it. Errors: kDevice.
@@ -104,7 +104,7 @@ class RendererSource final : public FrameSource {
     }
 
     void makeVariantsInBackground() override {
-        renderer_.makeVariantsInBackground(device_->traits().is_cpu ? kCpuNiceness : 0);
+        on_.makeVariantsInBackground(device_->traits().is_cpu ? kCpuNiceness : 0);
     }
 
   private:
@@ -117,6 +117,7 @@ class RendererSource final : public FrameSource {
     }
 
     std::unique_ptr<gpu::Device> device_;
+    render::RenderDevice on_;
     render::Renderer renderer_;
     const render::WorkLimits limits_;
 };

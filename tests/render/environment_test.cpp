@@ -376,9 +376,9 @@ TEST_F(Environment, Off_HasNothingOfIt) {
     render::ViewRenderer view(renderer);
     auto inputs = inputsFor(Renderer::kForwardPlus, EnvironmentLight::kOff);
     const auto lit = [&] {
-        return std::ranges::any_of(renderer.resources().variantsMade(), [](const auto& made) {
-            return (made.key.light_flags & io::kLightEnvironment) != 0;
-        });
+        return std::ranges::any_of(
+            renderer.resources().shared.variantsMade(),
+            [](const auto& made) { return (made.key.light_flags & io::kLightEnvironment) != 0; });
     };
     inputs.settings.environment.strength = 3; // of nothing
     const Picture before = drawPixels(view, inputs);
@@ -420,7 +420,7 @@ TEST_F(Environment, FileThatTheServerLacks_IsRefused) {
 TEST_F(Environment, MemoryThatIsNotThere_IsRefusedBeforeItIsTaken) {
     const auto scene = makeSpheres({1, 1, 1, 1});
     const uint64_t scene_bytes = [&] {
-        return render::Renderer(device(), scene).resources().memory.takenBytes();
+        return render::Renderer(device(), scene).resources().shared.memory.takenBytes();
     }();
     render::Renderer renderer(device(), scene, {.device_bytes = scene_bytes + (1U << 20U)});
     render::ViewRenderer view(renderer);
@@ -437,8 +437,9 @@ TEST_F(Environment, MadeAside_GivesTheSamePicture) {
     const auto inputs = inputsFor(Renderer::kClusteredDeferred, EnvironmentLight::kStudio);
     render::Renderer at_once(device(), scene);
     render::ViewRenderer expected(at_once);
-    render::Renderer renderer(device(), scene);
-    renderer.makeVariantsInBackground(0);
+    render::RenderDevice on(device());
+    on.makeVariantsInBackground(0);
+    render::Renderer renderer(on, scene);
     render::ViewRenderer view(renderer);
     auto work = view.begin(inputs);
     ASSERT_TRUE(work) << work.error().message;

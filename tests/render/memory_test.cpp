@@ -104,11 +104,11 @@ TEST_F(MemoryNeed, EveryKindOfFrame_TakesWhatWasSaidAndHardlyLess) {
             fill(warm, inputs);
         }
         const uint64_t shared = allocated();
-        const uint64_t taken_before = renderer.resources().memory.takenBytes();
+        const uint64_t taken_before = renderer.resources().shared.memory.takenBytes();
         render::ViewRenderer view(renderer);
         fill(view, inputs);
         const uint64_t real = allocated() - shared;
-        const uint64_t said = renderer.resources().memory.takenBytes() - taken_before;
+        const uint64_t said = renderer.resources().shared.memory.takenBytes() - taken_before;
         EXPECT_GE(said, real) << name;
         EXPECT_LE(static_cast<double>(said), 1.1 * static_cast<double>(real)) << name;
     }
@@ -158,7 +158,7 @@ TEST_F(MemoryNeed, PictureBeyondTheDevice_IsRefusedUntilAnotherViewGoes) {
     inputs.settings.camera = scene_->cameras.at(0).camera;
     const auto [scene_bytes, view_bytes] = [&] {
         render::Renderer renderer(device(), *scene_);
-        const auto& memory = renderer.resources().memory;
+        const auto& memory = renderer.resources().shared.memory;
         const uint64_t scene = memory.takenBytes();
         render::ViewRenderer view(renderer);
         fill(view, inputs);
@@ -174,7 +174,7 @@ TEST_F(MemoryNeed, PictureBeyondTheDevice_IsRefusedUntilAnotherViewGoes) {
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
         EXPECT_THAT(refused.error().message,
-                    testing::HasSubstr("the scene and other sessions take"));
+                    testing::HasSubstr("scenes and other sessions take"));
     }
     fill(second, inputs);
 }

@@ -430,11 +430,12 @@ TEST_F(Moving, PosedVertices_AreOfTheMemoryThatAViewTakes) {
         fill(warm);
     }
     const uint64_t shared = device().memoryLedger()->totalBytes();
-    const uint64_t taken_before = renderer.resources().memory.takenBytes();
+    const uint64_t taken_before = renderer.resources().shared.memory.takenBytes();
     render::ViewRenderer view(renderer);
     fill(view);
     const auto real = static_cast<double>(device().memoryLedger()->totalBytes() - shared);
-    const auto said = static_cast<double>(renderer.resources().memory.takenBytes() - taken_before);
+    const auto said =
+        static_cast<double>(renderer.resources().shared.memory.takenBytes() - taken_before);
     EXPECT_GE(said, real);
     EXPECT_LE(said, 1.1 * real);
 }
@@ -465,11 +466,11 @@ Posed posedOnDevice(render::SceneResources& scene, double time_s, size_t vertex_
     using Stage = vk::PipelineStageFlagBits2;
     render::ScenePose pose(scene);
     pose.standAt(time_s);
-    gpu::MemoryArena arena(scene.device);
+    gpu::MemoryArena arena(scene.shared.device);
     const auto joints = hostBuffer(arena, pose.joints(), gpu::MemoryUse::kUpload);
     const auto weights = hostBuffer(arena, pose.weights(), gpu::MemoryUse::kUpload);
     const render::PosedVertices posed(scene);
-    const render::PoseSet set(scene.device, *scene.poser());
+    const render::PoseSet set(scene.shared.device, *scene.poser());
     set.write(scene, *scene.poser(), posed, {*joints.handle, 0, VK_WHOLE_SIZE},
               {*weights.handle, 0, VK_WHOLE_SIZE});
     Posed out{std::vector<glm::vec3>(vertex_count),
@@ -480,7 +481,7 @@ Posed posedOnDevice(render::SceneResources& scene, double time_s, size_t vertex_
         return hostBuffer(arena, std::span(std::as_const(data)), gpu::MemoryUse::kReadback);
     };
     const gpu::Buffer buffers[] = {read(out.positions), read(out.surfaces), read(out.extended)};
-    scene.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
+    scene.shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         const auto after = [&](vk::PipelineStageFlags2 from, vk::AccessFlags2 written,
                                vk::PipelineStageFlags2 to) {
             render::barrier(cmd, from, written, to, Access::eMemoryRead | Access::eMemoryWrite);

@@ -412,7 +412,7 @@ TEST_F(Pieces, ListsThatHoldNearlyAllLights_CountAsWhatTheyHold) {
 // Lists that the device makes are known after a first look; what one loop may take bounds them.
 TEST_F(Pieces, ListsLongerThanALoopMayBe_AreRefused_OthersDrawnAgainAndAgain) {
     render::Renderer priced(device(), hall());
-    priced.resources().unit_costs = render::kGpuUnitCosts;
+    priced.resources().shared.unit_costs = render::kGpuUnitCosts;
     auto asked = inputs();
     asked.settings.light_loop = settings::LightLoop::kLists;
     asked.assignment = render::AssignmentPlace::kDevice;

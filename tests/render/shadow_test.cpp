@@ -245,7 +245,7 @@ TEST_F(Shadows, WhereNoneAreAskedForOrSeen_NothingIsThere) {
     inputs.settings.lights.count = 40;
     const Picture without = draw(view, inputs);
     EXPECT_EQ(device().memoryLedger()->byPurpose().count("shadow atlas"), 0U);
-    for (const auto& made : renderer.resources().pipelines.made()) {
+    for (const auto& made : renderer.resources().shared.pipelines.made()) {
         EXPECT_EQ(made.key.light_flags & io::kLightShadows, 0U);
     }
     EXPECT_EQ(without.stats.shadows.map_count, 0U);

@@ -67,7 +67,7 @@ scene::Scene bareRoom() {
 
 template <class Test>
 bool anyPipeline(render::Renderer& renderer, Test test) {
-    const auto made = renderer.resources().variantsMade();
+    const auto made = renderer.resources().shared.variantsMade();
     return std::any_of(made.begin(), made.end(), test);
 }
 
@@ -198,7 +198,7 @@ TEST_F(Variants, NothingAtAll_AllocatesAndCompilesNothingForIt) {
         }
         EXPECT_FALSE(anyMaterialFlag(renderer, ~0U));
         EXPECT_FALSE(anyLightFlag(renderer, ~0U));
-        auto made = renderer.resources().variantsMade();
+        auto made = renderer.resources().shared.variantsMade();
         std::ranges::sort(made, {}, &render::Pipelines::Made::pass);
         ASSERT_EQ(made.size(), 2U);
         EXPECT_EQ(made[by_ids ? 1 : 0].pass, by_ids ? "visibility gbuffer" : "gbuffer");

@@ -16,11 +16,11 @@ namespace {
 
 // Shared by every view.
 struct BackgroundPipeline {
-    explicit BackgroundPipeline(const SceneResources& scene)
-        : pipeline(gpu::makeComputePipeline(scene.device,
+    explicit BackgroundPipeline(const DeviceResources& shared)
+        : pipeline(gpu::makeComputePipeline(shared.device,
                                             shaders::background_comp(),
                                             {},
-                                            scene.pipelines.screenPipelineLayout(),
+                                            shared.pipelines.screenPipelineLayout(),
                                             "background")) {}
 
     SharedPipeline pipeline;
@@ -47,10 +47,11 @@ class Background final : public Effect {
     static void recordPart(const FrameContext& frame, const vk::Rect2D& region) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "background");
         const auto& cmd = frame.slot.cmd;
-        frame.scene.shared<BackgroundPipeline>().pipeline.bind(cmd, frame.scene.variants);
+        frame.scene.shared.kept<BackgroundPipeline>().pipeline.bind(cmd,
+                                                                    frame.scene.shared.variants);
         const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
-                               frame.scene.pipelines.screenPipelineLayout(), 0, sets, {});
+                               frame.scene.shared.pipelines.screenPipelineLayout(), 0, sets, {});
         dispatchOver(cmd, region);
     }
 };

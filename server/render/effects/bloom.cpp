@@ -58,11 +58,11 @@ vk::raii::DescriptorPool makePool(const gpu::Device& device, uint32_t set_count)
 // Shared by every view; a pipeline is made when first needed.
 class BloomPipelines {
   public:
-    explicit BloomPipelines(SceneResources& scene)
-        : device_(scene.device), set_layout_(makeSetLayout(device_)),
+    explicit BloomPipelines(DeviceResources& shared)
+        : device_(shared.device), set_layout_(makeSetLayout(device_)),
           layout_(gpu::makePipelineLayout(
-              device_, {*set_layout_, scene.pipelines.frameLayout()}, sizeof(io::BloomPass))),
-          made_(scene.timeline, scene.variants, Pipelines::kKeptScreen) {}
+              device_, {*set_layout_, shared.pipelines.frameLayout()}, sizeof(io::BloomPass))),
+          made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
 
     [[nodiscard]] vk::Pipeline pipeline(BloomShader shader, uint32_t flags) {
         return *made_.findOrMake(std::pair(shader, flags), [=, this] {
@@ -162,7 +162,7 @@ class Bloom final : public Effect {
         const auto& settings = inputs.settings;
         metered_ = settings.exposure_mode == settings::ExposureMode::kFrame;
         plan_ = planBloom(settings.bloom, settings.size, metered_ ? 1.0F : settings.exposure);
-        return checkKernels(plan_, scene_.device.traits().is_cpu);
+        return checkKernels(plan_, scene_.shared.device.traits().is_cpu);
     }
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
@@ -189,7 +189,8 @@ class Bloom final : public Effect {
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
         if (!targets_) {
             targets_ = std::make_shared<BloomTargets>(
-                scene_.device, scene_.shared<BloomPipelines>().setLayout(), plan_, slot.targets);
+                scene_.shared.device, scene_.shared.kept<BloomPipelines>().setLayout(), plan_,
+                slot.targets);
         }
         slot.effect_targets.hold(targets_);
     }
@@ -227,7 +228,7 @@ class Bloom final : public Effect {
         const auto& cmd = frame.slot.cmd;
         const gpu::PassScope scope(frame.slot.timestamps, cmd, "bloom");
         const BloomStep& step = plan_.steps[index];
-        auto& shared = frame.scene.shared<BloomPipelines>();
+        auto& shared = frame.scene.shared.kept<BloomPipelines>();
         cmd.bindPipeline(
             vk::PipelineBindPoint::eCompute,
             shared.pipeline(step.shader, step.flags() | (metered_ ? io::kBloomMetered : 0U)));

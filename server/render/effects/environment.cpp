@@ -22,7 +22,7 @@ class Environment final : public Effect {
 
     Result<void> build(const EffectInputs& inputs, const EffectPlan& /*plan*/) override {
         const auto& settings = inputs.settings;
-        const auto map = scene_.shared<EnvironmentMaps>().find(settings.environment.light);
+        const auto map = scene_.kept<EnvironmentMaps>().find(settings.environment.light);
         if (!map) {
             return map.error();
         }
@@ -40,7 +40,7 @@ class Environment final : public Effect {
             upload.add(std::span<const io::Environment>(&uniforms_, 1)), sizeof(uniforms_)};
         blocks[io::kLevelsBinding] = {.bytes = map_->texels.size_bytes,
                                       .buffer = *map_->texels.handle};
-        const gpu::Buffer& lobes = scene_.shared<EnvironmentMaps>().lobes();
+        const gpu::Buffer& lobes = scene_.kept<EnvironmentMaps>().lobes();
         blocks[io::kLobesBinding] = {.bytes = lobes.size_bytes, .buffer = *lobes.handle};
     }
 

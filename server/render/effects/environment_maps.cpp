@@ -41,9 +41,10 @@ std::vector<glm::vec4> texelsOf(const environment::Prefiltered& glossy) {
 }
 
 EnvironmentMaps::EnvironmentMaps(SceneResources& scene)
-    : scene_(scene), arena_(scene.device),
+    : scene_(scene), arena_(scene.shared.device),
       lobes_(upload(std::as_bytes(environment::albedoTable()), "environment lobes")),
-      made_(scene.timeline, scene.variants, settings::kEnvironmentLightNames.size()) {}
+      made_(scene.shared.timeline, scene.shared.variants, settings::kEnvironmentLightNames.size()) {
+}
 
 Result<const EnvironmentMaps::Map*> EnvironmentMaps::find(settings::EnvironmentLight light) {
     Map& map = maps_[light];
@@ -56,13 +57,14 @@ Result<const EnvironmentMaps::Map*> EnvironmentMaps::find(settings::EnvironmentL
     }
     const auto texels = texelsOf((*seen)->glossy);
     const auto bytes = std::as_bytes(std::span(texels));
-    if (const uint64_t most = scene_.device.limits().maxTexelBufferElements; texels.size() > most) {
+    if (const uint64_t most = scene_.shared.device.limits().maxTexelBufferElements;
+        texels.size() > most) {
         return Error{ErrorCode::kUnsupported,
                      "environment takes a buffer of " + numberText(texels.size()) +
                          " texels; this device's have at most " + numberText(most) + ": use off"};
     }
     if (map.seen == nullptr) { // else it was allowed, and there was none
-        if (auto room = scene_.memory.share(bytes.size(), "light from around"); !room) {
+        if (auto room = scene_.memory.take(bytes.size(), "light from around"); !room) {
             return room.error();
         }
         map.seen = *seen;
@@ -87,7 +89,7 @@ gpu::Buffer EnvironmentMaps::upload(std::span<const std::byte> bytes, std::strin
                                     vk::BufferUsageFlagBits::eUniformTexelBuffer |
                                         vk::BufferUsageFlagBits::eTransferDst,
                                     gpu::MemoryUse::kDevice, name);
-    gpu::Uploader(scene_.device, scene_.timeline, bytes.size()).upload(buffer, bytes);
+    gpu::Uploader(scene_.shared.device, scene_.shared.timeline, bytes.size()).upload(buffer, bytes);
     return buffer;
 }
 

@@ -40,15 +40,18 @@ vk::raii::DescriptorPool makeExposurePool(const gpu::Device& device) {
 
 // Shared by every view.
 struct ExposurePipelines {
-    explicit ExposurePipelines(const SceneResources& scene)
-        : set_layout(makeExposureSetLayout(scene.device)),
+    explicit ExposurePipelines(const DeviceResources& shared)
+        : set_layout(makeExposureSetLayout(shared.device)),
           layout(gpu::makePipelineLayout(
-              scene.device,
-              {scene.pipelines.frameLayout(), scene.pipelines.screenLayout(), *set_layout})),
-          histogram(gpu::makeComputePipeline(
-              scene.device, shaders::exposure_histogram_comp(), {}, *layout, "exposure histogram")),
+              shared.device,
+              {shared.pipelines.frameLayout(), shared.pipelines.screenLayout(), *set_layout})),
+          histogram(gpu::makeComputePipeline(shared.device,
+                                             shaders::exposure_histogram_comp(),
+                                             {},
+                                             *layout,
+                                             "exposure histogram")),
           meter(gpu::makeComputePipeline(
-              scene.device, shaders::exposure_meter_comp(), {}, *layout, "exposure meter")) {}
+              shared.device, shaders::exposure_meter_comp(), {}, *layout, "exposure meter")) {}
 
     vk::raii::DescriptorSetLayout set_layout;
     vk::raii::PipelineLayout layout;
@@ -138,12 +141,13 @@ class Exposure final : public Effect {
 
 void Exposure::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     if (!targets_) {
-        targets_ = std::make_shared<ExposureTargets>(scene_.device);
+        targets_ = std::make_shared<ExposureTargets>(scene_.shared.device);
     }
     slot.effect_targets.hold(targets_);
-    const auto& shared = scene_.shared<ExposurePipelines>();
-    slot.kept.findOrMake<ExposureSet>(scene_.device, *shared.set_layout)
-        .write(scene_.device, targets_->counts, slot.upload.buffer(), blocks[io::kFrameBinding]);
+    const auto& shared = scene_.shared.kept<ExposurePipelines>();
+    slot.kept.findOrMake<ExposureSet>(scene_.shared.device, *shared.set_layout)
+        .write(scene_.shared.device, targets_->counts, slot.upload.buffer(),
+               blocks[io::kFrameBinding]);
 }
 
 void Exposure::record(const FrameContext& frame) const {
@@ -173,24 +177,24 @@ void Exposure::addResults(const FrameSlot& slot, FrameStats& stats) const {
 
 void Exposure::bind(const FrameContext& frame, SharedPipeline& pipeline) {
     const auto& cmd = frame.slot.cmd;
-    pipeline.bind(cmd, frame.scene.variants);
+    pipeline.bind(cmd, frame.scene.shared.variants);
     const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set,
                              *frame.slot.kept.get<ExposureSet>().set};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute,
-                           *frame.scene.shared<ExposurePipelines>().layout, 0, sets, {});
+                           *frame.scene.shared.kept<ExposurePipelines>().layout, 0, sets, {});
 }
 
 // Reads radiance and depth.
 void Exposure::recordHistogram(const FrameContext& frame, const vk::Rect2D& invocations) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure");
-    bind(frame, frame.scene.shared<ExposurePipelines>().histogram);
+    bind(frame, frame.scene.shared.kept<ExposurePipelines>().histogram);
     dispatchOver(frame.slot.cmd, invocations);
 }
 
 // Reads the counts, changes the frame's exposure.
 void Exposure::recordMeter(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "exposure_meter");
-    bind(frame, frame.scene.shared<ExposurePipelines>().meter);
+    bind(frame, frame.scene.shared.kept<ExposurePipelines>().meter);
     frame.slot.cmd.dispatch(1, 1, 1);
 }
 

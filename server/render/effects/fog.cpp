@@ -42,12 +42,12 @@ vk::raii::DescriptorPool makeFogPool(const gpu::Device& device) {
 // Shared by every view; a pipeline is made when first needed.
 class FogPipelines {
   public:
-    explicit FogPipelines(SceneResources& scene)
-        : device_(scene.device), screen_layout_(scene.pipelines.screenPipelineLayout()),
+    explicit FogPipelines(DeviceResources& shared)
+        : device_(shared.device), screen_layout_(shared.pipelines.screenPipelineLayout()),
           set_layout_(makeFogSetLayout(device_)),
           volume_layout_(
-              gpu::makePipelineLayout(device_, {scene.pipelines.frameLayout(), *set_layout_})),
-          made_(scene.timeline, scene.variants, Pipelines::kKeptScreen) {}
+              gpu::makePipelineLayout(device_, {shared.pipelines.frameLayout(), *set_layout_})),
+          made_(shared.timeline, shared.variants, Pipelines::kKeptScreen) {}
 
     [[nodiscard]] vk::Pipeline pipeline(FogShader shader, const VariantKey& key);
     // Of set 1 where the volume is written.
@@ -123,13 +123,13 @@ class Fog final : public Effect {
                                                 inputs.pose.boundsWorld(), cluster::Lit::kMedium);
         fog_ = makeFog(settings, lit.far_m, inputs.time_s);
         if (hasEnvironment(settings)) {
-            const auto map = scene_.shared<EnvironmentMaps>().find(settings.environment.light);
+            const auto map = scene_.kept<EnvironmentMaps>().find(settings.environment.light);
             if (!map) {
                 return map.error();
             }
             fog_.ambient = glm::vec3((*map)->seen->mean()) * settings.environment.strength;
         }
-        return checkFroxels(fog_, scene_.device.limits().maxTexelBufferElements);
+        return checkFroxels(fog_, scene_.shared.device.limits().maxTexelBufferElements);
     }
 
     void addCosts(const FrameCosts& costs, std::vector<PassEstimate>& passes) const override {
@@ -211,7 +211,7 @@ void Fog::prepare(FrameSlot& slot, FrameBlocks& blocks) {
     }
     if (!volume_) {
         volume_ = std::make_shared<FogVolume>(
-            scene_.device, scene_.shared<FogPipelines>().setLayout(), volumeBytes());
+            scene_.shared.device, scene_.shared.kept<FogPipelines>().setLayout(), volumeBytes());
     }
     slot.effect_targets.hold(volume_);
     blocks[io::kFogVolumeBinding] = {.bytes = volumeBytes(), .buffer = *volume_->froxels().handle};
@@ -246,7 +246,7 @@ void Fog::bind(const FrameContext& frame,
                vk::DescriptorSet second) {
     const auto& cmd = frame.slot.cmd;
     cmd.bindPipeline(vk::PipelineBindPoint::eCompute,
-                     frame.scene.shared<FogPipelines>().pipeline(shader, key));
+                     frame.scene.shared.kept<FogPipelines>().pipeline(shader, key));
     const std::array sets = {*frame.slot.frame_set, second};
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, sets, {});
 }
@@ -257,7 +257,7 @@ void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) cons
     const uint32_t noise = (plan_.way & kFogNoise) != 0 ? io::kOutputFogNoise : 0U;
     const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & ~io::kLightDirectional;
     bind(frame, FogShader::kScatter, {0, lights, noise},
-         scene_.shared<FogPipelines>().volumeLayout(),
+         scene_.shared.kept<FogPipelines>().volumeLayout(),
          frame.slot.effect_targets.get<FogVolume>().set());
     dispatchOver(frame.slot.cmd, nodes, fog_.slice_count);
 }
@@ -265,7 +265,7 @@ void Fog::recordScatter(const FrameContext& frame, const vk::Rect2D& nodes) cons
 // Adds it up from front to back.
 void Fog::recordIntegrate(const FrameContext& frame) const {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog_integrate");
-    bind(frame, FogShader::kIntegrate, {}, scene_.shared<FogPipelines>().volumeLayout(),
+    bind(frame, FogShader::kIntegrate, {}, scene_.shared.kept<FogPipelines>().volumeLayout(),
          frame.slot.effect_targets.get<FogVolume>().set());
     frame.slot.cmd.dispatch(screenGroups(fog_.node_count_x), screenGroups(fog_.node_count_y), 1);
 }
@@ -275,7 +275,7 @@ void Fog::recordApply(const FrameContext& frame, const vk::Rect2D& region) const
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "fog");
     const uint32_t lights = fogLightFlags(frame.plan.forward_light_flags) & io::kLightDirectional;
     bind(frame, FogShader::kApply, {0, lights, plan_.blended_output_flags},
-         frame.scene.pipelines.screenPipelineLayout(), *frame.slot.screen_set);
+         frame.scene.shared.pipelines.screenPipelineLayout(), *frame.slot.screen_set);
     dispatchOver(frame.slot.cmd, region);
 }
 

@@ -31,12 +31,12 @@ vk::raii::DescriptorPool makeFxaaPool(const gpu::Device& device) {
 
 // Shared by every view.
 struct FxaaPipeline {
-    explicit FxaaPipeline(const SceneResources& scene)
-        : set_layout(makeFxaaSetLayout(scene.device)),
-          layout(
-              gpu::makePipelineLayout(scene.device, {scene.pipelines.frameLayout(), *set_layout})),
+    explicit FxaaPipeline(const DeviceResources& shared)
+        : set_layout(makeFxaaSetLayout(shared.device)),
+          layout(gpu::makePipelineLayout(shared.device,
+                                         {shared.pipelines.frameLayout(), *set_layout})),
           pipeline(
-              gpu::makeComputePipeline(scene.device, shaders::fxaa_comp(), {}, *layout, "fxaa")) {}
+              gpu::makeComputePipeline(shared.device, shaders::fxaa_comp(), {}, *layout, "fxaa")) {}
 
     vk::raii::DescriptorSetLayout set_layout;
     vk::raii::PipelineLayout layout;
@@ -82,9 +82,9 @@ class Fxaa final : public Effect {
     }
 
     void prepare(FrameSlot& slot, FrameBlocks& /*blocks*/) override {
-        const auto& pipeline = scene_.shared<FxaaPipeline>();
-        slot.kept.findOrMake<FxaaSet>(scene_.device, *pipeline.set_layout)
-            .write(scene_.device, slot.targets->display, pixelsOf(slot));
+        const auto& pipeline = scene_.shared.kept<FxaaPipeline>();
+        slot.kept.findOrMake<FxaaSet>(scene_.shared.device, *pipeline.set_layout)
+            .write(scene_.shared.device, slot.targets->display, pixelsOf(slot));
     }
 
     void record(const FrameContext& frame) const override {
@@ -95,8 +95,8 @@ class Fxaa final : public Effect {
     static void recordPart(const FrameContext& frame, const vk::Rect2D& part) {
         const auto& cmd = frame.slot.cmd;
         const gpu::PassScope scope(frame.slot.timestamps, cmd, "fxaa");
-        auto& shared = frame.scene.shared<FxaaPipeline>();
-        shared.pipeline.bind(cmd, frame.scene.variants);
+        auto& shared = frame.scene.shared.kept<FxaaPipeline>();
+        shared.pipeline.bind(cmd, frame.scene.shared.variants);
         const std::array sets = {*frame.slot.frame_set, *frame.slot.kept.get<FxaaSet>().set};
         cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *shared.layout, 0, sets, {});
         dispatchOver(cmd, part);

@@ -230,12 +230,12 @@ void Shadows::prepare(FrameSlot& slot, FrameBlocks& blocks) {
         return;
     }
     if (!targets_) {
-        targets_ = std::make_shared<ShadowTargets>(scene_.device, settings_, caster_count_);
+        targets_ = std::make_shared<ShadowTargets>(scene_.shared.device, settings_, caster_count_);
     }
     slot.effect_targets.hold(targets_);
     blocks[io::kShadowAtlasBinding].image = *targets_->atlas.view;
-    slot.kept.findOrMake<ShadowSet>(scene_.device, scene_.pipelines.frameLayout())
-        .write(scene_.device, slot.upload.buffer(), uniforms_offset_);
+    slot.kept.findOrMake<ShadowSet>(scene_.shared.device, scene_.shared.pipelines.frameLayout())
+        .write(scene_.shared.device, slot.upload.buffer(), uniforms_offset_);
 }
 
 Seconds Shadows::faceTime(const FrameCosts& costs) const {
@@ -284,7 +284,7 @@ void Shadows::recordFaces(const FrameContext& frame,
     cmd.beginRendering({.renderArea = {{0, 0}, extentOf(used, targets.size_px)},
                         .layerCount = 1,
                         .pDepthAttachment = &depth});
-    bindGeometry(frame, frame.scene.pipelines.geometryPipelineLayout(),
+    bindGeometry(frame, frame.scene.shared.pipelines.geometryPipelineLayout(),
                  *frame.slot.kept.get<ShadowSet>().set, *frame.scene.index_buffer.handle,
                  rows_offset_);
     if (!whole) {
@@ -306,7 +306,7 @@ void Shadows::recordFaces(const FrameContext& frame,
 
 void Shadows::drawFace(const FrameContext& frame, const ShadowFace& face, uint32_t size_px) const {
     const auto& cmd = frame.slot.cmd;
-    auto& pipelines = frame.scene.pipelines;
+    auto& pipelines = frame.scene.shared.pipelines;
     const vk::Rect2D tile = tileOf(face, size_px);
     const auto side = static_cast<float>(size_px);
     cmd.setViewport(0, vk::Viewport{static_cast<float>(tile.offset.x),
@@ -337,8 +337,8 @@ ShadowAtlas Shadows::copy() const {
     }
     atlas.depths.resize(size_t{extent.width} * extent.height);
     const vk::DeviceSize bytes = atlas.depths.size() * sizeof(float);
-    const Readback readback(scene_.device, bytes);
-    scene_.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
+    const Readback readback(scene_.shared.device, bytes);
+    scene_.shared.timeline.runNow([&](const vk::raii::CommandBuffer& cmd) {
         recordTargetCopy(cmd, targets_->atlas, vk::ImageAspectFlagBits::eDepth, readback.buffer);
     });
     std::memcpy(atlas.depths.data(), readback.buffer.mapped, bytes);

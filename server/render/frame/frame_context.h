@@ -47,11 +47,11 @@ void inParts(const FrameContext& frame,
              const settings::Size& size,
              const RegionCost& cost,
              const Record& record) {
-    VariantMaker& variants = frame.scene.variants;
+    VariantMaker& variants = frame.scene.shared.variants;
     frame.pieces.over({size.width_px, size.height_px}, cost, [&](const vk::Rect2D& part) {
         const size_t used = variants.firstUses();
         record(frame, part);
-        if (frame.scene.device.traits().is_cpu && variants.firstUses() > used) {
+        if (frame.scene.shared.device.traits().is_cpu && variants.firstUses() > used) {
             frame.pieces.close(); // the device compiles them first
         }
     });
@@ -66,7 +66,7 @@ inline constexpr size_t kMostAlone = 64;
 template <class Things, class IsNew, class Record>
 void inShares(const FrameContext& frame, const Things& things, IsNew is_new, Record record) {
     const std::span all(things);
-    const size_t compiled = frame.scene.device.traits().is_cpu ? kMostAlone : 0;
+    const size_t compiled = frame.scene.shared.device.traits().is_cpu ? kMostAlone : 0;
     std::vector<bool> alone(all.size(), false);
     for (size_t i = 0; i < std::min(all.size(), compiled); ++i) {
         alone[i] = is_new(all[i]);

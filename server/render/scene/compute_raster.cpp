@@ -1,11 +1,9 @@
 #include "render/scene/compute_raster.h"
 
-#include "embedded.h"
 #include "interface/constants.h"
 #include "render/scene/visibility_scene.h"
 
 #include <algorithm>
-#include <array>
 
 namespace froxel::render {
 
@@ -13,32 +11,8 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-vk::raii::Pipeline makePipeline(const gpu::Device& device,
-                                const VisibilityScene& scene,
-                                gpu::Spirv code,
-                                MaterialFlags material_flags,
-                                const char* name) {
-    return gpu::makeComputePipeline(device, code, scene.pipelines.constants({material_flags, 0, 0}),
-                                    scene.pipelines.computeLayout(), name);
-}
-
 bool isMasked(const VisibilityGroup& group) {
     return (group.material_flags & io::kMaterialMask) != 0;
-}
-
-ComputeRaster::Pass makePass(const gpu::Device& device,
-                             const VisibilityScene& scene,
-                             gpu::Spirv code,
-                             const char* name) {
-    const auto& groups = scene.groups;
-    ComputeRaster::Pass pass;
-    if (!std::all_of(groups.begin(), groups.end(), isMasked)) {
-        pass.opaque = makePipeline(device, scene, code, 0, name);
-    }
-    if (std::any_of(groups.begin(), groups.end(), isMasked)) {
-        pass.masked = makePipeline(device, scene, code, scene.material_flags, name);
-    }
-    return pass;
 }
 
 } // namespace
@@ -57,20 +31,8 @@ std::string ComputeRaster::unusable(const gpu::Device& device, const VisibilityS
 }
 
 ComputeRaster::ComputeRaster(const gpu::Device& device, const VisibilityScene& scene)
-    : arena(device),
-      cull_(makePipeline(device, scene, shaders::cull_list_comp(), 0, "cull (list)")),
-      raster_meshlets_(makePass(device,
-                                scene,
-                                scene.pipelines.bindless()
-                                    ? shaders::raster_meshlets_bindless_comp()
-                                    : shaders::raster_meshlets_comp(),
-                                "raster meshlets")),
-      raster_blocks_(makePass(device,
-                              scene,
-                              scene.pipelines.bindless() ? shaders::raster_blocks_bindless_comp()
-                                                         : shaders::raster_blocks_comp(),
-                              "raster blocks")),
-      unpack_(makePipeline(device, scene, shaders::raster_unpack_comp(), 0, "unpack ids")) {
+    : arena(device), opaque(!std::ranges::all_of(scene.groups, isMasked)),
+      masked_flags(std::ranges::any_of(scene.groups, isMasked) ? scene.material_flags : 0) {
     const auto scratch = [&](size_t bytes, vk::BufferUsageFlags usage, const char* name) {
         return arena.makeBuffer(bytes, usage | Usage::eStorageBuffer, gpu::MemoryUse::kDevice,
                                 name);

@@ -1,4 +1,4 @@
-// Triangle ids rastered in compute shaders instead of by the rasteriser: pipelines and buffers.
+// Triangle ids rastered in compute shaders instead of by the rasteriser: its buffers.
 // Made when a frame first asks for it.
 #pragma once
 
@@ -28,24 +28,10 @@ class ComputeRaster {
     gpu::Buffer meshlets; // visible ones
     gpu::Buffer large;    // io::LargeTriangle, room for every triangle
 
+    const bool opaque;                // there are opaque materials
+    const MaterialFlags masked_flags; // of masked ones; 0: there are none
     // Whose textures alpha tests read, where materials are bound one at a time.
     std::vector<uint32_t> masked_materials;
-
-    [[nodiscard]] vk::Pipeline cull() const { return *cull_; }
-    // Of opaque materials, and of masked ones: null where there is none.
-    struct Pass {
-        vk::raii::Pipeline opaque{nullptr};
-        vk::raii::Pipeline masked{nullptr};
-    };
-    [[nodiscard]] const Pass& rasterMeshlets() const { return raster_meshlets_; }
-    [[nodiscard]] const Pass& rasterBlocks() const { return raster_blocks_; }
-    [[nodiscard]] vk::Pipeline unpack() const { return *unpack_; }
-
-  private:
-    vk::raii::Pipeline cull_;
-    Pass raster_meshlets_;
-    Pass raster_blocks_;
-    vk::raii::Pipeline unpack_;
 };
 
 } // namespace froxel::render

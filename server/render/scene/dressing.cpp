@@ -24,7 +24,7 @@ Dressing::Dressing(SceneResources& scene, std::vector<DrawItem> items_in)
 
 VisibilityScene& Dressing::visibility() {
     if (!visibility_) {
-        gpu::Uploader uploader(scene_.device, scene_.timeline, kStagingBytes);
+        gpu::Uploader uploader(scene_.shared.device, scene_.shared.timeline, kStagingBytes);
         visibility_ = std::make_unique<VisibilityScene>(scene_, items, uploader);
     }
     return *visibility_;

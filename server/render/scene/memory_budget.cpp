@@ -25,18 +25,23 @@ Result<void> fits(uint64_t bytes,
         return {};
     }
     return Error{ErrorCode::kCapacity,
-                 fmt::format("{} takes {} MiB of memory; the scene and other sessions take {} of "
+                 fmt::format("{} takes {} MiB of memory; scenes and other sessions take {} of "
                              "the {}'s {}: ask for a smaller picture, or try again later",
                              picture, needMib(bytes), needMib(others), whose, limitMib(limit))};
 }
 
 } // namespace
 
-Result<void> MemoryBudget::share(uint64_t bytes, const std::string& what) {
-    auto room =
-        fits(bytes, shared_bytes_ + views_.device_bytes, limits_.device_bytes, "device", what);
+void SceneMemory::add(uint64_t bytes) {
+    bytes_ += bytes;
+    budget_.scene_bytes_ += bytes;
+}
+
+Result<void> SceneMemory::take(uint64_t bytes, const std::string& what) {
+    auto room = fits(bytes, budget_.scene_bytes_ + budget_.views_.device_bytes,
+                     budget_.limits_.device_bytes, "device", what);
     if (room) {
-        shared_bytes_ += bytes;
+        add(bytes);
     }
     return room;
 }
@@ -50,7 +55,7 @@ Result<void> MemoryShare::take(const MemoryTaken& need, const std::string& pictu
                                  picture, needMib(need.total()), limitMib(limits.session_bytes))};
     }
     const uint64_t others =
-        budget_.shared_bytes_ + budget_.views_.device_bytes - taken_.device_bytes;
+        budget_.scene_bytes_ + budget_.views_.device_bytes - taken_.device_bytes;
     const uint64_t others_host = budget_.views_.host_bytes - taken_.host_bytes;
     if (auto room = fits(need.device_bytes, others, limits.device_bytes, "device", picture);
         !room) {

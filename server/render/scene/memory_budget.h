@@ -13,7 +13,7 @@ namespace froxel::render {
 
 struct MemoryLimits {
     static constexpr uint64_t kNone = std::numeric_limits<uint64_t>::max();
-    uint64_t device_bytes = kNone;  // the scene and all views
+    uint64_t device_bytes = kNone;  // scenes and all views
     uint64_t host_bytes = kNone;    // likewise of the host's, where that is not the device's
     uint64_t session_bytes = kNone; // one view, with what encodes its pictures, wherever it is
 };
@@ -30,19 +30,35 @@ class MemoryBudget {
     MemoryBudget(const MemoryBudget&) = delete;
     MemoryBudget& operator=(const MemoryBudget&) = delete;
 
-    // What all views share: the scene.
-    void setShared(uint64_t bytes) { shared_bytes_ = bytes; }
-    // From now on they share so much more of the device's. Errors: kCapacity, with the figures, and
-    // nothing changes. `what`: what the memory is for, in words.
-    [[nodiscard]] Result<void> share(uint64_t bytes, const std::string& what);
-    // What views and scene take.
-    [[nodiscard]] uint64_t takenBytes() const { return shared_bytes_ + views_.total(); }
+    // What views and scenes take.
+    [[nodiscard]] uint64_t takenBytes() const { return scene_bytes_ + views_.total(); }
 
   private:
+    friend class SceneMemory;
     friend class MemoryShare;
     const MemoryLimits limits_;
-    uint64_t shared_bytes_ = 0;
+    uint64_t scene_bytes_ = 0;
     MemoryTaken views_;
+};
+
+// One scene's part, of the device's memory. The budget outlives it.
+class SceneMemory {
+  public:
+    explicit SceneMemory(MemoryBudget& budget) : budget_(budget) {}
+    ~SceneMemory() { budget_.scene_bytes_ -= bytes_; }
+    SceneMemory(const SceneMemory&) = delete;
+    SceneMemory& operator=(const SceneMemory&) = delete;
+
+    // From now on the scene takes so much more, which is allocated already.
+    void add(uint64_t bytes);
+    // Errors: kCapacity, with the figures, and nothing changes. `what`: what the memory is for, in
+    // words.
+    [[nodiscard]] Result<void> take(uint64_t bytes, const std::string& what);
+    [[nodiscard]] uint64_t bytes() const { return bytes_; }
+
+  private:
+    MemoryBudget& budget_;
+    uint64_t bytes_ = 0;
 };
 
 // One view's part. The budget outlives it.

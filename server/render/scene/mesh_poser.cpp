@@ -1,7 +1,5 @@
 #include "render/scene/mesh_poser.h"
 
-#include "core/error.h"
-#include "embedded.h"
 #include "gpu/pipeline.h"
 #include "render/scene/scene_resources.h"
 #include "scene/motion.h"
@@ -9,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <string>
 
 namespace froxel::render {
 
@@ -84,24 +81,8 @@ upload(gpu::MemoryArena& arena, gpu::Uploader& uploader, std::vector<T> table, c
     return buffer;
 }
 
-vk::raii::DescriptorSetLayout setLayoutOf(const gpu::Device& device) {
-    const uint32_t most = device.limits().maxPerStageDescriptorStorageBuffers;
-    if (most < MeshPoser::kBindings) {
-        throw StartupError(
-            {ErrorCode::kUnsupported, "the scene has skins or morph targets, which take " +
-                                          std::to_string(MeshPoser::kBindings) +
-                                          " storage buffers in a shader; this device allows " +
-                                          std::to_string(most)});
-    }
-    std::array<vk::DescriptorSetLayoutBinding, MeshPoser::kBindings> bindings;
-    for (uint32_t i = 0; i < bindings.size(); ++i) {
-        bindings[i] = {i, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute};
-    }
-    return gpu::makeSetLayout(device, bindings);
-}
-
 vk::raii::DescriptorPool poolOf(const gpu::Device& device) {
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, MeshPoser::kBindings};
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eStorageBuffer, PosePipelines::kBindings};
     return gpu::makeDescriptorPool(device, std::array{size});
 }
 
@@ -122,7 +103,7 @@ void dispatchFor(const vk::raii::CommandBuffer& cmd, uint32_t count) {
 } // namespace
 
 PosedVertices::PosedVertices(const SceneResources& scene)
-    : arena_(scene.device), positions_(copyOf(arena_, scene.position_buffer)),
+    : arena_(scene.shared.device), positions_(copyOf(arena_, scene.position_buffer)),
       surfaces_(copyOf(arena_, scene.surface_buffer)),
       extended_(copyOf(arena_, scene.extended_buffer)) {}
 
@@ -154,23 +135,19 @@ VertexBuffers vertexBuffers(const SceneResources& scene, const PosedVertices* po
                                *scene.extended_buffer.handle};
 }
 
-MeshPoser::MeshPoser(const gpu::Device& device,
+MeshPoser::MeshPoser(PosePipelines& pipelines,
                      gpu::MemoryArena& arena,
                      gpu::Uploader& uploader,
                      const scene::Scene& scene,
                      const PackedGeometry& geometry)
-    : set_layout_(setLayoutOf(device)),
-      layout_(gpu::makePipelineLayout(device, {*set_layout_}, sizeof(io::PoseJob))),
-      vertices_(gpu::makeComputePipeline(device, shaders::pose_comp(), {}, *layout_, "pose")),
-      flat_normals_(nullptr) {
+    : pipelines_(pipelines) {
     PoseTables tables = tablesOf(scene, geometry, jobs);
     for (const io::PoseJob& job : jobs) {
         vertex_count += job.vertex_count;
         flat |= job.flat_count > 0;
     }
     if (flat) {
-        flat_normals_ =
-            gpu::makeComputePipeline(device, shaders::pose_flat_comp(), {}, *layout_, "pose flat");
+        flat_normals_ = pipelines.flatNormals();
     }
     ranges = upload(arena, uploader, std::move(tables.ranges), "pose ranges");
     influences = upload(arena, uploader, std::move(tables.influences), "pose influences");
@@ -178,28 +155,30 @@ MeshPoser::MeshPoser(const gpu::Device& device,
 }
 
 void MeshPoser::recordVertices(const vk::raii::CommandBuffer& cmd, vk::DescriptorSet set) const {
-    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *vertices_);
-    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, set, {});
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines_.vertices());
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines_.layout(), 0, set, {});
     for (const io::PoseJob& job : jobs) {
-        cmd.pushConstants<io::PoseJob>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, job);
+        cmd.pushConstants<io::PoseJob>(pipelines_.layout(), vk::ShaderStageFlagBits::eCompute, 0,
+                                       job);
         dispatchFor(cmd, job.vertex_count);
     }
 }
 
 void MeshPoser::recordFlatNormals(const vk::raii::CommandBuffer& cmd, vk::DescriptorSet set) const {
-    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, *flat_normals_);
-    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, set, {});
+    cmd.bindPipeline(vk::PipelineBindPoint::eCompute, flat_normals_);
+    cmd.bindDescriptorSets(vk::PipelineBindPoint::eCompute, pipelines_.layout(), 0, set, {});
     for (const io::PoseJob& job : jobs) {
         if (job.flat_count > 0) {
-            cmd.pushConstants<io::PoseJob>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, job);
+            cmd.pushConstants<io::PoseJob>(pipelines_.layout(), vk::ShaderStageFlagBits::eCompute,
+                                           0, job);
             dispatchFor(cmd, job.flat_count);
         }
     }
 }
 
 PoseSet::PoseSet(const gpu::Device& device, const MeshPoser& poser)
-    : device_(device), pool_(poolOf(device)), set_(gpu::makeSet(device, pool_, poser.setLayout())) {
-}
+    : device_(device), pool_(poolOf(device)),
+      set_(gpu::makeSet(device, pool_, poser.pipelines().setLayout())) {}
 
 void PoseSet::write(const SceneResources& scene,
                     const MeshPoser& poser,
@@ -212,7 +191,7 @@ void PoseSet::write(const SceneResources& scene,
     const VertexBuffers rest = vertexBuffers(scene, nullptr);
     const VertexBuffers moved = posed.buffers();
     // Without extended vertices no job has tangents.
-    const std::array<vk::DescriptorBufferInfo, MeshPoser::kBindings> buffers = {
+    const std::array<vk::DescriptorBufferInfo, PosePipelines::kBindings> buffers = {
         all(rest.positions),
         all(rest.surfaces),
         all(rest.extended ? rest.extended : rest.surfaces),

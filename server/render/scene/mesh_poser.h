@@ -6,6 +6,7 @@
 #include "gpu/upload.h"
 #include "interface/pose_io.h"
 #include "render/scene/geometry_pack.h"
+#include "render/scene/pose_pipelines.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -53,15 +54,13 @@ class PosedVertices {
 // Shared by every view.
 class MeshPoser {
   public:
-    // The scene has deformed meshes, packed into `geometry`; `arena` outlives it. Throws
-    // vk::SystemError, and StartupError where the device binds too few buffers.
-    MeshPoser(const gpu::Device& device,
+    // The scene has deformed meshes, packed into `geometry`; pipelines and `arena` outlive it.
+    // Throws vk::SystemError.
+    MeshPoser(PosePipelines& pipelines,
               gpu::MemoryArena& arena,
               gpu::Uploader& uploader,
               const scene::Scene& scene,
               const PackedGeometry& geometry);
-
-    static constexpr uint32_t kBindings = 12;
 
     // A frame's joints are those of each deformed mesh's skin, mesh by mesh; its weights are
     // motion::Pose's.
@@ -72,16 +71,14 @@ class MeshPoser {
     gpu::Buffer influences;
     gpu::Buffer deltas;
 
-    [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
+    [[nodiscard]] const PosePipelines& pipelines() const { return pipelines_; }
     // Both record into a frame; a barrier lies between them.
     void recordVertices(const vk::raii::CommandBuffer& cmd, vk::DescriptorSet set) const;
     void recordFlatNormals(const vk::raii::CommandBuffer& cmd, vk::DescriptorSet set) const;
 
   private:
-    vk::raii::DescriptorSetLayout set_layout_;
-    vk::raii::PipelineLayout layout_;
-    vk::raii::Pipeline vertices_;
-    vk::raii::Pipeline flat_normals_;
+    PosePipelines& pipelines_;
+    vk::Pipeline flat_normals_; // null: none are
 };
 
 // One frame slot's.

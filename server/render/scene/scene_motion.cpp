@@ -1,8 +1,10 @@
 #include "render/scene/scene_motion.h"
 
+#include "render/scene/device_resources.h"
+
 namespace froxel::render {
 
-SceneMotion::SceneMotion(const gpu::Device& device,
+SceneMotion::SceneMotion(DeviceResources& shared,
                          gpu::MemoryArena& arena,
                          gpu::Uploader& uploader,
                          const scene::Scene& scene,
@@ -17,7 +19,8 @@ SceneMotion::SceneMotion(const gpu::Device& device,
         deformed_of_instance.push_back(of_mesh[instance.mesh]);
     }
     if (!deformed.empty()) {
-        poser = std::make_unique<const MeshPoser>(device, arena, uploader, scene, geometry);
+        poser = std::make_unique<const MeshPoser>(shared.posePipelines(), arena, uploader, scene,
+                                                  geometry);
         if (poser->jobs.empty()) { // meshes without vertices
             poser.reset();
         }

@@ -9,9 +9,11 @@
 
 namespace froxel::render {
 
+class DeviceResources;
+
 struct SceneMotion {
-    // The scene has motion. Throws as MeshPoser does.
-    SceneMotion(const gpu::Device& device,
+    // The scene has motion. Throws as MeshPoser and PosePipelines do.
+    SceneMotion(DeviceResources& shared,
                 gpu::MemoryArena& arena,
                 gpu::Uploader& uploader,
                 const scene::Scene& scene,

@@ -1,11 +1,9 @@
 #include "render/scene/scene_resources.h"
 
-#include "area_light_table/table.h"
 #include "core/error.h"
 #include "gpu/pipeline.h"
 #include "interface/frame_io.h"
 #include "interface/visibility_io.h"
-#include "render/lists/list_limits.h"
 #include "render/pipelines/texture_limit.h"
 #include "scene/material_variants.h"
 #include "scene/scene_check.h"
@@ -14,16 +12,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <iterator>
 #include <span>
-#include <thread>
 
 namespace froxel::render {
 
 namespace {
 
 constexpr vk::DeviceSize kTextureChunkBytes = 64U << 20U;
+constexpr uint32_t kFewestTextures = 256; // that there is room for where shaders read all
 
 io::UvTransform uvTransform(const scene::TextureSlot& slot) {
     const float c = std::cos(slot.rotation_rad);
@@ -122,23 +120,18 @@ SceneNeeds drawableNeeds(const gpu::Device& device, const scene::Scene& scene) {
 
 } // namespace
 
-SceneResources::SceneResources(gpu::Device& device_in,
-                               const scene::Scene& scene,
-                               const MemoryLimits& limits)
-    : device(device_in), timeline(device_in), memory(limits),
-      needs(drawableNeeds(device_in, scene)), bounds_world(scene.bounds_world), light_rig(scene),
-      surroundings(scene.surroundings),
-      light_assigner(std::max(1U, std::thread::hardware_concurrency()), kHostListEntries),
-      arena(device_in), texture_arena(device_in, kTextureChunkBytes, "textures"),
-      pipelines(device_in, timeline, variants),
-      unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {
+SceneResources::SceneResources(DeviceResources& shared_in, const scene::Scene& scene)
+    : shared(shared_in), needs(drawableNeeds(shared.device, scene)),
+      bounds_world(scene.bounds_world), light_rig(scene), surroundings(scene.surroundings),
+      memory(shared.memory), arena(shared.device),
+      texture_arena(shared.device, kTextureChunkBytes, "textures") {
     if (const auto fault = scene::findFault(scene)) {
         throw StartupError({ErrorCode::kScene, *fault});
     }
     auto geometry = packGeometry(scene);
-    gpu::Uploader uploader(device, timeline, kStagingBytes);
+    gpu::Uploader uploader(shared.device, shared.timeline, kStagingBytes);
     if (scene.motion) {
-        motion = std::make_unique<const SceneMotion>(device, arena, uploader, scene, geometry);
+        motion = std::make_unique<const SceneMotion>(shared, arena, uploader, scene, geometry);
     }
     instances = placesOf(scene, motion.get());
     auto items = makeItems(scene, geometry, needs, motion.get(), instances);
@@ -147,12 +140,12 @@ SceneResources::SceneResources(gpu::Device& device_in,
     uploadMaterials(scene, uploader);
     meshlets = std::move(geometry.meshlets);
     undressed_ = std::make_shared<Dressing>(*this, std::move(items));
-    if (device.traits().is_cpu) {
+    if (shared.device.traits().is_cpu) {
         indices = std::move(geometry.indices);
         positions = std::move(geometry.positions);
     }
     const uint64_t device_bytes = arena.allocatedBytes() + texture_arena.allocatedBytes();
-    memory.setShared(device_bytes);
+    memory.add(device_bytes);
     spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
                  undressed_->items.size(), meshlets.size(), textures_->imageCount(), device_bytes);
 }
@@ -179,22 +172,23 @@ void SceneResources::makeMaterialSets(uint32_t count) {
     const std::array pool_sizes = {
         vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, count},
         vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler,
-                               count * materialSlots(device.traits())}};
-    material_pool_ = gpu::makeDescriptorPool(device, pool_sizes, count);
-    const std::vector layouts(count, pipelines.materialLayout());
-    material_sets_ = device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
-                                                             .descriptorSetCount = count,
-                                                             .pSetLayouts = layouts.data()});
+                               count * materialSlots(shared.device.traits())}};
+    material_pool_ = gpu::makeDescriptorPool(shared.device, pool_sizes, count);
+    const std::vector layouts(count, shared.pipelines.materialLayout());
+    material_sets_ =
+        shared.device.handle().allocateDescriptorSets({.descriptorPool = *material_pool_,
+                                                       .descriptorSetCount = count,
+                                                       .pSetLayouts = layouts.data()});
 }
 
 void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
-    textures_ = std::make_unique<TextureStore>(device, texture_arena, uploader);
+    textures_ = std::make_unique<TextureStore>(shared.device, texture_arena, uploader);
     const auto count = static_cast<uint32_t>(scene.materials.size());
     if (count == 0) {
         return;
     }
     makeMaterialSets(count);
-    const auto alignment = device.limits().minUniformBufferOffsetAlignment;
+    const auto alignment = shared.device.limits().minUniformBufferOffsetAlignment;
     const vk::DeviceSize stride = (sizeof(io::Material) + alignment - 1) / alignment * alignment;
     std::vector<std::byte> bytes(stride * count);
     for (uint32_t i = 0; i < count; ++i) {
@@ -226,25 +220,11 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
                                    .pBufferInfo = &buffer},
             vk::WriteDescriptorSet{.dstSet = *material_sets_[i],
                                    .dstBinding = 1,
-                                   .descriptorCount = materialSlots(device.traits()),
+                                   .descriptorCount = materialSlots(shared.device.traits()),
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .pImageInfo = images.data()}};
-        device.handle().updateDescriptorSets(writes, {});
+        shared.device.handle().updateDescriptorSets(writes, {});
     }
-}
-
-DebugPass& SceneResources::debug() {
-    if (!debug_) {
-        debug_ = std::make_unique<DebugPass>(device, timeline, variants, pipelines);
-    }
-    return *debug_;
-}
-
-PairPipelines& SceneResources::pairs() {
-    if (!pairs_) {
-        pairs_ = std::make_unique<PairPipelines>(device, timeline, variants, pipelines);
-    }
-    return *pairs_;
 }
 
 void SceneResources::keepVariantMaterials(const scene::Scene& scene,
@@ -282,56 +262,19 @@ std::shared_ptr<Dressing> SceneResources::dressing(uint32_t material_variant) {
     return dressing;
 }
 
-VisibilityPipelines& SceneResources::visibilityPipelines() {
-    if (!visibility_pipelines_) {
-        visibility_pipelines_ = std::make_unique<VisibilityPipelines>(device, timeline, variants,
-                                                                      pipelines, texturesAtOnce());
-    }
-    return *visibility_pipelines_;
+VisibilityPipelines& SceneResources::visibilityPipelines() const {
+    return shared.visibilityPipelines(texturesAtOnce());
 }
 
 uint32_t SceneResources::texturesAtOnce() const {
-    const auto& traits = device.traits();
+    const auto& traits = shared.device.traits();
     const auto all = static_cast<uint32_t>(material_textures.size());
-    return traits.descriptor_indexing && all + kPassTextures <= traits.most_textures &&
-                   all <= traits.most_samplers
-               ? all
+    // So that scenes of about as many have their pipelines together.
+    const uint32_t places = std::bit_ceil(std::max(all, kFewestTextures));
+    return traits.descriptor_indexing && all > 0 &&
+                   places + kPassTextures <= traits.most_textures && places <= traits.most_samplers
+               ? places
                : 0;
-}
-
-std::vector<Pipelines::Made> SceneResources::variantsMade() const {
-    auto all = pipelines.made();
-    if (visibility_pipelines_) {
-        std::ranges::copy(visibility_pipelines_->made(), std::back_inserter(all));
-    }
-    return all;
-}
-
-const gpu::Buffer& SceneResources::ltcTable() {
-    if (!ltc_arena_) {
-        const auto bytes = std::as_bytes(area_light_table::table());
-        auto made = std::make_unique<gpu::MemoryArena>(device);
-        ltc_table_ = made->makeBuffer(bytes.size(),
-                                      vk::BufferUsageFlagBits::eUniformTexelBuffer |
-                                          vk::BufferUsageFlagBits::eTransferDst,
-                                      gpu::MemoryUse::kDevice, "linearly transformed cosines");
-        gpu::Uploader(device, timeline, bytes.size()).upload(ltc_table_, bytes);
-        ltc_arena_ = std::move(made);
-    }
-    return ltc_table_;
-}
-
-const AssignPipelines* SceneResources::assignment() {
-    if (!assignment_tried_) {
-        assignment_tried_ = true;
-        const std::string why = AssignPipelines::unusable(device, timeline);
-        if (why.empty()) {
-            assignment_ = std::make_unique<AssignPipelines>(device);
-        } else {
-            spdlog::info("lights are assigned on the host: {}", why);
-        }
-    }
-    return assignment_.get();
 }
 
 } // namespace froxel::render

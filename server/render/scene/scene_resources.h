@@ -1,22 +1,15 @@
 // A scene on the device, and what every viewer of it shares.
 #pragma once
 
-#include "cluster/light_assigner.h"
-#include "gpu/command_context.h"
 #include "gpu/memory.h"
 #include "light/light_rig.h"
-#include "render/lists/assign_pipelines.h"
-#include "render/lists/pair_counter.h"
-#include "render/pipelines/pipelines.h"
 #include "render/pipelines/typed_store.h"
-#include "render/scene/debug_pass.h"
+#include "render/scene/device_resources.h"
 #include "render/scene/dressing.h"
 #include "render/scene/geometry_pack.h"
-#include "render/scene/memory_budget.h"
 #include "render/scene/scene_motion.h"
 #include "render/scene/scene_needs.h"
 #include "render/scene/texture_store.h"
-#include "render/scene/unit_costs.h"
 #include "render/scene/visibility_scene.h"
 
 #include <cstdint>
@@ -30,19 +23,17 @@ inline constexpr vk::DeviceSize kStagingBytes = 16U << 20U; // of what all of a 
 
 class SceneResources {
   public:
-    SceneResources(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits);
-    ~SceneResources() { variants.stop(); } // which makes what refers to the rest
+    // Throws StartupError, vk::SystemError.
+    SceneResources(DeviceResources& shared, const scene::Scene& scene);
     SceneResources(const SceneResources&) = delete;
     SceneResources& operator=(const SceneResources&) = delete;
 
-    gpu::Device& device;
-    gpu::Timeline timeline;
-    MemoryBudget memory;
+    DeviceResources& shared; // with other scenes
     const SceneNeeds needs;
     const BoundsD3 bounds_world;
     const light::LightRig light_rig;
     const std::shared_ptr<const environment::Surroundings> surroundings; // scene::Scene's
-    cluster::LightAssigner light_assigner;
+    SceneMemory memory;
 
     // As they stand at time 0, where the scene moves; a frame has its ScenePose. bounds_world and
     // the rig's seeded lights are over all clips.
@@ -61,38 +52,25 @@ class SceneResources {
     gpu::Buffer index_buffer;
     std::vector<io::Material> material_uniforms;
     std::vector<vk::DescriptorImageInfo> material_textures; // kMaterialSlots of each
-    VariantMaker variants;
-    Pipelines pipelines;
     // Fragments that pass the depth test, per pixel of the picture: of the first frame that the
     // rasteriser draws. None: not measured yet.
     std::optional<double> overdraw;
-    // Of this device; see device_speed.h.
-    UnitCosts unit_costs;
 
     // Null: no mesh bends.
     [[nodiscard]] const MeshPoser* poser() const { return motion ? motion->poser.get() : nullptr; }
-    // Made at the first call. Null: the device cannot assign lights as the host does.
-    [[nodiscard]] const AssignPipelines* assignment();
-    // What views that ask for it share, such as pipelines: made from this at the first call. Throws
+    // What of this scene views that ask for it share: made from this at the first call. Throws
     // vk::SystemError.
     template <class T>
-    [[nodiscard]] T& shared() {
-        return shared_.findOrMake<T>(*this);
+    [[nodiscard]] T& kept() {
+        return kept_.findOrMake<T>(*this);
     }
-    // All made at the first call. Throw vk::SystemError.
-    [[nodiscard]] DebugPass& debug();
-    [[nodiscard]] PairPipelines& pairs();
-    // The highlights of rectangular lights: area_light_table::table().
-    [[nodiscard]] const gpu::Buffer& ltcTable();
     // That of a material variant, by its number (settings::ViewSettings). All who hold it share it;
     // with the last of them it goes, but for that of no variant.
     [[nodiscard]] std::shared_ptr<Dressing> dressing(uint32_t material_variant);
-    // Made at the first call. Throws vk::SystemError.
-    [[nodiscard]] VisibilityPipelines& visibilityPipelines();
-    // The variants kept, of whatever draws the scene's surfaces and lights them.
-    [[nodiscard]] std::vector<Pipelines::Made> variantsMade() const;
+    // Throws vk::SystemError.
+    [[nodiscard]] VisibilityPipelines& visibilityPipelines() const;
 
-    // Textures of all materials, where a shader may read them at once; else 0.
+    // Room for the textures of all materials, where a shader may read them at once; else 0.
     [[nodiscard]] uint32_t texturesAtOnce() const;
 
     [[nodiscard]] vk::DescriptorSet materialSet(uint32_t material) const {
@@ -113,14 +91,7 @@ class SceneResources {
     std::map<uint32_t, std::weak_ptr<Dressing>> dressings_;
     // Of primitives that have any, by PackedPrimitive::first_index, which no two share.
     std::map<uint32_t, std::vector<scene::VariantMaterial>> variant_materials_;
-    std::unique_ptr<VisibilityPipelines> visibility_pipelines_;
-    bool assignment_tried_ = false;
-    std::unique_ptr<AssignPipelines> assignment_;
-    std::unique_ptr<DebugPass> debug_;
-    std::unique_ptr<PairPipelines> pairs_;
-    std::unique_ptr<gpu::MemoryArena> ltc_arena_;
-    gpu::Buffer ltc_table_;
-    TypedStore shared_;
+    TypedStore kept_;
 };
 
 } // namespace froxel::render

@@ -45,6 +45,37 @@ gpu::Spirv shadeShader(bool layered, bool bindless, bool batched) {
                     : (batched ? visibility_shade_batched_comp() : visibility_shade_comp());
 }
 
+using Step = VisibilityPipelines::ComputeStep;
+
+gpu::Spirv computeShader(Step step, bool bindless) {
+    switch (step) {
+    case Step::kCullList:
+        return shaders::cull_list_comp();
+    case Step::kMeshlets:
+        return bindless ? shaders::raster_meshlets_bindless_comp()
+                        : shaders::raster_meshlets_comp();
+    case Step::kBlocks:
+        return bindless ? shaders::raster_blocks_bindless_comp() : shaders::raster_blocks_comp();
+    case Step::kUnpack:
+        break;
+    }
+    return shaders::raster_unpack_comp();
+}
+
+const char* nameOf(Step step) {
+    switch (step) {
+    case Step::kCullList:
+        return "cull (list)";
+    case Step::kMeshlets:
+        return "raster meshlets";
+    case Step::kBlocks:
+        return "raster blocks";
+    case Step::kUnpack:
+        break;
+    }
+    return "unpack ids";
+}
+
 } // namespace
 
 VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
@@ -57,7 +88,8 @@ VisibilityPipelines::VisibilityPipelines(const gpu::Device& device,
       compute_layout_(nullptr), cull_(nullptr), compact_(nullptr),
       raster_(timeline, maker, Pipelines::kKeptGeometry),
       gbuffer_(timeline, maker, Pipelines::kKeptGeometry),
-      shade_(timeline, maker, Pipelines::kKeptGeometry) {
+      shade_(timeline, maker, Pipelines::kKeptGeometry),
+      compute_(timeline, maker, Pipelines::kKeptGeometry) {
     raster_layout_ = gpu::makePipelineLayout(
         device, {shared.frameLayout(), shared.materialLayout(), *set_layout_});
     compute_layout_ =
@@ -125,6 +157,14 @@ vk::Pipeline VisibilityPipelines::shade(const VariantKey& key) {
         const bool layered = (key.material_flags & io::kMaterialLayers) != 0;
         return gpu::makeComputePipeline(device_, shadeShader(layered, bindless_, batched),
                                         constants(key), *compute_layout_, "visibility to radiance");
+    });
+}
+
+vk::Pipeline VisibilityPipelines::compute(ComputeStep step, MaterialFlags material_flags) {
+    return *compute_.findOrMake({step, material_flags}, [=, this] {
+        return gpu::makeComputePipeline(device_, computeShader(step, bindless_),
+                                        constants({material_flags, 0, 0}), *compute_layout_,
+                                        nameOf(step));
     });
 }
 

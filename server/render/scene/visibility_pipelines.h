@@ -4,6 +4,10 @@
 
 #include "render/pipelines/pipelines.h"
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 namespace froxel::render {
 
 class VisibilityPipelines {
@@ -26,6 +30,7 @@ class VisibilityPipelines {
                         const Pipelines& shared,
                         uint32_t texture_count);
 
+    // All of these may throw VariantsMissing.
     // Depth and ids. material_flags: of a masked material, else of its faces alone.
     [[nodiscard]] vk::Pipeline raster(MaterialFlags material_flags);
     // From ids to the G-buffer, and from ids to radiance.
@@ -33,6 +38,9 @@ class VisibilityPipelines {
     [[nodiscard]] vk::Pipeline shade(const VariantKey& key);
     [[nodiscard]] vk::Pipeline cull() const { return *cull_; }
     [[nodiscard]] vk::Pipeline compact() const { return *compact_; }
+    // Ids rastered in compute (compute_raster.h). material_flags: of masked materials; 0: opaque.
+    enum class ComputeStep : uint8_t { kCullList, kMeshlets, kBlocks, kUnpack };
+    [[nodiscard]] vk::Pipeline compute(ComputeStep step, MaterialFlags material_flags = 0);
 
     // The variants kept that shade.
     [[nodiscard]] std::vector<Pipelines::Made> made() const;
@@ -59,6 +67,7 @@ class VisibilityPipelines {
     VariantCache<MaterialFlags> raster_;
     VariantCache<VariantKey> gbuffer_;
     VariantCache<VariantKey> shade_;
+    VariantCache<std::pair<ComputeStep, MaterialFlags>> compute_;
 };
 
 } // namespace froxel::render

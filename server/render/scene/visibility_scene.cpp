@@ -125,7 +125,7 @@ gpu::Buffer uploadTable(gpu::MemoryArena& arena,
 
 std::string VisibilityScene::unusable(const SceneResources& scene,
                                       std::span<const DrawItem> drawn) {
-    const auto& traits = scene.device.traits();
+    const auto& traits = scene.shared.device.traits();
     if (!traits.visibility_lacks.empty()) {
         return "the device lacks " + traits.visibility_lacks;
     }
@@ -144,7 +144,8 @@ std::string VisibilityScene::unusable(const SceneResources& scene,
 VisibilityScene::VisibilityScene(SceneResources& scene,
                                  std::span<const DrawItem> drawn,
                                  gpu::Uploader& uploader)
-    : arena(scene.device), pipelines(scene.visibilityPipelines()), device_(scene.device) {
+    : arena(scene.shared.device), pipelines(scene.visibilityPipelines()),
+      device_(scene.shared.device) {
     Placer placer(scene, drawn);
     groups = std::move(placer.groups);
     placed = std::move(placer.meshlets);
@@ -190,17 +191,18 @@ ComputeRaster& VisibilityScene::computeRaster() {
 }
 
 void VisibilityScene::writeTextures(const SceneResources& scene) {
-    const auto& textures = scene.material_textures;
-    const auto count = static_cast<uint32_t>(textures.size());
+    std::vector<vk::DescriptorImageInfo> textures = scene.material_textures;
+    const uint32_t count = scene.texturesAtOnce();
+    textures.resize(count, textures.front()); // every place has one
     const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, count};
-    pool_ = gpu::makeDescriptorPool(scene.device, std::array{size});
-    texture_set_ = gpu::makeSet(scene.device, pool_, pipelines.textureLayout());
+    pool_ = gpu::makeDescriptorPool(scene.shared.device, std::array{size});
+    texture_set_ = gpu::makeSet(scene.shared.device, pool_, pipelines.textureLayout());
     const vk::WriteDescriptorSet write{.dstSet = *texture_set_,
                                        .dstBinding = 0,
                                        .descriptorCount = count,
                                        .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                        .pImageInfo = textures.data()};
-    scene.device.handle().updateDescriptorSets(write, {});
+    scene.shared.device.handle().updateDescriptorSets(write, {});
 }
 
 VisibilityFrame::VisibilityFrame(const gpu::Device& device, const VisibilityScene& scene)

@@ -17,7 +17,8 @@ vk::ClearValue clearColor(float rgb, float alpha) {
 
 void bindLayer(const FrameContext& frame, vk::DescriptorSet set) {
     frame.slot.cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics,
-                                      frame.scene.pipelines.peelPipelineLayout(), 2, set, {});
+                                      frame.scene.shared.pipelines.peelPipelineLayout(), 2, set,
+                                      {});
 }
 
 } // namespace
@@ -68,11 +69,11 @@ void recordPeelCount(const FrameContext& frame, const vk::Rect2D& region, uint32
 void recordBlendResolve(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "blend_resolve");
     const auto& cmd = frame.slot.cmd;
-    const auto& pipelines = frame.scene.pipelines;
+    const auto& pipelines = frame.scene.shared.pipelines;
     const std::array colors = {attachment(frame.slot.targets->radiance, LoadOp::eLoad)};
     const Rendering rendering(frame, region, colors, nullptr);
     cmd.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                     frame.scene.pipelines.blendResolve(frame.plan.transparency));
+                     frame.scene.shared.pipelines.blendResolve(frame.plan.transparency));
     cmd.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.blendResolveLayout(), 0,
                            frame.slot.blend->resolveSet(), {});
     cmd.setCullMode(vk::CullModeFlagBits::eNone);

@@ -86,7 +86,7 @@ void inGroups(const FrameContext& frame,
               GeometryPass pass,
               std::span<const DrawGroup> groups,
               const std::function<void(std::span<const DrawGroup>, bool first)>& record) {
-    auto& pipelines = frame.scene.pipelines;
+    auto& pipelines = frame.scene.shared.pipelines;
     // All that are missing are asked for, before the first that is ends the recording.
     for (const DrawGroup& group : groups) {
         (void)pipelines.prepareGeometry(pass, variant(frame, pass, group));
@@ -104,7 +104,7 @@ void drawGroups(const FrameContext& frame,
                 std::span<const DrawGroup> groups,
                 uint32_t layer) {
     const auto& cmd = frame.slot.cmd;
-    auto& pipelines = frame.scene.pipelines;
+    auto& pipelines = frame.scene.shared.pipelines;
     const auto layout =
         peels(pass) ? pipelines.peelPipelineLayout() : pipelines.geometryPipelineLayout();
     bindGeometry(frame, layout, *frame.slot.frame_set,

@@ -48,14 +48,15 @@ void bindScreen(const FrameContext& frame, vk::PipelineBindPoint point, vk::Pipe
     const auto& cmd = frame.slot.cmd;
     cmd.bindPipeline(point, pipeline);
     const std::array sets = {*frame.slot.frame_set, *frame.slot.screen_set};
-    cmd.bindDescriptorSets(point, frame.scene.pipelines.screenPipelineLayout(), 0, sets, {});
+    cmd.bindDescriptorSets(point, frame.scene.shared.pipelines.screenPipelineLayout(), 0, sets, {});
 }
 
 void dispatch(const FrameContext& frame,
               ScreenPass pass,
               const VariantKey& key,
               const vk::Rect2D& region) {
-    bindScreen(frame, vk::PipelineBindPoint::eCompute, frame.scene.pipelines.screen(pass, key));
+    bindScreen(frame, vk::PipelineBindPoint::eCompute,
+               frame.scene.shared.pipelines.screen(pass, key));
     dispatchOver(frame.slot.cmd, region);
 }
 
@@ -151,7 +152,7 @@ void recordLightingFragment(const FrameContext& frame, const vk::Rect2D& region)
     const Rendering rendering(frame, region, colors, covered_alone ? &depth : nullptr);
     bindScreen(
         frame, vk::PipelineBindPoint::eGraphics,
-        frame.scene.pipelines.fragmentLighting(
+        frame.scene.shared.pipelines.fragmentLighting(
             {0, frame.plan.lighting_light_flags, frame.plan.lighting_output_flags}, covered_alone));
     frame.slot.cmd.setCullMode(vk::CullModeFlagBits::eNone);
     frame.slot.cmd.setFrontFace(vk::FrontFace::eCounterClockwise);
@@ -213,29 +214,30 @@ void recordOverdraw(const FrameContext& frame, const vk::Rect2D& region) {
 
 void recordDebugView(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "debug_view");
-    frame.scene.debug().recordValues(frame.slot.cmd,
-                                     {*frame.slot.frame_set, *frame.slot.screen_set},
-                                     frame.plan.debug, frame.plan.lighting_light_flags,
-                                     frame.plan.gbuffer_output_flags, frame.debug->values, region);
+    frame.scene.shared.debug().recordValues(
+        frame.slot.cmd, {*frame.slot.frame_set, *frame.slot.screen_set}, frame.plan.debug,
+        frame.plan.lighting_light_flags, frame.plan.gbuffer_output_flags, frame.debug->values,
+        region);
 }
 
 void recordLightWires(const FrameContext& frame, uint32_t first_light, uint32_t light_count) {
     inWires(frame, [&](const DebugSets& sets) {
-        frame.scene.debug().recordLights(frame.slot.cmd, sets, first_light, light_count);
+        frame.scene.shared.debug().recordLights(frame.slot.cmd, sets, first_light, light_count);
     });
 }
 
 void recordClusterWires(const FrameContext& frame, uint32_t first_line, uint32_t line_count) {
     inWires(frame, [&](const DebugSets& sets) {
-        frame.scene.debug().recordClusters(frame.slot.cmd, sets, frame.slot.upload.buffer(),
-                                           frame.offsets.wires, 2 * first_line, 2 * line_count);
+        frame.scene.shared.debug().recordClusters(frame.slot.cmd, sets, frame.slot.upload.buffer(),
+                                                  frame.offsets.wires, 2 * first_line,
+                                                  2 * line_count);
     });
 }
 
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "count_pairs");
     frame.slot.pairs->recordCount(
-        frame.slot.cmd, frame.scene.pairs(), *frame.slot.frame_set, *frame.slot.screen_set,
+        frame.slot.cmd, frame.scene.shared.pairs(), *frame.slot.frame_set, *frame.slot.screen_set,
         frame.plan.forward ? frame.plan.forward_light_flags : frame.plan.lighting_light_flags,
         region);
 }

@@ -16,9 +16,11 @@ const ComputeRaster& raster(const FrameContext& frame) {
     return frame.visibility->computeRaster();
 }
 
+using Step = VisibilityPipelines::ComputeStep;
+
 // What is opaque; then what is masked, with all textures or one material's at a time.
 template <class Dispatch>
-void drawMaterials(const FrameContext& frame, const ComputeRaster::Pass& pass, Dispatch dispatch) {
+void drawMaterials(const FrameContext& frame, Step step, Dispatch dispatch) {
     const auto& scene = *frame.visibility;
     const auto draw = [&](vk::DescriptorSet textures, uint32_t material) {
         frame.slot.cmd.bindDescriptorSets(Point::eCompute, scene.pipelines.computeLayout(), 3,
@@ -27,16 +29,16 @@ void drawMaterials(const FrameContext& frame, const ComputeRaster::Pass& pass, D
         dispatch();
     };
     const bool all_textures = scene.pipelines.bindless();
-    if (*pass.opaque) { // reads none
-        bindVisibilityCompute(frame, *pass.opaque);
+    if (raster(frame).opaque) { // reads none
+        bindVisibilityCompute(frame, scene.pipelines.compute(step));
         draw(all_textures ? scene.textureSet()
                           : frame.scene.materialSet(scene.materials_in_use.front()),
              io::kAnyMaterial);
     }
-    if (!*pass.masked) {
+    if (raster(frame).masked_flags == 0) {
         return;
     }
-    bindVisibilityCompute(frame, *pass.masked);
+    bindVisibilityCompute(frame, scene.pipelines.compute(step, raster(frame).masked_flags));
     if (all_textures) {
         draw(scene.textureSet(), io::kAnyMaterial);
     }
@@ -68,7 +70,7 @@ void recordRasterSpoil(const FrameContext& frame) {
 
 void recordRasterCull(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "cull");
-    bindVisibilityCompute(frame, raster(frame).cull());
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(Step::kCullList));
     pushVisibilityWords(frame, {frame.plan.cull_meshlets ? 0U : 1U,
                                 static_cast<uint32_t>(frame.visibility->groups.size())});
     frame.slot.cmd.dispatch(frame.visibility->block_count, 1, 1);
@@ -76,19 +78,19 @@ void recordRasterCull(const FrameContext& frame) {
 
 void recordRasterMeshlets(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_meshlets");
-    drawMaterials(frame, raster(frame).rasterMeshlets(),
+    drawMaterials(frame, Step::kMeshlets,
                   [&] { frame.slot.cmd.dispatchIndirect(*raster(frame).counts.handle, 0); });
 }
 
 void recordRasterBlocks(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_blocks");
-    drawMaterials(frame, raster(frame).rasterBlocks(),
+    drawMaterials(frame, Step::kBlocks,
                   [&] { frame.slot.cmd.dispatch(io::kRasterBlockGroups, 1, 1); });
 }
 
 void recordRasterUnpack(const FrameContext& frame) {
     const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "raster_unpack");
-    bindVisibilityCompute(frame, raster(frame).unpack());
+    bindVisibilityCompute(frame, frame.visibility->pipelines.compute(Step::kUnpack));
     const auto& size = frame.slot.targets->size;
     frame.slot.cmd.dispatch(screenGroups(size.width_px), screenGroups(size.height_px), 1);
 }

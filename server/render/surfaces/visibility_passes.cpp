@@ -41,7 +41,7 @@ void resolve(const FrameContext& frame,
              uint32_t flags,
              Find find) {
     const auto& scene = *frame.visibility;
-    const size_t used = frame.scene.variants.firstUses();
+    const size_t used = frame.scene.shared.variants.firstUses();
     const vk::Pipeline pipeline = find();
     if (scene.pipelines.bindless()) {
         const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, name);
@@ -49,7 +49,7 @@ void resolve(const FrameContext& frame,
         shade(frame, region, scene.textureSet(), {io::kAnyMaterial, last_flag | flags});
         return;
     }
-    const bool is_new = frame.scene.variants.firstUses() > used;
+    const bool is_new = frame.scene.shared.variants.firstUses() > used;
     inShares(
         frame, scene.materials_in_use, [=](uint32_t) { return is_new; },
         [&](std::span<const uint32_t> materials, bool) {
@@ -92,7 +92,7 @@ void drawGroup(const FrameContext& frame, uint32_t index) {
     constexpr uint32_t kStride = sizeof(io::DrawCommand);
     const vk::DeviceSize first =
         vk::DeviceSize{group.blocks.first_block} * io::kCullGroup * kStride;
-    if (frame.scene.device.traits().draw_indirect_count) {
+    if (frame.scene.shared.device.traits().draw_indirect_count) {
         cmd.drawIndexedIndirectCount(*scene.commands.handle, first, *scene.counts.handle,
                                      index * sizeof(uint32_t), group.meshlet_count, kStride);
     } else {

@@ -17,7 +17,8 @@ TEST(MemoryBudget, WithoutLimits_EverythingFits) {
 
 TEST(MemoryBudget, Shares_AddUpWithTheScene) {
     MemoryBudget budget({.device_bytes = 100 * kMib, .session_bytes = 60 * kMib});
-    budget.setShared(30 * kMib);
+    SceneMemory scene(budget);
+    scene.add(30 * kMib);
     MemoryShare a(budget);
     MemoryShare b(budget);
     ASSERT_TRUE(a.take({.device_bytes = 40 * kMib}, "a picture"));
@@ -25,23 +26,24 @@ TEST(MemoryBudget, Shares_AddUpWithTheScene) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
     EXPECT_THAT(refused.error().message,
-                testing::HasSubstr("a picture of 640x360 takes 41 MiB of memory; the scene and "
+                testing::HasSubstr("a picture of 640x360 takes 41 MiB of memory; scenes and "
                                    "other sessions take 71 of the device's 100"));
     EXPECT_TRUE(b.take({.device_bytes = 30 * kMib}, "a picture"));
     EXPECT_EQ(budget.takenBytes(), 100 * kMib);
 }
 
-TEST(MemoryBudget, WhatViewsShareBesides_IsAskedFor) {
+TEST(MemoryBudget, WhatASceneTakesLater_IsAskedFor) {
     MemoryBudget budget({.device_bytes = 100 * kMib});
-    budget.setShared(30 * kMib);
+    SceneMemory scene(budget);
+    scene.add(30 * kMib);
     MemoryShare view(budget);
     ASSERT_TRUE(view.take({.device_bytes = 40 * kMib}, "a picture"));
-    const auto refused = budget.share(31 * kMib, "light");
+    const auto refused = scene.take(31 * kMib, "light");
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
     EXPECT_THAT(refused.error().message, testing::HasSubstr("light takes 32 MiB of memory"));
     EXPECT_EQ(budget.takenBytes(), 70 * kMib);
-    EXPECT_TRUE(budget.share(30 * kMib, "light"));
+    EXPECT_TRUE(scene.take(30 * kMib, "light"));
     EXPECT_EQ(budget.takenBytes(), 100 * kMib);
 }
 
@@ -70,9 +72,25 @@ TEST(MemoryBudget, ShareThatGoes_GivesBack) {
     EXPECT_EQ(budget.takenBytes(), 0U);
 }
 
+TEST(MemoryBudget, SceneThatGoes_GivesBack) {
+    MemoryBudget budget({.device_bytes = 100 * kMib});
+    SceneMemory stays(budget);
+    stays.add(10 * kMib);
+    {
+        SceneMemory goes(budget);
+        goes.add(30 * kMib);
+        ASSERT_TRUE(goes.take(50 * kMib, "light"));
+        EXPECT_EQ(goes.bytes(), 80 * kMib);
+        EXPECT_FALSE(stays.take(20 * kMib, "light"));
+    }
+    EXPECT_EQ(budget.takenBytes(), 10 * kMib);
+    EXPECT_TRUE(stays.take(20 * kMib, "light"));
+}
+
 TEST(MemoryBudget, HostsPart_HasALimitOfItsOwn) {
     MemoryBudget budget({.device_bytes = 100 * kMib, .host_bytes = 20 * kMib});
-    budget.setShared(90 * kMib); // the device's
+    SceneMemory scene(budget);
+    scene.add(90 * kMib); // the device's
     MemoryShare a(budget);
     MemoryShare b(budget);
     ASSERT_TRUE(a.take({.device_bytes = 2 * kMib, .host_bytes = 15 * kMib}, "a picture"));

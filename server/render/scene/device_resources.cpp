@@ -1,0 +1,84 @@
+#include "render/scene/device_resources.h"
+
+#include "area_light_table/table.h"
+#include "gpu/upload.h"
+#include "render/lists/list_limits.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <thread>
+
+namespace froxel::render {
+
+DeviceResources::DeviceResources(gpu::Device& device_in, const MemoryLimits& limits)
+    : device(device_in), timeline(device_in), memory(limits),
+      light_assigner(std::max(1U, std::thread::hardware_concurrency()), kHostListEntries),
+      pipelines(device_in, timeline, variants),
+      unit_costs(device_in.traits().is_cpu ? kCpuUnitCosts : kGpuUnitCosts) {}
+
+DebugPass& DeviceResources::debug() {
+    if (!debug_) {
+        debug_ = std::make_unique<DebugPass>(device, timeline, variants, pipelines);
+    }
+    return *debug_;
+}
+
+PairPipelines& DeviceResources::pairs() {
+    if (!pairs_) {
+        pairs_ = std::make_unique<PairPipelines>(device, timeline, variants, pipelines);
+    }
+    return *pairs_;
+}
+
+VisibilityPipelines& DeviceResources::visibilityPipelines(uint32_t texture_count) {
+    return visibility_pipelines_
+        .try_emplace(texture_count, device, timeline, variants, pipelines, texture_count)
+        .first->second;
+}
+
+PosePipelines& DeviceResources::posePipelines() {
+    if (!pose_pipelines_) {
+        pose_pipelines_ = std::make_unique<PosePipelines>(device);
+    }
+    return *pose_pipelines_;
+}
+
+std::vector<Pipelines::Made> DeviceResources::variantsMade() const {
+    auto all = pipelines.made();
+    for (const auto& [texture_count, visibility] : visibility_pipelines_) {
+        std::ranges::copy(visibility.made(), std::back_inserter(all));
+    }
+    return all;
+}
+
+const gpu::Buffer& DeviceResources::ltcTable() {
+    if (!ltc_arena_) {
+        const auto bytes = std::as_bytes(area_light_table::table());
+        auto made = std::make_unique<gpu::MemoryArena>(device);
+        ltc_table_ = made->makeBuffer(bytes.size(),
+                                      vk::BufferUsageFlagBits::eUniformTexelBuffer |
+                                          vk::BufferUsageFlagBits::eTransferDst,
+                                      gpu::MemoryUse::kDevice, "linearly transformed cosines");
+        gpu::Uploader(device, timeline, bytes.size()).upload(ltc_table_, bytes);
+        ltc_arena_ = std::move(made);
+    }
+    return ltc_table_;
+}
+
+const AssignPipelines* DeviceResources::assignment() {
+    if (!assignment_tried_) {
+        assignment_tried_ = true;
+        const std::string why = AssignPipelines::unusable(device, timeline);
+        if (why.empty()) {
+            assignment_ = std::make_unique<AssignPipelines>(device);
+        } else {
+            spdlog::info("lights are assigned on the host: {}", why);
+        }
+    }
+    return assignment_.get();
+}
+
+} // namespace froxel::render

@@ -1,0 +1,73 @@
+// What all scenes on a device share. Nothing here knows a scene: another one compiles nothing that
+// is there. Render thread.
+#pragma once
+
+#include "cluster/light_assigner.h"
+#include "gpu/command_context.h"
+#include "gpu/memory.h"
+#include "render/lists/assign_pipelines.h"
+#include "render/lists/pair_counter.h"
+#include "render/pipelines/pipelines.h"
+#include "render/pipelines/typed_store.h"
+#include "render/scene/debug_pass.h"
+#include "render/scene/memory_budget.h"
+#include "render/scene/pose_pipelines.h"
+#include "render/scene/unit_costs.h"
+#include "render/scene/visibility_pipelines.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace froxel::render {
+
+class DeviceResources {
+  public:
+    DeviceResources(gpu::Device& device, const MemoryLimits& limits);
+    ~DeviceResources() { variants.stop(); } // which makes what refers to the rest
+    DeviceResources(const DeviceResources&) = delete;
+    DeviceResources& operator=(const DeviceResources&) = delete;
+
+    gpu::Device& device;
+    gpu::Timeline timeline;
+    MemoryBudget memory;
+    cluster::LightAssigner light_assigner;
+    VariantMaker variants;
+    Pipelines pipelines;
+    // Of this device; see device_speed.h.
+    UnitCosts unit_costs;
+
+    // Made at the first call. Null: the device cannot assign lights as the host does.
+    [[nodiscard]] const AssignPipelines* assignment();
+    // What views that ask for it share, such as pipelines: made from this at the first call. Throws
+    // vk::SystemError.
+    template <class T>
+    [[nodiscard]] T& kept() {
+        return kept_.findOrMake<T>(*this);
+    }
+    // All made at the first call. Throw vk::SystemError.
+    [[nodiscard]] DebugPass& debug();
+    [[nodiscard]] PairPipelines& pairs();
+    // The highlights of rectangular lights: area_light_table::table().
+    [[nodiscard]] const gpu::Buffer& ltcTable();
+    // Where a shader reads so many textures at once; 0: where it reads one material's.
+    [[nodiscard]] VisibilityPipelines& visibilityPipelines(uint32_t texture_count);
+    // Throws StartupError where the device binds too few buffers, too.
+    [[nodiscard]] PosePipelines& posePipelines();
+    // The variants kept, of whatever draws surfaces and lights them.
+    [[nodiscard]] std::vector<Pipelines::Made> variantsMade() const;
+
+  private:
+    std::map<uint32_t, VisibilityPipelines> visibility_pipelines_; // by texture_count
+    std::unique_ptr<PosePipelines> pose_pipelines_;
+    bool assignment_tried_ = false;
+    std::unique_ptr<AssignPipelines> assignment_;
+    std::unique_ptr<DebugPass> debug_;
+    std::unique_ptr<PairPipelines> pairs_;
+    std::unique_ptr<gpu::MemoryArena> ltc_arena_;
+    gpu::Buffer ltc_table_;
+    TypedStore kept_;
+};
+
+} // namespace froxel::render
