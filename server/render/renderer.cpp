@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "core/assert.h"
+#include "gpu/upload.h"
 #include "render/frame/frame_slot.h"
 #include "render/frame_maker.h"
 #include "render/fresh_targets.h"
@@ -24,14 +25,87 @@ void RenderDevice::makeVariantsInBackground(int niceness) {
     resources_->variants.start(niceness);
 }
 
+namespace {
+
+std::unique_ptr<SceneResources> loadNow(DeviceResources& shared, const scene::Scene& scene) {
+    gpu::Uploader uploader(shared.device, kStagingBytes);
+    auto resources = std::make_unique<SceneResources>(shared, scene, uploader);
+    uploader.finish(shared.timeline);
+    resources->settle();
+    return resources;
+}
+
+// What one slice copies: some milliseconds, between which others draw.
+constexpr vk::DeviceSize kCpuSliceBytes = 4U << 20U;
+constexpr vk::DeviceSize kGpuSliceBytes = 8U << 20U;
+
+} // namespace
+
 Renderer::Renderer(RenderDevice& on, const scene::Scene& scene)
-    : resources_(std::make_unique<SceneResources>(on.resources(), scene)) {}
+    : resources_(loadNow(on.resources(), scene)) {}
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, const MemoryLimits& limits)
     : own_(std::make_unique<RenderDevice>(device, limits)),
-      resources_(std::make_unique<SceneResources>(own_->resources(), scene)) {}
+      resources_(loadNow(own_->resources(), scene)) {}
+
+Renderer::Renderer(std::unique_ptr<SceneResources> resources) : resources_(std::move(resources)) {}
 
 Renderer::~Renderer() = default;
+
+uint64_t Renderer::bytes() const {
+    return resources_->memory.bytes();
+}
+
+uint64_t sceneBytes(const scene::Scene& scene) {
+    constexpr uint64_t kVertexBytes = 12 + 20; // position, surface
+    uint64_t bytes = 0;
+    for (const scene::Mesh& mesh : scene.meshes) {
+        for (const scene::Primitive& primitive : mesh.primitives) {
+            bytes += kVertexBytes * primitive.positions.size() +
+                     sizeof(uint32_t) * primitive.indices.size();
+        }
+    }
+    for (const scene::Image& image : scene.images) { // with its levels
+        bytes += uint64_t{4} * image.width_px * image.height_px * 4 / 3;
+    }
+    return bytes;
+}
+
+struct SceneUpload::Impl {
+    Impl(DeviceResources& shared_in, std::shared_ptr<const scene::Scene> scene_in)
+        : shared(shared_in), scene(std::move(scene_in)),
+          uploader(shared.device, shared.device.traits().is_cpu ? kCpuSliceBytes : kGpuSliceBytes) {
+    }
+
+    DeviceResources& shared;
+    const std::shared_ptr<const scene::Scene> scene;
+    std::unique_ptr<SceneResources> resources;
+    gpu::Uploader uploader; // goes before what it fills
+};
+
+SceneUpload::SceneUpload(RenderDevice& on, std::shared_ptr<const scene::Scene> scene)
+    : impl_(std::make_unique<Impl>(on.resources(), std::move(scene))) {
+    impl_->resources =
+        std::make_unique<SceneResources>(impl_->shared, *impl_->scene, impl_->uploader);
+}
+
+SceneUpload::~SceneUpload() = default;
+
+Result<std::unique_ptr<Renderer>> SceneUpload::advance() {
+    try {
+        if (!impl_->uploader.advance(impl_->shared.timeline)) {
+            return std::unique_ptr<Renderer>();
+        }
+    } catch (const vk::SystemError& error) {
+        return Error{ErrorCode::kDevice, std::string("the device failed: ") + error.what()};
+    }
+    impl_->resources->settle();
+    return std::unique_ptr<Renderer>(new Renderer(std::move(impl_->resources)));
+}
+
+double SceneUpload::fraction() const {
+    return impl_->uploader.fraction();
+}
 
 struct ViewRenderer::Impl {
     Impl(SceneResources& scene_in, const ListLimits& limits, const WorkLimits& work)

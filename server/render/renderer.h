@@ -74,11 +74,39 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    // Of the device's memory.
+    [[nodiscard]] uint64_t bytes() const;
     [[nodiscard]] SceneResources& resources() { return *resources_; }
 
   private:
+    friend class SceneUpload;
+    explicit Renderer(std::unique_ptr<SceneResources> resources);
+
     std::unique_ptr<RenderDevice> own_; // null: the device is shared
     std::unique_ptr<SceneResources> resources_;
+};
+
+// What a scene will take of the device's memory, about: its geometry and its textures.
+[[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene);
+
+// A scene on its way to a device that draws others meanwhile.
+class SceneUpload {
+  public:
+    // Does all that needs no device's time; on any thread. Throws StartupError, vk::SystemError.
+    SceneUpload(RenderDevice& on, std::shared_ptr<const scene::Scene> scene);
+    ~SceneUpload();
+    SceneUpload(const SceneUpload&) = delete;
+    SceneUpload& operator=(const SceneUpload&) = delete;
+
+    // Gives the device some milliseconds' more of it, unless it is still at what it was given
+    // before. Null: not all is there yet; else nothing more is to be called. Errors: kDevice.
+    [[nodiscard]] Result<std::unique_ptr<Renderer>> advance();
+    // Of it that the device was given, 0 to 1.
+    [[nodiscard]] double fraction() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 // Targets, light lists and readback ring of one viewer. Frames complete in submission order, each

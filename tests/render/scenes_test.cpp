@@ -5,6 +5,7 @@
 #include "support/gpu_fixture.h"
 #include "support/test_scenes.h"
 
+#include <future>
 #include <memory>
 #include <vector>
 
@@ -78,6 +79,71 @@ TEST_F(Scenes, OneThatGoes_GivesItsMemoryBackAndLeavesTheOther) {
         render::Renderer goes(on, makeOtherRoom());
         (void)draw(goes, inputs());
         EXPECT_GT(on.resources().memory.takenBytes(), taken_before);
+    }
+    EXPECT_EQ(allocated(), allocated_before);
+    EXPECT_EQ(on.resources().memory.takenBytes(), taken_before);
+    EXPECT_EQ(differingFloats(draw(view, inputs()), before), 0U);
+}
+
+// Of a texture that takes several slices.
+scene::Scene makeLargeRoom() {
+    scene::Scene scene = makeRoom();
+    scene::Image& image = scene.images.at(0);
+    constexpr uint32_t kSize_px = 2048;
+    std::vector<std::byte> texels;
+    for (uint32_t y = 0; y < kSize_px; ++y) {
+        for (uint32_t x = 0; x < kSize_px; ++x) {
+            for (const uint32_t value : {x / 8, y / 8, (x ^ y) / 8, 255U}) {
+                texels.push_back(static_cast<std::byte>(value));
+            }
+        }
+    }
+    image = {image.name, kSize_px, kSize_px, std::move(texels)};
+    return scene;
+}
+
+TEST_F(Scenes, PreparedAsideAndMovedInSlices_IsDrawnAsLoadedAtOnce) {
+    const auto large = std::make_shared<const scene::Scene>(makeLargeRoom());
+    render::Renderer at_once(device(), *large);
+    const Picture meant = draw(at_once, inputs());
+
+    render::RenderDevice on(device());
+    render::Renderer room(on, makeRoom());
+    render::ViewRenderer view(room);
+    const Picture before = draw(view, inputs());
+    auto prepared = std::async(std::launch::async,
+                               [&] { return std::make_unique<render::SceneUpload>(on, large); });
+    auto upload = prepared.get();
+    const uint64_t taken = on.resources().memory.takenBytes();
+    std::unique_ptr<render::Renderer> moved;
+    uint32_t slice_count = 0;
+    for (; !moved; ++slice_count) {
+        EXPECT_EQ(differingFloats(draw(view, inputs()), before), 0U);
+        auto result = upload->advance();
+        ASSERT_TRUE(result) << result.error().message;
+        moved = std::move(*result);
+    }
+    EXPECT_GT(slice_count, 4U);
+    EXPECT_EQ(upload->fraction(), 1);
+    EXPECT_GT(on.resources().memory.takenBytes(), taken + (uint64_t{16} << 20U));
+    upload.reset();
+    EXPECT_EQ(differingFloats(draw(*moved, inputs()), meant), 0U);
+}
+
+TEST_F(Scenes, GivenUpOnItsWay_LeavesNothing) {
+    const auto large = std::make_shared<const scene::Scene>(makeLargeRoom());
+    render::RenderDevice on(device());
+    render::Renderer room(on, makeRoom());
+    render::ViewRenderer view(room);
+    const Picture before = draw(view, inputs());
+    const uint64_t allocated_before = allocated();
+    const uint64_t taken_before = on.resources().memory.takenBytes();
+    {
+        render::SceneUpload upload(on, large);
+        const auto moved = upload.advance();
+        ASSERT_TRUE(moved) << moved.error().message;
+        ASSERT_FALSE(*moved);
+        EXPECT_LT(upload.fraction(), 1);
     }
     EXPECT_EQ(allocated(), allocated_before);
     EXPECT_EQ(on.resources().memory.takenBytes(), taken_before);

@@ -35,9 +35,10 @@ std::vector<TextureSample>
 sampled(const gpu::Device& device, const scene::Scene& scene, std::vector<TextureSample> samples) {
     gpu::Timeline timeline(device);
     gpu::MemoryArena arena(device);
-    gpu::Uploader uploader(device, timeline, vk::DeviceSize{1} << 20U);
-    render::TextureStore store(device, arena, uploader);
-    const auto texture = store.get(scene, {.texture = 0}, false);
+    gpu::Uploader uploader(device, vk::DeviceSize{1} << 20U);
+    render::TextureStore store(device, arena);
+    const auto texture = store.get(scene, {.texture = 0}, false, uploader);
+    uploader.finish(timeline);
     const auto bytes = samples.size() * sizeof(TextureSample);
     const auto buffer = arena.makeBuffer(bytes, vk::BufferUsageFlagBits::eStorageBuffer,
                                          gpu::MemoryUse::kReadback, "samples");

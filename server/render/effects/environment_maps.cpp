@@ -89,7 +89,7 @@ gpu::Buffer EnvironmentMaps::upload(std::span<const std::byte> bytes, std::strin
                                     vk::BufferUsageFlagBits::eUniformTexelBuffer |
                                         vk::BufferUsageFlagBits::eTransferDst,
                                     gpu::MemoryUse::kDevice, name);
-    gpu::Uploader(scene_.shared.device, scene_.shared.timeline, bytes.size()).upload(buffer, bytes);
+    gpu::uploadNow(scene_.shared.device, scene_.shared.timeline, buffer, bytes);
     return buffer;
 }
 

@@ -40,6 +40,7 @@ VisibilityPipelines& DeviceResources::visibilityPipelines(uint32_t texture_count
 }
 
 PosePipelines& DeviceResources::posePipelines() {
+    const std::lock_guard lock(pose_mutex_);
     if (!pose_pipelines_) {
         pose_pipelines_ = std::make_unique<PosePipelines>(device);
     }
@@ -62,7 +63,7 @@ const gpu::Buffer& DeviceResources::ltcTable() {
                                       vk::BufferUsageFlagBits::eUniformTexelBuffer |
                                           vk::BufferUsageFlagBits::eTransferDst,
                                       gpu::MemoryUse::kDevice, "linearly transformed cosines");
-        gpu::Uploader(device, timeline, bytes.size()).upload(ltc_table_, bytes);
+        gpu::uploadNow(device, timeline, ltc_table_, bytes);
         ltc_arena_ = std::move(made);
     }
     return ltc_table_;

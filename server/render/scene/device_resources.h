@@ -1,5 +1,5 @@
 // What all scenes on a device share. Nothing here knows a scene: another one compiles nothing that
-// is there. Render thread.
+// is there. Render thread, but for what says otherwise.
 #pragma once
 
 #include "cluster/light_assigner.h"
@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace froxel::render {
@@ -53,13 +54,14 @@ class DeviceResources {
     [[nodiscard]] const gpu::Buffer& ltcTable();
     // Where a shader reads so many textures at once; 0: where it reads one material's.
     [[nodiscard]] VisibilityPipelines& visibilityPipelines(uint32_t texture_count);
-    // Throws StartupError where the device binds too few buffers, too.
+    // Any thread. Throws StartupError where the device binds too few buffers, too.
     [[nodiscard]] PosePipelines& posePipelines();
     // The variants kept, of whatever draws surfaces and lights them.
     [[nodiscard]] std::vector<Pipelines::Made> variantsMade() const;
 
   private:
     std::map<uint32_t, VisibilityPipelines> visibility_pipelines_; // by texture_count
+    std::mutex pose_mutex_;
     std::unique_ptr<PosePipelines> pose_pipelines_;
     bool assignment_tried_ = false;
     std::unique_ptr<AssignPipelines> assignment_;

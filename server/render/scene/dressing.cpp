@@ -24,8 +24,9 @@ Dressing::Dressing(SceneResources& scene, std::vector<DrawItem> items_in)
 
 VisibilityScene& Dressing::visibility() {
     if (!visibility_) {
-        gpu::Uploader uploader(scene_.shared.device, scene_.shared.timeline, kStagingBytes);
+        gpu::Uploader uploader(scene_.shared.device, kStagingBytes);
         visibility_ = std::make_unique<VisibilityScene>(scene_, items, uploader);
+        uploader.finish(scene_.shared.timeline);
     }
     return *visibility_;
 }

@@ -74,10 +74,10 @@ template <class T>
 gpu::Buffer
 upload(gpu::MemoryArena& arena, gpu::Uploader& uploader, std::vector<T> table, const char* name) {
     table.resize(std::max<size_t>(table.size(), 1)); // a buffer has bytes
-    const auto bytes = std::as_bytes(std::span(table));
-    auto buffer = arena.makeBuffer(bytes.size(), Usage::eStorageBuffer | Usage::eTransferDst,
-                                   gpu::MemoryUse::kDevice, name);
-    uploader.upload(buffer, bytes);
+    auto buffer =
+        arena.makeBuffer(table.size() * sizeof(T), Usage::eStorageBuffer | Usage::eTransferDst,
+                         gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, std::move(table));
     return buffer;
 }
 

@@ -36,6 +36,7 @@ PosePipelines::PosePipelines(const gpu::Device& device)
       vertices_(gpu::makeComputePipeline(device, shaders::pose_comp(), {}, *layout_, "pose")) {}
 
 vk::Pipeline PosePipelines::flatNormals() {
+    const std::lock_guard lock(flat_mutex_);
     if (!*flat_normals_) {
         flat_normals_ =
             gpu::makeComputePipeline(device_, shaders::pose_flat_comp(), {}, *layout_, "pose flat");

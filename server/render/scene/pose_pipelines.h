@@ -5,6 +5,7 @@
 #include "gpu/vulkan.h"
 
 #include <cstdint>
+#include <mutex>
 
 namespace froxel::render {
 
@@ -18,7 +19,7 @@ class PosePipelines {
     [[nodiscard]] vk::DescriptorSetLayout setLayout() const { return *set_layout_; }
     [[nodiscard]] vk::PipelineLayout layout() const { return *layout_; }
     [[nodiscard]] vk::Pipeline vertices() const { return *vertices_; }
-    // Made at the first call. Throws vk::SystemError.
+    // Made at the first call; any thread. Throws vk::SystemError.
     [[nodiscard]] vk::Pipeline flatNormals();
 
   private:
@@ -26,6 +27,7 @@ class PosePipelines {
     vk::raii::DescriptorSetLayout set_layout_;
     vk::raii::PipelineLayout layout_;
     vk::raii::Pipeline vertices_;
+    std::mutex flat_mutex_;
     vk::raii::Pipeline flat_normals_{nullptr};
 };
 

@@ -90,6 +90,7 @@ std::vector<DrawItem> makeItems(const scene::Scene& scene,
     return items;
 }
 
+// `data` stays where it is until the uploader is done.
 template <class T>
 gpu::Buffer uploadVector(gpu::MemoryArena& arena,
                          gpu::Uploader& uploader,
@@ -100,6 +101,19 @@ gpu::Buffer uploadVector(gpu::MemoryArena& arena,
     auto buffer = arena.makeBuffer(bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst,
                                    gpu::MemoryUse::kDevice, name);
     uploader.upload(buffer, bytes);
+    return buffer;
+}
+
+template <class T>
+gpu::Buffer uploadVector(gpu::MemoryArena& arena,
+                         gpu::Uploader& uploader,
+                         std::vector<T>&& data,
+                         vk::BufferUsageFlags usage,
+                         std::string_view name) {
+    auto buffer =
+        arena.makeBuffer(data.size() * sizeof(T), usage | vk::BufferUsageFlagBits::eTransferDst,
+                         gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, std::move(data));
     return buffer;
 }
 
@@ -120,7 +134,9 @@ SceneNeeds drawableNeeds(const gpu::Device& device, const scene::Scene& scene) {
 
 } // namespace
 
-SceneResources::SceneResources(DeviceResources& shared_in, const scene::Scene& scene)
+SceneResources::SceneResources(DeviceResources& shared_in,
+                               const scene::Scene& scene,
+                               gpu::Uploader& uploader)
     : shared(shared_in), needs(drawableNeeds(shared.device, scene)),
       bounds_world(scene.bounds_world), light_rig(scene), surroundings(scene.surroundings),
       memory(shared.memory), arena(shared.device),
@@ -129,43 +145,49 @@ SceneResources::SceneResources(DeviceResources& shared_in, const scene::Scene& s
         throw StartupError({ErrorCode::kScene, *fault});
     }
     auto geometry = packGeometry(scene);
-    gpu::Uploader uploader(shared.device, shared.timeline, kStagingBytes);
     if (scene.motion) {
         motion = std::make_unique<const SceneMotion>(shared, arena, uploader, scene, geometry);
     }
     instances = placesOf(scene, motion.get());
     auto items = makeItems(scene, geometry, needs, motion.get(), instances);
     keepVariantMaterials(scene, geometry);
-    uploadGeometry(geometry, poser() != nullptr, uploader);
-    uploadMaterials(scene, uploader);
     meshlets = std::move(geometry.meshlets);
+    uploadGeometry(std::move(geometry), uploader);
+    uploadMaterials(scene, uploader);
     undressed_ = std::make_shared<Dressing>(*this, std::move(items));
+    spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
+                 undressed_->items.size(), meshlets.size(), textures_->imageCount(),
+                 arena.allocatedBytes() + texture_arena.allocatedBytes());
+}
+
+void SceneResources::settle() {
+    memory.add(arena.allocatedBytes() + texture_arena.allocatedBytes());
+}
+
+void SceneResources::uploadGeometry(PackedGeometry&& geometry, gpu::Uploader& uploader) {
+    using Usage = vk::BufferUsageFlagBits;
+    auto vertices = Usage::eVertexBuffer | Usage::eStorageBuffer;
+    if (poser() != nullptr) {
+        vertices |= Usage::eTransferSrc; // to PosedVertices
+    }
+    constexpr auto kIndices = Usage::eIndexBuffer | Usage::eStorageBuffer;
     if (shared.device.traits().is_cpu) {
         indices = std::move(geometry.indices);
         positions = std::move(geometry.positions);
+        position_buffer = uploadVector(arena, uploader, positions, vertices, "positions");
+        index_buffer = uploadVector(arena, uploader, indices, kIndices, "indices");
+    } else {
+        position_buffer =
+            uploadVector(arena, uploader, std::move(geometry.positions), vertices, "positions");
+        index_buffer =
+            uploadVector(arena, uploader, std::move(geometry.indices), kIndices, "indices");
     }
-    const uint64_t device_bytes = arena.allocatedBytes() + texture_arena.allocatedBytes();
-    memory.add(device_bytes);
-    spdlog::info("scene name=\"{}\" items={} meshlets={} images={} device_bytes={}", scene.name,
-                 undressed_->items.size(), meshlets.size(), textures_->imageCount(), device_bytes);
-}
-
-void SceneResources::uploadGeometry(const PackedGeometry& geometry,
-                                    bool bends,
-                                    gpu::Uploader& uploader) {
-    using Usage = vk::BufferUsageFlagBits;
-    auto vertices = Usage::eVertexBuffer | Usage::eStorageBuffer;
-    if (bends) {
-        vertices |= Usage::eTransferSrc; // to PosedVertices
-    }
-    position_buffer = uploadVector(arena, uploader, geometry.positions, vertices, "positions");
-    surface_buffer = uploadVector(arena, uploader, geometry.surfaces, vertices, "surface vertices");
+    surface_buffer =
+        uploadVector(arena, uploader, std::move(geometry.surfaces), vertices, "surface vertices");
     if (!geometry.extended.empty()) {
-        extended_buffer =
-            uploadVector(arena, uploader, geometry.extended, vertices, "extended vertices");
+        extended_buffer = uploadVector(arena, uploader, std::move(geometry.extended), vertices,
+                                       "extended vertices");
     }
-    index_buffer = uploadVector(arena, uploader, geometry.indices,
-                                Usage::eIndexBuffer | Usage::eStorageBuffer, "indices");
 }
 
 void SceneResources::makeMaterialSets(uint32_t count) {
@@ -182,7 +204,7 @@ void SceneResources::makeMaterialSets(uint32_t count) {
 }
 
 void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader) {
-    textures_ = std::make_unique<TextureStore>(shared.device, texture_arena, uploader);
+    textures_ = std::make_unique<TextureStore>(shared.device, texture_arena);
     const auto count = static_cast<uint32_t>(scene.materials.size());
     if (count == 0) {
         return;
@@ -196,8 +218,8 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
         std::memcpy(bytes.data() + stride * i, &uniforms, sizeof(uniforms));
         material_uniforms.push_back(uniforms);
     }
-    material_buffer_ =
-        uploadVector(arena, uploader, bytes, vk::BufferUsageFlagBits::eUniformBuffer, "materials");
+    material_buffer_ = uploadVector(arena, uploader, std::move(bytes),
+                                    vk::BufferUsageFlagBits::eUniformBuffer, "materials");
     for (uint32_t i = 0; i < count; ++i) {
         const auto& m = scene.materials[i];
         const vk::DescriptorBufferInfo buffer{*material_buffer_.handle, stride * i,
@@ -208,7 +230,7 @@ void SceneResources::uploadMaterials(const scene::Scene& scene, gpu::Uploader& u
             // Only what the material's shader samples.
             const bool used = (needs.material_flags[i] & textureFlag(slot)) != 0;
             images[slot] = textures_->get(scene, used ? *slots[slot] : scene::TextureSlot{},
-                                          scene::kSlotRows[slot].srgb);
+                                          scene::kSlotRows[slot].srgb, uploader);
         }
         material_textures.insert(material_textures.end(), images.begin(), images.end());
         // The samplers are consecutive bindings of one descriptor each.

@@ -23,8 +23,12 @@ inline constexpr vk::DeviceSize kStagingBytes = 16U << 20U; // of what all of a 
 
 class SceneResources {
   public:
+    // On any thread, while the render thread draws others. What the uploader is to do refers to the
+    // scene and to this; before that is done, and settle() was called, nothing may be drawn of it.
     // Throws StartupError, vk::SystemError.
-    SceneResources(DeviceResources& shared, const scene::Scene& scene);
+    SceneResources(DeviceResources& shared, const scene::Scene& scene, gpu::Uploader& uploader);
+    // From now on it counts in the device's memory.
+    void settle();
     SceneResources(const SceneResources&) = delete;
     SceneResources& operator=(const SceneResources&) = delete;
 
@@ -78,7 +82,7 @@ class SceneResources {
     }
 
   private:
-    void uploadGeometry(const PackedGeometry& geometry, bool bends, gpu::Uploader& uploader);
+    void uploadGeometry(PackedGeometry&& geometry, gpu::Uploader& uploader);
     void keepVariantMaterials(const scene::Scene& scene, const PackedGeometry& geometry);
     void makeMaterialSets(uint32_t count);
     void uploadMaterials(const scene::Scene& scene, gpu::Uploader& uploader);

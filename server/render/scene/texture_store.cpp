@@ -40,13 +40,13 @@ TextureFilter textureFilter(const gpu::Device& device) {
     };
 }
 
-TextureStore::TextureStore(const gpu::Device& device,
-                           gpu::MemoryArena& arena,
-                           gpu::Uploader& uploader)
-    : device_(device), arena_(arena), uploader_(uploader) {}
+TextureStore::TextureStore(const gpu::Device& device, gpu::MemoryArena& arena)
+    : device_(device), arena_(arena) {}
 
-vk::DescriptorImageInfo
-TextureStore::get(const scene::Scene& scene, const scene::TextureSlot& slot, bool srgb) {
+vk::DescriptorImageInfo TextureStore::get(const scene::Scene& scene,
+                                          const scene::TextureSlot& slot,
+                                          bool srgb,
+                                          gpu::Uploader& uploader) {
     constexpr auto kLayout = vk::ImageLayout::eShaderReadOnlyOptimal;
     if (slot.texture == scene::kNone) {
         return {.sampler = sampler({}), .imageLayout = kLayout};
@@ -54,11 +54,14 @@ TextureStore::get(const scene::Scene& scene, const scene::TextureSlot& slot, boo
     const auto& texture = scene.textures[slot.texture];
     const auto settings =
         texture.sampler != scene::kNone ? scene.samplers[texture.sampler] : scene::Sampler{};
-    const auto& chosen = image(scene.images[texture.image], texture.image, srgb);
+    const auto& chosen = image(scene.images[texture.image], texture.image, srgb, uploader);
     return {.sampler = sampler(settings), .imageView = *chosen.view, .imageLayout = kLayout};
 }
 
-const gpu::Image& TextureStore::image(const scene::Image& source, uint32_t index, bool srgb) {
+const gpu::Image& TextureStore::image(const scene::Image& source,
+                                      uint32_t index,
+                                      bool srgb,
+                                      gpu::Uploader& uploader) {
     const auto key = std::pair(index, srgb);
     if (const auto found = images_.find(key); found != images_.end()) {
         return found->second;
@@ -75,7 +78,7 @@ const gpu::Image& TextureStore::image(const scene::Image& source, uint32_t index
                          source.name);
     std::vector<std::span<const std::byte>> levels{source.rgba8};
     levels.insert(levels.end(), source.mips.begin(), source.mips.end());
-    uploader_.uploadImage(made, levels);
+    uploader.uploadImage(made, levels);
     return images_.emplace(key, std::move(made)).first->second;
 }
 

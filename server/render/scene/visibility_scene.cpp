@@ -112,12 +112,12 @@ class Placer {
 template <class T>
 gpu::Buffer uploadTable(gpu::MemoryArena& arena,
                         gpu::Uploader& uploader,
-                        const std::vector<T>& table,
+                        std::vector<T> table,
                         std::string_view name) {
-    const auto bytes = std::as_bytes(std::span(table));
-    auto buffer = arena.makeBuffer(bytes.size(), Usage::eStorageBuffer | Usage::eTransferDst,
-                                   gpu::MemoryUse::kDevice, name);
-    uploader.upload(buffer, bytes);
+    auto buffer =
+        arena.makeBuffer(table.size() * sizeof(T), Usage::eStorageBuffer | Usage::eTransferDst,
+                         gpu::MemoryUse::kDevice, name);
+    uploader.upload(buffer, std::move(table));
     return buffer;
 }
 
