@@ -13,7 +13,7 @@ namespace froxel::protocol {
 // The WebSocket subprotocol that both sides name in the upgrade.
 inline constexpr std::string_view kSubprotocol = "froxel.v1";
 inline constexpr uint32_t kMajor = 1;
-inline constexpr uint32_t kMinor = 2; // since 2: rooms, resuming, Pause
+inline constexpr uint32_t kMinor = 3; // since 2: rooms, resuming, Pause; 3: SelectScene
 
 inline constexpr size_t kMaxHelloBytes = 4 * 1024;         // first message of a connection
 inline constexpr size_t kMaxMessageBytes = 64 * 1024;      // any later message from a client
@@ -22,6 +22,7 @@ inline constexpr size_t kMaxFrameBytes = 64 * 1024 * 1024; // what a client must
 inline constexpr uint32_t kMaxJsonDepth = 16;              // brackets in a text message
 inline constexpr size_t kMaxClientNameBytes = 64;          // Hello.client_name
 inline constexpr size_t kMaxNameBytes = 256;               // any other name in a command
+inline constexpr size_t kMaxSceneIdBytes = 64;             // SelectScene.scene
 inline constexpr size_t kMaxRoomNameBytes = 64;            // Hello.room
 inline constexpr size_t kMaxTokenBytes = 512;              // Hello.token
 inline constexpr size_t kMaxRoomMembersTold = 32;          // in a RoomState

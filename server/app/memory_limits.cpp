@@ -73,6 +73,12 @@ uint64_t sessionMemoryBytes(const MemoryOptions& options, bool device_is_cpu) {
     return uint64_t{options.session_mib.value_or(usual_mib)} << 20U;
 }
 
+uint64_t sceneMemoryBytes(const MemoryOptions& options, const render::MemoryLimits& limits) {
+    return options.scene_mib ? uint64_t{*options.scene_mib} << 20U
+                             : static_cast<uint64_t>(kSceneMemoryShare *
+                                                     static_cast<double>(limits.device_bytes));
+}
+
 render::MemoryLimits memoryLimits(const MemoryOptions& options, const gpu::Device& device) {
     const bool is_cpu = device.traits().is_cpu;
     render::MemoryLimits limits{.session_bytes = sessionMemoryBytes(options, is_cpu)};

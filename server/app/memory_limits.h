@@ -22,6 +22,9 @@ inline constexpr double kHostMemoryShare = 0.75;
 // Of what a GPU has for this process; drivers round up, and take some for themselves.
 inline constexpr double kGpuMemoryShare = 0.8;
 
+// Of the device's memory that is allowed, what scenes may take that a server goes over to.
+inline constexpr double kSceneMemoryShare = 0.5;
+
 // What this process may take of the host's memory: all of it, or less where a control group of it
 // (version 2 or 1) says so. `root` is where /proc and /sys are; none where nothing can be read.
 [[nodiscard]] std::optional<uint64_t> hostMemoryBytes(const std::filesystem::path& root = "/");
@@ -29,11 +32,16 @@ inline constexpr double kGpuMemoryShare = 0.8;
 struct MemoryOptions {
     std::optional<uint32_t> device_mib;
     std::optional<uint32_t> session_mib;
+    std::optional<uint32_t> scene_mib{};
 };
 
 // Of a session on either kind of device: as asked for, or the default.
 [[nodiscard]] uint64_t sessionMemoryBytes(const MemoryOptions& options, bool device_is_cpu);
 [[nodiscard]] render::MemoryLimits memoryLimits(const MemoryOptions& options,
                                                 const gpu::Device& device);
+
+// Of the scenes that a server goes over to, together.
+[[nodiscard]] uint64_t sceneMemoryBytes(const MemoryOptions& options,
+                                        const render::MemoryLimits& limits);
 
 } // namespace froxel::app

@@ -177,6 +177,10 @@ void addServe(CLI::App& app, Targets& targets) {
     CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
     addServeAddresses(command, options);
     addSceneOption(command, options.scene, options.scene);
+    command
+        .text("--scenes", "DIR", options.scenes, "",
+              "Folder whose glTF and GLB files viewers may go over to; looked at again on SIGHUP")
+        ->check(CLI::ExistingDirectory);
     addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device, options.validation);

@@ -108,7 +108,11 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     command.number("--device-memory", options.memory.device_mib, kDeviceMemoryRange,
                    fmt::format("{} of the host's or its container's on a CPU device, {} of a GPU's",
                                kHostMemoryShare, kGpuMemoryShare),
-                   "MiB that the scene and all sessions may take");
+                   "MiB that the scenes and all sessions may take");
+    command.number("--scene-memory", options.memory.scene_mib, kDeviceMemoryRange,
+                   fmt::format("{} of --device-memory", kSceneMemoryShare),
+                   "MiB of it that scenes of --scenes may take together; those that nobody looks "
+                   "at leave for others");
     command.number(
         "--min-fps", options.min_rate_hz, kMinRateRange,
         byDevice([](const Defaults& d) { return fmt::format("{}", d.min_rate_hz); }),

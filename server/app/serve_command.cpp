@@ -2,9 +2,8 @@
 
 #include "app/bind_option.h"
 #include "app/device_losses.h"
-#include "app/environment_file.h"
 #include "app/output_file.h"
-#include "app/scene_camera.h"
+#include "app/scene_maker.h"
 #include "app/scene_source.h"
 #include "app/serve_end.h"
 #include "app/serve_run.h"
@@ -13,8 +12,6 @@
 #include "core/text.h"
 #include "core/write_soon.h"
 #include "gpu/device.h"
-#include "light/light_rig.h"
-#include "motion/pose.h"
 #include "net/stop_signal.h"
 #include "net/tls.h"
 #include "net/token_gate.h"
@@ -42,28 +39,6 @@ std::chrono::milliseconds milliseconds(double seconds) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(seconds));
 }
 
-session::SessionDefaults
-defaultsOf(const ServeOptions& options, const scene::Scene& scene, bool device_is_cpu) {
-    auto defaults =
-        session::defaultsFor(device_is_cpu ? session::DeviceKind::kCpu : session::DeviceKind::kGpu);
-    const settings::Size size = options.size.value_or(defaults.settings.size);
-    const scene::Look* look = options.look != nullptr    ? options.look
-                              : isBuiltin(options.scene) ? scene::findLook("evening")
-                                                         : nullptr;
-    defaults.settings =
-        firstLook(options.scene, scene, options.first_view, options.given, look, device_is_cpu);
-    defaults.settings.size = size;
-    // 27 us of 0.7 ms on an H100.
-    if (!device_is_cpu && look == nullptr && options.given.count("antialiasing") == 0) {
-        defaults.settings.antialiasing = settings::Antialiasing::kFxaa;
-    }
-    defaults.encoding.quality = options.quality.value_or(defaults.encoding.quality);
-    defaults.min_rate_hz = options.min_rate_hz.value_or(defaults.min_rate_hz);
-    defaults.delivery = options.delivery;
-    defaults.lens_shift = options.lens_shift;
-    return defaults;
-}
-
 void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
     constexpr uint64_t kMib = 1 << 20U;
     spdlog::info("event=memory_limits device_mib={} session_mib={}", limits.device_bytes / kMib,
@@ -76,36 +51,8 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
     }
 }
 
-// Over what the scene begins with.
-std::vector<session::OfferedLook>
-looksOf(const ServeOptions& options, const scene::Scene& scene, bool device_is_cpu) {
-    const settings::ViewSettings usual =
-        firstLook(options.scene, scene, {}, {}, nullptr, device_is_cpu);
-    return session::offerLooks(usual, device_is_cpu);
-}
-
 // A third of the weight of the render thread.
 constexpr int kCpuDeviceNiceness = 5;
-
-// Lights are picked where they stand at the time.
-session::LightPicker lightPicker(const scene::Scene& scene) {
-    light::LightRig rig(scene);
-    if (!scene.motion || scene.motion->lights.empty()) {
-        return [rig = std::move(rig)](const auto& settings, double time_s, const auto& /*playing*/,
-                                      const auto& at) { return rig.pick(settings, time_s, at); };
-    }
-    return [rig = std::move(rig), moved = scene.motion](
-               const settings::ViewSettings& settings, double time_s,
-               const std::optional<motion::Playing>& playing, const glm::dvec2& at) {
-        motion::Pose pose;
-        const motion::Playing none;
-        const auto& [clips, now_s] = playing ? *playing : none;
-        motion::pose(*moved, clips, now_s, pose);
-        light::LightRig then = rig;
-        motion::eachMovedLight(*moved, pose, [&](const auto&... light) { then.place(light...); });
-        return then.pick(settings, time_s, at);
-    };
-}
 
 // On the render thread, which owns all of it from then on.
 OpenedScene openScene(const ServeOptions& options,
@@ -118,35 +65,28 @@ OpenedScene openScene(const ServeOptions& options,
     const gpu::DeviceTraits& traits = device->traits();
 
     report({"loading the scene", 0.1});
-    scene::Scene scene = loadScene(options.scene, options.choices).value();
-    surround(scene, options.environment_file);
-    const scene::FirstView first_view = firstViewOf(scene);
-    if (first_view.remark) {
-        scene.warnings.push_back(*first_view.remark);
-    }
-    logWarnings(scene);
-    session::SessionContext context{session::summarize(scene),
-                                    defaultsOf(options, scene, traits.is_cpu),
-                                    FROXEL_VERSION,
-                                    traits.name,
-                                    lightPicker(scene),
-                                    first_view,
-                                    looksOf(options, scene, traits.is_cpu)};
+    auto maker = std::make_shared<const SceneMaker>(options, traits);
+    stream::ReadScene first = maker->make(options.scene, options.choices).value();
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
-                 logValue(context.scene.name), context.scene.triangle_count,
-                 context.scene.draw_count, context.scene.cameras.size());
+                 logValue(first.context.scene.name), first.context.scene.triangle_count,
+                 first.context.scene.draw_count, first.context.scene.cameras.size());
 
     const bool on_cpu = traits.is_cpu;
     auto memory = [ledger = device->memoryLedger()] { return render::memoryReport(*ledger); };
     report({"moving the scene to the device", 0.6});
     const render::MemoryLimits limits = memoryLimits(options.memory, *device);
     tellMemory(limits, options.sessions_max);
-    auto source =
-        stream::makeRendererSource(std::move(device), scene, first_view.cameraFor(settings::Size{}),
-                                   Seconds(options.frame_limit_s), limits);
+    auto source = stream::makeRendererSource(std::move(device), *first.scene,
+                                             first.context.first_view.cameraFor(settings::Size{}),
+                                             Seconds(options.frame_limit_s), limits);
     report({"ready", 1.0});
     const double limit_s = options.watchdog_s.value_or(on_cpu ? kCpuWatchdog_s : kGpuWatchdog_s);
-    return {std::move(source), std::move(context), std::move(memory), Seconds(limit_s)};
+    return {std::move(source),
+            std::move(first.context),
+            std::move(memory),
+            Seconds(limit_s),
+            [maker](const catalogue::Offered& offered) { return maker->make(offered.source, {}); },
+            sceneMemoryBytes(options.memory, limits)};
 }
 
 fs::path webRootOf(const ServeOptions& options) {
@@ -189,6 +129,21 @@ net::LobbyRules lobbyRules(const ServeOptions& options) {
     return rules;
 }
 
+// The scene that the server begins with, the hall, and what the folder holds; null: no folder.
+std::shared_ptr<catalogue::Catalogue> catalogueOf(const ServeOptions& options) {
+    if (options.scenes.empty()) {
+        return nullptr;
+    }
+    const catalogue::Offered hall{"builtin", "hall", "", "builtin", 0, 0};
+    std::vector<catalogue::Offered> always{hall};
+    if (!isBuiltin(options.scene)) {
+        if (auto first = catalogue::offerFile(options.scene, options.scenes)) {
+            always.insert(always.begin(), std::move(*first));
+        }
+    }
+    return std::make_shared<catalogue::Catalogue>(std::move(always), options.scenes);
+}
+
 ServeRunOptions runOptions(const ServeOptions& options) {
     const uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
     ServeRunOptions run;
@@ -206,6 +161,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
         run.server.agones = agonesOptions(options);
     }
     run.encoder_count = std::clamp(cores / 2, 1U, 16U);
+    run.catalogue = catalogueOf(options);
     run.open = [options](const auto& report) { return openScene(options, report); };
     return run;
 }
@@ -296,6 +252,7 @@ int runServe(const ServeOptions& options) {
         secrets.reload();
         if (run) {
             run->checkTokens();
+            run->rescan();
         }
     });
     ServeRunOptions run_options = runOptions(options);

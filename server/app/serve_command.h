@@ -24,6 +24,7 @@ struct ServeOptions {
     net::BindAddress admin{"127.0.0.1", 9090}; // for operators; an empty address: nowhere
     std::string scene = "builtin";             // as for loadScene()
     SceneChoices choices;
+    std::filesystem::path scenes;           // a folder of others; empty: there are none
     std::filesystem::path environment_file; // of light from around; empty: none
     gpu::DeviceChoice device = gpu::DeviceChoice::kAuto;
     bool validation = false;

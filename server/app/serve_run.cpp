@@ -36,7 +36,7 @@ std::optional<Seconds> frameCost(std::unique_ptr<stream::FrameSource>& source,
 // A viewer has at most one picture in the encoders, so the queue never refuses one.
 ServeRun::ServeRun(ServeRunOptions options)
     : options_(std::move(options)),
-      pool_(options_.encoder_count, options_.server.lobby.sessions_max),
+      pool_(options_.encoder_count, options_.server.lobby.sessions_max), scenes_(makeScenes()),
       server_(std::make_unique<net::Server>(options_.server)), loop_(pool_, loopOptions()) {}
 
 ServeRun::~ServeRun() {
@@ -55,8 +55,32 @@ void ServeRun::giveUp(const std::string& why) {
     server_->giveUp(why);
 }
 
+void ServeRun::rescan() const {
+    if (options_.catalogue) {
+        options_.catalogue->rescan();
+    }
+}
+
+std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
+    if (!options_.catalogue) {
+        return nullptr;
+    }
+    stream::SceneHostOptions scenes;
+    scenes.offers = [catalogue = options_.catalogue](const std::string& id) {
+        const auto offered = catalogue->find(id);
+        return offered ? std::optional(offered->version) : std::nullopt;
+    };
+    scenes.read = [this](const std::string& id) -> Result<stream::ReadScene> {
+        const auto offered = options_.catalogue->find(id);
+        return offered ? read_other_(*offered)
+                       : Error{ErrorCode::kScene, "the file is not there any more"};
+    };
+    return std::make_shared<stream::SceneHost>(std::move(scenes));
+}
+
 stream::RenderLoopOptions ServeRun::loopOptions() {
     stream::RenderLoopOptions loop;
+    loop.scenes = scenes_;
     loop.on_failure = options_.on_failure;
     loop.fates = server_->metrics().fates();
     loop.on_begun = [this](Seconds took) { server_->metrics().frameBegun(took); };
@@ -70,14 +94,22 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
         net::Service& service = server_->service();
         OpenedScene opened = options_.open(
             [&service](net::LoadingProgress progress) { service.setLoading(std::move(progress)); });
+        if (options_.catalogue) {
+            opened.context.scene_id = options_.catalogue->listing()->scenes.front().id;
+        }
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
+        if (scenes_) {
+            read_other_ = std::move(opened.read_other);
+            scenes_->begin(*opened.source, context, opened.scene_bytes, [this] { loop_.wake(); });
+        }
         server_->metrics().watchMemory(std::move(opened.memory));
         if (const double rate_hz = context->defaults.min_rate_hz; rate_hz > 0) {
             loop_.setMinRate(rate_hz, frameCost(opened.source, *context));
             loop_.setNewcomersFrame(session::initialState(*context, Clock::now()).settings);
         }
         server_->metrics().watchLoad([this] { return loop_.load(Clock::now()); });
-        service.setServing({std::move(context), &loop_, heartbeat, opened.step_limit});
+        service.setServing(
+            {std::move(context), &loop_, heartbeat, opened.step_limit, scenes_.get()});
         return std::move(opened.source);
     };
     return loop;

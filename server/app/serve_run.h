@@ -3,10 +3,12 @@
 #pragma once
 
 #include "app/device_losses.h"
+#include "catalogue/catalogue.h"
 #include "encode/encode_pool.h"
 #include "net/server.h"
 #include "session/session_context.h"
 #include "stream/render_loop.h"
+#include "stream/scene_host.h"
 
 #include <chrono>
 #include <functional>
@@ -22,12 +24,16 @@ struct OpenedScene {
     session::SessionContext context;
     std::function<std::vector<MemoryUse>()> memory; // what the device's is used for; any thread
     Seconds step_limit{0}; // of the render thread, see net::Serving; 0: none
+    // Another scene; on any thread. Null: there is none.
+    std::function<Result<stream::ReadScene>(const catalogue::Offered&)> read_other{};
+    uint64_t scene_bytes = 0; // that others may take of the device's memory, together
 };
 
 struct ServeRunOptions {
     net::ServerOptions server;
     uint32_t encoder_count = 1;
-    std::shared_ptr<DeviceLosses> losses; // null: they are not noted
+    std::shared_ptr<DeviceLosses> losses;            // null: they are not noted
+    std::shared_ptr<catalogue::Catalogue> catalogue; // null: there is one scene
     // Runs on the render thread while the server already listens. May throw.
     std::function<OpenedScene(const std::function<void(net::LoadingProgress)>& report)> open;
     // The scene could not be opened or the device was lost. On the render thread; must not throw.
@@ -54,6 +60,8 @@ class ServeRun {
     void stop() { loop_.stop(); }
     // Closes the connections whose token was taken away; after the gate has loaded.
     void checkTokens() { server_->service().announce(); }
+    // Looks at the folder of scenes again.
+    void rescan() const;
     // The device is gone: notes it, and tells every viewer.
     void giveUp(const std::string& why);
     // Whether the render thread moves; an error says for how long it has not.
@@ -61,9 +69,13 @@ class ServeRun {
 
   private:
     [[nodiscard]] stream::RenderLoopOptions loopOptions();
+    [[nodiscard]] std::shared_ptr<stream::SceneHost> makeScenes();
 
     ServeRunOptions options_;
     encode::EncodePool pool_;
+    // Set before the first scene is asked for.
+    std::function<Result<stream::ReadScene>(const catalogue::Offered&)> read_other_;
+    std::shared_ptr<stream::SceneHost> scenes_; // null: there is one scene
     std::unique_ptr<net::Server> server_; // goes after the loop has stopped and before it is gone
     stream::RenderLoop loop_;
 };

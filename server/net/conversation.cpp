@@ -118,6 +118,8 @@ void Conversation::onCommand(const CommandMessage& message, TimePoint now) {
         setPaused(pause->paused, now);
     } else if (std::holds_alternative<session::RequestKeyFrame>(message.body)) {
         requestKeyFrame(now);
+    } else if (std::holds_alternative<session::SelectScene>(message.body)) {
+        selectScene(message, now);
     } else if (session::setsState(message.body)) {
         applyCommand(message, now);
     } else {
@@ -140,6 +142,18 @@ void Conversation::applyCommand(const CommandMessage& message, TimePoint now) {
     }
     if (auto applied = seat_->session->apply(seat_->place, message, now); !applied) {
         reject(applied.error(), now);
+        return;
+    }
+    newest_ = message.stamp;
+    outbox_.putState();
+}
+
+void Conversation::selectScene(const CommandMessage& message, TimePoint now) {
+    if (!scenes_.take(now)) {
+        return rejectRate(message.stamp, kScenesPerSecond, "scenes selected", now);
+    }
+    if (auto selected = seat_->session->selectScene(seat_->place, message, now); !selected) {
+        reject(selected.error(), now);
         return;
     }
     newest_ = message.stamp;
@@ -276,6 +290,8 @@ void Conversation::onNotice(Notice notice) {
         outbox_.putState();
     } else if (std::holds_alternative<RoomNews>(notice)) {
         outbox_.putRoom();
+    } else if (std::holds_alternative<SceneNews>(notice)) {
+        outbox_.putScene();
     } else if (const auto* rejection = std::get_if<Rejection>(&notice)) {
         tellError(*rejection);
     } else if (auto* closing = std::get_if<Closing>(&notice)) {
@@ -344,8 +360,10 @@ std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
         key_at_.reset();
         video_lost_ ? mendVideo(now) : requestKeyFrame(now);
     }
-    switch (outbox_.next(room_states_.nextAt(now) <= now, states_.nextAt(now) <= now,
-                         window_.open() && !paused_)) {
+    switch (outbox_.next({.room = room_states_.nextAt(now) <= now,
+                          .scene = scene_states_.nextAt(now) <= now,
+                          .state = states_.nextAt(now) <= now,
+                          .frame = window_.open() && !paused_})) {
     case Outbox::Next::kNothing:
         return {};
     case Outbox::Next::kAnswer:
@@ -354,6 +372,11 @@ std::optional<Outgoing> Conversation::nextMessage(TimePoint now) {
         static_cast<void>(room_states_.take(now));
         outbox_.takeRoom();
         return inReply(seat_->session->roomState(seat_->place.member));
+    case Outbox::Next::kScene:
+        static_cast<void>(scene_states_.take(now));
+        outbox_.takeScene();
+        saySceneNews();
+        return nextMessage(now);
     case Outbox::Next::kState:
         static_cast<void>(states_.take(now));
         outbox_.takeState();
@@ -375,6 +398,9 @@ std::optional<TimePoint> Conversation::wakeAt(TimePoint now) const {
     const auto orAt = [&at](TimePoint other) { at = at ? std::min(*at, other) : other; };
     if (outbox_.hasRoom()) {
         orAt(room_states_.nextAt(now));
+    }
+    if (outbox_.hasScene()) {
+        orAt(scene_states_.nextAt(now));
     }
     if (outbox_.hasState()) {
         orAt(states_.nextAt(now));
@@ -442,7 +468,13 @@ Outgoing Conversation::stateMessage() {
     session::SessionState state = seat_->session->newState(seat_->place);
     state.applied = newest_;
     const auto told = std::exchange(told_placed_, state.settings.lights.placed);
-    return inReply(makeStateChanged(seat_->session->context(), state, told));
+    return inReply(makeStateChanged(*state.scene, state, told));
+}
+
+void Conversation::saySceneNews() {
+    for (v1::ServerMessage& message : seat_->session->newsOfScene(seat_->place, told_placed_)) {
+        answer(std::move(message));
+    }
 }
 
 // What the next picture's details say, where that is news: decided now, since pictures before it

@@ -32,6 +32,9 @@ class Conversation {
     // A pick looks at up to 20,000 lights.
     static constexpr double kPicksAtOnce = 10;
     static constexpr double kPicksPerSecond = 5;
+    // Scenes selected: each may be read and moved to the device.
+    static constexpr double kScenesAtOnce = 10;
+    static constexpr double kScenesPerSecond = 1;
     // A pause that begins or ends: each end has a picture drawn, and video go on with a key frame.
     static constexpr double kPausesAtOnce = 16;
     static constexpr double kPausesPerSecond = 5;
@@ -93,6 +96,8 @@ class Conversation {
     void onCommand(const session::CommandMessage& message, TimePoint now);
     void applyCommand(const session::CommandMessage& message, TimePoint now);
     void changeControl(const session::CommandMessage& message, TimePoint now);
+    void selectScene(const session::CommandMessage& message, TimePoint now);
+    void saySceneNews();
     void setPaused(bool paused, TimePoint now);
     void requestKeyFrame(TimePoint now);
     void countDrops(uint32_t before);
@@ -130,6 +135,8 @@ class Conversation {
     Outbox outbox_;
     Allowance states_{kStatesAtOnce, kStatesPerSecond};
     Allowance room_states_{kStatesAtOnce, kStatesPerSecond};
+    Allowance scene_states_{kStatesAtOnce, kStatesPerSecond};
+    Allowance scenes_{kScenesAtOnce, kScenesPerSecond};
     Allowance picks_{kPicksAtOnce, kPicksPerSecond};
     Allowance pauses_{kPausesAtOnce, kPausesPerSecond};
     ServiceStatus service_;

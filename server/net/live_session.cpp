@@ -3,6 +3,7 @@
 #include "froxel/v1/server.pb.h"
 #include "net/guard.h"
 #include "session/refinement.h"
+#include "session/scene_change.h"
 
 #include <algorithm>
 
@@ -61,11 +62,11 @@ LiveSession::open(const Serving& serving, std::string room, Caller opener, TimeP
 }
 
 LiveSession::LiveSession(Serving serving, std::string room, Caller opener, TimePoint now)
-    : serving_(std::move(serving)), opener_(std::move(opener)),
-      first_(session::initialState(*serving_.context, now)), room_(std::move(room)),
-      control_used_(now), state_(first_) {}
+    : serving_(std::move(serving)), opener_(std::move(opener)), room_(std::move(room)),
+      control_used_(now), first_(session::beginOn(serving_.context, now)), state_(first_) {}
 
 LiveSession::~LiveSession() {
+    callOff();
     if (!ended_) {
         serving_.port->leave(id_);
     }
@@ -99,6 +100,14 @@ void LiveSession::tellState(Mail& mail, std::optional<MemberId> but) {
     }
 }
 
+void LiveSession::tellScene(Mail& mail) {
+    for (auto& [id, member] : members_) {
+        if (!std::exchange(member.has_scene_news, true)) {
+            mail.add(member.viewer, SceneNews{});
+        }
+    }
+}
+
 void LiveSession::addMember(MemberId member, std::string name, Mail& mail) {
     const std::lock_guard lock(mutex_);
     tellRoom(mail);
@@ -121,6 +130,11 @@ std::optional<session::ReadyFrame> LiveSession::attach(const Place& place,
         tellRoom(mail);
     }
     member = {place.connection, std::move(viewer), 0, 0, codecs, {}, false, 0, 0, now};
+    member.told_scene = scene_count_; // by Welcome
+    if (awaited_) {
+        member.has_scene_news = true;
+        mail.add(member.viewer, SceneNews{});
+    }
     updateCodecs(now, mail);
     updateGrant();
     updateDelivery();
@@ -161,6 +175,7 @@ bool LiveSession::removeMember(MemberId member, Mail& mail) {
         updateGrant();
         updateDelivery();
     } else if (!std::exchange(ended_, true)) {
+        callOff();
         serving_.port->leave(id_);
     }
     tellRoom(mail);
@@ -182,7 +197,7 @@ LiveSession::apply(const Place& place, const session::CommandMessage& message, T
     }
     session::CommandMessage signed_message = message;
     signed_message.stamp.author = place.connection;
-    auto next = session::apply(state_, signed_message, context(), now);
+    auto next = session::apply(state_, signed_message, *state_.scene, now);
     if (!next) {
         return next.error();
     }
@@ -192,6 +207,123 @@ LiveSession::apply(const Place& place, const session::CommandMessage& message, T
     serving_.port->update(id_, state_, now);
     tellState(mail, place.member);
     return {};
+}
+
+CommandResult<void> LiveSession::selectScene(const Place& place,
+                                             const session::CommandMessage& message,
+                                             TimePoint now) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    Member* member = find(place);
+    if (member == nullptr) {
+        return {};
+    }
+    const auto refuse = [&message](Rejection rejection) {
+        rejection.ref_seq = message.stamp.seq;
+        return rejection;
+    };
+    if (auto allowed = room_.mayControl(place.member); !allowed) {
+        return refuse(allowed.error());
+    }
+    member->watched_at = control_used_ = now;
+    used_by_ = place.member;
+    const std::string& id = std::get<session::SelectScene>(message.body).id;
+    if (awaited_ && awaited_->id == id) {
+        return {};
+    }
+    session::CommandStamp stamp = message.stamp;
+    stamp.author = place.connection;
+    if (id == state_.scene->scene_id) {
+        callOff();
+        tellScene(mail);
+        return {};
+    }
+    if (serving_.scenes == nullptr) {
+        return refuse({RejectCode::kUnsupported, 0, "scene", "this server has one scene"});
+    }
+    auto scene = serving_.scenes->want(id, shared_from_this());
+    if (!scene) {
+        Rejection refused{RejectCode::kOutOfRange, 0, "scene", "scene " + scene.error().message};
+        refused.blameless = true; // the list that it was chosen from may be old
+        return refuse(std::move(refused));
+    }
+    callOff();
+    if (*scene) {
+        show(*scene, stamp, now, mail);
+    } else {
+        awaited_ = Awaited{id, stamp, {"waiting for its turn", 0}};
+        tellScene(mail);
+    }
+    return {};
+}
+
+void LiveSession::callOff() {
+    if (awaited_) {
+        serving_.scenes->dismiss(awaited_->id, *this);
+        awaited_.reset();
+    }
+}
+
+void LiveSession::show(const session::SharedContext& scene,
+                       const session::CommandStamp& stamp,
+                       TimePoint now,
+                       Mail& mail) {
+    state_ = session::withScene(state_, first_, scene, stamp, now);
+    first_ = session::beginOn(scene, now);
+    scene_stamp_ = stamp;
+    ++scene_count_;
+    picture_.reset(); // whoever comes before the next one waits for it
+    plain_.reset();
+    serving_.port->update(id_, state_, now);
+    tellScene(mail);
+    tellState(mail);
+}
+
+void LiveSession::onSceneProgress(const std::string& id, const session::SceneProgress& progress) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    if (awaited_ && awaited_->id == id) {
+        awaited_->progress = progress;
+        tellScene(mail);
+    }
+}
+
+void LiveSession::onScene(const std::string& id, Result<session::SharedContext> scene) {
+    Mail mail;
+    const std::lock_guard lock(mutex_);
+    if (!awaited_ || awaited_->id != id) {
+        return;
+    }
+    const session::CommandStamp stamp = std::exchange(awaited_, std::nullopt)->stamp;
+    if (scene) {
+        show(*scene, stamp, Clock::now(), mail);
+        return;
+    }
+    tellRefusal(scene.error(), stamp, false, mail, "scene");
+    tellScene(mail);
+}
+
+std::vector<v1::ServerMessage> LiveSession::newsOfScene(const Place& place,
+                                                        settings::PlacedLights& placed) {
+    const std::lock_guard lock(mutex_);
+    std::vector<v1::ServerMessage> messages;
+    Member* member = find(place);
+    if (member == nullptr) {
+        return messages;
+    }
+    member->has_scene_news = false;
+    if (std::exchange(member->told_scene, scene_count_) != scene_count_) {
+        const bool asked = scene_stamp_.author == place.connection;
+        messages.push_back(session::makeSceneChanged(state_, first_, asked ? scene_stamp_.seq : 0));
+        placed = state_.settings.lights.placed;
+    }
+    if (awaited_) {
+        messages.push_back(session::makeSceneLoading(awaited_->id, awaited_->progress));
+    } else if (member->told_loading) {
+        messages.push_back(session::makeSceneLoading({}, {}));
+    }
+    member->told_loading = awaited_.has_value();
+    return messages;
 }
 
 CommandResult<void> LiveSession::changeControl(const Place& place,
@@ -342,8 +474,8 @@ v1::ServerMessage LiveSession::welcome(MemberId you,
     if (state_.version != first_.version) {
         place.defaults = &first_;
     }
-    v1::ServerMessage message = session::makeWelcome(id_, context(), state_);
-    session::addPlace(message, context(), place);
+    v1::ServerMessage message = session::makeWelcome(id_, *state_.scene, state_);
+    session::addPlace(message, *state_.scene, place);
     return message;
 }
 
@@ -463,7 +595,7 @@ void LiveSession::refuse(Error error, SessionState refused, std::optional<Sessio
     if (last) {
         tellAll(mail, Closing{protocol::CloseCode::kCapacity, "the first picture cannot be made"});
     } else {
-        takeBack(refused, drawn, Clock::now());
+        takeBack(refused, drawn, Clock::now(), mail);
         tellState(mail);
     }
 }
@@ -473,7 +605,8 @@ void LiveSession::refuse(Error error, SessionState refused, std::optional<Sessio
 void LiveSession::tellRefusal(const Error& error,
                               const session::CommandStamp& asked,
                               bool to_all,
-                              Mail& mail) const {
+                              Mail& mail,
+                              const std::string& field) const {
     const auto hasAsked = [&asked](const auto& entry) {
         return entry.second.connection == asked.author;
     };
@@ -484,7 +617,7 @@ void LiveSession::tellRefusal(const Error& error,
         if (answers || to_all) {
             mail.add(entry.second.viewer,
                      Rejection{unsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
-                               hasAsked(entry) ? asked.seq : 0, "", error.message});
+                               hasAsked(entry) ? asked.seq : 0, field, error.message});
         }
     }
 }
@@ -492,10 +625,15 @@ void LiveSession::tellRefusal(const Error& error,
 // To what was drawn last; a client may have changed much before its first picture.
 void LiveSession::takeBack(const SessionState& refused,
                            const std::optional<SessionState>& drawn,
-                           TimePoint now) {
-    const SessionState& good = drawn ? *drawn : first_;
+                           TimePoint now,
+                           Mail& mail) {
+    const SessionState good = drawn ? *drawn : first_;
     const settings::Lights& lights = good.settings.lights;
+    const bool other_scene = good.scene != state_.scene;
     state_.light_clock = state_.light_clock.withRate(now, lights.speed, lights.animate);
+    if (other_scene) {
+        state_.playback = good.playback;
+    }
     state_.playback.follow(good.settings.animation, SessionState::secondsOf(now));
     state_.followed = good.followed;
     state_.settings = good.settings;
@@ -503,6 +641,12 @@ void LiveSession::takeBack(const SessionState& refused,
     state_.delivery = good.delivery;
     keepDecodable();
     state_.version = refused.version + 1;
+    if (other_scene) {
+        state_.scene = good.scene;
+        first_ = session::beginOn(good.scene, now);
+        ++scene_count_;
+        tellScene(mail);
+    }
     serving_.port->update(id_, state_, now);
 }
 

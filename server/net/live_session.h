@@ -26,7 +26,9 @@ namespace froxel::net {
 // What a session has to say to one of its viewers.
 struct StateNews {}; // LiveSession::state() is another
 struct RoomNews {};  // so is the room's
-using Notice = std::variant<session::ReadyFrame, StateNews, RoomNews, session::Rejection, Closing>;
+struct SceneNews {}; // and what newsOfScene() tells
+using Notice =
+    std::variant<session::ReadyFrame, StateNews, RoomNews, SceneNews, session::Rejection, Closing>;
 
 // A viewer's connection, as its session sees it.
 class SessionViewer {
@@ -59,6 +61,7 @@ struct Place {
 };
 
 class LiveSession final : public session::FrameSink,
+                          public session::SceneWaiter,
                           public std::enable_shared_from_this<LiveSession> {
   public:
     // Joins the stream; `room` is empty for a session of one's own. Charged to who opens it.
@@ -87,6 +90,15 @@ class LiveSession final : public session::FrameSink,
     // A command that sets state. Refused: session::apply's, and kControl.
     [[nodiscard]] session::CommandResult<void>
     apply(const Place& place, const session::CommandMessage& message, TimePoint now);
+    // SelectScene: what is shown stays until the scene is there. Refused: kControl, kOutOfRange
+    // where there is no such scene.
+    [[nodiscard]] session::CommandResult<void>
+    selectScene(const Place& place, const session::CommandMessage& message, TimePoint now);
+    // For a viewer that SceneNews came to: the scene and its state where that is another than it
+    // knows of, and how far one is that is being loaded. `placed` becomes the placed lights that
+    // are told of.
+    [[nodiscard]] std::vector<v1::ServerMessage> newsOfScene(const Place& place,
+                                                             settings::PlacedLights& placed);
     // RequestControl, ReleaseControl or GiveControl. Refused: outside a room, and Room's.
     [[nodiscard]] session::CommandResult<void> changeControl(const Place& place,
                                                              const session::Command& command);
@@ -120,7 +132,6 @@ class LiveSession final : public session::FrameSink,
 
     [[nodiscard]] session::SessionId id() const { return id_; }
     [[nodiscard]] const Caller& opener() const { return opener_; } // whom it is charged to
-    [[nodiscard]] const session::SessionContext& context() const { return *serving_.context; }
     [[nodiscard]] session::SessionState state() const;
     // The same, for a viewer that StateNews came to.
     [[nodiscard]] session::SessionState newState(const Place& place);
@@ -137,6 +148,8 @@ class LiveSession final : public session::FrameSink,
                 session::SessionState refused,
                 std::optional<session::SessionState> drawn) override;
     void deviceLost(Error error) override;
+    void onSceneProgress(const std::string& id, const session::SceneProgress& progress) override;
+    void onScene(const std::string& id, Result<session::SharedContext> scene) override;
 
   private:
     struct Member {
@@ -153,12 +166,27 @@ class LiveSession final : public session::FrameSink,
         // It was told, and has not asked since: of many changes it hears once.
         bool has_room_news = false;
         bool has_state_news = false;
+        bool has_scene_news = false;
+        uint64_t told_scene = 0;   // scene_count_ of what it knows of
+        bool told_loading = false; // that one is being loaded
+    };
+    // A scene that is not there yet.
+    struct Awaited {
+        std::string id;
+        session::CommandStamp stamp; // of the command that selected it
+        session::SceneProgress progress;
     };
     LiveSession(Serving serving, std::string room, Caller opener, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);
     void tellAll(Mail& mail, const Notice& notice) const;
     void tellRoom(Mail& mail);
     void tellState(Mail& mail, std::optional<session::MemberId> but = {});
+    void tellScene(Mail& mail);
+    void callOff();
+    void show(const session::SharedContext& scene,
+              const session::CommandStamp& stamp,
+              TimePoint now,
+              Mail& mail);
     [[nodiscard]] bool plainSuffices() const;
     void tellFrame(Member& member, const session::ReadyFrame& frame, Mail& mail);
     void updateGrant();
@@ -168,14 +196,15 @@ class LiveSession final : public session::FrameSink,
     void tellRefusal(const Error& error,
                      const session::CommandStamp& asked,
                      bool to_all,
-                     Mail& mail) const;
+                     Mail& mail,
+                     const std::string& field = {}) const;
     void takeBack(const session::SessionState& refused,
                   const std::optional<session::SessionState>& drawn,
-                  TimePoint now);
+                  TimePoint now,
+                  Mail& mail);
 
     const Serving serving_;
     const Caller opener_;
-    const session::SessionState first_;
     session::SessionId id_ = 0;
 
     mutable std::mutex mutex_;
@@ -183,7 +212,11 @@ class LiveSession final : public session::FrameSink,
     session::MemberId used_by_ = 0; // the controller, as far as is known
     TimePoint control_used_{};      // when it last set state, or got control
     std::map<session::MemberId, Member> members_;
+    session::SessionState first_; // of a session on this scene
     session::SessionState state_;
+    session::CommandStamp scene_stamp_; // of the command that the scene is shown for
+    uint64_t scene_count_ = 1;          // so far, of those shown
+    std::optional<Awaited> awaited_;
     std::optional<session::ReadyFrame> picture_; // newest
     std::optional<session::ReadyFrame> plain_;   // newest that is not refined
     uint64_t delivered_ = 0;                     // pictures that came from the stream

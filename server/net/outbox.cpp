@@ -54,21 +54,25 @@ bool Outbox::interruptVideo() {
 
 void Outbox::keepAnswersOnly() {
     room_due_ = false;
+    scene_due_ = false;
     state_due_ = false;
     frames_.clear();
 }
 
-Outbox::Next Outbox::next(bool room_allowed, bool state_allowed, bool frame_allowed) const {
+Outbox::Next Outbox::next(const Allowed& allowed) const {
     if (!answers_.empty()) {
         return Next::kAnswer;
     }
-    if (room_due_ && room_allowed) {
+    if (room_due_ && allowed.room) {
         return Next::kRoom;
     }
-    if (state_due_ && state_allowed) {
+    if (scene_due_ && allowed.scene) {
+        return Next::kScene;
+    }
+    if (state_due_ && allowed.state) {
         return Next::kState;
     }
-    return !frames_.empty() && frame_allowed ? Next::kFrame : Next::kNothing;
+    return !frames_.empty() && allowed.frame ? Next::kFrame : Next::kNothing;
 }
 
 Outgoing Outbox::takeAnswer() {

@@ -1,7 +1,7 @@
-// What waits to be written to one connection, bounded: answers in a short queue, room and state in
-// a slot each, pictures in a short queue. Newer ones replace older ones, but for frames of video
-// that need those before them: they wait in their order, not for long, and where one is lost, all
-// are that follow it, up to the next key frame. One strand.
+// What waits to be written to one connection, bounded: answers in a short queue, room, scene and
+// state in a slot each, pictures in a short queue. Newer ones replace older ones, but for frames of
+// video that need those before them: they wait in their order, not for long, and where one is lost,
+// all are that follow it, up to the next key frame. One strand.
 #pragma once
 
 #include "core/encoded_frame.h"
@@ -41,6 +41,7 @@ class Outbox {
     [[nodiscard]] bool putAnswer(Outgoing answer);
     void putState() { state_due_ = true; }
     void putRoom() { room_due_ = true; }
+    void putScene() { scene_due_ = true; }
     enum class Put { kKept, kLost };
     // kLost: this one cannot be decoded without one that was dropped; a key frame is needed.
     [[nodiscard]] Put putFrame(session::ReadyFrame frame);
@@ -49,16 +50,24 @@ class Outbox {
     // Pictures and states are not wanted any more.
     void keepAnswersOnly();
 
-    enum class Next { kNothing, kAnswer, kRoom, kState, kFrame };
-    // Answers first, then who is in the room, then the state, which the caller allows seldom enough
-    // for pictures, both.
-    [[nodiscard]] Next next(bool room_allowed, bool state_allowed, bool frame_allowed) const;
+    enum class Next { kNothing, kAnswer, kRoom, kScene, kState, kFrame };
+    struct Allowed {
+        bool room = true;
+        bool scene = true;
+        bool state = true;
+        bool frame = true;
+    };
+    // Answers first, then who is in the room, what there is of the scene, and the state, which the
+    // caller allows seldom enough for pictures, all three.
+    [[nodiscard]] Next next(const Allowed& allowed) const;
     [[nodiscard]] Outgoing takeAnswer();
     void takeState() { state_due_ = false; }
     void takeRoom() { room_due_ = false; }
+    void takeScene() { scene_due_ = false; }
     [[nodiscard]] session::ReadyFrame takeFrame();
 
     [[nodiscard]] bool hasRoom() const { return room_due_; }
+    [[nodiscard]] bool hasScene() const { return scene_due_; }
     [[nodiscard]] bool hasState() const { return state_due_; }
     [[nodiscard]] bool hasFrame() const { return !frames_.empty(); }
     // The picture that takeFrame() gives next.
@@ -73,6 +82,7 @@ class Outbox {
     std::deque<session::ReadyFrame> frames_;
     bool decodable_ = false; // whether the last frame of video put here was kept, and all before it
     bool room_due_ = false;
+    bool scene_due_ = false;
     bool state_due_ = false;
     uint32_t dropped_count_ = 0;
 };

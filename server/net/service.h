@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/heartbeat.h"
+#include "session/scene_port.h"
 #include "session/session_context.h"
 #include "session/stream_port.h"
 
@@ -26,7 +27,8 @@ struct Serving {
     session::StreamPort* port = nullptr; // outlives every connection
     // Of the thread that draws; null: not watched.
     std::shared_ptr<const Heartbeat> heartbeat{};
-    Seconds step_limit{0}; // one step of it that takes longer never ends
+    Seconds step_limit{0};                // one step of it that takes longer never ends
+    session::ScenePort* scenes = nullptr; // outlives every connection; null: there is one scene
 };
 
 // No session begins any more; those that are there go on until it is over.

@@ -301,6 +301,11 @@ void recordPairs(const FrameContext& frame) {
     inParts(frame, drawn(frame), frame.costs.countPairs(), recordCountPairs);
 }
 
+void recordLists(const FrameContext& frame) {
+    recordAssignment({frame.slot.cmd, *frame.scene.shared.assignment(), *frame.slot.assignment},
+                     frame.slot.timestamps);
+}
+
 } // namespace
 
 void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_share) {
@@ -315,8 +320,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_sh
         slot.samples->restart();
     }
     if (slot.device_lists) {
-        recordAssignment({slot.cmd, *frame.scene.shared.assignment(), *slot.assignment},
-                         slot.timestamps);
+        recordLists(frame);
     }
     recordEffects(frame, EffectPlace::kLights, [] {}); // there is no picture yet
     recordSurfaces(frame);

@@ -98,7 +98,7 @@ class SceneUpload {
     SceneUpload(const SceneUpload&) = delete;
     SceneUpload& operator=(const SceneUpload&) = delete;
 
-    // Gives the device some milliseconds' more of it, unless it is still at what it was given
+    // Gives the device the next slice of it, unless it is still at what it was given
     // before. Null: not all is there yet; else nothing more is to be called. Errors: kDevice.
     [[nodiscard]] Result<std::unique_ptr<Renderer>> advance();
     // Of it that the device was given, 0 to 1.

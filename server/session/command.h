@@ -37,6 +37,10 @@ struct SelectSceneCamera {
     std::string name;
 };
 
+struct SelectScene {
+    std::string id; // untrusted text
+};
+
 // Settings of the table; every command that gives nothing else.
 struct SetSettings {
     SettingChanges changes;
@@ -131,6 +135,7 @@ struct Pause {
 using Command = std::variant<Hello,
                              SetCamera,
                              SelectSceneCamera,
+                             SelectScene,
                              SetSettings,
                              SetLights,
                              SetAnimation,

@@ -92,6 +92,10 @@ Command decode(const v1::SelectSceneCamera& select, FieldValidator& fields) {
     return SelectSceneCamera{select.name()};
 }
 
+Command decode(const v1::SelectScene& select, FieldValidator& fields) {
+    return SelectScene{fields.text("scene", select.scene(), protocol::kMaxSceneIdBytes)};
+}
+
 BoundsD3 decodeBox(const v1::Box& box, FieldValidator& fields) {
     fields.require(box.has_min(), "light_box.min");
     fields.require(box.has_max(), "light_box.max");
@@ -243,6 +247,8 @@ Command decodeBody(const v1::ClientMessage& message, FieldValidator& fields) {
         return decode(message.set_camera(), fields);
     case v1::ClientMessage::kSelectSceneCamera:
         return decode(message.select_scene_camera(), fields);
+    case v1::ClientMessage::kSelectScene:
+        return decode(message.select_scene(), fields);
     case v1::ClientMessage::kSetLights:
         return decode(message.set_lights(), fields);
     case v1::ClientMessage::kSetAnimation:

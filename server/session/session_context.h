@@ -1,5 +1,5 @@
-// What all sessions of one server share and never change: the scene's summary, the defaults and
-// the names that Welcome tells.
+// What all sessions of one scene share and never change: the scene's summary, the defaults and the
+// names that Welcome tells.
 #pragma once
 
 #include "core/error.h"
@@ -76,6 +76,8 @@ struct SessionContext {
     LightPicker pick_light = pickNone;
     scene::FirstView first_view;
     std::vector<OfferedLook> looks = {};
+    std::string scene_id{};    // by which viewers ask for it; empty: there is no other
+    uint64_t scene_number = 0; // on the device, no other's; 0: the server's first
 };
 
 } // namespace froxel::session

@@ -20,12 +20,6 @@ void assignIfGiven(Target& target, const std::optional<Value>& value) {
     }
 }
 
-settings::Camera openingCamera(const SessionContext& context, const settings::Size& size) {
-    settings::Camera camera = context.first_view.cameraFor(size);
-    camera.lens_shift = context.defaults.lens_shift.value_or(camera.lens_shift);
-    return camera;
-}
-
 // A camera of the scene that its animations move.
 std::optional<uint32_t> followedOf(const SessionContext& context, size_t camera) {
     const auto index = static_cast<uint32_t>(camera);
@@ -246,6 +240,12 @@ bool holdsOneOf(const Command& command) {
 
 } // namespace
 
+settings::Camera openingCamera(const SessionContext& context, const settings::Size& size) {
+    settings::Camera camera = context.first_view.cameraFor(size);
+    camera.lens_shift = context.defaults.lens_shift.value_or(camera.lens_shift);
+    return camera;
+}
+
 settings::Camera SessionState::cameraAt(TimePoint now) const {
     const auto playing = followed ? playback.at(secondsOf(now)) : std::nullopt;
     return playing ? motion::cameraAt(*playback.motion(), *followed, *playing, settings.camera)
@@ -270,7 +270,7 @@ SessionState initialState(const SessionContext& context, TimePoint now) {
 
 bool setsState(const Command& command) {
     return !holdsOneOf<Hello, Ack, Ping, RequestControl, ReleaseControl, GiveControl, Pause,
-                       RequestKeyFrame>(command);
+                       RequestKeyFrame, SelectScene>(command);
 }
 
 CommandResult<SessionState> apply(SessionState state,

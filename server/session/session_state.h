@@ -22,6 +22,8 @@ struct SessionState {
     uint64_t key_requests = 0;                               // key frames asked for so far
     motion::Playback playback{};        // of the scene's animations, by secondsOf(the host's clock)
     std::optional<uint32_t> followed{}; // of SceneSummary::cameras, one that moves
+    // Of the scene that is shown, which stays on the device for it; null: the only one.
+    std::shared_ptr<const SessionContext> scene{};
 
     // Whether pictures after that time are others without a command.
     [[nodiscard]] bool animatingAt(TimePoint now) const {
@@ -35,6 +37,10 @@ struct SessionState {
         return Seconds(now.time_since_epoch()).count();
     }
 };
+
+// What a viewer of a picture of that size sees first.
+[[nodiscard]] settings::Camera openingCamera(const SessionContext& context,
+                                             const settings::Size& size);
 
 // The first scene camera, or the whole scene in view when it has none.
 [[nodiscard]] SessionState initialState(const SessionContext& context, TimePoint now);

@@ -16,7 +16,9 @@
 namespace froxel::session {
 namespace {
 
-void fill(v1::SceneInfo& out, const SceneSummary& scene) {
+void fill(v1::SceneInfo& out, const SessionContext& context) {
+    const SceneSummary& scene = context.scene;
+    out.set_id(context.scene_id);
     out.set_name(scene.name);
     out.set_triangles(scene.triangle_count);
     out.set_draws(scene.draw_count);
@@ -210,6 +212,16 @@ void fill(v1::Part& part, const FrameRecord& record) {
     part.set_key_frame(settings::rowOf(codec).frames_depend && record.key);
 }
 
+void fillLooks(google::protobuf::RepeatedPtrField<v1::Look>& out, const SessionContext& context) {
+    for (const OfferedLook& look : context.looks) {
+        v1::Look& offered = *out.Add();
+        offered.set_name(look.name);
+        offered.set_label(look.label);
+        offered.set_help(look.help);
+        offered.set_address(look.address);
+    }
+}
+
 } // namespace
 
 v1::ServerMessage
@@ -221,17 +233,11 @@ makeWelcome(uint64_t session_id, const SessionContext& context, const SessionSta
     welcome.set_session_id(session_id);
     welcome.set_server_version(context.server_version);
     welcome.set_device(context.device_name);
-    fill(*welcome.mutable_scene(), context.scene);
+    fill(*welcome.mutable_scene(), context);
     fillViewState(*welcome.mutable_state(), context, state);
     *welcome.mutable_placed_lights() = changeOf({}, state.settings.lights.placed);
     addRanges(welcome);
-    for (const OfferedLook& look : context.looks) {
-        v1::Look& offered = *welcome.add_looks();
-        offered.set_name(look.name);
-        offered.set_label(look.label);
-        offered.set_help(look.help);
-        offered.set_address(look.address);
-    }
+    fillLooks(*welcome.mutable_looks(), context);
     return message;
 }
 
@@ -269,6 +275,30 @@ v1::ServerMessage makeStateChanged(const SessionContext& context,
     if (const settings::PlacedLights& placed = state.settings.lights.placed; !(placed == told)) {
         *message.mutable_state()->mutable_placed_lights() = changeOf(told, placed);
     }
+    return message;
+}
+
+v1::ServerMessage
+makeSceneChanged(const SessionState& state, const SessionState& first, uint64_t ref_seq) {
+    v1::ServerMessage message;
+    v1::SceneChanged& changed = *message.mutable_scene_changed();
+    const SessionContext& context = *state.scene;
+    changed.set_ref_seq(ref_seq);
+    fill(*changed.mutable_scene(), context);
+    fillViewState(*changed.mutable_state(), context, state);
+    fillViewState(*changed.mutable_defaults(), context, first);
+    fillLooks(*changed.mutable_looks(), context);
+    *changed.mutable_placed_lights() = changeOf({}, state.settings.lights.placed);
+    *changed.mutable_default_placed_lights() = changeOf({}, first.settings.lights.placed);
+    return message;
+}
+
+v1::ServerMessage makeSceneLoading(const std::string& id, const SceneProgress& progress) {
+    v1::ServerMessage message;
+    v1::SceneLoading& loading = *message.mutable_scene_loading();
+    loading.set_scene(id);
+    loading.set_stage(progress.stage);
+    loading.set_fraction(progress.fraction);
     return message;
 }
 

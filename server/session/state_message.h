@@ -4,6 +4,7 @@
 #include "core/frame_stats.h"
 #include "protocol/framing.h"
 #include "session/room.h"
+#include "session/scene_port.h"
 #include "session/session_state.h"
 
 #include <chrono>
@@ -31,6 +32,12 @@ void addPlace(v1::ServerMessage& welcome, const SessionContext& context, const W
 [[nodiscard]] v1::ServerMessage makeStateChanged(const SessionContext& context,
                                                  const SessionState& state,
                                                  const settings::PlacedLights& told);
+// A scene and all that goes by it; `first` is what a new session on it begins with.
+[[nodiscard]] v1::ServerMessage
+makeSceneChanged(const SessionState& state, const SessionState& first, uint64_t ref_seq);
+// An empty id: none is being loaded.
+[[nodiscard]] v1::ServerMessage makeSceneLoading(const std::string& id,
+                                                 const SceneProgress& progress);
 // The protocol's name of it in small letters: "out_of_range".
 [[nodiscard]] std::string nameOf(RejectCode code);
 

@@ -13,6 +13,10 @@
 #include <memory>
 #include <optional>
 
+namespace froxel::scene {
+struct Scene;
+}
+
 namespace froxel::stream {
 
 // Where all that moves stands in a frame.
@@ -72,16 +76,41 @@ class ViewSource {
     [[nodiscard]] virtual Result<Collected> collect() = 0;
 };
 
-// A scene on a device.
-class FrameSource {
+// A scene on a device. Views end before it.
+class SceneSource {
   public:
-    virtual ~FrameSource() = default;
+    virtual ~SceneSource() = default;
+    // Errors: kCapacity, kDevice.
+    [[nodiscard]] virtual Result<std::unique_ptr<ViewSource>> makeView() = 0;
+    // Of the device's memory; any thread.
+    [[nodiscard]] virtual uint64_t bytes() const { return 0; }
+};
+
+// A scene on its way to a device that draws others meanwhile.
+class SceneMove {
+  public:
+    virtual ~SceneMove() = default;
+    // Gives the device the next slice of it, unless it is still at what it was given
+    // before. Null: not all is there yet; else this is done. Errors: kDevice.
+    [[nodiscard]] virtual Result<std::unique_ptr<SceneSource>> advance() = 0;
+    // Of it that the device was given, 0 to 1.
+    [[nodiscard]] virtual double fraction() const = 0;
+};
+
+// A device, with the scene that it began with.
+class FrameSource : public SceneSource {
+  public:
     // Pieces on the device at once that keep it busy: 1 where the host is the device.
     [[nodiscard]] virtual uint32_t depth() const = 0;
     // Whether its work is done by the host's cores, which encoders use too.
     [[nodiscard]] virtual bool isHost() const = 0;
-    // Errors: kCapacity, kDevice.
-    [[nodiscard]] virtual Result<std::unique_ptr<ViewSource>> makeView() = 0;
+    // What a scene will take of the device's memory, about. Any thread.
+    [[nodiscard]] virtual uint64_t sceneBytes(const scene::Scene& /*scene*/) const { return 0; }
+    // Does what needs no device's time. Any thread. Errors: kCapacity, kScene, kUnsupported.
+    [[nodiscard]] virtual Result<std::unique_ptr<SceneMove>>
+    moveScene(std::shared_ptr<const scene::Scene> /*scene*/) {
+        return Error{ErrorCode::kUnsupported, "this device takes no other scene"};
+    }
     // From now on begin() does not wait for variants of shaders that are missing.
     virtual void makeVariantsInBackground() {}
 };

@@ -156,6 +156,7 @@ void RenderLoop::serve(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         options_.heartbeat->beat(Clock::now());
         takeNews(stop);
+        const auto scenes_at = options_.scenes ? options_.scenes->work(Clock::now()) : std::nullopt;
         if (deviceTakesMore() && startNext()) {
             continue;
         }
@@ -165,14 +166,21 @@ void RenderLoop::serve(const std::stop_token& stop) {
         }
         options_.heartbeat->rest();
         const TimePoint idle_since = Clock::now();
-        mailbox_->wait(stop, nextWake());
+        mailbox_->wait(stop, nextWake(scenes_at));
         scheduler_.onIdle(spentSince(idle_since));
     }
 }
 
-std::optional<TimePoint> RenderLoop::nextWake() const {
-    const auto due = scheduler_.nextDue();
-    return due && refine_at_ ? std::min(due, refine_at_) : due ? due : refine_at_;
+std::optional<TimePoint> RenderLoop::nextWake(std::optional<TimePoint> scenes_at) const {
+    std::optional<TimePoint> next;
+    for (const auto& at : {scheduler_.nextDue(), refine_at_, scenes_at}) {
+        next = next && at ? std::min(next, at) : next ? next : at;
+    }
+    return next;
+}
+
+SceneSource& RenderLoop::sourceOf(const SessionState& state) {
+    return options_.scenes ? options_.scenes->sourceOf(state.scene.get()) : *source_;
 }
 
 void RenderLoop::takeState(Viewer& viewer, const ViewerNews& news) {
@@ -368,12 +376,13 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
 }
 
 Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame) {
-    if (!viewer.source) {
-        auto source = source_->makeView();
+    if (!viewer.source || viewer.source_scene != frame.state.scene) {
+        auto source = sourceOf(frame.state).makeView();
         if (!source) {
             return source.error();
         }
         viewer.source = std::move(*source);
+        viewer.source_scene = frame.state.scene;
     }
     const session::Delivered& with = frame.record.delivered;
     settings::ViewSettings settings = frame.state.settings;

@@ -20,6 +20,7 @@
 #include "stream/frame_pipeline.h"
 #include "stream/frame_scheduler.h"
 #include "stream/frame_source.h"
+#include "stream/scene_host.h"
 #include "stream/viewer.h"
 #include "stream/viewer_mailbox.h"
 
@@ -43,6 +44,9 @@ struct RenderLoopOptions {
     // nobody else is served meanwhile. Runs on the render thread.
     std::function<void(Seconds)> on_begun = [](Seconds) {};
     std::function<void(Seconds)> on_piece = [](Seconds) {};
+    // Of the scenes that sessions may go over to; null: they have the source's own. begin() was
+    // called within make_source.
+    std::shared_ptr<SceneHost> scenes;
     // Of the render thread, from the first frame on.
     std::shared_ptr<Heartbeat> heartbeat = std::make_shared<Heartbeat>();
     // Makes device and scene; runs on the render thread, which then owns them. May take long and
@@ -72,6 +76,9 @@ class RenderLoop final : public session::StreamPort {
 
     // Admission::load(). Any thread.
     [[nodiscard]] double load(TimePoint now) const;
+
+    // Makes the render thread look for work. Any thread.
+    void wake() { mailbox_->wake(); }
 
     // Waits for the frames under way; no sink is called after it. The port still answers.
     void stop();
@@ -103,7 +110,8 @@ class RenderLoop final : public session::StreamPort {
     void takeState(Viewer& viewer, const ViewerNews& news);
     void chargeEncoding(session::SessionId id, Viewer& viewer);
     void updateReadiness(session::SessionId id, Viewer& viewer, TimePoint now);
-    [[nodiscard]] std::optional<TimePoint> nextWake() const;
+    [[nodiscard]] std::optional<TimePoint> nextWake(std::optional<TimePoint> scenes_at) const;
+    [[nodiscard]] SceneSource& sourceOf(const session::SessionState& state);
     void fail(const Error& error);
     void drain();
     void finishPictures();

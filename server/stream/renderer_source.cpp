@@ -74,6 +74,59 @@ class RendererView final : public ViewSource {
     TimePoint collected_;             // the last one
 };
 
+Error noMemory(const std::string& whose) {
+    return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};
+}
+
+Result<std::unique_ptr<ViewSource>> makeViewOf(render::Renderer& renderer,
+                                               const render::WorkLimits& limits) {
+    try {
+        return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer, limits));
+    } catch (const vk::OutOfDeviceMemoryError&) {
+        return noMemory("device");
+    } catch (const vk::OutOfHostMemoryError&) {
+        return noMemory("host");
+    }
+}
+
+class RendererScene final : public SceneSource {
+  public:
+    RendererScene(std::unique_ptr<render::Renderer> renderer, const render::WorkLimits& limits)
+        : renderer_(std::move(renderer)), limits_(limits), bytes_(renderer_->bytes()) {}
+
+    [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
+        return makeViewOf(*renderer_, limits_);
+    }
+    [[nodiscard]] uint64_t bytes() const override { return bytes_; }
+
+  private:
+    std::unique_ptr<render::Renderer> renderer_;
+    const render::WorkLimits limits_;
+    const uint64_t bytes_;
+};
+
+class RendererMove final : public SceneMove {
+  public:
+    RendererMove(render::RenderDevice& on,
+                 std::shared_ptr<const scene::Scene> scene,
+                 const render::WorkLimits& limits)
+        : upload_(on, std::move(scene)), limits_(limits) {}
+
+    [[nodiscard]] Result<std::unique_ptr<SceneSource>> advance() override {
+        auto moved = upload_.advance();
+        if (!moved) {
+            return moved.error();
+        }
+        return *moved ? std::make_unique<RendererScene>(std::move(*moved), limits_)
+                      : std::unique_ptr<SceneSource>();
+    }
+    [[nodiscard]] double fraction() const override { return upload_.fraction(); }
+
+  private:
+    render::SceneUpload upload_;
+    const render::WorkLimits limits_;
+};
+
 class RendererSource final : public FrameSource {
   public:
     RendererSource(std::unique_ptr<gpu::Device> device,
@@ -94,12 +147,24 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] bool isHost() const override { return device_->traits().is_cpu; }
 
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
+        return makeViewOf(renderer_, limits_);
+    }
+
+    [[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene) const override {
+        return render::sceneBytes(scene);
+    }
+
+    [[nodiscard]] Result<std::unique_ptr<SceneMove>>
+    moveScene(std::shared_ptr<const scene::Scene> scene) override {
         try {
-            return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer_, limits_));
+            return std::unique_ptr<SceneMove>(
+                std::make_unique<RendererMove>(on_, std::move(scene), limits_));
+        } catch (const StartupError& error) {
+            return Error{error.code(), error.what()};
         } catch (const vk::OutOfDeviceMemoryError&) {
-            return noMemory("device");
+            return noMemoryForScene("device");
         } catch (const vk::OutOfHostMemoryError&) {
-            return noMemory("host");
+            return noMemoryForScene("host");
         }
     }
 
@@ -112,8 +177,8 @@ class RendererSource final : public FrameSource {
         return device.traits().is_cpu ? render::WorkLimits{frame, kCpuPiece, kCpuLoop, kHostPart}
                                       : render::WorkLimits{frame, kGpuPiece, kGpuLoop, kHostPart};
     }
-    [[nodiscard]] static Error noMemory(const std::string& whose) {
-        return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};
+    [[nodiscard]] static Error noMemoryForScene(const std::string& whose) {
+        return {ErrorCode::kCapacity, "the " + whose + " has no memory for another scene"};
     }
 
     std::unique_ptr<gpu::Device> device_;

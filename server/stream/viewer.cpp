@@ -69,6 +69,8 @@ std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) 
     if (built && built->state.version != state.version && !gave_up) {
         gave_up = true;
         built.reset();
+    } else if (built && built->state.scene != state.scene) {
+        built.reset();
     }
     if (!built) {
         built = std::make_shared<BegunFrame>(BegunFrame{id, {}, state, now});
@@ -108,8 +110,10 @@ void Viewer::noteBegun(const BegunFrame& frame, TimePoint now) {
 }
 
 bool Viewer::hasRoom() const {
+    const bool has_source =
+        source == nullptr || (source_scene == state.scene ? source->canBegin() : under_way == 0);
     return started < granted && under_way + pipeline->size() < FramePipeline::kCapacity &&
-           (source == nullptr || source->canBegin());
+           has_source;
 }
 
 bool Viewer::waitsInVain() const {

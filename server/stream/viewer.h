@@ -44,7 +44,8 @@ struct Viewer {
 
     std::weak_ptr<session::FrameSink> sink;
     std::shared_ptr<FramePipeline> pipeline;
-    std::unique_ptr<ViewSource> source; // made with the first frame
+    session::SharedContext source_scene; // which `source` is of, and stays for
+    std::unique_ptr<ViewSource> source;  // made with the first frame of a scene
     session::SessionState state;
     TimePoint arrived{};
     std::optional<session::SessionState> submitted; // what the device was last given

@@ -1,5 +1,7 @@
 #include "support/fake_frame_source.h"
 
+#include "scene/scene.h"
+
 #include <algorithm>
 #include <deque>
 #include <utility>
@@ -213,13 +215,68 @@ class FakeView final : public stream::ViewSource {
     uint32_t noise_ = 1;
 };
 
+class FakeScene final : public stream::SceneSource {
+  public:
+    FakeScene(std::shared_ptr<FakeDevice> device, std::string name)
+        : device_(std::move(device)), name_(std::move(name)), bytes_(device_->scene_bytes) {
+        ++device_->live_scenes;
+    }
+    FakeScene(const FakeScene&) = delete;
+    FakeScene& operator=(const FakeScene&) = delete;
+    ~FakeScene() override { --device_->live_scenes; }
+    [[nodiscard]] Result<std::unique_ptr<stream::ViewSource>> makeView() override {
+        device_->addView(name_);
+        return std::unique_ptr<stream::ViewSource>(std::make_unique<FakeView>(device_));
+    }
+    [[nodiscard]] uint64_t bytes() const override { return bytes_; }
+
+  private:
+    const std::shared_ptr<FakeDevice> device_;
+    const std::string name_;
+    const uint64_t bytes_;
+};
+
+class FakeMove final : public stream::SceneMove {
+  public:
+    FakeMove(std::shared_ptr<FakeDevice> device, std::string name)
+        : device_(std::move(device)), name_(std::move(name)) {
+        ++device_->live_moves;
+    }
+    FakeMove(const FakeMove&) = delete;
+    FakeMove& operator=(const FakeMove&) = delete;
+    ~FakeMove() override { --device_->live_moves; }
+    [[nodiscard]] Result<std::unique_ptr<stream::SceneSource>> advance() override {
+        if (device_->lost) {
+            return Error{ErrorCode::kDevice, "the fake device was lost"};
+        }
+        return ++done_ < device_->slice_count ? std::unique_ptr<stream::SceneSource>()
+                                              : std::make_unique<FakeScene>(device_, name_);
+    }
+    [[nodiscard]] double fraction() const override {
+        return static_cast<double>(done_) / device_->slice_count;
+    }
+
+  private:
+    const std::shared_ptr<FakeDevice> device_;
+    const std::string name_;
+    uint32_t done_ = 0;
+};
+
 class FakeSource final : public stream::FrameSource {
   public:
     explicit FakeSource(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {}
     [[nodiscard]] uint32_t depth() const override { return device_->depth; }
     [[nodiscard]] bool isHost() const override { return false; }
     [[nodiscard]] Result<std::unique_ptr<stream::ViewSource>> makeView() override {
+        device_->addView("");
         return std::unique_ptr<stream::ViewSource>(std::make_unique<FakeView>(device_));
+    }
+    [[nodiscard]] uint64_t sceneBytes(const scene::Scene& /*scene*/) const override {
+        return device_->scene_bytes;
+    }
+    [[nodiscard]] Result<std::unique_ptr<stream::SceneMove>>
+    moveScene(std::shared_ptr<const scene::Scene> scene) override {
+        return std::unique_ptr<stream::SceneMove>(std::make_unique<FakeMove>(device_, scene->name));
     }
 
   private:
@@ -227,6 +284,16 @@ class FakeSource final : public stream::FrameSource {
 };
 
 } // namespace
+
+void FakeDevice::addView(const std::string& scene) {
+    const std::lock_guard lock(mutex_);
+    views_.push_back(scene);
+}
+
+std::vector<std::string> FakeDevice::views() {
+    const std::lock_guard lock(mutex_);
+    return views_;
+}
 
 std::unique_ptr<stream::FrameSource> makeFakeSource(std::shared_ptr<FakeDevice> device) {
     return std::make_unique<FakeSource>(std::move(device));

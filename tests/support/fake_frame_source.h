@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace froxel::test {
@@ -42,6 +43,11 @@ class FakeDevice {
     std::atomic<int> live_views = 0;
     std::atomic<int> made_views = 0;
     std::atomic<int> live_leases = 0;
+    // Of scenes that are moved here.
+    std::atomic<uint32_t> slice_count = 1; // calls that the move takes
+    std::atomic<uint64_t> scene_bytes = 0; // each
+    std::atomic<int> live_scenes = 0;
+    std::atomic<int> live_moves = 0;
 
     // While closed, collect() waits: the device is busy.
     void setGate(bool open);
@@ -51,6 +57,9 @@ class FakeDevice {
     // The sizes of whole frames, in the order in which they were done.
     void addDone(settings::Size size);
     [[nodiscard]] std::vector<settings::Size> done();
+    // The scenes of views, in the order in which these were made; "": the first one.
+    void addView(const std::string& scene);
+    [[nodiscard]] std::vector<std::string> views();
     // The settings of frames, in the order in which they began.
     void addBegun(const settings::ViewSettings& settings);
     [[nodiscard]] std::vector<settings::ViewSettings> begun();
@@ -61,6 +70,7 @@ class FakeDevice {
     bool open_ = true;
     std::vector<settings::Size> done_;
     std::vector<settings::ViewSettings> begun_;
+    std::vector<std::string> views_;
 };
 
 [[nodiscard]] std::unique_ptr<stream::FrameSource>

@@ -142,10 +142,11 @@ TEST(Scripts, Storm_SaysEverySetting_AllAccepted) {
     std::set<std::string> all;
     listFields(*v1::ClientMessage::descriptor(), "", all);
     std::erase_if(all, [&](const std::string& field) { return said.contains(field); });
-    // What the viewer says itself, what is about rooms and pausing, and what is refused where no
-    // such light is.
+    // What the viewer says itself, what is about rooms and pausing, and what is refused where there
+    // is no such light or scene.
     const auto others = testing::MatchesRegex("(seq|client_time_us|ack.*|hello.*|give_control.*|"
-                                              "pause.*|pick_light.*|set_placed_lights.remove)");
+                                              "pause.*|pick_light.*|select_scene.scene|"
+                                              "set_placed_lights.remove)");
     EXPECT_THAT(all, testing::Each(others));
 }
 

@@ -29,7 +29,7 @@ std::vector<uint64_t> takeAll(Outbox& outbox) {
 }
 
 TEST(Outbox, Next_Empty_IsNothing) {
-    EXPECT_EQ(Outbox().next(true, true, true), Outbox::Next::kNothing);
+    EXPECT_EQ(Outbox().next({}), Outbox::Next::kNothing);
 }
 
 TEST(Outbox, PutFrame_OneWaits_IsReplacedAndCounted) {
@@ -45,8 +45,8 @@ TEST(Outbox, PutFrame_OneWaits_IsReplacedAndCounted) {
 TEST(Outbox, Next_FrameNotAllowed_StaysInItsSlot) {
     Outbox outbox;
     (void)outbox.putFrame(frame(1));
-    EXPECT_EQ(outbox.next(true, true, false), Outbox::Next::kNothing);
-    EXPECT_EQ(outbox.next(true, true, true), Outbox::Next::kFrame);
+    EXPECT_EQ(outbox.next({.frame = false}), Outbox::Next::kNothing);
+    EXPECT_EQ(outbox.next({}), Outbox::Next::kFrame);
 }
 
 TEST(Outbox, PutAnswer_QueueFull_IsRefused) {
@@ -63,20 +63,20 @@ TEST(Outbox, Next_AnswerWaits_ComesFirst) {
     (void)outbox.putFrame(frame(1));
     outbox.putState();
     ASSERT_TRUE(outbox.putAnswer({"answer", nullptr, {}}));
-    EXPECT_EQ(outbox.next(true, true, true), Outbox::Next::kAnswer);
+    EXPECT_EQ(outbox.next({}), Outbox::Next::kAnswer);
 }
 
 TEST(Outbox, Next_StateNotAllowed_LeavesTheWayToFrames) {
     Outbox outbox;
     outbox.putState();
     (void)outbox.putFrame(frame(1));
-    EXPECT_EQ(outbox.next(true, true, true), Outbox::Next::kState);
-    EXPECT_EQ(outbox.next(true, false, true), Outbox::Next::kFrame);
-    EXPECT_EQ(outbox.next(true, false, false), Outbox::Next::kNothing);
+    EXPECT_EQ(outbox.next({}), Outbox::Next::kState);
+    EXPECT_EQ(outbox.next({.state = false}), Outbox::Next::kFrame);
+    EXPECT_EQ(outbox.next({.state = false, .frame = false}), Outbox::Next::kNothing);
     EXPECT_TRUE(outbox.hasState());
     outbox.takeState();
     EXPECT_FALSE(outbox.hasState());
-    EXPECT_EQ(outbox.next(true, true, true), Outbox::Next::kFrame);
+    EXPECT_EQ(outbox.next({}), Outbox::Next::kFrame);
 }
 
 TEST(Outbox, KeepAnswersOnly_Closing_LeavesNothingElse) {
@@ -86,7 +86,7 @@ TEST(Outbox, KeepAnswersOnly_Closing_LeavesNothingElse) {
     ASSERT_TRUE(outbox.putAnswer({"last words", nullptr, {}}));
     outbox.keepAnswersOnly();
     EXPECT_EQ(outbox.takeAnswer().head, "last words");
-    EXPECT_EQ(outbox.next(true, true, true), Outbox::Next::kNothing);
+    EXPECT_EQ(outbox.next({}), Outbox::Next::kNothing);
 }
 
 TEST(Outbox, Video_WaitsInItsOrder) {

@@ -1,0 +1,41 @@
+// Where sessions ask for scenes, and whoever keeps them on the device, without knowing each other.
+// Everything here may be called on any thread and never waits for a file or a device.
+#pragma once
+
+#include "core/error.h"
+#include "session/session_context.h"
+
+#include <memory>
+#include <string>
+
+namespace froxel::session {
+
+// While anybody holds it, its scene stays on the device.
+using SharedContext = std::shared_ptr<const SessionContext>;
+
+struct SceneProgress {
+    std::string stage;   // for a person
+    double fraction = 0; // 0..1
+};
+
+// Who asked for a scene that was not there. Called without any lock of the port's.
+class SceneWaiter {
+  public:
+    virtual ~SceneWaiter() = default;
+    virtual void onSceneProgress(const std::string& id, const SceneProgress& progress) = 0;
+    // It is there, or why it is not; nothing more comes of it.
+    virtual void onScene(const std::string& id, Result<SharedContext> scene) = 0;
+};
+
+class ScenePort {
+  public:
+    virtual ~ScenePort() = default;
+    // Null: it is being loaded, and the waiter hears of it. Errors: kInvalidArgument, where no such
+    // scene is offered; kCapacity.
+    [[nodiscard]] virtual Result<SharedContext>
+    want(const std::string& id, const std::shared_ptr<SceneWaiter>& waiter) = 0;
+    // The waiter does not want it any more; what nobody waits for is not loaded.
+    virtual void dismiss(const std::string& id, const SceneWaiter& waiter) = 0;
+};
+
+} // namespace froxel::session

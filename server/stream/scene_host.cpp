@@ -1,0 +1,374 @@
+#include "stream/scene_host.h"
+
+#include "core/keep_for_good.h"
+#include "core/text.h"
+#include "core/thread_name.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <unistd.h>
+#include <utility>
+
+namespace froxel::stream {
+
+using session::SceneProgress;
+using session::SceneWaiter;
+using session::SharedContext;
+
+namespace {
+
+// Of the thread that reads, and of those that it starts: a tenth of the weight of others'.
+constexpr int kNiceness = 10;
+
+// The device is asked so often whether it is done with a slice.
+constexpr std::chrono::milliseconds kPoll{1};
+
+// What reading takes of the whole, for progress.
+constexpr double kReadPart = 0.5;
+
+uint64_t mib(uint64_t bytes) {
+    return (bytes >> 20U) + 1;
+}
+
+} // namespace
+
+SceneHost::SceneHost(SceneHostOptions options)
+    : options_(std::move(options)), thread_([this](const std::stop_token& stop) {
+          nameThread("scenes");
+          (void)nice(kNiceness); // of this thread alone, on Linux
+          run(stop);
+      }) {}
+
+SceneHost::~SceneHost() {
+    end();
+}
+
+Result<SharedContext> SceneHost::want(const std::string& id,
+                                      const std::shared_ptr<SceneWaiter>& waiter) {
+    const std::lock_guard lock(mutex_);
+    if (first_ && id == first_->scene_id) {
+        return first_;
+    }
+    const auto version = options_.offers(id);
+    if (!version) {
+        return Error{ErrorCode::kInvalidArgument,
+                     "is \"" + printable(id) + "\", which is no scene of this server"};
+    }
+    for (auto& [number, resident] : residents_) {
+        if (resident.id == id && resident.version == *version) {
+            resident.asked_at = Clock::now();
+            return resident.context;
+        }
+    }
+    if (device_ == nullptr) {
+        return Error{ErrorCode::kCapacity, "no scene is loaded any more: the server ends"};
+    }
+    auto [coming, is_new] = coming_.try_emplace(id);
+    if (is_new) {
+        coming->second.version = *version;
+        coming->second.begun_at = Clock::now();
+        queue_.push_back(id);
+        queued_.notify_one();
+    }
+    coming->second.waiters.push_back(waiter);
+    return SharedContext();
+}
+
+void SceneHost::dismiss(const std::string& id, const SceneWaiter& waiter) {
+    const std::lock_guard lock(mutex_);
+    const auto coming = coming_.find(id);
+    if (coming == coming_.end()) {
+        return;
+    }
+    std::erase_if(coming->second.waiters,
+                  [&](const auto& other) { return other.lock().get() == &waiter; });
+    wake_(); // where nobody waits for it any more, what was moved of it goes
+}
+
+SceneHost::Standing SceneHost::standing() const {
+    const std::lock_guard lock(mutex_);
+    Standing standing = counts_;
+    standing.resident = static_cast<uint32_t>(residents_.size()) + (first_ ? 1U : 0U);
+    standing.coming = static_cast<uint32_t>(coming_.size());
+    standing.bytes = bytesTaken();
+    return standing;
+}
+
+void SceneHost::begin(FrameSource& device,
+                      SharedContext first,
+                      uint64_t scene_bytes,
+                      std::function<void()> wake) {
+    const std::lock_guard lock(mutex_);
+    device_ = &device;
+    first_ = std::move(first);
+    scene_bytes_ = scene_bytes;
+    wake_ = std::move(wake);
+}
+
+SceneSource& SceneHost::sourceOf(const session::SessionContext* scene) {
+    const std::lock_guard lock(mutex_);
+    return scene == nullptr || scene->scene_number == 0
+               ? *device_
+               : *residents_.at(scene->scene_number).source;
+}
+
+void SceneHost::end() {
+    {
+        const std::lock_guard lock(mutex_);
+        device_ = nullptr;
+        queue_.clear();
+    }
+    thread_.request_stop();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+    const std::lock_guard lock(mutex_);
+    coming_.clear();
+    residents_.clear();
+    leaving_.clear();
+}
+
+void SceneHost::run(const std::stop_token& stop) {
+    for (;;) {
+        std::string id;
+        {
+            std::unique_lock lock(mutex_);
+            if (!queued_.wait(lock, stop, [this] { return !queue_.empty(); })) {
+                return;
+            }
+            id = std::move(queue_.front());
+            queue_.pop_front();
+            Coming& coming = coming_.at(id);
+            if (present(coming).empty()) {
+                coming_.erase(id);
+                continue;
+            }
+            coming.stage = Stage::kReading;
+        }
+        load(id);
+    }
+}
+
+void SceneHost::load(const std::string& id) {
+    report(id, {"reading the scene", 0.05});
+    try {
+        auto read = options_.read(id);
+        auto prepared = read ? prepare(id, std::move(*read)) : Result<void>(read.error());
+        if (!prepared) {
+            finish(id, prepared.error());
+        }
+    } catch (const StartupError& error) {
+        finish(id, Error{error.code(), error.what()});
+    } catch (const std::exception& error) {
+        finish(id,
+               Error{ErrorCode::kCapacity, std::string("it could not be loaded: ") + error.what()});
+    }
+}
+
+Result<void> SceneHost::prepare(const std::string& id, ReadScene read) {
+    FrameSource* device = nullptr;
+    uint64_t bytes = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        Coming& coming = coming_.at(id);
+        if (device_ == nullptr || present(coming).empty()) {
+            coming_.erase(id);
+            return {};
+        }
+        device = device_;
+        bytes = device->sceneBytes(*read.scene);
+        if (auto room = makeRoom(bytes, read.context.scene.name); !room) {
+            return room;
+        }
+        coming.bytes = bytes;
+        read.context.scene_id = id;
+        read.context.scene_number = ++last_number_;
+    }
+    report(id, {"moving the scene to the device", kReadPart});
+    auto move = device->moveScene(std::move(read.scene));
+    if (!move) {
+        return move.error();
+    }
+    const std::lock_guard lock(mutex_);
+    Coming& coming = coming_.at(id);
+    coming.move = std::move(*move);
+    coming.context = std::make_shared<const session::SessionContext>(std::move(read.context));
+    coming.stage = Stage::kMoving;
+    wake_();
+    return {};
+}
+
+uint64_t SceneHost::bytesTaken() const {
+    uint64_t bytes = 0;
+    for (const auto& [number, resident] : residents_) {
+        bytes += resident.source->bytes();
+    }
+    for (const auto& [id, coming] : coming_) {
+        bytes += coming.bytes;
+    }
+    return bytes;
+}
+
+// The table's own reference is the only one: new ones are made under the lock alone, or of others.
+bool SceneHost::isHeld(const Resident& resident) {
+    return resident.context.use_count() > 1;
+}
+
+Result<void> SceneHost::makeRoom(uint64_t bytes, const std::string& name) {
+    uint64_t free_bytes = 0;
+    for (const auto& [number, resident] : residents_) {
+        free_bytes += isHeld(resident) ? 0 : resident.source->bytes();
+    }
+    uint64_t taken = bytesTaken();
+    const uint64_t held = taken - free_bytes;
+    if (bytes > scene_bytes_ || held > scene_bytes_ - bytes) {
+        return Error{ErrorCode::kCapacity,
+                     fmt::format("{} takes {} MiB of the device's memory; {} MiB of the {} that "
+                                 "scenes have here are in use",
+                                 printable(name), mib(bytes), held >> 20U, scene_bytes_ >> 20U)};
+    }
+    while (taken > scene_bytes_ - bytes) {
+        auto oldest = residents_.end();
+        for (auto resident = residents_.begin(); resident != residents_.end(); ++resident) {
+            if (!isHeld(resident->second) &&
+                (oldest == residents_.end() ||
+                 resident->second.asked_at < oldest->second.asked_at)) {
+                oldest = resident;
+            }
+        }
+        taken -= oldest->second.source->bytes();
+        spdlog::info("event=scene_left scene={} bytes={}",
+                     logValue(oldest->second.context->scene.name), oldest->second.source->bytes());
+        ++counts_.evicted_total;
+        leaving_.push_back(std::move(oldest->second.source));
+        residents_.erase(oldest);
+    }
+    wake_();
+    return {};
+}
+
+SceneHost::Waiters SceneHost::present(const Coming& coming) {
+    Waiters waiters;
+    for (const auto& waiter : coming.waiters) {
+        if (auto here = waiter.lock()) {
+            waiters.push_back(std::move(here));
+        }
+    }
+    return waiters;
+}
+
+void SceneHost::report(const std::string& id, const SceneProgress& progress) {
+    Waiters waiters;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto coming = coming_.find(id);
+        if (coming == coming_.end()) {
+            return;
+        }
+        coming->second.progress = progress;
+        waiters = present(coming->second);
+    }
+    for (const auto& waiter : waiters) {
+        waiter->onSceneProgress(id, progress);
+    }
+}
+
+void SceneHost::finish(const std::string& id, Result<SharedContext> outcome) {
+    Waiters waiters;
+    Seconds took{0};
+    {
+        const std::lock_guard lock(mutex_);
+        const auto coming = coming_.find(id);
+        if (coming == coming_.end()) {
+            return;
+        }
+        waiters = present(coming->second);
+        took = Clock::now() - coming->second.begun_at;
+        coming_.erase(coming);
+        if (outcome) {
+            ++counts_.loaded_total;
+        } else if (outcome.error().code == ErrorCode::kCapacity) {
+            ++counts_.refused_total;
+        } else {
+            ++counts_.failed_total;
+        }
+    }
+    if (outcome) {
+        spdlog::info("event=scene_loaded scene={} triangles={} seconds={:.2f}",
+                     logValue((*outcome)->scene.name), (*outcome)->scene.triangle_count,
+                     took.count());
+    } else {
+        spdlog::warn("event=scene_not_loaded scene={} seconds={:.2f} reason={}", logValue(id),
+                     took.count(), logValue(outcome.error().message, 400));
+    }
+    for (size_t i = 0; i < waiters.size(); ++i) { // nothing here holds it when the last one has it
+        const bool last = i + 1 == waiters.size();
+        waiters[i]->onScene(id, last ? std::move(outcome) : outcome);
+    }
+}
+
+std::optional<TimePoint> SceneHost::work(TimePoint now) {
+    std::unique_ptr<SceneSource> leaving; // ends outside of the lock
+    std::unique_ptr<SceneMove> given_up;
+    std::string id;
+    SceneMove* move = nullptr;
+    {
+        const std::lock_guard lock(mutex_);
+        if (!leaving_.empty()) {
+            leaving = std::move(leaving_.back());
+            leaving_.pop_back();
+        }
+        for (auto coming = coming_.begin(); coming != coming_.end(); ++coming) {
+            if (coming->second.stage != Stage::kMoving) {
+                continue;
+            }
+            if (present(coming->second).empty()) {
+                given_up = std::move(coming->second.move);
+                coming_.erase(coming);
+            } else {
+                id = coming->first;
+                move = coming->second.move.get();
+            }
+            break;
+        }
+        if (!leaving && !given_up && move == nullptr) {
+            return {};
+        }
+    }
+    if (move != nullptr) {
+        advance(id, *move);
+    }
+    return now + kPoll;
+}
+
+// The move is the render thread's alone until it is done.
+void SceneHost::advance(const std::string& id, SceneMove& move) {
+    const double before = move.fraction();
+    auto source = move.advance();
+    if (!source) {
+        throw StartupError(source.error());
+    }
+    if (*source) {
+        settle(id, std::move(*source));
+    } else if (move.fraction() != before) {
+        report(id,
+               {"moving the scene to the device", kReadPart + (1 - kReadPart) * move.fraction()});
+    }
+}
+
+void SceneHost::settle(const std::string& id, std::unique_ptr<SceneSource> source) {
+    SharedContext context;
+    {
+        const std::lock_guard lock(mutex_);
+        Coming& coming = coming_.at(id);
+        context = std::move(coming.context);
+        coming.bytes = 0;
+        residents_[context->scene_number] = {id, coming.version, context, std::move(source),
+                                             Clock::now()};
+    }
+    finish(id, std::move(context));
+}
+
+} // namespace froxel::stream

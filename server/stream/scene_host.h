@@ -1,0 +1,129 @@
+// The scenes of a server: those on the device, which all sessions share that show them, and those
+// on their way to it.
+//
+// One at a time is read on a thread of low priority and moved to the device in slices, between
+// others' frames. Where memory is short, scenes leave that nobody holds, the one asked for longest
+// ago first; the scene that the server began with stays.
+#pragma once
+
+#include "core/clock.h"
+#include "session/scene_port.h"
+#include "stream/frame_source.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace froxel::stream {
+
+// What a scene's file gave.
+struct ReadScene {
+    std::shared_ptr<const scene::Scene> scene;
+    session::SessionContext context;
+};
+
+struct SceneHostOptions {
+    // The version of a scene that is offered by this name, another one where its file is another;
+    // none: there is none. Any thread.
+    std::function<std::optional<uint64_t>(const std::string& id)> offers =
+        [](const std::string& /*id*/) -> std::optional<uint64_t> { return {}; };
+    // Reads one; on the host's own thread. Errors: one line for a person. May throw StartupError.
+    std::function<Result<ReadScene>(const std::string& id)> read;
+};
+
+class SceneHost final : public session::ScenePort {
+  public:
+    explicit SceneHost(SceneHostOptions options);
+    ~SceneHost() override;
+    SceneHost(const SceneHost&) = delete;
+    SceneHost& operator=(const SceneHost&) = delete;
+
+    [[nodiscard]] Result<session::SharedContext>
+    want(const std::string& id, const std::shared_ptr<session::SceneWaiter>& waiter) override;
+    void dismiss(const std::string& id, const session::SceneWaiter& waiter) override;
+
+    struct Standing {
+        uint32_t resident = 0; // on the device, the first included
+        uint32_t coming = 0;   // waited for
+        uint64_t bytes = 0;    // of the device's memory, but for the first
+        uint64_t loaded_total = 0;
+        uint64_t failed_total = 0;
+        uint64_t refused_total = 0; // for want of memory
+        uint64_t evicted_total = 0;
+    };
+    [[nodiscard]] Standing standing() const; // any thread
+
+    // Render thread. The device and its first scene are there. Scenes beside that may take so many
+    // bytes of the device's memory together. `wake` has work() called soon.
+    void begin(FrameSource& device,
+               session::SharedContext first,
+               uint64_t scene_bytes,
+               std::function<void()> wake);
+    // Does a slice of what is to be done; when more is to be, none: wake() tells. Throws
+    // StartupError where the device was lost.
+    [[nodiscard]] std::optional<TimePoint> work(TimePoint now);
+    // Of the scene that a state holds; null: the first one.
+    [[nodiscard]] SceneSource& sourceOf(const session::SessionContext* scene);
+    // The device goes, and with it all that is there, which nobody draws any more.
+    void end();
+
+  private:
+    struct Resident {
+        std::string id;
+        uint64_t version = 0;
+        session::SharedContext context;
+        std::unique_ptr<SceneSource> source;
+        TimePoint asked_at{};
+    };
+    enum class Stage : uint8_t { kQueued, kReading, kMoving };
+    struct Coming {
+        Stage stage = Stage::kQueued;
+        uint64_t version = 0;
+        std::vector<std::weak_ptr<session::SceneWaiter>> waiters;
+        session::SceneProgress progress{"waiting for its turn", 0};
+        // From kMoving on; the render thread's.
+        std::unique_ptr<SceneMove> move;
+        session::SharedContext context;
+        uint64_t bytes = 0; // that it will take
+        TimePoint begun_at{};
+    };
+    using Waiters = std::vector<std::shared_ptr<session::SceneWaiter>>;
+
+    void run(const std::stop_token& stop);
+    void load(const std::string& id);
+    [[nodiscard]] Result<void> prepare(const std::string& id, ReadScene read);
+    // Under the lock: has scenes leave for so many more bytes. Errors: kCapacity.
+    [[nodiscard]] Result<void> makeRoom(uint64_t bytes, const std::string& name);
+    [[nodiscard]] uint64_t bytesTaken() const;
+    [[nodiscard]] static bool isHeld(const Resident& resident);
+    [[nodiscard]] static Waiters present(const Coming& coming);
+    void report(const std::string& id, const session::SceneProgress& progress);
+    void finish(const std::string& id, Result<session::SharedContext> outcome);
+    void advance(const std::string& id, SceneMove& move);
+    void settle(const std::string& id, std::unique_ptr<SceneSource> source);
+
+    const SceneHostOptions options_;
+    mutable std::mutex mutex_;
+    std::condition_variable_any queued_;
+    std::deque<std::string> queue_;
+    std::map<std::string, Coming> coming_;              // by id
+    std::map<uint64_t, Resident> residents_;            // by SessionContext::scene_number
+    std::vector<std::unique_ptr<SceneSource>> leaving_; // which the render thread ends
+    Standing counts_;
+    uint64_t last_number_ = 0;
+    FrameSource* device_ = nullptr;
+    uint64_t scene_bytes_ = 0;
+    session::SharedContext first_;
+    std::function<void()> wake_ = [] {};
+    std::jthread thread_; // last: ends before what it uses
+};
+
+} // namespace froxel::stream

@@ -1,0 +1,316 @@
+#include "render_loop_fixture.h"
+#include "scene/scene.h"
+#include "stream/scene_host.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <gmock/gmock.h>
+#include <mutex>
+
+namespace froxel::stream {
+namespace {
+
+using session::SceneProgress;
+using session::SharedContext;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// A session that keeps what it hears.
+class Waiter final : public session::SceneWaiter {
+  public:
+    void onSceneProgress(const std::string& /*id*/, const SceneProgress& progress) override {
+        const std::lock_guard lock(mutex_);
+        fractions_.push_back(progress.fraction);
+    }
+    void onScene(const std::string& /*id*/, Result<SharedContext> scene) override {
+        const std::lock_guard lock(mutex_);
+        outcome_ = std::move(scene);
+        heard_.notify_all();
+    }
+    // Null where nothing came within 10 s.
+    [[nodiscard]] std::optional<Result<SharedContext>> outcome() {
+        std::unique_lock lock(mutex_);
+        heard_.wait_for(lock, std::chrono::seconds(10), [this] { return outcome_.has_value(); });
+        return std::exchange(outcome_, std::nullopt);
+    }
+    [[nodiscard]] bool heard() {
+        const std::lock_guard lock(mutex_);
+        return outcome_.has_value();
+    }
+    [[nodiscard]] std::vector<double> fractions() {
+        const std::lock_guard lock(mutex_);
+        return fractions_;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable heard_;
+    std::optional<Result<SharedContext>> outcome_;
+    std::vector<double> fractions_;
+};
+
+// A render loop over a fake device that begins with the scene "first" and is offered "a" to "e".
+class SceneHostTest : public RenderLoopTest {
+  protected:
+    void begin(uint64_t scene_bytes = 1000) {
+        SceneHostOptions options;
+        options.offers = [this](const std::string& id) -> std::optional<uint64_t> {
+            return id.size() == 1 && id >= "a" && id <= "e" ? std::optional(version_.load())
+                                                            : std::nullopt;
+        };
+        options.read = [this](const std::string& id) -> Result<ReadScene> {
+            passReading();
+            ++read_count_;
+            if (id == "e") {
+                return Error{ErrorCode::kScene, "e.glb is no glTF"};
+            }
+            auto scene = std::make_shared<scene::Scene>();
+            scene->name = id;
+            session::SessionContext context;
+            context.scene.name = id;
+            return ReadScene{std::move(scene), std::move(context)};
+        };
+        host_ = std::make_shared<SceneHost>(std::move(options));
+        RenderLoopOptions loop;
+        loop.min_frame_interval = Seconds(0);
+        loop.fates = fates_;
+        loop.scenes = host_;
+        loop.make_source = [this, scene_bytes] {
+            auto source = test::makeFakeSource(device_);
+            session::SessionContext context;
+            context.scene_id = "first";
+            first_ = std::make_shared<const session::SessionContext>(std::move(context));
+            host_->begin(*source, first_, scene_bytes, [this] { loop_->wake(); });
+            begun_.set_value();
+            return source;
+        };
+        loop.on_failure = [this](const Error& error) { failure_.set_value(error); };
+        loop_ = std::make_unique<RenderLoop>(pool_, std::move(loop));
+        begun_.get_future().wait();
+    }
+    ~SceneHostTest() override {
+        setReading(true);
+        if (loop_) {
+            loop_->stop();
+        }
+    }
+    // While closed, files are not read.
+    void setReading(bool open) {
+        const std::lock_guard lock(gate_mutex_);
+        gate_open_ = open;
+        gate_.notify_all();
+    }
+    void passReading() {
+        std::unique_lock lock(gate_mutex_);
+        gate_.wait(lock, [this] { return gate_open_; });
+    }
+    // Null and a failure of the test where it does not come.
+    SharedContext load(const std::string& id) {
+        const auto waiter = std::make_shared<Waiter>();
+        const auto there = host_->want(id, waiter);
+        EXPECT_TRUE(there) << there.error().message;
+        if (there && *there) {
+            return *there;
+        }
+        const auto outcome = waiter->outcome();
+        EXPECT_TRUE(outcome && *outcome);
+        return outcome && *outcome ? **outcome : nullptr;
+    }
+    session::SessionState stateOn(const SharedContext& scene) {
+        auto state = still();
+        state.scene = scene;
+        state.version = ++state_version_;
+        return state;
+    }
+    // Until the render thread has done what it was woken for.
+    template <class Condition>
+    static bool comes(const Condition& condition) {
+        const auto end = Clock::now() + std::chrono::seconds(10);
+        while (!condition() && Clock::now() < end) {
+            std::this_thread::yield();
+        }
+        return condition();
+    }
+
+    std::atomic<uint64_t> version_ = 1;
+    std::atomic<int> read_count_ = 0;
+    std::mutex gate_mutex_;
+    std::condition_variable gate_;
+    bool gate_open_ = true;
+    uint64_t state_version_ = 100;
+    SharedContext first_;
+    std::promise<void> begun_;
+    std::shared_ptr<SceneHost> host_;
+};
+
+TEST_F(SceneHostTest, WantedScene_IsReadMovedAndDrawn) {
+    device_->slice_count = 5;
+    begin();
+    const auto sink = makeSink();
+    const auto id = join(sink, stateOn(first_), kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    const auto waiter = std::make_shared<Waiter>();
+    const auto there = host_->want("a", waiter);
+    ASSERT_TRUE(there);
+    EXPECT_EQ(*there, nullptr);
+    const auto outcome = waiter->outcome();
+    ASSERT_TRUE(outcome && *outcome);
+    EXPECT_EQ((**outcome)->scene.name, "a");
+    const auto fractions = waiter->fractions();
+    EXPECT_TRUE(std::ranges::is_sorted(fractions));
+    EXPECT_GT(fractions.size(), 3U);
+
+    const auto before = sink->frames().size();
+    loop_->update(id, stateOn(**outcome), Clock::now());
+    ASSERT_TRUE(sink->waitForFrames(before + 1));
+    EXPECT_THAT(device_->views(), ElementsAre("", "a"));
+    EXPECT_TRUE(comes([&] { return device_->live_views == 1; }));
+    loop_->update(id, stateOn(first_), Clock::now());
+    ASSERT_TRUE(sink->waitForFrames(before + 2));
+    EXPECT_THAT(device_->views(), ElementsAre("", "a", ""));
+}
+
+TEST_F(SceneHostTest, SceneThatIsThere_IsGivenAtOnceAndReadOnce) {
+    begin();
+    const SharedContext a = load("a");
+    EXPECT_EQ(load("a"), a);
+    EXPECT_EQ(load("first"), first_);
+    EXPECT_EQ(read_count_, 1);
+    EXPECT_EQ(host_->standing().resident, 2U);
+}
+
+TEST_F(SceneHostTest, TwoWhoWantTheSame_ShareOneLoad) {
+    begin();
+    setReading(false);
+    const auto one = std::make_shared<Waiter>();
+    const auto two = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", one));
+    ASSERT_TRUE(host_->want("a", two));
+    setReading(true);
+    const auto first = one->outcome();
+    const auto second = two->outcome();
+    ASSERT_TRUE(first && second && *first && *second);
+    EXPECT_EQ(**first, **second);
+    EXPECT_EQ(read_count_, 1);
+}
+
+TEST_F(SceneHostTest, UnknownScene_IsRefused) {
+    begin();
+    const auto refused = host_->want("zz\n", std::make_shared<Waiter>());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+    EXPECT_EQ(refused.error().message, "is \"zz\\x0a\", which is no scene of this server");
+}
+
+TEST_F(SceneHostTest, FileThatCannotBeRead_IsToldInOneLineAndMayBeTriedAgain) {
+    begin();
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        const auto waiter = std::make_shared<Waiter>();
+        ASSERT_TRUE(host_->want("e", waiter));
+        const auto outcome = waiter->outcome();
+        ASSERT_TRUE(outcome);
+        ASSERT_FALSE(*outcome);
+        EXPECT_EQ(outcome->error().message, "e.glb is no glTF");
+    }
+    EXPECT_EQ(host_->standing().failed_total, 2U);
+    EXPECT_TRUE(load("a"));
+}
+
+TEST_F(SceneHostTest, NobodyLooksAt_LeavesForOthersOldestFirst) {
+    device_->scene_bytes = 400;
+    begin(1000);
+    SharedContext a = load("a");
+    load("b");
+    load("a"); // asked for after b
+    EXPECT_EQ(host_->standing().bytes, 800U);
+    load("c");
+    EXPECT_TRUE(comes([&] { return device_->live_scenes == 2; }));
+    EXPECT_EQ(host_->standing().evicted_total, 1U);
+    EXPECT_EQ(load("a"), a);
+    EXPECT_EQ(read_count_, 3);
+}
+
+TEST_F(SceneHostTest, SceneOfASession_NeverLeaves) {
+    device_->scene_bytes = 400;
+    begin(1000);
+    const auto sink = makeSink();
+    const auto id = join(sink, stateOn(load("a")), kPlenty);
+    ASSERT_TRUE(sink->waitForFrames(1));
+    for (const char* other : {"b", "c", "d", "b", "c"}) {
+        load(other);
+    }
+    const auto begun = device_->begun_count.load();
+    loop_->update(id, stateOn(load("a")), Clock::now());
+    EXPECT_TRUE(comes([&] { return device_->begun_count > begun; }));
+    EXPECT_THAT(device_->views(), ElementsAre("a"));
+}
+
+TEST_F(SceneHostTest, ScenesInUseFillTheMemory_OneMoreIsRefusedWithFigures) {
+    device_->scene_bytes = uint64_t{400} << 20U;
+    begin(uint64_t{1000} << 20U);
+    const SharedContext a = load("a");
+    const SharedContext b = load("b");
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("c", waiter));
+    const auto outcome = waiter->outcome();
+    ASSERT_TRUE(outcome);
+    ASSERT_FALSE(*outcome);
+    EXPECT_EQ(outcome->error().code, ErrorCode::kCapacity);
+    EXPECT_THAT(outcome->error().message,
+                HasSubstr("c takes 401 MiB of the device's memory; 800 MiB of the 1000"));
+    EXPECT_EQ(host_->standing().refused_total, 1U);
+    EXPECT_EQ(host_->standing().resident, 3U); // none had to leave for nothing
+}
+
+TEST_F(SceneHostTest, NobodyWaitsAnyMore_IsNotLoaded) {
+    begin();
+    setReading(false);
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    auto gone = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("b", gone));
+    host_->dismiss("a", *waiter);
+    gone.reset();
+    setReading(true);
+    EXPECT_TRUE(load("c"));
+    EXPECT_FALSE(waiter->heard());
+    EXPECT_EQ(host_->standing().resident, 2U);
+    EXPECT_EQ(host_->standing().coming, 0U);
+    EXPECT_LE(read_count_, 2); // a may have been under way
+}
+
+TEST_F(SceneHostTest, DismissedOnItsWay_LeavesTheDevice) {
+    device_->slice_count = UINT32_MAX;
+    begin();
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    ASSERT_TRUE(comes([&] { return device_->live_moves == 1; }));
+    host_->dismiss("a", *waiter);
+    EXPECT_TRUE(comes([&] { return device_->live_moves == 0; }));
+    EXPECT_EQ(host_->standing().coming, 0U);
+    EXPECT_FALSE(waiter->heard());
+}
+
+TEST_F(SceneHostTest, ChangedFile_IsReadAnewAndTheOldOneStaysForWhoHasIt) {
+    begin();
+    const SharedContext before = load("a");
+    version_ = 2;
+    const SharedContext after = load("a");
+    EXPECT_NE(after, before);
+    EXPECT_EQ(read_count_, 2);
+    EXPECT_EQ(device_->live_scenes, 2);
+    EXPECT_EQ(load("a"), after);
+}
+
+TEST_F(SceneHostTest, LostDeviceWhileMoving_EndsTheLoop) {
+    device_->slice_count = UINT32_MAX;
+    begin();
+    ASSERT_TRUE(host_->want("a", std::make_shared<Waiter>()));
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    device_->lost = true;
+    EXPECT_EQ(failure_.get_future().get().code, ErrorCode::kDevice);
+}
+
+} // namespace
+} // namespace froxel::stream
