@@ -13,14 +13,14 @@ export interface Pages {
   open(at: string, options?: BrowserContextOptions): Promise<Viewer>;
 }
 
-/** After each test its pages are closed, and none may have complained. */
-export function usePages(): Pages {
+/** After each test its pages are closed, and none may have complained. `options`: of the server. */
+export function usePages(options: readonly string[] = []): Pages {
   let server: Server;
   let browser: Browser;
   let viewers: Viewer[] = [];
 
   beforeAll(async () => {
-    [server, browser] = await Promise.all([startServer(), launch()]);
+    [server, browser] = await Promise.all([startServer(0, options), launch()]);
   });
   afterAll(async () => {
     await browser.close();
@@ -37,8 +37,8 @@ export function usePages(): Pages {
     get url() {
       return server.url;
     },
-    async open(at, options = {}) {
-      const viewer = await Viewer.open(browser, server.url + at, options);
+    async open(at, context = {}) {
+      const viewer = await Viewer.open(browser, server.url + at, context);
       viewers.push(viewer);
       await viewer.picture();
       return viewer;

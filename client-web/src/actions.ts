@@ -7,6 +7,7 @@ export interface Doings {
   readonly search: () => void;
   readonly panel: () => void;
   readonly looks: () => void;
+  readonly scenes: () => void;
   readonly figures: () => void;
   readonly screenshot: () => void;
   readonly copyLink: () => void;
@@ -35,6 +36,7 @@ export function actionsOf(does: Doings): readonly Entry[] {
     action('Search', '/', does.search, 'Finds any action and any setting (Ctrl K too)', 'find command palette'),
     action('Settings', 'c', does.panel, 'Opens or closes the settings', 'panel options controls'),
     action('Looks', 'v', does.looks, 'Shows looks to choose from, and keeps this one', 'preset style mood theme'),
+    action('Scenes', 'g', does.scenes, 'Shows the scenes of this server to choose from', 'gallery models files open'),
     action('Figures', 'f', does.figures, 'Shows where the time of a frame goes', 'statistics passes latency fps'),
     action('Save picture', 'p', does.screenshot, 'Saves the picture as a PNG file', 'screenshot image download'),
     action('Copy link', 'l', does.copyLink, 'Copies a link to this very view', 'share url address'),

@@ -185,6 +185,12 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     this.store.dispatch({ type: 'sent', seq, settings: sent });
   }
 
+  /** The server's id of a scene. The one that is shown calls off one that is on its way. */
+  selectScene(scene: string): void {
+    if (!this.allowed()) return;
+    this.store.dispatch({ type: 'want_scene', scene });
+  }
+
   selectCameraAt(index: number): void {
     const name = this.store.state.server?.scene?.cameras[index];
     if (name !== undefined) this.selectCamera(name);

@@ -6,6 +6,7 @@ import { Banner } from './cards/banner';
 import { Legend } from './cards/legend';
 import type { LooksCard } from './cards/looks_card';
 import { RoomCard } from './cards/room_card';
+import type { ScenesCard } from './cards/scenes_card';
 import type { SearchCard } from './cards/search_card';
 import { TokenPrompt } from './cards/token_prompt';
 import { Commands } from './commands';
@@ -28,6 +29,7 @@ import { Resume, tabShelf } from './protocol/resume';
 import { toVec, type Settings } from './settings/settings';
 import { AddressKeeper } from './state/address_keeper';
 import { mayControl, roomFromAddress } from './state/room';
+import { keepScene } from './state/scene_sync';
 import { SettingsSync } from './state/settings_sync';
 import { pictureLabel } from './state/standing';
 import { Store } from './state/store';
@@ -135,6 +137,7 @@ const banner = new Banner({
     connect: () => connection.open(),
     reload: () => location.reload(),
     dismiss: () => store.dispatch({ type: 'dismiss' }),
+    stay: () => commands.selectScene(store.state.server?.scene?.id ?? ''),
   },
   lagMs: () => (document.hidden ? 0 : stats.lagMs(nowMs())),
   nowMs,
@@ -142,6 +145,7 @@ const banner = new Banner({
 const roomCard = new RoomCard(commands);
 const animationCard = new Later(makeAnimation, partMissing);
 const looksCard = new Later(makeLooks, partMissing);
+const scenesCard = new Later(makeScenes, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
 const legend = new Legend();
 const sceneWarnings = new SceneWarnings();
@@ -150,6 +154,7 @@ const tokenDialog = element('token', HTMLDialogElement);
 
 new WindowSize(store, canvas);
 new SettingsSync(store, connection, nextFrame);
+keepScene(store, connection);
 // Who asked their system for less motion begins with what stands still.
 const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const wishes: Partial<Settings> = still ? { animate: false, animationPlaying: false } : {};
@@ -182,6 +187,7 @@ store.listen(({ server }, before) => {
   if (!server || server === before.server) return;
   const scene = server.scene?.name ?? 'no scene';
   element('scene-name', HTMLElement).textContent = scene;
+  element('tool-scenes', HTMLButtonElement).hidden = !hasScenes();
   const about = `${scene} on ${server.device} · froxel ${server.version}`;
   element('about', HTMLElement).textContent = about;
   sceneWarnings.show(server.scene);
@@ -215,6 +221,23 @@ async function makeAnimation(): Promise<AnimationCard> {
   return new AnimationCard(commands);
 }
 
+async function makeScenes(): Promise<ScenesCard> {
+  const [{ ScenesCard }] = await Promise.all([
+    import('./cards/scenes_card'),
+    import('./style/scenes.css'),
+  ]);
+  return new ScenesCard({
+    selectScene: (id) => commands.selectScene(id),
+    sceneId: () => store.state.server?.scene?.id ?? '',
+    token: () => token.value,
+  });
+}
+
+/** Whether the server has more than the one that is shown. */
+function hasScenes(): boolean {
+  return (store.state.server?.scene?.id ?? '') !== '';
+}
+
 async function makeSearch(): Promise<SearchCard> {
   const { SearchCard } = await import('./cards/search_card');
   return new SearchCard(() => [...keyed(), ...(panel.here?.entries() ?? [])]);
@@ -224,6 +247,7 @@ async function makeSearch(): Promise<SearchCard> {
 function prefetch(): void {
   panel.ahead();
   looksCard.ahead();
+  if (hasScenes()) scenesCard.ahead();
   searchCard.ahead();
   statsCard.prefetch();
   commands.prefetch();
@@ -258,6 +282,10 @@ const doings: Doings = {
   },
   panel: () => void panel.want().then((made) => made?.toggle()),
   looks: () => void looksCard.want().then((card) => card?.toggle()),
+  scenes: () => {
+    if (hasScenes()) void scenesCard.want().then((card) => card?.toggle());
+    else store.dispatch({ type: 'notice', tone: 'info', text: 'This server has one scene.' });
+  },
   figures: () => statsCard.toggle(),
   screenshot: () => void commands.screenshot(),
   copyLink: () => void address.copy(),
@@ -287,6 +315,7 @@ const keyed = (): Entry[] => [
 const tools: readonly (readonly [string, () => void])[] = [
   ['tool-search', doings.search],
   ['tool-panel', doings.panel],
+  ['tool-scenes', doings.scenes],
   ['tool-looks', doings.looks],
   ['tool-screenshot', doings.screenshot],
   ['tool-link', doings.copyLink],

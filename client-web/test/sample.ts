@@ -71,13 +71,13 @@ export const sampleSettings = (change: Change = {}): Settings => ({
   ...change,
 });
 
-export function welcome(scene = 'hall'): MessageInitShape<typeof WelcomeSchema> {
+export function welcome(scene = 'hall', id = ''): MessageInitShape<typeof WelcomeSchema> {
   return {
     protocolMajor: 1,
     sessionId: 7n,
     serverVersion: '0.1',
     device: 'test device',
-    scene: { name: scene, cameras: ['nave', 'gallery'], bounds: kBounds },
+    scene: { name: scene, id, cameras: ['nave', 'gallery'], bounds: kBounds },
     state: viewState(),
     ranges: [{ field: 'lights', min: 0, max: 1_000_000 }],
   };

@@ -180,7 +180,12 @@ void addServe(CLI::App& app, Targets& targets) {
     command
         .text("--scenes", "DIR", options.scenes, "",
               "Folder whose glTF and GLB files viewers may go over to; looked at again on SIGHUP")
-        ->check(CLI::ExistingDirectory);
+        ->check([](const std::string& folder) {
+            std::error_code unknown;
+            return std::filesystem::is_directory(folder, unknown)
+                       ? std::string()
+                       : "'" + printable(folder) + "' is no folder";
+        });
     addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device, options.validation);

@@ -162,6 +162,7 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     }
     run.encoder_count = std::clamp(cores / 2, 1U, 16U);
     run.catalogue = catalogueOf(options);
+    run.server.catalogue = run.catalogue;
     run.open = [options](const auto& report) { return openScene(options, report); };
     return run;
 }

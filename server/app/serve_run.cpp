@@ -100,6 +100,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
         auto context = std::make_shared<const session::SessionContext>(std::move(opened.context));
         if (scenes_) {
             read_other_ = std::move(opened.read_other);
+            server_->metrics().watchScenes([scenes = scenes_] { return scenes->counts(); });
             scenes_->begin(*opened.source, context, opened.scene_bytes, [this] { loop_.wake(); });
         }
         server_->metrics().watchMemory(std::move(opened.memory));

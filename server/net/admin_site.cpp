@@ -4,8 +4,6 @@
 #include "net/health.h"
 #include "session/room.h"
 
-#include <boost/beast/core/string.hpp>
-
 namespace froxel::net {
 
 namespace http = boost::beast::http;
@@ -17,16 +15,6 @@ constexpr std::string_view kTakeControl = "/take-control";
 Response verdict(const Result<void>& well) {
     return well ? textResponse(http::status::ok, "ok")
                 : textResponse(http::status::service_unavailable, well.error().message);
-}
-
-// RFC 6750 section 2.1; empty: none.
-std::string_view bearerToken(const Request& request) {
-    constexpr std::string_view kScheme = "Bearer ";
-    const auto field = request[http::field::authorization];
-    const std::string_view text{field.data(), field.size()};
-    return boost::beast::iequals(text.substr(0, kScheme.size()), kScheme)
-               ? text.substr(kScheme.size())
-               : std::string_view();
 }
 
 } // namespace
@@ -85,11 +73,7 @@ std::optional<Response> AdminSite::refusePost(const Request& request) const {
                             "only with --admin-token-file, since others reach this address");
     }
     if (access_.tokens && !access_.tokens->lets(bearerToken(request))) {
-        Response response =
-            textResponse(http::status::unauthorized, "Authorization must be Bearer and a token of "
-                                                     "--admin-token-file");
-        response.set(http::field::www_authenticate, "Bearer");
-        return response;
+        return unauthorized("Authorization must be Bearer and a token of --admin-token-file");
     }
     return {};
 }

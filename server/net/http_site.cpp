@@ -2,6 +2,8 @@
 
 #include "core/text.h"
 
+#include <boost/beast/core/string.hpp>
+
 #include <utility>
 
 namespace froxel::net {
@@ -26,6 +28,21 @@ Response answerTo(const Request& request, const HttpSite& site) {
 } // namespace
 
 // The page's control panel brings styles of its own. Nobody may frame it.
+std::string_view bearerToken(const Request& request) {
+    constexpr std::string_view kScheme = "Bearer ";
+    const auto field = request[http::field::authorization];
+    const std::string_view text{field.data(), field.size()};
+    return boost::beast::iequals(text.substr(0, kScheme.size()), kScheme)
+               ? text.substr(kScheme.size())
+               : std::string_view();
+}
+
+Response unauthorized(std::string line) {
+    Response response = textResponse(http::status::unauthorized, std::move(line));
+    response.set(http::field::www_authenticate, "Bearer");
+    return response;
+}
+
 std::string contentPolicy(std::string_view reconnect_url) {
     return "default-src 'self'; connect-src 'self' " + std::string(reconnect_url) +
            "; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "

@@ -75,6 +75,11 @@ class HttpSite {
 makeResponse(boost::beast::http::status status, std::string_view content_type, std::string body);
 [[nodiscard]] Response textResponse(boost::beast::http::status status, std::string line);
 
+// The token that a request shows, RFC 6750 section 2.1; empty: none.
+[[nodiscard]] std::string_view bearerToken(const Request& request);
+// To one without it.
+[[nodiscard]] Response unauthorized(std::string line);
+
 // What a browser may do with the page: its own scripts and worker, its own socket, pictures made in
 // memory, and the WebSocket of `reconnect_url` unless that is empty.
 [[nodiscard]] std::string contentPolicy(std::string_view reconnect_url);

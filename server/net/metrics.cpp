@@ -117,6 +117,7 @@ struct Metrics::Impl {
     [[nodiscard]] prometheus::MetricFamily sessionFamily() const;
     [[nodiscard]] prometheus::MetricFamily memoryFamily() const;
     [[nodiscard]] prometheus::MetricFamily loadFamily() const;
+    [[nodiscard]] std::vector<prometheus::MetricFamily> sceneFamilies() const;
     [[nodiscard]] prometheus::MetricFamily logFamily() const;
 
     const std::function<size_t()> session_count;
@@ -174,6 +175,7 @@ struct Metrics::Impl {
     std::function<std::vector<MemoryUse>()> memory;
     std::function<double()> load;
     std::function<uint64_t()> log_lost;
+    std::function<session::SceneCounts()> scenes; // none: nothing is told of them
 };
 
 Metrics::Metrics(const std::string& version, std::function<size_t()> session_count)
@@ -330,6 +332,35 @@ prometheus::MetricFamily Metrics::Impl::loadFamily() const {
                         "", {{"", load ? load() : 0.0}});
 }
 
+void Metrics::watchScenes(std::function<session::SceneCounts()> scenes) {
+    const std::lock_guard lock(impl_->watch_mutex);
+    impl_->scenes = std::move(scenes);
+}
+
+std::vector<prometheus::MetricFamily> Metrics::Impl::sceneFamilies() const {
+    const std::lock_guard lock(watch_mutex);
+    if (!scenes) {
+        return {};
+    }
+    const session::SceneCounts counts = scenes();
+    const auto number = [](uint64_t value) { return static_cast<double>(value); };
+    using prometheus::MetricType;
+    return {
+        metricFamily(MetricType::Gauge, "froxel_scenes", "Scenes by where they are.", "state",
+                     {{"resident", number(counts.resident)}, {"loading", number(counts.loading)}}),
+        metricFamily(MetricType::Gauge, "froxel_scene_memory_bytes",
+                     "Device memory of scenes, but for the first.", "",
+                     {{"", number(counts.bytes)}}),
+        metricFamily(MetricType::Counter, "froxel_scene_loads_total",
+                     "Scenes that were asked for and not there, by what became of them.", "result",
+                     {{"loaded", number(counts.loaded_total)},
+                      {"failed", number(counts.failed_total)},
+                      {"refused", number(counts.refused_total)}}),
+        metricFamily(MetricType::Counter, "froxel_scenes_evicted_total",
+                     "Scenes that left the device for others.", "",
+                     {{"", number(counts.evicted_total)}})};
+}
+
 void Metrics::watchLog(std::function<uint64_t()> lost) {
     const std::lock_guard lock(impl_->watch_mutex);
     impl_->log_lost = std::move(lost);
@@ -385,7 +416,7 @@ void Metrics::bytesSent(size_t count) {
 
 std::string Metrics::text() const {
     auto families = impl_->registry.Collect();
-    for (auto more : {impl_->frameFamilies(), processMetrics()}) {
+    for (auto more : {impl_->frameFamilies(), impl_->sceneFamilies(), processMetrics()}) {
         std::move(more.begin(), more.end(), std::back_inserter(families));
     }
     families.push_back(impl_->sessionFamily());

@@ -8,6 +8,7 @@
 #include "core/frame_stats.h"
 #include "session/rate_controller.h"
 #include "session/rejection.h"
+#include "session/scene_port.h"
 #include "session/state_message.h"
 
 #include <cstddef>
@@ -68,6 +69,10 @@ class Metrics {
     // Tells how much of the device's time is taken, 0 to 1; called by text(), on its thread. Until
     // it is set it is 0.
     void watchLoad(std::function<double()> load);
+
+    // Tells of the server's scenes; called by text(), on its thread. Until it is set nothing is
+    // told of them.
+    void watchScenes(std::function<session::SceneCounts()> scenes);
 
     // Tells how many lines of the log were lost since the start; called by text(), on its thread.
     // Until it is set it is 0.

@@ -134,6 +134,11 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
         response.set(http::field::cache_control, "no-cache");
         return response;
     }
+    if (SceneListing::has(path)) {
+        return site_->gate && !site_->gate->lets(bearerToken(request))
+                   ? unauthorized("Authorization must be Bearer and a token of this server")
+                   : site_->scenes->answer(request, path);
+    }
     if (path == "/metrics") {
         return textResponse(http::status::not_found,
                             "metrics are at the admin address (froxel serve --admin-bind)");

@@ -46,6 +46,7 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     site->lobby = std::make_shared<Lobby>(options.lobby);
     site->metrics = std::make_shared<Metrics>(
         options.version, [lobby = site->lobby] { return lobby->sessionCount(); });
+    site->scenes = std::make_shared<const SceneListing>(options.catalogue, site->service);
     site->long_work = &long_work;
     return site;
 }

@@ -14,6 +14,10 @@
 #include <string>
 #include <vector>
 
+namespace froxel::catalogue {
+class Catalogue;
+}
+
 namespace froxel::net {
 
 class Metrics;
@@ -29,7 +33,8 @@ struct ServerOptions {
     // Of any kind, half of them from one address, as LobbyRules; sessions have limits of their own.
     uint32_t connections_max = 512;
     LobbyRules lobby;
-    std::filesystem::path web_root; // empty: no page
+    std::filesystem::path web_root;                        // empty: no page
+    std::shared_ptr<const catalogue::Catalogue> catalogue; // of scenes; null: there is one
     std::vector<std::string> allowed_origins;
     std::vector<std::string> trusted_proxies;    // networks, as TrustedProxies::parse
     std::vector<std::string> host_names;         // answered to at both addresses, see HostNames

@@ -7,6 +7,7 @@
 #include "net/lobby.h"
 #include "net/long_work.h"
 #include "net/metrics.h"
+#include "net/scene_listing.h"
 #include "net/service.h"
 #include "net/static_files.h"
 #include "net/token_gate.h"
@@ -29,6 +30,7 @@ struct Site {
     std::shared_ptr<Service> service;
     std::shared_ptr<Lobby> lobby;
     std::shared_ptr<Metrics> metrics;
+    std::shared_ptr<const SceneListing> scenes;
     LongWork* long_work = nullptr; // lives until the network's threads have ended
 };
 

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "session/session_context.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -16,6 +17,19 @@ using SharedContext = std::shared_ptr<const SessionContext>;
 struct SceneProgress {
     std::string stage;   // for a person
     double fraction = 0; // 0..1
+};
+
+enum class SceneStanding : uint8_t { kOffered, kLoading, kReady };
+
+// Of a server's scenes, for its operators.
+struct SceneCounts {
+    uint32_t resident = 0; // on the device, the first included
+    uint32_t loading = 0;  // or waiting for it
+    uint64_t bytes = 0;    // of the device's memory, but for the first
+    uint64_t loaded_total = 0;
+    uint64_t failed_total = 0;  // for their files
+    uint64_t refused_total = 0; // for want of memory
+    uint64_t evicted_total = 0;
 };
 
 // Who asked for a scene that was not there. Called without any lock of the port's.
@@ -34,6 +48,9 @@ class ScenePort {
     // scene is offered; kCapacity.
     [[nodiscard]] virtual Result<SharedContext>
     want(const std::string& id, const std::shared_ptr<SceneWaiter>& waiter) = 0;
+    [[nodiscard]] virtual SceneCounts counts() const = 0;
+    // How far a scene that is offered is.
+    [[nodiscard]] virtual SceneStanding standingOf(const std::string& id) const = 0;
     // The waiter does not want it any more; what nobody waits for is not loaded.
     virtual void dismiss(const std::string& id, const SceneWaiter& waiter) = 0;
 };

@@ -144,6 +144,9 @@ void RenderLoop::run(const std::stop_token& stop) {
         source_->makeVariantsInBackground();
         serve(stop);
         drain();
+        if (options_.scenes) {
+            options_.scenes->end();
+        }
     } catch (const StartupError& error) {
         fail({error.code(), error.what()});
     } catch (const std::exception& error) {
@@ -562,6 +565,9 @@ void RenderLoop::fail(const Error& error) {
         viewer->under_way = 0;
     }
     keepForGood(std::move(source_));
+    if (options_.scenes) {
+        options_.scenes->lose();
+    }
     submitted_.clear();
     finishPictures();
 }

@@ -76,6 +76,16 @@ Result<SharedContext> SceneHost::want(const std::string& id,
     return SharedContext();
 }
 
+session::SceneStanding SceneHost::standingOf(const std::string& id) const {
+    using session::SceneStanding;
+    const std::lock_guard lock(mutex_);
+    const auto isIt = [&](const auto& entry) { return entry.second.id == id; };
+    if ((first_ && first_->scene_id == id) || std::ranges::any_of(residents_, isIt)) {
+        return SceneStanding::kReady;
+    }
+    return coming_.contains(id) ? SceneStanding::kLoading : SceneStanding::kOffered;
+}
+
 void SceneHost::dismiss(const std::string& id, const SceneWaiter& waiter) {
     const std::lock_guard lock(mutex_);
     const auto coming = coming_.find(id);
@@ -87,13 +97,13 @@ void SceneHost::dismiss(const std::string& id, const SceneWaiter& waiter) {
     wake_(); // where nobody waits for it any more, what was moved of it goes
 }
 
-SceneHost::Standing SceneHost::standing() const {
+session::SceneCounts SceneHost::counts() const {
     const std::lock_guard lock(mutex_);
-    Standing standing = counts_;
-    standing.resident = static_cast<uint32_t>(residents_.size()) + (first_ ? 1U : 0U);
-    standing.coming = static_cast<uint32_t>(coming_.size());
-    standing.bytes = bytesTaken();
-    return standing;
+    session::SceneCounts counts = counts_;
+    counts.resident = static_cast<uint32_t>(residents_.size()) + (first_ ? 1U : 0U);
+    counts.loading = static_cast<uint32_t>(coming_.size());
+    counts.bytes = bytesTaken();
+    return counts;
 }
 
 void SceneHost::begin(FrameSource& device,
@@ -126,6 +136,23 @@ void SceneHost::end() {
     }
     const std::lock_guard lock(mutex_);
     coming_.clear();
+    residents_.clear();
+    leaving_.clear();
+}
+
+void SceneHost::lose() {
+    const std::lock_guard lock(mutex_);
+    device_ = nullptr;
+    queue_.clear();
+    for (auto& [id, coming] : coming_) {
+        keepForGood(std::move(coming.move));
+    }
+    for (auto& [number, resident] : residents_) {
+        keepForGood(std::move(resident.source));
+    }
+    for (auto& source : leaving_) {
+        keepForGood(std::move(source));
+    }
     residents_.clear();
     leaving_.clear();
 }

@@ -48,18 +48,9 @@ class SceneHost final : public session::ScenePort {
 
     [[nodiscard]] Result<session::SharedContext>
     want(const std::string& id, const std::shared_ptr<session::SceneWaiter>& waiter) override;
+    [[nodiscard]] session::SceneCounts counts() const override;
+    [[nodiscard]] session::SceneStanding standingOf(const std::string& id) const override;
     void dismiss(const std::string& id, const session::SceneWaiter& waiter) override;
-
-    struct Standing {
-        uint32_t resident = 0; // on the device, the first included
-        uint32_t coming = 0;   // waited for
-        uint64_t bytes = 0;    // of the device's memory, but for the first
-        uint64_t loaded_total = 0;
-        uint64_t failed_total = 0;
-        uint64_t refused_total = 0; // for want of memory
-        uint64_t evicted_total = 0;
-    };
-    [[nodiscard]] Standing standing() const; // any thread
 
     // Render thread. The device and its first scene are there. Scenes beside that may take so many
     // bytes of the device's memory together. `wake` has work() called soon.
@@ -74,6 +65,8 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] SceneSource& sourceOf(const session::SessionContext* scene);
     // The device goes, and with it all that is there, which nobody draws any more.
     void end();
+    // The device is lost: what it may still use is never freed.
+    void lose();
 
   private:
     struct Resident {
@@ -117,7 +110,7 @@ class SceneHost final : public session::ScenePort {
     std::map<std::string, Coming> coming_;              // by id
     std::map<uint64_t, Resident> residents_;            // by SessionContext::scene_number
     std::vector<std::unique_ptr<SceneSource>> leaving_; // which the render thread ends
-    Standing counts_;
+    session::SceneCounts counts_;                       // of what adds up
     uint64_t last_number_ = 0;
     FrameSource* device_ = nullptr;
     uint64_t scene_bytes_ = 0;

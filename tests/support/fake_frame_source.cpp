@@ -265,6 +265,9 @@ class FakeMove final : public stream::SceneMove {
 class FakeSource final : public stream::FrameSource {
   public:
     explicit FakeSource(std::shared_ptr<FakeDevice> device) : device_(std::move(device)) {}
+    FakeSource(const FakeSource&) = delete;
+    FakeSource& operator=(const FakeSource&) = delete;
+    ~FakeSource() override { device_->outlived = device_->live_scenes + device_->live_moves; }
     [[nodiscard]] uint32_t depth() const override { return device_->depth; }
     [[nodiscard]] bool isHost() const override { return false; }
     [[nodiscard]] Result<std::unique_ptr<stream::ViewSource>> makeView() override {

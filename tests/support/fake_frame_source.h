@@ -48,6 +48,7 @@ class FakeDevice {
     std::atomic<uint64_t> scene_bytes = 0; // each
     std::atomic<int> live_scenes = 0;
     std::atomic<int> live_moves = 0;
+    std::atomic<int> outlived = 0; // scenes and moves that were there when the source went
 
     // While closed, collect() waits: the device is busy.
     void setGate(bool open);

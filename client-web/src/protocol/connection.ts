@@ -27,7 +27,7 @@ export type Link =
 /** What helps, as a button. */
 export interface Remedy {
   readonly label: string;
-  readonly act: 'connect' | 'reload' | 'dismiss';
+  readonly act: 'connect' | 'reload' | 'dismiss' | 'stay';
 }
 
 export interface ConnectionEvents {

@@ -10,6 +10,7 @@ import type { SizeMode } from './size_policy';
 export interface Address {
   readonly settings: Partial<Settings>;
   readonly size: SizeMode | null; // null: the address does not say
+  readonly scene: string | null; // its id; null: whatever the server shows
   /** One line for each key or value that makes no sense; they have no effect. */
   readonly problems: readonly string[];
 }
@@ -25,13 +26,18 @@ const kFormerNames: ReadonlyMap<string, string> = new Map([
   ['grid.law', 'grid_law'],
 ]);
 
+const kScene = 'scene';
 const kVectors = ['eye', 'target', 'up'] as const;
 const kRamps = { toon_fragment: 'toonFragment', toon_compute: 'toonCompute' } as const;
 
-/** The fragment, without '#', for these settings; ramps only where they differ from `initial`. */
-export function formatAddress(settings: Settings, size: SizeMode, initial: Settings): string {
+/**
+ * The fragment, without '#', for these settings; ramps only where they differ from `initial`. An
+ * empty `scene`: the server has no other.
+ */
+export function formatAddress(settings: Settings, size: SizeMode, initial: Settings, scene = ''): string {
   const parts: string[] = [];
   const put = (name: string, value: string): void => void parts.push(`${name}=${value}`);
+  if (scene !== '') put(kScene, encodeURIComponent(scene));
   for (const field of kAllFields) {
     if (field.key === 'fovDeg' && settings.orthographic) continue;
     if (isGridSide(field) && settings.gridAutomatic) continue;
@@ -61,7 +67,12 @@ export function parseAddress(fragment: string): Address {
   const settings: Partial<Writable<Settings>> = {};
   const problems: string[] = [];
   let size: SizeMode | null = null;
+  let scene: string | null = null;
   for (const [name, text] of new URLSearchParams(fragment.replace(/^#/, ''))) {
+    if (name === kScene) {
+      scene = text === '' ? null : text;
+      continue;
+    }
     const found = parseEntry(kFormerNames.get(name) ?? name, text);
     if (found === null) {
       problems.push(`link: ${name.slice(0, 30)}=${text.slice(0, 60)} is not understood`);
@@ -70,7 +81,7 @@ export function parseAddress(fragment: string): Address {
       size = found.size ?? size;
     }
   }
-  return { settings, size, problems };
+  return { settings, size, scene, problems };
 }
 
 interface Entry {

@@ -24,7 +24,7 @@ export class AddressKeeper {
   }
 
   read(): void {
-    const { settings, size, problems: unread } = parseAddress(location.hash);
+    const { settings, size, scene, problems: unread } = parseAddress(location.hash);
     const problems = [...unread];
     const { codec, ...others } = settings;
     const decodes = codec === undefined || this.codecs().includes(codec);
@@ -33,7 +33,7 @@ export class AddressKeeper {
     }
     const first = this.store.state.settings === null ? this.wishes : {};
     const wanted = { ...first, ...(decodes ? settings : others) };
-    this.store.dispatch({ type: 'restored', wanted, size });
+    this.store.dispatch({ type: 'restored', wanted, size, scene });
     if (problems.length > 0) {
       this.store.dispatch({ type: 'notice', tone: 'error', text: problems.join('; ') });
     }
@@ -52,7 +52,8 @@ export class AddressKeeper {
 
   private changed(state: AppState, before: AppState): void {
     const sizeChosen = before.sizeMode !== null && state.sizeMode !== before.sizeMode;
-    if (!sizeChosen && !edited(before, state)) return;
+    const sceneChanged = before.server !== null && sceneOf(state) !== sceneOf(before);
+    if (!sizeChosen && !sceneChanged && !edited(before, state)) return;
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.write(), kWriteDelayMs);
   }
@@ -61,9 +62,11 @@ export class AddressKeeper {
     clearTimeout(this.timer);
     const { settings, sizeMode, server } = this.store.state;
     if (!settings || !sizeMode || !server) return;
-    history.replaceState(null, '', `#${formatAddress(settings, sizeMode, server.initial)}`);
+    history.replaceState(null, '', `#${formatAddress(settings, sizeMode, server.initial, sceneOf(this.store.state))}`);
   }
 }
+
+const sceneOf = ({ server }: AppState): string => server?.scene?.id ?? '';
 
 /** Whether more changed than what Welcome brings and what follows the window's size. */
 function edited({ settings: before }: AppState, { settings: after, sizeMode }: AppState): boolean {

@@ -37,6 +37,11 @@ export interface Loading {
   readonly fraction: number;
 }
 
+/** A scene that was selected and is not there yet. */
+export interface SceneLoading extends Loading {
+  readonly scene: string; // its id
+}
+
 export interface Notice {
   readonly text: string;
   readonly tone: 'error' | 'info';
@@ -53,11 +58,14 @@ export interface AppState {
   readonly link: Link;
   readonly server: ServerInfo | null;
   readonly loading: Loading | null;
+  readonly sceneLoading: SceneLoading | null;
+  /** The id of a scene to go over to: the server is to be asked for it, or was. */
+  readonly wantedScene: string | null;
   readonly settings: Settings | null;
   readonly sent: Settings | null;
   readonly sentSeq: bigint; // newest command that sets state
   readonly confirmed: Settings | null;
-  /** What the address asked for; merged into the first Welcome's state. */
+  /** What the address asked for; merged into the state that the server begins with, on the wanted scene if there is one. */
   readonly wanted: Partial<Settings>;
   readonly sizeMode: SizeMode | null; // null: until Welcome tells what the server can do
   readonly notice: Notice | null;
@@ -79,7 +87,13 @@ export type Action =
   | { readonly type: 'size_mode'; readonly mode: SizeMode }
   | { readonly type: 'sent'; readonly seq: bigint; readonly settings: Settings }
   | { readonly type: 'camera_moved'; readonly appliedSeq: bigint; readonly pose: CameraPose }
-  | { readonly type: 'restored'; readonly wanted: Partial<Settings>; readonly size: SizeMode | null }
+  | { readonly type: 'want_scene'; readonly scene: string | null }
+  | {
+      readonly type: 'restored';
+      readonly wanted: Partial<Settings>;
+      readonly size: SizeMode | null;
+      readonly scene?: string | null;
+    }
   | ({ readonly type: 'notice' } & Notice)
   | { readonly type: 'dismiss' };
 
@@ -87,6 +101,8 @@ export const kInitialState: AppState = {
   link: { phase: 'connecting' },
   server: null,
   loading: null,
+  sceneLoading: null,
+  wantedScene: null,
   settings: null,
   sent: null,
   sentSeq: 0n,
@@ -126,7 +142,9 @@ export function reduce(state: AppState, action: Action): AppState {
     case 'camera_moved':
       return cameraMoved(state, action.appliedSeq, action.pose);
     case 'restored':
-      return restored(state, action.wanted, action.size);
+      return restored(state, action);
+    case 'want_scene':
+      return { ...state, wantedScene: action.scene, wanted: {} };
     case 'notice':
       return { ...state, notice: { text: action.text, tone: action.tone } };
     case 'dismiss':
@@ -137,7 +155,7 @@ export function reduce(state: AppState, action: Action): AppState {
 function linked(state: AppState, link: Link): AppState {
   // A new connection knows nothing of what the last one was told.
   const forget =
-    link.phase === 'live' ? {} : { sent: null, sentSeq: 0n, loading: null, pick: null };
+    link.phase === 'live' ? {} : { sent: null, sentSeq: 0n, loading: null, sceneLoading: null, pick: null };
   return { ...state, ...forget, link };
 }
 
@@ -155,10 +173,16 @@ function roomChanged(state: AppState, room: Room): AppState {
   return { ...state, room, settings: state.confirmed, sent: state.confirmed };
 }
 
-function restored(state: AppState, wanted: Partial<Settings>, size: SizeMode | null): AppState {
-  if (!mayControl(state.room)) return { ...state, sizeMode: size ?? state.sizeMode };
+type Restored = Extract<Action, { type: 'restored' }>;
+
+function restored(state: AppState, { wanted, size, scene }: Restored): AppState {
+  const sizeMode = size ?? state.sizeMode;
+  if (!mayControl(state.room)) return { ...state, sizeMode };
+  const wantedScene = scene && scene !== state.server?.scene?.id ? scene : null;
+  // What an address says is about its own scene.
+  if (wantedScene !== null) return { ...state, wanted, wantedScene, sizeMode };
   const settings = state.settings && { ...state.settings, ...wanted };
-  return { ...state, wanted, settings, sizeMode: size ?? state.sizeMode };
+  return { ...state, wanted, wantedScene, settings, sizeMode };
 }
 
 function received(state: AppState, message: ServerMessage): AppState {
@@ -177,7 +201,18 @@ function received(state: AppState, message: ServerMessage): AppState {
       const told = { ...state, confirmed, ...picked(state, answer.refSeq, placed) };
       return stale ? told : { ...told, settings: confirmed, sent: confirmed };
     }
+    case 'sceneLoading': {
+      const { scene, stage, fraction } = body.value;
+      return { ...state, sceneLoading: scene === '' ? null : { scene, stage, fraction } };
+    }
+    case 'sceneChanged':
+      return sceneChanged(state, body.value);
     case 'error':
+      if (body.value.field === 'scene') {
+        // Nothing changed, and what was wanted of that scene is of no use.
+        const notice: Notice = { text: body.value.message, tone: 'error' };
+        return { ...state, wantedScene: null, wanted: {}, notice };
+      }
       if (body.value.code === ErrorCode.TOKEN) return state; // the question for one says it
       if (body.value.refSeq > 0n && body.value.refSeq === state.pick?.seq) {
         // Nothing was wished for in the settings that would have to be taken back.
@@ -232,7 +267,9 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
     initial,
     looks: welcome.looks,
   };
-  const settings = mayControl(room) ? desired(state, server, present) : present;
+  const wantedScene = mayControl(room) ? sceneToReturnTo(state, server) : null;
+  const begins = wantedScene === null && mayControl(room);
+  const settings = begins ? desired(state, server, present) : present;
   return {
     ...state,
     link: { phase: 'live' },
@@ -246,7 +283,36 @@ function welcomed(state: AppState, welcome: Welcome): AppState {
     sent: present,
     sentSeq: 0n,
     confirmed: present,
+    wantedScene,
+    wanted: wantedScene === null ? {} : (state.settings ?? state.wanted),
+  };
+}
+
+/** The scene that the address asks for, or that was shown before the connection broke; null: it is there. */
+function sceneToReturnTo({ wantedScene, server: before }: AppState, { scene }: ServerInfo): string | null {
+  const wanted = wantedScene ?? before?.scene?.id ?? '';
+  return wanted === '' || !scene || scene.id === '' || scene.id === wanted ? null : wanted;
+}
+
+type SceneChanged = Extract<ServerMessage['body'], { case: 'sceneChanged' }>['value'];
+
+function sceneChanged(state: AppState, changed: SceneChanged): AppState {
+  if (!state.server || !changed.state || !changed.defaults) return state;
+  const scene = changed.scene ?? null;
+  const bounds = boundsOf(scene);
+  const present = settingsOf(changed.state, bounds, placedAfter([], changed.placedLights));
+  const initial = settingsOf(changed.defaults, bounds, placedAfter([], changed.defaultPlacedLights));
+  const wanted = scene?.id === state.wantedScene ? state.wanted : {};
+  return {
+    ...state,
+    server: { ...state.server, scene, bounds, initial, looks: changed.looks },
+    settings: { ...present, ...wanted },
+    sent: present,
+    confirmed: present,
+    wantedScene: null,
     wanted: {},
+    chosenLight: null,
+    pick: null,
   };
 }
 
@@ -271,7 +337,7 @@ function desired(state: AppState, server: ServerInfo, present: Settings): Settin
     return { ...present, refine, ...state.wanted };
   }
   const { placedLights, animation, animationTime, materialVariant, followedCamera } = present;
-  if (state.server?.scene?.name === server.scene?.name) {
+  if (isSameScene(state.server?.scene, server.scene)) {
     const follows = followedCamera !== '' && followedCamera === before.followedCamera;
     return follows ? { ...before, ...cameraOf(present) } : before;
   }
@@ -279,6 +345,10 @@ function desired(state: AppState, server: ServerInfo, present: Settings): Settin
   const places = { placedLights, animation, animationTime, materialVariant, followedCamera };
   return { ...before, ...cameraOf(present), lightBox: null, ...places };
 }
+
+/** By id, where the server has several. */
+const isSameScene = (a: SceneInfo | null | undefined, b: SceneInfo | null): boolean =>
+  a?.id === b?.id && a?.name === b?.name;
 
 function boundsOf(scene: SceneInfo | null): Bounds | null {
   const { min, max } = scene?.bounds ?? {};

@@ -29,7 +29,7 @@ export interface Moment {
 }
 
 export function standingOf(state: AppState, { nowMs, hasPicture, lagMs }: Moment): Standing {
-  const { link, notice, loading } = state;
+  const { link, notice, loading, sceneLoading } = state;
   const live = link.phase === 'live';
   const well: Standing = {
     text: '',
@@ -55,6 +55,10 @@ export function standingOf(state: AppState, { nowMs, hasPicture, lagMs }: Moment
   if (notice) return { ...well, text: notice.text, tone: notice.tone, remedy: kDismiss };
   if (!hasPicture) return well;
   if (!live) return { ...well, text: loading ? loadingText(loading) : 'Connecting…' };
+  if (sceneLoading) {
+    const remedy: Remedy = { label: 'Cancel', act: 'stay' };
+    return { ...well, text: 'Another scene is on its way.', aside: `${loadingText(sceneLoading)}.`, remedy };
+  }
   if (lagMs < kSlowMs) return well;
   return {
     ...well,

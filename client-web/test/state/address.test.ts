@@ -81,6 +81,13 @@ describe('addresses', () => {
     expect(formatAddress(initial, kAuto, initial)).toContain('fov');
   });
 
+  it('Scene_IsInTheAddressWhereThereAreSeveral', () => {
+    const written = formatAddress(initial, kAuto, initial, 'a b&c');
+    expect(parseAddress(written)).toMatchObject({ scene: 'a b&c', problems: [] });
+    expect(formatAddress(initial, kAuto, initial)).not.toContain('scene=');
+    expect(parseAddress('scene=&lights=5').scene).toBeNull();
+  });
+
   it('RampsAsTheyWere_AreNotInTheAddress', () => {
     expect(formatAddress(initial, kAuto, initial)).not.toMatch(/toon_(fragment|compute)=/);
   });
@@ -134,8 +141,8 @@ describe('addresses', () => {
   });
 
   it('NothingAfterTheHash_IsNothing', () => {
-    expect(parseAddress('')).toEqual({ settings: {}, size: null, problems: [] });
-    expect(parseAddress('#')).toEqual({ settings: {}, size: null, problems: [] });
+    expect(parseAddress('')).toEqual({ settings: {}, size: null, scene: null, problems: [] });
+    expect(parseAddress('#')).toEqual({ settings: {}, size: null, scene: null, problems: [] });
   });
 
   it.each([

@@ -64,6 +64,16 @@ describe('standingOf', () => {
     expect(standing({ ...told, link: { phase: 'connecting' } }).dims).toBe(true);
   });
 
+  it('AnotherSceneOnItsWay_MayBeCalledOff', () => {
+    const sceneLoading = { scene: 'fox', stage: 'reading the scene', fraction: 0.426 };
+    expect(standing({ ...live, sceneLoading }, { lagMs: 9_000 })).toMatchObject({
+      text: 'Another scene is on its way.',
+      aside: 'Reading the scene, 43 %.',
+      remedy: { label: 'Cancel', act: 'stay' },
+      dims: false,
+    });
+  });
+
   it('Slow_IsSaidAfterAWhileAndNotWithoutAConnection', () => {
     expect(standing(live, { lagMs: kSlowMs - 1 }).text).toBe('');
     expect(standing(live, { lagMs: 4_200 })).toMatchObject({ tone: 'info', aside: '4 s behind.', dims: false });

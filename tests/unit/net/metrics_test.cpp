@@ -195,6 +195,21 @@ TEST(Metrics, PeeledPictures_AddUpPixelsWithMoreLayers) {
     EXPECT_THAT(metrics.text(), HasSubstr("froxel_peel_overflow_pixels_total 140\n"));
 }
 
+TEST(Metrics, Scenes_AreToldOfWhereThereAreSeveral) {
+    Metrics metrics;
+    EXPECT_EQ(metrics.text().find("froxel_scene"), std::string::npos);
+    session::SceneCounts counts{.resident = 3, .loading = 1, .bytes = 77, .loaded_total = 4};
+    metrics.watchScenes([&counts] { return counts; });
+    counts.evicted_total = 2;
+    const std::string text = metrics.text();
+    for (const char* row :
+         {"froxel_scenes{state=\"resident\"} 3", "froxel_scenes{state=\"loading\"} 1",
+          "froxel_scene_memory_bytes 77", "froxel_scene_loads_total{result=\"loaded\"} 4",
+          "froxel_scene_loads_total{result=\"failed\"} 0", "froxel_scenes_evicted_total 2"}) {
+        EXPECT_NE(text.find(row), std::string::npos) << row << "\n" << text;
+    }
+}
+
 TEST(Metrics, Memory_IsWhatItIsAtEachScrape) {
     Metrics metrics;
     EXPECT_THAT(metrics.text(), Not(HasSubstr("froxel_device_memory_bytes{")));

@@ -26,6 +26,12 @@ class FakeScenes final : public session::ScenePort {
         waiters[id] = waiter;
         return SharedContext();
     }
+    [[nodiscard]] session::SceneCounts counts() const override { return {}; }
+    [[nodiscard]] session::SceneStanding standingOf(const std::string& id) const override {
+        return there.contains(id)     ? session::SceneStanding::kReady
+               : waiters.contains(id) ? session::SceneStanding::kLoading
+                                      : session::SceneStanding::kOffered;
+    }
     void dismiss(const std::string& id, const session::SceneWaiter& /*waiter*/) override {
         waiters.erase(id);
     }

@@ -176,7 +176,7 @@ TEST_F(SceneHostTest, SceneThatIsThere_IsGivenAtOnceAndReadOnce) {
     EXPECT_EQ(load("a"), a);
     EXPECT_EQ(load("first"), first_);
     EXPECT_EQ(read_count_, 1);
-    EXPECT_EQ(host_->standing().resident, 2U);
+    EXPECT_EQ(host_->counts().resident, 2U);
 }
 
 TEST_F(SceneHostTest, TwoWhoWantTheSame_ShareOneLoad) {
@@ -212,7 +212,7 @@ TEST_F(SceneHostTest, FileThatCannotBeRead_IsToldInOneLineAndMayBeTriedAgain) {
         ASSERT_FALSE(*outcome);
         EXPECT_EQ(outcome->error().message, "e.glb is no glTF");
     }
-    EXPECT_EQ(host_->standing().failed_total, 2U);
+    EXPECT_EQ(host_->counts().failed_total, 2U);
     EXPECT_TRUE(load("a"));
 }
 
@@ -222,10 +222,10 @@ TEST_F(SceneHostTest, NobodyLooksAt_LeavesForOthersOldestFirst) {
     SharedContext a = load("a");
     load("b");
     load("a"); // asked for after b
-    EXPECT_EQ(host_->standing().bytes, 800U);
+    EXPECT_EQ(host_->counts().bytes, 800U);
     load("c");
     EXPECT_TRUE(comes([&] { return device_->live_scenes == 2; }));
-    EXPECT_EQ(host_->standing().evicted_total, 1U);
+    EXPECT_EQ(host_->counts().evicted_total, 1U);
     EXPECT_EQ(load("a"), a);
     EXPECT_EQ(read_count_, 3);
 }
@@ -258,8 +258,8 @@ TEST_F(SceneHostTest, ScenesInUseFillTheMemory_OneMoreIsRefusedWithFigures) {
     EXPECT_EQ(outcome->error().code, ErrorCode::kCapacity);
     EXPECT_THAT(outcome->error().message,
                 HasSubstr("c takes 401 MiB of the device's memory; 800 MiB of the 1000"));
-    EXPECT_EQ(host_->standing().refused_total, 1U);
-    EXPECT_EQ(host_->standing().resident, 3U); // none had to leave for nothing
+    EXPECT_EQ(host_->counts().refused_total, 1U);
+    EXPECT_EQ(host_->counts().resident, 3U); // none had to leave for nothing
 }
 
 TEST_F(SceneHostTest, NobodyWaitsAnyMore_IsNotLoaded) {
@@ -274,8 +274,8 @@ TEST_F(SceneHostTest, NobodyWaitsAnyMore_IsNotLoaded) {
     setReading(true);
     EXPECT_TRUE(load("c"));
     EXPECT_FALSE(waiter->heard());
-    EXPECT_EQ(host_->standing().resident, 2U);
-    EXPECT_EQ(host_->standing().coming, 0U);
+    EXPECT_EQ(host_->counts().resident, 2U);
+    EXPECT_EQ(host_->counts().loading, 0U);
     EXPECT_LE(read_count_, 2); // a may have been under way
 }
 
@@ -287,7 +287,7 @@ TEST_F(SceneHostTest, DismissedOnItsWay_LeavesTheDevice) {
     ASSERT_TRUE(comes([&] { return device_->live_moves == 1; }));
     host_->dismiss("a", *waiter);
     EXPECT_TRUE(comes([&] { return device_->live_moves == 0; }));
-    EXPECT_EQ(host_->standing().coming, 0U);
+    EXPECT_EQ(host_->counts().loading, 0U);
     EXPECT_FALSE(waiter->heard());
 }
 
@@ -300,6 +300,21 @@ TEST_F(SceneHostTest, ChangedFile_IsReadAnewAndTheOldOneStaysForWhoHasIt) {
     EXPECT_EQ(read_count_, 2);
     EXPECT_EQ(device_->live_scenes, 2);
     EXPECT_EQ(load("a"), after);
+}
+
+TEST_F(SceneHostTest, Stop_EndsScenesBeforeTheirDevice) {
+    begin();
+    const SharedContext a = load("a");
+    device_->slice_count = UINT32_MAX;
+    ASSERT_TRUE(host_->want("b", std::make_shared<Waiter>()));
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("b", waiter));
+    ASSERT_TRUE(comes([&] { return device_->live_moves == 1; }));
+    loop_->stop();
+    EXPECT_EQ(device_->live_scenes, 0);
+    EXPECT_EQ(device_->live_moves, 0);
+    EXPECT_EQ(device_->outlived, 0);
+    EXPECT_FALSE(host_->want("a", waiter)); // nothing is loaded any more
 }
 
 TEST_F(SceneHostTest, LostDeviceWhileMoving_EndsTheLoop) {

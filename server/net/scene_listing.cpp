@@ -1,0 +1,156 @@
+#include "net/scene_listing.h"
+
+#include "core/text.h"
+
+#include <boost/url/parse.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace froxel::net {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// A file may have any name; what of it is no UTF-8 is replaced.
+std::string textOf(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Response refused(http::status status, const char* code, const char* field, std::string message) {
+    return makeResponse(
+        status, "application/json",
+        textOf(Json{{"code", code}, {"field", field}, {"message", std::move(message)}}));
+}
+
+const char* wordOf(session::SceneStanding standing) {
+    switch (standing) {
+    case session::SceneStanding::kOffered:
+        return "offered";
+    case session::SceneStanding::kLoading:
+        return "loading";
+    case session::SceneStanding::kReady:
+        break;
+    }
+    return "ready";
+}
+
+Json rowOf(const catalogue::Offered& scene, const session::ScenePort* port) {
+    const std::filesystem::path source(scene.source);
+    std::string kind = scene.source == "builtin" ? "builtin" : source.extension().string();
+    if (kind.starts_with('.')) {
+        kind.erase(0, 1);
+    }
+    return {{"id", scene.id},
+            {"name", scene.name},
+            {"path", scene.path},
+            {"kind", std::move(kind)},
+            {"bytes", scene.bytes},
+            {"state", wordOf(port != nullptr ? port->standingOf(scene.id)
+                                             : session::SceneStanding::kOffered)}};
+}
+
+// What a listing is asked for.
+struct Page {
+    size_t begin = 0;
+    size_t limit = SceneListing::kUsualLimit;
+};
+
+std::optional<size_t> limitIn(const std::string& text) {
+    size_t limit = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), limit);
+    const bool whole = problem == std::errc() && end == text.data() + text.size();
+    return whole && limit >= 1 && limit <= SceneListing::kMostLimit ? std::optional(limit)
+                                                                    : std::nullopt;
+}
+
+// An error is the answer.
+std::variant<Page, Response> pageIn(const Request& request, const catalogue::Listing& listing) {
+    Page page;
+    const auto target =
+        boost::urls::parse_origin_form({request.target().data(), request.target().size()});
+    if (!target) {
+        return page;
+    }
+    for (const auto& said : target->params()) {
+        if (said.key == "limit") {
+            const auto limit = limitIn(said.value);
+            if (!limit) {
+                return refused(http::status::bad_request, "out_of_range", "limit",
+                               "limit is \"" + printable(said.value) + "\"; it must be from 1 to " +
+                                   numberText(SceneListing::kMostLimit));
+            }
+            page.limit = *limit;
+        } else if (said.key == "after") {
+            const auto found =
+                std::ranges::find(listing.scenes, said.value, &catalogue::Offered::id);
+            if (found == listing.scenes.end()) {
+                return refused(http::status::bad_request, "out_of_range", "after",
+                               "after is \"" + printable(said.value) +
+                                   "\", which is no scene of this server");
+            }
+            page.begin = static_cast<size_t>(found - listing.scenes.begin()) + 1;
+        }
+    }
+    return page;
+}
+
+Response withTag(const Request& request, const std::string& body) {
+    const std::string tag = fmt::format("\"{:016x}\"", std::hash<std::string>()(body));
+    const bool unchanged =
+        request[http::field::if_none_match].find(tag) != beast::string_view::npos;
+    Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
+                                     "application/json", unchanged ? std::string() : body);
+    response.set(http::field::etag, tag);
+    response.set(http::field::cache_control, "no-cache");
+    return response;
+}
+
+} // namespace
+
+bool SceneListing::has(std::string_view path) {
+    return path == kScenesPath ||
+           (path.starts_with(kScenesPath) && path.substr(kScenesPath.size()).starts_with('/'));
+}
+
+Response SceneListing::answer(const Request& request, std::string_view path) const {
+    if (!catalogue_) {
+        return refused(http::status::not_found, "unsupported", "",
+                       "this server has one scene (froxel serve --scenes)");
+    }
+    const auto serving = service_->status().serving;
+    const session::ScenePort* port = serving ? serving->scenes : nullptr;
+    const auto listing = catalogue_->listing();
+    if (path != kScenesPath) {
+        const std::string id(path.substr(kScenesPath.size() + 1));
+        const auto scene = catalogue_->find(id);
+        return scene ? withTag(request, textOf(rowOf(*scene, port)))
+                     : refused(http::status::not_found, "out_of_range", "scene",
+                               "\"" + printable(id) + "\" is no scene of this server");
+    }
+    auto asked = pageIn(request, *listing);
+    if (auto* error = std::get_if<Response>(&asked)) {
+        return std::move(*error);
+    }
+    const auto& [begin, limit] = std::get<Page>(asked);
+    const size_t end = std::min(listing->scenes.size(), begin + limit);
+    Json rows = Json::array();
+    for (size_t i = begin; i < end; ++i) {
+        rows.push_back(rowOf(listing->scenes[i], port));
+    }
+    Json body{{"scenes", std::move(rows)}};
+    if (end < listing->scenes.size()) {
+        body["next"] = listing->scenes[end - 1].id; // as `after`
+    }
+    return withTag(request, textOf(body));
+}
+
+} // namespace froxel::net
