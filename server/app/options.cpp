@@ -179,7 +179,8 @@ void addServe(CLI::App& app, Targets& targets) {
     addSceneOption(command, options.scene, options.scene);
     command
         .text("--scenes", "DIR", options.scenes, "",
-              "Folder whose glTF and GLB files viewers may go over to; looked at again on SIGHUP")
+              "Folder whose glTF and GLB files viewers may go over to; what changes in it is "
+              "noticed, and on SIGHUP it is looked at again")
         ->check([](const std::string& folder) {
             std::error_code unknown;
             return std::filesystem::is_directory(folder, unknown)

@@ -31,13 +31,22 @@ std::optional<Seconds> frameCost(std::unique_ptr<stream::FrameSource>& source,
     return *cost;
 }
 
+// After a change of the folder of scenes: a file that is copied changes more often.
+constexpr Seconds kFolderRest{1};
+
 } // namespace
 
 // A viewer has at most one picture in the encoders, so the queue never refuses one.
 ServeRun::ServeRun(ServeRunOptions options)
     : options_(std::move(options)),
       pool_(options_.encoder_count, options_.server.lobby.sessions_max), scenes_(makeScenes()),
-      server_(std::make_unique<net::Server>(options_.server)), loop_(pool_, loopOptions()) {}
+      server_(std::make_unique<net::Server>(options_.server)), loop_(pool_, loopOptions()) {
+    if (options_.catalogue) {
+        watch_.emplace(options_.catalogue->folder(), catalogue::Catalogue::kDeepest, kFolderRest,
+                       [this] { rescan(); });
+        rescan(); // what has changed before it was watched
+    }
+}
 
 ServeRun::~ServeRun() {
     loop_.stop();    // no picture is on its way to a connection after this

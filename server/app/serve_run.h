@@ -4,6 +4,7 @@
 
 #include "app/device_losses.h"
 #include "catalogue/catalogue.h"
+#include "catalogue/folder_watch.h"
 #include "encode/encode_pool.h"
 #include "net/server.h"
 #include "session/session_context.h"
@@ -60,7 +61,7 @@ class ServeRun {
     void stop() { loop_.stop(); }
     // Closes the connections whose token was taken away; after the gate has loaded.
     void checkTokens() { server_->service().announce(); }
-    // Looks at the folder of scenes again.
+    // Looks at the folder of scenes again; any thread.
     void rescan() const;
     // The device is gone: notes it, and tells every viewer.
     void giveUp(const std::string& why);
@@ -78,6 +79,7 @@ class ServeRun {
     std::shared_ptr<stream::SceneHost> scenes_; // null: there is one scene
     std::unique_ptr<net::Server> server_; // goes after the loop has stopped and before it is gone
     stream::RenderLoop loop_;
+    std::optional<catalogue::FolderWatch> watch_;
 };
 
 } // namespace froxel::app

@@ -38,6 +38,7 @@ class Catalogue {
     // cannot be read; the log tells of that.
     void rescan();
 
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     [[nodiscard]] std::shared_ptr<const Listing> listing() const;
     [[nodiscard]] std::optional<Offered> find(const std::string& id) const;
 

@@ -1,0 +1,91 @@
+#include "catalogue/folder_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace froxel::catalogue {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Seconds kRest{0.05};
+
+class FolderWatchTest : public testing::Test {
+  protected:
+    FolderWatchTest() {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_ / "sub");
+    }
+    ~FolderWatchTest() override { fs::remove_all(folder_); }
+    void write(const fs::path& path) { std::ofstream(folder_ / path) << "x"; }
+    // Whether there are more than `before` within 10 s.
+    bool hears(int before) const {
+        const auto end = Clock::now() + std::chrono::seconds(10);
+        while (told_ <= before && Clock::now() < end) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return told_ > before;
+    }
+
+    const fs::path folder_ = fs::path(testing::TempDir()) / "froxel_folder_watch_test";
+    std::atomic<int> told_ = 0;
+};
+
+TEST_F(FolderWatchTest, NewChangedAndGoneFiles_AreHeardOf) {
+    const FolderWatch watch(folder_, 8, kRest, [this] { ++told_; });
+    write("a.glb");
+    ASSERT_TRUE(hears(0));
+    int before = told_;
+    write("a.glb");
+    ASSERT_TRUE(hears(before));
+    before = told_;
+    fs::rename(folder_ / "a.glb", folder_ / "sub" / "b.glb");
+    ASSERT_TRUE(hears(before));
+    before = told_;
+    fs::remove(folder_ / "sub" / "b.glb");
+    EXPECT_TRUE(hears(before));
+}
+
+TEST_F(FolderWatchTest, NewFolder_IsWatchedToo) {
+    const FolderWatch watch(folder_, 8, kRest, [this] { ++told_; });
+    fs::create_directories(folder_ / "new" / "below");
+    ASSERT_TRUE(hears(0));
+    const int before = told_;
+    write("new/below/a.glb");
+    EXPECT_TRUE(hears(before));
+}
+
+TEST_F(FolderWatchTest, FileThatIsWritten_IsToldOfWhenItRests) {
+    std::atomic<bool> written = false;
+    std::atomic<bool> early = false;
+    const FolderWatch watch(folder_, 8, Seconds(0.5), [&] {
+        early = early || !written;
+        ++told_;
+    });
+    Seconds longest{0}; // between two writes: a busy machine may rest longer than the watch waits
+    {
+        std::ofstream file(folder_ / "a.glb");
+        auto before = Clock::now();
+        for (int i = 0; i < 20; ++i) {
+            file << std::string(10'000, 'x') << std::flush;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            longest =
+                std::max<Seconds>(longest, Clock::now() - std::exchange(before, Clock::now()));
+        }
+        written = true;
+    }
+    ASSERT_TRUE(hears(0));
+    EXPECT_TRUE(!early || longest > Seconds(0.4));
+}
+
+TEST_F(FolderWatchTest, FolderThatIsNotThere_IsNoTrouble) {
+    const FolderWatch watch(folder_ / "none", 8, kRest, [this] { ++told_; });
+    EXPECT_EQ(told_, 0);
+}
+
+} // namespace
+} // namespace froxel::catalogue
