@@ -5,6 +5,7 @@
 #include "app/info_report.h"
 #include "app/scene_camera.h"
 #include "app/scene_source.h"
+#include "app/scene_table.h"
 #include "app/serve_command.h"
 #include "gpu/device.h"
 #include "net/facts.h"
@@ -79,6 +80,11 @@ Json drawOnce(gpu::Device& device, const scene::Scene& scene) {
 } // namespace
 
 void runInfo(const InfoOptions& options) try {
+    if (!options.scenes.empty()) {
+        const Json rows = scenesReport(options.scenes);
+        std::fputs((options.json ? rows.dump(2) + "\n" : sceneTable(rows)).c_str(), stdout);
+        return;
+    }
     Json info;
     gpu::Device device(options.device);
     if (!options.scene.empty()) {

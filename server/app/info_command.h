@@ -1,4 +1,4 @@
-// `froxel info`: the device, and what a scene holds and needs.
+// `froxel info`: the device, and what a scene holds and needs; or what each scene of a folder is.
 #pragma once
 
 #include "gpu/device_options.h"
@@ -11,6 +11,7 @@ namespace froxel::app {
 struct InfoOptions {
     gpu::DeviceOptions device;
     std::string scene;                      // empty: the device only
+    std::filesystem::path scenes;           // a folder of them, and nothing besides; empty: none
     std::filesystem::path environment_file; // empty: none is looked at
     bool json = false;
 };

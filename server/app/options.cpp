@@ -83,6 +83,17 @@ void addSceneOption(CommandBuilder& command, std::string& target, const std::str
     command.text("--scene", "PATH|builtin", target, shown, "glTF 2.0 or GLB file, or the hall");
 }
 
+void addScenesFolder(CommandBuilder& command,
+                     std::filesystem::path& target,
+                     const std::string& help) {
+    command.text("--scenes", "DIR", target, "", help)->check([](const std::string& folder) {
+        std::error_code unknown;
+        return std::filesystem::is_directory(folder, unknown)
+                   ? std::string()
+                   : "'" + printable(folder) + "' is no folder";
+    });
+}
+
 void addSceneChoices(CommandBuilder& command, SceneChoices& target) {
     constexpr const char* kForm = "NAME|NUMBER|none";
     command.text("--animation", kForm, target.animation, "the scene's first",
@@ -177,16 +188,9 @@ void addServe(CLI::App& app, Targets& targets) {
     CommandBuilder command(app, "serve", "Serve a scene to browsers: the page, /healthz and /ws");
     addServeAddresses(command, options);
     addSceneOption(command, options.scene, options.scene);
-    command
-        .text("--scenes", "DIR", options.scenes, "",
-              "Folder whose glTF and GLB files viewers may go over to; what changes in it is "
-              "noticed, and on SIGHUP it is looked at again")
-        ->check([](const std::string& folder) {
-            std::error_code unknown;
-            return std::filesystem::is_directory(folder, unknown)
-                       ? std::string()
-                       : "'" + printable(folder) + "' is no folder";
-        });
+    addScenesFolder(command, options.scenes,
+                    "Folder whose glTF and GLB files viewers may go over to; what changes in it is "
+                    "noticed, and on SIGHUP it is looked at again");
     addSceneChoices(command, options.choices);
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device, options.validation);
@@ -305,6 +309,8 @@ void addInfo(CLI::App& app, Targets& targets) {
     auto& options = targets.info;
     CommandBuilder command(app, "info", "Print the device, and what a scene holds and needs");
     addSceneOption(command, options.scene, "none");
+    addScenesFolder(command, options.scenes,
+                    "Print what each glTF and GLB file below is, as a table, and nothing besides");
     addEnvironmentFile(command, options.environment_file);
     command.device(options.device.choice, options.device.validation);
     command.cli().add_flag("--json", options.json, "Print JSON");
