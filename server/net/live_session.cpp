@@ -259,7 +259,7 @@ CommandResult<void> LiveSession::selectScene(const Place& place,
 
 void LiveSession::callOff() {
     if (awaited_) {
-        serving_.scenes->dismiss(awaited_->id, *this);
+        serving_.scenes->dismiss(awaited_->id, weak_from_this());
         awaited_.reset();
     }
 }

@@ -51,8 +51,9 @@ class ScenePort {
     [[nodiscard]] virtual SceneCounts counts() const = 0;
     // How far a scene that is offered is.
     [[nodiscard]] virtual SceneStanding standingOf(const std::string& id) const = 0;
-    // The waiter does not want it any more; what nobody waits for is not loaded.
-    virtual void dismiss(const std::string& id, const SceneWaiter& waiter) = 0;
+    // The waiter, which may be about to end, does not want it any more; what nobody waits for is
+    // not loaded.
+    virtual void dismiss(const std::string& id, const std::weak_ptr<SceneWaiter>& waiter) = 0;
 };
 
 } // namespace froxel::session

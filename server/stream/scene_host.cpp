@@ -86,14 +86,15 @@ session::SceneStanding SceneHost::standingOf(const std::string& id) const {
     return coming_.contains(id) ? SceneStanding::kLoading : SceneStanding::kOffered;
 }
 
-void SceneHost::dismiss(const std::string& id, const SceneWaiter& waiter) {
+void SceneHost::dismiss(const std::string& id, const std::weak_ptr<SceneWaiter>& waiter) {
     const std::lock_guard lock(mutex_);
     const auto coming = coming_.find(id);
     if (coming == coming_.end()) {
         return;
     }
-    std::erase_if(coming->second.waiters,
-                  [&](const auto& other) { return other.lock().get() == &waiter; });
+    std::erase_if(coming->second.waiters, [&](const auto& other) {
+        return !other.owner_before(waiter) && !waiter.owner_before(other);
+    });
     wake_(); // where nobody waits for it any more, what was moved of it goes
 }
 
@@ -168,7 +169,7 @@ void SceneHost::run(const std::stop_token& stop) {
             id = std::move(queue_.front());
             queue_.pop_front();
             Coming& coming = coming_.at(id);
-            if (present(coming).empty()) {
+            if (!isAwaited(coming)) {
                 coming_.erase(id);
                 continue;
             }
@@ -200,7 +201,7 @@ Result<void> SceneHost::prepare(const std::string& id, ReadScene read) {
     {
         const std::lock_guard lock(mutex_);
         Coming& coming = coming_.at(id);
-        if (device_ == nullptr || present(coming).empty()) {
+        if (device_ == nullptr || !isAwaited(coming)) {
             coming_.erase(id);
             return {};
         }
@@ -274,6 +275,11 @@ Result<void> SceneHost::makeRoom(uint64_t bytes, const std::string& name) {
     }
     wake_();
     return {};
+}
+
+bool SceneHost::isAwaited(const Coming& coming) {
+    return !std::ranges::all_of(coming.waiters,
+                                [](const auto& waiter) { return waiter.expired(); });
 }
 
 SceneHost::Waiters SceneHost::present(const Coming& coming) {
@@ -351,7 +357,7 @@ std::optional<TimePoint> SceneHost::work(TimePoint now) {
             if (coming->second.stage != Stage::kMoving) {
                 continue;
             }
-            if (present(coming->second).empty()) {
+            if (!isAwaited(coming->second)) {
                 given_up = std::move(coming->second.move);
                 coming_.erase(coming);
             } else {

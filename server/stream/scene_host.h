@@ -50,7 +50,7 @@ class SceneHost final : public session::ScenePort {
     want(const std::string& id, const std::shared_ptr<session::SceneWaiter>& waiter) override;
     [[nodiscard]] session::SceneCounts counts() const override;
     [[nodiscard]] session::SceneStanding standingOf(const std::string& id) const override;
-    void dismiss(const std::string& id, const session::SceneWaiter& waiter) override;
+    void dismiss(const std::string& id, const std::weak_ptr<session::SceneWaiter>& waiter) override;
 
     // Render thread. The device and its first scene are there. Scenes beside that may take so many
     // bytes of the device's memory together. `wake` has work() called soon.
@@ -97,6 +97,8 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] Result<void> makeRoom(uint64_t bytes, const std::string& name);
     [[nodiscard]] uint64_t bytesTaken() const;
     [[nodiscard]] static bool isHeld(const Resident& resident);
+    [[nodiscard]] static bool isAwaited(const Coming& coming);
+    // To be ended without the lock: the last reference to a session calls dismiss().
     [[nodiscard]] static Waiters present(const Coming& coming);
     void report(const std::string& id, const session::SceneProgress& progress);
     void finish(const std::string& id, Result<session::SharedContext> outcome);

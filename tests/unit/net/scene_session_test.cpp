@@ -32,7 +32,8 @@ class FakeScenes final : public session::ScenePort {
                : waiters.contains(id) ? session::SceneStanding::kLoading
                                       : session::SceneStanding::kOffered;
     }
-    void dismiss(const std::string& id, const session::SceneWaiter& /*waiter*/) override {
+    void dismiss(const std::string& id,
+                 const std::weak_ptr<session::SceneWaiter>& /*waiter*/) override {
         waiters.erase(id);
     }
     SharedContext put(const std::string& id) {

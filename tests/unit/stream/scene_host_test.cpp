@@ -269,7 +269,7 @@ TEST_F(SceneHostTest, NobodyWaitsAnyMore_IsNotLoaded) {
     ASSERT_TRUE(host_->want("a", waiter));
     auto gone = std::make_shared<Waiter>();
     ASSERT_TRUE(host_->want("b", gone));
-    host_->dismiss("a", *waiter);
+    host_->dismiss("a", waiter);
     gone.reset();
     setReading(true);
     EXPECT_TRUE(load("c"));
@@ -285,10 +285,42 @@ TEST_F(SceneHostTest, DismissedOnItsWay_LeavesTheDevice) {
     const auto waiter = std::make_shared<Waiter>();
     ASSERT_TRUE(host_->want("a", waiter));
     ASSERT_TRUE(comes([&] { return device_->live_moves == 1; }));
-    host_->dismiss("a", *waiter);
+    host_->dismiss("a", waiter);
     EXPECT_TRUE(comes([&] { return device_->live_moves == 0; }));
     EXPECT_EQ(host_->counts().loading, 0U);
     EXPECT_FALSE(waiter->heard());
+}
+
+// As sessions do.
+class EndingWaiter final : public session::SceneWaiter,
+                           public std::enable_shared_from_this<EndingWaiter> {
+  public:
+    EndingWaiter(SceneHost& host, std::string id) : host_(host), id_(std::move(id)) {}
+    EndingWaiter(const EndingWaiter&) = delete;
+    EndingWaiter& operator=(const EndingWaiter&) = delete;
+    ~EndingWaiter() override { host_.dismiss(id_, weak_from_this()); }
+    void onSceneProgress(const std::string& /*id*/, const SceneProgress& /*progress*/) override {}
+    void onScene(const std::string& /*id*/, Result<SharedContext> /*scene*/) override {}
+
+  private:
+    SceneHost& host_;
+    const std::string id_;
+};
+
+TEST_F(SceneHostTest, SessionsThatEndWhileTheirScenesCome_BlockNobody) {
+    device_->slice_count = 50;
+    device_->scene_bytes = 400;
+    begin(1000);
+    for (int i = 0; i < 400; ++i) {
+        const std::string id(1, static_cast<char>('a' + i % 4));
+        auto waiter = std::make_shared<EndingWaiter>(*host_, id);
+        ASSERT_TRUE(host_->want(id, waiter));
+        if (i % 3 == 0) {
+            std::this_thread::yield();
+        }
+    }
+    EXPECT_TRUE(comes([&] { return host_->counts().loading == 0; }));
+    EXPECT_TRUE(load("a"));
 }
 
 TEST_F(SceneHostTest, ChangedFile_IsReadAnewAndTheOldOneStaysForWhoHasIt) {
