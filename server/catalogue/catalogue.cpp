@@ -31,14 +31,9 @@ bool isSceneFile(const fs::path& file) {
     return ending == ".gltf" || ending == ".glb";
 }
 
+// Both are canonical.
 bool isInside(const fs::path& file, const fs::path& folder) {
-    std::error_code failed;
-    const fs::path real = fs::canonical(file, failed);
-    if (failed) {
-        return false;
-    }
-    const auto [left, rest] = std::ranges::mismatch(folder, real);
-    return left == folder.end();
+    return std::ranges::mismatch(folder, file).in1 == folder.end();
 }
 
 std::vector<Offered> filesIn(const fs::path& folder) {
@@ -55,8 +50,11 @@ std::vector<Offered> filesIn(const fs::path& folder) {
             entry.disable_recursion_pending();
         }
         std::error_code unknown;
-        if (hidden || !isSceneFile(file) || !entry->is_regular_file(unknown) ||
-            !isInside(file, real)) {
+        if (hidden || !isSceneFile(file) || !entry->is_regular_file(unknown)) {
+            continue;
+        }
+        auto offered = offerFile(file, real);
+        if (!offered || offered->path.empty()) { // a link that leads out
             continue;
         }
         if (found.size() == Catalogue::kMostScenes) {
@@ -64,9 +62,7 @@ std::vector<Offered> filesIn(const fs::path& folder) {
                          Catalogue::kMostScenes);
             break;
         }
-        if (auto offered = offerFile(file, real)) {
-            found.push_back(std::move(*offered));
-        }
+        found.push_back(std::move(*offered));
     }
     if (failed) {
         spdlog::warn("event=scenes_not_read folder={} reason={}", logValue(folder.string()),

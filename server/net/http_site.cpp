@@ -28,6 +28,19 @@ Response answerTo(const Request& request, const HttpSite& site) {
 } // namespace
 
 // The page's control panel brings styles of its own. Nobody may frame it.
+Response taggedResponse(const Request& request,
+                        std::string_view content_type,
+                        const std::string& body,
+                        const std::string& etag) {
+    // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
+    const bool unchanged =
+        request[http::field::if_none_match].find(etag) != boost::beast::string_view::npos;
+    Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
+                                     content_type, unchanged ? std::string() : body);
+    response.set(http::field::etag, etag);
+    return response;
+}
+
 std::string_view bearerToken(const Request& request) {
     constexpr std::string_view kScheme = "Bearer ";
     const auto field = request[http::field::authorization];

@@ -75,6 +75,12 @@ class HttpSite {
 makeResponse(boost::beast::http::status status, std::string_view content_type, std::string body);
 [[nodiscard]] Response textResponse(boost::beast::http::status status, std::string line);
 
+// A body that has this tag, or 304 and none to who has it already (If-None-Match).
+[[nodiscard]] Response taggedResponse(const Request& request,
+                                      std::string_view content_type,
+                                      const std::string& body,
+                                      const std::string& etag);
+
 // The token that a request shows, RFC 6750 section 2.1; empty: none.
 [[nodiscard]] std::string_view bearerToken(const Request& request);
 // To one without it.

@@ -36,13 +36,9 @@ std::string_view viewOf(beast::string_view text) {
 
 Response file(const Request& request, const StaticFile& found, const std::string& policy) {
     const Representation& sent = found.bestFor(viewOf(request[http::field::accept_encoding]));
-    // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
-    const bool unchanged =
-        request[http::field::if_none_match].find(sent.etag) != beast::string_view::npos;
-    Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
-                                     found.content_type, unchanged ? std::string() : sent.body);
+    Response response = taggedResponse(request, found.content_type, sent.body, sent.etag);
+    const bool unchanged = response.result() == http::status::not_modified;
     response.set("Content-Security-Policy", policy);
-    response.set(http::field::etag, sent.etag);
     response.set(http::field::cache_control,
                  found.immutable ? "public, max-age=31536000, immutable" : "no-cache");
     if (!found.coded.empty()) {

@@ -14,8 +14,7 @@
 
 namespace froxel::net {
 
-namespace beast = boost::beast;
-namespace http = beast::http;
+namespace http = boost::beast::http;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -105,11 +104,7 @@ std::variant<Page, Response> pageIn(const Request& request, const catalogue::Lis
 
 Response withTag(const Request& request, const std::string& body) {
     const std::string tag = fmt::format("\"{:016x}\"", std::hash<std::string>()(body));
-    const bool unchanged =
-        request[http::field::if_none_match].find(tag) != beast::string_view::npos;
-    Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
-                                     "application/json", unchanged ? std::string() : body);
-    response.set(http::field::etag, tag);
+    Response response = taggedResponse(request, "application/json", body, tag);
     response.set(http::field::cache_control, "no-cache");
     return response;
 }

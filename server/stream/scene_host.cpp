@@ -300,7 +300,6 @@ void SceneHost::report(const std::string& id, const SceneProgress& progress) {
         if (coming == coming_.end()) {
             return;
         }
-        coming->second.progress = progress;
         waiters = present(coming->second);
     }
     for (const auto& waiter : waiters) {

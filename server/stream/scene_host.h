@@ -81,7 +81,6 @@ class SceneHost final : public session::ScenePort {
         Stage stage = Stage::kQueued;
         uint64_t version = 0;
         std::vector<std::weak_ptr<session::SceneWaiter>> waiters;
-        session::SceneProgress progress{"waiting for its turn", 0};
         // From kMoving on; the render thread's.
         std::unique_ptr<SceneMove> move;
         session::SharedContext context;
