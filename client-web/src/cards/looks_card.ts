@@ -1,6 +1,6 @@
 // The looks as pictures to choose from, and those that this browser keeps.
 
-import { element, make } from '../core/dom';
+import { closeBeside, element, make } from '../core/dom';
 import { ms } from '../core/format';
 import type { Look } from '../state/looks';
 
@@ -34,9 +34,7 @@ export class LooksCard {
     private readonly actions: LookActions,
     private readonly costs: KnownCosts,
   ) {
-    this.dialog.addEventListener('click', (event) => {
-      if (event.target === this.dialog) this.dialog.close(); // beside the box
-    });
+    closeBeside(this.dialog);
     element('looks-form', HTMLFormElement).addEventListener('submit', (event) => {
       event.preventDefault();
       this.tell(this.actions.keepLook(this.name.value));

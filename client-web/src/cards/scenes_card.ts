@@ -1,6 +1,6 @@
 // The server's scenes to choose from. What it says of them is set as text, never as HTML.
 
-import { element, make } from '../core/dom';
+import { closeBeside, element, make } from '../core/dom';
 import { bytes } from '../core/format';
 
 export interface SceneActions {
@@ -37,9 +37,7 @@ export class ScenesCard {
   private rows: readonly Row[] = [];
 
   constructor(private readonly actions: SceneActions) {
-    this.dialog.addEventListener('click', (event) => {
-      if (event.target === this.dialog) this.dialog.close(); // beside the box
-    });
+    closeBeside(this.dialog);
     this.search.addEventListener('input', () => this.show());
     element('scenes-close', HTMLButtonElement).addEventListener('click', () => this.dialog.close());
   }

@@ -1,6 +1,6 @@
 // The search over all that one can do and set.
 
-import { element, make } from '../core/dom';
+import { closeBeside, element, make } from '../core/dom';
 import { keyText, searched, type Entry } from '../core/entries';
 
 const kShown = 12;
@@ -16,9 +16,7 @@ export class SearchCard {
   constructor(private readonly entries: () => readonly Entry[]) {
     this.input.addEventListener('input', () => this.search());
     this.input.addEventListener('keydown', (event) => this.key(event));
-    this.dialog.addEventListener('click', (event) => {
-      if (event.target === this.dialog) this.dialog.close(); // beside the box
-    });
+    closeBeside(this.dialog);
   }
 
   toggle(): void {

@@ -1,4 +1,4 @@
-// Elements of index.html by their id.
+// Elements of index.html by their id, and what all of a kind do.
 
 /** The element, of the expected class; a page without it is a bug. */
 export function element<T extends Element>(id: string, type: new () => T): T {
@@ -17,4 +17,11 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   if (text !== '') made.textContent = text;
   if (className !== '') made.className = className;
   return made;
+}
+
+/** A click beside the box of a modal dialog closes it. */
+export function closeBeside(dialog: HTMLDialogElement): void {
+  dialog.addEventListener('click', (event) => {
+    if (event.target === dialog) dialog.close();
+  });
 }
