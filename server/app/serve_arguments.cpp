@@ -17,6 +17,7 @@ constexpr settings::Range<double> kFrameLimitRange{"frame_limit", 0.01, 60.0};
 constexpr settings::Range<double> kGraceRange{"resume_grace", 0.0, 3600.0};
 constexpr settings::Range<uint32_t> kRoomRange{"max_viewers_per_room", 0, 100'000};
 constexpr settings::Range<uint32_t> kAccountRange{"max_sessions_per_address", 0, 1000};
+constexpr settings::Range<uint32_t> kStillsRange{"max_stills_per_minute", 0, 1'000'000};
 constexpr settings::Range<double> kRestRange{"paused_seconds", 0.0, 1e6};
 constexpr settings::Range<uint32_t> kConnectionsRange{"max_connections", 1, 1'000'000};
 constexpr settings::Range<double> kDrainRange{"drain_seconds", 0.0, 86'400.0};
@@ -131,6 +132,9 @@ void addServeLimits(CommandBuilder& command, ServeOptions& options) {
     command.number("--max-viewers-per-room", options.viewers_per_room, kRoomRange,
                    "Viewers of one room, half of them from one address (IPv6: a /64), which "
                    "127.0.0.1 and ::1 are exempt from; 0: no matter");
+    command.number("--max-stills-per-minute", options.stills_per_minute, kStillsRange,
+                   "Pictures of /render that one token or address may have drawn, which 127.0.0.1 "
+                   "and ::1 are exempt from; 0: no matter");
     command.number("--paused-seconds", options.paused_s, kRestRange,
                    "A session whose viewers are all paused, or take no pictures, for so long ends "
                    "when another needs its place");

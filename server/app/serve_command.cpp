@@ -153,6 +153,8 @@ ServeRunOptions runOptions(const ServeOptions& options) {
     run.server.thread_count = std::clamp(cores / 8, 1U, 4U);
     run.server.connections_max = options.connections_max;
     run.server.lobby = lobbyRules(options);
+    run.server.stills.per_minute = options.stills_per_minute;
+    run.server.stills.at_once = std::max(1.0, options.stills_per_minute / 10.0);
     run.server.web_root = webRootOf(options);
     run.server.allowed_origins = options.allowed_origins;
     run.server.host_names = options.host_names;

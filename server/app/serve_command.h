@@ -40,6 +40,7 @@ struct ServeOptions {
     std::optional<uint32_t> sessions_per_address;
     uint32_t sessions_per_token = 0;
     uint32_t viewers_per_room = 256;
+    uint32_t stills_per_minute = 600; // still::StillLimits
     double paused_s = 30;
     double idle_s = 300;
     double forget_s = 3600;

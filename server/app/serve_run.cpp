@@ -39,8 +39,10 @@ constexpr Seconds kFolderRest{1};
 // A viewer has at most one picture in the encoders, so the queue never refuses one.
 ServeRun::ServeRun(ServeRunOptions options)
     : options_(std::move(options)),
-      pool_(options_.encoder_count, options_.server.lobby.sessions_max), scenes_(makeScenes()),
-      server_(std::make_unique<net::Server>(options_.server)), loop_(pool_, loopOptions()) {
+      pool_(options_.encoder_count,
+            options_.server.lobby.sessions_max + options_.server.stills.seats),
+      scenes_(makeScenes()), server_(std::make_unique<net::Server>(options_.server)),
+      loop_(pool_, loopOptions()) {
     if (options_.catalogue) {
         watch_.emplace(options_.catalogue->folder(), catalogue::Catalogue::kDeepest, kFolderRest,
                        [this] { rescan(); });

@@ -18,29 +18,6 @@ bool usuallyOn(const SettingValue& usual) {
     return on != nullptr && *on;
 }
 
-Result<SettingValue> parseSetting(const settings::Setting& setting, const std::string& text) {
-    const auto value = [](const auto& parsed) -> Result<SettingValue> {
-        return parsed ? Result<SettingValue>(*parsed) : parsed.error();
-    };
-    const settings::Range<double> range{setting.name, setting.min, setting.max};
-    switch (setting.kind) {
-    case SettingKind::kChoice: {
-        const auto index = parseName(text, setting.names);
-        return index ? Result<SettingValue>(settings::Choice{*index}) : index.error();
-    }
-    case SettingKind::kWhole:
-        return value(parseNumber(
-            text, settings::Range<uint32_t>{setting.name, static_cast<uint32_t>(setting.min),
-                                            static_cast<uint32_t>(setting.max)}));
-    case SettingKind::kColor:
-        return value(parseColor(text, range));
-    case SettingKind::kReal:
-    case SettingKind::kSwitch:
-        break;
-    }
-    return value(parseNumber(text, range));
-}
-
 std::string dashed(const settings::Setting& setting) {
     std::string name(setting.name);
     std::replace(name.begin(), name.end(), '_', '-');

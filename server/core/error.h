@@ -23,6 +23,8 @@ enum class ErrorCode {
 struct Error {
     ErrorCode code = ErrorCode::kInvalidArgument;
     std::string message;
+    // How many times larger the picture's area is than one that would do; 0: none would.
+    double too_large_by = 0;
 };
 
 // The exception form of an Error, for start-up code only; caught once, in main.

@@ -6,6 +6,7 @@
 #include "net/request_form.h"
 
 #include <boost/asio/dispatch.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -146,9 +147,47 @@ void HttpSession::onRequest() {
         upgrade(std::move(request));
         return;
     }
+    if (answersLater(request)) {
+        return;
+    }
     const bool asks = request.method() == http::verb::get && pathOf(request) == kSocketPath;
     auto refused = asks ? site_->refuseUpgrade(request, peerAddress(stream_)) : std::nullopt;
     write(refused ? std::move(*refused) : respond(request, *site_));
+}
+
+bool HttpSession::answersLater(const Request& request) {
+    if (request.method() != http::verb::get && request.method() != http::verb::head) {
+        return false;
+    }
+    const uint64_t question = ++question_;
+    auto done = [self = shared_from_this(), question, request](Response response) {
+        boost::asio::post(
+            self->strand_, [self, question, request, response = std::move(response)]() mutable {
+                if (self->question_ == question && std::exchange(self->call_off_, std::nullopt) &&
+                    !guarded("http answer",
+                             [&] { self->write(finished(request, std::move(response))); })) {
+                    self->close();
+                }
+            });
+    };
+    call_off_ = site_->answerLater(request, pathOf(request), peerAddress(stream_), std::move(done));
+    if (call_off_) {
+        watchForEnd(question);
+    }
+    return call_off_.has_value();
+}
+
+// Nothing is drawn for who has gone. What a client sends ahead waits.
+void HttpSession::watchForEnd(uint64_t question) {
+    stream_.next_layer().socket().async_wait(
+        boost::asio::socket_base::wait_read,
+        [self = shared_from_this(), question](beast::error_code error) {
+            beast::error_code gone;
+            const bool waits = self->question_ == question && self->call_off_;
+            if (waits && (error || self->stream_.next_layer().socket().available(gone) == 0)) {
+                self->close();
+            }
+        });
 }
 
 void HttpSession::upgrade(Request request) {
@@ -206,6 +245,9 @@ void HttpSession::linger() {
 void HttpSession::close() {
     reading_ = false;
     request_deadline_.cancel();
+    if (const auto call_off = std::exchange(call_off_, std::nullopt)) {
+        (*call_off)();
+    }
     stream_.next_layer().close();
 }
 

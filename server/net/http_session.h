@@ -39,6 +39,9 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     void onReadError(boost::beast::error_code error);
     void onRequest();
     void upgrade(Request request);
+    // Whether the answer comes later.
+    [[nodiscard]] bool answersLater(const Request& request);
+    void watchForEnd(uint64_t question);
     void write(Response response);
     void onWritten(boost::beast::error_code error);
     void linger();
@@ -54,6 +57,8 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
     Response response_;
+    uint64_t question_ = 0; // of those answered later
+    std::optional<HttpSite::CallOff> call_off_;
     std::array<std::byte, 4096> discarded_{};
     size_t discarded_bytes_ = 0;
 };

@@ -3,6 +3,7 @@
 #include "core/text.h"
 
 #include <boost/beast/core/string.hpp>
+#include <nlohmann/json.hpp>
 
 #include <utility>
 
@@ -27,14 +28,30 @@ Response answerTo(const Request& request, const HttpSite& site) {
 
 } // namespace
 
-// The page's control panel brings styles of its own. Nobody may frame it.
+std::string textOf(const nlohmann::ordered_json& json) {
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+Response apiRefusal(http::status status, const ApiRefusal& refusal) {
+    nlohmann::ordered_json body{
+        {"code", refusal.code}, {"field", refusal.field}, {"message", refusal.message}};
+    if (!refusal.fits.empty()) {
+        body["fits"] = refusal.fits;
+    }
+    return makeResponse(status, "application/json", textOf(body));
+}
+
+// A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
+bool hasAlready(const Request& request, std::string_view etag) {
+    return request[http::field::if_none_match].find(boost::beast::string_view(
+               etag.data(), etag.size())) != boost::beast::string_view::npos;
+}
+
 Response taggedResponse(const Request& request,
                         std::string_view content_type,
                         const std::string& body,
                         const std::string& etag) {
-    // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).
-    const bool unchanged =
-        request[http::field::if_none_match].find(etag) != boost::beast::string_view::npos;
+    const bool unchanged = hasAlready(request, etag);
     Response response = makeResponse(unchanged ? http::status::not_modified : http::status::ok,
                                      content_type, unchanged ? std::string() : body);
     response.set(http::field::etag, etag);
@@ -56,6 +73,7 @@ Response unauthorized(std::string line) {
     return response;
 }
 
+// The page's control panel brings styles of its own. Nobody may frame it.
 std::string contentPolicy(std::string_view reconnect_url) {
     return "default-src 'self'; connect-src 'self' " + std::string(reconnect_url) +
            "; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
@@ -86,7 +104,10 @@ std::string_view pathOf(const Request& request) {
 }
 
 Response respond(const Request& request, const HttpSite& site) {
-    Response response = answerTo(request, site);
+    return finished(request, answerTo(request, site));
+}
+
+Response finished(const Request& request, Response response) {
     const bool keep_alive = request.keep_alive() && response.keep_alive();
     response.version(request.version());
     response.keep_alive(keep_alive);

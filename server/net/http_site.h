@@ -11,8 +11,10 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -42,6 +44,16 @@ class HttpSite {
     // A GET or HEAD, or a POST where takesPost(); `path` is without the query.
     [[nodiscard]] virtual Response answer(const Request& request, std::string_view path) const = 0;
     [[nodiscard]] virtual bool takesPost(std::string_view /*path*/) const { return false; }
+    // A GET or HEAD of what takes longer than an answer may: `done` gets it once, on any thread and
+    // maybe within. What comes back calls it off, on any thread. None: answer() has it.
+    using CallOff = std::function<void()>;
+    [[nodiscard]] virtual std::optional<CallOff>
+    answerLater(const Request& /*request*/,
+                std::string_view /*path*/,
+                const boost::asio::ip::address& /*peer*/,
+                std::function<void(Response)> /*done*/) const {
+        return {};
+    }
     // Why this request of `peer` may not become a WebSocket; none when it may. Asked of a plain GET
     // of its path, too: a browser's page is told no status of a WebSocket that was refused.
     [[nodiscard]] virtual std::optional<Response>
@@ -69,12 +81,27 @@ class HttpSite {
 // The whole answer to a request that is no upgrade: GET and HEAD go to the site, HEAD gets the
 // headers of GET, and every answer the headers that keep browsers out of trouble.
 [[nodiscard]] Response respond(const Request& request, const HttpSite& site);
+// The same of what answerLater() gave.
+[[nodiscard]] Response finished(const Request& request, Response response);
 
 // For answer(): a body of this type, and one line of text.
 [[nodiscard]] Response
 makeResponse(boost::beast::http::status status, std::string_view content_type, std::string body);
 [[nodiscard]] Response textResponse(boost::beast::http::status status, std::string line);
 
+// What HTTP clients that are programs are told where they get something else: JSON with these.
+struct ApiRefusal {
+    std::string code;  // as of the protocol's errors: "out_of_range"
+    std::string field; // of the request; empty: none
+    std::string message;
+    std::string fits{}; // the largest that would do, as the field has it; empty: unknown
+};
+[[nodiscard]] Response apiRefusal(boost::beast::http::status status, const ApiRefusal& refusal);
+// A file may have any name: what of a text is no UTF-8 is replaced.
+[[nodiscard]] std::string textOf(const nlohmann::ordered_json& json);
+
+// Whether who asks has what this tag is of already (If-None-Match).
+[[nodiscard]] bool hasAlready(const Request& request, std::string_view etag);
 // A body that has this tag, or 304 and none to who has it already (If-None-Match).
 [[nodiscard]] Response taggedResponse(const Request& request,
                                       std::string_view content_type,

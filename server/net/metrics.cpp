@@ -118,6 +118,7 @@ struct Metrics::Impl {
     [[nodiscard]] prometheus::MetricFamily memoryFamily() const;
     [[nodiscard]] prometheus::MetricFamily loadFamily() const;
     [[nodiscard]] std::vector<prometheus::MetricFamily> sceneFamilies() const;
+    [[nodiscard]] std::vector<prometheus::MetricFamily> stillFamilies() const;
     [[nodiscard]] prometheus::MetricFamily logFamily() const;
 
     const std::function<size_t()> session_count;
@@ -175,6 +176,7 @@ struct Metrics::Impl {
     std::function<std::vector<MemoryUse>()> memory;
     std::function<double()> load;
     std::function<uint64_t()> log_lost;
+    std::function<still::StillCounts()> stills;   // likewise
     std::function<session::SceneCounts()> scenes; // none: nothing is told of them
 };
 
@@ -361,6 +363,26 @@ std::vector<prometheus::MetricFamily> Metrics::Impl::sceneFamilies() const {
                      {{"", number(counts.evicted_total)}})};
 }
 
+void Metrics::watchStills(std::function<still::StillCounts()> stills) {
+    const std::lock_guard lock(impl_->watch_mutex);
+    impl_->stills = std::move(stills);
+}
+
+std::vector<prometheus::MetricFamily> Metrics::Impl::stillFamilies() const {
+    const std::lock_guard lock(watch_mutex);
+    if (!stills) {
+        return {};
+    }
+    const still::StillCounts counts = stills();
+    const auto number = [](uint64_t value) { return static_cast<double>(value); };
+    return {metricFamily(prometheus::MetricType::Counter, "froxel_stills_total",
+                         "Stills by what became of them.", "result",
+                         {{"drawn", number(counts.drawn_total)},
+                          {"kept", number(counts.kept_total)},
+                          {"refused", number(counts.refused_total)},
+                          {"put_off", number(counts.put_off_total)}})};
+}
+
 void Metrics::watchLog(std::function<uint64_t()> lost) {
     const std::lock_guard lock(impl_->watch_mutex);
     impl_->log_lost = std::move(lost);
@@ -416,7 +438,8 @@ void Metrics::bytesSent(size_t count) {
 
 std::string Metrics::text() const {
     auto families = impl_->registry.Collect();
-    for (auto more : {impl_->frameFamilies(), impl_->sceneFamilies(), processMetrics()}) {
+    for (auto more : {impl_->frameFamilies(), impl_->sceneFamilies(), impl_->stillFamilies(),
+                      processMetrics()}) {
         std::move(more.begin(), more.end(), std::back_inserter(families));
     }
     families.push_back(impl_->sessionFamily());

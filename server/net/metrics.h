@@ -10,6 +10,7 @@
 #include "session/rejection.h"
 #include "session/scene_port.h"
 #include "session/state_message.h"
+#include "still/still_desk.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -73,6 +74,9 @@ class Metrics {
     // Tells of the server's scenes; called by text(), on its thread. Until it is set nothing is
     // told of them.
     void watchScenes(std::function<session::SceneCounts()> scenes);
+
+    // Tells of stills; called by text(), on its thread. Until it is set nothing is told of them.
+    void watchStills(std::function<still::StillCounts()> stills);
 
     // Tells how many lines of the log were lost since the start; called by text(), on its thread.
     // Until it is set it is 0.

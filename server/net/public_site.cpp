@@ -30,6 +30,10 @@ Response health(const ServiceStatus& status) {
                         status.serving ? R"({"status":"serving"})" : R"({"status":"loading"})");
 }
 
+Response noToken() {
+    return unauthorized("Authorization must be Bearer and a token of this server");
+}
+
 std::string_view viewOf(beast::string_view text) {
     return {text.data(), text.size()};
 }
@@ -132,7 +136,7 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
     }
     if (SceneListing::has(path)) {
         return site_->gate && !site_->gate->lets(bearerToken(request))
-                   ? unauthorized("Authorization must be Bearer and a token of this server")
+                   ? noToken()
                    : site_->scenes->answer(request, path);
     }
     if (path == "/metrics") {
@@ -151,6 +155,25 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
     return textResponse(http::status::not_found,
                         path == "/" ? "the page is not built; ./deploy/build.sh makes it"
                                     : "not found");
+}
+
+std::optional<HttpSite::CallOff> PublicSite::answerLater(const Request& request,
+                                                         std::string_view path,
+                                                         const asio::ip::address& peer,
+                                                         std::function<void(Response)> done) const {
+    if (!StillAnswers::has(path)) {
+        return {};
+    }
+    Caller caller = callerOf(request, peer, *site_);
+    if (site_->gate) {
+        const auto pass = site_->gate->admit(bearerToken(request));
+        if (!pass) {
+            done(noToken());
+            return [] {};
+        }
+        caller.token = pass->account();
+    }
+    return site_->stills->answer(request, path, caller, site_->gate == nullptr, done);
 }
 
 std::optional<Response> PublicSite::refuseUpgrade(const Request& request,

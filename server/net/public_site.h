@@ -15,6 +15,11 @@ class PublicSite final : public HttpSite {
 
     [[nodiscard]] const HostNames& hostNames() const override { return site_->host_names; }
     [[nodiscard]] Response answer(const Request& request, std::string_view path) const override;
+    [[nodiscard]] std::optional<CallOff>
+    answerLater(const Request& request,
+                std::string_view path,
+                const boost::asio::ip::address& peer,
+                std::function<void(Response)> done) const override;
     [[nodiscard]] std::optional<Response>
     refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;
     [[nodiscard]] uint32_t connectionsMax(const boost::asio::ip::address& peer) const override;

@@ -19,19 +19,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// A file may have any name; what of it is no UTF-8 is replaced.
-std::string textOf(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 Response refused(http::status status, const char* code, const char* field, std::string message) {
-    return makeResponse(
-        status, "application/json",
-        textOf(Json{{"code", code}, {"field", field}, {"message", std::move(message)}}));
+    return apiRefusal(status, {code, field, std::move(message)});
 }
 
 const char* wordOf(session::SceneStanding standing) {
     switch (standing) {
+    case session::SceneStanding::kUnknown: // it has just gone
     case session::SceneStanding::kOffered:
         return "offered";
     case session::SceneStanding::kLoading:

@@ -47,9 +47,53 @@ std::shared_ptr<const Site> makeSite(const ServerOptions& options, LongWork& lon
     site->metrics = std::make_shared<Metrics>(
         options.version, [lobby = site->lobby] { return lobby->sessionCount(); });
     site->scenes = std::make_shared<const SceneListing>(options.catalogue, site->service);
+    site->still_desk = std::make_shared<still::StillDesk>(options.stills);
+    site->stills =
+        std::make_shared<const StillAnswers>(site->still_desk, options.catalogue, site->service);
+    site->metrics->watchStills([desk = site->still_desk] { return desk->counts(); });
     site->long_work = &long_work;
     return site;
 }
+
+// Calls `on_due` when that is due, on a strand of its own.
+class Alarm {
+  public:
+    Alarm(asio::io_context& io, std::function<void()> on_due)
+        : timer_(asio::make_strand(io)), on_due_(std::move(on_due)) {}
+
+    // Any thread.
+    void set(TimePoint due) {
+        asio::post(timer_.get_executor(), [this, due] { wait(due); });
+    }
+    // None comes any more: a timer that waits would keep the threads from ending.
+    void stop() {
+        asio::post(timer_.get_executor(), [this] {
+            stopped_ = true;
+            timer_.cancel();
+        });
+    }
+
+  private:
+    // On the strand.
+    void wait(TimePoint due) {
+        if (stopped_ || (expires_at_ && *expires_at_ <= due)) {
+            return;
+        }
+        expires_at_ = due;
+        timer_.expires_at(due);
+        timer_.async_wait([this](const boost::system::error_code& error) {
+            if (!error) {
+                expires_at_.reset();
+                on_due_();
+            }
+        });
+    }
+
+    asio::steady_timer timer_;
+    const std::function<void()> on_due_;
+    std::optional<TimePoint> expires_at_;
+    bool stopped_ = false;
+};
 
 // The admin address, on a thread of its own: whatever viewers do, it answers.
 struct Admin {
@@ -81,7 +125,8 @@ struct Server::Impl {
                                               options.connections_max,
                                               std::make_shared<PublicSite>(site),
                                               options.tls)),
-          lobby_timer(asio::make_strand(io)) {
+          lobby_alarm(io, [this] { site->lobby->expire(Clock::now()); }),
+          still_alarm(io, [this] { site->still_desk->expire(Clock::now()); }) {
         if (!options.admin.address.empty()) {
             const std::string& address = options.admin.address;
             admin.emplace(options.admin,
@@ -94,9 +139,8 @@ struct Server::Impl {
                               AdminAccess{HostNames(options.host_names, address),
                                           isLoopback(address), options.admin_gate}));
         }
-        site->lobby->setAlarm([this](TimePoint due) {
-            asio::post(lobby_timer.get_executor(), [this, due] { expireAt(due); });
-        });
+        site->lobby->setAlarm([this](TimePoint due) { lobby_alarm.set(due); });
+        site->still_desk->setAlarm([this](TimePoint due) { still_alarm.set(due); });
         if (options.agones) {
             agones.emplace(*options.agones, hooksForAgones());
         }
@@ -115,6 +159,7 @@ struct Server::Impl {
         io.stop();
         threads.clear();
         site->lobby->close(); // connections that end with `io` set off no alarm
+        site->still_desk->close();
     }
 
     AgonesHooks hooksForAgones() {
@@ -135,25 +180,10 @@ struct Server::Impl {
         return answer.wait_for(kNetworkAnswer) == std::future_status::ready;
     }
 
-    // On the timer's strand.
-    void expireAt(TimePoint due) {
-        if ((expires_at && *expires_at <= due) || site->service->status().draining) {
-            return;
-        }
-        expires_at = due;
-        lobby_timer.expires_at(due);
-        lobby_timer.async_wait([this](const boost::system::error_code& error) {
-            if (!error) {
-                expires_at.reset();
-                site->lobby->expire(Clock::now());
-            }
-        });
-    }
-
-    // A timer that waits would keep the threads from ending.
     void stopWaiting() {
         site->lobby->close();
-        asio::post(lobby_timer.get_executor(), [this] { lobby_timer.cancel(); });
+        lobby_alarm.stop();
+        still_alarm.stop();
     }
 
     const std::string reconnect_url;
@@ -161,8 +191,8 @@ struct Server::Impl {
     LongWork long_work;
     const std::shared_ptr<const Site> site;
     const std::shared_ptr<Listener> listener;
-    asio::steady_timer lobby_timer; // on a strand of its own
-    std::optional<TimePoint> expires_at;
+    Alarm lobby_alarm;
+    Alarm still_alarm;
     std::optional<Admin> admin;
     std::optional<Agones> agones;
     std::vector<std::future<void>> done;

@@ -5,6 +5,7 @@
 #include "net/bind_address.h"
 #include "net/lobby_rules.h"
 #include "net/service.h"
+#include "still/still_desk.h"
 
 #include <chrono>
 #include <filesystem>
@@ -33,6 +34,7 @@ struct ServerOptions {
     // Of any kind, half of them from one address, as LobbyRules; sessions have limits of their own.
     uint32_t connections_max = 512;
     LobbyRules lobby;
+    still::StillLimits stills;
     std::filesystem::path web_root;                        // empty: no page
     std::shared_ptr<const catalogue::Catalogue> catalogue; // of scenes; null: there is one
     std::vector<std::string> allowed_origins;

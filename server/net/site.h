@@ -10,6 +10,7 @@
 #include "net/scene_listing.h"
 #include "net/service.h"
 #include "net/static_files.h"
+#include "net/still_answers.h"
 #include "net/token_gate.h"
 
 #include <memory>
@@ -31,6 +32,8 @@ struct Site {
     std::shared_ptr<Lobby> lobby;
     std::shared_ptr<Metrics> metrics;
     std::shared_ptr<const SceneListing> scenes;
+    std::shared_ptr<still::StillDesk> still_desk;
+    std::shared_ptr<const StillAnswers> stills;
     LongWork* long_work = nullptr; // lives until the network's threads have ended
 };
 

@@ -141,7 +141,8 @@ Error tooLongInPieces(const settings::Size& size, const FramePieces& pieces, Sec
                     "takes about {:.3g} s of this device; at most {:.3g} s a frame are allowed: "
                     "ask for fewer lights, fewer effects, or a smaller picture",
                     size.width_px, size.height_px, pieces.count(), pieces.estimate().count(),
-                    limit.count())};
+                    limit.count()),
+        pieces.estimate() / limit};
 }
 
 Error tooManyToCap(uint32_t light_count) {

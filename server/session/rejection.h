@@ -44,10 +44,11 @@ inline constexpr auto kRejectCodes = enumerators<RejectCode, 255, isRejectCode>(
 
 struct Rejection {
     RejectCode code = RejectCode::kMalformed;
-    uint64_t ref_seq = 0;   // 0: not caused by a message, or its seq could not be read
-    std::string field;      // as in settings/ranges.h where it has a range; empty if none
-    std::string message;    // one line for a person
-    bool blameless = false; // nothing that a client could have known: never too many of them
+    uint64_t ref_seq = 0;    // 0: not caused by a message, or its seq could not be read
+    std::string field;       // as in settings/ranges.h where it has a range; empty if none
+    std::string message;     // one line for a person
+    bool blameless = false;  // nothing that a client could have known: never too many of them
+    double too_large_by = 0; // as Error has it
 };
 
 [[nodiscard]] inline Rejection outOfRange(std::string_view field, const std::string& text) {

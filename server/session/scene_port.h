@@ -19,7 +19,7 @@ struct SceneProgress {
     double fraction = 0; // 0..1
 };
 
-enum class SceneStanding : uint8_t { kOffered, kLoading, kReady };
+enum class SceneStanding : uint8_t { kUnknown, kOffered, kLoading, kReady };
 
 // Of a server's scenes, for its operators.
 struct SceneCounts {
@@ -39,6 +39,8 @@ class SceneWaiter {
     virtual void onSceneProgress(const std::string& id, const SceneProgress& progress) = 0;
     // It is there, or why it is not; nothing more comes of it.
     virtual void onScene(const std::string& id, Result<SharedContext> scene) = 0;
+    // Whether those who are not go first. Called under a lock of the port's.
+    [[nodiscard]] virtual bool isPatient() const { return false; }
 };
 
 class ScenePort {
@@ -49,7 +51,7 @@ class ScenePort {
     [[nodiscard]] virtual Result<SharedContext>
     want(const std::string& id, const std::shared_ptr<SceneWaiter>& waiter) = 0;
     [[nodiscard]] virtual SceneCounts counts() const = 0;
-    // How far a scene that is offered is.
+    // How far a scene is; kUnknown: it is not offered.
     [[nodiscard]] virtual SceneStanding standingOf(const std::string& id) const = 0;
     // The waiter, which may be about to end, does not want it any more; what nobody waits for is
     // not loaded.

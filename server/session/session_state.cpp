@@ -212,6 +212,8 @@ struct Reducer {
                               numberText(size.height_px) + samples +
                               "; this server draws at most " +
                               numberText(context.defaults.max_area_px) + " pixels"};
+        refused.too_large_by =
+            static_cast<double>(area_px) / static_cast<double>(context.defaults.max_area_px);
         refused.blameless = true; // Welcome does not tell it
         return refused;
     }

@@ -53,6 +53,11 @@ class StreamPort {
                                                  const SessionState& state,
                                                  const Account& account,
                                                  TimePoint now) = 0;
+    // For single pictures beside the sessions, of which no rate is kept: a small share of the
+    // device's time is theirs while sessions want all of it. Errors: kDevice, kCapacity when the
+    // stream ends.
+    [[nodiscard]] virtual Result<SessionId> joinBeside(std::weak_ptr<FrameSink> sink,
+                                                       const SessionState& state) = 0;
     // Whether join() would take one more session of this account now; its errors.
     [[nodiscard]] virtual Result<void> admits(const Account& account, TimePoint now) const = 0;
     // Replaces the state to draw; `arrived` is when the command behind it came in.

@@ -21,6 +21,8 @@ constexpr double kWorthWaiting = 0.5;
 // could not be seen makes up for it: it is waited for again some pieces later.
 constexpr double kWaitedInVain = 4;
 constexpr double kGapDecay = 0.8;
+// No address and no token is called so.
+const session::Account kBeside{"beside the sessions"};
 
 Clock::duration ticks(Seconds time) {
     return std::chrono::duration_cast<Clock::duration>(time);
@@ -34,6 +36,14 @@ FrameScheduler::Entry* FrameScheduler::find(uint64_t viewer) {
 }
 
 void FrameScheduler::add(uint64_t viewer, const session::Account& account) {
+    enter(viewer, account);
+}
+
+void FrameScheduler::addBeside(uint64_t viewer) {
+    enter(viewer, kBeside).beside = true;
+}
+
+FrameScheduler::Entry& FrameScheduler::enter(uint64_t viewer, const session::Account& account) {
     const auto [share, is_new] = accounts_.try_emplace(account);
     if (is_new) {
         share->second.virtual_time = virtual_now_;
@@ -42,7 +52,7 @@ void FrameScheduler::add(uint64_t viewer, const session::Account& account) {
     Entry entry;
     entry.account = share;
     entry.virtual_time = std::max(share->second.virtual_now, share->second.left_behind);
-    viewers_.insert_or_assign(viewer, entry);
+    return viewers_.insert_or_assign(viewer, entry).first->second;
 }
 
 void FrameScheduler::remove(uint64_t viewer) {
@@ -221,17 +231,29 @@ void FrameScheduler::onStarted(uint64_t viewer) {
 }
 
 void FrameScheduler::onFrame(uint64_t viewer, TimePoint now) {
-    if (Entry* entry = find(viewer)) {
+    if (Entry* entry = find(viewer); entry != nullptr && !entry->beside) {
         const auto interval = ticks(min_interval_);
         const bool kept_up = now - entry->due < interval;
         entry->due = (kept_up ? entry->due : now) + interval;
     }
 }
 
+// Each account gets as much virtual time as every other: n others at 1 leave kBesideShare to one
+// that pays (1 / kBesideShare - 1) / n.
+double FrameScheduler::priceOf(const Entry& entry) const {
+    if (!entry.beside) {
+        return 1;
+    }
+    const auto others = std::ranges::count_if(
+        accounts_, [&](const auto& other) { return other.second.viewer_count > 0; });
+    return (1 / kBesideShare - 1) / static_cast<double>(std::max<ptrdiff_t>(others - 1, 1));
+}
+
 void FrameScheduler::charge(uint64_t viewer, Seconds cost) {
     if (Entry* entry = find(viewer)) {
-        entry->virtual_time += cost;
-        entry->account->second.virtual_time += cost;
+        const Seconds charged = cost * priceOf(*entry);
+        entry->virtual_time += charged;
+        entry->account->second.virtual_time += charged;
     }
 }
 

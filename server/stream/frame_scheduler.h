@@ -7,6 +7,9 @@
 // viewer within its account; debts are forgotten once virtual time, which goes on while the device
 // is idle, has passed them.
 //
+// Who draws beside the sessions, such as single pictures for HTTP, has an account that pays more
+// for what it takes, so that while others want all of the device it gets kBesideShare of it.
+//
 // Pieces cannot be interrupted, so a long one begun in the moment that a viewer needs to be ready
 // again would cost it more than its share. Such a piece waits for those who are behind it, as long
 // as they are usually ready within half of its time; the wait is charged to them (as anticipatory
@@ -27,7 +30,12 @@ class FrameScheduler {
     // No viewer gets frames closer together than `min_interval` on average, but for onInput().
     explicit FrameScheduler(Seconds min_interval) : min_interval_(min_interval) {}
 
+    // Of the device's time while sessions want all of it.
+    static constexpr double kBesideShare = 0.05;
+
     void add(uint64_t viewer, const session::Account& account);
+    // Beside the sessions: all of them have one account, and no pace.
+    void addBeside(uint64_t viewer);
     void remove(uint64_t viewer);
     enum class Ready : uint8_t {
         kNo,
@@ -75,6 +83,7 @@ class FrameScheduler {
     using Accounts = std::map<session::Account, Share>;
     struct Entry {
         Accounts::iterator account;
+        bool beside = false;
         Ready ready = Ready::kNo;
         TimePoint ready_since{};
         Seconds piece{0};
@@ -98,6 +107,8 @@ class FrameScheduler {
     };
 
     [[nodiscard]] Entry* find(uint64_t viewer);
+    Entry& enter(uint64_t viewer, const session::Account& account);
+    [[nodiscard]] double priceOf(const Entry& entry) const;
     void refresh(TimePoint now);
     void becomeReady(Entry& entry) const;
     // Whether `one` is to be served before `other`; both as if they were ready.

@@ -92,6 +92,11 @@ Result<SessionId> RenderLoop::join(std::weak_ptr<session::FrameSink> sink,
     return id;
 }
 
+Result<SessionId> RenderLoop::joinBeside(std::weak_ptr<session::FrameSink> sink,
+                                         const SessionState& state) {
+    return mailbox_->join(std::move(sink), state, std::nullopt, Clock::now());
+}
+
 Result<void> RenderLoop::admits(const session::Account& account, TimePoint now) const {
     const std::lock_guard lock(admission_mutex_);
     if (auto fits = admission_.check(account, now); !fits) {
@@ -208,7 +213,11 @@ void RenderLoop::readNews() {
                                                 [mailbox = mailbox_] { mailbox->wake(); });
             entry = std::make_unique<Viewer>(news, std::move(pipeline));
             entry->refinement.onChange(news.arrived);
-            scheduler_.add(news.id, news.account);
+            if (news.account) {
+                scheduler_.add(news.id, *news.account);
+            } else {
+                scheduler_.addBeside(news.id);
+            }
         }
         Viewer& viewer = *entry;
         viewer.granted = news.granted;

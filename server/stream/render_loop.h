@@ -87,6 +87,8 @@ class RenderLoop final : public session::StreamPort {
                                                   const session::SessionState& state,
                                                   const session::Account& account,
                                                   TimePoint now) override;
+    [[nodiscard]] Result<session::SessionId>
+    joinBeside(std::weak_ptr<session::FrameSink> sink, const session::SessionState& state) override;
     [[nodiscard]] Result<void> admits(const session::Account& account,
                                       TimePoint now) const override;
     void

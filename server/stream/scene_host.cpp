@@ -83,7 +83,9 @@ session::SceneStanding SceneHost::standingOf(const std::string& id) const {
     if ((first_ && first_->scene_id == id) || std::ranges::any_of(residents_, isIt)) {
         return SceneStanding::kReady;
     }
-    return coming_.contains(id) ? SceneStanding::kLoading : SceneStanding::kOffered;
+    return coming_.contains(id)  ? SceneStanding::kLoading
+           : options_.offers(id) ? SceneStanding::kOffered
+                                 : SceneStanding::kUnknown;
 }
 
 void SceneHost::dismiss(const std::string& id, const std::weak_ptr<SceneWaiter>& waiter) {
@@ -166,8 +168,9 @@ void SceneHost::run(const std::stop_token& stop) {
             if (!queued_.wait(lock, stop, [this] { return !queue_.empty(); })) {
                 return;
             }
-            id = std::move(queue_.front());
-            queue_.pop_front();
+            const auto next = nextToLoad();
+            id = std::move(*next);
+            queue_.erase(next);
             Coming& coming = coming_.at(id);
             if (!isAwaited(coming)) {
                 coming_.erase(id);
@@ -177,6 +180,18 @@ void SceneHost::run(const std::stop_token& stop) {
         }
         load(id);
     }
+}
+
+// The first that anybody waits for who is not patient; else the first.
+std::deque<std::string>::iterator SceneHost::nextToLoad() {
+    const auto hurries = [this](const std::string& id) {
+        return std::ranges::any_of(coming_.at(id).waiters, [](const auto& waiter) {
+            const auto here = waiter.lock();
+            return here && !here->isPatient();
+        });
+    };
+    const auto next = std::ranges::find_if(queue_, hurries);
+    return next == queue_.end() ? queue_.begin() : next;
 }
 
 void SceneHost::load(const std::string& id) {

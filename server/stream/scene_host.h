@@ -90,6 +90,7 @@ class SceneHost final : public session::ScenePort {
     using Waiters = std::vector<std::shared_ptr<session::SceneWaiter>>;
 
     void run(const std::stop_token& stop);
+    [[nodiscard]] std::deque<std::string>::iterator nextToLoad();
     void load(const std::string& id);
     [[nodiscard]] Result<void> prepare(const std::string& id, ReadScene read);
     // Under the lock: has scenes leave for so many more bytes. Errors: kCapacity.

@@ -13,7 +13,7 @@ void ViewerMailbox::publish(Slot& slot) {
 
 Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink> sink,
                                                const session::SessionState& state,
-                                               const session::Account& account,
+                                               std::optional<session::Account> account,
                                                TimePoint now) {
     const std::lock_guard lock(mutex_);
     if (closed_) {
@@ -21,7 +21,7 @@ Result<session::SessionId> ViewerMailbox::join(std::weak_ptr<session::FrameSink>
     }
     const session::SessionId id = ++last_id_;
     Slot& slot = slots_[id];
-    slot.news = {id, std::move(sink), account, state, now, 0, {}, false};
+    slot.news = {id, std::move(sink), std::move(account), state, now, 0, {}, false};
     publish(slot);
     return id;
 }

@@ -20,7 +20,7 @@ namespace froxel::stream {
 struct ViewerNews {
     session::SessionId id = 0;
     std::weak_ptr<session::FrameSink> sink;
-    session::Account account;
+    std::optional<session::Account> account;    // none: beside the sessions
     std::optional<session::SessionState> state; // none: as before
     TimePoint arrived{};                        // of the command behind `state`
     uint64_t granted = 0;                       // as StreamPort::grant
@@ -33,7 +33,7 @@ class ViewerMailbox {
     // Any thread; as StreamPort.
     [[nodiscard]] Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
                                                   const session::SessionState& state,
-                                                  const session::Account& account,
+                                                  std::optional<session::Account> account,
                                                   TimePoint now);
     // Whether join() would succeed now; its errors.
     [[nodiscard]] Result<void> check() const;

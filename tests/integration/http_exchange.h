@@ -41,6 +41,15 @@ inline std::string bodyOf(const std::string& answer) {
     return end == std::string::npos ? "" : answer.substr(end + 4);
 }
 
+// Asks until the server does not say any more that it will be there later.
+inline std::string httpGetOnceThere(uint16_t port, const std::string& target) {
+    std::string answer;
+    do {
+        answer = httpGet(port, target);
+    } while (statusOf(answer) == 503);
+    return answer;
+}
+
 // The value of a sample, such as `froxel_sessions` or `froxel_x_total{kind="a"}`, in what /metrics
 // answered; NaN where it is not there.
 inline double sampleOf(const std::string& metrics, const std::string& name) {

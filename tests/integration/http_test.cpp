@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <unistd.h>
 
 namespace froxel::test {
@@ -72,6 +73,52 @@ TEST_F(HttpTest, Asset_IsSentAsTheClientUnderstandsIt) {
         304);
     EXPECT_EQ(statusOf(get("/assets/main-1a2b.js", "If-None-Match: " + etag + "\r\n")), 200);
     EXPECT_EQ(statusOf(get("/assets/main-1a2b.js.gz")), 404);
+}
+
+TEST_F(HttpTest, Still_IsAPictureWithATag) {
+    const std::string answer = httpGetOnceThere(server_.port(), "/render?size=64x48&lights=3");
+    EXPECT_EQ(statusOf(answer), 200) << answer.substr(0, 400);
+    EXPECT_NE(answer.find("Content-Type: image/jpeg"), std::string::npos);
+    EXPECT_EQ(bodyOf(answer).substr(0, 2), "\xFF\xD8");
+    EXPECT_EQ(bodyOf(get("/render?size=64x48&format=png")).substr(1, 3), "PNG");
+    const size_t tag = answer.find("ETag: ") + 6;
+    const std::string known =
+        "If-None-Match: " + answer.substr(tag, answer.find('\r', tag) - tag) + "\r\n";
+    EXPECT_EQ(statusOf(get("/render?lights=3&size=64x48", known)), 304) << "in any order";
+    EXPECT_EQ(statusOf(get("/render?lights=4&size=64x48", known)), 200);
+    const std::string head = exchange("HEAD /render?size=64x48&lights=3 HTTP/1.1\r\n"
+                                      "Host: localhost\r\nConnection: close\r\n\r\n");
+    EXPECT_EQ(statusOf(head), 200);
+    EXPECT_EQ(bodyOf(head), "");
+}
+
+TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
+    const std::tuple<std::string, int, std::string> cases[] = {
+        {"lights=x", 400, R"("field":"lights")"},
+        {"lights=1&lights=2", 400, "lights is given twice"},
+        {"format=gif", 400, "it must be jpg or png"},
+        {"%6e%00=1", 400, R"(n\\x00 is no name)"},
+        {"scene=other", 404, "this server has one scene"},
+        {"size=4096x4096&antialiasing=ssaa4", 400, R"("fits":"2048x2048)"},
+    };
+    for (const auto& [query, status, text] : cases) {
+        const std::string answer = httpGetOnceThere(server_.port(), "/render?" + query);
+        EXPECT_EQ(statusOf(answer), status) << query;
+        EXPECT_NE(answer.find(text), std::string::npos) << query << "\n" << answer;
+    }
+    const std::string post = exchange("POST /render HTTP/1.1\r\nHost: localhost\r\n"
+                                      "Content-Length: 0\r\nConnection: close\r\n\r\n");
+    EXPECT_EQ(statusOf(post), 405);
+    EXPECT_EQ(statusOf(get("/render/more")), 404);
+    EXPECT_EQ(statusOf(get("/rendering")), 404);
+}
+
+TEST(HttpLoading, Still_WaitsForTheScene_ByComingBack) {
+    TestServer server({.open_at_once = false});
+    const std::string answer = httpGet(server.port(), "/render");
+    EXPECT_EQ(statusOf(answer), 503);
+    EXPECT_NE(answer.find("Retry-After: 5"), std::string::npos);
+    server.open();
 }
 
 TEST_F(HttpTest, Target_InAbsoluteForm_IsServed) {

@@ -1,5 +1,6 @@
 // What is streamed is what `froxel render` draws: the same picture, the right way up, within what
 // the JPEG's quality allows.
+#include "integration/http_exchange.h"
 #include "integration/server_process.h"
 #include "integration/ws_client.h"
 #include "support/places.h"
@@ -99,6 +100,53 @@ TEST(StreamedPicture, AnyQuality_IsTheRenderedOne) {
         EXPECT_LT(psnr(upsideDown(shown), wanted), 20) << "the test tells pictures apart";
         RecordProperty("psnr_db_" + std::to_string(step.quality), std::to_string(db));
     }
+}
+
+Rgb decodePng(const std::string& file) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()))
+        << image.message;
+    image.format = PNG_FORMAT_RGB;
+    Rgb rgb(PNG_IMAGE_SIZE(image));
+    EXPECT_TRUE(png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr)) << image.message;
+    return rgb;
+}
+
+// Also while somebody else's lights move, and of whatever size the server's pictures are.
+TEST(Still, IsTheRenderedPicture_ToTheBit) {
+    const Rgb wanted = rendered();
+    ServerProcess server({"--size", "64x64", "--lights", "5"});
+    const uint16_t port = server.port().value();
+    WsClient client(port);
+    client.join();
+    const std::string answer =
+        httpGet(port, "/render?format=png&look=rainbow&size=320x180&lights=100&light_radius=3&"
+                      "renderer=forward_plus&light_time=1&animate=1");
+    ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 1000);
+    EXPECT_EQ(decodePng(bodyOf(answer)), wanted);
+}
+
+// By the device's time; what is said to fit does.
+TEST(Still, ThatTakesTooLong_IsToldWhichSizeFits) {
+    ServerProcess server({"--size", "64x64", "--lights", "5", "--frame-limit", "0.3"});
+    const uint16_t port = server.port().value();
+    const std::string heavy = "/render?lights=2000&size=";
+    std::string size = "4096x4096";
+    std::string answer;
+    for (int tries = 0; tries < 6; ++tries) { // not all of a frame goes by its area
+        answer = httpGetOnceThere(port, heavy + size);
+        const size_t fits = answer.find(R"("fits":")");
+        if (tries == 0) {
+            EXPECT_EQ(statusOf(answer), 400);
+            ASSERT_NE(fits, std::string::npos) << answer;
+        }
+        if (fits == std::string::npos) {
+            break;
+        }
+        size = answer.substr(fits + 8, answer.find('"', fits + 8) - fits - 8);
+    }
+    EXPECT_EQ(statusOf(answer), 200) << size << ": " << answer.substr(0, 1000);
 }
 
 } // namespace

@@ -33,6 +33,10 @@ class FakePort final : public session::StreamPort {
         sessions[id] = {std::move(sink), {state}, 0, false, {}, account};
         return id;
     }
+    Result<session::SessionId> joinBeside(std::weak_ptr<session::FrameSink> sink,
+                                          const session::SessionState& state) override {
+        return join(std::move(sink), state, {"beside"}, {});
+    }
     Result<void> admits(const session::Account& /*account*/, TimePoint /*now*/) const override {
         return full ? Result<void>(Error{ErrorCode::kCapacity, "full"}) : Result<void>();
     }

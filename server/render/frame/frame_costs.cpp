@@ -49,7 +49,8 @@ checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Se
                              "least {:.3g} s of this device; at most {:.3g} s a frame are "
                              "allowed: ask for fewer lights, lists, or a smaller picture",
                              settings.size.width_px, settings.size.height_px, settings.lights.count,
-                             least.count(), limit.count())};
+                             least.count(), limit.count()),
+                 least / limit};
 }
 
 double FrameCosts::lit(const vk::Rect2D& region, const PairCost& unit) const {
@@ -269,7 +270,8 @@ Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
                     "device, {:.3g} s of it for {}; at most {:.3g} s a frame are allowed: ask for "
                     "fewer or smaller lights, lists, fewer effects, or a smaller picture",
                     load_.shown.width_px, load_.shown.height_px, load_.pairs.longest(), sum.count(),
-                    dearest->time.count(), dearest->pass, limit.count())};
+                    dearest->time.count(), dearest->pass, limit.count()),
+        sum / limit};
 }
 
 double FrameCosts::slowestLoop() const {

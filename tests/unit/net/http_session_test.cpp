@@ -5,6 +5,9 @@
 #include <boost/asio/write.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <functional>
+#include <string>
 #include <string_view>
 
 namespace froxel::net {
@@ -67,6 +70,105 @@ TEST(HttpSessionTest, ServiceThatChangesDuringAnUpgrade_IsNoConcernOfIt) {
     });
     context.run();
     EXPECT_TRUE(site->taken);
+}
+
+// Answers later, when a test says so.
+class PatientSite final : public HttpSite {
+  public:
+    [[nodiscard]] const HostNames& hostNames() const override { return any_; }
+    [[nodiscard]] Response answer(const Request& /*request*/,
+                                  std::string_view /*path*/) const override {
+        return textResponse(boost::beast::http::status::ok, "at once");
+    }
+    [[nodiscard]] std::optional<CallOff>
+    answerLater(const Request& /*request*/,
+                std::string_view path,
+                const boost::asio::ip::address& /*peer*/,
+                std::function<void(Response)> done) const override {
+        if (path != "/later") {
+            return {};
+        }
+        asked = std::move(done);
+        return [this] { called_off = true; };
+    }
+    [[nodiscard]] std::optional<Response>
+    refuseUpgrade(const Request& /*request*/,
+                  const boost::asio::ip::address& /*peer*/) const override {
+        return std::nullopt;
+    }
+    void upgrade(PeerStream /*stream*/,
+                 Request /*request*/,
+                 ConnectionTicket /*ticket*/) const override {}
+    void onConnectionRefused() const override {}
+    [[nodiscard]] Service* drainsWith() const override { return nullptr; }
+
+    mutable std::function<void(Response)> asked;
+    mutable bool called_off = false;
+
+  private:
+    const HostNames any_{};
+};
+
+class LateAnswer : public testing::Test {
+  protected:
+    LateAnswer() {
+        client_.connect(acceptor_.local_endpoint());
+        std::make_shared<HttpSession>(acceptor_.accept(), nullptr, site_, nullptr)->start();
+    }
+    void send(std::string_view path) {
+        boost::asio::write(client_, boost::asio::buffer("GET " + std::string(path) +
+                                                        " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
+    }
+    template <class Condition>
+    void runUntil(const Condition& condition) {
+        while (!condition()) {
+            ASSERT_GT(context_.run_one(), 0U) << "nothing is left to do";
+        }
+    }
+    std::string received(std::string_view end) {
+        std::string text;
+        runUntil([&] {
+            std::array<char, 1024> part{};
+            boost::system::error_code none;
+            const size_t bytes =
+                client_.available() > 0 ? client_.read_some(boost::asio::buffer(part), none) : 0;
+            text.append(part.data(), bytes);
+            return text.ends_with(end);
+        });
+        return text;
+    }
+
+    boost::asio::io_context context_;
+    tcp::acceptor acceptor_{context_, {boost::asio::ip::address_v4::loopback(), 0}};
+    tcp::socket client_{context_};
+    const std::shared_ptr<PatientSite> site_ = std::make_shared<PatientSite>();
+};
+
+TEST_F(LateAnswer, IsSentWhenItIsThere_AndTheConnectionGoesOn) {
+    send("/later");
+    runUntil([&] { return site_->asked != nullptr; });
+    send("/now"); // ahead of its answer
+    site_->asked(textResponse(boost::beast::http::status::ok, "here"));
+    const std::string text = received("at once\n");
+    EXPECT_LT(text.find("here\n"), text.find("at once\n"));
+    EXPECT_FALSE(site_->called_off);
+}
+
+TEST_F(LateAnswer, ToWhoHasGone_IsCalledOff) {
+    send("/later");
+    runUntil([&] { return site_->asked != nullptr; });
+    client_.close();
+    runUntil([&] { return site_->called_off; });
+    site_->asked(textResponse(boost::beast::http::status::ok, "to nobody"));
+}
+
+TEST_F(LateAnswer, GivenTwice_IsSentOnce) {
+    send("/later");
+    runUntil([&] { return site_->asked != nullptr; });
+    site_->asked(textResponse(boost::beast::http::status::ok, "here"));
+    site_->asked(textResponse(boost::beast::http::status::ok, "again"));
+    send("/now");
+    EXPECT_EQ(received("at once\n").find("again"), std::string::npos);
 }
 
 } // namespace

@@ -66,6 +66,36 @@ TEST(FrameScheduler, Next_OneViewerCostsTenTimesAsMuch_SharesTimeNotFrames) {
     EXPECT_NEAR(used[1].count(), used[2].count(), 0.2);
 }
 
+// By how many accounts ever: what is beside them gets a twentieth of the device while they want all
+// of it, and all that they leave.
+TEST(FrameScheduler, Beside_HasASmallShare_AndWhatIsLeft) {
+    for (const uint64_t others : {1U, 5U, 30U}) {
+        FrameScheduler scheduler(0s);
+        for (uint64_t viewer = 1; viewer <= others; ++viewer) {
+            addAlone(scheduler, viewer);
+            setReady(scheduler, viewer);
+        }
+        for (const uint64_t viewer : {100U, 101U}) {
+            scheduler.addBeside(viewer);
+            setReady(scheduler, viewer);
+        }
+        std::map<bool, Seconds> used;
+        for (int i = 0; i < 4000; ++i) {
+            const uint64_t viewer = scheduler.next(kStart).value();
+            scheduler.onStarted(viewer);
+            scheduler.onFrame(viewer, kStart);
+            scheduler.charge(viewer, 5ms);
+            used[viewer >= 100] += 5ms;
+        }
+        EXPECT_NEAR(used[true] / (used[true] + used[false]), FrameScheduler::kBesideShare, 0.005)
+            << others;
+        for (uint64_t viewer = 1; viewer <= others; ++viewer) {
+            scheduler.setReady(viewer, Ready::kNo, 0s, kStart);
+        }
+        EXPECT_GE(scheduler.next(kStart + 10s).value(), 100U);
+    }
+}
+
 TEST(FrameScheduler, Next_ViewerWasIdle_GetsNoCreditForIt) {
     FrameScheduler scheduler(0s);
     addAlone(scheduler, 1);

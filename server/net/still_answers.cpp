@@ -1,0 +1,193 @@
+#include "net/still_answers.h"
+
+#include "core/text.h"
+#include "net/scene_listing.h"
+#include "session/state_message.h"
+
+#include <boost/url/parse.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <utility>
+
+namespace froxel::net {
+
+namespace http = boost::beast::http;
+
+namespace {
+
+struct Format {
+    std::string_view name;
+    settings::Codec codec;
+    std::string_view content_type;
+};
+
+// The first where none is named.
+constexpr std::array kFormats{
+    Format{"jpg", settings::Codec::kJpeg, "image/jpeg"},
+    Format{"png", settings::Codec::kPng, "image/png"},
+};
+
+const Format& formatOf(settings::Codec codec) {
+    return *std::ranges::find(kFormats, codec, &Format::codec);
+}
+
+Response
+refused(http::status status, const char* code, const std::string& field, const std::string& text) {
+    return apiRefusal(status, {code, field, field.empty() ? text : field + " " + text});
+}
+
+http::status statusOf(const still::StillRefusal& refusal) {
+    if (refusal.why.code == session::RejectCode::kRateLimit) {
+        return http::status::too_many_requests;
+    }
+    if (refusal.retry_after) {
+        return http::status::service_unavailable;
+    }
+    return refusal.why.field == "scene" && refusal.why.code == session::RejectCode::kOutOfRange
+               ? http::status::not_found
+               : http::status::bad_request;
+}
+
+Response refusedBy(const still::StillRefusal& refusal) {
+    const auto& fits = refusal.fits;
+    Response response =
+        apiRefusal(statusOf(refusal),
+                   {session::nameOf(refusal.why.code), refusal.why.field, refusal.why.message,
+                    fits ? fmt::format("{}x{}", fits->width_px, fits->height_px) : std::string()});
+    if (refusal.retry_after) {
+        response.set(http::field::retry_after, numberText(refusal.retry_after->count()));
+    }
+    return response;
+}
+
+Response pictureOf(const SharedBytes& bytes, const Format& format) {
+    return makeResponse(http::status::ok, format.content_type,
+                        std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+}
+
+// One of the scene's path and "/thumb"; empty: none.
+std::string_view sceneOfThumbnail(std::string_view path) {
+    if (!SceneListing::has(path) || !path.ends_with(kThumbnail)) {
+        return {};
+    }
+    path.remove_suffix(kThumbnail.size());
+    return path.size() > kScenesPath.size() ? path.substr(kScenesPath.size() + 1)
+                                            : std::string_view();
+}
+
+std::string etagOf(const std::string& tag) {
+    return fmt::format("\"{:016x}\"", std::hash<std::string>()(tag));
+}
+
+} // namespace
+
+StillAnswers::StillAnswers(std::shared_ptr<still::StillDesk> desk,
+                           std::shared_ptr<const catalogue::Catalogue> catalogue,
+                           std::shared_ptr<const Service> service)
+    : desk_(std::move(desk)), catalogue_(std::move(catalogue)), service_(std::move(service)),
+      run_(numberText(std::random_device()())) {}
+
+bool StillAnswers::has(std::string_view path) {
+    return path == kStillPath || !sceneOfThumbnail(path).empty();
+}
+
+// Without a catalogue nobody knows of what file a server was started.
+std::string StillAnswers::sceneTag(const std::string& scene) const {
+    const auto offered = !catalogue_     ? std::nullopt
+                         : scene.empty() ? std::optional(catalogue_->listing()->scenes.front())
+                                         : catalogue_->find(scene);
+    return offered ? offered->id + " " + numberText(offered->version) : run_;
+}
+
+std::optional<Response> StillAnswers::read(const Request& request,
+                                           std::string_view path,
+                                           still::StillRequest& still) const {
+    still.scene = sceneOfThumbnail(path);
+    still.thumbnail = !still.scene.empty();
+    if (still.thumbnail) {
+        still.view = {
+            {"size", fmt::format("{}x{}", kThumbnailSize.width_px, kThumbnailSize.height_px)}};
+        return {};
+    }
+    const auto target =
+        boost::urls::parse_origin_form({request.target().data(), request.target().size()});
+    if (!target) {
+        return refused(http::status::bad_request, "malformed", "", "the address is malformed");
+    }
+    for (const auto& said : target->params()) {
+        const auto same = [&](const still::Entry& entry) { return entry.name == said.key; };
+        if (std::ranges::any_of(still.view, same)) {
+            return refused(http::status::bad_request, "out_of_range", printable(said.key),
+                           "is given twice");
+        }
+        if (said.key == "scene") {
+            still.scene = said.value;
+        } else if (said.key == "format") {
+            const auto format = std::ranges::find(kFormats, said.value, &Format::name);
+            if (format == kFormats.end()) {
+                return refused(http::status::bad_request, "unsupported", "format",
+                               "is \"" + printable(said.value) + "\"; it must be jpg or png");
+            }
+            still.codec = format->codec;
+        } else {
+            still.view.push_back({said.key, said.value});
+        }
+    }
+    std::ranges::sort(still.view, {}, &still::Entry::name); // none stands for another order
+    return {};
+}
+
+HttpSite::CallOff StillAnswers::answer(const Request& request,
+                                       std::string_view path,
+                                       const Caller& caller,
+                                       bool shared,
+                                       const std::function<void(Response)>& done) const {
+    const auto nothing = [] {};
+    const ServiceStatus status = service_->status();
+    if (!status.serving || status.draining || status.lost) {
+        Response response =
+            refused(http::status::service_unavailable, "capacity", "",
+                    status.serving ? "the server is going down" : "the scene is being loaded");
+        response.set(http::field::retry_after, "5");
+        done(std::move(response));
+        return nothing;
+    }
+    still::StillRequest still;
+    if (auto refusal = read(request, path, still)) {
+        done(std::move(*refusal));
+        return nothing;
+    }
+    const Serving& serving = *status.serving;
+    const Format& format = formatOf(still.codec);
+    still.tag = serving.context->server_version + "\n" + serving.context->device_name + "\n" +
+                sceneTag(still.scene) + "\n" + std::string(format.name);
+    for (const auto& [name, text] : still.view) {
+        still.tag += "\n" + name + "=" + text;
+    }
+    const std::string etag = etagOf(still.tag);
+    const auto tagged = [etag, shared](Response response) {
+        response.set(http::field::etag, etag);
+        response.set(http::field::cache_control, shared ? "no-cache" : "private, no-cache");
+        return response;
+    };
+    if (hasAlready(request, etag)) {
+        done(tagged(makeResponse(http::status::not_modified, format.content_type, {})));
+        return nothing;
+    }
+    const auto account =
+        caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
+    const auto ticket = desk_->ask(
+        {serving.context, serving.port, serving.scenes}, std::move(still), account,
+        [done, tagged, &format](const still::StillOutcome& outcome) {
+            const auto* bytes = std::get_if<SharedBytes>(&outcome);
+            done(bytes != nullptr ? tagged(pictureOf(*bytes, format))
+                                  : refusedBy(std::get<still::StillRefusal>(outcome)));
+        },
+        Clock::now());
+    return [desk = desk_, ticket] { desk->cancel(ticket); };
+}
+
+} // namespace froxel::net

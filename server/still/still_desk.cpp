@@ -1,0 +1,481 @@
+#include "still/still_desk.h"
+
+#include "core/text.h"
+#include "settings/value_text.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace froxel::still {
+
+using session::RejectCode;
+using session::Rejection;
+
+namespace {
+
+// A scene for which the device had no room is asked for once more after it: a seat of the desk's
+// own may have held another, which leaves with it.
+constexpr Seconds kSceneAgain{0.5};
+// Of accounts whose allowance is remembered; one that has all of it is forgotten.
+constexpr size_t kAllowancesMost = 4096;
+// What is said to fit is this much smaller than computed, since not all of a frame's cost goes by
+// its area.
+constexpr double kCaution = 1.2;
+
+StillRefusal putOff(RejectCode code, std::string message, std::chrono::seconds after) {
+    return {{code, 0, "", std::move(message)}, {}, after};
+}
+
+// Of a view that no state of the scene's is.
+StillRefusal refusalOf(const Rejection& why, const Entries& view) {
+    StillRefusal refusal{why};
+    const auto entry = std::ranges::find(view, "size", &Entry::name);
+    const auto size = entry != view.end() ? settings::parseSize(entry->text)
+                                          : Result<settings::Size>(settings::Size());
+    if (why.too_large_by > 0 && size) {
+        refusal.fits = smaller(*size, why.too_large_by);
+    }
+    return refusal;
+}
+
+StillRefusal refusalOf(const Error& error, const settings::Size& size) {
+    const bool size_matters = error.too_large_by > 0;
+    StillRefusal refusal{
+        {error.code == ErrorCode::kCapacity ? RejectCode::kCapacity : RejectCode::kUnsupported, 0,
+         size_matters ? "size" : "", error.message}};
+    if (size_matters) {
+        refusal.fits = smaller(size, error.too_large_by * kCaution);
+    }
+    return refusal;
+}
+
+} // namespace
+
+// All but `desk` is the desk's, under its lock.
+class StillDesk::Seat final : public session::FrameSink {
+  public:
+    explicit Seat(std::weak_ptr<StillDesk> its_desk) : desk(std::move(its_desk)) {}
+
+    void deliver(session::ReadyFrame frame) override {
+        if (const auto owner = desk.lock()) {
+            owner->onDrawn(*this, std::move(frame));
+        }
+    }
+    void refuse(Error error,
+                session::SessionState /*refused*/,
+                std::optional<session::SessionState> /*drawn*/) override {
+        if (const auto owner = desk.lock()) {
+            owner->onRefused(*this, error);
+        }
+    }
+    void deviceLost(Error error) override {
+        if (const auto owner = desk.lock()) {
+            owner->onLost(error);
+        }
+    }
+
+    const std::weak_ptr<StillDesk> desk;
+    session::StreamPort* port = nullptr;   // null: not joined
+    session::SessionId id = 0;             // there
+    std::optional<Jobs::iterator> drawing; // none: it rests, since
+    TimePoint rests_since{};
+    session::SharedContext scene; // of its last picture
+    settings::Size size;
+    uint64_t seq = 0; // of the picture asked for last
+    uint64_t delivered = 0;
+};
+
+StillDesk::StillDesk(const StillLimits& limits)
+    : limits_(limits), kept_(limits.kept_bytes), thumbnails_(limits.kept_thumbnail_bytes) {}
+
+template <class Step>
+void StillDesk::locked(const Step& step) {
+    Calls calls;
+    {
+        const std::lock_guard lock(mutex_);
+        step(calls);
+    }
+    for (const auto& call : calls) {
+        call();
+    }
+}
+
+StillStore& StillDesk::storeFor(const StillRequest& request) {
+    return request.thumbnail ? thumbnails_ : kept_;
+}
+
+StillDesk::Ticket StillDesk::ask(const StillSource& source,
+                                 StillRequest request,
+                                 const std::optional<session::Account>& account,
+                                 Answer answer,
+                                 TimePoint now) {
+    Ticket ticket = 0;
+    locked([&](Calls& calls) {
+        ticket = ++last_ticket_;
+        Waiter waiter{ticket, account, std::move(answer)};
+        if (auto bytes = storeFor(request).find(request.tag)) {
+            ++counts_.kept_total;
+            calls.emplace_back([answer = std::move(waiter.answer), bytes] { answer(bytes); });
+            return;
+        }
+        add(source, std::move(request), std::move(waiter), now, calls);
+        wantScenes(now, calls);
+        drawNext(now, calls);
+    });
+    return ticket;
+}
+
+void StillDesk::add(
+    const StillSource& source, StillRequest request, Waiter waiter, TimePoint now, Calls& calls) {
+    const auto same =
+        std::ranges::find_if(jobs_, [&](const Job& job) { return job.request.tag == request.tag; });
+    if (auto refusal = whyNot(waiter.account, same == jobs_.end(), now)) {
+        ++counts_.put_off_total;
+        calls.emplace_back([answer = std::move(waiter.answer), refusal = std::move(*refusal)] {
+            answer(refusal);
+        });
+        return;
+    }
+    if (same != jobs_.end()) {
+        same->waiters.push_back(std::move(waiter));
+        return;
+    }
+    Job job;
+    job.request = std::move(request);
+    job.source = source;
+    job.due = now + std::chrono::duration_cast<Clock::duration>(limits_.patience);
+    job.waiters.push_back(std::move(waiter));
+    jobs_.push_back(std::move(job));
+    const auto here = std::prev(jobs_.end());
+    alarm_(here->due);
+    if (here->request.scene.empty() || here->request.scene == source.first->scene_id) {
+        onSceneHere(here, source.first, now, calls);
+    } else if (source.scenes == nullptr) {
+        finish(here,
+               StillRefusal{session::outOfRange("scene", "is \"" + printable(here->request.scene) +
+                                                             "\"; this server has one scene")},
+               calls);
+    }
+}
+
+std::optional<StillRefusal>
+StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, TimePoint now) {
+    constexpr std::chrono::seconds kSoon{1};
+    size_t waiting = 0;
+    size_t own = 0;
+    for (const Job& job : jobs_) {
+        waiting += job.waiters.size();
+        own += static_cast<size_t>(std::ranges::count_if(job.waiters, [&](const Waiter& waiter) {
+            return account && waiter.account == account;
+        }));
+    }
+    if (waiting >= limits_.waiting) {
+        return putOff(RejectCode::kCapacity,
+                      numberText(waiting) + " stills are waited for, as many as there may be",
+                      kSoon);
+    }
+    if (own >= limits_.per_account) {
+        return putOff(RejectCode::kRateLimit,
+                      numberText(own) + " stills are waited for from here, as many as there may be",
+                      kSoon);
+    }
+    if (!account || !is_new || limits_.per_minute <= 0) {
+        return {};
+    }
+    if (allowances_.size() >= kAllowancesMost) {
+        std::erase_if(allowances_, [&](const auto& entry) {
+            return entry.second.leftAt(now) >= limits_.at_once;
+        });
+    }
+    auto& allowance =
+        allowances_.try_emplace(*account, Allowance(limits_.at_once, limits_.per_minute / 60))
+            .first->second;
+    if (allowance.take(now)) {
+        return {};
+    }
+    const auto wait = std::chrono::ceil<std::chrono::seconds>(allowance.nextAt(now) - now);
+    return putOff(RejectCode::kRateLimit,
+                  "more than " + numberText(limits_.per_minute) + " stills a minute from here",
+                  std::max(wait, kSoon));
+}
+
+// Those that are there at once; of the others one at a time.
+void StillDesk::wantScenes(TimePoint now, Calls& calls) {
+    bool one_comes = std::ranges::any_of(
+        jobs_, [](const Job& job) { return job.stage == Stage::kScene && job.scene_asked; });
+    for (auto job = jobs_.begin(); job != jobs_.end();) {
+        const auto here = job++;
+        if (here->stage != Stage::kScene || here->scene_asked ||
+            (here->scene_at && now < *here->scene_at)) {
+            continue;
+        }
+        session::ScenePort& scenes = *here->source.scenes;
+        const std::string& id = here->request.scene;
+        const auto standing = scenes.standingOf(id);
+        const bool takes_time = standing == session::SceneStanding::kOffered ||
+                                standing == session::SceneStanding::kLoading;
+        const bool comes = std::ranges::any_of(jobs_, [&](const Job& other) {
+            return other.scene_asked && other.stage == Stage::kScene && other.request.scene == id;
+        });
+        if (comes) {
+            here->scene_asked = true; // with that one
+            continue;
+        }
+        if (one_comes && takes_time) {
+            continue;
+        }
+        auto scene = scenes.want(id, shared_from_this());
+        if (!scene) {
+            StillRefusal refusal{session::outOfRange("scene", scene.error().message)};
+            finish(here, refusal, calls);
+        } else if (*scene) {
+            onSceneHere(here, *scene, now, calls);
+        } else {
+            here->scene_asked = true;
+            one_comes = true;
+        }
+    }
+}
+
+void StillDesk::onScene(const std::string& id, Result<session::SharedContext> scene) {
+    locked([&](Calls& calls) {
+        const TimePoint now = Clock::now();
+        for (auto job = jobs_.begin(); job != jobs_.end();) {
+            const auto here = job++;
+            if (here->stage != Stage::kScene || !here->scene_asked || here->request.scene != id) {
+                continue;
+            }
+            here->scene_asked = false;
+            if (scene) {
+                onSceneHere(here, *scene, now, calls);
+            } else if (scene.error().code == ErrorCode::kCapacity && !here->scene_again) {
+                here->scene_again = true;
+                here->scene_at = now + std::chrono::duration_cast<Clock::duration>(kSceneAgain);
+                alarm_(*here->scene_at);
+            } else {
+                StillRefusal refusal = refusalOf(scene.error(), {});
+                refusal.why.field = "scene";
+                finish(here, refusal, calls);
+            }
+        }
+        drawNext(now, calls);
+        wantScenes(now, calls);
+    });
+}
+
+void StillDesk::onSceneHere(Jobs::iterator job,
+                            const session::SharedContext& scene,
+                            TimePoint now,
+                            Calls& calls) {
+    auto state = viewOf(scene, job->request.view, now);
+    if (!state) {
+        finish(job, refusalOf(state.error(), job->request.view), calls);
+        return;
+    }
+    job->state = std::move(*state);
+    job->state->encoding.codec = job->request.codec;
+    job->stage = Stage::kQueued;
+}
+
+void StillDesk::drawNext(TimePoint now, Calls& calls) {
+    for (auto job = jobs_.begin(); job != jobs_.end();) {
+        const auto here = job++;
+        if (here->stage != Stage::kQueued) {
+            continue;
+        }
+        const auto seat = freeSeatFor(*here);
+        if (!seat) {
+            return;
+        }
+        draw(here, *seat, now, calls);
+    }
+}
+
+// The one whose view has the right targets already; else a new one; else what rests longest.
+std::shared_ptr<StillDesk::Seat> StillDesk::freeSeatFor(const Job& job) {
+    std::shared_ptr<Seat> best;
+    for (const auto& seat : seats_) {
+        if (seat->drawing) {
+            continue;
+        }
+        if (seat->scene == job.state->scene && seat->size == job.state->settings.size) {
+            return seat;
+        }
+        if (!best || seat->rests_since < best->rests_since) {
+            best = seat;
+        }
+    }
+    if (seats_.size() < limits_.seats) {
+        seats_.push_back(std::make_shared<Seat>(weak_from_this()));
+        return seats_.back();
+    }
+    return best;
+}
+
+void StillDesk::draw(Jobs::iterator job, Seat& seat, TimePoint now, Calls& calls) {
+    job->stage = Stage::kDrawing;
+    job->state->applied.seq = ++seat.seq;
+    job->state->version = seat.seq; // of a view that begins at 0
+    seat.scene = job->state->scene;
+    seat.size = job->state->settings.size;
+    if (seat.port == nullptr) {
+        const auto self = std::ranges::find_if(
+            seats_, [&](const std::shared_ptr<Seat>& other) { return other.get() == &seat; });
+        const auto id = job->source.port->joinBeside(*self, *job->state);
+        if (!id) {
+            finish(job, putOff(RejectCode::kCapacity, id.error().message, std::chrono::seconds(5)),
+                   calls);
+            seats_.erase(self);
+            return;
+        }
+        seat.port = job->source.port;
+        seat.id = *id;
+    } else {
+        seat.port->update(seat.id, *job->state, now);
+    }
+    seat.drawing = job;
+    seat.port->grant(seat.id, seat.delivered + 1);
+}
+
+void StillDesk::onDrawn(Seat& seat, session::ReadyFrame frame) {
+    locked([&](Calls& calls) {
+        ++seat.delivered;
+        if (!seat.drawing) {
+            return;
+        }
+        if (frame.record.applied.seq != seat.seq) {
+            seat.port->grant(seat.id, seat.delivered + 1);
+            return;
+        }
+        const auto job = *std::exchange(seat.drawing, std::nullopt);
+        ++counts_.drawn_total;
+        storeFor(job->request).keep(job->request.tag, frame.bytes);
+        finish(job, frame.bytes, calls);
+        const TimePoint now = Clock::now();
+        drawNext(now, calls);
+        rest(seat, now);
+    });
+}
+
+void StillDesk::onRefused(Seat& seat, const Error& error) {
+    locked([&](Calls& calls) {
+        if (!seat.drawing) {
+            return;
+        }
+        const auto job = *std::exchange(seat.drawing, std::nullopt);
+        finish(job, refusalOf(error, job->state->settings.size), calls);
+        const TimePoint now = Clock::now();
+        drawNext(now, calls);
+        rest(seat, now);
+    });
+}
+
+void StillDesk::onLost(const Error& error) {
+    locked([&](Calls& calls) {
+        while (!jobs_.empty()) {
+            finish(jobs_.begin(),
+                   putOff(RejectCode::kDevice, error.message, std::chrono::seconds(30)), calls);
+        }
+        seats_.clear();
+    });
+}
+
+void StillDesk::finish(Jobs::iterator job, const StillOutcome& outcome, Calls& calls) {
+    if (const auto* refusal = std::get_if<StillRefusal>(&outcome)) {
+        ++(refusal->retry_after ? counts_.put_off_total : counts_.refused_total);
+    }
+    for (Waiter& waiter : job->waiters) {
+        calls.emplace_back([answer = std::move(waiter.answer), outcome] { answer(outcome); });
+    }
+    jobs_.erase(job);
+}
+
+void StillDesk::rest(Seat& seat, TimePoint now) {
+    if (seat.drawing) {
+        return;
+    }
+    seat.rests_since = now;
+    if (seat.scene && seat.scene->scene_number != 0) {
+        leave(seat);
+    } else {
+        alarm_(now + std::chrono::duration_cast<Clock::duration>(limits_.linger));
+    }
+}
+
+void StillDesk::leave(Seat& seat) {
+    if (seat.port != nullptr) {
+        seat.port->leave(seat.id);
+    }
+    std::erase_if(seats_, [&](const auto& other) { return other.get() == &seat; });
+}
+
+void StillDesk::cancel(Ticket ticket) {
+    locked([&](Calls& calls) {
+        for (auto job = jobs_.begin(); job != jobs_.end(); ++job) {
+            if (std::erase_if(job->waiters,
+                              [&](const Waiter& waiter) { return waiter.ticket == ticket; }) == 0) {
+                continue;
+            }
+            if (!job->waiters.empty() || job->stage == Stage::kDrawing) {
+                return; // what is being drawn is kept
+            }
+            const Job gone = std::move(*job);
+            jobs_.erase(job);
+            const bool others = std::ranges::any_of(jobs_, [&](const Job& other) {
+                return other.stage == Stage::kScene && other.request.scene == gone.request.scene;
+            });
+            if (gone.stage == Stage::kScene && gone.scene_asked && !others) {
+                gone.source.scenes->dismiss(gone.request.scene, weak_from_this());
+            }
+            wantScenes(Clock::now(), calls);
+            return;
+        }
+    });
+}
+
+void StillDesk::expire(TimePoint now) {
+    locked([&](Calls& calls) {
+        for (auto job = jobs_.begin(); job != jobs_.end();) {
+            const auto here = job++;
+            if (now < here->due) {
+                continue;
+            }
+            const bool scene = here->stage == Stage::kScene;
+            for (const auto& seat : seats_) {
+                if (seat->drawing == here) {
+                    seat->drawing.reset(); // its picture comes to nobody
+                    seat->rests_since = now;
+                    ++seat->seq;
+                }
+            }
+            finish(
+                here,
+                putOff(RejectCode::kCapacity,
+                       scene ? "the scene did not come in time" : "the device has no time for it",
+                       std::chrono::seconds(10)),
+                calls);
+        }
+        for (size_t i = seats_.size(); i-- > 0;) {
+            Seat& seat = *seats_[i];
+            if (!seat.drawing && now - seat.rests_since >= limits_.linger) {
+                leave(seat);
+            }
+        }
+        wantScenes(now, calls);
+        drawNext(now, calls);
+    });
+}
+
+void StillDesk::close() {
+    const std::lock_guard lock(mutex_);
+    alarm_ = [](TimePoint) {};
+}
+
+StillCounts StillDesk::counts() const {
+    const std::lock_guard lock(mutex_);
+    return counts_;
+}
+
+} // namespace froxel::still

@@ -1,0 +1,174 @@
+// Single pictures for whoever asks, drawn between sessions' frames.
+//
+// 1. A still that was drawn is given again. One that is being drawn is waited for by all who ask.
+// 2. A scene that is not on the device is loaded, one after another.
+// 3. A seat is a viewer of the stream without a connection (StreamPort::joinBeside) that takes one
+//    picture after another. It goes when it rests, so that its view's memory is others', and at
+//    once where its scene is not the server's first, so that the scene may leave.
+//
+// Any thread.
+#pragma once
+
+#include "core/allowance.h"
+#include "session/account.h"
+#include "session/scene_port.h"
+#include "session/stream_port.h"
+#include "still/still_store.h"
+#include "still/still_view.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace froxel::still {
+
+struct StillRequest {
+    std::string scene; // its id, untrusted; empty: the server's first
+    Entries view;
+    settings::Codec codec = settings::Codec::kJpeg;
+    bool thumbnail = false; // kept apart from the others, which may be many
+    std::string tag;        // of what the picture is a function of
+};
+
+// Where stills are drawn; all outlive the desk's use of them.
+struct StillSource {
+    session::SharedContext first;
+    session::StreamPort* port = nullptr;
+    session::ScenePort* scenes = nullptr; // null: there is one scene
+};
+
+struct StillRefusal {
+    session::Rejection why;
+    std::optional<settings::Size> fits = {}; // about the largest picture that would do
+    std::optional<std::chrono::seconds> retry_after = {};
+};
+
+using StillOutcome = std::variant<SharedBytes, StillRefusal>;
+
+struct StillLimits {
+    size_t seats = 4;
+    size_t per_account = 8; // waited for
+    size_t waiting = 64;    // by all
+    // Of one account that are drawn, at most and usually; 0: as many as it asks for.
+    double per_minute = 600;
+    double at_once = 60;
+    uint64_t kept_bytes = 32 << 20U;
+    uint64_t kept_thumbnail_bytes = 16 << 20U;
+    Seconds patience{60}; // from the request to the picture
+    Seconds linger{10};   // of a seat that rests
+};
+
+struct StillCounts {
+    uint64_t drawn_total = 0;
+    uint64_t kept_total = 0; // given again
+    uint64_t refused_total = 0;
+    uint64_t put_off_total = 0; // told to come back
+};
+
+class StillDesk final : public session::SceneWaiter,
+                        public std::enable_shared_from_this<StillDesk> {
+  public:
+    using Answer = std::function<void(StillOutcome)>;
+    using Ticket = uint64_t;
+
+    explicit StillDesk(const StillLimits& limits);
+
+    // Told when expire() is due next; any thread, must not block. Set before the first request.
+    void setAlarm(std::function<void(TimePoint)> alarm) { alarm_ = std::move(alarm); }
+
+    // `answer` is called once, on any thread and maybe within, unless it is cancelled. No limits
+    // of its own: `account` is none.
+    Ticket ask(const StillSource& source,
+               StillRequest request,
+               const std::optional<session::Account>& account,
+               Answer answer,
+               TimePoint now);
+    // Nobody waits for it any more. It may be answered meanwhile.
+    void cancel(Ticket ticket);
+    // Ends what was waited for too long, and seats that rest.
+    void expire(TimePoint now);
+    [[nodiscard]] StillCounts counts() const;
+    // Sets off no alarm from now on.
+    void close();
+
+    // Of the scenes that it waits for.
+    void onSceneProgress(const std::string& /*id*/,
+                         const session::SceneProgress& /*progress*/) override {}
+    void onScene(const std::string& id, Result<session::SharedContext> scene) override;
+    // Whoever looks at it goes first.
+    [[nodiscard]] bool isPatient() const override { return true; }
+
+  private:
+    struct Waiter {
+        Ticket ticket = 0;
+        std::optional<session::Account> account;
+        Answer answer;
+    };
+    enum class Stage : uint8_t { kScene, kQueued, kDrawing };
+    struct Job {
+        StillRequest request;
+        StillSource source;
+        Stage stage = Stage::kScene;
+        bool scene_asked = false; // of the port
+        bool scene_again = false; // once, after the device had no room for it
+        std::optional<TimePoint> scene_at;
+        std::vector<Waiter> waiters;
+        TimePoint due{};
+        std::optional<session::SessionState> state; // from kQueued on
+    };
+    using Jobs = std::list<Job>; // oldest first
+
+    class Seat;
+    friend class Seat;
+    // What is done when the lock is let go.
+    using Calls = std::vector<std::function<void()>>;
+    // Holds the lock, and makes the calls after it.
+    template <class Step>
+    void locked(const Step& step);
+
+    void add(const StillSource& source,
+             StillRequest request,
+             Waiter waiter,
+             TimePoint now,
+             Calls& calls);
+    // Errors: why not now.
+    [[nodiscard]] std::optional<StillRefusal>
+    whyNot(const std::optional<session::Account>& account, bool is_new, TimePoint now);
+    void wantScenes(TimePoint now, Calls& calls);
+    void onSceneHere(Jobs::iterator job,
+                     const session::SharedContext& scene,
+                     TimePoint now,
+                     Calls& calls);
+    void drawNext(TimePoint now, Calls& calls);
+    [[nodiscard]] std::shared_ptr<Seat> freeSeatFor(const Job& job);
+    void draw(Jobs::iterator job, Seat& seat, TimePoint now, Calls& calls);
+    void finish(Jobs::iterator job, const StillOutcome& outcome, Calls& calls);
+    void rest(Seat& seat, TimePoint now);
+    void leave(Seat& seat);
+    void onDrawn(Seat& seat, session::ReadyFrame frame);
+    void onRefused(Seat& seat, const Error& error);
+    void onLost(const Error& error);
+    [[nodiscard]] StillStore& storeFor(const StillRequest& request);
+
+    const StillLimits limits_;
+    std::function<void(TimePoint)> alarm_ = [](TimePoint) {};
+    mutable std::mutex mutex_; // before those of the ports
+    Ticket last_ticket_ = 0;
+    Jobs jobs_;
+    std::vector<std::shared_ptr<Seat>> seats_;
+    std::map<session::Account, Allowance> allowances_;
+    StillStore kept_;
+    StillStore thumbnails_;
+    StillCounts counts_;
+};
+
+} // namespace froxel::still
