@@ -26,6 +26,7 @@ const kRules = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-pr
 const kSteady = `
   :root { --font: 'DejaVu Sans'; }
   #view { visibility: hidden; }
+  #looks-list img { opacity: 0; }
   html, body { background: #56606e; }
   * { caret-color: transparent !important; transition: none !important; scrollbar-width: none !important; }
   #banner-aside, #about { display: none; }
@@ -211,10 +212,10 @@ it('Search', async () => {
 it('Looks', async () => {
   await openWithPicture();
   await viewer.page.locator('#tool-looks').click();
-  await until('the pictures', () =>
+  await until('a picture', () =>
     viewer.page.evaluate(() => {
       const pictures = [...document.querySelectorAll<HTMLImageElement>('#looks-list img')];
-      return pictures.length > 0 && pictures.every(({ naturalWidth }) => naturalWidth > 0);
+      return pictures.some(({ naturalWidth }) => naturalWidth > 0);
     }),
   );
   await looksAsItShould('looks');

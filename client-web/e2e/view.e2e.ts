@@ -167,6 +167,15 @@ it('Sessions_AreTheirViewersOwn', async () => {
   expect(difference(await second.thumbnail(), before)).toBe(0);
 });
 
+it('Link_IsAStillToo', async () => {
+  const viewer = await pages.open('#size=320x180&animate=0&light_time=3&lights=50&fog_density=0.01');
+  await viewer.picture();
+  await until('the link', () => (new URL(viewer.page.url()).hash.includes('eye=') ? true : null));
+  const { origin, hash } = new URL(viewer.page.url());
+  const answer = await fetch(`${origin}/render?${hash.slice(1)}`);
+  expect(await (answer.ok ? answer.headers.get('content-type') : answer.text())).toBe('image/jpeg');
+});
+
 it('ScreenshotButton_SavesThePictureAsPng', async () => {
   const viewer = await open();
   await viewer.stateWith('320 × 180', ({ width }) => width === 320);

@@ -23,7 +23,7 @@ import {
 } from './settings/placed_lights';
 import { cameraCommand, settingCommands } from './settings/setting_commands';
 import type { Settings, Value } from './settings/settings';
-import { parseAddress } from './state/address';
+import { parseAddress, stillAddress } from './state/address';
 import { dropLook, isLook, keepLook, lookAddress, offeredLooks, ownLooks, type Look } from './state/looks';
 import { mayControl, roomText } from './state/room';
 import type { SizeMode } from './state/size_policy';
@@ -155,6 +155,11 @@ export class Commands implements PanelActions, InputTarget, RoomActions, Animati
     const { settings, problems } = parseAddress(look.address);
     this.edit(settings);
     if (problems.length > 0) this.refuse(problems.join('; ')); // kept by another version
+  }
+
+  lookPicture(look: Look): string {
+    const { server, settings } = this.store.state;
+    return settings === null ? '' : `render?${stillAddress(settings, server?.scene?.id ?? '', look.address)}`;
   }
 
   newestSeq(): bigint {

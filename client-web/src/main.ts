@@ -26,6 +26,7 @@ import { Connection, type Link } from './protocol/connection';
 import { Recorder } from './protocol/recorder';
 import { askRefusal } from './protocol/refusal';
 import { Resume, tabShelf } from './protocol/resume';
+import { ServerFiles } from './protocol/server_files';
 import { toVec, type Settings } from './settings/settings';
 import { AddressKeeper } from './state/address_keeper';
 import { mayControl, roomFromAddress } from './state/room';
@@ -144,6 +145,7 @@ const banner = new Banner({
 });
 const roomCard = new RoomCard(commands);
 const animationCard = new Later(makeAnimation, partMissing);
+const files = new ServerFiles(() => token.value);
 const looksCard = new Later(makeLooks, partMissing);
 const scenesCard = new Later(makeScenes, partMissing);
 const searchCard = new Later(makeSearch, partMissing);
@@ -213,7 +215,7 @@ async function makeLooks(): Promise<LooksCard> {
     import('./cards/looks_card'),
     import('./style/looks.css'),
   ]);
-  return new LooksCard(commands, lookCosts);
+  return new LooksCard(commands, lookCosts, files);
 }
 
 async function makeAnimation(): Promise<AnimationCard> {
@@ -226,11 +228,8 @@ async function makeScenes(): Promise<ScenesCard> {
     import('./cards/scenes_card'),
     import('./style/scenes.css'),
   ]);
-  return new ScenesCard({
-    selectScene: (id) => commands.selectScene(id),
-    sceneId: () => store.state.server?.scene?.id ?? '',
-    token: () => token.value,
-  });
+  const sceneId = (): string => store.state.server?.scene?.id ?? '';
+  return new ScenesCard({ selectScene: (id) => commands.selectScene(id), sceneId }, files);
 }
 
 /** Whether the server has more than the one that is shown. */

@@ -115,7 +115,8 @@ Response finished(const Request& request, Response response) {
     if (request.method() == http::verb::head) {
         response.body().clear();
     }
-    if (response.result() != http::status::not_modified) {
+    if (response.result() != http::status::not_modified &&
+        response.result() != http::status::no_content) {
         response.content_length(body_bytes);
     }
     return response;

@@ -36,19 +36,35 @@ const char* wordOf(session::SceneStanding standing) {
     return "ready";
 }
 
+Json jsonOf(const session::SceneContents& contents) {
+    return {{"triangles", contents.triangles}, {"materials", contents.materials},
+            {"textures", contents.textures},   {"lights", contents.lights},
+            {"cameras", contents.cameras},     {"animations", contents.animations}};
+}
+
 Json rowOf(const catalogue::Offered& scene, const session::ScenePort* port) {
     const std::filesystem::path source(scene.source);
     std::string kind = scene.source == "builtin" ? "builtin" : source.extension().string();
     if (kind.starts_with('.')) {
         kind.erase(0, 1);
     }
-    return {{"id", scene.id},
-            {"name", scene.name},
-            {"path", scene.path},
-            {"kind", std::move(kind)},
-            {"bytes", scene.bytes},
-            {"state", wordOf(port != nullptr ? port->standingOf(scene.id)
-                                             : session::SceneStanding::kOffered)}};
+    const auto report = port != nullptr ? port->reportOf(scene.id) : session::SceneReport();
+    Json row{
+        {"id", scene.id},
+        {"name", scene.name},
+        {"path", scene.path},
+        {"kind", std::move(kind)},
+        {"bytes", scene.bytes},
+        {"thumb", fmt::format("{}/{}{}?v={:x}", kScenesPath, scene.id, kThumbnail, scene.version)},
+        {"state", wordOf(report.standing)}};
+    if (report.standing == session::SceneStanding::kLoading) {
+        row["stage"] = report.progress.stage;
+        row["fraction"] = report.progress.fraction;
+    }
+    if (report.contents) {
+        row["holds"] = jsonOf(*report.contents);
+    }
+    return row;
 }
 
 // What a listing is asked for.

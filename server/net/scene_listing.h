@@ -12,6 +12,7 @@
 namespace froxel::net {
 
 inline constexpr std::string_view kScenesPath = "/api/v1/scenes";
+inline constexpr std::string_view kThumbnail = "/thumb"; // behind a scene's path
 
 class SceneListing {
   public:

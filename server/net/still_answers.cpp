@@ -30,6 +30,10 @@ constexpr std::array kFormats{
     Format{"png", settings::Codec::kPng, "image/png"},
 };
 
+std::string_view viewOf(boost::beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
 const Format& formatOf(settings::Codec codec) {
     return *std::ranges::find(kFormats, codec, &Format::codec);
 }
@@ -51,7 +55,13 @@ http::status statusOf(const still::StillRefusal& refusal) {
                : http::status::bad_request;
 }
 
-Response refusedBy(const still::StillRefusal& refusal) {
+// A gallery has no use for why a scene has no thumbnail: it is no error there.
+Response refusedBy(const still::StillRefusal& refusal, bool thumbnail) {
+    if (thumbnail && statusOf(refusal) == http::status::bad_request) {
+        Response none = makeResponse(http::status::no_content, "image/jpeg", {});
+        none.set(http::field::cache_control, "no-cache");
+        return none;
+    }
     const auto& fits = refusal.fits;
     Response response =
         apiRefusal(statusOf(refusal),
@@ -100,6 +110,12 @@ std::string StillAnswers::sceneTag(const std::string& scene) const {
                          : scene.empty() ? std::optional(catalogue_->listing()->scenes.front())
                                          : catalogue_->find(scene);
     return offered ? offered->id + " " + numberText(offered->version) : run_;
+}
+
+bool StillAnswers::lasts(const Request& request, const still::StillRequest& still) const {
+    const auto offered =
+        still.thumbnail && catalogue_ ? catalogue_->find(still.scene) : std::nullopt;
+    return offered && viewOf(request.target()).ends_with(fmt::format("?v={:x}", offered->version));
 }
 
 std::optional<Response> StillAnswers::read(const Request& request,
@@ -168,23 +184,26 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
         still.tag += "\n" + name + "=" + text;
     }
     const std::string etag = etagOf(still.tag);
-    const auto tagged = [etag, shared](Response response) {
+    const std::string caching = std::string(shared ? "" : "private, ") +
+                                (lasts(request, still) ? "max-age=86400" : "no-cache");
+    const auto tagged = [etag, caching](Response response) {
         response.set(http::field::etag, etag);
-        response.set(http::field::cache_control, shared ? "no-cache" : "private, no-cache");
+        response.set(http::field::cache_control, caching);
         return response;
     };
     if (hasAlready(request, etag)) {
         done(tagged(makeResponse(http::status::not_modified, format.content_type, {})));
         return nothing;
     }
+    const bool thumbnail = still.thumbnail;
     const auto account =
         caller.local && !caller.token ? std::nullopt : std::optional(caller.account());
     const auto ticket = desk_->ask(
         {serving.context, serving.port, serving.scenes}, std::move(still), account,
-        [done, tagged, &format](const still::StillOutcome& outcome) {
+        [done, tagged, &format, thumbnail](const still::StillOutcome& outcome) {
             const auto* bytes = std::get_if<SharedBytes>(&outcome);
             done(bytes != nullptr ? tagged(pictureOf(*bytes, format))
-                                  : refusedBy(std::get<still::StillRefusal>(outcome)));
+                                  : refusedBy(std::get<still::StillRefusal>(outcome), thumbnail));
         },
         Clock::now());
     return [desk = desk_, ticket] { desk->cancel(ticket); };

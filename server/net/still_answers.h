@@ -16,7 +16,6 @@
 namespace froxel::net {
 
 inline constexpr std::string_view kStillPath = "/render";
-inline constexpr std::string_view kThumbnail = "/thumb"; // behind a scene's path
 
 class StillAnswers {
   public:
@@ -40,6 +39,8 @@ class StillAnswers {
     [[nodiscard]] std::optional<Response>
     read(const Request& request, std::string_view path, still::StillRequest& still) const;
     [[nodiscard]] std::string sceneTag(const std::string& scene) const;
+    // Whether the address itself goes by the scene's version, as the listing has it.
+    [[nodiscard]] bool lasts(const Request& request, const still::StillRequest& still) const;
 
     const std::shared_ptr<still::StillDesk> desk_;
     const std::shared_ptr<const catalogue::Catalogue> catalogue_;

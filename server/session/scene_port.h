@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace froxel::session {
@@ -20,6 +21,25 @@ struct SceneProgress {
 };
 
 enum class SceneStanding : uint8_t { kUnknown, kOffered, kLoading, kReady };
+
+// What of a scene people choose by.
+struct SceneContents {
+    uint64_t triangles = 0; // drawn, instances counted each
+    uint64_t materials = 0;
+    uint64_t textures = 0;
+    uint64_t lights = 0;
+    uint64_t cameras = 0;
+    uint64_t animations = 0;
+    bool operator==(const SceneContents&) const = default;
+};
+
+[[nodiscard]] SceneContents contentsOf(const SceneSummary& scene);
+
+struct SceneReport {
+    SceneStanding standing = SceneStanding::kUnknown; // not offered
+    SceneProgress progress;                           // while it is loading
+    std::optional<SceneContents> contents;            // once it was read, also after it left
+};
 
 // Of a server's scenes, for its operators.
 struct SceneCounts {
@@ -51,8 +71,7 @@ class ScenePort {
     [[nodiscard]] virtual Result<SharedContext>
     want(const std::string& id, const std::shared_ptr<SceneWaiter>& waiter) = 0;
     [[nodiscard]] virtual SceneCounts counts() const = 0;
-    // How far a scene is; kUnknown: it is not offered.
-    [[nodiscard]] virtual SceneStanding standingOf(const std::string& id) const = 0;
+    [[nodiscard]] virtual SceneReport reportOf(const std::string& id) const = 0;
     // The waiter, which may be about to end, does not want it any more; what nobody waits for is
     // not loaded.
     virtual void dismiss(const std::string& id, const std::weak_ptr<SceneWaiter>& waiter) = 0;

@@ -1,6 +1,18 @@
 #include "session/session_context.h"
 
+#include "scene/motion.h"
+#include "session/scene_port.h"
+
 namespace froxel::session {
+
+SceneContents contentsOf(const SceneSummary& scene) {
+    return {.triangles = scene.triangle_count,
+            .materials = scene.material_count,
+            .textures = scene.texture_count,
+            .lights = scene.punctual_light_count,
+            .cameras = scene.cameras.size(),
+            .animations = scene.motion ? scene.motion->clips.size() : 0};
+}
 
 SceneSummary summarize(const scene::Scene& scene) {
     SceneSummary summary;

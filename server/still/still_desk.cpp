@@ -213,7 +213,7 @@ void StillDesk::wantScenes(TimePoint now, Calls& calls) {
         }
         session::ScenePort& scenes = *here->source.scenes;
         const std::string& id = here->request.scene;
-        const auto standing = scenes.standingOf(id);
+        const auto standing = scenes.reportOf(id).standing;
         const bool takes_time = standing == session::SceneStanding::kOffered ||
                                 standing == session::SceneStanding::kLoading;
         const bool comes = std::ranges::any_of(jobs_, [&](const Job& other) {

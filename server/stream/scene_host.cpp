@@ -73,19 +73,34 @@ Result<SharedContext> SceneHost::want(const std::string& id,
         queued_.notify_one();
     }
     coming->second.waiters.push_back(waiter);
+    coming->second.patient = coming->second.patient && waiter->isPatient();
     return SharedContext();
 }
 
-session::SceneStanding SceneHost::standingOf(const std::string& id) const {
+session::SceneReport SceneHost::reportOf(const std::string& id) const {
     using session::SceneStanding;
     const std::lock_guard lock(mutex_);
-    const auto isIt = [&](const auto& entry) { return entry.second.id == id; };
-    if ((first_ && first_->scene_id == id) || std::ranges::any_of(residents_, isIt)) {
-        return SceneStanding::kReady;
+    if (first_ && first_->scene_id == id) {
+        return {SceneStanding::kReady, {}, session::contentsOf(first_->scene)};
     }
-    return coming_.contains(id)  ? SceneStanding::kLoading
-           : options_.offers(id) ? SceneStanding::kOffered
-                                 : SceneStanding::kUnknown;
+    const auto version = options_.offers(id);
+    if (!version) {
+        return {};
+    }
+    session::SceneReport report{SceneStanding::kOffered, {}, {}};
+    if (const auto known = contents_.find(id);
+        known != contents_.end() && known->second.version == *version) {
+        report.contents = known->second.of;
+    }
+    if (std::ranges::any_of(residents_, [&](const auto& entry) {
+            return entry.second.id == id && entry.second.version == *version;
+        })) {
+        report.standing = SceneStanding::kReady;
+    } else if (const auto coming = coming_.find(id); coming != coming_.end()) {
+        report.standing = SceneStanding::kLoading;
+        report.progress = coming->second.progress;
+    }
+    return report;
 }
 
 void SceneHost::dismiss(const std::string& id, const std::weak_ptr<SceneWaiter>& waiter) {
@@ -182,15 +197,13 @@ void SceneHost::run(const std::stop_token& stop) {
     }
 }
 
-// The first that anybody waits for who is not patient; else the first.
+// The first that is not waited for patiently; else the first. What nobody waits for any more goes
+// with these.
 std::deque<std::string>::iterator SceneHost::nextToLoad() {
-    const auto hurries = [this](const std::string& id) {
-        return std::ranges::any_of(coming_.at(id).waiters, [](const auto& waiter) {
-            const auto here = waiter.lock();
-            return here && !here->isPatient();
-        });
-    };
-    const auto next = std::ranges::find_if(queue_, hurries);
+    const auto next = std::ranges::find_if(queue_, [this](const std::string& id) {
+        const Coming& coming = coming_.at(id);
+        return !coming.patient || !isAwaited(coming);
+    });
     return next == queue_.end() ? queue_.begin() : next;
 }
 
@@ -226,6 +239,7 @@ Result<void> SceneHost::prepare(const std::string& id, ReadScene read) {
             return room;
         }
         coming.bytes = bytes;
+        contents_[id] = {coming.version, session::contentsOf(read.context.scene)};
         read.context.scene_id = id;
         read.context.scene_number = ++last_number_;
     }
@@ -315,6 +329,7 @@ void SceneHost::report(const std::string& id, const SceneProgress& progress) {
         if (coming == coming_.end()) {
             return;
         }
+        coming->second.progress = progress;
         waiters = present(coming->second);
     }
     for (const auto& waiter : waiters) {

@@ -49,7 +49,7 @@ class SceneHost final : public session::ScenePort {
     [[nodiscard]] Result<session::SharedContext>
     want(const std::string& id, const std::shared_ptr<session::SceneWaiter>& waiter) override;
     [[nodiscard]] session::SceneCounts counts() const override;
-    [[nodiscard]] session::SceneStanding standingOf(const std::string& id) const override;
+    [[nodiscard]] session::SceneReport reportOf(const std::string& id) const override;
     void dismiss(const std::string& id, const std::weak_ptr<session::SceneWaiter>& waiter) override;
 
     // Render thread. The device and its first scene are there. Scenes beside that may take so many
@@ -80,12 +80,18 @@ class SceneHost final : public session::ScenePort {
     struct Coming {
         Stage stage = Stage::kQueued;
         uint64_t version = 0;
-        std::vector<std::weak_ptr<session::SceneWaiter>> waiters;
+        std::vector<std::weak_ptr<session::SceneWaiter>> waiters; // never held under the lock
+        bool patient = true;                                      // all of them
         // From kMoving on; the render thread's.
         std::unique_ptr<SceneMove> move;
         session::SharedContext context;
         uint64_t bytes = 0; // that it will take
+        session::SceneProgress progress{"waiting for its turn", 0};
         TimePoint begun_at{};
+    };
+    struct Contents {
+        uint64_t version = 0;
+        session::SceneContents of;
     };
     using Waiters = std::vector<std::shared_ptr<session::SceneWaiter>>;
 
@@ -111,6 +117,7 @@ class SceneHost final : public session::ScenePort {
     std::deque<std::string> queue_;
     std::map<std::string, Coming> coming_;              // by id
     std::map<uint64_t, Resident> residents_;            // by SessionContext::scene_number
+    std::map<std::string, Contents> contents_;          // by id, of all that were ever read
     std::vector<std::unique_ptr<SceneSource>> leaving_; // which the render thread ends
     session::SceneCounts counts_;                       // of what adds up
     uint64_t last_number_ = 0;

@@ -2,11 +2,14 @@
 
 import { closeBeside, element, make } from '../core/dom';
 import { ms } from '../core/format';
+import type { ServerFiles } from '../protocol/server_files';
 import type { Look } from '../state/looks';
 
 export interface LookActions {
   looks(): readonly Look[];
   applyLook(look: Look): void;
+  /** Path of a still of it. */
+  lookPicture(look: Look): string;
   /** Whether the view is at it. */
   isLookNow(look: Look): boolean;
   /** Of the commands that set the view. */
@@ -29,10 +32,12 @@ export class LooksCard {
   private readonly list = element('looks-list', HTMLElement);
   private readonly name = element('looks-name', HTMLInputElement);
   private readonly said = element('looks-said', HTMLElement);
+  private pictures: { readonly picture: HTMLImageElement; readonly path: string }[] = [];
 
   constructor(
     private readonly actions: LookActions,
     private readonly costs: KnownCosts,
+    private readonly files: ServerFiles,
   ) {
     closeBeside(this.dialog);
     element('looks-form', HTMLFormElement).addEventListener('submit', (event) => {
@@ -50,6 +55,17 @@ export class LooksCard {
     this.noteCost();
     this.tell(null);
     this.dialog.showModal();
+    void this.showPictures();
+  }
+
+  /** Of the view as it would be; one after another, since a server draws them beside others' frames. */
+  private async showPictures(): Promise<void> {
+    const { pictures } = this;
+    for (const { picture, path } of pictures) {
+      if (pictures !== this.pictures || !this.dialog.open) return; // others are shown by now
+      const url = await this.files.picture(path);
+      if (url !== null) picture.src = url;
+    }
   }
 
   private noteCost(): void {
@@ -62,7 +78,9 @@ export class LooksCard {
     this.said.textContent = problem ?? '';
     if (problem === null) {
       this.name.value = '';
+      this.pictures = [];
       this.list.replaceChildren(...this.actions.looks().map((look) => this.itemOf(look)));
+      if (this.dialog.open) void this.showPictures();
     }
   }
 
@@ -71,14 +89,10 @@ export class LooksCard {
     const choose = make('button');
     choose.type = 'button';
     choose.title = look.help;
-    if (!look.own) {
-      const picture = make('img');
-      picture.src = `looks/${look.name}.jpg`;
-      picture.alt = '';
-      picture.addEventListener('error', () => picture.remove()); // another server's look
-      choose.append(picture);
-    }
-    choose.append(make('span', look.label));
+    const picture = make('img');
+    picture.alt = '';
+    this.pictures.push({ picture, path: this.actions.lookPicture(look) });
+    choose.append(picture, make('span', look.label));
     const cost = this.costs.ofMs(look.name);
     if (cost !== undefined) {
       const text = make('small', `${ms(cost)} ms`);

@@ -2,13 +2,12 @@
 
 import { closeBeside, element, make } from '../core/dom';
 import { bytes } from '../core/format';
+import type { ServerFiles } from '../protocol/server_files';
 
 export interface SceneActions {
   selectScene(id: string): void;
   /** Of the one that is shown. */
   sceneId(): string;
-  /** That the server asks for; empty: none. */
-  token(): string;
 }
 
 /** As the server lists it: protocol/README.md, Scenes over HTTP. */
@@ -19,6 +18,8 @@ interface Row {
   readonly kind: string;
   readonly bytes: number;
   readonly state: string;
+  readonly thumb: string; // path of its picture
+  readonly holds?: Readonly<Record<'triangles' | 'lights' | 'animations', number>>;
 }
 
 interface Listing {
@@ -35,8 +36,21 @@ export class ScenesCard {
   private readonly search = element('scenes-search', HTMLInputElement);
   private readonly said = element('scenes-said', HTMLElement);
   private rows: readonly Row[] = [];
+  /** Pictures and facts are fetched of what is in sight: a picture may need the scene loaded. */
+  private readonly seen = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      if (!isIntersecting) continue;
+      this.seen.unobserve(target);
+      const item = this.items.get(target);
+      if (item) void this.picture(item);
+    }
+  });
+  private readonly items = new Map<Element, Item>();
 
-  constructor(private readonly actions: SceneActions) {
+  constructor(
+    private readonly actions: SceneActions,
+    private readonly files: ServerFiles,
+  ) {
     closeBeside(this.dialog);
     this.search.addEventListener('input', () => this.show());
     element('scenes-close', HTMLButtonElement).addEventListener('click', () => this.dialog.close());
@@ -73,9 +87,7 @@ export class ScenesCard {
 
   private async page(after: string): Promise<Listing> {
     const query = new URLSearchParams({ limit: String(kPageSize), ...(after !== '' && { after }) });
-    const token = this.actions.token();
-    const headers: HeadersInit = token === '' ? {} : { Authorization: `Bearer ${token}` };
-    const answer = await fetch(new URL(`api/v1/scenes?${query.toString()}`, document.baseURI), { headers });
+    const answer = await this.files.get(`api/v1/scenes?${query.toString()}`);
     const body = (await answer.json()) as Listing & { message?: string };
     if (!answer.ok) throw new Error(body.message ?? `HTTP ${answer.status}`);
     return body;
@@ -89,7 +101,18 @@ export class ScenesCard {
       return words.every((word) => text.includes(word));
     });
     this.said.textContent = this.rows.length > 0 && found.length === 0 ? 'No scene has that in its name.' : '';
+    this.seen.disconnect();
+    this.items.clear();
     this.list.replaceChildren(...found.map((row) => this.itemOf(row)));
+  }
+
+  private async picture({ row, image, facts }: Item): Promise<void> {
+    const picture = await this.files.picture(row.thumb);
+    if (picture === null) return; // it stays empty: a file may be broken
+    image.src = picture;
+    if (row.holds) return;
+    const answer = await this.files.get(`api/v1/scenes/${row.id}`).catch(() => null);
+    if (answer?.ok) facts.textContent = factsOf((await answer.json()) as Row);
   }
 
   private itemOf(row: Row): HTMLElement {
@@ -97,7 +120,12 @@ export class ScenesCard {
     const choose = make('button');
     choose.type = 'button';
     choose.title = row.path;
-    choose.append(make('span', row.name), make('small', factsOf(row)));
+    const image = make('img');
+    image.alt = '';
+    const facts = make('small', factsOf(row));
+    choose.append(image, make('span', row.name), facts);
+    this.items.set(item, { row, image, facts });
+    this.seen.observe(item);
     if (row.id === this.actions.sceneId()) choose.setAttribute('aria-current', 'true');
     choose.addEventListener('click', () => {
       this.dialog.close();
@@ -108,8 +136,24 @@ export class ScenesCard {
   }
 }
 
-/** "GLB, 1.2 MB, ready" */
-function factsOf({ kind, bytes: size, state }: Row): string {
+interface Item {
+  readonly row: Row;
+  readonly image: HTMLImageElement;
+  readonly facts: HTMLElement;
+}
+
+const counted = (count: number, what: string): string[] =>
+  count === 0 ? [] : [`${count.toLocaleString('en')} ${what}${count === 1 ? '' : 's'}`];
+
+/** "GLB, 1.2 MB, 2,340 triangles, 1 light", with what is known. */
+function factsOf({ kind, bytes: size, holds }: Row): string {
   const parts = kind === 'builtin' ? ['built in'] : [kind.toUpperCase(), bytes(size)];
-  return [...parts, ...(state === 'offered' ? [] : [state])].join(', ');
+  if (holds) {
+    parts.push(
+      ...counted(holds.triangles, 'triangle'),
+      ...counted(holds.lights, 'light'),
+      ...counted(holds.animations, 'animation'),
+    );
+  }
+  return parts.join(', ');
 }

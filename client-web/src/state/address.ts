@@ -62,6 +62,17 @@ export function formatAddress(settings: Settings, size: SizeMode, initial: Setti
   return parts.join('&');
 }
 
+/** The size of a small still. */
+const kSmall = '236x133';
+
+/** What `render?` takes for a small picture of this view, with `over`, an address, over it. */
+export function stillAddress(settings: Settings, scene: string, over: string): string {
+  const query = new URLSearchParams(formatAddress(settings, { kind: 'fixed' }, settings, scene));
+  for (const [name, text] of new URLSearchParams(over)) query.set(name, text);
+  query.set('size', kSmall);
+  return query.toString();
+}
+
 /** Reads a fragment with or without its '#'. Never throws. */
 export function parseAddress(fragment: string): Address {
   const settings: Partial<Writable<Settings>> = {};

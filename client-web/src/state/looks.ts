@@ -6,7 +6,7 @@ import type { ServerInfo } from './app_state';
 import type { Settings } from '../settings/settings';
 
 export interface Look {
-  readonly name: string; // unique; of a picture below looks/ where the server offers it
+  readonly name: string; // unique
   readonly label: string;
   readonly help: string;
   readonly address: string;

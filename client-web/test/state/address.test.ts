@@ -13,12 +13,24 @@ import {
   ShadingModel,
   Transparency,
 } from '../../src/gen/froxel/v1/common_pb';
-import { formatAddress, parseAddress } from '../../src/state/address';
+import { formatAddress, parseAddress, stillAddress } from '../../src/state/address';
 import type { SizeMode } from '../../src/state/size_policy';
 import { kBounds, sampleSettings } from '../sample';
 
 const kAuto: SizeMode = { kind: 'auto', scale: 0.75 };
 const initial = sampleSettings();
+
+describe('stills', () => {
+  it('HaveWhatIsOver_OverTheView_AndNothingTwice', () => {
+    const query = new URLSearchParams(stillAddress(initial, 'a b', 'lights=7&bloom=none'));
+    expect(query.get('lights')).toBe('7');
+    expect(query.get('bloom')).toBe('none');
+    expect(query.get('scene')).toBe('a b');
+    expect(query.get('size')).toMatch(/^\d+x\d+$/);
+    expect(query.get('eye')).toBe(new URLSearchParams(formatAddress(initial, kAuto, initial)).get('eye'));
+    expect(new Set(query.keys()).size).toBe([...query.keys()].length);
+  });
+});
 
 describe('addresses', () => {
   it('RoundTrip_OfEverything_IsTheSameView', () => {

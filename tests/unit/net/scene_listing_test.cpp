@@ -50,6 +50,7 @@ TEST_F(SceneListingTest, Listing_HasEachSceneWithItsFacts) {
                                {"path", ""},
                                {"kind", "builtin"},
                                {"bytes", 0},
+                               {"thumb", "/api/v1/scenes/builtin/thumb?v=0"},
                                {"state", "offered"}}));
     EXPECT_EQ(scenes[1].at("name"), "fox");
     EXPECT_EQ(scenes[1].at("kind"), "glb");

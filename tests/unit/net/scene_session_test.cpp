@@ -27,10 +27,12 @@ class FakeScenes final : public session::ScenePort {
         return SharedContext();
     }
     [[nodiscard]] session::SceneCounts counts() const override { return {}; }
-    [[nodiscard]] session::SceneStanding standingOf(const std::string& id) const override {
-        return there.contains(id)     ? session::SceneStanding::kReady
-               : waiters.contains(id) ? session::SceneStanding::kLoading
-                                      : session::SceneStanding::kOffered;
+    [[nodiscard]] session::SceneReport reportOf(const std::string& id) const override {
+        return {there.contains(id)     ? session::SceneStanding::kReady
+                : waiters.contains(id) ? session::SceneStanding::kLoading
+                                       : session::SceneStanding::kOffered,
+                {},
+                {}};
     }
     void dismiss(const std::string& id,
                  const std::weak_ptr<session::SceneWaiter>& /*waiter*/) override {

@@ -35,11 +35,13 @@ class FakeScenes final : public session::ScenePort {
         return session::SharedContext();
     }
     session::SceneCounts counts() const override { return {}; }
-    session::SceneStanding standingOf(const std::string& id) const override {
+    session::SceneReport reportOf(const std::string& id) const override {
         using session::SceneStanding;
-        return ready.contains(id)        ? SceneStanding::kReady
-               : id.starts_with("scene") ? SceneStanding::kOffered
-                                         : SceneStanding::kUnknown;
+        return {ready.contains(id)        ? SceneStanding::kReady
+                : id.starts_with("scene") ? SceneStanding::kOffered
+                                          : SceneStanding::kUnknown,
+                {},
+                {}};
     }
     void dismiss(const std::string& id, const std::weak_ptr<session::SceneWaiter>&) override {
         waiters.erase(id);

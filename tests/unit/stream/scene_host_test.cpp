@@ -61,6 +61,7 @@ class SceneHostTest : public RenderLoopTest {
         options.read = [this](const std::string& id) -> Result<ReadScene> {
             passReading();
             ++read_count_;
+            read_ids_ += id;
             if (id == "e") {
                 return Error{ErrorCode::kScene, "e.glb is no glTF"};
             }
@@ -68,6 +69,7 @@ class SceneHostTest : public RenderLoopTest {
             scene->name = id;
             session::SessionContext context;
             context.scene.name = id;
+            context.scene.triangle_count = 12;
             return ReadScene{std::move(scene), std::move(context)};
         };
         host_ = std::make_shared<SceneHost>(std::move(options));
@@ -134,6 +136,7 @@ class SceneHostTest : public RenderLoopTest {
 
     std::atomic<uint64_t> version_ = 1;
     std::atomic<int> read_count_ = 0;
+    std::string read_ids_; // in their order; the host's thread's until nothing is read any more
     std::mutex gate_mutex_;
     std::condition_variable gate_;
     bool gate_open_ = true;
@@ -192,6 +195,51 @@ TEST_F(SceneHostTest, TwoWhoWantTheSame_ShareOneLoad) {
     ASSERT_TRUE(first && second && *first && *second);
     EXPECT_EQ(**first, **second);
     EXPECT_EQ(read_count_, 1);
+}
+
+// What a file holds is known once it was read, also after the scene has left, until the file is
+// another one.
+TEST_F(SceneHostTest, Report_TellsWhatWasRead) {
+    using session::SceneStanding;
+    begin(900);
+    EXPECT_EQ(host_->reportOf("z").standing, SceneStanding::kUnknown);
+    EXPECT_EQ(host_->reportOf("first").standing, SceneStanding::kReady);
+    EXPECT_EQ(host_->reportOf("a").standing, SceneStanding::kOffered);
+    EXPECT_FALSE(host_->reportOf("a").contents);
+    setReading(false);
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    EXPECT_TRUE(comes([&] { return host_->reportOf("a").progress.fraction > 0; }));
+    EXPECT_EQ(host_->reportOf("a").standing, SceneStanding::kLoading);
+    setReading(true);
+    EXPECT_TRUE(comes([&] { return host_->reportOf("a").standing == SceneStanding::kReady; }));
+    EXPECT_EQ(host_->reportOf("a").contents->triangles, 12U);
+    EXPECT_TRUE(comes([&] { return host_->counts().loading == 0; }));
+    ++version_;
+    EXPECT_EQ(host_->reportOf("a").standing, SceneStanding::kOffered);
+    EXPECT_FALSE(host_->reportOf("a").contents);
+}
+
+// Stills wait for those whom somebody looks at.
+TEST_F(SceneHostTest, PatientWaiter_IsServedLast) {
+    class Patient final : public session::SceneWaiter {
+      public:
+        void onSceneProgress(const std::string& /*id*/,
+                             const session::SceneProgress& /*progress*/) override {}
+        void onScene(const std::string& /*id*/, Result<SharedContext> /*scene*/) override {}
+        [[nodiscard]] bool isPatient() const override { return true; }
+    };
+    begin();
+    setReading(false);
+    const auto patient = std::make_shared<Patient>();
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", patient)); // is being read already, or goes first as well
+    EXPECT_TRUE(comes([&] { return host_->reportOf("a").progress.fraction > 0; }));
+    ASSERT_TRUE(host_->want("b", patient));
+    ASSERT_TRUE(host_->want("c", waiter));
+    setReading(true);
+    EXPECT_TRUE(comes([&] { return host_->counts().loaded_total == 3; }));
+    EXPECT_EQ(read_ids_, "acb");
 }
 
 TEST_F(SceneHostTest, UnknownScene_IsRefused) {
