@@ -29,11 +29,12 @@ constexpr const char* kFooter =
 
 Result<std::string> parseScript(const std::string& text) {
     const std::filesystem::path path(text);
-    if (text == "orbit" || text == "idle" || text == "storm" || path.extension() == ".jsonl") {
+    if (text == "orbit" || text == "idle" || text == "storm" || text == "scenes" ||
+        path.extension() == ".jsonl") {
         return text;
     }
     return Error{ErrorCode::kInvalidArgument,
-                 fmt::format("'{}' is not orbit, idle, storm or a .jsonl file", text)};
+                 fmt::format("'{}' is not orbit, idle, storm, scenes or a .jsonl file", text)};
 }
 
 Result<std::string> parseRoom(const std::string& text) {
@@ -60,7 +61,8 @@ void addLoadArguments(CommandBuilder& command, LoadOptions& options) {
     command.number("--seconds", options.seconds, kSecondsRange, "How long to measure");
     command.value("--script", "NAME|FILE", options.script, parseScript, options.script,
                   "orbit: the camera circles, 60 commands a second; idle: nothing; storm: every "
-                  "setting over its whole range, 200 a second; or a FILE.jsonl");
+                  "setting over its whole range, 200 a second; scenes: another scene of the "
+                  "server's every 2 seconds; or a FILE.jsonl");
     command.number("--ramp", options.ramp_s, kRampRange, "Seconds over which viewers join");
     command.value("--room", "NAME", options.room, parseRoom, "a session each",
                   "Room that all viewers share; the first one there controls, the others watch "

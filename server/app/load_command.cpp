@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "load/client_tls.h"
 #include "load/load_run.h"
+#include "load/scene_script.h"
 #include "load/script_file.h"
 #include "net/stop_signal.h"
 #include "net/token_file.h"
@@ -29,7 +30,14 @@ constexpr int kStoppedExitCode = 130; // as a shell has it for SIGINT
 // frames a second each take a third of a core.
 constexpr uint32_t kViewersPerThread = 32;
 
-load::ScriptChoice scriptOf(const std::string& text) {
+load::ScriptChoice scriptOf(const LoadOptions& options) {
+    const std::string& text = options.script;
+    if (text == "scenes") {
+        const auto tokens = options.token_file.empty()
+                                ? std::vector<std::string>{""}
+                                : net::readTokenFile(options.token_file).value();
+        return load::Scenes{load::fetchSceneIds(options.target, tokens.front()).value()};
+    }
     if (text == "orbit") {
         return load::Orbit{};
     }
@@ -45,7 +53,7 @@ load::ScriptChoice scriptOf(const std::string& text) {
 load::RunOptions runOptions(const LoadOptions& options) {
     load::RunOptions run;
     run.viewer.target = options.target;
-    run.viewer.script = scriptOf(options.script);
+    run.viewer.script = scriptOf(options);
     if (options.size) {
         run.viewer.size.emplace();
         run.viewer.size->set_width(options.size->width_px);

@@ -22,13 +22,17 @@ constexpr uint64_t kMaxBodyBytes = 1 << 20;
 
 } // namespace
 
-Result<ProbeAnswer> probe(const Target& target, std::chrono::milliseconds timeout) {
+Result<ProbeAnswer>
+probe(const Target& target, std::chrono::milliseconds timeout, const std::string& token) {
     boost::asio::io_context io;
     boost::asio::ip::tcp::resolver resolver(io);
     beast::tcp_stream stream(io);
     http::request<http::empty_body> request(http::verb::get, target.resource, 11);
     request.set(http::field::host, target.authority);
     request.keep_alive(false);
+    if (!token.empty()) {
+        request.set(http::field::authorization, "Bearer " + token);
+    }
     http::response_parser<http::string_body> parser;
     parser.body_limit(kMaxBodyBytes);
     beast::flat_buffer buffer;
@@ -56,7 +60,8 @@ Result<ProbeAnswer> probe(const Target& target, std::chrono::milliseconds timeou
         return Error{ErrorCode::kIo, printable(target.authority, 200) + ": " + failure.message()};
     }
     const std::string& body = parser.get().body();
-    return ProbeAnswer{parser.get().result_int(), printable(body.substr(0, body.find('\n')), 400)};
+    return ProbeAnswer{parser.get().result_int(), printable(body.substr(0, body.find('\n')), 400),
+                       body};
 }
 
 } // namespace froxel::load

@@ -1,4 +1,4 @@
-// One GET, as a health check makes it.
+// One GET, as a health check makes it. Without TLS.
 #pragma once
 
 #include "core/error.h"
@@ -11,10 +11,13 @@ namespace froxel::load {
 
 struct ProbeAnswer {
     unsigned status = 0;
-    std::string line; // the body's first
+    std::string line; // the body's first, printable
+    std::string body;
 };
 
 // Errors: kIo, in one line: no connection, or no answer in time.
-[[nodiscard]] Result<ProbeAnswer> probe(const Target& target, std::chrono::milliseconds timeout);
+// `token`: shown as Bearer; empty: none.
+[[nodiscard]] Result<ProbeAnswer>
+probe(const Target& target, std::chrono::milliseconds timeout, const std::string& token = {});
 
 } // namespace froxel::load

@@ -1,6 +1,7 @@
 #include "load/script.h"
 
 #include "load/orbit_script.h"
+#include "load/scene_script.h"
 #include "load/storm_script.h"
 
 #include <cstddef>
@@ -38,6 +39,9 @@ struct Maker {
     }
     std::unique_ptr<Script> operator()(Storm /*choice*/) const {
         return std::make_unique<StormScript>(welcome, viewer);
+    }
+    std::unique_ptr<Script> operator()(const Scenes& scenes) const {
+        return std::make_unique<SceneScript>(scenes.ids, welcome.scene().id(), viewer);
     }
     std::unique_ptr<Script> operator()(const Recording& steps) const {
         return std::make_unique<RecordedScript>(steps);

@@ -35,13 +35,19 @@ struct Orbit {};
 // with random values over the whole of what the server says it takes, often the least or the most;
 // the same ones in every run. Much of it costs too much and is refused as that.
 struct Storm {};
+// Goes over to another of these scenes every kSceneStay; each fourth time the one before is
+// selected again at once, which calls the new one off. Viewers two and two do the same.
+struct Scenes {
+    std::vector<std::string> ids; // at least one
+};
 // From a file; played once.
 using Recording = std::shared_ptr<const std::vector<Step>>;
-using ScriptChoice = std::variant<Orbit, Idle, Storm, Recording>;
+using ScriptChoice = std::variant<Orbit, Idle, Storm, Scenes, Recording>;
 
 inline constexpr Seconds kOrbitPeriod{10};
 inline constexpr uint32_t kOrbitRate = 60;
 inline constexpr uint32_t kStormRate = 200;
+inline constexpr Seconds kSceneStay{2};
 
 // `viewer` counts from 1; viewers of one script start at different points of it.
 [[nodiscard]] std::unique_ptr<Script>

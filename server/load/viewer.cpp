@@ -256,6 +256,8 @@ void Viewer::onMessage(const v1::ServerMessage& message, TimePoint now) {
         onWelcome(message.welcome(), now);
     } else if (message.has_state()) {
         onState(message.state().state(), now);
+    } else if (message.has_scene_changed()) {
+        onState(message.scene_changed().state(), now);
     } else if (message.has_error()) {
         meter_.onRefusal(message.error());
         if (!result_.first_frame_ms) { // refused before it saw anything: capacity, or its size

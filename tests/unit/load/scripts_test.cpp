@@ -170,5 +170,37 @@ TEST(Scripts, Recording_IsPlayedOnceByEveryViewer) {
     }
 }
 
+// Every fourth selection or so is called off by the one before it, soon.
+TEST(SceneScript, GoesOver_AndCallsOff_TwoAndTwoAlike) {
+    const std::vector<std::string> ids{"a", "b", "c"};
+    const auto first = makeScript(Scenes{ids}, welcome(), 1);
+    const auto second = makeScript(Scenes{ids}, welcome(), 2);
+    std::set<std::string> seen;
+    int called_off = 0;
+    std::optional<Step> before;
+    std::string shown;
+    for (int i = 0; i < 100; ++i) {
+        const auto step = first->next();
+        ASSERT_TRUE(step);
+        const std::string scene = step->message.select_scene().scene();
+        EXPECT_EQ(scene, second->next()->message.select_scene().scene());
+        if (before && step->at - before->at < 1s) {
+            ++called_off;
+            EXPECT_EQ(scene, shown) << "the one that was there";
+        } else if (before) {
+            EXPECT_GE(step->at - before->at, 1999ms);
+        }
+        if (before) {
+            shown = before->message.select_scene().scene();
+        }
+        seen.insert(scene);
+        before = step;
+        EXPECT_TRUE(scene.empty() || heard(step->message));
+    }
+    EXPECT_GT(called_off, 10);
+    EXPECT_LT(called_off, 40);
+    EXPECT_GE(seen.size(), 3U);
+}
+
 } // namespace
 } // namespace froxel::load
