@@ -1,5 +1,5 @@
-// Stills that were drawn, within so many bytes: what was asked for longest ago goes first. Whoever
-// owns it serialises access.
+// Stills that were drawn, within so many bytes of memory: what was asked for longest ago goes
+// first. Whoever owns it serialises access.
 #pragma once
 
 #include "core/encoded_frame.h"
@@ -14,6 +14,9 @@ namespace froxel::still {
 class StillStore {
   public:
     explicit StillStore(uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
+    // What one takes: its tag may be longer than the picture.
+    [[nodiscard]] static uint64_t weightOf(const std::string& tag, const SharedBytes& bytes);
 
     // Null: it is not here.
     [[nodiscard]] SharedBytes find(const std::string& tag);
