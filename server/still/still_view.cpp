@@ -199,7 +199,8 @@ session::CommandResult<session::CommandMessage> cameraCommand(const Asked& asked
     session::fillVec(*set.mutable_up(), asked.up.value_or(before.world_from_view[1]));
     if (asked.half_height_m) {
         set.set_half_height_m(*asked.half_height_m);
-    } else if (asked.fov_deg) {
+    }
+    if (asked.fov_deg) {
         set.set_fov_deg(*asked.fov_deg);
     }
     set.mutable_lens_shift()->set_x(asked.lens_shift_x.value_or(before.lens_shift.x));

@@ -141,6 +141,8 @@ TEST(StillView, BadEntries_AreToldWhatWouldBeRight) {
     expectRefused({{"eye", "1,2"}}, RejectCode::kOutOfRange, "\"x,y,z\" in metres");
     expectRefused({{"eye", "0,2,0"}, {"target", "0,2,0"}}, RejectCode::kOutOfRange, "focus");
     expectRefused({{"fov_deg", "200"}}, RejectCode::kOutOfRange, "fov_deg: '200' is not");
+    expectRefused({{"fov_deg", "60"}, {"half_height", "3"}}, RejectCode::kOutOfRange,
+                  "a camera has one of them");
     expectRefused({{"toon_compute", "0,0,1;0,1,1"}}, RejectCode::kOutOfRange, "ascending x");
     expectRefused({{"material_variant", "3"}}, RejectCode::kOutOfRange, "this scene has");
     expectRefused({{"animation", "1"}}, RejectCode::kOutOfRange, "this scene has");
