@@ -4,7 +4,9 @@
 
 #include <boost/beast/core/string.hpp>
 #include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
 
+#include <functional>
 #include <utility>
 
 namespace froxel::net {
@@ -39,6 +41,10 @@ Response apiRefusal(http::status status, const ApiRefusal& refusal) {
         body["fits"] = refusal.fits;
     }
     return makeResponse(status, "application/json", textOf(body));
+}
+
+std::string etagOf(const std::string& text) {
+    return fmt::format("\"{:016x}\"", std::hash<std::string>()(text));
 }
 
 // A list, of which proxies that compress weaken each (RFC 9110 section 13.1.2).

@@ -100,6 +100,8 @@ struct ApiRefusal {
 // A file may have any name: what of a text is no UTF-8 is replaced.
 [[nodiscard]] std::string textOf(const nlohmann::ordered_json& json);
 
+// The tag of what is a function of this text alone.
+[[nodiscard]] std::string etagOf(const std::string& text);
 // Whether who asks has what this tag is of already (If-None-Match).
 [[nodiscard]] bool hasAlready(const Request& request, std::string_view etag);
 // A body that has this tag, or 304 and none to who has it already (If-None-Match).

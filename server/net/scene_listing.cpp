@@ -113,8 +113,7 @@ std::variant<Page, Response> pageIn(const Request& request, const catalogue::Lis
 }
 
 Response withTag(const Request& request, const std::string& body) {
-    const std::string tag = fmt::format("\"{:016x}\"", std::hash<std::string>()(body));
-    Response response = taggedResponse(request, "application/json", body, tag);
+    Response response = taggedResponse(request, "application/json", body, etagOf(body));
     response.set(http::field::cache_control, "no-cache");
     return response;
 }

@@ -88,10 +88,6 @@ std::string_view sceneOfThumbnail(std::string_view path) {
                                             : std::string_view();
 }
 
-std::string etagOf(const std::string& tag) {
-    return fmt::format("\"{:016x}\"", std::hash<std::string>()(tag));
-}
-
 } // namespace
 
 StillAnswers::StillAnswers(std::shared_ptr<still::StillDesk> desk,

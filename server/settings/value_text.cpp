@@ -92,6 +92,10 @@ Result<double> parseNumber(std::string_view text, const Range<double>& range) {
     return parseInRange(text, range);
 }
 
+Result<bool> parseSwitch(std::string_view text) {
+    return text == "0" || text == "1" ? Result<bool>(text == "1") : invalid(text, "0 or 1");
+}
+
 Result<size_t> parseName(std::string_view text, std::span<const std::string_view> names) {
     const auto found = std::ranges::find(names, text);
     if (found == names.end()) {
@@ -228,8 +232,7 @@ Result<SettingValue> parseSetting(const Setting& setting, std::string_view text)
     const Range<double> range{setting.name, setting.min, setting.max};
     switch (setting.kind) {
     case SettingKind::kSwitch:
-        return text == "0" || text == "1" ? Result<SettingValue>(text == "1")
-                                          : invalid(text, "0 or 1");
+        return value(parseSwitch(text));
     case SettingKind::kChoice: {
         const auto index = parseName(text, setting.names);
         return index ? Result<SettingValue>(Choice{*index}) : index.error();

@@ -26,6 +26,9 @@ namespace froxel::settings {
 [[nodiscard]] Result<uint32_t> parseNumber(std::string_view text, const Range<uint32_t>& range);
 [[nodiscard]] Result<double> parseNumber(std::string_view text, const Range<double>& range);
 
+// "0" or "1".
+[[nodiscard]] Result<bool> parseSwitch(std::string_view text);
+
 // The position of `text` in `names`.
 [[nodiscard]] Result<size_t> parseName(std::string_view text,
                                        std::span<const std::string_view> names);

@@ -3,8 +3,6 @@
 #include "core/text.h"
 #include "settings/value_text.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -213,9 +211,6 @@ void StillDesk::wantScenes(TimePoint now, Calls& calls) {
         }
         session::ScenePort& scenes = *here->source.scenes;
         const std::string& id = here->request.scene;
-        const auto standing = scenes.reportOf(id).standing;
-        const bool takes_time = standing == session::SceneStanding::kOffered ||
-                                standing == session::SceneStanding::kLoading;
         const bool comes = std::ranges::any_of(jobs_, [&](const Job& other) {
             return other.scene_asked && other.stage == Stage::kScene && other.request.scene == id;
         });
@@ -223,6 +218,9 @@ void StillDesk::wantScenes(TimePoint now, Calls& calls) {
             here->scene_asked = true; // with that one
             continue;
         }
+        const auto standing = scenes.reportOf(id).standing;
+        const bool takes_time = standing == session::SceneStanding::kOffered ||
+                                standing == session::SceneStanding::kLoading;
         if (one_comes && takes_time) {
             continue;
         }
@@ -289,7 +287,7 @@ void StillDesk::drawNext(TimePoint now, Calls& calls) {
         if (!seat) {
             return;
         }
-        draw(here, *seat, now, calls);
+        draw(here, seat, now, calls);
     }
 }
 
@@ -314,20 +312,22 @@ std::shared_ptr<StillDesk::Seat> StillDesk::freeSeatFor(const Job& job) {
     return best;
 }
 
-void StillDesk::draw(Jobs::iterator job, Seat& seat, TimePoint now, Calls& calls) {
+void StillDesk::draw(Jobs::iterator job,
+                     const std::shared_ptr<Seat>& its_seat,
+                     TimePoint now,
+                     Calls& calls) {
+    Seat& seat = *its_seat;
     job->stage = Stage::kDrawing;
     job->state->applied.seq = ++seat.seq;
     job->state->version = seat.seq; // of a view that begins at 0
     seat.scene = job->state->scene;
     seat.size = job->state->settings.size;
     if (seat.port == nullptr) {
-        const auto self = std::ranges::find_if(
-            seats_, [&](const std::shared_ptr<Seat>& other) { return other.get() == &seat; });
-        const auto id = job->source.port->joinBeside(*self, *job->state);
+        const auto id = job->source.port->joinBeside(its_seat, *job->state);
         if (!id) {
             finish(job, putOff(RejectCode::kCapacity, id.error().message, std::chrono::seconds(5)),
                    calls);
-            seats_.erase(self);
+            std::erase(seats_, its_seat);
             return;
         }
         seat.port = job->source.port;
@@ -353,9 +353,7 @@ void StillDesk::onDrawn(Seat& seat, session::ReadyFrame frame) {
         ++counts_.drawn_total;
         storeFor(job->request).keep(job->request.tag, frame.bytes);
         finish(job, frame.bytes, calls);
-        const TimePoint now = Clock::now();
-        drawNext(now, calls);
-        rest(seat, now);
+        goOn(seat, Clock::now(), calls);
     });
 }
 
@@ -366,10 +364,13 @@ void StillDesk::onRefused(Seat& seat, const Error& error) {
         }
         const auto job = *std::exchange(seat.drawing, std::nullopt);
         finish(job, refusalOf(error, job->state->settings.size), calls);
-        const TimePoint now = Clock::now();
-        drawNext(now, calls);
-        rest(seat, now);
+        goOn(seat, Clock::now(), calls);
     });
+}
+
+void StillDesk::goOn(Seat& seat, TimePoint now, Calls& calls) {
+    drawNext(now, calls);
+    rest(seat, now);
 }
 
 void StillDesk::onLost(const Error& error) {
@@ -437,6 +438,7 @@ void StillDesk::cancel(Ticket ticket) {
 
 void StillDesk::expire(TimePoint now) {
     locked([&](Calls& calls) {
+        std::vector<std::shared_ptr<Seat>> given_up;
         for (auto job = jobs_.begin(); job != jobs_.end();) {
             const auto here = job++;
             if (now < here->due) {
@@ -446,8 +448,8 @@ void StillDesk::expire(TimePoint now) {
             for (const auto& seat : seats_) {
                 if (seat->drawing == here) {
                     seat->drawing.reset(); // its picture comes to nobody
-                    seat->rests_since = now;
                     ++seat->seq;
+                    given_up.push_back(seat);
                 }
             }
             finish(
@@ -456,6 +458,9 @@ void StillDesk::expire(TimePoint now) {
                        scene ? "the scene did not come in time" : "the device has no time for it",
                        std::chrono::seconds(10)),
                 calls);
+        }
+        for (const auto& seat : given_up) {
+            goOn(*seat, now, calls);
         }
         for (size_t i = seats_.size(); i-- > 0;) {
             Seat& seat = *seats_[i];

@@ -150,7 +150,9 @@ class StillDesk final : public session::SceneWaiter,
                      Calls& calls);
     void drawNext(TimePoint now, Calls& calls);
     [[nodiscard]] std::shared_ptr<Seat> freeSeatFor(const Job& job);
-    void draw(Jobs::iterator job, Seat& seat, TimePoint now, Calls& calls);
+    void draw(Jobs::iterator job, const std::shared_ptr<Seat>& seat, TimePoint now, Calls& calls);
+    // It draws no more of what it was given: it takes the next one, or rests.
+    void goOn(Seat& seat, TimePoint now, Calls& calls);
     void finish(Jobs::iterator job, const StillOutcome& outcome, Calls& calls);
     void rest(Seat& seat, TimePoint now);
     void leave(Seat& seat);

@@ -58,14 +58,6 @@ Result<void> put(Target& target, const Result<T>& value) {
     return {};
 }
 
-Result<void> put(std::optional<bool>& target, std::string_view text) {
-    if (text != "0" && text != "1") {
-        return Error{ErrorCode::kInvalidArgument, "'" + printable(text) + "' is not 0 or 1"};
-    }
-    target = text == "1";
-    return {};
-}
-
 // What no row of the settings' table holds.
 struct Row {
     std::string_view name;
@@ -102,7 +94,10 @@ constexpr std::array kRows{
     Row{"half_height", readNumber<&Asked::half_height_m, settings::kHalfHeightRange>},
     Row{"lens_shift.x", readNumber<&Asked::lens_shift_x, settings::kLensShiftXRange>},
     Row{"lens_shift.y", readNumber<&Asked::lens_shift_y, settings::kLensShiftYRange>},
-    Row{"grid.auto", [](Asked& asked, auto text) { return put(asked.grid.automatic, text); }},
+    Row{"grid.auto",
+        [](Asked& asked, auto text) {
+            return put(asked.grid.automatic, settings::parseSwitch(text));
+        }},
     Row{"grid.x", readGridSide<&settings::GridSize::x, settings::kGridXRange>},
     Row{"grid.y", readGridSide<&settings::GridSize::y, settings::kGridYRange>},
     Row{"grid.z", readGridSide<&settings::GridSize::z, settings::kGridZRange>},
@@ -121,7 +116,8 @@ constexpr std::array kRows{
     Row{"light_box",
         [](Asked& asked, auto text) { return put(asked.lights.box, settings::parseBox(text)); }},
     Row{"material_variant", readNumber<&Asked::material_variant, kAnyNumber>},
-    Row{"debug_frozen", [](Asked& asked, auto text) { return put(asked.frozen, text); }},
+    Row{"debug_frozen",
+        [](Asked& asked, auto text) { return put(asked.frozen, settings::parseSwitch(text)); }},
     Row{"toon_fragment",
         [](Asked& asked, auto text) {
             return put(asked.toon.fragment, settings::parseRamp(text));

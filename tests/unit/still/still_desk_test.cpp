@@ -305,6 +305,15 @@ TEST_F(StillDeskTest, TooLate_IsToldToComeBack_AndTheSeatGoesOn) {
     EXPECT_EQ(port_.session().granted, 2U);
 }
 
+// Its view ends when the picture that nobody waits for is done; the scene is not held until then.
+TEST_F(StillDeskTest, TooLateOfAnotherScene_LetsItGo) {
+    const Asked asked = ask("a", "scene1");
+    scenes_.come("scene1");
+    desk_->expire(kNow + 61s);
+    EXPECT_TRUE(asked.refusal().retry_after);
+    EXPECT_TRUE(port_.session().left);
+}
+
 TEST_F(StillDeskTest, SeatThatRests_Leaves) {
     (void)ask("a");
     deliver();
