@@ -276,10 +276,10 @@ glm::dvec3 reflected(const Surface& s, const Model& model, const glm::dvec3& to_
     const double share = coatShare(s, model);
     if (share > 0) {
         const double coat_facing = std::max(0.0, glm::dot(s.coat.normal, to_light));
-        const double lobe = coat_facing > 0 ? lobeOf(model, s.coat.normal, s.coat.roughness,
+        const double coat = coat_facing > 0 ? lobeOf(model, s.coat.normal, s.coat.roughness,
                                                      s.to_eye, half, coat_facing)
                                             : 0;
-        out = out * (1 - share) + share * coat_facing * lobe;
+        out = out * (1 - share) + share * coat_facing * coat;
     }
     return out;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "session/rejection.h"
+#include "session/scene_port.h"
 #include "session/session_state.h"
 
 #include <string>
