@@ -50,6 +50,7 @@ export default defineConfig({
     proxy: {
       '/ws': { target: 'ws://127.0.0.1:8080', ws: true },
       '/settings.json': 'http://127.0.0.1:8080',
+      '/view': 'http://127.0.0.1:8080',
     },
   },
   test: { include: ['test/**/*.test.ts'] },

@@ -121,6 +121,29 @@ it('SingleLetters_OutsideThePicture_DoNothing', async () => {
   expect(poses(viewer)).toEqual([]);
 });
 
+it('CopiedLink_LeadsToThisView_AndHasAPictureOfIt', async () => {
+  const viewer = await pages.open(`${kStill}&lights=7`);
+  const context = viewer.page.context();
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await viewer.page.locator('#view').focus();
+  await viewer.page.keyboard.press('l');
+  await until('the word', async () =>
+    (await viewer.page.locator('#banner-text').innerText()).includes('clipboard'),
+  );
+  const link = await viewer.page.evaluate(() => navigator.clipboard.readText());
+  const preview = await (await context.request.get(link)).text();
+  const picture = /og:image" content="([^"]+)"/.exec(preview)?.[1]?.replaceAll('&amp;', '&') ?? '';
+  const still = await context.request.get(picture);
+  expect(still.status()).toBe(200);
+  expect(still.headers()['content-type']).toBe('image/jpeg');
+
+  const address = new URLSearchParams(new URL(viewer.page.url()).hash.slice(1));
+  await viewer.page.goto(link);
+  await until('the view', () => Promise.resolve(new URL(viewer.page.url()).pathname === '/'));
+  const arrived = new URLSearchParams(new URL(viewer.page.url()).hash.slice(1));
+  expect([...arrived]).toEqual([...address]);
+});
+
 it('Search_OverTheHelp_ClosesIt', async () => {
   const viewer = await pages.open(kStill);
   await viewer.page.keyboard.press('?');

@@ -1,6 +1,7 @@
 #include "net/public_site.h"
 
 #include "core/text.h"
+#include "net/link_preview.h"
 #include "net/origin.h"
 #include "net/ws_connection.h"
 #include "protocol/limits.h"
@@ -75,6 +76,12 @@ Caller callerOf(const Request& request, const asio::ip::address& peer, const Sit
     return callerAt(clientAddress(peer, viewOf(request["X-Forwarded-For"]), site.trusted_proxies));
 }
 
+// A proxy with TLS says so; a page cannot.
+bool cameSecurely(const Request& request, const asio::ip::address& peer, const Site& site) {
+    return site.encrypted || cameByTls(peer, viewOf(request["X-Forwarded-For"]),
+                                       viewOf(request["X-Forwarded-Proto"]), site.trusted_proxies);
+}
+
 // None where its Hello would get a place, as far as can be told before.
 std::optional<Response>
 whyNoPlace(const Request& request, const asio::ip::address& peer, const Site& site) {
@@ -104,11 +111,7 @@ whyNoUpgrade(const Request& request, const asio::ip::address& peer, const Site& 
         origin = viewOf(found->value());
     }
     const auto host = viewOf(request[http::field::host]);
-    // A proxy with TLS says so; a page cannot.
-    const bool secure =
-        site.encrypted || cameByTls(peer, viewOf(request["X-Forwarded-For"]),
-                                    viewOf(request["X-Forwarded-Proto"]), site.trusted_proxies);
-    if (!originAllowed(origin, host, secure, site.allowed_origins)) {
+    if (!originAllowed(origin, host, cameSecurely(request, peer, site), site.allowed_origins)) {
         return refusal(http::status::forbidden,
                        "origin " + printable(*origin) + " may not connect to " + printable(host));
     }
@@ -161,6 +164,10 @@ std::optional<HttpSite::CallOff> PublicSite::answerLater(const Request& request,
                                                          std::string_view path,
                                                          const asio::ip::address& peer,
                                                          std::function<void(Response)> done) const {
+    if (path == kLinkPath) {
+        done(linkPreview(request, cameSecurely(request, peer, *site_), site_->gate == nullptr));
+        return [] {};
+    }
     if (!StillAnswers::has(path)) {
         return {};
     }

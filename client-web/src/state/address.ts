@@ -62,6 +62,19 @@ export function formatAddress(settings: Settings, size: SizeMode, initial: Setti
   return parts.join('&');
 }
 
+/**
+ * What is sent to others for the page at `href`, whose files are at `base`: it leads there, and tells
+ * programs that show links a picture of the view (server/net/link_preview.h), who get no fragment.
+ */
+export function linkTo(href: string, base: string): string {
+  const { hash, search } = new URL(href);
+  const link = new URL('view', base);
+  const room = new URLSearchParams(search).get('room');
+  link.search = hash.slice(1);
+  if (room !== null) link.searchParams.append('room', room);
+  return link.href;
+}
+
 /** The size of a small still. */
 const kSmall = '236x133';
 

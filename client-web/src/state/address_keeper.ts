@@ -4,7 +4,7 @@
 import { Codec } from '../gen/froxel/v1/common_pb';
 import { cameraCommand, settingCommands } from '../settings/setting_commands';
 import type { Settings } from '../settings/settings';
-import { formatAddress, parseAddress } from './address';
+import { formatAddress, linkTo, parseAddress } from './address';
 import type { AppState } from './app_state';
 import type { Store } from './store';
 
@@ -43,7 +43,7 @@ export class AddressKeeper {
     this.write();
     let text = 'The link to this view is on the clipboard.';
     try {
-      await navigator.clipboard.writeText(location.href);
+      await navigator.clipboard.writeText(linkTo(location.href, document.baseURI));
     } catch {
       text = 'Copy the link from the address bar.'; // no clipboard without https, or forbidden
     }

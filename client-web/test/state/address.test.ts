@@ -13,12 +13,29 @@ import {
   ShadingModel,
   Transparency,
 } from '../../src/gen/froxel/v1/common_pb';
-import { formatAddress, parseAddress, stillAddress } from '../../src/state/address';
+import { formatAddress, linkTo, parseAddress, stillAddress } from '../../src/state/address';
 import type { SizeMode } from '../../src/state/size_policy';
 import { kBounds, sampleSettings } from '../sample';
 
 const kAuto: SizeMode = { kind: 'auto', scale: 0.75 };
 const initial = sampleSettings();
+
+describe('links', () => {
+  const base = 'https://froxel.example/below/';
+
+  it('HaveTheViewWhereServersSeeIt', () => {
+    expect(linkTo(`${base}#eye=1,2,3&size=auto@1`, base)).toBe(`${base}view?eye=1,2,3&size=auto@1`);
+  });
+
+  it('KeepTheRoom_AndNothingElseOfTheQuery', () => {
+    const link = new URL(linkTo(`${base}index.html?room=us&x=y#scene=a%20b`, base));
+    expect(link.pathname).toBe('/below/view');
+    expect([...link.searchParams]).toEqual([
+      ['scene', 'a b'],
+      ['room', 'us'],
+    ]);
+  });
+});
 
 describe('stills', () => {
   it('HaveWhatIsOver_OverTheView_AndNothingTwice', () => {

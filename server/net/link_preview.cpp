@@ -1,0 +1,89 @@
+#include "net/link_preview.h"
+
+#include "net/still_answers.h"
+
+#include <boost/url/encode.hpp>
+#include <boost/url/parse.hpp>
+#include <boost/url/rfc/unreserved_chars.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <string>
+
+namespace froxel::net {
+
+namespace http = boost::beast::http;
+
+namespace {
+
+constexpr std::string_view kSize = "1200x630"; // that previews are made for
+
+// None of its characters means anything to HTML or to a query.
+std::string escaped(const std::string& text) {
+    return boost::urls::encode(text, boost::urls::unreserved_chars);
+}
+
+void append(std::string& query, const std::string& name, const std::string& text) {
+    query += (query.empty() ? "" : "&amp;") + escaped(name) + "=" + escaped(text);
+}
+
+std::string pictureTags(const std::string& url) {
+    return fmt::format(R"(<meta property="og:image" content="{}">
+<meta property="og:image:width" content="1200">
+<meta property="og:image:height" content="630">
+<meta name="twitter:card" content="summary_large_image">
+)",
+                       url);
+}
+
+} // namespace
+
+Response linkPreview(const Request& request, bool secure, bool pictures) {
+    const auto target =
+        boost::urls::parse_origin_form({request.target().data(), request.target().size()});
+    if (!target) {
+        return textResponse(http::status::bad_request, "the address is malformed");
+    }
+    std::string page;     // behind "?"
+    std::string fragment; // behind "#"
+    std::string still;
+    for (const auto& said : target->params()) {
+        if (said.key == "room") {
+            page.clear();
+            append(page, said.key, said.value);
+            continue;
+        }
+        append(fragment, said.key, said.value);
+        if (said.key != "size" && said.key != "format") {
+            append(still, said.key, said.value);
+        }
+    }
+    append(still, "size", std::string(kSize));
+    const std::string to = "./" + (page.empty() ? "" : "?" + page) + "#" + fragment;
+    // An address of HTML's has to be whole here.
+    const auto field = request[http::field::host];
+    const auto host = boost::urls::parse_authority({field.data(), field.size()});
+    const std::string tags =
+        pictures && host && !host->host().empty()
+            ? pictureTags(fmt::format("{}://{}{}?{}", secure ? "https" : "http",
+                                      std::string(host->encoded_host_and_port()), kStillPath,
+                                      still))
+            : std::string();
+    Response response = makeResponse(http::status::ok, "text/html; charset=utf-8",
+                                     fmt::format(R"(<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>Froxel</title>
+<meta property="og:type" content="website">
+<meta property="og:title" content="Froxel">
+<meta property="og:description" content="A view of a scene, to move about in">
+{0}<meta http-equiv="refresh" content="0; url={1}">
+<p><a href="{1}">Open this view</a></p>
+</html>
+)",
+                                                 tags, to));
+    response.set(http::field::cache_control, "no-cache");
+    return response;
+}
+
+} // namespace froxel::net
