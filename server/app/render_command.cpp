@@ -80,7 +80,8 @@ Still drawStill(render::ViewRenderer& viewer,
             mean.add(still.frame.pixels.view());
         }
         if (inputs.keep_radiance) {
-            addTo(still.linear, viewer.readLinear().value(), 1.0F / static_cast<float>(count));
+            addTo(still.linear, radianceOf(still.frame.pixels.view()),
+                  1.0F / static_cast<float>(count));
         }
     }
     if (count > 1) {

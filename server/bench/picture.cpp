@@ -80,12 +80,9 @@ Result<Pictures::Shared> Pictures::drawFrame(const settings::ViewSettings& setti
     if (!frame) {
         return frame.error();
     }
-    auto linear = viewer.readLinear();
-    if (!linear) {
-        return linear.error();
-    }
+    const PixelView& pixels = frame->pixels.view();
     return std::make_shared<const Picture>(
-        Picture{std::move(*linear), withoutPadding(frame->pixels.view()), frame->stats.grid});
+        Picture{radianceOf(pixels), withoutPadding(pixels), frame->stats.grid});
 }
 
 Result<Pictures::Shared> Pictures::draw(const settings::ViewSettings& settings, double time_s) {

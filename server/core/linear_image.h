@@ -1,6 +1,9 @@
 // A picture before exposure and tone map.
 #pragma once
 
+#include "core/pixel_view.h"
+
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,5 +15,27 @@ struct LinearImage {
     uint32_t height_px = 0;
     std::vector<float> rgb;
 };
+
+// A copy of the picture's radiance, which it has: of each pixel the mean of its samples.
+[[nodiscard]] inline LinearImage radianceOf(const PixelView& picture) {
+    const size_t samples = picture.radiance_samples;
+    const float share = 1.0F / static_cast<float>(samples * samples);
+    const size_t row_floats = samples * picture.width_px * 4;
+    LinearImage image{picture.width_px, picture.height_px, {}};
+    image.rgb.reserve(size_t{picture.width_px} * picture.height_px * 3);
+    for (size_t y = 0; y < picture.height_px; ++y) {
+        for (size_t x = 0; x < picture.width_px; ++x) {
+            const float* first = picture.radiance + samples * (y * row_floats + x * 4);
+            for (size_t channel = 0; channel < 3; ++channel) {
+                float sum = 0;
+                for (size_t sample = 0; sample < samples * samples; ++sample) {
+                    sum += first[sample / samples * row_floats + sample % samples * 4 + channel];
+                }
+                image.rgb.push_back(share * sum);
+            }
+        }
+    }
+    return image;
+}
 
 } // namespace froxel

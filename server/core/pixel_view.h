@@ -15,6 +15,10 @@ struct PixelView {
     uint32_t width_px = 0;
     uint32_t height_px = 0;
     size_t stride_bytes = 0;
+    // The same picture before exposure and tone map, where that was asked for, else null: linear
+    // fp32 RGBA, rows without padding, so many samples across a pixel and down it.
+    const float* radiance = nullptr;
+    uint32_t radiance_samples = 1;
 };
 
 // Move-only claim on a readback slot; the slot is free again when the lease ends.

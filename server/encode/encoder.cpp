@@ -1,6 +1,7 @@
 #include "encode/encoder.h"
 
 #include "core/assert.h"
+#include "encode/exr_encoder.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/png_encoder.h"
 #include "encode/vp9_encoder.h"
@@ -20,6 +21,7 @@ constexpr std::array kMakers = {
     Maker{settings::Codec::kJpeg, makeJpegEncoder},
     Maker{settings::Codec::kVp9, makeVp9Encoder},
     Maker{settings::Codec::kPng, makePngEncoder},
+    Maker{settings::Codec::kExr, makeExrEncoder},
 };
 
 constexpr bool oneARow() {

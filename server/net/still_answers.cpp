@@ -28,6 +28,7 @@ struct Format {
 constexpr std::array kFormats{
     Format{"jpg", settings::Codec::kJpeg, "image/jpeg"},
     Format{"png", settings::Codec::kPng, "image/png"},
+    Format{"exr", settings::Codec::kExr, "image/x-exr"},
 };
 
 std::string_view viewOf(boost::beast::string_view text) {
@@ -141,7 +142,7 @@ std::optional<Response> StillAnswers::read(const Request& request,
             const auto format = std::ranges::find(kFormats, said.value, &Format::name);
             if (format == kFormats.end()) {
                 return refused(http::status::bad_request, "unsupported", "format",
-                               "is \"" + printable(said.value) + "\"; it must be jpg or png");
+                               "is \"" + printable(said.value) + "\"; it must be jpg, png or exr");
             }
             still.codec = format->codec;
         } else {

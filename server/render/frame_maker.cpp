@@ -76,7 +76,7 @@ void FrameMaker::prepareTargets(FrameSlot& slot,
     }
     targets_->rastered_in_compute = plan.compute_raster;
     slot.targets = targets_;
-    slot.makeReadback(scene_.shared.device, packedBytes(shown));
+    slot.makeReadback(scene_.shared.device, readbackBytes(drawn, shown, slot.inputs.keep_radiance));
 }
 
 void FrameMaker::prepareBlend(FrameSlot& slot, const FramePlan& plan) {
@@ -337,7 +337,10 @@ RenderedFrame FrameMaker::finish(FrameSlot& slot) {
     const PixelView pixels{.data = slot.readback->buffer.mapped,
                            .width_px = size.width_px,
                            .height_px = size.height_px,
-                           .stride_bytes = size_t{4} * size.width_px};
+                           .stride_bytes = size_t{4} * size.width_px,
+                           .radiance =
+                               reinterpret_cast<const float*>(slot.readback->radiance.mapped),
+                           .radiance_samples = slot.targets->size.width_px / size.width_px};
     return {.pixels = PixelLease(pixels, [readback = slot.readback] { readback->leased = false; }),
             .stats = slot.stats};
 }

@@ -306,6 +306,27 @@ void recordLists(const FrameContext& frame) {
                      frame.slot.timestamps);
 }
 
+// Pixels, radiance and counters.
+void recordToHost(const FrameContext& frame) {
+    const auto& slot = frame.slot;
+    if (slot.targets->needs.device_pixels) {
+        // packed pixels -> copy
+        barrier(slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
+                Access::eTransferRead);
+        recordReadback(frame);
+    }
+    if (*slot.readback->radiance.handle) {
+        // radiance as the last pass left it -> copies
+        barrier(slot.cmd, Stage::eColorAttachmentOutput | Stage::eComputeShader,
+                Access::eColorAttachmentWrite | Access::eShaderStorageWrite, Stage::eCopy,
+                Access::eTransferRead);
+        inParts(frame, drawn(frame), FrameCosts::radianceToHost(), recordRadianceReadback);
+        // copies -> whatever the next frame does to radiance
+        barrier(slot.cmd, Stage::eCopy, Access::eNone, Stage::eAllCommands, Access::eNone);
+    }
+    recordHostRead(slot.cmd);
+}
+
 } // namespace
 
 void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_share) {
@@ -359,13 +380,7 @@ void recordFrame(const FrameContext& frame, Seconds piece_limit, double piece_sh
         barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite,
                 Stage::eComputeShader, Access::eShaderSampledRead);
     });
-    if (slot.targets->needs.device_pixels) {
-        // packed pixels -> copy
-        barrier(frame.slot.cmd, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eCopy,
-                Access::eTransferRead);
-        recordReadback(frame);
-    }
-    recordHostRead(slot.cmd); // pixels and counters
+    recordToHost(frame);
     frame.pieces.end();
 }
 

@@ -8,6 +8,7 @@ namespace froxel::render {
 namespace {
 
 constexpr const char* kReadback = "readback";
+constexpr const char* kRadianceReadback = "radiance readback";
 constexpr const char* kUpload = "frame upload";
 constexpr const char* kHost = "host";
 // Counters that come back, of each slot.
@@ -23,6 +24,8 @@ FrameMemory frameMemory(const FrameBuilder& builder,
     FrameMemory frame{.drawn = drawnSize(asked.settings),
                       .shown = asked.settings.size,
                       .targets = targets,
+                      .readback = readbackBytes(drawnSize(asked.settings), asked.settings.size,
+                                                asked.keep_radiance),
                       .lists = builder.listCapacity(),
                       .posed_bytes = builder.posedBytes(),
                       .host_bytes = builder.hostBytes() + asked.beside_bytes,
@@ -51,7 +54,8 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
     for (const auto& [place, effect] : frame.effects) {
         effect->addMemory(need);
     }
-    need.buffer(kReadback, packed_bytes * ViewRenderer::kReadbackSlots);
+    need.buffer(kReadback, frame.readback.pixels * ViewRenderer::kReadbackSlots);
+    need.buffer(kRadianceReadback, frame.readback.radiance * ViewRenderer::kReadbackSlots);
     need.buffer(kUpload, frame.upload_bytes);
     if (frame.lists.clusters > 0) {
         for (const auto& part : listParts(frame.lists)) {
@@ -68,8 +72,8 @@ std::vector<MemoryUse> memoryNeed(const FrameMemory& frame, const ImageBytes& im
 MemoryTaken totalOf(const std::vector<MemoryUse>& uses, bool device_is_cpu) {
     MemoryTaken total;
     for (const auto& use : uses) {
-        const bool of_host =
-            use.purpose == kReadback || use.purpose == kUpload || use.purpose == kHost;
+        const bool of_host = use.purpose == kReadback || use.purpose == kRadianceReadback ||
+                             use.purpose == kUpload || use.purpose == kHost;
         (of_host && !device_is_cpu ? total.host_bytes : total.device_bytes) += use.bytes;
     }
     return total;
@@ -82,7 +86,7 @@ void letGo(const std::vector<std::unique_ptr<FrameSlot>>& slots,
     frame.upload_bytes = 0;
     for (const auto& slot : slots) {
         if (!slot->in_flight) {
-            slot->letGo(packedBytes(frame.shown), upload_bytes);
+            slot->letGo(frame.readback, upload_bytes);
         }
         frame.upload_bytes += slot->upload.sizeFor(upload_bytes);
     }

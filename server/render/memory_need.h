@@ -22,6 +22,7 @@ struct FrameMemory {
     settings::Size shown;
     TargetNeeds targets;
     std::optional<settings::Transparency> blend = {}; // weighted or peeled surfaces are in sight
+    ReadbackBytes readback;                           // of a slot
     uint64_t upload_bytes = 0;                        // of all slots together
     ListCapacity lists;                               // on the device
     uint64_t posed_bytes = 0;                         // of the view's own vertices

@@ -5,7 +5,6 @@
 #include "render/frame/frame_slot.h"
 #include "render/frame_maker.h"
 #include "render/fresh_targets.h"
-#include "render/radiance_readback.h"
 #include "render/refusals.h"
 #include "render/scene/scene_resources.h"
 #include "render/visibility_readback.h"
@@ -317,17 +316,6 @@ Result<RenderedFrame> ViewRenderer::collect() {
                      "the device has no memory for this many light list entries"};
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice, std::string("finishing a frame failed: ") + error.what()};
-    }
-}
-
-Result<LinearImage> ViewRenderer::readLinear() {
-    FROXEL_ASSERT(impl_->maker.targets() && impl_->maker.targets()->needs.radiance,
-                  "readLinear needs a frame with keep_radiance");
-    try {
-        return copyRadiance(impl_->scene, *impl_->maker.targets());
-    } catch (const vk::SystemError& error) {
-        return Error{ErrorCode::kDevice,
-                     std::string("reading the picture failed: ") + error.what()};
     }
 }
 

@@ -34,7 +34,7 @@ struct FrameWork {
 };
 
 struct RenderedFrame {
-    PixelLease pixels; // RGBA8 sRGB
+    PixelLease pixels; // with the radiance where it was to be kept
     FrameStats stats;
 };
 
@@ -147,9 +147,6 @@ class ViewRenderer {
     [[nodiscard]] Result<void> submit(const FrameInputs& inputs);
     [[nodiscard]] Result<RenderedFrame> collect();
     [[nodiscard]] uint32_t inFlight() const;
-    // The linear picture of the frame last submitted, which had keep_radiance (not a fast path:
-    // waits and copies).
-    [[nodiscard]] Result<LinearImage> readLinear();
     // Which triangles the frame last collected shows, which took the visibility passes; `scene` is
     // the renderer's (not a fast path: see visibility_readback.h). Errors: kDevice.
     [[nodiscard]] Result<Visibility> readVisibility(const scene::Scene& scene);

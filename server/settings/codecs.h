@@ -1,5 +1,6 @@
-// How pictures are encoded for the stream: a row a codec, with all that others ask of it. They ask
-// by a property of the row, never by a codec's name. Its encoder is in encode/encoder.cpp.
+// How pictures are encoded, for the stream and for stills: a row a codec, with all that others ask
+// of it. They ask by a property of the row, never by a codec's name. Its encoder is in
+// encode/encoder.cpp.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 
 namespace froxel::settings {
 
-enum class Codec : uint8_t { kJpeg, kVp9, kPng };
+enum class Codec : uint8_t { kJpeg, kVp9, kPng, kExr };
 
 // What a codec gives bits for, and what a slow link takes from it.
 enum class RateControl : uint8_t {
@@ -29,16 +30,18 @@ struct EncoderMemory {
 
 struct CodecRow {
     Codec codec = Codec::kJpeg;
-    std::string_view name{};    // as in the schema
+    std::string_view name{};    // as in the schema, where it is streamed
+    bool streamed = true;       // else of stills alone, which no client of the protocol gets
     bool chosen = true;         // by viewers; else by the server alone, for a picture that rests
     bool announced = false;     // only to clients whose Hello.codecs lists it; else all decode it
     bool frames_depend = false; // on those before them, back to a key frame: video
     bool lossless = false;      // and slow, so that it waits behind the others
+    bool radiance = false;      // the picture before exposure and tone map, which it asks for
     RateControl rate_control = RateControl::kNone;
     EncoderMemory memory{};
 };
 
-// In the order of Codec, those that viewers choose first.
+// In the order of Codec: those that viewers choose first, those of stills alone last.
 inline constexpr std::array kCodecRows = {
     CodecRow{.codec = Codec::kJpeg, .name = "jpeg", .rate_control = RateControl::kQuality},
     // Memory: measured with libvpx 1.12 from 640x360 to 4096x4096, references, what it knows of
@@ -51,6 +54,14 @@ inline constexpr std::array kCodecRows = {
              .rate_control = RateControl::kBitrate,
              .memory = {.base_bytes = 16 << 20U, .bytes_420 = 100, .bytes_444 = 130}},
     CodecRow{.codec = Codec::kPng, .name = "png", .chosen = false, .lossless = true},
+    // Memory: the means of the samples, planes for the library, the file; floats.
+    CodecRow{.codec = Codec::kExr,
+             .name = "exr",
+             .streamed = false,
+             .chosen = false,
+             .lossless = true,
+             .radiance = true,
+             .memory = {.base_bytes = 8 << 20U, .bytes_420 = 36, .bytes_444 = 36}},
 };
 
 [[nodiscard]] constexpr const CodecRow& rowOf(Codec codec) {
@@ -61,12 +72,15 @@ inline constexpr std::array kCodecRows = {
 inline constexpr Codec kPlainCodec = Codec::kJpeg;
 inline constexpr Codec kLosslessCodec = Codec::kPng;
 static_assert(rowOf(kPlainCodec).chosen && !rowOf(kPlainCodec).announced);
-static_assert(rowOf(kLosslessCodec).lossless && !rowOf(kLosslessCodec).announced);
+static_assert(rowOf(kLosslessCodec).lossless && !rowOf(kLosslessCodec).announced &&
+              rowOf(kLosslessCodec).streamed);
 
 namespace detail {
 
 constexpr auto kChosenCount = static_cast<size_t>(std::count_if(
     kCodecRows.begin(), kCodecRows.end(), [](const auto& row) { return row.chosen; }));
+constexpr auto kStreamedCount = static_cast<size_t>(std::count_if(
+    kCodecRows.begin(), kCodecRows.end(), [](const auto& row) { return row.streamed; }));
 
 template <size_t count>
 constexpr std::array<std::string_view, count> firstNames() {
@@ -80,7 +94,8 @@ constexpr std::array<std::string_view, count> firstNames() {
 constexpr bool inOrder() {
     for (size_t index = 0; index < kCodecRows.size(); ++index) {
         const CodecRow& row = kCodecRows[index];
-        if (static_cast<size_t>(row.codec) != index || row.chosen != (index < kChosenCount)) {
+        if (static_cast<size_t>(row.codec) != index || row.chosen != (index < kChosenCount) ||
+            row.streamed != (index < kStreamedCount)) {
             return false;
         }
     }
@@ -90,8 +105,8 @@ static_assert(inOrder());
 
 } // namespace detail
 
-// By the enumerator's number.
-inline constexpr auto kCodecNames = detail::firstNames<kCodecRows.size()>();
+// Of those in the schema, by the enumerator's number.
+inline constexpr auto kCodecNames = detail::firstNames<detail::kStreamedCount>();
 inline constexpr auto kChosenCodecNames = detail::firstNames<detail::kChosenCount>();
 
 // Which of them a client decodes, by the enumerator's number.
@@ -105,7 +120,7 @@ using CodecSet = std::bitset<kCodecRows.size()>;
 [[nodiscard]] inline CodecSet commonCodecs() {
     CodecSet set;
     for (const CodecRow& row : kCodecRows) {
-        set.set(static_cast<size_t>(row.codec), !row.announced);
+        set.set(static_cast<size_t>(row.codec), row.streamed && !row.announced);
     }
     return set;
 }

@@ -81,7 +81,7 @@ class Series {
             if (!views_[turn]->canBegin()) {
                 return false;
             }
-            const auto work = views_[turn]->begin(settings_, {}, 0);
+            const auto work = views_[turn]->begin(settings_, {}, {});
             if (!work) {
                 return work.error();
             }

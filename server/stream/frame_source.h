@@ -51,6 +51,12 @@ struct Collected {
     std::optional<SourceFrame> frame = std::nullopt; // with kFrame
 };
 
+// What encoding a frame's picture takes of it.
+struct EncodingNeeds {
+    uint64_t bytes = 0;    // of the same memory
+    bool radiance = false; // beside the pixels
+};
+
 // One viewer's targets. Frames complete in the order in which they begin.
 //
 // A frame runs as pieces, one after another, between which the device may run those of other
@@ -60,12 +66,13 @@ class ViewSource {
     virtual ~ViewSource() = default;
     // Whether begin() may be called: a readback slot is free, and no frame has pieces that wait.
     [[nodiscard]] virtual bool canBegin() const = 0;
-    // Builds and records a frame as all stands at `time`; nothing runs yet. `beside_bytes` is what
-    // encoding its pictures takes, of the same memory. Errors: kCapacity when this size does not
-    // fit or the frame would take too long, and kUnsupported when the device cannot do what the
-    // settings ask for (earlier ones still work), kDevice when the device is lost.
-    [[nodiscard]] virtual Result<FrameWork>
-    begin(const settings::ViewSettings& settings, const FrameTime& time, uint64_t beside_bytes) = 0;
+    // Builds and records a frame as all stands at `time`; nothing runs yet. Errors: kCapacity when
+    // this size does not fit or the frame would take too long, and kUnsupported when the device
+    // cannot do what the settings ask for (earlier ones still work), kDevice when the device is
+    // lost.
+    [[nodiscard]] virtual Result<FrameWork> begin(const settings::ViewSettings& settings,
+                                                  const FrameTime& time,
+                                                  const EncodingNeeds& encoding) = 0;
     // Gives the device the next piece of the frame begun last. Errors: kDevice.
     [[nodiscard]] virtual Result<void> submitPiece() = 0;
     // Gives up the pieces that wait of the frame begun last. Those on the device are still to be

@@ -400,17 +400,18 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
     settings::ViewSettings settings = frame.state.settings;
     settings.size = session::scaled(settings.size, with.scale);
     // A refined still leaves the encoder of video as it is.
-    uint64_t beside_bytes = std::max(encode::memoryBytes(with.encoding, settings.size),
-                                     encode::memoryBytes(frame.state.encoding, settings.size));
+    EncodingNeeds encoding{std::max(encode::memoryBytes(with.encoding, settings.size),
+                                    encode::memoryBytes(frame.state.encoding, settings.size)),
+                           settings::rowOf(with.encoding.codec).radiance};
     settings.camera = frame.record.followed.value_or(settings.camera);
     if (frame.sample_count > 1) {
         settings.camera = settings::sampled(settings.camera, settings.size, frame.sample);
         settings.antialiasing = settings::Antialiasing::kNone; // the mean is smoother
-        beside_bytes += render::SampleMean::memoryBytes(settings.size);
+        encoding.bytes += render::SampleMean::memoryBytes(settings.size);
     }
     const FrameTime time{frame.record.time_s,
                          frame.state.playback.at(session::SessionState::secondsOf(frame.started))};
-    return viewer.source->begin(settings, time, beside_bytes);
+    return viewer.source->begin(settings, time, encoding);
 }
 
 void RenderLoop::submitPiece(Viewer& viewer) {

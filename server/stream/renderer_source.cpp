@@ -25,13 +25,14 @@ class RendererView final : public ViewSource {
 
     [[nodiscard]] Result<FrameWork> begin(const settings::ViewSettings& settings,
                                           const FrameTime& time,
-                                          uint64_t beside_bytes) override {
+                                          const EncodingNeeds& encoding) override {
         view_.setPieceShare(share_.value());
         const auto work = view_.begin({.settings = settings,
                                        .time_s = time.lights_s,
                                        .playing = time.playing,
                                        .keep_surfaces = true,
-                                       .beside_bytes = beside_bytes});
+                                       .keep_radiance = encoding.radiance,
+                                       .beside_bytes = encoding.bytes});
         if (!work) {
             return work.error();
         }

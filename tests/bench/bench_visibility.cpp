@@ -87,8 +87,8 @@ Picture drawTimed(render::ViewRenderer& view, render::FrameInputs inputs, const 
     inputs.keep_radiance = true;
     view.submit(inputs).value();
     const auto frame = std::move(view.collect()).value();
-    Picture picture{std::move(view.readLinear()).value().rgb, {}};
     const auto& pixels = frame.pixels.view();
+    Picture picture{radianceOf(pixels).rgb, {}};
     for (size_t i = 0; i < pixels.stride_bytes * pixels.height_px; ++i) {
         picture.rgba8.push_back(std::to_integer<int>(pixels.data[i]));
     }

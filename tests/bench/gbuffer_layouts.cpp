@@ -75,8 +75,8 @@ struct Picture {
 Picture drawPicture(render::ViewRenderer& view, render::FrameInputs inputs) {
     inputs.keep_radiance = true;
     const auto frame = drawOne(view, inputs);
-    Picture picture{view.readLinear().value().rgb, {}};
     const auto& pixels = frame.pixels.view();
+    Picture picture{radianceOf(pixels).rgb, {}};
     for (size_t i = 0; i < pixels.stride_bytes * pixels.height_px; ++i) {
         picture.rgba8.push_back(std::to_integer<int>(pixels.data[i]));
     }

@@ -20,9 +20,10 @@ class HangingView final : public stream::ViewSource {
     ~HangingView() override { std::abort(); }
 
     [[nodiscard]] bool canBegin() const override { return true; }
-    [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& /*settings*/,
-                                                  const stream::FrameTime& /*time*/,
-                                                  uint64_t /*beside_bytes*/) override {
+    [[nodiscard]] Result<stream::FrameWork>
+    begin(const settings::ViewSettings& /*settings*/,
+          const stream::FrameTime& /*time*/,
+          const stream::EncodingNeeds& /*encoding*/) override {
         return stream::FrameWork{Seconds(0), 2};
     }
     [[nodiscard]] Result<void> submitPiece() override { return {}; }

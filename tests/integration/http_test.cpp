@@ -81,6 +81,7 @@ TEST_F(HttpTest, Still_IsAPictureWithATag) {
     EXPECT_NE(answer.find("Content-Type: image/jpeg"), std::string::npos);
     EXPECT_EQ(bodyOf(answer).substr(0, 2), "\xFF\xD8");
     EXPECT_EQ(bodyOf(get("/render?size=64x48&format=png")).substr(1, 3), "PNG");
+    EXPECT_EQ(bodyOf(get("/render?size=64x48&format=exr")).substr(0, 4), "\x76\x2F\x31\x01");
     const size_t tag = answer.find("ETag: ") + 6;
     const std::string known =
         "If-None-Match: " + answer.substr(tag, answer.find('\r', tag) - tag) + "\r\n";
@@ -96,7 +97,7 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
     const std::tuple<std::string, int, std::string> cases[] = {
         {"lights=x", 400, R"("field":"lights")"},
         {"lights=1&lights=2", 400, "lights is given twice"},
-        {"format=gif", 400, "it must be jpg or png"},
+        {"format=gif", 400, "it must be jpg, png or exr"},
         {"%6e%00=1", 400, R"(n\\x00 is no name)"},
         {"scene=other", 404, "this server has one scene"},
         {"size=4096x4096&antialiasing=ssaa4", 400, R"("fits":"2048x2048)"},

@@ -9,9 +9,16 @@
 #include <png.h>
 #include <turbojpeg.h>
 
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <sstream>
 #include <unistd.h>
 
 namespace froxel::test {
@@ -35,23 +42,31 @@ Rgb decodeJpeg(const Frame& frame) {
     return rgb;
 }
 
-Rgb rendered() {
+Rgb decodePng(const std::string& file) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()))
+        << image.message;
+    image.format = PNG_FORMAT_RGB;
+    Rgb rgb(PNG_IMAGE_SIZE(image));
+    EXPECT_TRUE(png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr)) << image.message;
+    return rgb;
+}
+
+// What `froxel render` writes as this.
+std::string renderedFile(const std::string& extension) {
     const auto file = std::filesystem::path(testing::TempDir()) /
-                      ("froxel_picture_" + std::to_string(getpid()) + ".png");
+                      ("froxel_picture_" + std::to_string(getpid()) + extension);
     std::vector<std::string> command = {test::binaryPath(), "render", "--device",     "cpu",
                                         "--time",           "1",      "--no-animate", "--out",
                                         file.string()};
     command.insert(command.end(), kSettings.begin(), kSettings.end());
     const auto end = ChildProcess(command).wait();
     EXPECT_EQ(end.exit_code, 0) << end.errors;
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    EXPECT_TRUE(png_image_begin_read_from_file(&image, file.c_str())) << image.message;
-    image.format = PNG_FORMAT_RGB;
-    Rgb rgb(PNG_IMAGE_SIZE(image));
-    EXPECT_TRUE(png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr)) << image.message;
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
     std::filesystem::remove(file);
-    return rgb;
+    return text.str();
 }
 
 Rgb upsideDown(const Rgb& rgb) {
@@ -73,7 +88,8 @@ double psnr(const Rgb& a, const Rgb& b) {
 }
 
 TEST(StreamedPicture, AnyQuality_IsTheRenderedOne) {
-    const Rgb wanted = rendered(); // before anybody waits for an answer of the client's
+    const Rgb wanted =
+        decodePng(renderedFile(".png")); // before anybody waits for an answer of the client's
     ASSERT_EQ(wanted.size(), size_t{kWidth} * kHeight * 3);
     ServerProcess server(kSettings);
     WsClient client(server.port().value());
@@ -102,27 +118,54 @@ TEST(StreamedPicture, AnyQuality_IsTheRenderedOne) {
     }
 }
 
-Rgb decodePng(const std::string& file) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()))
-        << image.message;
-    image.format = PNG_FORMAT_RGB;
-    Rgb rgb(PNG_IMAGE_SIZE(image));
-    EXPECT_TRUE(png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr)) << image.message;
+// The floats of a PFM, from the top.
+std::vector<float> radianceOf(const std::string& pfm) {
+    constexpr size_t kRow = size_t{kWidth} * 3;
+    std::vector<float> rgb(kRow * kHeight);
+    const char* floats = pfm.data() + pfm.size() - rgb.size() * sizeof(float);
+    for (size_t y = 0; y < kHeight; ++y) {
+        std::memcpy(&rgb[(kHeight - 1 - y) * kRow], floats + y * kRow * sizeof(float),
+                    kRow * sizeof(float));
+    }
+    return rgb;
+}
+
+std::vector<float> decodeExr(const std::string& file) {
+    Imf::StdISStream from;
+    from.str(file);
+    Imf::InputFile exr(from);
+    const auto& window = exr.header().dataWindow();
+    EXPECT_EQ(window.max.x, static_cast<int>(kWidth) - 1);
+    EXPECT_EQ(window.max.y, static_cast<int>(kHeight) - 1);
+    std::vector<float> rgb(size_t{kWidth} * kHeight * 3);
+    Imf::FrameBuffer to;
+    for (size_t channel = 0; channel < 3; ++channel) {
+        to.insert(std::string(1, "RGB"[channel]),
+                  Imf::Slice::Make(Imf::FLOAT, &rgb[channel], window, 3 * sizeof(float),
+                                   3 * sizeof(float) * kWidth));
+    }
+    exr.setFrameBuffer(to);
+    exr.readPixels(window.min.y, window.max.y);
     return rgb;
 }
 
 // Also while somebody else's lights move, and of whatever size the server's pictures are.
 TEST(Still, IsTheRenderedPicture_ToTheBit) {
-    const Rgb wanted = rendered();
+    const Rgb wanted = decodePng(renderedFile(".png"));
+    const std::vector<float> radiance = radianceOf(renderedFile(".pfm"));
     ServerProcess server({"--size", "64x64", "--lights", "5"});
     const uint16_t port = server.port().value();
+    const std::string view = "&look=rainbow&size=320x180&lights=100&light_radius=3&"
+                             "renderer=forward_plus&light_time=1&animate=1";
+    const std::string linear = httpGetOnceThere(port, "/render?format=exr" + view);
+    ASSERT_EQ(statusOf(linear), 200) << linear.substr(0, 1000);
+    EXPECT_EQ(decodeExr(bodyOf(linear)), radiance);
+    EXPECT_NE(httpGet(port, "/render?format=exr&size=64x48&debug_view=depth")
+                  .find("depth has no linear picture"),
+              std::string::npos);
     WsClient client(port);
     client.join();
-    const std::string answer =
-        httpGet(port, "/render?format=png&look=rainbow&size=320x180&lights=100&light_radius=3&"
-                      "renderer=forward_plus&light_time=1&animate=1");
+    const std::string answer = httpGet(port, "/render?format=png" + view);
     ASSERT_EQ(statusOf(answer), 200) << answer.substr(0, 1000);
     EXPECT_EQ(decodePng(bodyOf(answer)), wanted);
 }

@@ -62,8 +62,8 @@ class Kept : public SharedGpuTest {
                       expected ? "" : expected.error().message);
             return {};
         }
-        const Picture picture = collected(view, inputs);
-        const Picture first = collected(anew, whole);
+        const Picture picture = collectPixels(view);
+        const Picture first = collectPixels(anew);
         EXPECT_FALSE(first.stats.kept);
         EXPECT_EQ(picture.rgba8, first.rgba8);
         EXPECT_EQ(differingFloats(picture, first), 0U);
@@ -71,15 +71,6 @@ class Kept : public SharedGpuTest {
     }
 
   private:
-    static Picture collected(render::ViewRenderer& view, const render::FrameInputs& inputs) {
-        Picture picture = collectPixels(view);
-        if (inputs.keep_radiance) {
-            auto linear = view.readLinear();
-            picture.radiance = linear ? std::move(linear->rgb) : std::vector<float>();
-        }
-        return picture;
-    }
-
     inline static std::unique_ptr<render::Renderer> renderer_;
 };
 

@@ -1,5 +1,7 @@
 #include "support/draw.h"
 
+#include "core/linear_image.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +19,9 @@ Picture collectPixels(render::ViewRenderer& view) {
     picture.width_px = pixels.width_px;
     picture.height_px = pixels.height_px;
     picture.rgba8.assign(pixels.data, pixels.data + pixels.stride_bytes * pixels.height_px);
+    if (pixels.radiance != nullptr) {
+        picture.radiance = radianceOf(pixels).rgb;
+    }
     picture.stats = frame->stats;
     return picture;
 }
@@ -32,17 +37,7 @@ Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs
 
 Picture draw(render::ViewRenderer& view, render::FrameInputs inputs) {
     inputs.keep_radiance = true;
-    Picture picture = drawPixels(view, inputs);
-    if (picture.rgba8.empty()) {
-        return picture;
-    }
-    auto linear = view.readLinear();
-    if (!linear) {
-        ADD_FAILURE() << linear.error().message;
-        return {};
-    }
-    picture.radiance = std::move(linear->rgb);
-    return picture;
+    return drawPixels(view, inputs);
 }
 
 Picture draw(render::Renderer& renderer, const render::FrameInputs& inputs) {

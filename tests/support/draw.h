@@ -21,7 +21,7 @@ struct Picture {
 [[nodiscard]] Picture draw(render::ViewRenderer& view, render::FrameInputs inputs);
 [[nodiscard]] Picture draw(render::Renderer& renderer, const render::FrameInputs& inputs);
 
-// Without its radiance, as debug views have none.
+// With its radiance only where the inputs ask for it: debug views have none.
 [[nodiscard]] Picture drawPixels(render::ViewRenderer& view, const render::FrameInputs& inputs);
 
 // Of the frame that was submitted.

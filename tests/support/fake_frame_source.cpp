@@ -92,13 +92,13 @@ class FakeView final : public stream::ViewSource {
 
     [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& settings,
                                                   const stream::FrameTime& /*time*/,
-                                                  uint64_t beside_bytes) override {
-        device_->beside_bytes = beside_bytes;
+                                                  const stream::EncodingNeeds& encoding) override {
+        device_->beside_bytes = encoding.bytes;
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
         }
         if (areaOf(settings.size) > device_->max_area_px ||
-            beside_bytes > device_->max_beside_bytes) {
+            encoding.bytes > device_->max_beside_bytes) {
             ++device_->unfit_count;
             return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
         }
@@ -122,7 +122,7 @@ class FakeView final : public stream::ViewSource {
         ++device_->begun_count;
         device_->addBegun(settings);
         waiting_ = device_->piece_count;
-        frames_.push_back({settings, waiting_});
+        frames_.push_back({settings, encoding.radiance, waiting_});
         return stream::FrameWork{device_->frame_time.load(), waiting_};
     }
 
@@ -159,6 +159,7 @@ class FakeView final : public stream::ViewSource {
             return stream::Collected{};
         }
         const settings::ViewSettings settings = frame.settings;
+        const bool radiance = frame.radiance;
         frames_.pop_front();
         device_->addDone(settings.size);
         if (settings.lights.count > device_->max_lights) {
@@ -168,19 +169,21 @@ class FakeView final : public stream::ViewSource {
             --device_->again_count;
             return stream::Collected{stream::Collected::Outcome::kAgain};
         }
-        return stream::Collected{stream::Collected::Outcome::kFrame, picture(settings)};
+        return stream::Collected{stream::Collected::Outcome::kFrame, picture(settings, radiance)};
     }
 
   private:
     struct Frame {
         settings::ViewSettings settings;
+        bool radiance = false;
         uint32_t piece_count = 1;
         uint32_t on_device = 0;
         uint32_t done = 0;
         bool abandoned = false;
     };
 
-    [[nodiscard]] stream::SourceFrame picture(const settings::ViewSettings& settings) {
+    [[nodiscard]] stream::SourceFrame picture(const settings::ViewSettings& settings,
+                                              bool with_radiance) {
         const settings::Size size = settings.size;
         auto pixels = std::make_shared<std::vector<std::byte>>(
             size_t{4} * size.width_px * size.height_px, shadeOf(settings));
@@ -190,12 +193,14 @@ class FakeView final : public stream::ViewSource {
                 value = static_cast<std::byte>(96U + (noise_ >> 26U));
             }
         }
+        auto radiance =
+            std::make_shared<std::vector<float>>(with_radiance ? pixels->size() : 0, 0.5F);
         const PixelView view{pixels->data(), size.width_px, size.height_px,
-                             size_t{4} * size.width_px};
+                             size_t{4} * size.width_px, with_radiance ? radiance->data() : nullptr};
         ++device_->live_leases;
         ++*own_leases_;
         stream::SourceFrame frame;
-        frame.pixels = PixelLease(view, [pixels, device = device_, own = own_leases_] {
+        frame.pixels = PixelLease(view, [pixels, radiance, device = device_, own = own_leases_] {
             --device->live_leases;
             --*own;
         });

@@ -156,6 +156,11 @@ RegionCost FrameCosts::screen() const {
             [this](const auto& region) { return Seconds(areaOf(region) * unit_.screen_pixel); }};
 }
 
+RegionCost FrameCosts::radianceToHost() {
+    constexpr double kPixel_s = 1e-9; // 16 bytes at a bus's 16 GB/s; about a CPU's memory, too
+    return {Seconds(0), [](const auto& region) { return Seconds(areaOf(region) * kPixel_s); }};
+}
+
 void FrameCosts::addSurfaces(std::vector<PassEstimate>& passes) const {
     const auto& plan = load_.plan;
     const settings::Size& drawn = load_.drawn;

@@ -87,6 +87,7 @@ class FrameCosts {
     [[nodiscard]] RegionCost blended() const; // one pass over what is blended
     // Over another one: tone map, filters, what blending came to.
     [[nodiscard]] RegionCost screen() const;
+    [[nodiscard]] static RegionCost radianceToHost();
     [[nodiscard]] Seconds wires(uint64_t line_count) const {
         const auto lines = static_cast<double>(std::max<uint64_t>(load_.wire_lines, 1));
         return Seconds(static_cast<double>(line_count) *

@@ -27,7 +27,7 @@ struct FrameInputs {
     // What rests since the view's frame before is not drawn again: the same bits, sooner. Not for
     // whoever measures what a whole frame takes.
     bool keep_surfaces = false;
-    bool keep_radiance = false; // for readLinear(): also keep the picture before the tone map
+    bool keep_radiance = false; // its pixels have it: the picture before exposure and tone map
     // For tests and measurements.
     GenericParts generic = {};
     bool spoil_scratch = false; // whatever a frame with kept surfaces must not read is overwritten

@@ -82,12 +82,18 @@ void FrameUpload::clear() {
     used_bytes_ = 0;
 }
 
-Readback::Readback(const gpu::Device& device, vk::DeviceSize size_bytes)
-    : arena(device), buffer(arena.makeBuffer(size_bytes,
-                                             vk::BufferUsageFlagBits::eStorageBuffer |
-                                                 vk::BufferUsageFlagBits::eTransferDst,
-                                             gpu::MemoryUse::kReadback,
-                                             "readback")) {}
+Readback::Readback(const gpu::Device& device, const ReadbackBytes& its_bytes)
+    : bytes(its_bytes), arena(device),
+      buffer(arena.makeBuffer(bytes.pixels,
+                              vk::BufferUsageFlagBits::eStorageBuffer |
+                                  vk::BufferUsageFlagBits::eTransferDst,
+                              gpu::MemoryUse::kReadback,
+                              "readback")) {
+    if (bytes.radiance > 0) {
+        radiance = arena.makeBuffer(bytes.radiance, vk::BufferUsageFlagBits::eTransferDst,
+                                    gpu::MemoryUse::kReadback, "radiance readback");
+    }
+}
 
 FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, Pipelines& pipelines)
     : cmd(timeline.makeCommandBuffer()), pieces(timeline, cmd), timestamps(device), upload(device),
@@ -96,18 +102,18 @@ FrameSlot::FrameSlot(const gpu::Device& device, const gpu::Timeline& timeline, P
     screen_set = gpu::makeSet(device, pool, pipelines.screenLayout());
 }
 
-void FrameSlot::makeReadback(const gpu::Device& device, vk::DeviceSize size_bytes) {
-    if (!readback || readback->buffer.size_bytes != size_bytes) {
+void FrameSlot::makeReadback(const gpu::Device& device, const ReadbackBytes& bytes) {
+    if (!readback || readback->bytes != bytes) {
         readback.reset(); // before its successor takes memory
-        readback = std::make_shared<Readback>(device, size_bytes);
+        readback = std::make_shared<Readback>(device, bytes);
     }
 }
 
-void FrameSlot::letGo(vk::DeviceSize readback_bytes, vk::DeviceSize upload_bytes) {
+void FrameSlot::letGo(const ReadbackBytes& readback_bytes, vk::DeviceSize upload_bytes) {
     targets.reset();
     effect_targets.clear();
     blend.reset();
-    if (readback && readback->buffer.size_bytes != readback_bytes) {
+    if (readback && readback->bytes != readback_bytes) {
         readback.reset(); // a lease keeps its own
     }
     if (assignment) {

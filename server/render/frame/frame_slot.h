@@ -71,10 +71,12 @@ class FrameUpload {
 
 // Pixels on the host; outlives its view while a lease holds it.
 struct Readback {
-    Readback(const gpu::Device& device, vk::DeviceSize size_bytes);
+    Readback(const gpu::Device& device, const ReadbackBytes& bytes);
 
+    const ReadbackBytes bytes;
     gpu::MemoryArena arena;
-    gpu::Buffer buffer;
+    gpu::Buffer buffer;   // packed pixels
+    gpu::Buffer radiance; // null handle: it is not asked for
     std::atomic<bool> leased{false};
 };
 
@@ -93,10 +95,10 @@ struct FrameSlot {
         uses.end();
     }
     // Throws vk::OutOfDeviceMemoryError.
-    void makeReadback(const gpu::Device& device, vk::DeviceSize size_bytes);
+    void makeReadback(const gpu::Device& device, const ReadbackBytes& bytes);
     // Not in flight: keeps nothing that the view's next frame, with so many bytes of pixels and of
     // upload, has no use for.
-    void letGo(vk::DeviceSize readback_bytes, vk::DeviceSize upload_bytes);
+    void letGo(const ReadbackBytes& readback_bytes, vk::DeviceSize upload_bytes);
 
     vk::raii::CommandBuffer cmd; // of the piece that is recorded
     FramePieces pieces;

@@ -52,6 +52,18 @@ inline constexpr vk::DeviceSize kWordBytes = 8;
     return vk::DeviceSize{4} * shown.width_px * shown.height_px;
 }
 
+// What of a frame comes to the host.
+struct ReadbackBytes {
+    vk::DeviceSize pixels = 0;
+    vk::DeviceSize radiance = 0; // 0: it stays on the device
+    bool operator==(const ReadbackBytes&) const = default;
+};
+[[nodiscard]] inline ReadbackBytes
+readbackBytes(const settings::Size& drawn, const settings::Size& shown, bool radiance) {
+    constexpr vk::DeviceSize kTexel = 4 * sizeof(float);
+    return {packedBytes(shown), radiance ? kTexel * drawn.width_px * drawn.height_px : 0};
+}
+
 // What depth, ids and G-buffer were drawn from. They are functions of it alone: equal ones need no
 // drawing.
 struct SurfacesDrawn {

@@ -249,4 +249,19 @@ void recordReadback(const FrameContext& frame) {
                               vk::BufferCopy{.size = pixels.size_bytes});
 }
 
+void recordRadianceReadback(const FrameContext& frame, const vk::Rect2D& region) {
+    const gpu::PassScope scope(frame.slot.timestamps, frame.slot.cmd, "radiance_readback");
+    const uint32_t row_px = frame.slot.targets->size.width_px;
+    const auto x = static_cast<vk::DeviceSize>(region.offset.x);
+    const auto y = static_cast<vk::DeviceSize>(region.offset.y);
+    frame.slot.cmd.copyImageToBuffer(
+        *frame.slot.targets->radiance.handle, vk::ImageLayout::eGeneral,
+        *frame.slot.readback->radiance.handle,
+        vk::BufferImageCopy{.bufferOffset = (y * row_px + x) * 4 * sizeof(float),
+                            .bufferRowLength = row_px,
+                            .imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                            .imageOffset = {region.offset.x, region.offset.y, 0},
+                            .imageExtent = {region.extent.width, region.extent.height, 1}});
+}
+
 } // namespace froxel::render

@@ -35,5 +35,6 @@ void recordLightWires(const FrameContext& frame, uint32_t first_light, uint32_t 
 void recordClusterWires(const FrameContext& frame, uint32_t first_line, uint32_t line_count);
 void recordCountPairs(const FrameContext& frame, const vk::Rect2D& region); // reads depth
 void recordReadback(const FrameContext& frame); // copies pixels to the host
+void recordRadianceReadback(const FrameContext& frame, const vk::Rect2D& region); // likewise
 
 } // namespace froxel::render

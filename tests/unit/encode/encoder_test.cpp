@@ -18,7 +18,7 @@ class EncoderOf : public testing::TestWithParam<settings::CodecRow> {
         return encoder_->encode(picture_.view(), {.codec = GetParam().codec}, false, at_);
     }
 
-    const Picture picture_ = makePicture(kSize.width_px, kSize.height_px);
+    const Picture picture_ = makeRadiance(kSize.width_px, kSize.height_px, 1);
     const std::unique_ptr<Encoder> encoder_ = makeEncoder(GetParam().codec, 1);
     TimePoint at_ = TimePoint() + std::chrono::hours(1);
 };
@@ -31,7 +31,7 @@ TEST_P(EncoderOf, Frames_DependAsTheRowSays) {
 }
 
 TEST_P(EncoderOf, Parts_AreOneWhereFramesDepend) {
-    const Picture large = makePicture(1280, 720);
+    const Picture large = makeRadiance(1280, 720, 1);
     const auto parts = encoder_->cut(large.view(), {.codec = GetParam().codec}, 4);
     EXPECT_GE(parts.size(), 1U);
     EXPECT_TRUE(parts.size() == 1 || !GetParam().frames_depend);

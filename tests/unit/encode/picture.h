@@ -14,9 +14,16 @@ struct Picture {
     uint32_t height_px = 0;
     size_t stride_bytes = 0;
     std::vector<std::byte> bytes;
+    std::vector<float> radiance = {}; // RGBA; empty: none
+    uint32_t radiance_samples = 1;
 
     [[nodiscard]] PixelView view() const {
-        return {bytes.data(), width_px, height_px, stride_bytes};
+        return {bytes.data(),
+                width_px,
+                height_px,
+                stride_bytes,
+                radiance.empty() ? nullptr : radiance.data(),
+                radiance_samples};
     }
     [[nodiscard]] int channel(uint32_t x, uint32_t y, uint32_t c) const {
         return std::to_integer<int>(bytes[y * stride_bytes + x * 4 + c]);
@@ -37,6 +44,18 @@ inline Picture makePicture(uint32_t width_px, uint32_t height_px, size_t padding
             pixel[2] = static_cast<std::byte>(255 * (1 - wave));
             pixel[3] = std::byte{255};
         }
+    }
+    return picture;
+}
+
+// With so many samples across a pixel, each value its own; also what 8 bits and halves cannot hold.
+inline Picture makeRadiance(uint32_t width_px, uint32_t height_px, uint32_t samples) {
+    Picture picture = makePicture(width_px, height_px);
+    picture.radiance_samples = samples;
+    picture.radiance.resize(size_t{width_px} * height_px * samples * samples * 4);
+    for (size_t i = 0; i < picture.radiance.size(); ++i) {
+        picture.radiance[i] =
+            std::ldexp(1.0F + 0.001F * static_cast<float>(i), static_cast<int>(i % 40) - 20);
     }
     return picture;
 }
