@@ -42,7 +42,8 @@ std::vector<std::byte> write(const LinearImage& image) {
     const auto width = static_cast<int>(image.width_px);
     const auto height = static_cast<int>(image.height_px);
     Imf::Header header(width, height);
-    header.compression() = Imf::ZIP_COMPRESSION;
+    // ZIP spares 3 % of lit surfaces' floats, PIZ none, and both take 40 times as long.
+    header.compression() = Imf::NO_COMPRESSION;
     Imf::FrameBuffer from;
     for (size_t channel = 0; channel < kChannels.size(); ++channel) {
         constexpr size_t kStride = kChannels.size() * sizeof(float);

@@ -1,5 +1,5 @@
-// The picture before exposure and tone map, as OpenEXR files: scan lines of float R, G and B, to the
-// bit as drawn (samples' mean), Rec. 709 primaries, ZIP compression.
+// The picture before exposure and tone map, as OpenEXR files: scan lines of float R, G and B, to
+// the bit as drawn (samples' mean), Rec. 709 primaries, no compression.
 #pragma once
 
 #include "encode/encoder.h"

@@ -74,6 +74,7 @@ Response linkPreview(const Request& request, bool secure, bool pictures) {
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width">
 <title>Froxel</title>
+<link rel="icon" href="./favicon.svg" type="image/svg+xml">
 <meta property="og:type" content="website">
 <meta property="og:title" content="Froxel">
 <meta property="og:description" content="A view of a scene, to move about in">
