@@ -37,7 +37,8 @@ TEST(LinkPreview, Room_IsOfThePagesQuery) {
 }
 
 TEST(LinkPreview, ServerWithTokens_HasNoPicture) {
-    EXPECT_THAT(linkPreview(asked("/view?lights=3"), true, false).body(), Not(HasSubstr("image")));
+    EXPECT_THAT(linkPreview(asked("/view?lights=3"), true, false).body(),
+                Not(HasSubstr("og:image")));
 }
 
 TEST(LinkPreview, WhateverIsAsked_IsNoMarkup) {
