@@ -133,7 +133,7 @@ it('CopiedLink_LeadsToThisView_AndHasAPictureOfIt', async () => {
   const link = await viewer.page.evaluate(() => navigator.clipboard.readText());
   const preview = await (await context.request.get(link)).text();
   const picture = /og:image" content="([^"]+)"/.exec(preview)?.[1]?.replaceAll('&amp;', '&') ?? '';
-  const still = await context.request.get(picture);
+  const still = await context.request.get(picture, { timeout: 120_000 });
   expect(still.status()).toBe(200);
   expect(still.headers()['content-type']).toBe('image/jpeg');
 
