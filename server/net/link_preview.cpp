@@ -1,6 +1,8 @@
 #include "net/link_preview.h"
 
+#include "net/request_form.h"
 #include "net/still_answers.h"
+#include "settings/settings.h"
 
 #include <boost/url/encode.hpp>
 #include <boost/url/parse.hpp>
@@ -15,7 +17,7 @@ namespace http = boost::beast::http;
 
 namespace {
 
-constexpr std::string_view kSize = "1200x630"; // that previews are made for
+constexpr settings::Size kSize{1200, 630}; // that previews are made for
 
 // None of its characters means anything to HTML or to a query.
 std::string escaped(const std::string& text) {
@@ -28,18 +30,17 @@ void append(std::string& query, const std::string& name, const std::string& text
 
 std::string pictureTags(const std::string& url) {
     return fmt::format(R"(<meta property="og:image" content="{}">
-<meta property="og:image:width" content="1200">
-<meta property="og:image:height" content="630">
+<meta property="og:image:width" content="{}">
+<meta property="og:image:height" content="{}">
 <meta name="twitter:card" content="summary_large_image">
 )",
-                       url);
+                       url, kSize.width_px, kSize.height_px);
 }
 
 } // namespace
 
 Response linkPreview(const Request& request, bool secure, bool pictures) {
-    const auto target =
-        boost::urls::parse_origin_form({request.target().data(), request.target().size()});
+    const auto target = targetOf(request);
     if (!target) {
         return textResponse(http::status::bad_request, "the address is malformed");
     }
@@ -57,7 +58,7 @@ Response linkPreview(const Request& request, bool secure, bool pictures) {
             append(still, said.key, said.value);
         }
     }
-    append(still, "size", std::string(kSize));
+    append(still, "size", fmt::format("{}x{}", kSize.width_px, kSize.height_px));
     const std::string to = "./" + (page.empty() ? "" : "?" + page) + "#" + fragment;
     // An address of HTML's has to be whole here.
     const auto field = request[http::field::host];

@@ -3,13 +3,13 @@
 #include "core/text.h"
 #include "net/link_preview.h"
 #include "net/origin.h"
+#include "net/request_form.h"
 #include "net/ws_connection.h"
 #include "protocol/limits.h"
 #include "session/setting_words.h"
 
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <boost/url/parse.hpp>
 #include <spdlog/spdlog.h>
 
 #include <utility>
@@ -59,8 +59,7 @@ Response file(const Request& request, const StaticFile& found, const std::string
 // What the socket's URL says: ?room=NAME, ?resume=NAME.
 Announcement announcementOf(const Request& request) {
     Announcement announcement;
-    if (const auto target =
-            boost::urls::parse_origin_form({request.target().data(), request.target().size()})) {
+    if (const auto target = targetOf(request)) {
         for (const auto& said : target->params()) {
             if (said.key == "room") {
                 announcement.room = said.value;

@@ -62,4 +62,8 @@ Result<void> settleForm(Request& request) {
     return {};
 }
 
+boost::system::result<boost::urls::url_view> targetOf(const Request& request) {
+    return boost::urls::parse_origin_form({request.target().data(), request.target().size()});
+}
+
 } // namespace froxel::net

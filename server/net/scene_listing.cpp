@@ -1,13 +1,12 @@
 #include "net/scene_listing.h"
 
 #include "core/text.h"
+#include "net/request_form.h"
 
-#include <boost/url/parse.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -84,8 +83,7 @@ std::optional<size_t> limitIn(const std::string& text) {
 // An error is the answer.
 std::variant<Page, Response> pageIn(const Request& request, const catalogue::Listing& listing) {
     Page page;
-    const auto target =
-        boost::urls::parse_origin_form({request.target().data(), request.target().size()});
+    const auto target = targetOf(request);
     if (!target) {
         return page;
     }

@@ -1,10 +1,10 @@
 #include "net/still_answers.h"
 
 #include "core/text.h"
+#include "net/request_form.h"
 #include "net/scene_listing.h"
 #include "session/state_message.h"
 
-#include <boost/url/parse.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -125,8 +125,7 @@ std::optional<Response> StillAnswers::read(const Request& request,
             {"size", fmt::format("{}x{}", kThumbnailSize.width_px, kThumbnailSize.height_px)}};
         return {};
     }
-    const auto target =
-        boost::urls::parse_origin_form({request.target().data(), request.target().size()});
+    const auto target = targetOf(request);
     if (!target) {
         return refused(http::status::bad_request, "malformed", "", "the address is malformed");
     }
