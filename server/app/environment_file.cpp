@@ -34,16 +34,23 @@ Result<environment::Panorama> readPanorama(const std::filesystem::path& file) {
     return environment::read(std::as_bytes(std::span(*bytes)), user);
 }
 
-void surround(scene::Scene& scene, const std::filesystem::path& file) {
+std::shared_ptr<const environment::Surroundings>
+readSurroundings(const std::filesystem::path& file) {
     if (file.empty()) {
-        return;
+        return nullptr;
     }
     auto panorama = readPanorama(file).value();
     for (const std::string& warning : panorama.warnings) {
         spdlog::warn("event=environment_warning text={}", logValue(warning, 400));
     }
-    scene.surroundings = std::make_shared<const environment::Surroundings>(
+    return std::make_shared<const environment::Surroundings>(
         environment::surroundingsOf(std::move(panorama.image)));
+}
+
+void surround(scene::Scene& scene, const std::filesystem::path& file) {
+    if (auto surroundings = readSurroundings(file)) {
+        scene.surroundings = std::move(surroundings);
+    }
 }
 
 nlohmann::ordered_json environmentReport(const environment::Panorama& panorama) {

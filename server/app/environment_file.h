@@ -8,14 +8,19 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <memory>
 
 namespace froxel::app {
 
 // Errors name the file: kIo where it cannot be read, else those of environment::read().
 [[nodiscard]] Result<environment::Panorama> readPanorama(const std::filesystem::path& file);
 
-// The file's light becomes the scene's; its warnings go to the log. An empty path: none does. Takes
-// some seconds. Throws StartupError.
+// The file's light; its warnings go to the log. Null for an empty path. Takes some seconds. Throws
+// StartupError.
+[[nodiscard]] std::shared_ptr<const environment::Surroundings>
+readSurroundings(const std::filesystem::path& file);
+
+// It becomes the scene's, where there is one.
 void surround(scene::Scene& scene, const std::filesystem::path& file);
 
 // Size, mean and brightest radiance, warnings.

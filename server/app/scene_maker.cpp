@@ -36,6 +36,10 @@ session::LightPicker lightPicker(const scene::Scene& scene) {
 
 } // namespace
 
+SceneMaker::SceneMaker(const ServeOptions& options, const gpu::DeviceTraits& device)
+    : options_(options), device_is_cpu_(device.is_cpu), device_name_(device.name),
+      surroundings_(readSurroundings(options.environment_file)) {}
+
 session::SessionDefaults SceneMaker::defaultsOf(const std::string& source,
                                                 const scene::Scene& scene) const {
     auto defaults = session::defaultsFor(device_is_cpu_ ? session::DeviceKind::kCpu
@@ -66,13 +70,16 @@ std::vector<session::OfferedLook> SceneMaker::looksOf(const std::string& source,
 }
 
 Result<stream::ReadScene> SceneMaker::make(const std::string& source,
-                                           const SceneChoices& choices) const {
-    auto loaded = loadScene(source, choices);
+                                           const SceneChoices& choices,
+                                           const ProgressReport& report) const {
+    auto loaded = loadScene(source, choices, report);
     if (!loaded) {
         return loaded.error();
     }
     auto scene = std::make_shared<scene::Scene>(std::move(*loaded));
-    surround(*scene, options_.environment_file);
+    if (surroundings_) {
+        scene->surroundings = surroundings_;
+    }
     const scene::FirstView first_view = firstViewOf(*scene);
     if (first_view.remark) {
         scene->warnings.push_back(*first_view.remark);

@@ -3,22 +3,25 @@
 #pragma once
 
 #include "app/serve_command.h"
+#include "core/progress.h"
 #include "gpu/device.h"
 #include "stream/scene_host.h"
 
+#include <memory>
 #include <string>
 
 namespace froxel::app {
 
 class SceneMaker {
   public:
-    SceneMaker(const ServeOptions& options, const gpu::DeviceTraits& device)
-        : options_(options), device_is_cpu_(device.is_cpu), device_name_(device.name) {}
+    // Takes some seconds where there is an environment's file. Throws StartupError where it is
+    // none.
+    SceneMaker(const ServeOptions& options, const gpu::DeviceTraits& device);
 
-    // `source` as for loadScene(). Any thread; takes long. Errors: loadScene()'s. Throws
-    // StartupError where the environment's file is none.
+    // `source`, `report` and errors as for loadScene(). Any thread; takes long.
     [[nodiscard]] Result<stream::ReadScene> make(const std::string& source,
-                                                 const SceneChoices& choices) const;
+                                                 const SceneChoices& choices,
+                                                 const ProgressReport& report) const;
 
   private:
     [[nodiscard]] session::SessionDefaults defaultsOf(const std::string& source,
@@ -29,6 +32,8 @@ class SceneMaker {
     const ServeOptions options_;
     const bool device_is_cpu_;
     const std::string device_name_;
+    // Of all scenes; null: each has its own, or none.
+    const std::shared_ptr<const environment::Surroundings> surroundings_;
 };
 
 } // namespace froxel::app

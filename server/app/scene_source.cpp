@@ -45,6 +45,13 @@ Result<uint32_t> findByName(const std::string& wanted,
                              printable(wanted), what, scene::numberedList(names))};
 }
 
+Result<scene::Scene> makeHall(const ProgressReport& report) {
+    if (!report({"building the hall", 0})) {
+        return Error{ErrorCode::kCancelled, "the hall: nobody wants it any more"};
+    }
+    return builtin_scene::makeHall();
+}
+
 Result<void> chooseAnimation(const std::string& wanted, scene::Scene& scene) {
     const auto names =
         scene.motion ? scene::namesOf(scene.motion->clips) : std::vector<std::string>();
@@ -72,9 +79,9 @@ Result<void> chooseMaterialVariant(const std::string& wanted, scene::Scene& scen
 
 } // namespace
 
-Result<scene::Scene> loadScene(const std::string& source, const SceneChoices& choices) {
-    auto scene =
-        source == kBuiltin ? Result<scene::Scene>(builtin_scene::makeHall()) : gltf::load(source);
+Result<scene::Scene>
+loadScene(const std::string& source, const SceneChoices& choices, const ProgressReport& report) {
+    auto scene = source == kBuiltin ? makeHall(report) : gltf::load(source, report);
     if (!scene) {
         return scene;
     }

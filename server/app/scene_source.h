@@ -3,6 +3,7 @@
 
 #include "app/setting_options.h"
 #include "core/error.h"
+#include "core/progress.h"
 #include "scene/scene.h"
 
 #include <string>
@@ -17,9 +18,10 @@ struct SceneChoices {
 
 // `builtin` gives the built-in hall, anything else is read as a glTF 2.0 or GLB file. Cameras that
 // move stand where the animation begins. Errors with one line: kScene; kInvalidArgument where there
-// is no such animation or variant.
+// is no such animation or variant; kCancelled where `report` has it end.
 [[nodiscard]] Result<scene::Scene> loadScene(const std::string& source,
-                                             const SceneChoices& choices = {});
+                                             const SceneChoices& choices = {},
+                                             const ProgressReport& report = workOn);
 
 // The settings of a view of it where nobody has asked for others: those given stay, the rest goes
 // by the scene (scene::lookFor()) and `look`, if there is one. The built-in scene begins with the

@@ -55,8 +55,7 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
 constexpr int kCpuDeviceNiceness = 5;
 
 // On the render thread, which owns all of it from then on.
-OpenedScene openScene(const ServeOptions& options,
-                      const std::function<void(net::LoadingProgress)>& report) {
+OpenedScene openScene(const ServeOptions& options, const std::function<void(Progress)>& report) {
     report({"opening the device", 0.0});
     auto device = gpu::openForServing({.choice = options.device,
                                        .pipeline_cache = options.pipeline_cache,
@@ -66,7 +65,11 @@ OpenedScene openScene(const ServeOptions& options,
 
     report({"loading the scene", 0.1});
     auto maker = std::make_shared<const SceneMaker>(options, traits);
-    stream::ReadScene first = maker->make(options.scene, options.choices).value();
+    const auto reading = [&](const Progress& progress) {
+        report({progress.stage, 0.1 + 0.5 * progress.fraction});
+        return true;
+    };
+    stream::ReadScene first = maker->make(options.scene, options.choices, reading).value();
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",
                  logValue(first.context.scene.name), first.context.scene.triangle_count,
                  first.context.scene.draw_count, first.context.scene.cameras.size());
@@ -85,7 +88,9 @@ OpenedScene openScene(const ServeOptions& options,
             std::move(first.context),
             std::move(memory),
             Seconds(limit_s),
-            [maker](const catalogue::Offered& offered) { return maker->make(offered.source, {}); },
+            [maker](const catalogue::Offered& offered, const ProgressReport& report_on) {
+                return maker->make(offered.source, {}, report_on);
+            },
             sceneMemoryBytes(options.memory, limits)};
 }
 

@@ -81,9 +81,10 @@ std::shared_ptr<stream::SceneHost> ServeRun::makeScenes() {
         const auto offered = catalogue->find(id);
         return offered ? std::optional(offered->version) : std::nullopt;
     };
-    scenes.read = [this](const std::string& id) -> Result<stream::ReadScene> {
+    scenes.read = [this](const std::string& id,
+                         const ProgressReport& report) -> Result<stream::ReadScene> {
         const auto offered = options_.catalogue->find(id);
-        return offered ? read_other_(*offered)
+        return offered ? read_other_(*offered, report)
                        : Error{ErrorCode::kScene, "the file is not there any more"};
     };
     return std::make_shared<stream::SceneHost>(std::move(scenes));
@@ -104,7 +105,7 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
     loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
         OpenedScene opened = options_.open(
-            [&service](net::LoadingProgress progress) { service.setLoading(std::move(progress)); });
+            [&service](Progress progress) { service.setLoading(std::move(progress)); });
         if (options_.catalogue) {
             opened.context.scene_id = options_.catalogue->listing()->scenes.front().id;
         }

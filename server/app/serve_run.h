@@ -19,14 +19,17 @@
 
 namespace froxel::app {
 
+// Reads another scene, as stream::SceneHostOptions::read.
+using ReadOther = std::function<Result<stream::ReadScene>(const catalogue::Offered&,
+                                                          const ProgressReport& report)>;
+
 // A scene on a device, ready to be drawn.
 struct OpenedScene {
     std::unique_ptr<stream::FrameSource> source;
     session::SessionContext context;
     std::function<std::vector<MemoryUse>()> memory; // what the device's is used for; any thread
-    Seconds step_limit{0}; // of the render thread, see net::Serving; 0: none
-    // Another scene; on any thread. Null: there is none.
-    std::function<Result<stream::ReadScene>(const catalogue::Offered&)> read_other{};
+    Seconds step_limit{0};    // of the render thread, see net::Serving; 0: none
+    ReadOther read_other{};   // null: there is no other scene
     uint64_t scene_bytes = 0; // that others may take of the device's memory, together
 };
 
@@ -36,7 +39,7 @@ struct ServeRunOptions {
     std::shared_ptr<DeviceLosses> losses;            // null: they are not noted
     std::shared_ptr<catalogue::Catalogue> catalogue; // null: there is one scene
     // Runs on the render thread while the server already listens. May throw.
-    std::function<OpenedScene(const std::function<void(net::LoadingProgress)>& report)> open;
+    std::function<OpenedScene(const std::function<void(Progress)>& report)> open;
     // The scene could not be opened or the device was lost. On the render thread; must not throw.
     std::function<void(const Error&)> on_failure;
 };
@@ -75,7 +78,7 @@ class ServeRun {
     ServeRunOptions options_;
     encode::EncodePool pool_;
     // Set before the first scene is asked for.
-    std::function<Result<stream::ReadScene>(const catalogue::Offered&)> read_other_;
+    ReadOther read_other_;
     std::shared_ptr<stream::SceneHost> scenes_; // null: there is one scene
     std::unique_ptr<net::Server> server_; // goes after the loop has stopped and before it is gone
     stream::RenderLoop loop_;

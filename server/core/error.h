@@ -17,6 +17,7 @@ enum class ErrorCode {
     kIo,              // a file or socket operation failed
     kUnsupported,     // known but not available here
     kCapacity,        // a stated limit is reached
+    kCancelled,       // whoever wanted it does not any more
 };
 
 // One line for a person: names the thing, the value and what would be right.

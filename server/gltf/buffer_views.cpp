@@ -4,8 +4,9 @@
 
 namespace froxel::gltf {
 
-BufferViews::BufferViews(const Document& document, SceneFolder& folder)
-    : document_(document), folder_(folder), buffers_(document.buffers.size()) {}
+BufferViews::BufferViews(const Document& document, SceneFolder& folder, LoadProgress& progress)
+    : document_(document), folder_(folder), progress_(progress), buffers_(document.buffers.size()) {
+}
 
 std::span<const std::byte> BufferViews::bufferBytes(size_t buffer) {
     const BufferSource& source = document_.buffers[buffer];
@@ -43,6 +44,7 @@ BufferViews::range(int buffer, uint64_t offset, uint64_t length, const std::stri
 }
 
 std::span<const std::byte> BufferViews::bytes(int view, const std::string& user) {
+    progress_.ask();
     const auto& views = document_.model.bufferViews;
     const size_t index = checkedIndex(view, views.size(), "bufferView", user);
     const std::string name = thing("bufferView", index);

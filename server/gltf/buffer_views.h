@@ -3,6 +3,7 @@
 
 #include "gltf/document.h"
 #include "gltf/limits.h"
+#include "gltf/load_progress.h"
 #include "gltf/scene_folder.h"
 
 #include <cstddef>
@@ -17,9 +18,10 @@ namespace froxel::gltf {
 // Not thread-safe. Spans live as long as this does.
 class BufferViews {
   public:
-    BufferViews(const Document& document, SceneFolder& folder);
+    BufferViews(const Document& document, SceneFolder& folder, LoadProgress& progress);
 
-    // The whole view, checked to lie inside its buffer. Throws Failure, naming `user`.
+    // The whole view, checked to lie inside its buffer. Throws Failure, naming `user`;
+    // CalledOff, since all that is long to read begins here.
     [[nodiscard]] std::span<const std::byte> bytes(int view, const std::string& user);
 
     // Bytes from one element to the next; 0: tightly packed.
@@ -32,6 +34,7 @@ class BufferViews {
 
     const Document& document_;
     SceneFolder& folder_;
+    LoadProgress& progress_;
     std::vector<std::optional<Bytes>> buffers_; // what came from a file or a data: URI
     std::map<size_t, Bytes> decoded_views_;
     Budget decoded_bytes_{"bytes of decompressed buffer views", kMaxDecodedViewBytes};

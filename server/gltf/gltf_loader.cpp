@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "gltf/document.h"
 #include "gltf/failure.h"
+#include "gltf/load_progress.h"
 #include "gltf/scene_builder.h"
 #include "gltf/scene_folder.h"
 
@@ -19,15 +20,20 @@ Error sceneError(const std::filesystem::path& file, const std::string& message) 
 
 } // namespace
 
-Result<scene::Scene> load(const std::filesystem::path& file) {
+Result<scene::Scene> load(const std::filesystem::path& file, const ProgressReport& report) {
     try {
         Warnings warnings;
-        SceneFolder folder(file);
+        LoadProgress progress(report);
+        progress.reading(0);
+        SceneFolder folder(file, progress);
         const Document document = readDocument(folder, warnings);
-        scene::Scene scene = buildScene(document, folder, warnings);
+        scene::Scene scene = buildScene(document, folder, progress, warnings);
         scene.name = file.stem().string();
         warnings.moveInto(scene);
         return scene;
+    } catch (const CalledOff&) {
+        return Error{ErrorCode::kCancelled,
+                     printable(file.filename().string(), 300) + ": nobody wants it any more"};
     } catch (const Failure& failure) {
         return sceneError(file, failure.what());
     } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -11,7 +12,8 @@ namespace froxel::gltf {
 // The default scene of the file, validated; Scene::warnings says what was left out. Trusts nothing
 // in the file, and reads no file outside the folder that it lies in. Tangents are only those in the
 // file. Safe from any thread; decodes images on a second one. Errors: kScene, one line that names
-// the file, the thing, its value and what would be right.
-[[nodiscard]] Result<scene::Scene> load(const std::filesystem::path& path);
+// the file, the thing, its value and what would be right; kCancelled where `report` has it end.
+[[nodiscard]] Result<scene::Scene> load(const std::filesystem::path& path,
+                                        const ProgressReport& report = workOn);
 
 } // namespace froxel::gltf

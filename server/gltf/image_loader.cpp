@@ -91,22 +91,38 @@ void decode(Job& job) noexcept {
     job.owned = {};
 }
 
-void decodeAll(const std::vector<Job*>& jobs) {
+// Where it is called off what others have begun is done first.
+void decodeAll(const std::vector<Job*>& jobs, LoadProgress& progress) {
     std::atomic<size_t> next{0};
-    const auto work = [&] {
-        for (size_t i = next++; i < jobs.size(); i = next++) {
-            if (!jobs[i]->unusable) {
-                decode(*jobs[i]);
-            }
+    std::atomic<size_t> done{0};
+    const auto decodeNext = [&] {
+        const size_t i = next++;
+        if (i >= jobs.size()) {
+            return false;
         }
+        if (!jobs[i]->unusable) {
+            decode(*jobs[i]);
+        }
+        ++done;
+        return true;
     };
     const size_t wanted = std::min(
         {jobs.size(), size_t{std::max(1U, std::thread::hardware_concurrency())}, kMaxThreads});
     std::vector<std::jthread> threads;
     for (size_t i = 1; i < wanted; ++i) {
-        threads.emplace_back(work);
+        threads.emplace_back([&] {
+            while (decodeNext()) {
+            }
+        });
     }
-    work();
+    try {
+        do {
+            progress.decoding(static_cast<double>(done) / static_cast<double>(jobs.size()));
+        } while (decodeNext());
+    } catch (const CalledOff&) {
+        next = jobs.size();
+        throw;
+    }
 }
 
 // Says what is wrong. Whether another of its sources is to be tried.
@@ -158,6 +174,7 @@ void loadImages(const Document& document,
                 const std::vector<std::vector<size_t>>& sources,
                 SceneFolder& folder,
                 BufferViews& views,
+                LoadProgress& progress,
                 scene::Scene& scene,
                 Warnings& warnings) {
     Budget pixels("bytes of decoded images", kMaxDecodedImageBytes);
@@ -172,7 +189,7 @@ void loadImages(const Document& document,
         for (Job* job : due) {
             begin(*job, document, folder, views, pixels, warnings);
         }
-        decodeAll(due);
+        decodeAll(due, progress);
         std::vector<Job*> again;
         std::copy_if(due.begin(), due.end(), std::back_inserter(again),
                      [&](Job* job) { return goesOn(*job, warnings); });

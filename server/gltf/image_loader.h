@@ -4,6 +4,7 @@
 #include "gltf/buffer_views.h"
 #include "gltf/document.h"
 #include "gltf/failure.h"
+#include "gltf/load_progress.h"
 #include "gltf/scene_folder.h"
 #include "scene/scene.h"
 
@@ -16,11 +17,13 @@ namespace froxel::gltf {
 // becomes the first of them that can be read, and those behind it are not touched. Sizes are
 // checked by their headers before the first pixel is decoded. An image of which none can be read
 // becomes a white pixel that no material uses: their slots are emptied. Each that cannot be read is
-// a warning. Throws Failure for one that may not be read or is too large.
+// a warning. Throws Failure for one that may not be read or is too large;
+// CalledOff.
 void loadImages(const Document& document,
                 const std::vector<std::vector<size_t>>& sources,
                 SceneFolder& folder,
                 BufferViews& views,
+                LoadProgress& progress,
                 scene::Scene& scene,
                 Warnings& warnings);
 

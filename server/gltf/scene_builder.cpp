@@ -52,9 +52,13 @@ void nameCamera(scene::NamedCamera& camera,
 
 class Builder {
   public:
-    Builder(const Document& document, SceneFolder& folder, Warnings& warnings)
-        : document_(document), warnings_(warnings), views_(document, folder),
-          accessors_(document, views_), materials_(document, scene_, warnings),
+    Builder(const Document& document,
+            SceneFolder& folder,
+            LoadProgress& progress,
+            Warnings& warnings)
+        : document_(document), progress_(progress), warnings_(warnings),
+          views_(document, folder, progress), accessors_(document, views_),
+          materials_(document, scene_, warnings),
           meshes_(document, views_, accessors_, materials_, scene_, warnings),
           placed_(placeNodes(document.model, warnings)),
           motion_(document, placed_, weightCounts(), accessors_, warnings) {}
@@ -62,6 +66,7 @@ class Builder {
     scene::Scene build(SceneFolder& folder) {
         scene_.material_variants = document_.material_variants;
         for (uint32_t place = 0; place < placed_.size(); ++place) {
+            progress_.reading(static_cast<double>(place) / static_cast<double>(placed_.size()));
             if (placed_[place].visible) {
                 addMesh(place);
                 addLight(place);
@@ -84,7 +89,7 @@ class Builder {
         if (scene_.motion) {
             scene_.bounds_world = motion::boundsOverClips(scene_);
         }
-        loadImages(document_, materials_.images(), folder, views_, scene_, warnings_);
+        loadImages(document_, materials_.images(), folder, views_, progress_, scene_, warnings_);
         return std::move(scene_);
     }
 
@@ -258,6 +263,7 @@ class Builder {
     }
 
     const Document& document_;
+    LoadProgress& progress_;
     Warnings& warnings_;
     scene::Scene scene_;
     BufferViews views_;
@@ -271,8 +277,11 @@ class Builder {
 
 } // namespace
 
-scene::Scene buildScene(const Document& document, SceneFolder& folder, Warnings& warnings) {
-    return Builder(document, folder, warnings).build(folder);
+scene::Scene buildScene(const Document& document,
+                        SceneFolder& folder,
+                        LoadProgress& progress,
+                        Warnings& warnings) {
+    return Builder(document, folder, progress, warnings).build(folder);
 }
 
 } // namespace froxel::gltf

@@ -2,13 +2,16 @@
 #pragma once
 
 #include "gltf/document.h"
+#include "gltf/load_progress.h"
 #include "gltf/scene_folder.h"
 #include "scene/scene.h"
 
 namespace froxel::gltf {
 
-// Throws Failure.
-[[nodiscard]] scene::Scene
-buildScene(const Document& document, SceneFolder& folder, Warnings& warnings);
+// Throws Failure, CalledOff.
+[[nodiscard]] scene::Scene buildScene(const Document& document,
+                                      SceneFolder& folder,
+                                      LoadProgress& progress,
+                                      Warnings& warnings);
 
 } // namespace froxel::gltf

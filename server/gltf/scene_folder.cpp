@@ -20,6 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of a file, until it is asked whether it is still wanted.
+constexpr size_t kReadAtOnce = size_t{16} << 20U;
+
 class Descriptor {
   public:
     explicit Descriptor(int value) : value_(value) {}
@@ -41,7 +44,10 @@ std::string reason(int error) {
 }
 
 // NONBLOCK: opening a pipe must not wait for its writer.
-Bytes readFile(const fs::path& path, const std::string& user, Budget& budget) {
+Bytes readFile(const fs::path& path,
+               const std::string& user,
+               Budget& budget,
+               LoadProgress& progress) {
     const std::string shown = "'" + printable(path.string(), 300) + "'";
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.get() < 0) {
@@ -56,7 +62,9 @@ Bytes readFile(const fs::path& path, const std::string& user, Budget& budget) {
     Bytes bytes(size);
     size_t done = 0;
     while (done < size) {
-        const ssize_t got = ::read(file.get(), bytes.data() + done, size - done);
+        progress.ask();
+        const ssize_t got =
+            ::read(file.get(), bytes.data() + done, std::min(size - done, kReadAtOnce));
         if (got < 0 && errno == EINTR) {
             continue;
         }
@@ -151,7 +159,8 @@ fs::path relativePathFromUri(const std::string& uri, const std::string& user) {
     return path;
 }
 
-SceneFolder::SceneFolder(const fs::path& scene_file) : scene_file_(scene_file) {
+SceneFolder::SceneFolder(const fs::path& scene_file, LoadProgress& progress)
+    : scene_file_(scene_file), progress_(progress) {
     std::error_code error;
     const fs::path parent = scene_file.has_parent_path() ? scene_file.parent_path() : ".";
     folder_ = fs::canonical(parent, error);
@@ -162,7 +171,7 @@ SceneFolder::SceneFolder(const fs::path& scene_file) : scene_file_(scene_file) {
 }
 
 Bytes SceneFolder::readSceneFile() {
-    return readFile(scene_file_, "the scene", bytes_);
+    return readFile(scene_file_, "the scene", bytes_, progress_);
 }
 
 Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
@@ -184,7 +193,7 @@ Bytes SceneFolder::read(const std::string& uri, const std::string& user) {
                                           "', a link that leaves the scene's folder; right is a "
                                           "file inside it");
     }
-    return readFile(target, user, bytes_);
+    return readFile(target, user, bytes_, progress_);
 }
 
 } // namespace froxel::gltf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gltf/limits.h"
+#include "gltf/load_progress.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -20,9 +21,9 @@ using Bytes = std::vector<std::byte>;
 
 class SceneFolder {
   public:
-    explicit SceneFolder(const std::filesystem::path& scene_file);
+    SceneFolder(const std::filesystem::path& scene_file, LoadProgress& progress);
 
-    // The scene file itself. Throws Failure.
+    // The scene file itself. Throws Failure, as all here; CalledOff.
     [[nodiscard]] Bytes readSceneFile();
 
     // The bytes behind a base64 `data:` URI of any type or a file of the folder; a symlink may lead
@@ -33,6 +34,7 @@ class SceneFolder {
   private:
     std::filesystem::path scene_file_;
     std::filesystem::path folder_; // canonical
+    LoadProgress& progress_;
     Budget bytes_{"bytes of files", kMaxFileBytes};
 };
 

@@ -279,7 +279,7 @@ void LiveSession::show(const session::SharedContext& scene,
     tellState(mail);
 }
 
-void LiveSession::onSceneProgress(const std::string& id, const session::SceneProgress& progress) {
+void LiveSession::onSceneProgress(const std::string& id, const Progress& progress) {
     Mail mail;
     const std::lock_guard lock(mutex_);
     if (awaited_ && awaited_->id == id) {

@@ -148,7 +148,7 @@ class LiveSession final : public session::FrameSink,
                 session::SessionState refused,
                 std::optional<session::SessionState> drawn) override;
     void deviceLost(Error error) override;
-    void onSceneProgress(const std::string& id, const session::SceneProgress& progress) override;
+    void onSceneProgress(const std::string& id, const Progress& progress) override;
     void onScene(const std::string& id, Result<session::SharedContext> scene) override;
 
   private:
@@ -174,7 +174,7 @@ class LiveSession final : public session::FrameSink,
     struct Awaited {
         std::string id;
         session::CommandStamp stamp; // of the command that selected it
-        session::SceneProgress progress;
+        Progress progress;
     };
     LiveSession(Serving serving, std::string room, Caller opener, TimePoint now);
     [[nodiscard]] Member* find(const Place& place);

@@ -25,7 +25,7 @@ void Service::change(const Change& apply) {
     }
 }
 
-void Service::setLoading(LoadingProgress progress) {
+void Service::setLoading(Progress progress) {
     change([&](ServiceStatus& status) { status.loading = std::move(progress); });
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/heartbeat.h"
+#include "core/progress.h"
 #include "session/scene_port.h"
 #include "session/session_context.h"
 #include "session/stream_port.h"
@@ -15,11 +16,6 @@
 #include <vector>
 
 namespace froxel::net {
-
-struct LoadingProgress {
-    std::string stage = "starting"; // for a person
-    double fraction = 0;            // 0..1
-};
 
 // Scene and stream are there.
 struct Serving {
@@ -39,7 +35,7 @@ struct Draining {
 };
 
 struct ServiceStatus {
-    LoadingProgress loading; // while `serving` is none
+    Progress loading{"starting", 0}; // while `serving` is none
     std::optional<Serving> serving;
     std::optional<Draining> draining;
     std::optional<std::string> lost; // why no picture comes any more, though the process lives
@@ -55,7 +51,7 @@ class ServiceListener {
 class Service {
   public:
     [[nodiscard]] ServiceStatus status() const;
-    void setLoading(LoadingProgress progress);
+    void setLoading(Progress progress);
     void setServing(Serving serving);
     void setDraining(Draining draining);
     void setLost(std::string why);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "session/session_context.h"
 
 #include <cstdint>
@@ -14,11 +15,6 @@ namespace froxel::session {
 
 // While anybody holds it, its scene stays on the device.
 using SharedContext = std::shared_ptr<const SessionContext>;
-
-struct SceneProgress {
-    std::string stage;   // for a person
-    double fraction = 0; // 0..1
-};
 
 enum class SceneStanding : uint8_t { kUnknown, kOffered, kLoading, kReady };
 
@@ -37,7 +33,7 @@ struct SceneContents {
 
 struct SceneReport {
     SceneStanding standing = SceneStanding::kUnknown; // not offered
-    SceneProgress progress;                           // while it is loading
+    Progress progress;                                // while it is loading
     std::optional<SceneContents> contents;            // once it was read, also after it left
 };
 
@@ -56,7 +52,7 @@ struct SceneCounts {
 class SceneWaiter {
   public:
     virtual ~SceneWaiter() = default;
-    virtual void onSceneProgress(const std::string& id, const SceneProgress& progress) = 0;
+    virtual void onSceneProgress(const std::string& id, const Progress& progress) = 0;
     // It is there, or why it is not; nothing more comes of it.
     virtual void onScene(const std::string& id, Result<SharedContext> scene) = 0;
     // Whether those who are not go first. Called under a lock of the port's.

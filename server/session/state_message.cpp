@@ -293,7 +293,7 @@ makeSceneChanged(const SessionState& state, const SessionState& first, uint64_t 
     return message;
 }
 
-v1::ServerMessage makeSceneLoading(const std::string& id, const SceneProgress& progress) {
+v1::ServerMessage makeSceneLoading(const std::string& id, const Progress& progress) {
     v1::ServerMessage message;
     v1::SceneLoading& loading = *message.mutable_scene_loading();
     loading.set_scene(id);

@@ -101,8 +101,7 @@ class StillDesk final : public session::SceneWaiter,
     void close();
 
     // Of the scenes that it waits for.
-    void onSceneProgress(const std::string& /*id*/,
-                         const session::SceneProgress& /*progress*/) override {}
+    void onSceneProgress(const std::string& /*id*/, const Progress& /*progress*/) override {}
     void onScene(const std::string& id, Result<session::SharedContext> scene) override;
     // Whoever looks at it goes first.
     [[nodiscard]] bool isPatient() const override { return true; }

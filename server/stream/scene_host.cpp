@@ -13,7 +13,6 @@
 
 namespace froxel::stream {
 
-using session::SceneProgress;
 using session::SceneWaiter;
 using session::SharedContext;
 
@@ -208,9 +207,17 @@ std::deque<std::string>::iterator SceneHost::nextToLoad() {
 }
 
 void SceneHost::load(const std::string& id) {
-    report(id, {"reading the scene", 0.05});
+    bool wanted = true;
+    const auto readOn = [&](const Progress& progress) {
+        report(id, {progress.stage, kReadPart * progress.fraction});
+        return wanted = isWanted(id);
+    };
     try {
-        auto read = options_.read(id);
+        auto read = options_.read(id, readOn);
+        if (!wanted || !isWanted(id)) {
+            putAside(id);
+            return;
+        }
         auto prepared = read ? prepare(id, std::move(*read)) : Result<void>(read.error());
         if (!prepared) {
             finish(id, prepared.error());
@@ -223,16 +230,33 @@ void SceneHost::load(const std::string& id) {
     }
 }
 
+bool SceneHost::isWanted(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    return isAwaited(coming_.at(id));
+}
+
+// What was not read to its end; whoever came since waits for it as if it were new.
+void SceneHost::putAside(const std::string& id) {
+    const std::lock_guard lock(mutex_);
+    Coming& coming = coming_.at(id);
+    if (!isAwaited(coming)) {
+        coming_.erase(id);
+        return;
+    }
+    coming.stage = Stage::kQueued;
+    queue_.push_front(id);
+}
+
 Result<void> SceneHost::prepare(const std::string& id, ReadScene read) {
     FrameSource* device = nullptr;
     uint64_t bytes = 0;
     {
         const std::lock_guard lock(mutex_);
-        Coming& coming = coming_.at(id);
-        if (device_ == nullptr || !isAwaited(coming)) {
+        if (device_ == nullptr) {
             coming_.erase(id);
             return {};
         }
+        Coming& coming = coming_.at(id);
         device = device_;
         bytes = device->sceneBytes(*read.scene);
         if (auto room = makeRoom(bytes, read.context.scene.name); !room) {
@@ -306,9 +330,10 @@ Result<void> SceneHost::makeRoom(uint64_t bytes, const std::string& name) {
     return {};
 }
 
-bool SceneHost::isAwaited(const Coming& coming) {
-    return !std::ranges::all_of(coming.waiters,
-                                [](const auto& waiter) { return waiter.expired(); });
+bool SceneHost::isAwaited(const Coming& coming) const {
+    return device_ != nullptr && !std::ranges::all_of(coming.waiters, [](const auto& waiter) {
+               return waiter.expired();
+           });
 }
 
 SceneHost::Waiters SceneHost::present(const Coming& coming) {
@@ -321,7 +346,7 @@ SceneHost::Waiters SceneHost::present(const Coming& coming) {
     return waiters;
 }
 
-void SceneHost::report(const std::string& id, const SceneProgress& progress) {
+void SceneHost::report(const std::string& id, const Progress& progress) {
     Waiters waiters;
     {
         const std::lock_guard lock(mutex_);

@@ -35,8 +35,9 @@ struct SceneHostOptions {
     // none: there is none. Any thread.
     std::function<std::optional<uint64_t>(const std::string& id)> offers =
         [](const std::string& /*id*/) -> std::optional<uint64_t> { return {}; };
-    // Reads one; on the host's own thread. Errors: one line for a person. May throw StartupError.
-    std::function<Result<ReadScene>(const std::string& id)> read;
+    // Reads one; on the host's own thread. Errors: one line for a person; any where `report` has
+    // it end early. May throw StartupError.
+    std::function<Result<ReadScene>(const std::string& id, const ProgressReport& report)> read;
 };
 
 class SceneHost final : public session::ScenePort {
@@ -86,7 +87,7 @@ class SceneHost final : public session::ScenePort {
         std::unique_ptr<SceneMove> move;
         session::SharedContext context;
         uint64_t bytes = 0; // that it will take
-        session::SceneProgress progress{"waiting for its turn", 0};
+        Progress progress{"waiting for its turn", 0};
         TimePoint begun_at{};
     };
     struct Contents {
@@ -97,16 +98,20 @@ class SceneHost final : public session::ScenePort {
 
     void run(const std::stop_token& stop);
     [[nodiscard]] std::deque<std::string>::iterator nextToLoad();
+    // Of what comes, whose reading has begun.
     void load(const std::string& id);
+    [[nodiscard]] bool isWanted(const std::string& id) const;
+    void putAside(const std::string& id);
     [[nodiscard]] Result<void> prepare(const std::string& id, ReadScene read);
     // Under the lock: has scenes leave for so many more bytes. Errors: kCapacity.
     [[nodiscard]] Result<void> makeRoom(uint64_t bytes, const std::string& name);
     [[nodiscard]] uint64_t bytesTaken() const;
     [[nodiscard]] static bool isHeld(const Resident& resident);
-    [[nodiscard]] static bool isAwaited(const Coming& coming);
+    // Under the lock.
+    [[nodiscard]] bool isAwaited(const Coming& coming) const;
     // To be ended without the lock: the last reference to a session calls dismiss().
     [[nodiscard]] static Waiters present(const Coming& coming);
-    void report(const std::string& id, const session::SceneProgress& progress);
+    void report(const std::string& id, const Progress& progress);
     void finish(const std::string& id, Result<session::SharedContext> outcome);
     void advance(const std::string& id, SceneMove& move);
     void settle(const std::string& id, std::unique_ptr<SceneSource> source);

@@ -10,7 +10,6 @@
 namespace froxel::stream {
 namespace {
 
-using session::SceneProgress;
 using session::SharedContext;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -18,7 +17,7 @@ using ::testing::HasSubstr;
 // A session that keeps what it hears.
 class Waiter final : public session::SceneWaiter {
   public:
-    void onSceneProgress(const std::string& /*id*/, const SceneProgress& progress) override {
+    void onSceneProgress(const std::string& /*id*/, const Progress& progress) override {
         const std::lock_guard lock(mutex_);
         fractions_.push_back(progress.fraction);
     }
@@ -58,8 +57,16 @@ class SceneHostTest : public RenderLoopTest {
             return id.size() == 1 && id >= "a" && id <= "e" ? std::optional(version_.load())
                                                             : std::nullopt;
         };
-        options.read = [this](const std::string& id) -> Result<ReadScene> {
-            passReading();
+        options.read = [this](const std::string& id,
+                              const ProgressReport& report) -> Result<ReadScene> {
+            ++begun_reads_;
+            if (!passReading(report)) {
+                ++called_off_;
+                while (linger_) {
+                    std::this_thread::yield();
+                }
+                return Error{ErrorCode::kCancelled, id};
+            }
             ++read_count_;
             read_ids_ += id;
             if (id == "e") {
@@ -102,9 +109,15 @@ class SceneHostTest : public RenderLoopTest {
         gate_open_ = open;
         gate_.notify_all();
     }
-    void passReading() {
+    bool passReading(const ProgressReport& report) {
         std::unique_lock lock(gate_mutex_);
-        gate_.wait(lock, [this] { return gate_open_; });
+        do {
+            if (!report({"reading", 0.1})) {
+                return false;
+            }
+        } while (
+            !gate_.wait_for(lock, std::chrono::milliseconds(1), [this] { return gate_open_; }));
+        return true;
     }
     // Null and a failure of the test where it does not come.
     SharedContext load(const std::string& id) {
@@ -135,7 +148,10 @@ class SceneHostTest : public RenderLoopTest {
     }
 
     std::atomic<uint64_t> version_ = 1;
+    std::atomic<int> begun_reads_ = 0;
     std::atomic<int> read_count_ = 0;
+    std::atomic<int> called_off_ = 0;
+    std::atomic<bool> linger_ = false; // whoever reads is slow to end
     std::string read_ids_; // in their order; the host's thread's until nothing is read any more
     std::mutex gate_mutex_;
     std::condition_variable gate_;
@@ -224,8 +240,7 @@ TEST_F(SceneHostTest, Report_TellsWhatWasRead) {
 TEST_F(SceneHostTest, PatientWaiter_IsServedLast) {
     class Patient final : public session::SceneWaiter {
       public:
-        void onSceneProgress(const std::string& /*id*/,
-                             const session::SceneProgress& /*progress*/) override {}
+        void onSceneProgress(const std::string& /*id*/, const Progress& /*progress*/) override {}
         void onScene(const std::string& /*id*/, Result<SharedContext> /*scene*/) override {}
         [[nodiscard]] bool isPatient() const override { return true; }
     };
@@ -327,6 +342,48 @@ TEST_F(SceneHostTest, NobodyWaitsAnyMore_IsNotLoaded) {
     EXPECT_LE(read_count_, 2); // a may have been under way
 }
 
+TEST_F(SceneHostTest, NobodyWaitsAnyMore_ReadingEnds) {
+    begin();
+    setReading(false);
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    ASSERT_TRUE(comes([&] { return begun_reads_ == 1; }));
+    host_->dismiss("a", waiter);
+    EXPECT_TRUE(comes([&] { return host_->counts().loading == 0; }));
+    EXPECT_EQ(host_->counts().failed_total, 0U);
+    EXPECT_FALSE(waiter->heard());
+}
+
+TEST_F(SceneHostTest, WantedAgainWhileReadingEnds_IsReadOnceMore) {
+    begin();
+    setReading(false);
+    linger_ = true;
+    const auto gone = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", gone));
+    ASSERT_TRUE(comes([&] { return begun_reads_ == 1; }));
+    host_->dismiss("a", gone);
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(comes([&] { return called_off_ == 1; }));
+    ASSERT_TRUE(host_->want("a", waiter));
+    setReading(true);
+    linger_ = false;
+    const auto outcome = waiter->outcome();
+    ASSERT_TRUE(outcome && *outcome);
+    EXPECT_EQ(begun_reads_, 2);
+    EXPECT_FALSE(gone->heard());
+}
+
+TEST_F(SceneHostTest, Stop_EndsReading) {
+    begin();
+    setReading(false);
+    ASSERT_TRUE(host_->want("a", std::make_shared<Waiter>()));
+    const auto waiter = std::make_shared<Waiter>();
+    ASSERT_TRUE(host_->want("a", waiter));
+    ASSERT_TRUE(comes([&] { return begun_reads_ == 1; }));
+    loop_->stop(); // with whoever reads
+    EXPECT_EQ(read_count_, 0);
+}
+
 TEST_F(SceneHostTest, DismissedOnItsWay_LeavesTheDevice) {
     device_->slice_count = UINT32_MAX;
     begin();
@@ -347,7 +404,7 @@ class EndingWaiter final : public session::SceneWaiter,
     EndingWaiter(const EndingWaiter&) = delete;
     EndingWaiter& operator=(const EndingWaiter&) = delete;
     ~EndingWaiter() override { host_.dismiss(id_, weak_from_this()); }
-    void onSceneProgress(const std::string& /*id*/, const SceneProgress& /*progress*/) override {}
+    void onSceneProgress(const std::string& /*id*/, const Progress& /*progress*/) override {}
     void onScene(const std::string& /*id*/, Result<SharedContext> /*scene*/) override {}
 
   private:
