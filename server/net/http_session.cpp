@@ -160,12 +160,12 @@ bool HttpSession::answersLater(const Request& request) {
         return false;
     }
     const uint64_t question = ++question_;
-    auto done = [self = shared_from_this(), question, request](Response response) {
+    auto done = [self = shared_from_this(), question, request](LateAnswer answer) {
         boost::asio::post(
-            self->strand_, [self, question, request, response = std::move(response)]() mutable {
+            self->strand_, [self, question, request, answer = std::move(answer)]() mutable {
                 if (self->question_ == question && std::exchange(self->call_off_, std::nullopt) &&
                     !guarded("http answer",
-                             [&] { self->write(finished(request, std::move(response))); })) {
+                             [&] { self->write(finished(request, std::move(answer))); })) {
                     self->close();
                 }
             });
@@ -201,24 +201,41 @@ void HttpSession::upgrade(Request request) {
     }
 }
 
-void HttpSession::write(Response response) {
-    response_ = std::move(response);
+void HttpSession::write(LateAnswer answer) {
+    answer_ = std::move(answer);
+    Response& response = answer_.response;
     if (stream_.encrypted()) { // a browser that has seen this asks for http here no more; RFC 6797
-        response_.set("Strict-Transport-Security", "max-age=31536000");
+        response.set("Strict-Transport-Security", "max-age=31536000");
     }
-    stream_.next_layer().expires_after(kDeadline);
-    http::async_write(stream_, response_,
-                      [self = shared_from_this()](beast::error_code error, size_t) {
-                          if (!guarded("http write", [&] { self->onWritten(error); })) {
-                              self->close();
-                          }
-                      });
+    if (!answer_.picture) {
+        stream_.next_layer().expires_after(kDeadline);
+        send(response);
+        return;
+    }
+    const std::vector<std::byte>& bytes = *answer_.picture;
+    stream_.next_layer().expires_after(kDeadline +
+                                       std::chrono::seconds(bytes.size() / kSlowestBytes_s));
+    picture_.base() = std::move(response.base());
+    picture_.body() = {bytes.data(), bytes.size()};
+    send(picture_);
 }
 
-void HttpSession::onWritten(beast::error_code error) {
+template <class Message>
+void HttpSession::send(Message& message) {
+    http::async_write(
+        stream_, message,
+        [self = shared_from_this(), last = message.need_eof()](beast::error_code error, size_t) {
+            self->answer_ = {}; // and whatever counts by it
+            if (!guarded("http write", [&] { self->onWritten(error, last); })) {
+                self->close();
+            }
+        });
+}
+
+void HttpSession::onWritten(beast::error_code error, bool last) {
     if (error) {
         close();
-    } else if (response_.need_eof() || draining()) {
+    } else if (last || draining()) {
         beast::error_code ignored;
         stream_.next_layer().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send,
                                                ignored);

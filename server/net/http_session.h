@@ -7,6 +7,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/span_body.hpp>
 
 #include <array>
 #include <memory>
@@ -17,8 +18,10 @@ namespace froxel::net {
 class HttpSession final : public ServiceListener, public std::enable_shared_from_this<HttpSession> {
   public:
     static constexpr uint32_t kMaxHeaderBytes = 8 * 1024;
-    // For one whole request, and for one whole response.
+    // For one whole request, and for one whole response ...
     static constexpr std::chrono::seconds kDeadline{10};
+    // ... with a second more for so many bytes of a picture: 4 Mbit/s.
+    static constexpr size_t kSlowestBytes_s = 512 * 1024;
 
     // `tls` may be null: without encryption.
     HttpSession(boost::asio::ip::tcp::socket socket,
@@ -30,6 +33,8 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     void onServiceChanged() override;
 
   private:
+    // Bytes of others' that are sent as they are.
+    using Picture = boost::beast::http::response<boost::beast::http::span_body<const std::byte>>;
     using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
 
     [[nodiscard]] bool draining() const;
@@ -42,8 +47,12 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     // Whether the answer comes later.
     [[nodiscard]] bool answersLater(const Request& request);
     void watchForEnd(uint64_t question);
-    void write(Response response);
-    void onWritten(boost::beast::error_code error);
+    void write(Response response) { write(LateAnswer{std::move(response)}); }
+    void write(LateAnswer answer);
+    template <class Message>
+    void send(Message& message);
+    // `last`: no other answer follows on this connection.
+    void onWritten(boost::beast::error_code error, bool last);
     void linger();
     void close();
 
@@ -56,7 +65,8 @@ class HttpSession final : public ServiceListener, public std::enable_shared_from
     ConnectionTicket ticket_;
     boost::beast::flat_buffer buffer_;
     std::optional<Parser> parser_;
-    Response response_;
+    LateAnswer answer_;     // on its way
+    Picture picture_;       // where that is one
     uint64_t question_ = 0; // of those answered later
     std::optional<HttpSite::CallOff> call_off_;
     std::array<std::byte, 4096> discarded_{};

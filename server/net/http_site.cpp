@@ -110,22 +110,24 @@ std::string_view pathOf(const Request& request) {
 }
 
 Response respond(const Request& request, const HttpSite& site) {
-    return finished(request, answerTo(request, site));
+    return finished(request, LateAnswer{answerTo(request, site)}).response;
 }
 
-Response finished(const Request& request, Response response) {
+LateAnswer finished(const Request& request, LateAnswer answer) {
+    Response& response = answer.response;
     const bool keep_alive = request.keep_alive() && response.keep_alive();
     response.version(request.version());
     response.keep_alive(keep_alive);
-    const size_t body_bytes = response.body().size();
+    const size_t body_bytes = answer.picture ? answer.picture->size() : response.body().size();
     if (request.method() == http::verb::head) {
         response.body().clear();
+        answer.picture.reset();
     }
     if (response.result() != http::status::not_modified &&
         response.result() != http::status::no_content) {
         response.content_length(body_bytes);
     }
-    return response;
+    return answer;
 }
 
 Response makeResponse(http::status status, std::string_view content_type, std::string body) {

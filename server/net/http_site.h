@@ -2,6 +2,7 @@
 // the one for operators (admin_site.h). Immutable; any thread.
 #pragma once
 
+#include "core/encoded_frame.h"
 #include "net/connection_tickets.h"
 #include "net/host_names.h"
 #include "net/paced_reads.h"
@@ -35,6 +36,13 @@ extern template class froxel::transport::PeerStream<froxel::net::PacedTcp>;
 
 namespace froxel::net {
 
+// What comes later than an answer may. Its body is the picture, which is let go when it is sent;
+// where there is none, the response's own.
+struct LateAnswer {
+    Response response;
+    SharedBytes picture{};
+};
+
 class HttpSite {
   public:
     virtual ~HttpSite() = default;
@@ -51,7 +59,7 @@ class HttpSite {
     answerLater(const Request& /*request*/,
                 std::string_view /*path*/,
                 const boost::asio::ip::address& /*peer*/,
-                std::function<void(Response)> /*done*/) const {
+                std::function<void(LateAnswer)> /*done*/) const {
         return {};
     }
     // Why this request of `peer` may not become a WebSocket; none when it may. Asked of a plain GET
@@ -82,7 +90,7 @@ class HttpSite {
 // headers of GET, and every answer the headers that keep browsers out of trouble.
 [[nodiscard]] Response respond(const Request& request, const HttpSite& site);
 // The same of what answerLater() gave.
-[[nodiscard]] Response finished(const Request& request, Response response);
+[[nodiscard]] LateAnswer finished(const Request& request, LateAnswer answer);
 
 // For answer(): a body of this type, and one line of text.
 [[nodiscard]] Response

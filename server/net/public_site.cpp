@@ -159,12 +159,13 @@ Response PublicSite::answer(const Request& request, std::string_view path) const
                                     : "not found");
 }
 
-std::optional<HttpSite::CallOff> PublicSite::answerLater(const Request& request,
-                                                         std::string_view path,
-                                                         const asio::ip::address& peer,
-                                                         std::function<void(Response)> done) const {
+std::optional<HttpSite::CallOff>
+PublicSite::answerLater(const Request& request,
+                        std::string_view path,
+                        const asio::ip::address& peer,
+                        std::function<void(LateAnswer)> done) const {
     if (path == kLinkPath) {
-        done(linkPreview(request, cameSecurely(request, peer, *site_), site_->gate == nullptr));
+        done({linkPreview(request, cameSecurely(request, peer, *site_), site_->gate == nullptr)});
         return [] {};
     }
     if (!StillAnswers::has(path)) {
@@ -174,7 +175,7 @@ std::optional<HttpSite::CallOff> PublicSite::answerLater(const Request& request,
     if (site_->gate) {
         const auto pass = site_->gate->admit(bearerToken(request));
         if (!pass) {
-            done(noToken());
+            done({noToken()});
             return [] {};
         }
         caller.token = pass->account();

@@ -19,7 +19,7 @@ class PublicSite final : public HttpSite {
     answerLater(const Request& request,
                 std::string_view path,
                 const boost::asio::ip::address& peer,
-                std::function<void(Response)> done) const override;
+                std::function<void(LateAnswer)> done) const override;
     [[nodiscard]] std::optional<Response>
     refuseUpgrade(const Request& request, const boost::asio::ip::address& peer) const override;
     [[nodiscard]] uint32_t connectionsMax(const boost::asio::ip::address& peer) const override;

@@ -74,11 +74,6 @@ Response refusedBy(const still::StillRefusal& refusal, bool thumbnail) {
     return response;
 }
 
-Response pictureOf(const SharedBytes& bytes, const Format& format) {
-    return makeResponse(http::status::ok, format.content_type,
-                        std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
-}
-
 // One of the scene's path and "/thumb"; empty: none.
 std::string_view sceneOfThumbnail(std::string_view path) {
     if (!SceneListing::has(path) || !path.ends_with(kThumbnail)) {
@@ -156,7 +151,7 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
                                        std::string_view path,
                                        const Caller& caller,
                                        bool shared,
-                                       const std::function<void(Response)>& done) const {
+                                       const std::function<void(LateAnswer)>& done) const {
     const auto nothing = [] {};
     const ServiceStatus status = service_->status();
     if (!status.serving || status.draining || status.lost) {
@@ -164,12 +159,12 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
             refused(http::status::service_unavailable, "capacity", "",
                     status.serving ? "the server is going down" : "the scene is being loaded");
         response.set(http::field::retry_after, "5");
-        done(std::move(response));
+        done({std::move(response)});
         return nothing;
     }
     still::StillRequest still;
     if (auto refusal = read(request, path, still)) {
-        done(std::move(*refusal));
+        done({std::move(*refusal)});
         return nothing;
     }
     const Serving& serving = *status.serving;
@@ -188,7 +183,7 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
         return response;
     };
     if (hasAlready(request, etag)) {
-        done(tagged(makeResponse(http::status::not_modified, format.content_type, {})));
+        done({tagged(makeResponse(http::status::not_modified, format.content_type, {}))});
         return nothing;
     }
     const bool thumbnail = still.thumbnail;
@@ -197,9 +192,12 @@ HttpSite::CallOff StillAnswers::answer(const Request& request,
     const auto ticket = desk_->ask(
         {serving.context, serving.port, serving.scenes}, std::move(still), account,
         [done, tagged, &format, thumbnail](const still::StillOutcome& outcome) {
-            const auto* bytes = std::get_if<SharedBytes>(&outcome);
-            done(bytes != nullptr ? tagged(pictureOf(*bytes, format))
-                                  : refusedBy(std::get<still::StillRefusal>(outcome), thumbnail));
+            if (const auto* refusal = std::get_if<still::StillRefusal>(&outcome)) {
+                done({refusedBy(*refusal, thumbnail)});
+                return;
+            }
+            done({tagged(makeResponse(http::status::ok, format.content_type, {})),
+                  std::get<SharedBytes>(outcome)});
         },
         Clock::now());
     return [desk = desk_, ticket] { desk->cancel(ticket); };

@@ -33,7 +33,7 @@ class StillAnswers {
                                            std::string_view path,
                                            const Caller& caller,
                                            bool shared,
-                                           const std::function<void(Response)>& done) const;
+                                           const std::function<void(LateAnswer)>& done) const;
 
   private:
     [[nodiscard]] std::optional<Response>

@@ -40,6 +40,8 @@ class FrameSink {
     // device cannot do what its settings ask for). `drawn` is what was drawn last, none before the
     // first picture; the session falls back to it.
     virtual void refuse(Error error, SessionState refused, std::optional<SessionState> drawn) = 0;
+    // A picture that was drawn is lost: no encoder makes one of it. On an encoder's thread.
+    virtual void notEncoded(Error /*error*/) {}
     // No picture comes any more.
     virtual void deviceLost(Error error) = 0;
 };

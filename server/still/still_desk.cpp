@@ -22,7 +22,13 @@ constexpr size_t kAllowancesMost = 4096;
 // its area.
 constexpr double kCaution = 1.2;
 
-StillRefusal putOff(RejectCode code, std::string message, std::chrono::seconds after) {
+// Of a picture and of radiance, as it is and losslessly.
+uint64_t answerBytes(settings::Codec codec, const settings::Size& size) {
+    const uint64_t pixel_bytes = settings::rowOf(codec).radiance ? 12 : 3;
+    return pixel_bytes * size.width_px * size.height_px;
+}
+
+StillRefusal later(RejectCode code, std::string message, std::chrono::seconds after) {
     return {{code, 0, "", std::move(message)}, {}, after};
 }
 
@@ -64,6 +70,11 @@ class StillDesk::Seat final : public session::FrameSink {
     void refuse(Error error,
                 session::SessionState /*refused*/,
                 std::optional<session::SessionState> /*drawn*/) override {
+        if (const auto owner = desk.lock()) {
+            owner->onRefused(*this, error);
+        }
+    }
+    void notEncoded(Error error) override {
         if (const auto owner = desk.lock()) {
             owner->onRefused(*this, error);
         }
@@ -113,9 +124,14 @@ StillDesk::Ticket StillDesk::ask(const StillSource& source,
     locked([&](Calls& calls) {
         ticket = ++last_ticket_;
         Waiter waiter{ticket, account, std::move(answer)};
-        if (auto bytes = storeFor(request).find(request.tag)) {
+        if (const auto bytes = storeFor(request).find(request.tag)) {
+            if (auto refusal = whyNotHeld(account, bytes->size())) {
+                putOff(waiter, std::move(*refusal), calls);
+                return;
+            }
             ++counts_.kept_total;
-            calls.emplace_back([answer = std::move(waiter.answer), bytes] { answer(bytes); });
+            calls.emplace_back([answer = std::move(waiter.answer),
+                                held = unsent_->hold(bytes, account)] { answer(held); });
             return;
         }
         add(source, std::move(request), std::move(waiter), now, calls);
@@ -129,11 +145,12 @@ void StillDesk::add(
     const StillSource& source, StillRequest request, Waiter waiter, TimePoint now, Calls& calls) {
     const auto same =
         std::ranges::find_if(jobs_, [&](const Job& job) { return job.request.tag == request.tag; });
-    if (auto refusal = whyNot(waiter.account, same == jobs_.end(), now)) {
-        ++counts_.put_off_total;
-        calls.emplace_back([answer = std::move(waiter.answer), refusal = std::move(*refusal)] {
-            answer(refusal);
-        });
+    auto refusal = whyNot(waiter.account, same == jobs_.end(), now);
+    if (!refusal && same != jobs_.end() && same->bytes > 0) {
+        refusal = whyNotHeld(waiter.account, same->bytes);
+    }
+    if (refusal) {
+        putOff(waiter, std::move(*refusal), calls);
         return;
     }
     if (same != jobs_.end()) {
@@ -170,14 +187,14 @@ StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, T
         }));
     }
     if (waiting >= limits_.waiting) {
-        return putOff(RejectCode::kCapacity,
-                      numberText(waiting) + " stills are waited for, as many as there may be",
-                      kSoon);
+        return later(RejectCode::kCapacity,
+                     numberText(waiting) + " stills are waited for, as many as there may be",
+                     kSoon);
     }
     if (own >= limits_.per_account) {
-        return putOff(RejectCode::kRateLimit,
-                      numberText(own) + " stills are waited for from here, as many as there may be",
-                      kSoon);
+        return later(RejectCode::kRateLimit,
+                     numberText(own) + " stills are waited for from here, as many as there may be",
+                     kSoon);
     }
     if (!account || !is_new || limits_.per_minute <= 0) {
         return {};
@@ -194,9 +211,39 @@ StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, T
         return {};
     }
     const auto wait = std::chrono::ceil<std::chrono::seconds>(allowance.nextAt(now) - now);
-    return putOff(RejectCode::kRateLimit,
-                  "more than " + numberText(limits_.per_minute) + " stills a minute from here",
-                  std::max(wait, kSoon));
+    return later(RejectCode::kRateLimit,
+                 "more than " + numberText(limits_.per_minute) + " stills a minute from here",
+                 std::max(wait, kSoon));
+}
+
+std::optional<StillRefusal> StillDesk::whyNotHeld(const std::optional<session::Account>& account,
+                                                  uint64_t bytes) const {
+    constexpr std::chrono::seconds kSoon{5};
+    uint64_t all = unsent_->all();
+    uint64_t own = account ? unsent_->of(*account) : 0;
+    for (const Job& job : jobs_) {
+        for (const Waiter& waiter : job.waiters) {
+            all += job.bytes;
+            own += account && waiter.account == account ? job.bytes : 0;
+        }
+    }
+    const auto text = [](uint64_t on_their_way, const char* where) {
+        return "answers of " + numberText(on_their_way >> 20U) + " MiB are drawn or on their way" +
+               where + ", about as many as there may be";
+    };
+    if (own > 0 && own + bytes > limits_.account_bytes) {
+        return later(RejectCode::kRateLimit, text(own, " to here"), kSoon);
+    }
+    if (all > 0 && all + bytes > limits_.all_bytes) {
+        return later(RejectCode::kCapacity, text(all, ""), kSoon);
+    }
+    return {};
+}
+
+void StillDesk::putOff(Waiter& waiter, StillRefusal refusal, Calls& calls) {
+    ++counts_.put_off_total;
+    calls.emplace_back(
+        [answer = std::move(waiter.answer), refusal = std::move(refusal)] { answer(refusal); });
 }
 
 // Those that are there at once; of the others one at a time.
@@ -272,6 +319,19 @@ void StillDesk::onSceneHere(Jobs::iterator job,
         finish(job, refusalOf(state.error(), job->request.view), calls);
         return;
     }
+    const uint64_t bytes = answerBytes(job->request.codec, state->settings.size);
+    std::erase_if(job->waiters, [&](Waiter& waiter) {
+        auto refusal = whyNotHeld(waiter.account, bytes);
+        if (refusal) {
+            putOff(waiter, std::move(*refusal), calls);
+        }
+        return refusal.has_value();
+    });
+    if (job->waiters.empty()) {
+        jobs_.erase(job);
+        return;
+    }
+    job->bytes = bytes;
     job->state = std::move(*state);
     job->state->encoding.codec = job->request.codec;
     job->stage = Stage::kQueued;
@@ -325,7 +385,7 @@ void StillDesk::draw(Jobs::iterator job,
     if (seat.port == nullptr) {
         const auto id = job->source.port->joinBeside(its_seat, *job->state);
         if (!id) {
-            finish(job, putOff(RejectCode::kCapacity, id.error().message, std::chrono::seconds(5)),
+            finish(job, later(RejectCode::kCapacity, id.error().message, std::chrono::seconds(5)),
                    calls);
             std::erase(seats_, its_seat);
             return;
@@ -377,7 +437,7 @@ void StillDesk::onLost(const Error& error) {
     locked([&](Calls& calls) {
         while (!jobs_.empty()) {
             finish(jobs_.begin(),
-                   putOff(RejectCode::kDevice, error.message, std::chrono::seconds(30)), calls);
+                   later(RejectCode::kDevice, error.message, std::chrono::seconds(30)), calls);
         }
         seats_.clear();
     });
@@ -387,8 +447,13 @@ void StillDesk::finish(Jobs::iterator job, const StillOutcome& outcome, Calls& c
     if (const auto* refusal = std::get_if<StillRefusal>(&outcome)) {
         ++(refusal->retry_after ? counts_.put_off_total : counts_.refused_total);
     }
+    const auto* bytes = std::get_if<SharedBytes>(&outcome);
     for (Waiter& waiter : job->waiters) {
-        calls.emplace_back([answer = std::move(waiter.answer), outcome] { answer(outcome); });
+        calls.emplace_back(
+            [answer = std::move(waiter.answer),
+             given = bytes == nullptr
+                         ? outcome
+                         : StillOutcome(unsent_->hold(*bytes, waiter.account))] { answer(given); });
     }
     jobs_.erase(job);
 }
@@ -452,12 +517,11 @@ void StillDesk::expire(TimePoint now) {
                     given_up.push_back(seat);
                 }
             }
-            finish(
-                here,
-                putOff(RejectCode::kCapacity,
-                       scene ? "the scene did not come in time" : "the device has no time for it",
-                       std::chrono::seconds(10)),
-                calls);
+            finish(here,
+                   later(RejectCode::kCapacity,
+                         scene ? "the scene did not come in time" : "the device has no time for it",
+                         std::chrono::seconds(10)),
+                   calls);
         }
         for (const auto& seat : given_up) {
             goOn(*seat, now, calls);

@@ -15,6 +15,7 @@
 #include "session/stream_port.h"
 #include "still/still_store.h"
 #include "still/still_view.h"
+#include "still/unsent.h"
 
 #include <cstdint>
 #include <deque>
@@ -58,6 +59,9 @@ struct StillLimits {
     size_t seats = 4;
     size_t per_account = 8; // waited for
     size_t waiting = 64;    // by all
+    // Of answers that are drawn or on their way; one alone may be larger.
+    uint64_t account_bytes = 256 << 20U;
+    uint64_t all_bytes = 1 << 30U;
     // Of one account that are drawn, at most and usually; 0: as many as it asks for.
     double per_minute = 600;
     double at_once = 60;
@@ -85,8 +89,8 @@ class StillDesk final : public session::SceneWaiter,
     // Told when expire() is due next; any thread, must not block. Set before the first request.
     void setAlarm(std::function<void(TimePoint)> alarm) { alarm_ = std::move(alarm); }
 
-    // `answer` is called once, on any thread and maybe within, unless it is cancelled. No limits
-    // of its own: `account` is none.
+    // `answer` is called once, on any thread and maybe within, unless it is cancelled. It counts as
+    // on its way until its bytes are let go. No limits of its own: `account` is none.
     Ticket ask(const StillSource& source,
                StillRequest request,
                const std::optional<session::Account>& account,
@@ -123,6 +127,7 @@ class StillDesk final : public session::SceneWaiter,
         std::vector<Waiter> waiters;
         TimePoint due{};
         std::optional<session::SessionState> state; // from kQueued on
+        uint64_t bytes = 0;                         // of its answer, at most; 0: not known yet
     };
     using Jobs = std::list<Job>; // oldest first
 
@@ -142,6 +147,10 @@ class StillDesk final : public session::SceneWaiter,
     // Errors: why not now.
     [[nodiscard]] std::optional<StillRefusal>
     whyNot(const std::optional<session::Account>& account, bool is_new, TimePoint now);
+    // Why an answer of so many bytes is not to be held as well.
+    [[nodiscard]] std::optional<StillRefusal>
+    whyNotHeld(const std::optional<session::Account>& account, uint64_t bytes) const;
+    void putOff(Waiter& waiter, StillRefusal refusal, Calls& calls);
     void wantScenes(TimePoint now, Calls& calls);
     void onSceneHere(Jobs::iterator job,
                      const session::SharedContext& scene,
@@ -169,6 +178,7 @@ class StillDesk final : public session::SceneWaiter,
     std::map<session::Account, Allowance> allowances_;
     StillStore kept_;
     StillStore thumbnails_;
+    const std::shared_ptr<Unsent> unsent_ = std::make_shared<Unsent>();
     StillCounts counts_;
 };
 

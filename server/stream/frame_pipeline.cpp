@@ -98,7 +98,11 @@ void FramePipeline::onEncoded(Result<EncodedFrame> result) {
         spdlog::error("event=frame_not_encoded session={} frame={} reason={}", session_,
                       encoding_->record.frame_id, logValue(error.message));
         // A full or closing encoder may take it the next time; anything else would fail again.
-        finish({1, error.code == ErrorCode::kCapacity});
+        const bool retry = error.code == ErrorCode::kCapacity;
+        if (const auto sink = retry ? nullptr : sink_.lock()) {
+            sink->notEncoded(error);
+        }
+        finish({1, retry});
         return;
     }
     {

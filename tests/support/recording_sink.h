@@ -22,6 +22,7 @@ class RecordingSink final : public session::FrameSink {
     struct Record {
         std::vector<session::ReadyFrame> frames;
         std::vector<Refusal> refusals;
+        std::vector<Error> not_encoded;
         std::optional<Error> lost;
     };
 
@@ -32,6 +33,9 @@ class RecordingSink final : public session::FrameSink {
                 session::SessionState refused,
                 std::optional<session::SessionState> drawn) override {
         change([&] { record_.refusals.push_back({std::move(error), refused, drawn}); });
+    }
+    void notEncoded(Error error) override {
+        change([&] { record_.not_encoded.push_back(std::move(error)); });
     }
     void deviceLost(Error error) override {
         change([&] { record_.lost = std::move(error); });

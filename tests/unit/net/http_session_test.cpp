@@ -6,9 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace froxel::net {
 namespace {
@@ -84,7 +88,7 @@ class PatientSite final : public HttpSite {
     answerLater(const Request& /*request*/,
                 std::string_view path,
                 const boost::asio::ip::address& /*peer*/,
-                std::function<void(Response)> done) const override {
+                std::function<void(LateAnswer)> done) const override {
         if (path != "/later") {
             return {};
         }
@@ -102,16 +106,16 @@ class PatientSite final : public HttpSite {
     void onConnectionRefused() const override {}
     [[nodiscard]] Service* drainsWith() const override { return nullptr; }
 
-    mutable std::function<void(Response)> asked;
+    mutable std::function<void(LateAnswer)> asked;
     mutable bool called_off = false;
 
   private:
     const HostNames any_{};
 };
 
-class LateAnswer : public testing::Test {
+class LateAnswerTest : public testing::Test {
   protected:
-    LateAnswer() {
+    LateAnswerTest() {
         client_.connect(acceptor_.local_endpoint());
         std::make_shared<HttpSession>(acceptor_.accept(), nullptr, site_, nullptr)->start();
     }
@@ -144,29 +148,57 @@ class LateAnswer : public testing::Test {
     const std::shared_ptr<PatientSite> site_ = std::make_shared<PatientSite>();
 };
 
-TEST_F(LateAnswer, IsSentWhenItIsThere_AndTheConnectionGoesOn) {
+TEST_F(LateAnswerTest, IsSentWhenItIsThere_AndTheConnectionGoesOn) {
     send("/later");
     runUntil([&] { return site_->asked != nullptr; });
     send("/now"); // ahead of its answer
-    site_->asked(textResponse(boost::beast::http::status::ok, "here"));
+    site_->asked({textResponse(boost::beast::http::status::ok, "here")});
     const std::string text = received("at once\n");
     EXPECT_LT(text.find("here\n"), text.find("at once\n"));
     EXPECT_FALSE(site_->called_off);
 }
 
-TEST_F(LateAnswer, ToWhoHasGone_IsCalledOff) {
+TEST_F(LateAnswerTest, Picture_IsLetGoWhenItIsSent) {
+    send("/later");
+    runUntil([&] { return site_->asked != nullptr; });
+    const std::string text = "a picture's bytes";
+    const auto bytes = std::as_bytes(std::span(text));
+    auto picture = std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+    const std::weak_ptr<const std::vector<std::byte>> held = picture;
+    site_->asked({textResponse(boost::beast::http::status::ok, ""), std::move(picture)});
+    EXPECT_FALSE(held.expired());
+    const std::string answer = received(text);
+    EXPECT_NE(answer.find("Content-Length: 17\r\n"), std::string::npos) << answer;
+    runUntil([&] { return held.expired(); });
+    send("/now");
+    EXPECT_TRUE(received("at once\n").ends_with("at once\n"));
+}
+
+TEST_F(LateAnswerTest, PictureOfAHead_IsNotSent) {
+    boost::asio::write(client_, boost::asio::buffer(std::string(
+                                    "HEAD /later HTTP/1.1\r\nHost: localhost\r\n\r\n")));
+    runUntil([&] { return site_->asked != nullptr; });
+    site_->asked({textResponse(boost::beast::http::status::ok, ""),
+                  std::make_shared<const std::vector<std::byte>>(17, std::byte{'x'})});
+    const std::string answer = received("\r\n\r\n");
+    EXPECT_NE(answer.find("Content-Length: 17\r\n"), std::string::npos) << answer;
+    send("/now");
+    EXPECT_TRUE(received("at once\n").starts_with("HTTP/1.1 200"));
+}
+
+TEST_F(LateAnswerTest, ToWhoHasGone_IsCalledOff) {
     send("/later");
     runUntil([&] { return site_->asked != nullptr; });
     client_.close();
     runUntil([&] { return site_->called_off; });
-    site_->asked(textResponse(boost::beast::http::status::ok, "to nobody"));
+    site_->asked({textResponse(boost::beast::http::status::ok, "to nobody")});
 }
 
-TEST_F(LateAnswer, GivenTwice_IsSentOnce) {
+TEST_F(LateAnswerTest, GivenTwice_IsSentOnce) {
     send("/later");
     runUntil([&] { return site_->asked != nullptr; });
-    site_->asked(textResponse(boost::beast::http::status::ok, "here"));
-    site_->asked(textResponse(boost::beast::http::status::ok, "again"));
+    site_->asked({textResponse(boost::beast::http::status::ok, "here")});
+    site_->asked({textResponse(boost::beast::http::status::ok, "again")});
     send("/now");
     EXPECT_EQ(received("at once\n").find("again"), std::string::npos);
 }

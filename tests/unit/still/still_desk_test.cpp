@@ -314,6 +314,50 @@ TEST_F(StillDeskTest, TooLateOfAnotherScene_LetsItGo) {
     EXPECT_TRUE(port_.session().left);
 }
 
+// Of 64x64: 12,288 bytes at most; the fake device's are 10.
+TEST_F(StillDeskTest, OneAccount_HasSoManyBytesOnTheirWay) {
+    desk_ = makeDesk({.account_bytes = 2 * 12'288 - 1});
+    Asked held = ask("a");
+    const Asked second = ask("b");
+    EXPECT_EQ(second.refusal().why.code, session::RejectCode::kRateLimit);
+    EXPECT_TRUE(second.refusal().retry_after);
+    EXPECT_FALSE(ask("c", "", session::Account{"198.51.100.1"}).answered());
+    deliver();
+    ASSERT_TRUE(held.drawn());
+    EXPECT_FALSE(ask("d").answered()) << "10 bytes are on their way";
+    deliver();
+    desk_ = makeDesk({.account_bytes = 12'288 + 9});
+    held = ask("a");
+    deliver(2);
+    ASSERT_TRUE(held.drawn());
+    EXPECT_TRUE(ask("a").drawn()) << "the same that is kept is small";
+    EXPECT_EQ(ask("e").refusal().why.code, session::RejectCode::kRateLimit);
+    held.outcome->reset();
+    EXPECT_FALSE(ask("e").answered()) << "what was sent counts no more";
+}
+
+TEST_F(StillDeskTest, All_HaveSoManyBytesOnTheirWay_ButOneAloneMayBeLarger) {
+    desk_ = makeDesk({.account_bytes = 12'287, .all_bytes = 12'287});
+    const Asked first = ask("a");
+    EXPECT_FALSE(first.answered());
+    const Asked other = ask("b", "", session::Account{"198.51.100.1"});
+    EXPECT_EQ(other.refusal().why.code, session::RejectCode::kCapacity);
+    EXPECT_THAT(other.refusal().why.message, HasSubstr("drawn or on their way"));
+    const Asked same = ask("a", "", session::Account{"198.51.100.1"});
+    EXPECT_EQ(same.refusal().why.code, session::RejectCode::kCapacity);
+    deliver();
+    EXPECT_TRUE(first.drawn());
+}
+
+TEST_F(StillDeskTest, PictureThatCannotBeEncoded_IsRefused_AndTheSeatGoesOn) {
+    const Asked asked = ask("a");
+    port_.sink()->notEncoded({ErrorCode::kUnsupported, "no JPEG is as wide"});
+    EXPECT_EQ(asked.refusal().why.message, "no JPEG is as wide");
+    const Asked next = ask("b");
+    deliver();
+    EXPECT_TRUE(next.drawn());
+}
+
 TEST_F(StillDeskTest, SeatThatRests_Leaves) {
     (void)ask("a");
     deliver();

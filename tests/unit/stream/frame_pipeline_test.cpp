@@ -7,6 +7,7 @@
 #include <atomic>
 #include <latch>
 #include <thread>
+#include <vector>
 
 namespace froxel::stream {
 namespace {
@@ -119,6 +120,21 @@ TEST_F(FramePipelineTest, Size_EncoderIsBusy_CountsBothPictures) {
     ASSERT_TRUE(sink_->waitForFrames(2));
     waitForProgress(2);
     EXPECT_EQ(pipeline->size(), 0U);
+}
+
+TEST_F(FramePipelineTest, Push_NoEncoderMakesOneOfIt_TellsWhoWaits) {
+    constexpr uint32_t kWiderThanJpeg = 65'536;
+    std::vector<std::byte> row(size_t{4} * kWiderThanJpeg);
+    encode::EncodePool pool(1, 4);
+    const auto pipeline = makePipeline(pool);
+    DrawnFrame wide = frame(1);
+    wide.pixels = PixelLease({row.data(), kWiderThanJpeg, 1, row.size()}, nullptr);
+    pipeline->push(std::move(wide));
+    ASSERT_TRUE(sink_->waitFor([](const auto& record) { return !record.not_encoded.empty(); }));
+    waitForProgress(1);
+    const auto losses = pipeline->takeLosses();
+    EXPECT_EQ(losses.count, 1U);
+    EXPECT_FALSE(losses.retry);
 }
 
 TEST_F(FramePipelineTest, Push_EncodersAreFull_ReportsTheLossForARetry) {
