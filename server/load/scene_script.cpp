@@ -56,7 +56,11 @@ SceneScript::SceneScript(std::vector<std::string> ids, std::string shown, uint32
 std::optional<Step> SceneScript::next() {
     Step step;
     step.at = std::chrono::duration_cast<Clock::duration>(at_);
-    std::string id = ids_[random_() % ids_.size()];
+    size_t pick = random_() % ids_.size();
+    if (ids_[pick] == wanted_) {
+        pick = (pick + 1) % ids_.size();
+    }
+    std::string id = ids_[pick];
     if (back_to_) {
         id = *std::exchange(back_to_, std::nullopt);
     } else if (random_() % 4 == 0) {

@@ -257,7 +257,10 @@ void Viewer::onMessage(const v1::ServerMessage& message, TimePoint now) {
     } else if (message.has_state()) {
         onState(message.state().state(), now);
     } else if (message.has_scene_changed()) {
+        meter_.onSceneChanged(message.scene_changed().ref_seq());
         onState(message.scene_changed().state(), now);
+    } else if (message.has_scene_loading() && message.scene_loading().scene().empty()) {
+        meter_.onNothingLoads();
     } else if (message.has_error()) {
         meter_.onRefusal(message.error());
         if (!result_.first_frame_ms) { // refused before it saw anything: capacity, or its size

@@ -50,6 +50,7 @@ void ViewerMeter::begin(TimePoint now, bool restless) {
     last_frame_ = now;
     ages_ = FrameAges(clock_rate_);
     unseen_.clear();
+    chosen_.clear();
     dropped_before_ = dropped_now_;
     measured_ = {};
 }
@@ -119,6 +120,20 @@ void ViewerMeter::onCommand(uint64_t seq,
     if (shows(said) && !paused_) {
         unseen_.emplace_back(seq, now);
     }
+    if (said.has_select_scene()) {
+        chosen_.push_back(seq);
+    }
+}
+
+void ViewerMeter::onSceneChanged(uint64_t ref_seq) {
+    std::erase_if(chosen_, [&](uint64_t seq) { return seq <= ref_seq; });
+}
+
+void ViewerMeter::onNothingLoads() {
+    std::erase_if(unseen_, [&](const auto& one) {
+        return std::ranges::find(chosen_, one.first) != chosen_.end();
+    });
+    chosen_.clear();
 }
 
 void ViewerMeter::onCommandSkipped(uint64_t seq, TimePoint due) {

@@ -192,6 +192,7 @@ TEST(SceneScript, GoesOver_AndCallsOff_TwoAndTwoAlike) {
         }
         if (before) {
             shown = before->message.select_scene().scene();
+            EXPECT_NE(scene, shown) << "which changes nothing";
         }
         seen.insert(scene);
         before = step;
