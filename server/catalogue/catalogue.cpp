@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -106,13 +107,17 @@ Catalogue::Catalogue(std::vector<Offered> always, fs::path folder)
 
 void Catalogue::rescan() {
     std::vector<Offered> scenes = always_;
+    std::map<std::string, size_t> places;
+    for (size_t i = 0; i < scenes.size(); ++i) {
+        places.emplace(scenes[i].id, i);
+    }
     for (Offered& file : filesIn(folder_)) {
-        const auto same = std::ranges::find(scenes, file.id, &Offered::id);
-        if (same == scenes.end()) {
+        const auto [same, is_new] = places.emplace(file.id, scenes.size());
+        if (is_new) {
             scenes.push_back(std::move(file));
-        } else if (same->source != file.source) {
+        } else if (const Offered& other = scenes[same->second]; other.source != file.source) {
             spdlog::warn("event=scene_left_out scene={} reason=\"its id is that of {}\"",
-                         logValue(file.path), logValue(same->path));
+                         logValue(file.path), logValue(other.path));
         }
     }
     const std::lock_guard lock(mutex_);

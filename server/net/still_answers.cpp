@@ -135,8 +135,11 @@ std::optional<Response> StillAnswers::read(const Request& request,
         } else if (said.key == "format") {
             const auto format = std::ranges::find(kFormats, said.value, &Format::name);
             if (format == kFormats.end()) {
+                std::array<std::string_view, kFormats.size()> names;
+                std::ranges::transform(kFormats, names.begin(), &Format::name);
                 return refused(http::status::bad_request, "unsupported", "format",
-                               "is \"" + printable(said.value) + "\"; it must be jpg, png or exr");
+                               fmt::format("is \"{}\"; it must be {}", printable(said.value),
+                                           fmt::join(names, ", ")));
             }
             still.codec = format->codec;
         } else {

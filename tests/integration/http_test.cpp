@@ -97,7 +97,7 @@ TEST_F(HttpTest, Still_ThatCannotBe_IsToldWhatWouldBeRight) {
     const std::tuple<std::string, int, std::string> cases[] = {
         {"lights=x", 400, R"("field":"lights")"},
         {"lights=1&lights=2", 400, "lights is given twice"},
-        {"format=gif", 400, "it must be jpg, png or exr"},
+        {"format=gif", 400, "it must be jpg, png, exr"},
         {"%6e%00=1", 400, R"(n\\x00 is no name)"},
         {"scene=other", 404, "this server has one scene"},
         {"size=4096x4096&antialiasing=ssaa4", 400, R"("fits":"2048x2048)"},
