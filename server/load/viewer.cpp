@@ -257,10 +257,8 @@ void Viewer::onMessage(const v1::ServerMessage& message, TimePoint now) {
     } else if (message.has_state()) {
         onState(message.state().state(), now);
     } else if (message.has_scene_changed()) {
-        meter_.onSceneChanged(message.scene_changed().ref_seq());
+        meter_.onScene(message.scene_changed().scene().id());
         onState(message.scene_changed().state(), now);
-    } else if (message.has_scene_loading() && message.scene_loading().scene().empty()) {
-        meter_.onNothingLoads();
     } else if (message.has_error()) {
         meter_.onRefusal(message.error());
         if (!result_.first_frame_ms) { // refused before it saw anything: capacity, or its size
@@ -282,6 +280,7 @@ void Viewer::onWelcome(const v1::Welcome& welcome, TimePoint now) {
         return;
     }
     welcome_ = welcome;
+    meter_.onScene(welcome.scene().id());
     onState(welcome.state(), now);
     result_.controlled = controls();
     if (controls()) {

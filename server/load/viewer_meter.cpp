@@ -117,22 +117,23 @@ void ViewerMeter::onCommand(uint64_t seq,
     if (said.has_set_lights() && setsClock(said.set_lights())) {
         ages_.forgetClock();
     }
+    if (said.has_select_scene()) {
+        if (said.select_scene().scene() == scene_) {
+            std::erase_if(unseen_, [&](const auto& one) {
+                return std::ranges::find(chosen_, one.first) != chosen_.end();
+            });
+            chosen_.clear();
+            return;
+        }
+        chosen_.push_back(seq);
+    }
     if (shows(said) && !paused_) {
         unseen_.emplace_back(seq, now);
     }
-    if (said.has_select_scene()) {
-        chosen_.push_back(seq);
-    }
 }
 
-void ViewerMeter::onSceneChanged(uint64_t ref_seq) {
-    std::erase_if(chosen_, [&](uint64_t seq) { return seq <= ref_seq; });
-}
-
-void ViewerMeter::onNothingLoads() {
-    std::erase_if(unseen_, [&](const auto& one) {
-        return std::ranges::find(chosen_, one.first) != chosen_.end();
-    });
+void ViewerMeter::onScene(const std::string& id) {
+    scene_ = id;
     chosen_.clear();
 }
 

@@ -112,11 +112,9 @@ class ViewerMeter {
     // A newer frame was there before this one was painted.
     void onFrameDropped();
     void onRefusal(const v1::Error& error);
-    // `ref_seq`: of the command that chose the scene, as the server says it.
-    void onSceneChanged(uint64_t ref_seq);
-    // No scene is on its way any more: those that were chosen and did not come are waited for no
-    // longer.
-    void onNothingLoads();
+    // The scene that is shown from now on. To choose it once more calls off what was chosen since,
+    // and no frame shows that.
+    void onScene(const std::string& id);
 
     [[nodiscard]] const Measured& measured() const { return measured_; }
 
@@ -136,7 +134,8 @@ class ViewerMeter {
     FrameAges ages_;
     uint64_t shown_seq_ = 0;
     std::deque<std::pair<uint64_t, TimePoint>> unseen_; // seq and time sent, oldest first
-    std::vector<uint64_t> chosen_; // the seq of those that chose a scene which is not there yet
+    std::string scene_;
+    std::vector<uint64_t> chosen_; // the seq of commands that chose another
     uint64_t last_id_ = 0;
     uint64_t dropped_before_ = 0;
     uint64_t dropped_now_ = 0;

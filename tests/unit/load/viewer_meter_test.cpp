@@ -202,19 +202,19 @@ TEST(ViewerMeter, Lights_ThatBeginToMove_MakeFramesDueFromThenOn) {
     EXPECT_EQ(meter.measured().samples.interval_ms, std::vector{2000.0});
 }
 
-v1::ClientMessage selection() {
+v1::ClientMessage selection(const std::string& scene) {
     v1::ClientMessage message;
-    message.mutable_select_scene()->set_scene("fox");
+    message.mutable_select_scene()->set_scene(scene);
     return message;
 }
 
 TEST(ViewerMeter, SceneCalledOff_IsWaitedForNoMore) {
     ViewerMeter meter;
+    meter.onScene("hall");
     meter.onState(restingLights(), kStart);
     meter.begin(kStart);
-    meter.onCommand(4, selection(), kStart, kStart);
-    meter.onCommand(5, selection(), kStart + 200ms, kStart + 200ms);
-    meter.onNothingLoads();
+    meter.onCommand(4, selection("fox"), kStart, kStart);
+    meter.onCommand(5, selection("hall"), kStart + 200ms, kStart + 200ms);
     meter.end(kStart + 3s);
     EXPECT_TRUE(meter.measured().samples.interval_ms.empty());
     EXPECT_EQ(meter.measured().commands_unshown, 0U);
@@ -222,12 +222,13 @@ TEST(ViewerMeter, SceneCalledOff_IsWaitedForNoMore) {
 
 TEST(ViewerMeter, SceneThatCame_IsWaitedForUntilAFrameShowsIt) {
     ViewerMeter meter;
+    meter.onScene("hall");
     meter.onState(restingLights(), kStart);
     meter.begin(kStart);
-    meter.onCommand(4, selection(), kStart, kStart);
-    meter.onSceneChanged(4);
-    meter.onNothingLoads();
-    ASSERT_TRUE(meter.onFrame(frame(1, 4, kStart), 10, 4, kStart + 500ms));
+    meter.onCommand(4, selection("fox"), kStart, kStart);
+    meter.onScene("fox");
+    meter.onCommand(5, selection("fox"), kStart + 100ms, kStart + 100ms);
+    ASSERT_TRUE(meter.onFrame(frame(1, 4, kStart), 10, 5, kStart + 500ms));
     meter.end(kStart + 3s);
     EXPECT_EQ(meter.measured().samples.interval_ms, std::vector{500.0});
 }
