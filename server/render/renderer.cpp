@@ -20,8 +20,8 @@ RenderDevice::RenderDevice(gpu::Device& device, const MemoryLimits& limits)
 
 RenderDevice::~RenderDevice() = default;
 
-void RenderDevice::makeVariantsInBackground(int niceness) {
-    resources_->variants.start(niceness);
+void RenderDevice::makeVariantsInBackground(int niceness, unsigned thread_count) {
+    resources_->variants.start(niceness, thread_count);
 }
 
 namespace {

@@ -55,7 +55,7 @@ class RenderDevice {
 
     // From now on variants are made on a thread of its own, and begin() does not wait for them. For
     // those who use begin() alone. niceness: as nice(2).
-    void makeVariantsInBackground(int niceness);
+    void makeVariantsInBackground(int niceness, unsigned thread_count);
 
     [[nodiscard]] DeviceResources& resources() { return *resources_; }
 

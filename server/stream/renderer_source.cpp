@@ -7,7 +7,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <deque>
+#include <thread>
 #include <utility>
 
 namespace froxel::stream {
@@ -15,6 +17,12 @@ namespace {
 
 // A CPU device draws with the cores that compile. A third of the weight of its threads.
 constexpr int kCpuNiceness = 10;
+
+// A GPU's driver takes a second for a pipeline, and viewers of other scenes want others. Most cores
+// are the encoders'.
+unsigned gpuCompilers() {
+    return std::clamp(std::thread::hardware_concurrency() / 4, 1U, 4U);
+}
 
 class RendererView final : public ViewSource {
   public:
@@ -170,7 +178,11 @@ class RendererSource final : public FrameSource {
     }
 
     void makeVariantsInBackground() override {
-        on_.makeVariantsInBackground(device_->traits().is_cpu ? kCpuNiceness : 0);
+        if (device_->traits().is_cpu) {
+            on_.makeVariantsInBackground(kCpuNiceness, 1);
+        } else {
+            on_.makeVariantsInBackground(0, gpuCompilers());
+        }
     }
 
   private:

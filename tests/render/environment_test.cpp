@@ -438,7 +438,7 @@ TEST_F(Environment, MadeAside_GivesTheSamePicture) {
     render::Renderer at_once(device(), scene);
     render::ViewRenderer expected(at_once);
     render::RenderDevice on(device());
-    on.makeVariantsInBackground(0);
+    on.makeVariantsInBackground(0, 1);
     render::Renderer renderer(on, scene);
     render::ViewRenderer view(renderer);
     auto work = view.begin(inputs);

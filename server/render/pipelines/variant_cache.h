@@ -11,6 +11,7 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -26,7 +27,7 @@ class VariantCache {
         : timeline_(timeline), maker_(maker), limit_(limit) {}
 
     // Throws VariantsMissing where the maker is in the background and has it not yet. `make` runs
-    // on its thread then, when what it refers to must still be there.
+    // on one of its threads then, beside others, when what it refers to must still be there.
     template <class Make>
     [[nodiscard]] const Pipeline& findOrMake(const Key& key, const Make& make) {
         if (!prepare(key, make)) {
@@ -94,11 +95,13 @@ class VariantCache {
         std::optional<Pipeline> pipeline;
         std::exception_ptr error;
         std::atomic<bool> done = false;
+        std::mutex mutex;      // of who makes it
         uint64_t asked_in = 0; // the last recording that asked; of the timeline's thread
 
         // Of several who asked the first in turn makes it.
         template <class Make>
         void run(const Make& make) {
+            const std::lock_guard lock(mutex);
             if (done) {
                 return;
             }

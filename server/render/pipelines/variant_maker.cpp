@@ -33,19 +33,21 @@ void VariantUses::end() {
     }
 }
 
-void VariantMaker::start(int niceness) {
-    thread_ = std::jthread([this, niceness](const std::stop_token& stop) {
-        nameThread("variants");
-        (void)nice(niceness); // of this thread alone, on Linux
-        run(stop);
-    });
+void VariantMaker::start(int niceness, unsigned thread_count) {
+    while (threads_.size() < thread_count) {
+        threads_.emplace_back([this, niceness](const std::stop_token& stop) {
+            nameThread("variants");
+            (void)nice(niceness); // of this thread alone, on Linux
+            run(stop);
+        });
+    }
 }
 
 void VariantMaker::stop() {
-    thread_.request_stop();
-    if (thread_.joinable()) {
-        thread_.join();
+    for (std::jthread& thread : threads_) {
+        thread.request_stop();
     }
+    threads_.clear(); // waits for each
 }
 
 bool VariantMaker::busyFor(const void* asker) const {
@@ -57,6 +59,7 @@ void VariantMaker::post(std::function<void()> make) {
     {
         const std::lock_guard lock(mutex_);
         queues_[asker_].push_back(std::move(make));
+        ++waiting_;
     }
     wake_.notify_one();
 }
@@ -66,29 +69,42 @@ void VariantMaker::forget(const void* asker) {
     const std::lock_guard lock(mutex_);
     if (const auto queue = queues_.find(asker); queue != queues_.end()) {
         dropped.swap(queue->second);
-        if (asker != under_way_) {
+        waiting_ -= dropped.size();
+        if (!under_way_.contains(asker)) {
             queues_.erase(queue);
         }
     }
 }
 
-// One of each asker's at a time, so that who needs few does not wait for who needs many.
-void VariantMaker::run(const std::stop_token& stop) {
-    std::unique_lock lock(mutex_);
-    while (wake_.wait(lock, stop, [&] { return !queues_.empty(); })) {
-        auto next = queues_.upper_bound(last_);
+// One of each asker's after the other, so that who needs few does not wait for who needs many.
+VariantMaker::Queues::iterator VariantMaker::nextInTurn() {
+    auto next = queues_.upper_bound(last_);
+    for (;; ++next) {
         if (next == queues_.end()) {
             next = queues_.begin();
         }
-        last_ = next->first;
+        if (!next->second.empty()) {
+            return next;
+        }
+    }
+}
+
+void VariantMaker::run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (wake_.wait(lock, stop, [&] { return waiting_ > 0; })) {
+        const auto next = nextInTurn();
+        const void* asker = next->first;
         auto make = std::move(next->second.front());
         next->second.pop_front();
-        under_way_ = last_;
+        --waiting_;
+        last_ = asker;
+        under_way_.insert(asker);
         lock.unlock();
         make();
         lock.lock();
-        under_way_ = nullptr;
-        if (const auto queue = queues_.find(last_); queue->second.empty()) {
+        under_way_.erase(under_way_.find(asker));
+        const auto queue = queues_.find(asker);
+        if (queue->second.empty() && !under_way_.contains(asker)) {
             queues_.erase(queue);
         }
         if (stop.stop_requested()) {

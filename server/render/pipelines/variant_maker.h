@@ -1,4 +1,4 @@
-// Makes pipelines where nobody waits for them: on a thread of its own, in turn for those who ask.
+// Makes pipelines where nobody waits for them: on threads of its own, in turn for those who ask.
 // Until start() they are made at once, by whoever asks.
 #pragma once
 
@@ -52,11 +52,11 @@ class VariantMaker {
     VariantMaker(const VariantMaker&) = delete;
     VariantMaker& operator=(const VariantMaker&) = delete;
 
-    // niceness: how much the thread gives way to others, as nice(2).
-    void start(int niceness);
+    // niceness: how much the threads give way to others, as nice(2).
+    void start(int niceness, unsigned thread_count = 1);
     // Ends what is under way and forgets the rest; nothing is made from then on.
     void stop();
-    [[nodiscard]] bool inBackground() const { return thread_.joinable(); }
+    [[nodiscard]] bool inBackground() const { return !threads_.empty(); }
 
     // Who asks from now on, in whose turn work is done.
     void setAsker(const void* asker) {
@@ -67,7 +67,7 @@ class VariantMaker {
     [[nodiscard]] uint64_t recording() const { return recording_; }
     // Work that is not done yet, of one who asks.
     [[nodiscard]] bool busyFor(const void* asker) const;
-    // Runs `make` on the thread; it must not throw.
+    // Runs `make` on one of the threads; it must not throw.
     void post(std::function<void()> make);
     // The asker is gone: what was not begun for it is dropped.
     void forget(const void* asker);
@@ -86,7 +86,9 @@ class VariantMaker {
     [[nodiscard]] uint64_t heldSince() const { return held_.empty() ? UINT64_MAX : *held_.begin(); }
 
   private:
+    using Queues = std::map<const void*, std::deque<std::function<void()>>>;
     void run(const std::stop_token& stop);
+    [[nodiscard]] Queues::iterator nextInTurn();
 
     const void* asker_ = nullptr;
     uint64_t recording_ = 1;
@@ -96,10 +98,11 @@ class VariantMaker {
 
     mutable std::mutex mutex_;
     std::condition_variable_any wake_;
-    std::map<const void*, std::deque<std::function<void()>>> queues_; // empty: one is under way
-    const void* last_ = nullptr;                                      // whose turn it was
-    const void* under_way_ = nullptr;                                 // whose work is being done
-    std::jthread thread_;
+    Queues queues_;                          // of an empty one some is under way
+    size_t waiting_ = 0;                     // in all of them
+    const void* last_ = nullptr;             // whose turn it was
+    std::multiset<const void*> under_way_{}; // whose work is being done
+    std::vector<std::jthread> threads_;
 };
 
 // Whether frames have drawn with a pipeline: a software device compiles it when the first one does.

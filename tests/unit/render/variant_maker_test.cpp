@@ -54,6 +54,48 @@ TEST(VariantMaker, WhatMakingThrew_IsThrownToWhoAsksNext) {
     EXPECT_THROW((void)cache.prepare(1, make), std::runtime_error);
 }
 
+TEST(VariantMaker, SeveralThreads_MakeSeveralAtOnce) {
+    VariantMaker maker;
+    std::promise<void> begun;
+    std::atomic<bool> in_time = false;
+    const int asker = 0;
+    maker.start(0, 2);
+    maker.setAsker(&asker);
+    maker.post([&] {
+        in_time =
+            begun.get_future().wait_for(std::chrono::seconds(10)) == std::future_status::ready;
+    });
+    maker.post([&] { begun.set_value(); });
+    waitFor(maker, &asker);
+    EXPECT_TRUE(in_time);
+}
+
+TEST(VariantMaker, SeveralThreads_MakeTheSameOnce) {
+    const NoTimeline timeline;
+    VariantMaker maker;
+    Cache cache(timeline, maker, 64);
+    const int one = 0;
+    const int other = 0;
+    maker.start(0, 3);
+    std::atomic<int> made = 0;
+    const auto make = [&] {
+        std::this_thread::yield();
+        return ++made;
+    };
+    for (int key = 0; key < 50; ++key) {
+        for (const int* asker : {&one, &other}) {
+            maker.setAsker(asker);
+            (void)cache.prepare(key, make);
+        }
+    }
+    waitFor(maker, &one);
+    waitFor(maker, &other);
+    EXPECT_EQ(made, 50);
+    for (int key = 0; key < 50; ++key) {
+        EXPECT_TRUE(cache.prepare(key, make)) << key;
+    }
+}
+
 TEST(VariantMaker, WhoNeedsFew_DoesNotWaitForWhoNeedsMany) {
     VariantMaker maker;
     std::mutex mutex;
