@@ -234,7 +234,8 @@ std::optional<StillRefusal> StillDesk::whyNotHeld(const std::optional<session::A
     if (own > 0 && own + bytes > limits_.account_bytes) {
         return later(RejectCode::kRateLimit, text(own, " to here"), kSoon);
     }
-    if (all > 0 && all + bytes > limits_.all_bytes) {
+    // Few who do not read must not keep a gallery from all others.
+    if (bytes > limits_.small_bytes && all > 0 && all + bytes > limits_.all_bytes) {
         return later(RejectCode::kCapacity, text(all, ""), kSoon);
     }
     return {};

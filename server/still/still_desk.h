@@ -62,6 +62,7 @@ struct StillLimits {
     // Of answers that are drawn or on their way; one alone may be larger.
     uint64_t account_bytes = 256 << 20U;
     uint64_t all_bytes = 1 << 30U;
+    uint64_t small_bytes = 4 << 20U; // an answer of no more is exempt from all_bytes
     // Of one account that are drawn, at most and usually; 0: as many as it asks for.
     double per_minute = 600;
     double at_once = 60;

@@ -337,7 +337,7 @@ TEST_F(StillDeskTest, OneAccount_HasSoManyBytesOnTheirWay) {
 }
 
 TEST_F(StillDeskTest, All_HaveSoManyBytesOnTheirWay_ButOneAloneMayBeLarger) {
-    desk_ = makeDesk({.account_bytes = 12'287, .all_bytes = 12'287});
+    desk_ = makeDesk({.account_bytes = 12'287, .all_bytes = 12'287, .small_bytes = 12'287});
     const Asked first = ask("a");
     EXPECT_FALSE(first.answered());
     const Asked other = ask("b", "", session::Account{"198.51.100.1"});
@@ -345,6 +345,8 @@ TEST_F(StillDeskTest, All_HaveSoManyBytesOnTheirWay_ButOneAloneMayBeLarger) {
     EXPECT_THAT(other.refusal().why.message, HasSubstr("drawn or on their way"));
     const Asked same = ask("a", "", session::Account{"198.51.100.1"});
     EXPECT_EQ(same.refusal().why.code, session::RejectCode::kCapacity);
+    const Asked small = ask("c", "", session::Account{"198.51.100.1"}, "32x32");
+    EXPECT_FALSE(small.answered()) << "a small one is exempt";
     deliver();
     EXPECT_TRUE(first.drawn());
 }
