@@ -186,7 +186,7 @@ std::vector<bench::Sweep> sweepsOf(const BenchOptions& options, const bench::Bas
 int measureSweeps(const BenchOptions& options, const std::string& page) {
     const StopFlag stop;
     auto scene = loadScene(options.scene).value();
-    surround(scene, options.environment_file);
+    surround(scene, readSurroundings(options.environment_file));
     gpu::Device device(options.device);
     render::Renderer renderer(device, scene);
     logWarnings(scene);

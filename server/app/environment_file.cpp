@@ -47,8 +47,8 @@ readSurroundings(const std::filesystem::path& file) {
         environment::surroundingsOf(std::move(panorama.image)));
 }
 
-void surround(scene::Scene& scene, const std::filesystem::path& file) {
-    if (auto surroundings = readSurroundings(file)) {
+void surround(scene::Scene& scene, std::shared_ptr<const environment::Surroundings> surroundings) {
+    if (surroundings) {
         scene.surroundings = std::move(surroundings);
     }
 }

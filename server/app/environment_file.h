@@ -20,8 +20,8 @@ namespace froxel::app {
 [[nodiscard]] std::shared_ptr<const environment::Surroundings>
 readSurroundings(const std::filesystem::path& file);
 
-// It becomes the scene's, where there is one.
-void surround(scene::Scene& scene, const std::filesystem::path& file);
+// They become the scene's, where there are any.
+void surround(scene::Scene& scene, std::shared_ptr<const environment::Surroundings> surroundings);
 
 // Size, mean and brightest radiance, warnings.
 [[nodiscard]] nlohmann::ordered_json environmentReport(const environment::Panorama& panorama);

@@ -159,7 +159,7 @@ void runRender(const RenderOptions& options) try {
         }
     }
     auto scene = loadScene(options.scene, options.choices).value();
-    surround(scene, options.environment_file);
+    surround(scene, readSurroundings(options.environment_file));
     logWarnings(scene);
     gpu::Device device(options.device);
     auto run = describeRun(options, scene, device.traits());

@@ -77,9 +77,7 @@ Result<stream::ReadScene> SceneMaker::make(const std::string& source,
         return loaded.error();
     }
     auto scene = std::make_shared<scene::Scene>(std::move(*loaded));
-    if (surroundings_) {
-        scene->surroundings = surroundings_;
-    }
+    surround(*scene, surroundings_);
     const scene::FirstView first_view = firstViewOf(*scene);
     if (first_view.remark) {
         scene->warnings.push_back(*first_view.remark);

@@ -55,7 +55,7 @@ void tellMemory(const render::MemoryLimits& limits, uint32_t sessions_max) {
 constexpr int kCpuDeviceNiceness = 5;
 
 // On the render thread, which owns all of it from then on.
-OpenedScene openScene(const ServeOptions& options, const std::function<void(Progress)>& report) {
+OpenedScene openScene(const ServeOptions& options, const ProgressReport& report) {
     report({"opening the device", 0.0});
     auto device = gpu::openForServing({.choice = options.device,
                                        .pipeline_cache = options.pipeline_cache,
@@ -66,8 +66,7 @@ OpenedScene openScene(const ServeOptions& options, const std::function<void(Prog
     report({"loading the scene", 0.1});
     auto maker = std::make_shared<const SceneMaker>(options, traits);
     const auto reading = [&](const Progress& progress) {
-        report({progress.stage, 0.1 + 0.5 * progress.fraction});
-        return true;
+        return report({progress.stage, 0.1 + 0.5 * progress.fraction});
     };
     stream::ReadScene first = maker->make(options.scene, options.choices, reading).value();
     spdlog::info("event=scene_loaded scene={} triangles={} draws={} cameras={}",

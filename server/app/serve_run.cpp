@@ -104,8 +104,10 @@ stream::RenderLoopOptions ServeRun::loopOptions() {
     server_->metrics().watchLog(logLinesLost);
     loop.make_source = [this, heartbeat = loop.heartbeat] {
         net::Service& service = server_->service();
-        OpenedScene opened = options_.open(
-            [&service](Progress progress) { service.setLoading(std::move(progress)); });
+        OpenedScene opened = options_.open([&service](const Progress& progress) {
+            service.setLoading(progress);
+            return true;
+        });
         if (options_.catalogue) {
             opened.context.scene_id = options_.catalogue->listing()->scenes.front().id;
         }

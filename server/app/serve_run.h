@@ -39,7 +39,7 @@ struct ServeRunOptions {
     std::shared_ptr<DeviceLosses> losses;            // null: they are not noted
     std::shared_ptr<catalogue::Catalogue> catalogue; // null: there is one scene
     // Runs on the render thread while the server already listens. May throw.
-    std::function<OpenedScene(const std::function<void(Progress)>& report)> open;
+    std::function<OpenedScene(const ProgressReport& report)> open;
     // The scene could not be opened or the device was lost. On the render thread; must not throw.
     std::function<void(const Error&)> on_failure;
 };

@@ -50,7 +50,6 @@ void ViewerMeter::begin(TimePoint now, bool restless) {
     last_frame_ = now;
     ages_ = FrameAges(clock_rate_);
     unseen_.clear();
-    chosen_.clear();
     dropped_before_ = dropped_now_;
     measured_ = {};
 }
@@ -63,8 +62,8 @@ void ViewerMeter::end(TimePoint now) {
         measured_.samples.interval_ms.push_back(msOf(now - *since));
     }
     measured_.commands_unshown = unseen_.size();
-    for (const auto& [seq, sent] : unseen_) {
-        measured_.samples.reaction_ms.push_back(msOf(now - sent));
+    for (const Unseen& command : unseen_) {
+        measured_.samples.reaction_ms.push_back(msOf(now - command.sent));
     }
     measured_.samples.age_ms = ages_.all();
 }
@@ -79,7 +78,7 @@ std::optional<TimePoint> ViewerMeter::dueSince() const {
     if (unseen_.empty()) {
         return std::nullopt;
     }
-    return std::max(last_frame_, unseen_.front().second);
+    return std::max(last_frame_, unseen_.front().sent);
 }
 
 void ViewerMeter::setPaused(bool paused, TimePoint now) {
@@ -117,31 +116,28 @@ void ViewerMeter::onCommand(uint64_t seq,
     if (said.has_set_lights() && setsClock(said.set_lights())) {
         ages_.forgetClock();
     }
-    if (said.has_select_scene()) {
-        if (said.select_scene().scene() == scene_) {
-            std::erase_if(unseen_, [&](const auto& one) {
-                return std::ranges::find(chosen_, one.first) != chosen_.end();
-            });
-            chosen_.clear();
-            return;
-        }
-        chosen_.push_back(seq);
+    const bool chooses = said.has_select_scene();
+    if (chooses && said.select_scene().scene() == scene_) {
+        std::erase_if(unseen_, [](const Unseen& command) { return command.other_scene; });
+        return;
     }
     if (shows(said) && !paused_) {
-        unseen_.emplace_back(seq, now);
+        unseen_.push_back({seq, now, chooses});
     }
 }
 
 void ViewerMeter::onScene(const std::string& id) {
     scene_ = id;
-    chosen_.clear();
+    for (Unseen& command : unseen_) {
+        command.other_scene = false;
+    }
 }
 
 void ViewerMeter::onCommandSkipped(uint64_t seq, TimePoint due) {
     if (counting_) {
         ++measured_.commands_skipped;
         if (!paused_) {
-            unseen_.emplace_back(seq, due);
+            unseen_.push_back({seq, due});
         }
     }
 }
@@ -188,8 +184,8 @@ Result<void> ViewerMeter::onFrame(const v1::FrameHeader& header,
         measured_.samples.latency_ms.push_back(*latency_ms);
     }
     ages_.onFrame(header, now, age_ms);
-    while (!unseen_.empty() && unseen_.front().first <= shown_seq_) {
-        measured_.samples.reaction_ms.push_back(msOf(now - unseen_.front().second));
+    while (!unseen_.empty() && unseen_.front().seq <= shown_seq_) {
+        measured_.samples.reaction_ms.push_back(msOf(now - unseen_.front().sent));
         unseen_.pop_front();
     }
     addStages(header, latency_ms);
@@ -228,8 +224,8 @@ void ViewerMeter::onFrameDropped() {
 
 void ViewerMeter::onRefusal(const v1::Error& error) {
     // The last of this number: cameras that were skipped have that of the next one sent.
-    const auto refused = std::find_if(unseen_.rbegin(), unseen_.rend(), [&](const auto& one) {
-        return one.first == error.ref_seq();
+    const auto refused = std::find_if(unseen_.rbegin(), unseen_.rend(), [&](const Unseen& one) {
+        return one.seq == error.ref_seq();
     });
     if (refused != unseen_.rend()) {
         unseen_.erase(std::next(refused).base());

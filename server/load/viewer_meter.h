@@ -133,9 +133,14 @@ class ViewerMeter {
     TimePoint last_frame_; // or where frames began to be due after it
     FrameAges ages_;
     uint64_t shown_seq_ = 0;
-    std::deque<std::pair<uint64_t, TimePoint>> unseen_; // seq and time sent, oldest first
-    std::string scene_;
-    std::vector<uint64_t> chosen_; // the seq of commands that chose another
+    // A command that no frame has shown yet.
+    struct Unseen {
+        uint64_t seq = 0;
+        TimePoint sent;
+        bool other_scene = false; // it chose another than is shown
+    };
+    std::deque<Unseen> unseen_; // oldest first
+    std::string scene_;         // that is shown
     uint64_t last_id_ = 0;
     uint64_t dropped_before_ = 0;
     uint64_t dropped_now_ = 0;

@@ -175,25 +175,34 @@ void StillDesk::add(
     }
 }
 
+StillDesk::Waiting StillDesk::waiting(const std::optional<session::Account>& account) const {
+    Waiting sum;
+    for (const Job& job : jobs_) {
+        for (const Waiter& waiter : job.waiters) {
+            ++sum.all;
+            sum.all_bytes += job.bytes;
+            if (account && waiter.account == account) {
+                ++sum.own;
+                sum.own_bytes += job.bytes;
+            }
+        }
+    }
+    return sum;
+}
+
 std::optional<StillRefusal>
 StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, TimePoint now) {
     constexpr std::chrono::seconds kSoon{1};
-    size_t waiting = 0;
-    size_t own = 0;
-    for (const Job& job : jobs_) {
-        waiting += job.waiters.size();
-        own += static_cast<size_t>(std::ranges::count_if(job.waiters, [&](const Waiter& waiter) {
-            return account && waiter.account == account;
-        }));
+    const Waiting now_waiting = waiting(account);
+    if (now_waiting.all >= limits_.waiting) {
+        return later(
+            RejectCode::kCapacity,
+            numberText(now_waiting.all) + " stills are waited for, as many as there may be", kSoon);
     }
-    if (waiting >= limits_.waiting) {
-        return later(RejectCode::kCapacity,
-                     numberText(waiting) + " stills are waited for, as many as there may be",
-                     kSoon);
-    }
-    if (own >= limits_.per_account) {
+    if (now_waiting.own >= limits_.per_account) {
         return later(RejectCode::kRateLimit,
-                     numberText(own) + " stills are waited for from here, as many as there may be",
+                     numberText(now_waiting.own) +
+                         " stills are waited for from here, as many as there may be",
                      kSoon);
     }
     if (!account || !is_new || limits_.per_minute <= 0) {
@@ -219,14 +228,9 @@ StillDesk::whyNot(const std::optional<session::Account>& account, bool is_new, T
 std::optional<StillRefusal> StillDesk::whyNotHeld(const std::optional<session::Account>& account,
                                                   uint64_t bytes) const {
     constexpr std::chrono::seconds kSoon{5};
-    uint64_t all = unsent_->all();
-    uint64_t own = account ? unsent_->of(*account) : 0;
-    for (const Job& job : jobs_) {
-        for (const Waiter& waiter : job.waiters) {
-            all += job.bytes;
-            own += account && waiter.account == account ? job.bytes : 0;
-        }
-    }
+    const Waiting now_waiting = waiting(account);
+    const uint64_t all = unsent_->all() + now_waiting.all_bytes;
+    const uint64_t own = (account ? unsent_->of(*account) : 0) + now_waiting.own_bytes;
     const auto text = [](uint64_t on_their_way, const char* where) {
         return "answers of " + numberText(on_their_way >> 20U) + " MiB are drawn or on their way" +
                where + ", about as many as there may be";

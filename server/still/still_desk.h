@@ -145,6 +145,14 @@ class StillDesk final : public session::SceneWaiter,
              Waiter waiter,
              TimePoint now,
              Calls& calls);
+    // What was asked for and is not answered yet, by all and by an account.
+    struct Waiting {
+        size_t all = 0;
+        size_t own = 0;
+        uint64_t all_bytes = 0; // of the answers, as far as known
+        uint64_t own_bytes = 0;
+    };
+    [[nodiscard]] Waiting waiting(const std::optional<session::Account>& account) const;
     // Errors: why not now.
     [[nodiscard]] std::optional<StillRefusal>
     whyNot(const std::optional<session::Account>& account, bool is_new, TimePoint now);

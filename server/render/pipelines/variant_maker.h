@@ -53,7 +53,7 @@ class VariantMaker {
     VariantMaker& operator=(const VariantMaker&) = delete;
 
     // niceness: how much the threads give way to others, as nice(2).
-    void start(int niceness, unsigned thread_count = 1);
+    void start(int niceness, unsigned thread_count);
     // Ends what is under way and forgets the rest; nothing is made from then on.
     void stop();
     [[nodiscard]] bool inBackground() const { return !threads_.empty(); }

@@ -55,9 +55,9 @@ TEST_F(EnvironmentFile, Report_HasSizeMeanAndMost) {
 
 TEST_F(EnvironmentFile, Scene_GetsItsLight) {
     scene::Scene scene;
-    surround(scene, {});
+    surround(scene, readSurroundings({}));
     EXPECT_EQ(scene.surroundings, nullptr);
-    surround(scene, writeTwoTexels());
+    surround(scene, readSurroundings(writeTwoTexels()));
     ASSERT_NE(scene.surroundings, nullptr);
     EXPECT_NEAR(scene.surroundings->mean().y, 1.5, 1e-6);
 }

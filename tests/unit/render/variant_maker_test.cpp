@@ -32,7 +32,7 @@ TEST(VariantMaker, InBackground_IsAskedForOnce_AndThenThere) {
     const NoTimeline timeline;
     VariantMaker maker;
     Cache cache(timeline, maker, 4);
-    maker.start(0);
+    maker.start(0, 1);
     maker.setAsker(&cache);
     std::atomic<int> made = 0;
     const auto make = [&] { return 10 + made++; };
@@ -46,7 +46,7 @@ TEST(VariantMaker, WhatMakingThrew_IsThrownToWhoAsksNext) {
     const NoTimeline timeline;
     VariantMaker maker;
     Cache cache(timeline, maker, 4);
-    maker.start(0);
+    maker.start(0, 1);
     maker.setAsker(&cache);
     const auto make = []() -> int { throw std::runtime_error("no"); };
     EXPECT_FALSE(cache.prepare(1, make));
@@ -111,7 +111,7 @@ TEST(VariantMaker, WhoNeedsFew_DoesNotWaitForWhoNeedsMany) {
     };
     const int many = 0;
     const int few = 0;
-    maker.start(0);
+    maker.start(0, 1);
     maker.setAsker(&many);
     for (int i = 0; i < 4; ++i) {
         maker.post(note(1));
@@ -134,7 +134,7 @@ TEST(VariantMaker, WhatAnAskerThatIsGoneWanted_IsDropped_AndMadeForTheNext) {
     auto opened = open.get_future().share();
     const int gone = 0;
     const int next = 0;
-    maker.start(0);
+    maker.start(0, 1);
     maker.setAsker(&gone);
     maker.post([opened] { opened.wait(); });
     std::atomic<int> made = 0;
