@@ -2,12 +2,16 @@
 
 import asyncio
 import collections
+import contextlib
 import dataclasses
 import importlib.util
 import multiprocessing
 import os
 import re
+import shutil
+import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -38,6 +42,7 @@ class Case:
     clients: int = 1  # how many of it at once
     seconds: float = 3  # beside the hostile ones; as long alone, but no longer than ALONE_S
     serve: tuple = ()  # options of froxel serve
+    scenes: bool = False  # whether it has a folder of scenes, as made by fill()
     room: str = ""  # that the honest viewer is in; it came first
     needs: tuple = ()  # what the hostile viewers must have heard, lest it be no attack
     newcomer: bool = False  # whether another honest viewer comes at the end: newcomer_s
@@ -90,6 +95,19 @@ class Arena:
 
     def viewer(self, **hello):
         return Viewer(self.url, HOSTILE, self.heard, **hello)
+
+    async def connect(self):
+        """(reader, writer) of a connection that has said nothing yet."""
+        host, port = self.url.split("/")[2].rsplit(":", 1)
+        return await asyncio.open_connection(host, int(port), local_addr=(HOSTILE, 0))
+
+    async def ask(self, path):
+        """(reader, writer) once HTTP's answer has begun, whose status is heard."""
+        reader, writer = await self.connect()
+        writer.write(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
+        status = await reader.readline()
+        self.heard[f"HTTP {status.split()[1].decode()}" if status else "hung up"] += 1
+        return reader, writer
 
 
 async def attack_for_ever(attack, arena):
@@ -220,6 +238,27 @@ def served_with(options, own):
     return [word for group in groups if group[0] not in own for word in group] + list(own)
 
 
+def fill(folder, froxel):
+    """Four scenes that take a second to read, and one that cannot be read."""
+    hall = folder / "0.glb"
+    subprocess.run([froxel, "scene", "--out", hall, "--log-level", "error"], check=True, stdout=subprocess.DEVNULL)
+    for name in "123":
+        shutil.copy(hall, folder / f"{name}.glb")
+    (folder / "broken.glb").write_bytes(hall.read_bytes()[:100_000])
+
+
+@contextlib.contextmanager
+def served(case, froxel, options):
+    """The server that a case is played with."""
+    options = ["--drain-seconds", "1", *served_with(options, case.serve)]
+    with tempfile.TemporaryDirectory() as folder:
+        if case.scenes:
+            fill(Path(folder), froxel)
+            options += ["--scenes", folder]
+        with Server(froxel, *options) as server:
+            yield server
+
+
 def play(case, froxel, options, slack, alone):
     """(figures, what is wrong) of one run with a server of its own. `alone`: the honest viewer's own figures, where
     they are known."""
@@ -227,7 +266,7 @@ def play(case, froxel, options, slack, alone):
     ready, begin = spawn.Event(), spawn.Event()
     ours, theirs = spawn.Pipe()
     figures, wrong = {}, []
-    with Server(froxel, "--drain-seconds", "1", *served_with(options, case.serve)) as server:
+    with served(case, froxel, options) as server:
         fellow = spawn.Process(target=play_hostile,
                                args=(case.name, server.url, froxel, ready, begin, theirs), daemon=True)
         fellow.start()

@@ -40,7 +40,7 @@ def told(figures):
 def play(case, froxel, serve, slack, known):
     """`known`: what the honest viewer has alone, by how the server is started and its room. It is measured once, and
     anew for a case that fails."""
-    place = case.serve, case.room
+    place = case.serve, case.scenes, case.room
     for attempt in range(1, ATTEMPTS + 1):
         figures, wrong = cases.play(case, froxel, serve, slack, known.get(place) if attempt == 1 else None)
         known[place] = figures.pop("alone", known.get(place))

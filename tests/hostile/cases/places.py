@@ -36,8 +36,7 @@ async def lost_connections(arena):
 @case(clients=100, newcomer=True, serve=("--max-connections", "64"), most=JOINS)
 async def silent_connections(arena):
     """Opens connections and says nothing at all."""
-    host, port = arena.url.split("/")[2].rsplit(":", 1)
-    _, writer = await asyncio.open_connection(host, int(port), local_addr=("127.0.0.66", 0))
+    _, writer = await arena.connect()
     try:
         await asyncio.sleep(NEVER)
     finally:
