@@ -101,13 +101,18 @@ class Arena:
         host, port = self.url.split("/")[2].rsplit(":", 1)
         return await asyncio.open_connection(host, int(port), local_addr=(HOSTILE, 0))
 
-    async def ask(self, path):
-        """(reader, writer) once HTTP's answer has begun, whose status is heard."""
+    @contextlib.asynccontextmanager
+    async def asking(self, path):
+        """The reader of HTTP's answer once it has begun, whose status is heard. Hangs up at the end, however that
+        comes."""
         reader, writer = await self.connect()
-        writer.write(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
-        status = await reader.readline()
-        self.heard[f"HTTP {status.split()[1].decode()}" if status else "hung up"] += 1
-        return reader, writer
+        try:
+            writer.write(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
+            status = await reader.readline()
+            self.heard[f"HTTP {status.split()[1].decode()}" if status else "hung up"] += 1
+            yield reader
+        finally:
+            writer.close()
 
 
 async def attack_for_ever(attack, arena):

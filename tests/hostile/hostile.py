@@ -5,9 +5,9 @@ Usage: hostile.py FROXEL [--only NAME,...] [--seconds N] [--slack N] [--out FILE
 
 For each case (cases/*.py) a server is started, an honest viewer moves its camera and is measured alone, then
 beside hostile viewers, which come from another address and behave as the case says. Beside any of them it
-must keep 40 % of its frame rate and have no gap over 0.5 s; a case may bound more. A case that fails is played
-up to twice more, and its line says so: the machine may be busy with other things. NAME: a case, or a file of
-cases. Exit code 0: all bounds hold; 1: one does not; 2: usage.
+must keep 40 % of its frame rate and have no gap over 0.5 s; a case may bound more, or have another bound. A
+case that fails is played up to twice more, and its line says so: the machine may be busy with other things.
+NAME: a case, or a file of cases. Exit code 0: all bounds hold; 1: one does not; 2: usage.
 """
 
 import argparse

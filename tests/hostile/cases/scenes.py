@@ -16,9 +16,8 @@ BESIDE_READING = {"kept": 0.15}
 
 async def scenes_of(arena):
     """The ids that the server lists."""
-    reader, writer = await arena.ask("/api/v1/scenes")
-    answer = await reader.read()
-    writer.close()
+    async with arena.asking("/api/v1/scenes") as reader:
+        answer = await reader.read()
     return [scene["id"] for scene in json.loads(answer.split(b"\r\n\r\n", 1)[1])["scenes"]]
 
 
@@ -58,24 +57,24 @@ async def scenes_called_off(arena):
         await together(choose(viewer), viewer.watch())
 
 
-@case(clients=8, seconds=SECONDS, scenes=True, serve=FEW_MB, needs=("still",), newcomer=True, most=JOINS,
-      least=BESIDE_READING)
+@case(clients=8, seconds=SECONDS, scenes=True, serve=FEW_MB, needs=("still",), newcomer=True, most=JOINS)
 async def stills_of_all_scenes(arena):
     """Asks for stills of each scene in turn."""
     scenes = await scenes_of(arena)
     for scene, view in zip(itertools.cycle(scenes), views(arena)):
-        reader, writer = await arena.ask(f"/render?scene={scene}&size=160x90&{view}")
-        answer = await reader.read()
-        arena.heard["still"] += b"image/jpeg" in answer
-        writer.close()
+        async with arena.asking(f"/render?scene={scene}&size=160x90&{view}") as reader:
+            arena.heard["still"] += b"image/jpeg" in await reader.read()
 
 
 @case(clients=8, needs=("given up",), newcomer=True, most=JOINS)
 async def stills_given_up(arena):
     """Asks for a still and goes away before it is there."""
+    async def ask(view):
+        async with arena.asking(f"/render?size=640x360&{view}"):
+            pass
+
     for view in views(arena):
         try:
-            _, writer = await asyncio.wait_for(arena.ask(f"/render?size=640x360&{view}"), 0.02)
-            writer.close()
+            await asyncio.wait_for(ask(view), 0.02)
         except asyncio.TimeoutError:
             arena.heard["given up"] += 1
