@@ -31,6 +31,7 @@ int exitCodeOf(ErrorCode code) {
     case ErrorCode::kIo:
     case ErrorCode::kUnsupported:
     case ErrorCode::kCapacity:
+    case ErrorCode::kTooLong:
     case ErrorCode::kCancelled:
         return 1;
     }

@@ -17,6 +17,7 @@ enum class ErrorCode {
     kIo,              // a file or socket operation failed
     kUnsupported,     // known but not available here
     kCapacity,        // a stated limit is reached
+    kTooLong,         // likewise the limit on a picture's time; a smaller picture may keep it
     kCancelled,       // whoever wanted it does not any more
 };
 

@@ -98,6 +98,7 @@ struct FrameDetails {
 struct FrameStats {
     std::vector<PassTime> passes; // in the order recorded
     std::optional<double> gpu_us; // first to last timestamp of the frame; none: not written
+    double unpaced_us = 0;        // what it was to take of the device by unit costs of the start
     double host_us = 0;           // host work: culling, lights, assignment, recording
     double frame_us = 0;          // from submit call to readable pixels, on the host's clock
     bool kept = false;            // depth and what else surfaces left are an earlier frame's

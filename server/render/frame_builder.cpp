@@ -424,6 +424,7 @@ std::optional<PairBound> FrameBuilder::seenPairs() const {
 FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                const settings::Size& shown,
                                std::span<const ActiveEffect> effects,
+                               const UnitCosts& unit,
                                const WorkLimits& work) {
     FrameLoad load{.plan = plan,
                    .draws = draws_,
@@ -457,22 +458,22 @@ FrameCosts FrameBuilder::costs(const FramePlan& plan,
                                  : static_cast<uint32_t>(visible.materials_in_use.size());
     }
     if (!lights_.areas.empty()) {
-        load.costly_lights.push_back({.count = static_cast<uint32_t>(lights_.areas.size()),
-                                      .pair = scene_.shared.unit_costs.area_pair});
+        load.costly_lights.push_back(
+            {.count = static_cast<uint32_t>(lights_.areas.size()), .pair = unit.area_pair});
     }
     if (plan.pose) {
         load.posed_vertices = scene_.poser()->vertex_count;
     }
     for (const auto& [place, effect] : effects) {
-        effect->addLoad(scene_.shared.unit_costs, load);
+        effect->addLoad(unit, load);
     }
     load.longest_loop = load.pairs.longest();
-    FrameCosts costs(scene_.shared.unit_costs, load);
+    FrameCosts costs(unit, load);
     if (!on_device_ || costs.total() <= std::min(work.piece, work.loop)) {
         return costs;
     }
     limitLists(costs, work, load);
-    return {scene_.shared.unit_costs, std::move(load)};
+    return {unit, std::move(load)};
 }
 
 void FrameBuilder::limitLists(const FrameCosts& costs, const WorkLimits& work, FrameLoad& load) {

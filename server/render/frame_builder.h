@@ -53,6 +53,7 @@ class FrameBuilder {
     [[nodiscard]] FrameCosts costs(const FramePlan& plan,
                                    const settings::Size& shown,
                                    std::span<const ActiveEffect> effects,
+                                   const UnitCosts& unit,
                                    const WorkLimits& work);
     // After a frame with lists from the device: whether they are whole. If not, the frame must be
     // built again, for which there will be room, and what its lists hold is known.

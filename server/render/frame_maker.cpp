@@ -207,8 +207,7 @@ FrameMaker::record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slot
 
 Result<bool> FrameMaker::build(const FrameInputs& inputs) {
     if (!builder_.builds(inputs)) {
-        if (auto able = checkAllLights(scene_.shared.unit_costs, inputs.settings, work_.frame);
-            !able) {
+        if (auto able = checkAllLights(unitCosts(), inputs.settings, limits().frame); !able) {
             return able.error();
         }
         started_ = Clock::now();
@@ -259,8 +258,10 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
     plan.kept = keepsSurfaces(plan, asked);
     plan.spoil_scratch = plan.kept && inputs.spoil_scratch;
     plan.pose_kept = keepsPose(asked);
-    const FrameCosts costs = builder_.costs(plan, asked.settings.size, effects_.ofFrame(), work_);
-    if (auto affordable = costs.check(work_.frame, work_.loop); !affordable) {
+    const WorkLimits limits = this->limits();
+    const FrameCosts costs =
+        builder_.costs(plan, asked.settings.size, effects_.ofFrame(), unitCosts(), limits);
+    if (auto affordable = costs.check(limits.frame, limits.loop); !affordable) {
         return affordable;
     }
     if (auto taken = takeMemory(slot, plan, asked, slots); !taken) {
@@ -282,14 +283,15 @@ Result<void> FrameMaker::recordBuilt(FrameSlot& slot,
          .effects = effects_.ofFrame(),
          .pieces = slot.pieces,
          .costs = costs},
-        work_.piece, piece_share_);
-    if (slot.pieces.estimate() > work_.frame) { // with what each piece does again
+        limits.piece, piece_share_);
+    if (slot.pieces.estimate() > limits.frame) { // with what each piece does again
         markFresh(slot);
-        return tooLongInPieces(asked.settings.size, slot.pieces, work_.frame);
+        return tooLongInPieces(asked.settings.size, slot.pieces, limits.frame);
     }
     noteDrawn(plan, surfaces);
     noteBuilt(slot, plan, inputs);
     slot.stats.host_us = built_us_ + microsSince(start);
+    slot.stats.unpaced_us = Microseconds(slot.pieces.estimate()).count() / pace_.pace;
     slot.submitted = started_;
     slot.done_values.clear();
     slot.waited_count = 0;

@@ -37,6 +37,12 @@ class FrameMaker {
     record(FrameSlot& slot, const FrameInputs& inputs, const Slots& slots);
     // See ViewRenderer::setPieceShare().
     void setPieceShare(double share) { piece_share_ = share; }
+    // See ViewRenderer::setPace().
+    void setPace(const WorkPace& pace) { pace_ = pace; }
+    // What a recorded frame takes by its estimate, of the longest that one may take.
+    [[nodiscard]] double limitShare(const FrameSlot& slot) const {
+        return slot.pieces.estimate() / limits().frame;
+    }
     // Whether what the device told of a completed frame's lists lets it be shown.
     [[nodiscard]] bool accepts(const FrameSlot& slot) {
         return !slot.device_lists || builder_.acceptLists(*slot.assignment);
@@ -51,6 +57,16 @@ class FrameMaker {
     [[nodiscard]] const ViewEffects& effects() const { return effects_; }
 
   private:
+    // Both at the present pace.
+    [[nodiscard]] UnitCosts unitCosts() const {
+        return scaled(scene_.shared.unit_costs, pace_.pace, pace_.pace);
+    }
+    [[nodiscard]] WorkLimits limits() const {
+        WorkLimits limits = work_;
+        limits.frame *= pace_.frame_share;
+        limits.piece *= std::min(1.0, pace_.pace);
+        return limits;
+    }
     // Whether the frame is recorded; else its host's part is not whole yet. Throws VariantsMissing
     // besides.
     [[nodiscard]] Result<bool>
@@ -89,6 +105,7 @@ class FrameMaker {
     SceneResources& scene_;
     const WorkLimits work_;
     double piece_share_ = 1;
+    WorkPace pace_;
     FrameBuilder builder_;
     std::chrono::steady_clock::time_point started_; // what it builds
     double built_us_ = 0;                           // of the host, spent on that

@@ -136,7 +136,7 @@ std::string pictureWords(const settings::ViewSettings& settings) {
 
 Error tooLongInPieces(const settings::Size& size, const FramePieces& pieces, Seconds limit) {
     return {
-        ErrorCode::kCapacity,
+        ErrorCode::kTooLong,
         fmt::format("a picture of {}x{}, cut into {} pieces that each go through its triangles, "
                     "takes about {:.3g} s of this device; at most {:.3g} s a frame are allowed: "
                     "ask for fewer lights, fewer effects, or a smaller picture",

@@ -20,7 +20,7 @@ canDraw(const FrameInputs& inputs, const SceneResources& scene, Dressing& dressi
 // What takes memory of a picture, in words: "a picture of 640x360 with 20000 lights".
 [[nodiscard]] std::string pictureWords(const settings::ViewSettings& settings);
 
-// kCapacity: cut into its pieces the frame would take longer than the limit.
+// kTooLong: cut into its pieces the frame would take longer than the limit.
 [[nodiscard]] Error
 tooLongInPieces(const settings::Size& size, const FramePieces& pieces, Seconds limit);
 

@@ -219,11 +219,17 @@ Result<FrameWork> ViewRenderer::begin(const FrameInputs& inputs) {
     } catch (const vk::SystemError& error) {
         return Error{ErrorCode::kDevice, std::string("the device failed: ") + error.what()};
     }
-    return FrameWork{.estimate = slot->pieces.estimate(), .piece_count = slot->pieces.count()};
+    return FrameWork{.estimate = slot->pieces.estimate(),
+                     .limit_share = impl_->maker.limitShare(*slot),
+                     .piece_count = slot->pieces.count()};
 }
 
 void ViewRenderer::setPieceShare(double share) {
     impl_->maker.setPieceShare(share);
+}
+
+void ViewRenderer::setPace(const WorkPace& pace) {
+    impl_->maker.setPace(pace);
 }
 
 Result<void> ViewRenderer::submitPiece() {

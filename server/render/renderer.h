@@ -27,6 +27,7 @@ class ViewEffects;
 // What a frame will ask of the device.
 struct FrameWork {
     Seconds estimate{0};
+    double limit_share = 0;   // of the longest that a frame may take
     uint32_t piece_count = 1; // 0: not yet, nothing runs
     // Why not yet: the host's part has begun, and goes on when begin() gets the same inputs. Else
     // variants that it needs are being made.
@@ -126,13 +127,15 @@ class ViewRenderer {
     // submit() may be called otherwise.
     [[nodiscard]] bool canSubmit() const;
 
-    // Records one frame; nothing runs yet. Errors: kCapacity when targets of this size do not fit
-    // or the frame would take longer than allowed; kDevice when the device is lost; kUnsupported
-    // when the settings ask for what the device lacks.
+    // Records one frame; nothing runs yet. Errors: kCapacity when targets of this size do not fit;
+    // kTooLong when the frame would take longer than allowed; kDevice when the device is lost;
+    // kUnsupported when the settings ask for what the device lacks.
     [[nodiscard]] Result<FrameWork> begin(const FrameInputs& inputs);
     // Frames begun from now on are cut finer, where that costs nothing: into pieces that by their
     // estimate take this share, of 1, of the limit.
     void setPieceShare(double share);
+    // Likewise estimated, and held against the limits, by what earlier ones took.
+    void setPace(const WorkPace& pace);
     // Gives the device the next piece of the frame begun last; returns at once where the device
     // runs on its own. Errors: kDevice.
     [[nodiscard]] Result<void> submitPiece();

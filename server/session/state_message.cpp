@@ -397,6 +397,7 @@ v1::FrameHeader makeFrameHeader(const FrameRecord& record) {
         header.set_metered_ev(*record.stats.metered_ev);
     }
     fillDelivery(header, record);
+    header.set_full_size_us(saturated(record.full_size_us));
     header.set_dropped_frames(record.dropped_count);
     header.set_time_s(record.time_s);
     if (record.animation_time_s) {

@@ -55,7 +55,10 @@ struct FrameRecord {
     uint32_t height_px = 0;
     size_t encoded_bytes = 0; // of the whole picture
     Delivered delivered;
-    bool key = true;      // decodes without any frame before it
+    bool key = true; // decodes without any frame before it
+    // What the picture would take of the device at the size asked for, where that is too much; 0:
+    // it is that size, or smaller for another reason.
+    double full_size_us = 0;
     double queue_us = 0;  // from the applied command's arrival to the start of rendering
     double render_us = 0; // host and device work up to readable pixels
     double encode_wait_us = 0;

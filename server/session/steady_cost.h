@@ -26,6 +26,9 @@ class SteadyCost {
     // None before the first.
     [[nodiscard]] std::optional<Seconds> value() const { return mean_; }
 
+    // Whether so many were added that no single one decides.
+    [[nodiscard]] bool steady() const { return count_ >= last_.size(); }
+
   private:
     static constexpr double kWeight = 0.125; // of the newest
 

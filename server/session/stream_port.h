@@ -67,6 +67,8 @@ class StreamPort {
     // How many frames the connection takes in all since it joined: those delivered to it so far
     // plus those that it has room for. A total cannot race with a delivery; 0 before the first.
     virtual void grant(SessionId id, uint64_t frame_total) = 0;
+    // Whether any of its viewers takes frames, as at first; none does while all of them pause.
+    virtual void setTakesFrames(SessionId id, bool takes) = 0;
     // What the link allows from now on; nothing is drawn for it alone, but that a resting picture
     // may become better.
     virtual void setDelivery(SessionId id, const Delivery& delivery) = 0;

@@ -47,8 +47,8 @@ StillRefusal refusalOf(const Rejection& why, const Entries& view) {
 StillRefusal refusalOf(const Error& error, const settings::Size& size) {
     const bool size_matters = error.too_large_by > 0;
     StillRefusal refusal{
-        {error.code == ErrorCode::kCapacity ? RejectCode::kCapacity : RejectCode::kUnsupported, 0,
-         size_matters ? "size" : "", error.message}};
+        {error.code == ErrorCode::kUnsupported ? RejectCode::kUnsupported : RejectCode::kCapacity,
+         0, size_matters ? "size" : "", error.message}};
     if (size_matters) {
         refusal.fits = smaller(size, error.too_large_by * kCaution);
     }

@@ -1,14 +1,14 @@
 // Whether one more session fits on the device. Pure: no threads, no clock of its own.
 //
-// What the active sessions need to have the floor rate, each at the cost of its own frames, and one
-// more at the cost of the first picture that a viewer sees, must not pass the device's time. A
-// session that draws less than the floor by itself (its lights stand, its link is slow) counts with
-// what it draws, an idle one as nothing, and one that has not drawn yet but would as another
-// newcomer, so that a crowd that comes at once is not let in on the word of the few.
+// What the sessions may ask for at the floor rate, and one more at the cost of a newcomer's moving
+// view, must not pass the device's time. A session counts with the cost of its own moving view, or
+// a newcomer's before that is known: a view that rests costs little while its lights move and
+// nothing while they stand, but it moves when its viewer does. One that takes no frames, or has
+// drawn none for long, counts as nothing.
 //
 // Other accounts than the newcomer's count with their fair share at most, which is all that the
 // scheduler gives them once the newcomer draws: whatever one account asks for, there is room for
-// others. Where nobody draws, one session is always let in.
+// others. Where nobody is, one session is always let in.
 #pragma once
 
 #include "core/error.h"
@@ -23,12 +23,10 @@ namespace froxel::stream {
 
 class Admission {
   public:
-    // What rates are measured over; a session that drew nothing for so long is idle.
-    static constexpr Seconds kWindow{2};
-    // How long one that has not drawn yet is expected to.
-    static constexpr Seconds kPatience{10};
+    // Whoever drew nothing for so long has forgotten the view.
+    static constexpr Seconds kForgotten{300};
 
-    // Frames a second that every active session must keep; 0: everyone is let in.
+    // Frames a second that every session must be able to keep; 0: everyone is let in.
     explicit Admission(double min_rate_hz = 0) : min_rate_hz_(min_rate_hz) {}
     // And the device time of a newcomer's frame; none: unknown, and nothing is held against it.
     void setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost = {});
@@ -36,13 +34,14 @@ class Admission {
 
     void add(uint64_t session, const session::Account& account, TimePoint now);
     void remove(uint64_t session);
-    // A session of which nothing is known is expected to draw unless it takes no frames: paused
-    // from the start, it costs nothing.
+    // Whether any of its viewers takes frames: paused, it costs nothing.
     void setTakesFrames(uint64_t session, bool takes, TimePoint now);
-    // Device time that one frame of this session took.
-    void onFrame(uint64_t session, Seconds cost, TimePoint now);
+    // Device time that one frame of this session took. `kept`: it rests on the surfaces of the one
+    // before it.
+    void onFrame(uint64_t session, Seconds cost, TimePoint now, bool kept = false);
 
-    // kCapacity, with the figures in one line, where one more session of this account is too much.
+    // kCapacity, with the figures in one line for the log, where one more session of this account
+    // is too much.
     [[nodiscard]] Result<void> check(const session::Account& account, TimePoint now) const;
     // What is taken of what may be let in: 0 where nobody needs anything, 1 where one more session
     // of the account that needs most is too much. 0 without a floor rate, too.
@@ -51,23 +50,21 @@ class Admission {
   private:
     struct Entry {
         session::Account account;
-        std::optional<TimePoint> expected_since; // to draw
-        session::SteadyCost cost;
-        // Frames of the present window and of the one before it.
-        TimePoint window_begin{};
-        uint32_t window_count = 0;
-        uint32_t before_count = 0;
+        bool takes_frames = true;
+        TimePoint seen{}; // drawing, or joining
+        session::SteadyCost moving;
+        session::SteadyCost kept;
     };
     // Of the device's time, 1 being all of it; at the floor rate.
     struct Needs {
-        std::map<session::Account, double> accounts; // those that draw or are expected to
-        uint32_t active = 0;                         // sessions
+        std::map<session::Account, double> accounts;
+        uint32_t active = 0; // sessions
         double one_more = 0;
     };
     [[nodiscard]] Needs needs(TimePoint now) const;
+    [[nodiscard]] Seconds costOf(const Entry& entry) const;
     // By all that are there, where one more session of this account is to be let in.
     [[nodiscard]] static double busyFor(const session::Account& account, const Needs& needs);
-    [[nodiscard]] static double rateOf(const Entry& entry, TimePoint now);
 
     double min_rate_hz_;
     Seconds newcomer_cost_{0}; // of a frame

@@ -1,6 +1,8 @@
 #include "stream/frame_cost.h"
 
 #include "core/keep_for_good.h"
+#include "session/affordable_scale.h"
+#include "session/delivery.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,6 +21,16 @@ constexpr Seconds kLongest{2.0};
 constexpr double kSteady = 0.98;
 // A GPU that was idle for long comes to its clocks late, and not by and by.
 constexpr Seconds kWarmUp{1.0};
+
+// Seen from a little farther round the target: what a view that rests may keep, a moving one draws.
+settings::Camera orbited(settings::Camera camera, double angle_rad) {
+    const glm::dvec3 target = camera.target_world();
+    const glm::dmat3 turn =
+        glm::mat3_cast(glm::angleAxis(angle_rad, glm::dvec3(camera.world_from_view[1])));
+    camera.eye_world = target + turn * (camera.eye_world - target);
+    camera.world_from_view = turn * camera.world_from_view;
+    return camera;
+}
 
 Error brokenOff() {
     return {ErrorCode::kCapacity, "what a frame costs was not measured to the end"};
@@ -81,7 +93,12 @@ class Series {
             if (!views_[turn]->canBegin()) {
                 return false;
             }
-            const auto work = views_[turn]->begin(settings_, {}, {});
+            const auto work = views_[turn]->begin(
+                moving(), {}, {.encoding = {}, .limit_share = scale_.limitShare()});
+            if (!work && work.error().code == ErrorCode::kTooLong &&
+                scale_.onTooLong(work.error().too_large_by, true)) {
+                return true;
+            }
             if (!work) {
                 return work.error();
             }
@@ -101,8 +118,20 @@ class Series {
         return true;
     }
 
+    // As the frame begun next has them.
+    [[nodiscard]] settings::ViewSettings moving() const {
+        constexpr uint32_t kPlaces = 16;
+        constexpr double kStep_rad = 0.01;
+        settings::ViewSettings settings = settings_;
+        const auto place = static_cast<double>(begun_ / views_.size() % kPlaces);
+        settings.camera = orbited(settings.camera, place * kStep_rad);
+        settings.size = session::scaled(settings.size, scale_.scale());
+        return settings;
+    }
+
     std::vector<std::unique_ptr<ViewSource>>& views_;
     const settings::ViewSettings& settings_;
+    session::AffordableScale scale_;
     size_t begun_ = 0;             // frames
     size_t turn_ = 0;              // the view whose frame was begun last
     uint32_t waiting_ = 0;         // pieces of that frame

@@ -9,11 +9,11 @@
 
 namespace froxel::stream {
 
-// From one frame to the next of views of its own, as many as keep the device busy: what each frame
-// of many viewers takes of whatever is the bound, device or host. A second or two on a GPU, some
-// frames on a CPU device. `goes_on` is asked between pieces, and breaks it off. On the thread that
-// `source` belongs to. Errors: kCapacity and kUnsupported (this picture cannot be drawn, or it was
-// broken off), kDevice (the views are kept for good).
+// From one frame to the next of moving views of its own, as many as keep the device busy: what each
+// frame of many viewers takes of whatever is the bound, device or host. A second or two on a GPU,
+// some frames on a CPU device. `goes_on` is asked between pieces, and breaks it off. On the thread
+// that `source` belongs to. Errors: kCapacity and kUnsupported (this picture cannot be drawn, or it
+// was broken off), kDevice (the views are kept for good).
 [[nodiscard]] Result<Seconds> measureFrameCost(
     FrameSource& source,
     const settings::ViewSettings& settings,

@@ -27,7 +27,8 @@ struct FrameTime {
 
 // What a frame will ask of the device, known when it begins.
 struct FrameWork {
-    Seconds estimate{0}; // device time of all its pieces; 0: unknown
+    Seconds estimate{0};    // device time of all its pieces; 0: unknown
+    double limit_share = 0; // of the longest that a frame may take
     // 0: not yet; ask again.
     uint32_t piece_count = 1;
     // Why not yet: the host's part of the frame is done in stages, since it is long, and goes on
@@ -57,6 +58,12 @@ struct EncodingNeeds {
     bool radiance = false; // beside the pixels
 };
 
+// What else begin() is told.
+struct FrameTerms {
+    EncodingNeeds encoding = {};
+    double limit_share = 1; // times the longest that a frame may take
+};
+
 // One viewer's targets. Frames complete in the order in which they begin.
 //
 // A frame runs as pieces, one after another, between which the device may run those of other
@@ -67,12 +74,12 @@ class ViewSource {
     // Whether begin() may be called: a readback slot is free, and no frame has pieces that wait.
     [[nodiscard]] virtual bool canBegin() const = 0;
     // Builds and records a frame as all stands at `time`; nothing runs yet. Errors: kCapacity when
-    // this size does not fit or the frame would take too long, and kUnsupported when the device
-    // cannot do what the settings ask for (earlier ones still work), kDevice when the device is
-    // lost.
+    // this size does not fit, kTooLong when the frame would take too long, and kUnsupported when
+    // the device cannot do what the settings ask for (earlier ones still work), kDevice when the
+    // device is lost.
     [[nodiscard]] virtual Result<FrameWork> begin(const settings::ViewSettings& settings,
                                                   const FrameTime& time,
-                                                  const EncodingNeeds& encoding) = 0;
+                                                  const FrameTerms& terms) = 0;
     // Gives the device the next piece of the frame begun last. Errors: kDevice.
     [[nodiscard]] virtual Result<void> submitPiece() = 0;
     // Gives up the pieces that wait of the frame begun last. Those on the device are still to be
@@ -111,6 +118,8 @@ class FrameSource : public SceneSource {
     [[nodiscard]] virtual uint32_t depth() const = 0;
     // Whether its work is done by the host's cores, which encoders use too.
     [[nodiscard]] virtual bool isHost() const = 0;
+    // How long frames of late took, times what was expected of the device when it was opened.
+    [[nodiscard]] virtual double pace() const { return 1; }
     // What a scene will take of the device's memory, about. Any thread.
     [[nodiscard]] virtual uint64_t sceneBytes(const scene::Scene& /*scene*/) const { return 0; }
     // Does what needs no device's time. Any thread. Errors: kCapacity, kScene, kUnsupported.

@@ -54,7 +54,8 @@ void warnOfLongStep(std::string_view step,
 }
 
 [[nodiscard]] bool isThisPictureAlone(const Error& error) {
-    return error.code == ErrorCode::kCapacity || error.code == ErrorCode::kUnsupported;
+    return error.code == ErrorCode::kCapacity || error.code == ErrorCode::kTooLong ||
+           error.code == ErrorCode::kUnsupported;
 }
 
 } // namespace
@@ -107,7 +108,16 @@ Result<void> RenderLoop::admits(const session::Account& account, TimePoint now) 
 
 void RenderLoop::setMinRate(double min_rate_hz, std::optional<Seconds> frame_cost) {
     const std::lock_guard lock(admission_mutex_);
+    priced_ = frame_cost.value_or(Seconds(0));
+    priced_at_.reset();
     admission_.setMinRate(min_rate_hz, frame_cost);
+}
+
+// Something else may have kept the device busy when it was measured.
+Seconds RenderLoop::newcomersCost() {
+    const double pace = source_->pace();
+    priced_at_ = priced_at_.value_or(pace);
+    return priced_ * std::min(1.0, pace / *priced_at_);
 }
 
 void RenderLoop::setNewcomersFrame(settings::ViewSettings settings) {
@@ -124,11 +134,12 @@ void RenderLoop::update(SessionId id, const SessionState& state, TimePoint arriv
 }
 
 void RenderLoop::grant(SessionId id, uint64_t frame_total) {
-    {
-        const std::lock_guard lock(admission_mutex_);
-        admission_.setTakesFrames(id, frame_total > 0, Clock::now());
-    }
     mailbox_->grant(id, frame_total);
+}
+
+void RenderLoop::setTakesFrames(SessionId id, bool takes) {
+    const std::lock_guard lock(admission_mutex_);
+    admission_.setTakesFrames(id, takes, Clock::now());
 }
 
 void RenderLoop::setDelivery(SessionId id, const session::Delivery& delivery) {
@@ -270,6 +281,8 @@ void RenderLoop::priceAgain(const std::stop_token& stop) {
     });
     if (cost) {
         const std::lock_guard lock(admission_mutex_);
+        priced_ = *cost;
+        priced_at_ = source_->pace();
         admission_.setNewcomersCost(*cost);
     } else if (cost.error().code == ErrorCode::kDevice) {
         throw StartupError(cost.error());
@@ -361,6 +374,9 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
         if (!isThisPictureAlone(work.error())) {
             throw StartupError(work.error());
         }
+        if (viewer.shrink(work.error())) {
+            return false; // begun again, smaller
+        }
         scheduler_.onFrame(id, now);   // a refused one takes the host's time, too
         if (frame->sample_count > 1) { // what is shown stays
             viewer.refinement.onSamplesRefused();
@@ -373,6 +389,7 @@ bool RenderLoop::beginFrame(SessionId id, Viewer& viewer, TimePoint now) {
         viewer.ask_again = now + kVariantsPoll;
         return false;
     }
+    noteEstimate(viewer, *frame, *work);
     scheduler_.onFrame(id, now);
     frame->piece_count = work->piece_count;
     const auto typical = viewer.frame_cost.value();
@@ -395,23 +412,37 @@ Result<FrameWork> RenderLoop::beginWork(Viewer& viewer, const BegunFrame& frame)
         }
         viewer.source = std::move(*source);
         viewer.source_scene = frame.state.scene;
+        viewer.affordable = {};
     }
     const session::Delivered& with = frame.record.delivered;
     settings::ViewSettings settings = frame.state.settings;
     settings.size = session::scaled(settings.size, with.scale);
     // A refined still leaves the encoder of video as it is.
-    EncodingNeeds encoding{std::max(encode::memoryBytes(with.encoding, settings.size),
-                                    encode::memoryBytes(frame.state.encoding, settings.size)),
-                           settings::rowOf(with.encoding.codec).radiance};
+    FrameTerms terms;
+    terms.limit_share = viewer.affordable.limitShare();
+    terms.encoding = {std::max(encode::memoryBytes(with.encoding, settings.size),
+                               encode::memoryBytes(frame.state.encoding, settings.size)),
+                      settings::rowOf(with.encoding.codec).radiance};
     settings.camera = frame.record.followed.value_or(settings.camera);
     if (frame.sample_count > 1) {
         settings.camera = settings::sampled(settings.camera, settings.size, frame.sample);
         settings.antialiasing = settings::Antialiasing::kNone; // the mean is smoother
-        encoding.bytes += render::SampleMean::memoryBytes(settings.size);
+        terms.encoding.bytes += render::SampleMean::memoryBytes(settings.size);
     }
     const FrameTime time{frame.record.time_s,
                          frame.state.playback.at(session::SessionState::secondsOf(frame.started))};
-    return viewer.source->begin(settings, time, encoding);
+    return viewer.source->begin(settings, time, terms);
+}
+
+void RenderLoop::noteEstimate(Viewer& viewer, BegunFrame& frame, const FrameWork& work) {
+    frame.estimate = work.estimate;
+    frame.limit_share = work.limit_share;
+    const double scale = frame.record.delivered.scale;
+    if (scale < 1 && scale == viewer.affordable.scale()) {
+        // What was asked for takes about that much more.
+        frame.record.full_size_us = Microseconds(work.estimate).count() / (scale * scale);
+        viewer.affordable.onEstimate(work.limit_share, scale);
+    }
 }
 
 void RenderLoop::submitPiece(Viewer& viewer) {
@@ -528,11 +559,16 @@ void RenderLoop::finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame draw
     viewer.gave_up = false;
     {
         const std::lock_guard lock(admission_mutex_);
-        admission_.onFrame(frame.id, need, now);
+        admission_.onFrame(frame.id, need, now, drawn.stats.kept);
+        admission_.setNewcomersCost(newcomersCost());
     }
     viewer.drawn = frame.state;
     ++options_.fates->rendered;
     const session::Delivered& with = frame.record.delivered;
+    if (frame.estimate > Seconds(0) && frame.record.full_size_us > 0 &&
+        viewer.affordable.onTook(frame.limit_share * (need / frame.estimate), with.scale)) {
+        viewer.changed = true;
+    }
     if (with.refinement == session::Refinement::kInteractive) {
         const double target_hz = viewer.state.delivery.target_fps;
         demand_.onFrame(frame.id, need, target_hz, now);

@@ -94,6 +94,7 @@ class RenderLoop final : public session::StreamPort {
     void
     update(session::SessionId id, const session::SessionState& state, TimePoint arrived) override;
     void grant(session::SessionId id, uint64_t frame_total) override;
+    void setTakesFrames(session::SessionId id, bool takes) override;
     void setDelivery(session::SessionId id, const session::Delivery& delivery) override;
     void leave(session::SessionId id) override;
 
@@ -125,6 +126,7 @@ class RenderLoop final : public session::StreamPort {
     [[nodiscard]] bool startNext();
     [[nodiscard]] bool beginFrame(session::SessionId id, Viewer& viewer, TimePoint now);
     [[nodiscard]] Result<FrameWork> beginWork(Viewer& viewer, const BegunFrame& frame);
+    static void noteEstimate(Viewer& viewer, BegunFrame& frame, const FrameWork& work);
     void submitPiece(Viewer& viewer);
     void abandon(Viewer& viewer);
     static void end(Viewer& viewer, BegunFrame& frame);
@@ -132,6 +134,7 @@ class RenderLoop final : public session::StreamPort {
     void finishOldest();
     void finishPiece(Viewer& viewer, BegunFrame& frame, Result<Collected> collected);
     void finishFrame(Viewer& viewer, BegunFrame& frame, SourceFrame drawn);
+    [[nodiscard]] Seconds newcomersCost();
     [[nodiscard]] Seconds needOf(const BegunFrame& frame, const FrameStats& stats) const;
 
     const RenderLoopOptions options_;
@@ -141,6 +144,8 @@ class RenderLoop final : public session::StreamPort {
     const std::shared_ptr<ViewerMailbox> mailbox_;
     mutable std::mutex admission_mutex_; // before the mailbox's
     Admission admission_;
+    Seconds priced_{0};               // a newcomer's frame,
+    std::optional<double> priced_at_; // at this pace of the device; none: its first
     FrameScheduler scheduler_;
     DeviceDemand demand_;
     std::optional<TimePoint> refine_at_; // the first viewer's that rests

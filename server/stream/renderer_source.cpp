@@ -3,6 +3,7 @@
 #include "core/keep_for_good.h"
 #include "render/device_speed.h"
 #include "render/renderer.h"
+#include "stream/device_pace.h"
 #include "stream/piece_share.h"
 
 #include <spdlog/spdlog.h>
@@ -24,27 +25,39 @@ unsigned gpuCompilers() {
     return std::clamp(std::thread::hardware_concurrency() / 4, 1U, 4U);
 }
 
+// What all views of a device have in common.
+struct DeviceWork {
+    render::WorkLimits limits;
+    DevicePace pace = {};
+    bool is_host = false;
+};
+
 class RendererView final : public ViewSource {
   public:
-    RendererView(render::Renderer& renderer, const render::WorkLimits& limits)
-        : view_(renderer, {}, limits), share_(limits.piece) {}
+    RendererView(render::Renderer& renderer, DeviceWork& work)
+        : work_(work), view_(renderer, {}, work.limits), share_(work.limits.piece),
+          pace_(work.pace) {}
 
     [[nodiscard]] bool canBegin() const override { return view_.canSubmit(); }
 
     [[nodiscard]] Result<FrameWork> begin(const settings::ViewSettings& settings,
                                           const FrameTime& time,
-                                          const EncodingNeeds& encoding) override {
+                                          const FrameTerms& terms) override {
         view_.setPieceShare(share_.value());
+        view_.setPace({.pace = pace_.value(), .frame_share = terms.limit_share});
+        if (submitted_.empty()) {
+            held_ = {};
+        }
         const auto work = view_.begin({.settings = settings,
                                        .time_s = time.lights_s,
                                        .playing = time.playing,
                                        .keep_surfaces = true,
-                                       .keep_radiance = encoding.radiance,
-                                       .beside_bytes = encoding.bytes});
+                                       .keep_radiance = terms.encoding.radiance,
+                                       .beside_bytes = terms.encoding.bytes});
         if (!work) {
             return work.error();
         }
-        return FrameWork{work->estimate, work->piece_count, work->half_built};
+        return FrameWork{work->estimate, work->limit_share, work->piece_count, work->half_built};
     }
     [[nodiscard]] Result<void> submitPiece() override {
         submitted_.push_back(Clock::now());
@@ -65,6 +78,7 @@ class RendererView final : public ViewSource {
             return Collected{.outcome = Collected::Outcome::kPiece};
         }
         share_.onFrame();
+        notePace(piece->frame->stats);
         return Collected{
             .outcome = Collected::Outcome::kFrame,
             .frame = SourceFrame{std::move(piece->frame->pixels), std::move(piece->frame->stats)}};
@@ -73,12 +87,33 @@ class RendererView final : public ViewSource {
   private:
     // Where others' pieces ran in between they count, too: the device is busy.
     void noteCollected(TimePoint now) {
-        share_.onPiece(now - std::max(submitted_.front(), std::exchange(collected_, now)));
+        const Seconds took = now - std::max(submitted_.front(), std::exchange(collected_, now));
+        share_.onPiece(took);
+        held_ += took;
         submitted_.pop_front();
     }
 
+    // A GPU tells the time of its passes; the host's cores draw one piece at a time.
+    void notePace(const FrameStats& stats) {
+        Seconds took = std::exchange(held_, Seconds(0));
+        if (!work_.is_host) {
+            took = {};
+            for (const PassTime& pass : stats.passes) {
+                took += Microseconds(pass.gpu_us.value_or(0));
+            }
+        }
+        const Seconds expected = Microseconds(stats.unpaced_us);
+        if (took > Seconds(0)) {
+            pace_.onFrame(expected, took, work_.limits.frame);
+            work_.pace.onFrame(expected, took, work_.limits.frame);
+        }
+    }
+
+    DeviceWork& work_;
     render::ViewRenderer view_;
     PieceShare share_;
+    DevicePace pace_;                 // of this view
+    Seconds held_{0};                 // that the pieces of its frame have kept the host so far
     std::deque<TimePoint> submitted_; // pieces on the device
     TimePoint collected_;             // the last one
 };
@@ -87,10 +122,9 @@ Error noMemory(const std::string& whose) {
     return {ErrorCode::kCapacity, "the " + whose + " has no memory for another view"};
 }
 
-Result<std::unique_ptr<ViewSource>> makeViewOf(render::Renderer& renderer,
-                                               const render::WorkLimits& limits) {
+Result<std::unique_ptr<ViewSource>> makeViewOf(render::Renderer& renderer, DeviceWork& work) {
     try {
-        return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer, limits));
+        return std::unique_ptr<ViewSource>(std::make_unique<RendererView>(renderer, work));
     } catch (const vk::OutOfDeviceMemoryError&) {
         return noMemory("device");
     } catch (const vk::OutOfHostMemoryError&) {
@@ -100,17 +134,17 @@ Result<std::unique_ptr<ViewSource>> makeViewOf(render::Renderer& renderer,
 
 class RendererScene final : public SceneSource {
   public:
-    RendererScene(std::unique_ptr<render::Renderer> renderer, const render::WorkLimits& limits)
-        : renderer_(std::move(renderer)), limits_(limits), bytes_(renderer_->bytes()) {}
+    RendererScene(std::unique_ptr<render::Renderer> renderer, DeviceWork& work)
+        : renderer_(std::move(renderer)), work_(work), bytes_(renderer_->bytes()) {}
 
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
-        return makeViewOf(*renderer_, limits_);
+        return makeViewOf(*renderer_, work_);
     }
     [[nodiscard]] uint64_t bytes() const override { return bytes_; }
 
   private:
     std::unique_ptr<render::Renderer> renderer_;
-    const render::WorkLimits limits_;
+    DeviceWork& work_;
     const uint64_t bytes_;
 };
 
@@ -118,22 +152,22 @@ class RendererMove final : public SceneMove {
   public:
     RendererMove(render::RenderDevice& on,
                  std::shared_ptr<const scene::Scene> scene,
-                 const render::WorkLimits& limits)
-        : upload_(on, std::move(scene)), limits_(limits) {}
+                 DeviceWork& work)
+        : upload_(on, std::move(scene)), work_(work) {}
 
     [[nodiscard]] Result<std::unique_ptr<SceneSource>> advance() override {
         auto moved = upload_.advance();
         if (!moved) {
             return moved.error();
         }
-        return *moved ? std::make_unique<RendererScene>(std::move(*moved), limits_)
+        return *moved ? std::make_unique<RendererScene>(std::move(*moved), work_)
                       : std::unique_ptr<SceneSource>();
     }
     [[nodiscard]] double fraction() const override { return upload_.fraction(); }
 
   private:
     render::SceneUpload upload_;
-    const render::WorkLimits limits_;
+    DeviceWork& work_;
 };
 
 class RendererSource final : public FrameSource {
@@ -142,8 +176,9 @@ class RendererSource final : public FrameSource {
                    const scene::Scene& scene,
                    Seconds frame_limit,
                    const render::MemoryLimits& memory)
-        : device_(std::move(device)), on_(*device_, memory), renderer_(on_, scene),
-          limits_(limitsOf(*device_, frame_limit)) {}
+        : device_(std::move(device)), on_(*device_, memory),
+          renderer_(on_, scene), work_{.limits = limitsOf(*device_, frame_limit),
+                                       .is_host = device_->traits().is_cpu} {}
 
     // Estimates of frames are scaled by it. Errors: kDevice.
     [[nodiscard]] Result<render::DeviceSpeed> measureSpeed(const settings::Camera& camera) {
@@ -156,8 +191,10 @@ class RendererSource final : public FrameSource {
     [[nodiscard]] bool isHost() const override { return device_->traits().is_cpu; }
 
     [[nodiscard]] Result<std::unique_ptr<ViewSource>> makeView() override {
-        return makeViewOf(renderer_, limits_);
+        return makeViewOf(renderer_, work_);
     }
+
+    [[nodiscard]] double pace() const override { return work_.pace.value(); }
 
     [[nodiscard]] uint64_t sceneBytes(const scene::Scene& scene) const override {
         return render::sceneBytes(scene);
@@ -167,7 +204,7 @@ class RendererSource final : public FrameSource {
     moveScene(std::shared_ptr<const scene::Scene> scene) override {
         try {
             return std::unique_ptr<SceneMove>(
-                std::make_unique<RendererMove>(on_, std::move(scene), limits_));
+                std::make_unique<RendererMove>(on_, std::move(scene), work_));
         } catch (const StartupError& error) {
             return Error{error.code(), error.what()};
         } catch (const vk::OutOfDeviceMemoryError&) {
@@ -197,7 +234,7 @@ class RendererSource final : public FrameSource {
     std::unique_ptr<gpu::Device> device_;
     render::RenderDevice on_;
     render::Renderer renderer_;
-    const render::WorkLimits limits_;
+    DeviceWork work_;
 };
 
 } // namespace

@@ -6,7 +6,8 @@
 namespace froxel::stream {
 
 Viewer::Viewer(const ViewerNews& first, std::shared_ptr<FramePipeline> its_pipeline)
-    : sink(first.sink), pipeline(std::move(its_pipeline)), state(*first.state) {}
+    : sink(first.sink), pipeline(std::move(its_pipeline)), state(*first.state),
+      beside(!first.account) {}
 
 std::optional<TimePoint> Viewer::wantsFrameAt() const {
     if (leaving || blocked) {
@@ -61,8 +62,10 @@ session::Delivered
 Viewer::nextDelivered(const std::optional<session::RefinementSchedule::Due>& due) const {
     session::Delivery limits = delivery;
     limits.scale = std::min(limits.scale, render_scale.scale());
-    return session::delivered(state.encoding, limits,
-                              due ? due->stage : session::Refinement::kInteractive);
+    session::Delivered with = session::delivered(
+        state.encoding, limits, due ? due->stage : session::Refinement::kInteractive);
+    with.scale = std::min(with.scale, affordable.scale());
+    return with;
 }
 
 std::shared_ptr<BegunFrame> Viewer::build(session::SessionId id, TimePoint now) {
@@ -122,6 +125,12 @@ bool Viewer::waitsInVain() const {
     }
     const bool taken_back = granted < started; // it paused
     return (taken_back || waiting->state.version != state.version) && !gave_up;
+}
+
+bool Viewer::shrink(const Error& error) {
+    const bool first = !drawn || drawn->scene != state.scene;
+    return !beside && error.code == ErrorCode::kTooLong &&
+           affordable.onTooLong(error.too_large_by, first);
 }
 
 std::optional<uint64_t> Viewer::noteRefusal(TimePoint now) {

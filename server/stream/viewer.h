@@ -4,6 +4,7 @@
 
 #include "core/allowance.h"
 #include "render/sample_mean.h"
+#include "session/affordable_scale.h"
 #include "session/refinement.h"
 #include "session/render_scale.h"
 #include "session/steady_cost.h"
@@ -27,7 +28,9 @@ struct BegunFrame {
     uint32_t piece_count = 1;
     uint32_t submitted_count = 0;
     uint32_t on_device = 0;    // pieces
-    Seconds piece_estimate{0}; // what a piece is expected to take of the device
+    Seconds estimate{0};       // what all of it is expected to take of the device
+    double limit_share = 0;    // of the longest that a frame may take
+    Seconds piece_estimate{0}; // what a piece is expected to take
     Seconds longest_piece{0};  // of those collected
     Seconds cost{0};           // so far, with the host's part, as the scheduler charges it
     Seconds host{0};           // of which the host took
@@ -58,6 +61,8 @@ struct Viewer {
     uint32_t under_way = 0; // frames on the device or waiting for it
     session::Delivery delivery;
     session::RenderScale render_scale;
+    session::AffordableScale affordable; // in the scene that `source` is of
+    const bool beside;                   // single pictures: at the size asked for, or not at all
     session::RefinementSchedule refinement;
     session::SteadyCost frame_cost;
     render::SampleMean mean;   // of the samples so far of a view that rests
@@ -94,6 +99,8 @@ struct Viewer {
     // because of a change, the next change does not end this one: a camera that never rests gets
     // pictures too.
     [[nodiscard]] bool waitsInVain() const;
+    // The present picture takes too long at its size; whether it is to be tried smaller.
+    [[nodiscard]] bool shrink(const Error& error);
     // A picture was refused. How many were since the last line in the log, with this one; none: no
     // line, since that one was written within a second.
     [[nodiscard]] std::optional<uint64_t> noteRefusal(TimePoint now);

@@ -339,7 +339,7 @@ TEST_F(Pieces, FramesOverTheLimit_AreRefusedBeforeAnythingIsAllocated) {
     asked.settings.size = {4096, 4096};
     const auto begun = view.begin(asked);
     ASSERT_FALSE(begun);
-    EXPECT_EQ(begun.error().code, ErrorCode::kCapacity);
+    EXPECT_EQ(begun.error().code, ErrorCode::kTooLong);
     EXPECT_THAT(begun.error().message, ::testing::HasSubstr("all 1000000 lights"));
     EXPECT_THAT(begun.error().message, ::testing::HasSubstr("at most 1 s"));
     EXPECT_FALSE(drawPixels(view, inputs()).rgba8.empty());
@@ -404,7 +404,7 @@ TEST_F(Pieces, ListsThatHoldNearlyAllLights_CountAsWhatTheyHold) {
             begun = view.begin(asked);
         }
         ASSERT_FALSE(begun) << begun->estimate.count() << " s";
-        EXPECT_EQ(begun.error().code, ErrorCode::kCapacity);
+        EXPECT_EQ(begun.error().code, ErrorCode::kTooLong);
     }
 }
 

@@ -92,7 +92,8 @@ class FakeView final : public stream::ViewSource {
 
     [[nodiscard]] Result<stream::FrameWork> begin(const settings::ViewSettings& settings,
                                                   const stream::FrameTime& /*time*/,
-                                                  const stream::EncodingNeeds& encoding) override {
+                                                  const stream::FrameTerms& terms) override {
+        const stream::EncodingNeeds& encoding = terms.encoding;
         device_->beside_bytes = encoding.bytes;
         if (device_->lost) {
             return Error{ErrorCode::kDevice, "the fake device was lost"};
@@ -102,12 +103,19 @@ class FakeView final : public stream::ViewSource {
             ++device_->unfit_count;
             return Error{ErrorCode::kCapacity, "the picture does not fit the fake device"};
         }
+        const double limit_share =
+            static_cast<double>(areaOf(settings.size)) / static_cast<double>(device_->slow_area_px);
+        if (limit_share > terms.limit_share) {
+            ++device_->unfit_count;
+            return Error{ErrorCode::kTooLong, "the picture takes too long for the fake device",
+                         limit_share / terms.limit_share};
+        }
         if (!device_->computes && settings.lighting == settings::LightingStage::kCompute) {
             return Error{ErrorCode::kUnsupported, "the fake device has no compute stage"};
         }
         if (device_->unready_count > 0) {
             --device_->unready_count;
-            return stream::FrameWork{Seconds(0), 0};
+            return stream::FrameWork{.piece_count = 0};
         }
         built_count_ = settings == built_ ? built_count_ + 1 : 1;
         built_ = settings;
@@ -116,14 +124,16 @@ class FakeView final : public stream::ViewSource {
             if (device_->on_stage) {
                 device_->on_stage();
             }
-            return stream::FrameWork{Seconds(0), 0, true};
+            return stream::FrameWork{.piece_count = 0, .half_built = true};
         }
         built_count_ = 0;
         ++device_->begun_count;
         device_->addBegun(settings);
         waiting_ = device_->piece_count;
         frames_.push_back({settings, encoding.radiance, waiting_});
-        return stream::FrameWork{device_->frame_time.load(), waiting_};
+        const auto estimate = device_->estimate.load();
+        return stream::FrameWork{estimate.count() > 0 ? estimate : device_->frame_time.load(),
+                                 limit_share, waiting_};
     }
 
     [[nodiscard]] Result<void> submitPiece() override {

@@ -21,9 +21,11 @@ class FakeDevice {
   public:
     std::atomic<uint32_t> depth = 1;
     std::atomic<uint64_t> max_area_px = uint64_t{4096} * 4096; // larger pictures do not fit
+    std::atomic<uint64_t> slow_area_px = uint64_t{1} << 40U;   // larger ones take too long
     std::atomic<uint64_t> max_beside_bytes = UINT64_MAX;       // nor does more beside them
     std::atomic<uint32_t> max_lights = UINT32_MAX; // lists of more do not fit, which shows late
     std::atomic<std::chrono::milliseconds> frame_time{}; // that a picture takes
+    std::atomic<std::chrono::milliseconds> estimate{};   // of it; 0: it is right
     std::atomic<uint32_t> piece_count = 1;               // of frames that begin from now on
     std::atomic<uint32_t> again_count = 0;   // that many frames need more than they were given
     std::atomic<uint32_t> unready_count = 0; // that many times nothing can begin yet

@@ -20,6 +20,7 @@ class FakePort final : public session::StreamPort {
         bool left = false;
         session::Delivery delivery{};
         session::Account account{};
+        bool takes_frames = true;
     };
 
     Result<session::SessionId> join(std::weak_ptr<session::FrameSink> sink,
@@ -47,6 +48,9 @@ class FakePort final : public session::StreamPort {
     }
     void grant(session::SessionId id, uint64_t frame_total) override {
         sessions.at(id).granted = frame_total;
+    }
+    void setTakesFrames(session::SessionId id, bool takes) override {
+        sessions.at(id).takes_frames = takes;
     }
     void setDelivery(session::SessionId id, const session::Delivery& delivery) override {
         sessions.at(id).delivery = delivery;

@@ -44,7 +44,7 @@ checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Se
     if (least <= limit) {
         return {};
     }
-    return Error{ErrorCode::kCapacity,
+    return Error{ErrorCode::kTooLong,
                  fmt::format("a picture of {}x{} whose pixels loop over all {} lights takes at "
                              "least {:.3g} s of this device; at most {:.3g} s a frame are "
                              "allowed: ask for fewer lights, lists, or a smaller picture",
@@ -256,7 +256,7 @@ Seconds FrameCosts::total() const {
 Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
     const Seconds loop(static_cast<double>(load_.longest_loop) * slowestLoop());
     if (loop > loop_limit) {
-        return Error{ErrorCode::kCapacity,
+        return Error{ErrorCode::kTooLong,
                      fmt::format("a pixel that loops over {} lights takes about {:.3g} s of this "
                                  "device, however few pixels there are; at most {:.3g} s in one "
                                  "are allowed: ask for fewer or smaller lights, or lists",
@@ -270,7 +270,7 @@ Result<void> FrameCosts::check(Seconds limit, Seconds loop_limit) const {
     const auto dearest = std::max_element(
         all.begin(), all.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
     return Error{
-        ErrorCode::kCapacity,
+        ErrorCode::kTooLong,
         fmt::format("a picture of {}x{} with up to {} lights a pixel takes about {:.3g} s of this "
                     "device, {:.3g} s of it for {}; at most {:.3g} s a frame are allowed: ask for "
                     "fewer or smaller lights, lists, fewer effects, or a smaller picture",

@@ -62,7 +62,7 @@ struct PassEstimate {
 // Of a pass over all of a target.
 [[nodiscard]] Seconds timeOver(const RegionCost& cost, const settings::Size& size);
 
-// Errors: kCapacity where looping over all lights, as these settings ask for, takes longer than
+// Errors: kTooLong where looping over all lights, as these settings ask for, takes longer than
 // `limit` whatever there is to see: told before any light is looked at.
 [[nodiscard]] Result<void>
 checkAllLights(const UnitCosts& unit, const settings::ViewSettings& settings, Seconds limit);
@@ -102,7 +102,7 @@ class FrameCosts {
     // All of the plan, in order; what a frame takes that is not cut.
     [[nodiscard]] std::vector<PassEstimate> passes() const;
     [[nodiscard]] Seconds total() const;
-    // Errors: kCapacity where that is more than `limit`, naming the dearest pass, or where one
+    // Errors: kTooLong where that is more than `limit`, naming the dearest pass, or where one
     // loop, which cannot be cut, takes more than `loop_limit`.
     [[nodiscard]] Result<void> check(Seconds limit, Seconds loop_limit) const;
     // What the frame takes but for its local lights, and pairs of these that fit into what is left

@@ -51,4 +51,13 @@ struct WorkLimits {
     std::optional<Seconds> host = {};
 };
 
+// What a view's frames have shown since those limits were set.
+struct WorkPace {
+    // Times as long as by the device's unit costs, which were measured when it was opened. Frames
+    // are cut and loops are bounded as if it were 1 at least, so that no view that is easier than
+    // its estimates makes the device's pieces long.
+    double pace = 1;
+    double frame_share = 1; // times WorkLimits::frame
+};
+
 } // namespace froxel::render

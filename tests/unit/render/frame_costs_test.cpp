@@ -58,7 +58,7 @@ TEST(FrameCosts, OneLongList_CountsWhole) {
     EXPECT_GT(costs.total(), Seconds(100));
     const auto refused = costs.check(Seconds(1), Seconds(1));
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
+    EXPECT_EQ(refused.error().code, ErrorCode::kTooLong);
     EXPECT_NE(refused.error().message.find("for lighting"), std::string::npos);
 }
 

@@ -109,10 +109,7 @@ TEST(ProtocolReadme, NumbersAndNames_AreTheSchemas) {
 TEST(ProtocolReadme, CloseCodes_AreListed) {
     const std::string text = readme();
     using protocol::CloseCode;
-    for (const CloseCode code :
-         {CloseCode::kNormal, CloseCode::kPolicy, CloseCode::kTooBig, CloseCode::kVersion,
-          CloseCode::kToken, CloseCode::kSlowConsumer, CloseCode::kReplaced, CloseCode::kDraining,
-          CloseCode::kResting, CloseCode::kCapacity, CloseCode::kDeviceLost}) {
+    for (const CloseCode code : protocol::kCloseCodes) {
         EXPECT_THAT(text, HasSubstr("\n| " + numberText(static_cast<uint16_t>(code)) + " |"));
     }
 }

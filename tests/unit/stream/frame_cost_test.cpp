@@ -51,6 +51,32 @@ TEST(FrameCost, BrokenOff_LeavesNothingAndHasNoCost) {
     EXPECT_EQ(device->live_leases, 0);
 }
 
+// A view that rests keeps what one that moves draws.
+TEST(FrameCost, IsThatOfMovingViews) {
+    const auto device = std::make_shared<test::FakeDevice>();
+    device->depth = 2;
+    const auto source = test::makeFakeSource(device);
+    settings::ViewSettings settings;
+    settings.size = {64, 48};
+    ASSERT_TRUE(measureFrameCost(*source, settings));
+    const auto begun = device->begun();
+    ASSERT_GE(begun.size(), 4U);
+    for (size_t i = 2; i < begun.size(); ++i) {
+        ASSERT_NE(begun[i].camera.eye_world, begun[i - 2].camera.eye_world) << i;
+        const auto off = begun[i].camera.target_world() - settings.camera.target_world();
+        ASSERT_LT(glm::length(off), 1e-9) << "it stays in view";
+    }
+}
+
+TEST(FrameCost, PictureThatTakesTooLong_IsMeasuredSmaller) {
+    const auto device = std::make_shared<test::FakeDevice>();
+    device->slow_area_px = 64 * 48 / 3;
+    const auto source = test::makeFakeSource(device);
+    settings::ViewSettings settings;
+    settings.size = {64, 48};
+    EXPECT_TRUE(measureFrameCost(*source, settings));
+}
+
 TEST(FrameCost, PictureThatCannotBeMade_SaysWhy) {
     const auto device = std::make_shared<test::FakeDevice>();
     device->max_lights = 10;

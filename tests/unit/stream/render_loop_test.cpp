@@ -233,7 +233,7 @@ TEST_F(RenderLoopTest, PausedBeforeItsFirstPicture_TakesNoTimeFromOthers) {
     const auto sink = makeSink();
     const auto id = loop_->join(sink, still(), {"a"}, Clock::now()).value();
     EXPECT_FALSE(loop_->admits({"b"}, Clock::now())) << "0.6 each";
-    loop_->grant(id, 0);
+    loop_->setTakesFrames(id, false);
     EXPECT_TRUE(loop_->admits({"b"}, Clock::now()));
 }
 
