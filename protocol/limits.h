@@ -45,8 +45,13 @@ enum class CloseCode : uint16_t {
     kReplaced = 4009,     // a newer connection took the session up; do not retry
     kDraining = 4010,     // the server is going down; retry elsewhere or later
     kResting = 4011,      // nobody watched, and the place is needed; retry when somebody does
-    kCapacity = 4029,     // no session or place in the room left; retry with back-off
-    kDeviceLost = 4050,   // the rendering device was lost; retry with back-off
+    // No place now, each for its own reason; retry with back-off.
+    kAllTaken = 4029,   // all sessions of the server are taken
+    kDeviceBusy = 4030, // one more moving view would slow the others below the floor rate
+    kShareTaken = 4031, // the caller's address or token has as many places as it may
+    kRoomFull = 4032,   // all places of the room are taken
+    kNoPicture = 4033,  // the first picture does not fit into the server's memory
+    kDeviceLost = 4050, // the rendering device was lost; retry with back-off
 };
 constexpr bool isCloseCode(CloseCode code) {
     switch (code) {
@@ -59,7 +64,11 @@ constexpr bool isCloseCode(CloseCode code) {
     case CloseCode::kReplaced:
     case CloseCode::kDraining:
     case CloseCode::kResting:
-    case CloseCode::kCapacity:
+    case CloseCode::kAllTaken:
+    case CloseCode::kDeviceBusy:
+    case CloseCode::kShareTaken:
+    case CloseCode::kRoomFull:
+    case CloseCode::kNoPicture:
     case CloseCode::kDeviceLost:
         return true;
     }

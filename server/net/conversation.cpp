@@ -81,10 +81,10 @@ void Conversation::begin(TimePoint now) {
     auto seat = lobby_->enter(*service_.serving, hello_, caller_, viewer_, now);
     hello_.resume_token.clear();
     if (!seat) {
-        const bool full = seat.error().code == ErrorCode::kCapacity;
-        tellError(
-            {full ? RejectCode::kCapacity : RejectCode::kDevice, 0, "", seat.error().message});
-        close(full ? CloseCode::kCapacity : CloseCode::kDeviceLost, "no session");
+        const Closing& why = seat.error();
+        const bool lost = why.code == CloseCode::kDeviceLost;
+        tellError({lost ? RejectCode::kDevice : RejectCode::kCapacity, 0, "", why.reason});
+        close(why.code, why.reason);
         return;
     }
     seat_ = std::move(*seat);

@@ -556,6 +556,12 @@ void LiveSession::updateDelivery() {
         delivery_ = *best;
         serving_.port->setDelivery(id_, delivery_);
     }
+    const bool takes = std::any_of(members_.begin(), members_.end(), [](const auto& entry) {
+        return entry.second.connection != 0 && !entry.second.paused;
+    });
+    if (!ended_ && std::exchange(takes_frames_, takes) != takes) {
+        serving_.port->setTakesFrames(id_, takes);
+    }
 }
 
 uint32_t LiveSession::deliveredRung() const {
@@ -593,7 +599,7 @@ void LiveSession::refuse(Error error, SessionState refused, std::optional<Sessio
     const bool last = !drawn && refused.settings == first_.settings;
     tellRefusal(error, refused.applied, last, mail);
     if (last) {
-        tellAll(mail, Closing{protocol::CloseCode::kCapacity, "the first picture cannot be made"});
+        tellAll(mail, Closing{protocol::CloseCode::kNoPicture, "the first picture cannot be made"});
     } else {
         takeBack(refused, drawn, Clock::now(), mail);
         tellState(mail);

@@ -224,6 +224,7 @@ class LiveSession final : public session::FrameSink,
     bool key_wanted_ = false; // and none has come yet
     Allowance keys_{kKeysAtOnce, kKeysPerSecond};
     session::Delivery delivery_; // as the stream knows it
+    bool takes_frames_ = true;   // likewise
     bool ended_ = false;
 };
 

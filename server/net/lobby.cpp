@@ -3,16 +3,27 @@
 #include "core/text.h"
 #include "session/resume_token.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 
 namespace froxel::net {
 
-Result<Seat> Lobby::enter(const Serving& serving,
-                          const session::Hello& hello,
-                          const Caller& caller,
-                          std::weak_ptr<SessionViewer> viewer,
-                          TimePoint now) {
+using protocol::CloseCode;
+
+namespace {
+
+// RFC 6455 section 5.5.
+constexpr size_t kReasonBytes = 123;
+
+} // namespace
+
+PlaceResult<Seat> Lobby::enter(const Serving& serving,
+                               const session::Hello& hello,
+                               const Caller& caller,
+                               std::weak_ptr<SessionViewer> viewer,
+                               TimePoint now) {
     Mail mail;
     const std::lock_guard lock(mutex_);
     auto entry = findToken(hello);
@@ -53,11 +64,11 @@ Lobby::Entries::iterator Lobby::findToken(const session::Hello& hello) {
     return found;
 }
 
-Result<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
-                                                  const session::Hello& hello,
-                                                  const Caller& caller,
-                                                  TimePoint now,
-                                                  Mail& mail) {
+PlaceResult<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
+                                                       const session::Hello& hello,
+                                                       const Caller& caller,
+                                                       TimePoint now,
+                                                       Mail& mail) {
     const auto known = rooms_.find(hello.room);
     std::shared_ptr<LiveSession> session = known == rooms_.end() ? nullptr : known->second;
     if (session) {
@@ -74,7 +85,7 @@ Result<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
         }
         auto opened = LiveSession::open(serving, hello.room, caller, now);
         if (!opened) {
-            return opened.error();
+            return whyNot(opened.error(), now);
         }
         session = *opened;
     }
@@ -89,10 +100,10 @@ Result<Lobby::Entries::iterator> Lobby::addMember(const Serving& serving,
     return entries_.emplace(last_member_, std::move(entry)).first;
 }
 
-Result<void> Lobby::admits(const Serving& serving,
-                           const Announcement& announcement,
-                           const Caller& caller,
-                           TimePoint now) const {
+PlaceResult<void> Lobby::admits(const Serving& serving,
+                                const Announcement& announcement,
+                                const Caller& caller,
+                                TimePoint now) const {
     const std::lock_guard lock(mutex_);
     const auto returns = [&announcement](const auto& entry) {
         return !announcement.resume.empty() &&
@@ -103,22 +114,22 @@ Result<void> Lobby::admits(const Serving& serving,
         return {};
     }
     if (!announcement.resume.empty()) { // a proxy may know the server that has it
-        return Error{ErrorCode::kCapacity, "this session is not here, or not any more"};
+        return Closing{CloseCode::kAllTaken, "this session is not here, or not any more"};
     }
     if (rooms_.count(announcement.room) > 0) {
         return roomTakes(announcement.room, caller);
     }
     const auto gives_way = whoGivesWay(serving, caller, now);
-    return gives_way ? Result<void>() : gives_way.error();
+    return gives_way ? PlaceResult<void>() : gives_way.error();
 }
 
-Result<std::shared_ptr<LiveSession>>
+PlaceResult<std::shared_ptr<LiveSession>>
 Lobby::whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) const {
     if (auto allowed = withinLimits(caller); !allowed) {
         return allowed.error();
     }
     if (auto fits = serving.port->admits(caller.account(), now); !fits) {
-        return fits.error();
+        return whyNot(fits.error(), now);
     }
     const auto all = sessions();
     if (rules_.sessions_max == 0 || all.size() < rules_.sessions_max) {
@@ -133,22 +144,34 @@ Lobby::whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) 
         }
     }
     if (!longest) {
-        return Error{ErrorCode::kCapacity, "all " + numberText(rules_.sessions_max) +
-                                               " sessions of this server are taken; try again "
-                                               "later"};
+        return Closing{CloseCode::kAllTaken, "all " + numberText(rules_.sessions_max) +
+                                                 " sessions of this server are taken; try again "
+                                                 "later"};
     }
     return longest;
 }
 
-Result<void> Lobby::withinLimits(const Caller& caller) const {
+Closing Lobby::whyNot(const Error& error, TimePoint now) const {
+    if (error.code != ErrorCode::kCapacity) {
+        return {CloseCode::kDeviceLost, error.message.substr(0, kReasonBytes)};
+    }
+    if (busy_lines_.take(now)) {
+        spdlog::info("event=device_busy reason={}", logValue(error.message));
+    }
+    return {CloseCode::kDeviceBusy,
+            "the server draws for as many viewers as it can; try again later"};
+}
+
+PlaceResult<void> Lobby::withinLimits(const Caller& caller) const {
     const auto check = [this](const std::string& of, uint32_t limit, const auto& counts) {
         const auto all = sessions();
         if (limit == 0 || std::count_if(all.begin(), all.end(), counts) < int64_t{limit}) {
-            return Result<void>();
+            return PlaceResult<void>();
         }
-        return Result<void>(Error{ErrorCode::kCapacity, of + " has " + numberText(limit) +
-                                                            " sessions here, which is all that "
-                                                            "it may have; close one first"});
+        return PlaceResult<void>(
+            Closing{CloseCode::kShareTaken, of + " has " + numberText(limit) +
+                                                " sessions here, which is all that "
+                                                "it may have; close one first"});
     };
     if (caller.token) {
         auto allowed = check("this token", rules_.sessions_per_token, [&](const auto& session) {
@@ -162,7 +185,7 @@ Result<void> Lobby::withinLimits(const Caller& caller) const {
                  [&](const auto& session) { return session->opener().address == caller.address; });
 }
 
-Result<void> Lobby::roomTakes(const std::string& room, const Caller& caller) const {
+PlaceResult<void> Lobby::roomTakes(const std::string& room, const Caller& caller) const {
     int64_t all = 0;
     int64_t from_there = 0;
     for (const auto& [member, entry] : entries_) {
@@ -173,14 +196,15 @@ Result<void> Lobby::roomTakes(const std::string& room, const Caller& caller) con
     }
     const auto full = [](uint32_t limit, int64_t count) { return limit > 0 && count >= limit; };
     if (full(rules_.viewers_per_room, all)) {
-        return Error{ErrorCode::kCapacity, "all " + numberText(rules_.viewers_per_room) +
-                                               " places of this room are taken; try again later"};
+        return Closing{CloseCode::kRoomFull, "all " + numberText(rules_.viewers_per_room) +
+                                                 " places of this room are taken; try again later"};
     }
     const uint32_t share = rules_.viewers_per_room_and_address;
     if (!caller.local && full(share, from_there)) {
-        return Error{ErrorCode::kCapacity, "this address has " + numberText(share) +
-                                               " viewers in this room, which is all that it may "
-                                               "have; close one first"};
+        return Closing{CloseCode::kShareTaken,
+                       "this address has " + numberText(share) +
+                           " viewers in this room, which is all that it may "
+                           "have; close one first"};
     }
     return {};
 }

@@ -3,7 +3,9 @@
 // reads no clock.
 #pragma once
 
+#include "core/allowance.h"
 #include "net/caller.h"
+#include "net/closing.h"
 #include "net/live_session.h"
 #include "net/lobby_rules.h"
 
@@ -47,18 +49,18 @@ class Lobby {
     void setAlarm(std::function<void(TimePoint)> alarm) { alarm_ = std::move(alarm); }
 
     // By its token into the session that it left, whatever became of it; else into hello.room; else
-    // into a session of its own, for which one that rests may have to end. Errors: kCapacity, and
-    // StreamPort::join's.
-    [[nodiscard]] Result<Seat> enter(const Serving& serving,
-                                     const session::Hello& hello,
-                                     const Caller& caller,
-                                     std::weak_ptr<SessionViewer> viewer,
-                                     TimePoint now);
+    // into a session of its own, for which one that rests may have to end. Errors: how the
+    // connection is to close.
+    [[nodiscard]] PlaceResult<Seat> enter(const Serving& serving,
+                                          const session::Hello& hello,
+                                          const Caller& caller,
+                                          std::weak_ptr<SessionViewer> viewer,
+                                          TimePoint now);
     // Whether enter() would let somebody in now who keeps to this; its errors.
-    [[nodiscard]] Result<void> admits(const Serving& serving,
-                                      const Announcement& announcement,
-                                      const Caller& caller,
-                                      TimePoint now) const;
+    [[nodiscard]] PlaceResult<void> admits(const Serving& serving,
+                                           const Announcement& announcement,
+                                           const Caller& caller,
+                                           TimePoint now) const;
     // Takes the control of a room from whoever has it; whether there is such a room.
     [[nodiscard]] bool takeControl(const std::string& room);
     // The client has heard of the seat's token: the one that it came with is worth nothing any
@@ -95,23 +97,27 @@ class Lobby {
     using Entries = std::map<session::MemberId, Entry>;
 
     [[nodiscard]] Entries::iterator findToken(const session::Hello& hello);
-    [[nodiscard]] Result<Entries::iterator> addMember(const Serving& serving,
-                                                      const session::Hello& hello,
-                                                      const Caller& caller,
-                                                      TimePoint now,
-                                                      Mail& mail);
+    [[nodiscard]] PlaceResult<Entries::iterator> addMember(const Serving& serving,
+                                                           const session::Hello& hello,
+                                                           const Caller& caller,
+                                                           TimePoint now,
+                                                           Mail& mail);
     // Whose end would let one more session of this caller in: none needed, or the one that rests
-    // longest. Errors: kCapacity.
-    [[nodiscard]] Result<std::shared_ptr<LiveSession>>
+    // longest.
+    [[nodiscard]] PlaceResult<std::shared_ptr<LiveSession>>
     whoGivesWay(const Serving& serving, const Caller& caller, TimePoint now) const;
-    [[nodiscard]] Result<void> withinLimits(const Caller& caller) const;
-    // Whether the room takes one more viewer. Errors: kCapacity.
-    [[nodiscard]] Result<void> roomTakes(const std::string& room, const Caller& caller) const;
+    [[nodiscard]] PlaceResult<void> withinLimits(const Caller& caller) const;
+    // Whether the room takes one more viewer.
+    [[nodiscard]] PlaceResult<void> roomTakes(const std::string& room, const Caller& caller) const;
     [[nodiscard]] std::set<std::shared_ptr<LiveSession>> sessions() const;
     void end(const LiveSession& session, const Closing& closing, Mail& mail);
     [[nodiscard]] size_t countAway() const;
     Entries::iterator remove(Entries::iterator entry, Mail& mail);
 
+    // In words for the viewer; the figures go to the log, a line a second.
+    [[nodiscard]] Closing whyNot(const Error& error, TimePoint now) const;
+
+    mutable Allowance busy_lines_{1, 1}; // under the lock
     const LobbyRules rules_;
     std::function<void(TimePoint)> alarm_ = [](TimePoint) {};
 

@@ -81,6 +81,9 @@ bool cameSecurely(const Request& request, const asio::ip::address& peer, const S
                                        viewOf(request["X-Forwarded-Proto"]), site.trusted_proxies);
 }
 
+// By which a page knows the reason of a refusal, as of a close.
+constexpr std::string_view kCloseCodeField = "Froxel-Close-Code";
+
 // None where its Hello would get a place, as far as can be told before.
 std::optional<Response>
 whyNoPlace(const Request& request, const asio::ip::address& peer, const Site& site) {
@@ -94,9 +97,12 @@ whyNoPlace(const Request& request, const asio::ip::address& peer, const Site& si
     }
     const auto let_in = site.lobby->admits(*status.serving, announcementOf(request),
                                            callerOf(request, peer, site), Clock::now());
-    return let_in
-               ? std::nullopt
-               : std::optional(refusal(http::status::service_unavailable, let_in.error().message));
+    if (let_in) {
+        return {};
+    }
+    auto response = refusal(http::status::service_unavailable, let_in.error().reason);
+    response.set(kCloseCodeField, numberText(static_cast<uint16_t>(let_in.error().code)));
+    return response;
 }
 
 // None where it may.

@@ -47,7 +47,7 @@ TEST_F(ConversationTest, Hello_NoSessionLeft_IsToldAndCloses) {
     hello();
     EXPECT_EQ(nextAnswer()->error().code(), v1::ERROR_CODE_CAPACITY);
     EXPECT_FALSE(nextAnswer());
-    EXPECT_EQ(talk_.closing()->code, CloseCode::kCapacity);
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kDeviceBusy);
 }
 
 TEST_F(ConversationTest, Commands_BeforeTheAnswerIsWritten_AreAnsweredOnce) {
@@ -346,7 +346,7 @@ TEST_F(ConversationTest, Refused_BeforeTheFirstPicture_FallsBackToWelcome) {
 TEST_F(ConversationTest, Refused_FirstPicture_Closes) {
     join();
     port_.sink()->refuse({ErrorCode::kCapacity, "too large"}, port_.session().states.back(), {});
-    EXPECT_EQ(talk_.closing()->code, CloseCode::kCapacity);
+    EXPECT_EQ(talk_.closing()->code, CloseCode::kNoPicture);
 }
 
 TEST_F(ConversationTest, Draining_WithASession_SaysSoOnceAndGoesOnUntilItIsOver) {

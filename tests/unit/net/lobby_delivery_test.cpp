@@ -40,6 +40,19 @@ TEST_F(LobbyTest, Room_IsDeliveredAsToTheBestLinkThatPicturesGoTo) {
     EXPECT_EQ(port_.session().delivery.rung, 4U);
 }
 
+// What nobody takes costs the device nothing.
+TEST_F(LobbyTest, Room_TakesFrames_WhileAnyOfItsViewersDoes) {
+    const Guest first = enter("hall");
+    const Guest second = enter("hall");
+    EXPECT_TRUE(port_.session().takes_frames);
+    first.seat.session->setPaused(first.seat.place, true, now_);
+    EXPECT_TRUE(port_.session().takes_frames);
+    lose(second);
+    EXPECT_FALSE(port_.session().takes_frames);
+    first.seat.session->setPaused(first.seat.place, false, now_);
+    EXPECT_TRUE(port_.session().takes_frames);
+}
+
 TEST_F(LobbyTest, Newcomer_GetsThePlainPictureFirst_AndTheRefinedOneAsItsLinkCarriesIt) {
     const auto deliver = [this](uint64_t id, session::Refinement refinement, size_t bytes) {
         session::ReadyFrame frame;

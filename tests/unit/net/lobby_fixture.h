@@ -52,7 +52,7 @@ inline session::CommandMessage exposure(float value, uint64_t seq = 2) {
 
 class LobbyTest : public testing::Test {
   protected:
-    Result<Guest> tryEnter(const std::string& room = "", const std::string& token = "") {
+    PlaceResult<Guest> tryEnter(const std::string& room = "", const std::string& token = "") {
         Guest guest;
         auto seat = lobby_.enter(serving_, {1, 0, "guest", room, token}, caller_, guest.ear, now_);
         if (!seat) {

@@ -20,7 +20,8 @@ class PlacesTest : public LobbyTest {
         strict_.emplace(rules_);
         strict_->setAlarm([this](TimePoint due) { alarms_.push_back(due); });
     }
-    Result<Guest> come(const Caller& caller = from("192.0.2.1"), const std::string& room = "") {
+    PlaceResult<Guest> come(const Caller& caller = from("192.0.2.1"),
+                            const std::string& room = "") {
         Guest guest;
         auto seat = strict_->enter(serving_, {1, 0, "guest", room, ""}, caller, guest.ear, now_);
         if (!seat) {
@@ -51,8 +52,8 @@ TEST_F(PlacesTest, AllWatch_NewcomerIsRefused) {
     for (int i = 0; i < 4; ++i) {
         guests.push_back(come().value());
     }
-    EXPECT_EQ(come().error().code, ErrorCode::kCapacity);
-    EXPECT_NE(come().error().message.find("all 4 sessions"), std::string::npos);
+    EXPECT_EQ(come().error().code, protocol::CloseCode::kAllTaken);
+    EXPECT_NE(come().error().reason.find("all 4 sessions"), std::string::npos);
     EXPECT_FALSE(mayCome());
     strict_->depart(guests[0].seat, Departure::kLeft, now_);
     EXPECT_TRUE(mayCome());
@@ -156,8 +157,8 @@ TEST_F(PlacesTest, OneAddress_HasItsShare_AndOthersTheRest) {
     const Guest first = come(from("192.0.2.66")).value();
     ASSERT_TRUE(come(from("192.0.2.66"), "hall"));
     const auto refused = come(from("192.0.2.66"));
-    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
-    EXPECT_NE(refused.error().message.find("this address has 2 sessions"), std::string::npos);
+    EXPECT_EQ(refused.error().code, protocol::CloseCode::kShareTaken);
+    EXPECT_NE(refused.error().reason.find("this address has 2 sessions"), std::string::npos);
     EXPECT_FALSE(mayCome({}, from("192.0.2.66")));
     EXPECT_TRUE(come(from("192.0.2.66"), "hall")) << "a room needs no place";
     EXPECT_TRUE(come(from("192.0.2.7")));
@@ -171,7 +172,7 @@ TEST_F(PlacesTest, Room_TakesSoManyViewers_AndThoseWhoComeBack) {
     ASSERT_TRUE(come(from("192.0.2.1"), "hall"));
     const Guest second = come(from("192.0.2.2"), "hall").value();
     strict_->depart(second.seat, Departure::kLost, now_);
-    EXPECT_EQ(come(from("192.0.2.3"), "hall").error().message,
+    EXPECT_EQ(come(from("192.0.2.3"), "hall").error().reason,
               "all 2 places of this room are taken; try again later");
     EXPECT_FALSE(mayCome({"hall", ""}, from("192.0.2.3")));
     EXPECT_TRUE(come(from("192.0.2.3"), "cellar"));
@@ -186,8 +187,8 @@ TEST_F(PlacesTest, OneAddress_HasItsShareOfARoom_AndOthersTheRest) {
     ASSERT_TRUE(come(from("192.0.2.66"), "hall"));
     const Guest last = come(from("192.0.2.66"), "hall").value();
     const auto refused = come(from("192.0.2.66"), "hall");
-    EXPECT_EQ(refused.error().code, ErrorCode::kCapacity);
-    EXPECT_NE(refused.error().message.find("this address has 2 viewers in this room"),
+    EXPECT_EQ(refused.error().code, protocol::CloseCode::kShareTaken);
+    EXPECT_NE(refused.error().reason.find("this address has 2 viewers in this room"),
               std::string::npos);
     EXPECT_FALSE(mayCome({"hall", ""}, from("192.0.2.66")));
     EXPECT_TRUE(come(from("192.0.2.7"), "hall"));
@@ -227,7 +228,7 @@ TEST_F(PlacesTest, OneToken_HasItsShare_FromWhateverAddresses) {
         return Caller{{address}, false, session::Account{token}};
     };
     ASSERT_TRUE(come(with("192.0.2.1", "token 1")));
-    EXPECT_NE(come(with("192.0.2.2", "token 1")).error().message.find("this token has 1"),
+    EXPECT_NE(come(with("192.0.2.2", "token 1")).error().reason.find("this token has 1"),
               std::string::npos);
     EXPECT_TRUE(come(with("192.0.2.1", "token 2")));
 }

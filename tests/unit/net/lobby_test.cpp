@@ -281,8 +281,8 @@ TEST_F(LobbyTest, Full_IsRefused_ButRoomsAndReturnsNeedNoPlace) {
     const Guest own = enter();
     lose(own);
     port_.full = true;
-    EXPECT_EQ(tryEnter().error().code, ErrorCode::kCapacity);
-    EXPECT_EQ(tryEnter("cellar").error().code, ErrorCode::kCapacity);
+    EXPECT_EQ(tryEnter().error().code, protocol::CloseCode::kDeviceBusy);
+    EXPECT_EQ(tryEnter("cellar").error().code, protocol::CloseCode::kDeviceBusy);
     EXPECT_TRUE(tryEnter("hall"));
     EXPECT_TRUE(tryEnter("", own.seat.resume_token));
     port_.full = false;
@@ -331,7 +331,7 @@ TEST_F(LobbyTest, Refused_FirstPictureOfARoom_IsToldToAll) {
     port_.sink()->refuse({ErrorCode::kCapacity, "no"}, port_.session().states.back(), {});
     for (const Guest* guest : {&first, &second}) {
         EXPECT_EQ(guest->ear->count<session::Rejection>(), 1U);
-        EXPECT_EQ(guest->ear->last<Closing>()->code, protocol::CloseCode::kCapacity);
+        EXPECT_EQ(guest->ear->last<Closing>()->code, protocol::CloseCode::kNoPicture);
     }
 }
 
